@@ -43,6 +43,7 @@ comparison: .venv/.core
 # docs/tuned.md with its figures, from the searches in $(OUT)/tuned, which are made or finished first: hours
 tuned: .venv/.dev
 	$(BIN)/python benchmarks/tuned/alike.py $(OUT)/tuned
+	$(BIN)/python benchmarks/tuned/beside.py $(OUT)/tuned
 	$(BIN)/python docs/write_tuned.py $(OUT)/tuned
 
 # docs/soft_walk.md with its pictures, from the two studies of soft ground in $(OUT)/soft and $(OUT)/soft-held-out,
@@ -65,7 +66,7 @@ verification: .venv/.core
 # in $(OUT)/attacks, from where an interrupted run goes on
 attacks: .venv/.test
 	mkdir -p $(OUT)/attacks
-	for attack in engines contact steps; do \
+	for attack in engines contact steps searches; do \
 	  $(BIN)/python -m tests.robustness $$attack --out $(OUT)/attacks/$$attack.jsonl --page docs/robustness.md; done
 
 # the rigid walk as limit of the soft one, its multipliers, and walks that the rigid model calls legal, in MuJoCo: an

@@ -9,12 +9,16 @@ from __future__ import annotations
 import argparse
 import json
 import math
+import multiprocessing
 import os
 import platform
 import re
+import resource
 import statistics
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor, ProcessPoolExecutor
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
@@ -126,6 +130,26 @@ def rounds(
                 wall, cpu = time.perf_counter() - begin, time.process_time() - used
                 times[name].append((wall, cpu))
     return {name: _medians(found) for name, found in times.items()}
+
+
+@contextmanager
+def forked(number: int = 2) -> Iterator[Executor]:
+    """Processes that are children of this one, so that their CPU time is counted when they end."""
+    with ProcessPoolExecutor(number, multiprocessing.get_context("fork")) as executor:
+        yield executor
+
+
+def spent(run: Callable[[], object]) -> Seconds:
+    """Wall time of a call, and CPU time of this process and of its children that end within it."""
+    begin, used = time.perf_counter(), _used()
+    run()
+    return Seconds(time.perf_counter() - begin, _used() - used, 1)
+
+
+def _used() -> float:
+    """CPU time of this process and of its children that have ended [s]."""
+    both = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    return sum(one.ru_utime + one.ru_stime for one in both)
 
 
 def _medians(times: Sequence[tuple[float, float]]) -> Seconds:

@@ -40,6 +40,7 @@ NEVER_TRACED = (
     "campaign",
     "cli",
     "deploy",
+    "logs",
     "observer_design",
     "paper",
     "scenario",

@@ -23,6 +23,7 @@ import make_pictures
 import make_soft_pictures
 import write_comparison
 import write_critical_phase
+import write_replay
 import write_results
 import write_tuned
 
@@ -86,6 +87,12 @@ def soft() -> list[Picture]:
     ]
 
 
+def replayed() -> list[Picture]:
+    """The picture of logs, which are walked and replayed again."""
+    drawn, command = write_replay.recovered(write_replay.found()), "python docs/write_replay.py"
+    return [Picture(write_replay.FOLDER / "recovered.svg", command, lambda _: numbers_of(drawn))]
+
+
 def kept() -> list[Picture]:
     """The pictures of the runs whose summaries are kept in docs/. Raises InputError without a summary."""
     compared, pushed = write_comparison.FOLDER, write_critical_phase.FOLDER
@@ -145,7 +152,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path, help="folder of 'biped-adrc reproduce'")
     try:
-        shown = [*pictures(parser.parse_args().out), *soft(), *kept()]
+        shown = [*pictures(parser.parse_args().out), *soft(), *replayed(), *kept()]
         folders = dict.fromkeys(picture.path.parent for picture in shown)
         lines = complaints(shown) + without_numbers(folders, shown)
     except (BipedError, OSError) as error:

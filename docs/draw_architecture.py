@@ -19,6 +19,7 @@ WORDS = {
     "paper": "the reproduction",
     "bench": "sweeps and comparisons",
     "tuning": "the best setting, held-out walks",
+    "logs": "a robot's measurements replayed",
     "deploy": "a controller as C",
     "studies": "stability, design, observer of one gait",
     "scenario": "one walk in plain values, the registry",

@@ -27,6 +27,8 @@ RESULTS, NOTE, SUMMARY, TEST_SET = (
     "test_set.json",
 )
 """Files of a search."""
+BESIDE = "beside.json"
+"""What beside.py found, in the folder of all searches."""
 KEEPS = "keeps all limits"
 """What the reason says where no candidate keeps the limits."""
 
@@ -51,18 +53,22 @@ class Entry(NamedTuple):
     gait: str
     contestant: str
     seed: int
-    chosen: Mapping[str, float]
+    chosen: Mapping[str, float | str | None]
     """The chosen values; empty where no candidate keeps the limits."""
     why: str
     """Why none does; empty where one does."""
     selected: float
     """Median error on the selection set [rad], infinite without a setting."""
     margins: tuple[float | None, float | None]
-    """Delay margin [s] of the chosen and the as-published setting; None where unknown."""
+    """Delay margin [s] of the chosen and the first setting; None where unknown."""
     tuned: Walks
     """Of the chosen setting."""
     published: Walks | None
-    """Of the as-published setting; None where it was not walked."""
+    """Of the first setting, which was not tuned; None where it was not walked."""
+    ripple: float | None = None
+    """rms torque of the encoders' counts [N m], of the chosen setting; None where unknown."""
+    searches: int = 1
+    """How many searches its walks are of."""
 
     @property
     def found(self) -> bool:
@@ -76,17 +82,20 @@ def collected(out: Path, contest: Mapping[str, Any], asked: Sequence[Any]) -> di
     A search that ended for another reason than its limits is left out: it says nothing of its contestant.
     contest: the tables of contest.toml. asked: the searches of the contest, as `alike.entries` gives them.
     """
-    found = [_search(out / e.folder) for e in asked if (out / e.folder / NOTE).is_file()]
+    there = [out / e.folder for e in asked if (out / e.folder / NOTE).is_file()]
+    found = [_search(folder, contest) for folder in there]
     found = [told for told in found if not told["why"] or KEEPS in told["why"]]
+    beside = out / BESIDE
     return {
         "contest": dict(contest),
         "columns": list(KEPT),
         "asked": [list(e) for e in asked],
         "searches": found,
+        "beside": json.loads(beside.read_text(encoding="utf-8")) if beside.is_file() else {},
     }
 
 
-def _search(folder: Path) -> dict[str, Any]:
+def _search(folder: Path, contest: Mapping[str, Any]) -> dict[str, Any]:
     """One finished search in plain values."""
     told = json.loads((folder / NOTE).read_text(encoding="utf-8"))
     told.setdefault("why", "")
@@ -95,7 +104,7 @@ def _search(folder: Path) -> dict[str, Any]:
     summary = json.loads((folder / SUMMARY).read_text(encoding="utf-8"))
     best = summary["selected"][0]
     margin = next(x for x in summary["held_out"] if x["words"] == "mean delay_margin")
-    told["chosen"] = {name: _short(x) for name, x in told["chosen"].items()}
+    told["chosen"] = _acting(contest, told["chosen"])
     told["selected"] = _short(best["objectives"][0])
     told["margins"] = [_short(margin[side]["value"]) for side in ("chosen", "published")]
     test = json.loads((folder / TEST_SET).read_text(encoding="utf-8"))
@@ -104,6 +113,20 @@ def _search(folder: Path) -> dict[str, Any]:
     for side, number in (("tuned", best["number"]), ("published", 0)):
         told[side] = _kept({_where(at): row for at, row in rows if at["candidate"] == number}, test)
     return told
+
+
+def _acting(contest: Mapping[str, Any], chosen: Mapping[str, Any]) -> dict[str, Any]:
+    """The chosen values that have an effect beside the others: a leaf's may need one of them."""
+    needs = {
+        name: variable.get("when", {})
+        for leaf in contest["leaves"].values()
+        for name, variable in leaf["variables"].items()
+    }
+    return {
+        name: _short(x)
+        for name, x in chosen.items()
+        if all(chosen.get(k) in values for k, values in needs.get(name, {}).items())
+    }
 
 
 def _where(at: Mapping[str, Any]) -> tuple[str, int]:
@@ -123,29 +146,75 @@ def _short(x: Any) -> Any:
 
 def entries(summary: Mapping[str, Any]) -> list[Entry]:
     """The finished searches of a summary, in the order of the contest."""
-    test = summary["contest"]["test"]
-    shape = (len(test["amplitudes"]), test["seeds"]["count"])
-    found = [_entry(told, shape) for told in summary["searches"]]
-    places, gaits, names = (list(summary["contest"][x]) for x in ("places", "gaits", "contestants"))
-    key = lambda e: (places.index(e.place), gaits.index(e.gait), e.seed, names.index(e.contestant))  # noqa: E731
-    return sorted(found, key=key)
+    c = summary["contest"]
+    ripples = {key_of(told): told["ripple"] for told in summary["beside"].get("linear", [])}
+    found = [
+        _entry(told, shape(c, told["place"]))._replace(ripple=ripples.get(key_of(told)))
+        for told in summary["searches"]
+    ]
+    places, names = (list(c[x]) for x in ("places", "contestants"))
+
+    def place_of(e: Entry) -> tuple[int, ...]:
+        gaits = list(c["places"][e.place]["seeds"])
+        at = (places.index(e.place), gaits.index(e.gait))
+        return (*at, e.seed, names.index(e.contestant))
+
+    return sorted(found, key=place_of)
 
 
-def _entry(told: Mapping[str, Any], shape: tuple[int, int]) -> Entry:
+def key_of(told: Mapping[str, Any]) -> tuple[str, str, str, int]:
+    """By what a search is named: place, gait, contestant, seed."""
+    return told["place"], told["gait"], told["contestant"], told["seed"]
+
+
+def of_place(c: Mapping[str, Any], place: str, table: str) -> dict[str, Any]:
+    """A table of contest.toml with the values that a place has in place of those of all."""
+    return {**c[table], **c["places"][place].get(table, {})}
+
+
+def shape(c: Mapping[str, Any], place: str) -> tuple[int, int]:
+    """Conditions and seeds of the test set of a place."""
+    test = of_place(c, place, "test")
+    return len(test["amplitudes"]), test["seeds"]["count"]
+
+
+def _entry(told: Mapping[str, Any], size: tuple[int, int]) -> Entry:
     at = (told["place"], told["gait"], told["contestant"], told["seed"])
-    worst = Walks(*(np.full(shape, np.inf) for _ in KEPT[:-1]), np.zeros(shape))
+    worst = Walks(*(np.full(size, np.inf) for _ in KEPT[:-1]), np.zeros(size))
     if told["why"]:
         return Entry(*at, {}, told["why"], np.inf, (None, None), worst, None)
     margins = tuple(float(x) for x in told["margins"])
-    sides = (_walks(told["tuned"]), _walks(told["published"]))
+    sides = (walks_of(told["tuned"]), walks_of(told["published"]))
     return Entry(*at, told["chosen"], "", float(told["selected"]), margins, *sides)
 
 
-def _walks(columns: Sequence[Any]) -> Walks:
+def walks_of(columns: Sequence[Any]) -> Walks:
     """Walks with their columns as arrays, infinite where not legal."""
     legal = np.array(columns[-1], dtype=float)
     numbers = (np.array(x, dtype=float) for x in columns[:-1])
     return Walks(*(np.where(legal == 1.0, x, np.inf) for x in numbers), legal)
+
+
+def pooled(same: Sequence[Entry]) -> Entry:
+    """The searches of one contestant with several seeds of the optimiser as one: the walks of all of them.
+
+    Its setting is that of the first that found one; its error on the selection set is the geometric mean, and
+    infinite where a search found none.
+    """
+    first = next((e for e in same if e.found), same[0])
+    tuned = Walks(
+        *(np.concatenate(columns) for columns in zip(*(e.tuned for e in same), strict=True))
+    )
+    selected = float(np.exp(np.mean(np.log([e.selected for e in same]))))
+    return first._replace(tuned=tuned, selected=selected, searches=len(same))
+
+
+def groups_of(found: Sequence[Entry]) -> list[dict[str, Entry]]:
+    """For each place and gait the contestants, each with the walks of all of its searches."""
+    spots: dict[tuple[str, str], dict[str, list[Entry]]] = {}
+    for e in found:
+        spots.setdefault((e.place, e.gait), {}).setdefault(e.contestant, []).append(e)
+    return [{name: pooled(same) for name, same in spot.items()} for spot in spots.values()]
 
 
 def group(found: Sequence[Entry], place: str, gait: str, seed: int) -> dict[str, Entry]:

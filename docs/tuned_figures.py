@@ -34,7 +34,8 @@ def ratios_figure(found: Sequence[Entry]) -> Figure:
     panels: dict[str, dict[str, Marks]] = {}
     for place, gait in dict.fromkeys((e.place, e.gait) for e in found):
         series = {f"optimiser seed {s}": _ratios(group(found, place, gait, s)) for s in seeds}
-        panels[f"{place}, gait {gait}"] = {name: marks for name, marks in series.items() if marks}
+        if shown := {name: marks for name, marks in series.items() if marks}:
+            panels[f"{place}, gait {gait}"] = shown
     return _panels(panels, "ratio of rms errors [1]", beside=1.0)
 
 
@@ -43,14 +44,14 @@ def _ratios(g: Group) -> Marks:
 
 
 def errors_figure(found: Sequence[Entry]) -> Figure:
-    """Median errors, tuned and as published, of the first seed of the optimiser."""
+    """Median errors, tuned and of the first setting, of the first seed of the optimiser."""
     first = min((e.seed for e in found), default=0)
     panels: dict[str, dict[str, Marks]] = {}
     for e in found:
         if e.seed != first:
             continue
-        panel = panels.setdefault(f"{e.place}, gait {e.gait}", {"as published": {}, "tuned": {}})
-        for name, walks in (("as published", e.published), ("tuned", e.tuned)):
+        panel = panels.setdefault(f"{e.place}, gait {e.gait}", {"first setting": {}, "tuned": {}})
+        for name, walks in (("first setting", e.published), ("tuned", e.tuned)):
             if walks is not None:
                 x = Interval(*(MRAD * y for y in middle(walks.rms_error)))
                 panel[name] = {**panel[name], e.contestant: x}

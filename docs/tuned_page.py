@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from soft_text import bullets
-from tuned_entries import Entry, entries, group
+from tuned_entries import Entry, entries, group, groups_of, of_place
+from tuned_gaps import LEFT_OUT, at_ends, missing, of_places, without_setting
+from tuned_leaves import unsearched_sentences, with_all_leaves, worth_rows, worth_sentences
+from tuned_pushes import push_sentences, pushes
 from tuned_questions import (
     LEVEL,
     ORDERS,
@@ -17,82 +20,124 @@ from tuned_questions import (
     answered,
     between,
 )
-from tuned_seeds import other_seeds
+from tuned_seeds import Spread, other_seeds, placebo_sentences, repeated, spread_of
 from tuned_sentences import goal, order_pays, rung_worths, who_is_legal, winners
 from tuned_tables import answer_table, of_group
-from tuned_text import MRAD, at, name, number
+from tuned_text import MRAD, number
+from write_results import table
 
 from biped_adrc.viz.pages import captions
 
 COMMAND = "make tuned"
 NO_DATA = "Not walked yet."
 INTRODUCTION = """Written by `python docs/write_tuned.py OUT` from the searches of
-`benchmarks/tuned/alike.py OUT`, both by `{command}`, which goes on where it was interrupted. {done} of {asked}
-searches are there.
+`benchmarks/tuned/alike.py OUT` and the walks of `benchmarks/tuned/beside.py OUT`, all by `{command}`, which
+goes on where it was interrupted. {done} of {asked} searches are there.
 
-Each contestant is searched by [`biped-adrc tune`](guide/tune.md) at each place, on each gait, with the
-same budget of {per_variable} candidates for each free parameter, the same ranges and the same limits,
-which stand in `benchmarks/tuned/contest.toml`: a delay margin (of more delay in all motors, beside what
-the place has already) of at least {margins}; at least {legal_share:.0f} % of the walks legal; and a need of
-friction of at most {friction:g} in nine of ten walks. Each walk has {impacts} impacts, a push of random
-size and direction on the joints, and a model that is wrong by 10 %. Candidates are searched on {training} walks
-and chosen on {selection} others; the numbers below are those of {test} walks that no choice has touched
-({seeds} seeds, each under {amplitudes} N m; the last is more than was trained).
+Each contestant is searched by [`biped-adrc tune`](guide/tune.md) at each place, on each gait, with the same
+number of candidates for each free parameter, the same ranges and the same limits, which stand in
+`benchmarks/tuned/contest.toml`: a delay margin of at least {margins}
+(of more delay in all motors, beside what the place has already; of the loop on rigid ground); at least
+{legal_share:.0f} % of the walks legal; and a need of friction of at most {friction:g} in nine of ten walks.
+Each walk has a push of random size and direction on the joints, and a model that is wrong by 10 %. All may have
+the leaves of the place.
 
-**This budget is small.** A longer search may find a better setting for any of them; what another seed of
-the optimiser finds is told [below](#another-seed-of-the-optimiser).
+{places}
 
-A walk that falls or is not legal counts as one with an infinite error, torque and cost, and is never
-dropped; a contestant without a setting that keeps the limits ranks last. Medians and their intervals of
-95 % draw seeds, each with all of its walks. Ratios are those of the same walk under two settings. A
-difference is *carried* where the exact sign test over seeds has p below {level:g} after Holm's correction
-over all questions of its kind, and the interval agrees; what is not carried is *open*, and has the factor
-within which both are of each other with 95 %. The *reference* is the better of NPD and NPID, by the selection
-set. The first seed of the optimiser speaks, except where others are named."""
+Candidates are searched on the walks of training and chosen on those of selection; the numbers below are those
+of the test, which no choice has touched. The order m of an observer divides the range of its bandwidth, and its
+first value.
 
-LEFT_OUT = (
-    "Leaves that a contestant may choose are the filter of the rates and its own gains. **Left out**: friction "
-    "feedforward, prediction over the known delay, and the policy at impact, which stay as they are.",
-    "**Left out**: MuJoCo's contact. All walks are on the rigid ground of the paper.",
-    "Controllers that run in Python alone (CLF-QP, reference governors) are **left out**.",
+**This budget is small.** A longer search may find a better setting for any of them.
+
+A walk that falls or is not legal counts as one with an infinite error, torque and cost, and is never dropped; a
+contestant without a setting that keeps the limits ranks last. The interquartile mean is that of the middle half
+of the walks. Intervals of 95 % draw seeds, each with all of its walks; ratios are those of the same walk under
+two settings. A difference is *carried* where the exact sign test over seeds has p below {level:g} after Holm's
+correction over all questions of its kind, and the interval of the ratio is off 1 by more than two searches of
+the same contestant differ: a factor of {spread}{several}
+([from those](#another-seed-of-the-optimiser) that were repeated, and taken for all). What is not carried is
+*open*, and has the factor within which both are of each other with 95 %, after other searches too. The
+*reference* is the better of NPD and NPID, by the selection set. Where there are several seeds of the optimiser
+the walks of all their settings count; leaves and pushes are those of the first seed."""
+
+LADDER = (
+    "From NPD on filtered rates to the observer's xi^, one thing at a time. A ratio below 1 is what the rung "
+    "is worth; each contestant is searched anew, so a rung is held against the best setting below it."
+)
+LEAVES = (
+    "Each setting with one leaf taken away and not tuned again, on the test set. So what is lost is more than "
+    "the leaf is worth to a contestant that would be tuned without it. A ratio below 1 is the error with the "
+    "leaf to that without; it is 0 where without it most walks are not legal."
+)
+SETTINGS = (
+    "With several seeds of the optimiser the setting, its margin and the first setting are of the first seed, "
+    "and the walks of all."
+)
+PUSHES = (
+    "Of each setting the push is made larger until its walk is not legal, and the largest legal one is "
+    "bisected, with the pushed joints and the time drawn by seed. So each is known to an interval alone; a "
+    "seed counts where the intervals of both do not overlap, and bounds of a ratio take the ends that are "
+    "worst for it."
 )
 
 
 def page(summary: Mapping[str, Any]) -> str:
     """The text of docs/tuned.md."""
     found = entries(summary)
-    groups = first_groups(found)
-    contest, ladder, orders = families(groups)
+    groups, repeats = groups_of(found), repeated(found)
+    spread = spread_of(repeats)
+    contest, ladder, orders = families(groups, spread.factor)
+    first = against_reference(first_groups(found))
     parts = [
         "# Tuned alike",
-        introduction(summary),
+        introduction(summary, spread, max(map(len, repeats), default=1)),
         *missing(summary, found),
         "## What the numbers say",
-        told([*winners(groups, contest), *who_is_legal(contest), *goal(contest)]),
+        told(
+            [
+                *winners(groups, contest, spread.factor),
+                *who_is_legal(contest),
+                *goal(answered(first, spread.factor)),
+            ]
+        ),
         "## Does an order above 1 pay?",
-        told(order_pays(orders)),
-        answer_table(orders),
+        told([*order_pays(orders), *unsearched_sentences(summary, groups)]),
         "## The ladder",
         LADDER,
         told(rung_worths(ladder)),
-        answer_table(ladder),
-        *(part for picture in captions("tuned") for part in figure(picture)),
-        "## The tables",
-        *(part for g in groups for part in of_group(g, contest)),
+        "## What the leaves are worth",
+        LEAVES,
+        told([*worth_sentences(summary, found), *with_all_leaves(summary, groups)]),
+        "## The largest legal push",
+        PUSHES,
+        told(push_sentences(pushes(summary, groups))),
         "## Another seed of the optimiser",
-        told(other_seeds(found)),
+        told([*placebo_sentences(found), *other_seeds(found, spread.factor)]),
+        *(part for picture in captions("tuned") for part in figure(picture)),
+        "## The settings",
+        SETTINGS,
+        *(part for g in groups for part in of_group(g, contest)),
+        "## All answers",
+        *titled("Orders", answer_table(orders)),
+        *titled("The ladder", answer_table(ladder)),
+        *titled("Leaves, ratio with to without", leaf_table(summary, found)),
         "## What was left out",
-        bullets([*LEFT_OUT, *at_ends(summary["contest"], found)]),
+        bullets([*LEFT_OUT, *of_places(summary["contest"]), *at_ends(summary["contest"], found)]),
         *without_setting(found),
     ]
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
-LADDER = (
-    "From NPD on filtered rates to the observer's xi^, one thing at a time. A ratio below 1 is what the rung "
-    "is worth; each contestant is searched anew, so a rung is held against the best setting below it. There "
-    "are more questions here than above, so that the correction may leave open what is carried there."
-)
+def titled(title: str, text: str) -> list[str]:
+    """A table below its heading; nothing where it is empty."""
+    return [f"### {title}", text] if text else []
+
+
+def leaf_table(summary: Mapping[str, Any], found: Sequence[Entry]) -> str:
+    """The table of what leaves are worth; empty where nothing was walked."""
+    head, rows = worth_rows(summary, found)
+    return table(head, rows) if rows else ""
 
 
 def told(sentences: Sequence[str]) -> str:
@@ -115,89 +160,44 @@ def first_groups(found: Sequence[Entry]) -> list[Group]:
     return [group(found, *spot, first) for spot in spots]
 
 
-def families(groups: Sequence[Group]) -> tuple[list[Answer], list[Answer], list[Answer]]:
+def families(
+    groups: Sequence[Group], spread: Callable[[int], float] | None = None
+) -> tuple[list[Answer], list[Answer], list[Answer]]:
     """The answers of the contest, of the ladder and of the orders, each corrected as one family."""
     asked = (against_reference(groups), between(groups, RUNGS), between(groups, ORDERS))
-    contest, ladder, orders = (answered(pairs) for pairs in asked)
+    contest, ladder, orders = (answered(pairs, spread) for pairs in asked)
     return contest, ladder, orders
 
 
-def introduction(summary: Mapping[str, Any]) -> str:
-    """What was searched, how, and how to read it."""
+def introduction(summary: Mapping[str, Any], spread: Spread, most: int) -> str:
+    """What was searched, how, and how to read it. most: seeds of the optimiser where there are most."""
     c = summary["contest"]
-    walks = {
-        kind: c[kind]["seeds"]["count"] * len(c[kind]["amplitudes"])
-        for kind in ("training", "selection", "test")
-    }
     margins = ", ".join(f"{MRAD * p['margin']:g} ms ({name})" for name, p in c["places"].items())
     return INTRODUCTION.format(
         command=COMMAND,
         done=len(summary["searches"]),
         asked=len(summary["asked"]),
-        per_variable=c["search"]["per_variable"],
         margins=margins,
         legal_share=100.0 * c["limits"]["legal"],
         friction=c["limits"]["friction"],
-        impacts=c["walk"]["impacts"],
-        seeds=c["test"]["seeds"]["count"],
-        amplitudes=" and ".join(f"{x:g}" for x in c["test"]["amplitudes"]),
+        places=place_table(c),
         level=LEVEL,
-        **walks,
+        spread=number(spread.factor()),
+        several=f", {number(spread.factor(most))} with {most} searches each" if most > 1 else "",
     )
 
 
-def missing(summary: Mapping[str, Any], found: Sequence[Entry]) -> list[str]:
-    """Which searches are not there yet."""
-    there = {(e.place, e.gait, e.contestant, e.seed) for e in found}
-    gone = [x for x in map(tuple, summary["asked"]) if x not in there]
-    if not gone:
-        return []
-    spots: dict[str, list[str]] = {}
-    for place, gait, who, seed in gone:
-        spots.setdefault(f"{place}, gait {gait}, seed {seed} of the optimiser", []).append(who)
-    names = list(summary["contest"]["contestants"])
-    lines = [f"{at}: {'all' if len(x) == len(names) else '; '.join(x)}" for at, x in spots.items()]
-    return ["Searches that are not there; nothing is said of them:", bullets(lines)]
-
-
-NEAR = 1.1
-"""A value within this factor of an end of its range is at the end."""
-
-
-def at_ends(contest: Mapping[str, Any], found: Sequence[Entry]) -> list[str]:
-    """The chosen values at an end of their range, beyond which a better setting may lie."""
-    lines = []
-    for e in found:
-        own = (contest["contestants"][e.contestant] or {}).get("own", {})
-        ranges = {**contest["gains"], **own, **contest["places"][e.place].get("leaves", {})}
-        ends = [
-            f"{key.removeprefix('own.')} = {number(x)} of {r['from']:g} to {r['to']:g}"
-            for key, x in e.chosen.items()
-            if (r := ranges[key]) and not NEAR * r["from"] < x < r["to"] / NEAR
+def place_table(c: Mapping[str, Any]) -> str:
+    """What differs between the places: leaves, candidates and walks."""
+    head = ["place", "leaves", "candidates for each parameter", "impacts", "walks of training"]
+    rows = []
+    for place, p in c["places"].items():
+        leaves = "; ".join(c["leaves"][x]["words"] for x in p["leaves"]) or "none"
+        walks = [of_place(c, place, kind) for kind in ("training", "selection", "test")]
+        told = [
+            f"{w['seeds']['count']} seeds under {' and '.join(f'{x:g}' for x in w['amplitudes'])} N m"
+            for w in walks
         ]
-        if ends:
-            lines.append(f"{at(e)}, {name(e)}, seed {e.seed} ({', '.join(ends)})")
-    told = "At an end of its range, so that a wider one may find better, is a value of "
-    return [f"{told}{'; '.join(lines)}."] if lines else []
-
-
-def without_setting(found: Sequence[Entry]) -> list[str]:
-    """The searches that found no setting, with the reason."""
-    lines = [
-        f"{at(e)}, {name(e)}, seed {e.seed} of the optimiser: {reason(e)}."
-        for e in found
-        if not e.found
-    ]
-    return ["## Searches without a setting", bullets(lines)] if lines else []
-
-
-def reason(e: Entry) -> str:
-    """Why a search found nothing: what excluded how many."""
-    told = e.why.split("': ", 1)[-1].split(". The nearest")[0]
-    return f"{told}. {UNWALKED}" if "that need no walk" in told else told
-
-
-UNWALKED = (
-    "So none was walked. This excludes the ranges that were searched and no more: whether a value outside them "
-    "bears the delay is not answered here"
-)
+        search, walk = of_place(c, place, "search"), of_place(c, place, "walk")
+        rows.append([place, leaves, f"{search['per_variable']}", f"{walk['impacts']}", *told])
+    return table([*head, "of selection", "of the test"], rows)

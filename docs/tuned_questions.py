@@ -6,7 +6,7 @@ seeds with all of their conditions, and tests count seeds.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -51,18 +51,20 @@ class Answer(NamedTuple):
     """Of McNemar's test over seeds of which all walks are legal, corrected in the same way."""
     legal_bound: float
     """The shares of such seeds differ by at most this, with 95 %."""
+    spread: float = 1.0
+    """The factor by which searches of the same contestant may differ; 1 for settings of one search."""
 
     @property
     def verdict(self) -> str:
-        """Whether the error of a is "smaller" or "larger"; "open" where its test carries neither."""
-        if self.p >= LEVEL or self.ratio.low <= 1.0 <= self.ratio.high:
-            return "open"
-        return "smaller" if self.ratio.high < 1.0 else "larger"
+        """Whether the error of a is "smaller" or "larger"; "open" where test or searches carry neither."""
+        if self.p < LEVEL and self.ratio.high * self.spread < 1.0:
+            return "smaller"
+        return "larger" if self.p < LEVEL and self.ratio.low > self.spread else "open"
 
     @property
     def within(self) -> float:
-        """The factor within which both errors are of each other, with 95 %."""
-        return max(self.ratio.high, 1.0 / self.ratio.low)
+        """The factor within which both errors are of each other, with 95 %, after other searches too."""
+        return max(self.ratio.high, 1.0 / self.ratio.low) * self.spread
 
 
 def log_ratios(a: Array, b: Array) -> Array:
@@ -73,9 +75,17 @@ def log_ratios(a: Array, b: Array) -> Array:
     return np.clip(found, -np.log(WORST), np.log(WORST))
 
 
-def answered(pairs: Sequence[tuple[Entry, Entry]]) -> list[Answer]:
-    """The answers of one family of questions, corrected for each other."""
+def answered(
+    pairs: Sequence[tuple[Entry, Entry]], spread: Callable[[int], float] | None = None
+) -> list[Answer]:
+    """The answers of one family of questions, corrected for each other.
+
+    spread: from a number of searches to the factor by which their means may differ; None for settings of one
+    search, which is not repeated.
+    """
     found = [_answer(a, b) for a, b in pairs]
+    if spread is not None:
+        found = [x._replace(spread=spread(min(x.a.searches, x.b.searches))) for x in found]
     errors, legal = holm([x.p for x in found]), holm([x.legal_p for x in found])
     both = zip(found, errors, legal, strict=True)
     return [x._replace(p=p, legal_p=legal_p) for x, p, legal_p in both]

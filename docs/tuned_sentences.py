@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Callable, Sequence
 
 import tuned_text as words
 from tuned_entries import Entry, reference
@@ -16,10 +17,14 @@ GOAL, GOAL_LEGAL = 0.5, 292 / 300
 GOAL_PLACE = "RABBIT, 1 ms"
 
 
-def winners(groups: Sequence[Group], contest: Sequence[Answer]) -> list[str]:
+def winners(
+    groups: Sequence[Group],
+    contest: Sequence[Answer],
+    spread: Callable[[int], float] | None = None,
+) -> list[str]:
     """For each place and gait who is the best, how far ahead, and what is carried against NPD and NPID."""
-    ahead = {at(x.a): x for x in answered(first_two(groups))}
-    lines = []
+    ahead = {at(x.a): x for x in answered(first_two(groups), spread)}
+    lines = [tally(groups)] if groups else []
     for g in groups:
         best = first_of(g)
         spot = at(next(iter(g.values())))
@@ -28,6 +33,14 @@ def winners(groups: Sequence[Group], contest: Sequence[Answer]) -> list[str]:
             continue
         lines.append(f"**{spot}**: {winner(best, ahead.get(spot))} {held_against(g, contest)}")
     return lines
+
+
+def tally(groups: Sequence[Group]) -> str:
+    """How often each contestant is the best on the selection set."""
+    counts = Counter(name(best) for g in groups if (best := first_of(g)) is not None)
+    told = ", ".join(f"{who} {count}" for who, count in counts.most_common())
+    spots = "place and gait" if len(groups) == 1 else "places and gaits"
+    return f"Best on the selection set, over {len(groups)} {spots}: {told or 'nobody'}."
 
 
 def winner(best: Entry, ahead: Answer | None) -> str:
@@ -118,21 +131,47 @@ def order_pays(orders: Sequence[Answer]) -> list[str]:
     lines = []
     for spot in dict.fromkeys(at(x.a) for x in orders):
         here = [x for x in orders if at(x.a) == spot]
-        kinds = words.by_verdict(here, against)
+        kinds = words.by_verdict(here, lambda x: against(x) + loop(x.a))
         heads = {"smaller": "pays", "larger": "costs", "open": "is open"}
         said = "; ".join(f"{heads[k]}: {', '.join(x)}" for k, x in kinds.items() if x)
-        first = here[0].b
-        margin = (
-            "" if first.margins[0] is None else f" ({MRAD * first.margins[0]:.2g} ms of margin)"
-        )
-        lines.append(f"**{spot}**, as ratio to m = 1{margin}: {said}.")
-    paid = sum(x.verdict == "smaller" for x in orders)
-    if orders:
-        lines.insert(
-            0,
-            f"An order above 1 pays in {paid} of {len(orders)} questions.",
-        )
-    return lines
+        lines.append(f"**{spot}**, as ratio to m = 1{loop(here[0].b)}: {said}.")
+    return [pays_at_all(orders), *lines] if orders else []
+
+
+def pays_at_all(orders: Sequence[Answer]) -> str:
+    """In how many questions an order above 1 pays, and in how many it does not at equal margin and ripple."""
+    paid = [f"{name(x.a)} at {at(x.a)}" for x in orders if x.verdict == "smaller"]
+    where = f": {', '.join(paid)}" if paid else ""
+    said = f"An order above 1 pays in {len(paid)} of {len(orders)} questions{where}."
+    found = [x for x in orders if x.a.found]
+    same = [x for x in found if not better_loop(x.a, x.b)]
+    if not same:
+        return said
+    larger = sum(x.ratio.value > 1.0 for x in same)
+    carried = sum(x.verdict == "smaller" for x in same)
+    return (
+        f"{said} At equal margin and ripple: of {len(found)} settings of a higher order {len(same)} have "
+        f"neither more delay margin nor less ripple than that of m = 1; of these {larger} have a larger error, "
+        f"and {carried} a smaller one that is carried."
+    )
+
+
+def better_loop(a: Entry, b: Entry) -> bool:
+    """Whether the loop of a has more delay margin or less ripple than that of b, or one of them is unknown."""
+    (x, y), (r, s) = (a.margins[0], b.margins[0]), (a.ripple, b.ripple)
+    if x is None or y is None or r is None or s is None:
+        return True
+    return x > y or r < s
+
+
+def loop(e: Entry) -> str:
+    """Delay margin and ripple of a setting in brackets."""
+    told = []
+    if e.margins[0] is not None:
+        told.append(f"{MRAD * e.margins[0]:.2g} ms of margin")
+    if e.ripple is not None:
+        told.append(f"{e.ripple:.2g} N m of ripple")
+    return f" ({', '.join(told)})" if told else ""
 
 
 def rung_worths(ladder: Sequence[Answer]) -> list[str]:

@@ -37,9 +37,9 @@ def answer_texts(x: Answer) -> list[str]:
 
 
 CELLS = (
-    *("contestant", "chosen setting", "delay margin [ms]", "rms error [mrad]", "rms torque [N m]"),
-    *("cost of transport", "legal", "ratio to the reference", "as published: error [mrad]"),
-    *("margin [ms] as published", "legal as published"),
+    *("contestant", "chosen setting", "delay margin [ms]", "rms error [mrad]"),
+    *("interquartile mean [mrad]", "rms torque [N m]", "cost of transport", "legal"),
+    *("ratio to the reference", "first setting: error [mrad]", "margin [ms]", "legal"),
 )
 """Headings of the table of a place and gait, by `contestant_texts`."""
 
@@ -55,15 +55,16 @@ def contestant_texts(e: Entry, x: Answer | None) -> list[str]:
     """A contestant as the row of a table."""
     tuned = [
         words.error(e.tuned),
+        interval(words.interquartile(e.tuned.rms_error), MRAD),
         interval(words.middle(e.tuned.rms_torque)),
         interval(words.middle(e.tuned.cost_of_transport)),
     ]
     held = "–" if x is None else ratio(x.ratio)
     was = "–" if e.published is None else words.error(e.published)
     was_legal = "–" if e.published is None else legal(e.published)
-    chosen, published = map(margin, e.margins)
+    chosen, first = map(margin, e.margins)
     told = legal(e.tuned) if e.found else "–"
-    return [e.contestant, setting(e), chosen, *tuned, told, held, was, published, was_legal]
+    return [e.contestant, setting(e), chosen, *tuned, told, held, was, first, was_legal]
 
 
 def margin(x: float | None) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
+from scipy import stats
 from tuned_entries import Entry, Walks
 from tuned_questions import WORST, Answer
 
@@ -39,6 +40,11 @@ def middle(x: Array) -> Interval:
     return over_seeds(x, lambda sets: np.median(sets, axis=1))
 
 
+def interquartile(x: Array) -> Interval:
+    """Mean of the middle half of walks with its interval; infinite where more than a quarter are infinite."""
+    return over_seeds(x, lambda sets: stats.trim_mean(sets, 0.25, axis=1))
+
+
 def error(walks: Walks) -> str:
     """The median of the rms errors [mrad]."""
     return interval(middle(walks.rms_error), MRAD)
@@ -51,8 +57,13 @@ def legal(walks: Walks) -> str:
 
 def setting(e: Entry) -> str:
     """The chosen values, in SI units."""
-    told = (f"{key.removeprefix('own.')} = {number(x)}" for key, x in e.chosen.items())
+    told = (f"{key.removeprefix('own.')} = {value(x)}" for key, x in e.chosen.items())
     return ", ".join(told) or "none that keeps the limits"
+
+
+def value(x: float | str | None) -> str:
+    """A chosen value: a number, a name, or "none"."""
+    return number(x) if isinstance(x, float | int) else x or "none"
 
 
 def at(e: Entry) -> str:

@@ -28,8 +28,10 @@ INTRODUCTION = """RABBIT's hardware: sampled each 1.5 ms, 8192 counts, rates fro
 that no model has, motors of 150 N m that act 1 ms late, which no controller knows; masses
 and inertias of the robot off by up to 10 %, centres of mass by 5 %; a push of up to
 {amplitude:g} N m on each joint in step 3 of {impacts}. ADRC and its rivals are tuned alike
-(`benchmarks/tuned/contest.toml`): the same gains and filter of the rates to choose, the
-same budget for each free parameter, the same limits of margin, legality and friction.
+(`benchmarks/tuned/contest.toml`, `reserve.toml`): the same gains, filter of the rates, friction
+feedforward, prediction and, in the contest, policy at impact to choose, the same budget for each
+free parameter, the same limits of margin, legality and friction. ADRC may have the observer of
+Table I's kind, of equal poles, or a Kalman filter.
 
 ```text
 python benchmarks/tuned/alike.py out/tuned --only "RABBIT, 1 ms"
@@ -40,19 +42,24 @@ python docs/write_robot_goal.py out/goal
 
 One setting for each role is taken on {selection} selection walks, by the rules of
 `benchmarks/tuned/goal.toml`: of each rival, and as the *closest ADRC*, the one of least
-median error with 90 % legal walks; as the *ADRC for the goal*, of those with all walks
-legal and at most {ratio:g} of the better rival's error, the one that needs the least
-friction. That bound was 0.45 for a first look at 24 of the test walks, and eased when
-another optimiser seed had found a better NPD, by the selection walks alone. Then {walks}
+median error with 90 % legal walks; as the *ADRC for the goal*, of those with at most {ratio:g} of the
+better rival's error, one with the most legal walks, and of these the one that needs the least
+friction. (The rule was a bound of 0.45 with all walks legal at first, which no setting kept on
+the selection walks; it was eased before any test walk was made.) Then {walks}
 walks are made, with seeds from {first} on that no search and no selection has used. A walk
 of an ADRC that is not legal counts as infinite beside the rival's, and the rival's counts
 even where it is not legal. *Friction needed* is the coefficient of friction within which
 292 of 300 walks stay in every step, by forces averaged over 5 ms."""
-VALUES = {
+VALUES: dict[str, tuple[str, float]] = {
     "K_p": ("K_p", 1.0),
     "K_d": ("K_d", 1.0),
     "filter_time": ("filter [ms]", 1e3),
+    "feedforward": ("friction feedforward", 1.0),
+    "prediction": ("prediction [ms]", 1e3),
+    "contact": ("policy at impact", 1.0),
+    "contact_window": ("its window [ms]", 1e3),
     "bandwidth": ("bandwidth [rad/s]", 1.0),
+    "own.drift": ("drift of the Kalman filter [1/s^2.5]", 1.0),
     "own.K_i": ("K_i", 1.0),
     "own.filter_bandwidth": ("rates' bandwidth [rad/s]", 1.0),
 }
@@ -97,9 +104,7 @@ def chosen_table(s: Mapping[str, Any]) -> str:
     rows = []
     for role in s["test"]:
         one = setting(s, role)
-        values = [
-            f"{one['values'][n] * VALUES[n][1]:.4g}" if n in one["values"] else "–" for n in names
-        ]
+        values = [told(one["values"].get(n), VALUES[n][1]) for n in names]
         linear = [
             f"{1e3 * one['delay_margin']:.2f}",
             f"{one['disk_margin']:.2f}",
@@ -116,6 +121,13 @@ def chosen_table(s: Mapping[str, Any]) -> str:
             ]
         )
     return table(columns, rows)
+
+
+def told(x: float | str | None, factor: float) -> str:
+    """A value of a setting in the unit of the page."""
+    if x is None or isinstance(x, str):
+        return x or "–"
+    return f"{factor * x:.4g}"
 
 
 def front_table(s: Mapping[str, Any]) -> str:
@@ -194,10 +206,14 @@ def limited(s: Mapping[str, Any]) -> str:
     rival = setting(s, "rival")["contestant"]
     mine, other = s["test"]["goal"], s["test"][rival]
     a, b = mine["median_friction"], other["median_friction"]
+    finer = s["outside"]["eight times the counts"]
+    fine = [finer[role]["friction"] for role in ("goal", rival)]
     return (
         f"In the median of the test walks the ADRC for the goal needs a friction of {a:.3f}, {rival} "
         f"{b:.3f}, a ratio of {a / b:.2f}; for 292 of 300 walks it is {mine['friction']:.3f} and "
-        f"{other['friction']:.3f}, so that the few hardest walks decide what is gained."
+        f"{other['friction']:.3f}, so that the few hardest walks decide what is gained. Counts of the encoders "
+        f"decide it too: with eight times as many the two need {fine[0]:.3f} and {fine[1]:.3f} "
+        f"({fine[0] / fine[1]:.2f})."
     )
 
 
@@ -248,6 +264,8 @@ def page(s: Mapping[str, Any], g: Mapping[str, Any]) -> str:
         "On each joint up to so much, joints and onset drawn by seed, bisected to 2.5 N m. The interval of "
         "the ratio is of its lower end.",
         push_table(s),
+        "## What the leaves change",
+        without_leaves(s, g),
         "## The front, and what limits it",
         "What was found with less friction allowed, on the selection walks:",
         limits_table(s, g),
@@ -258,6 +276,26 @@ def page(s: Mapping[str, Any], g: Mapping[str, Any]) -> str:
         equal_error(s, g),
     ]
     return "\n\n".join(parts) + "\n"
+
+
+def without_leaves(s: Mapping[str, Any], g: Mapping[str, Any]) -> str:
+    """The same questions where the filter of the rates was all that could be chosen beside the gains."""
+    alone = read(FOLDER / "filter_alone.json")
+    now, then = ({x.words: x for x in verdicts(one, g)} for one in (s, alone))
+    errors = [1e3 * one["test"][setting(one, "rival")["contestant"]]["error"] for one in (alone, s)]
+    mine = [1e3 * one["test"]["goal"]["error"] for one in (alone, s)]
+    rows = [
+        [words, then[words].needed, then[words].found, now[words].found]
+        for words in now
+        if words in then
+    ]
+    return (
+        "An earlier search had the filter of the rates as its only leaf, with walks and test seeds of its own "
+        "(`docs/robot_goal/filter_alone.json`). Friction feedforward and prediction help the rival more: its "
+        f"median error on the test walks went from {errors[0]:.3g} to {errors[1]:.3g} mrad, that of the ADRC "
+        f"for the goal from {mine[0]:.3g} to {mine[1]:.3g} mrad.\n\n"
+        + table(["demand", "needed", "filter alone", "all leaves"], rows)
+    )
 
 
 def first_look(s: Mapping[str, Any], g: Mapping[str, Any]) -> str:

@@ -14,10 +14,11 @@ from biped_adrc.observer_design.observer_loop import observer_loop
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.paper.claims import evidence, rows_control, rows_gait, rows_push
 from biped_adrc.paper.claims.admissible import Member, convergence, declared, members
-from biped_adrc.paper.claims.evidence import Evidence, GaitCycle, Jumps, Needs, Pair, Start
+from biped_adrc.paper.claims.evidence import GaitCycle, Jumps, Needs, Pair, Start
 from biped_adrc.paper.claims.orders import Order, bandwidth_with
 from biped_adrc.paper.claims.table import rows
 from biped_adrc.paper.claims.tally import AtTwoSteps, ClaimCase, Tally, below_limit, changes
+from biped_adrc.paper.claims.tasks import Evidence
 from biped_adrc.paper.claims.walks import (
     MemberOutcome,
     MemberWalk,

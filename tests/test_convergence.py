@@ -21,7 +21,7 @@ from biped_adrc.paper.convergence import (
 )
 from biped_adrc.paper.pair import CONTROLLERS
 from biped_adrc.paper.plan import Plan, pushed_run
-from biped_adrc.robots.robot_toml import KnownLimits
+from biped_adrc.robots.limits import KnownLimits
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.run import execute_twice, walk_scenario
 from biped_adrc.scenario.scenario import Scenario

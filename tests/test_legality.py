@@ -15,7 +15,7 @@ from biped_adrc.analysis.signals import Signals
 from biped_adrc.paper.plan import Plan
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.tables import _push
-from biped_adrc.robots.robot_toml import KnownLimits
+from biped_adrc.robots.limits import KnownLimits
 from biped_adrc.scenario.run import execute
 from biped_adrc.scenario.scenario import Scenario
 

@@ -190,6 +190,26 @@ SIMULATE = {
     "as_printed": Row("--as-printed", scenario_field("solve_theta"), False),
     "end_illegal": Row("--end-illegal", same("end_illegal"), True),
     "out": Row("-o own.csv", same("out"), Path("own.csv")),
+    "log": Row("--period 0.002 --log own", same("log"), Path("own.csv")),
+}
+REPLAY = {
+    **{
+        name: Row(
+            SIMULATE[name].words,
+            lambda a, name=name: getattr(a.scenario, name),
+            SIMULATE[name].value,
+        )
+        for name in (
+            *("controller", "gait", "robot", "preset", "period", "torque_limit", "K_p"),
+            *("K_d", "observer", "poles", "bandwidth", "order", "reset"),
+        )
+    },
+    "scenario": Row("--scenario best.toml", same("scenario.K_d"), 33.0),
+    "log": Row("", same("log"), Path("own.csv")),
+    "sets": Row("--set K_p=900", same("scenario.K_p"), 900.0),
+    "window": Row("--window 0.03", same("window"), 0.03),
+    "filter_time": Row("--filter-time 0.004", same("filter_time"), 0.004),
+    "out": Row("-o there", same("path"), Path("there/replay.svg"), "viz.style:write_figure"),
 }
 POINCARE = {
     "scenario": Row("--scenario best.toml", scenario_field("K_d"), 33.0),
@@ -435,6 +455,10 @@ MJCF = {
 }  # fmt: skip
 COMMANDS = {
     "simulate": Command("simulate", "cli.walk:_walk", SIMULATE),
+    "replay": Command(
+        "replay own.csv", "logs.replay:replay", REPLAY,
+        others={"viz.style:write_figure": ("replay own.csv", "logs.replay:replay cli.replay:write_text")},
+    ),
     "poincare": Command(
         "poincare",
         "studies.cycle_stability:cycle_of",

@@ -145,6 +145,11 @@ def test_the_guide_to_sweeps_says_how_many_walks_of_its_maps_are_legal():
         )
 
 
+def test_the_table_of_replayed_logs_is_that_of_its_numbers(script):
+    module = script("write_replay")
+    assert marked(read("guide/replay.md"), (module.BEGIN, module.END)) == module.part(module.read())
+
+
 def test_the_page_of_soft_ground_is_that_of_its_summary(script):
     module, pictures = script("write_soft_walk"), script("soft_page").PICTURES
     summary = module.read(module.FOLDER / "summary.json")

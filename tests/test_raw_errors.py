@@ -22,7 +22,7 @@ from biped_adrc.gait.exchange.samples import read_csv
 from biped_adrc.hardware.pitch_sensor import PitchSensor
 from biped_adrc.observers.kalman import KalmanObserver
 from biped_adrc.scenario.build import build
-from biped_adrc.scenario.scenario import idle
+from biped_adrc.scenario.idle import idle
 from biped_adrc.studies.cycle_stability import cycle_of
 
 

@@ -54,14 +54,14 @@ def test_no_walk_of_the_test_was_seen_by_a_search_or_a_choice():
         assert not x & y, (a, b)
 
 
-def test_the_searches_with_a_reserve_differ_from_the_contest_in_friction_and_budget_alone(module):
+def test_the_searches_with_a_reserve_have_walks_gains_place_and_some_leaves_of_the_contest(module):
     contest, reserve = tables("contest.toml"), tables("reserve.toml")
     assert reserve["walk"] == contest["walk"]
     assert reserve["gains"] == contest["gains"]
-    for name, who in reserve["contestants"].items():
-        assert who == contest["contestants"].get(name, who)
-    for name in ("values", "margin", "leaves"):
+    for name in ("values", "margin"):
         assert reserve["places"]["RABBIT, 1 ms"][name] == contest["places"]["RABBIT, 1 ms"][name]
+    for name, leaf in reserve["leaves"].items():
+        assert leaf["variables"] == contest["leaves"][name]["variables"]
     assert [name for name, _ in module("reserve").contests()] == [
         f"friction_{x:g}" for x in reserve["limits"]["friction"]
     ]

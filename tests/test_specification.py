@@ -21,14 +21,17 @@ from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.observer_design.disk_margin import (
     balanced_bound,
     disk_margin,
-    response,
     structured_value,
 )
-from biped_adrc.observer_design.walker_loop import (
+from biped_adrc.observer_design.frequency_response import Response
+from biped_adrc.observer_design.tick_matrices import (
+    TickMatrices,
+    _acting,
     linear_twin,
-    robot_step,
     tick_matrices,
 )
+from biped_adrc.observer_design.walker_loop import FREQUENCIES, robot_step
+from biped_adrc.scenario.specified import specification_of
 
 BENCHMARK = Path(__file__).parents[1] / "benchmarks/specification.py"
 
@@ -45,7 +48,7 @@ def walks():
 def loop_of(walks, **values):
     """The walker of some values, its gait, and the loop at the first phase."""
     walker, gait = walks.candidate({"impacts": 2, "period": 1.5e-3, **values})
-    return walker, gait, walks.specified(walker, gait).loops[0][0]
+    return walker, gait, walks.specified(walker, gait).loops[0, 0]
 
 
 # -- against walks ---------------------------------------------------------------------------------
@@ -77,7 +80,8 @@ def missed(walks, T, **values):
 
     The walks are those of the walker itself; what lasts a while in `values` is given in periods.
     """
-    lasting = {name: x * T for name, x in values.items() if name in ("delay", "lag", "filter_time")}
+    times = ("delay", "lag", "filter_time", "prediction")
+    lasting = {name: x * T for name, x in values.items() if name in times}
     walker, gait, loop = loop_of(walks, **{**values, **lasting, "period": T})
     n, p = walker.plant.n, walker.plant.p
     point = ba.FrozenGait.of(walker.plant, gait, spread=0.0).points[0]
@@ -107,12 +111,31 @@ def missed(walks, T, **values):
         {"controller": "LESO", "bandwidth": 200.0, "delay": 1.6, "lag": 0.7},
         {"controller": "LESO", "bandwidth": 200.0, "delay": 1.6, "delay_known": True},
         {"controller": "DOB", "delay": 2, "velocity": "differences", "filter_time": 1.5},
+        {"controller": "LESO", "bandwidth": 200.0, "delay": 1.6, "prediction": 1.6},
+        {"controller": "NPD", "friction": True, "feedforward": 0.8, "delay": 0.5},
     ],
 )
 def test_a_small_deviation_goes_as_the_matrices_say(walks, values):
     """What is missed is the motion of the gait in ten periods, and goes to zero with the period."""
     coarse, fine = (missed(walks, T, **values) for T in (1e-3, 2.5e-4))
     assert fine < 0.15 * coarse < 1e-3
+
+
+@pytest.mark.parametrize("controller", ["NPD", "LESO"])
+def test_a_delay_that_is_predicted_leaves_the_modes_of_the_loop_without_it(walks, controller):
+    """But for the change of q'' in that time, which goes with it."""
+
+    def modes(**more):
+        loop = loop_of(walks, controller=controller, period=1e-3, **more)[2]
+        return np.sort(np.abs(np.linalg.eigvals(loop.matrices().M)))[::-1]
+
+    free, hidden, predicted = (
+        modes(),
+        modes(delay=1e-3),
+        modes(delay=1e-3, prediction=1e-3),
+    )
+    gaps = [np.max(np.abs(x[: len(free)] - free)) for x in (hidden, predicted)]
+    assert gaps[1] < 0.05 * gaps[0]
 
 
 # -- the matrices ----------------------------------------------------------------------------------
@@ -193,7 +216,7 @@ def test_a_hidden_delay_is_as_one_of_the_clock_that_the_controller_does_not_know
 def test_what_nothing_depends_on_is_left_out(walks):
     walker, gait, loop = loop_of(walks, controller="NPD", velocity="measured")
     points = ba.FrozenGait.of(walker.plant, gait, spread=0.0).points
-    assert tick_matrices(linear_twin(walker), points)[0].Z.shape == (0, 0)
+    assert tick_matrices(linear_twin(walker), points).Z.shape == (len(points), 0, 0)
     assert loop.matrices().M.shape == (10, 10)
 
 
@@ -276,21 +299,61 @@ def test_the_structured_value_is_reached_by_a_diagonal_matrix(p):
 
 
 def test_the_response_by_the_triangular_form():
+    """Of two systems at once, at frequencies of their own."""
     random = np.random.default_rng(5)
-    M, B, C, D = (random.normal(size=s) for s in ((6, 6), (6, 2), (3, 6), (3, 2)))
-    angles = np.array([0.1, 1.0, 3.0])
-    direct = [C @ np.linalg.solve(np.exp(1j * a) * np.eye(6) - M, B) + D for a in angles]
-    np.testing.assert_allclose(response(M, B, C, D, angles), direct, rtol=1e-10)
+    M, B, C, D = (random.normal(size=(2, *s)) for s in ((6, 6), (6, 2), (3, 6), (3, 2)))
+    angles = np.array([[0.1, 1.0, 3.0], [0.2, 1.5, 2.0]])
+    direct = [
+        [C[i] @ np.linalg.solve(np.exp(1j * a) * np.eye(6) - M[i], B[i]) + D[i] for a in angles[i]]
+        for i in range(2)
+    ]
+    np.testing.assert_allclose(Response.of(M, B, C, D).at(angles), direct, rtol=1e-10)
 
 
-def test_sensitivity_of_a_walker_is_that_of_its_open_loop(walks):
-    """S = 1 / (1 - G), with G from the torque to the torque that the controller then asks for."""
-    _, _, loop = loop_of(walks, controller="LESO", delay=1e-3)
+@pytest.mark.parametrize("late", [{"delay": 1.2e-3, "lag": 1e-3}, {"velocity": "measured"}])
+def test_sensitivity_of_a_walker_is_that_of_its_open_loop(walks, late):
+    """S = 1 / (1 - G), with G from the torque to the torque that the controller then asks for; controller and
+    robot one after the other, as `sensitivity` takes them, are the whole loop.
+    """
+    _, _, loop = loop_of(walks, controller="LESO", **late)
     M, B, C, D = loop.matrices()
-    p, angle = len(C), np.array([300.0 * loop.period])
-    S = response(M, B[:, -p:], C, D[:, -p:], angle)[0]
-    G = response(M - B[:, -p:] @ C, B[:, -p:], C, np.zeros((p, p)), angle)[0]
-    np.testing.assert_allclose(S @ (np.eye(p) - G), np.eye(p), atol=1e-9)
+    p, nyquist = len(C), np.pi / loop.period
+    w = np.geomspace(loop.slow, nyquist, FREQUENCIES)
+    S = Response.of(M, B[:, -p:], C, D[:, -p:]).at(w * loop.period)
+    G = Response.of(M - B[:, -p:] @ C, B[:, -p:], C, np.zeros((p, p))).at(w * loop.period)
+    np.testing.assert_allclose(S @ (np.eye(p) - G), [np.eye(p)] * len(w), atol=1e-9)
+    np.testing.assert_allclose(loop.sensitivity()[: len(w)], S, atol=1e-9 * np.max(np.abs(S)))
+
+
+def test_the_largest_value_is_found_though_not_all_are_computed(walks):
+    walker, gait = walks.candidate({"controller": "LESO", "hardware": "rabbit", "bandwidth": 200.0})
+    S = walks.specified(walker, gait).loops.sensitivity()[0, 0]
+    each = [structured_value(one - 0.5 * np.eye(len(one))) for one in S]
+    assert disk_margin(S) == pytest.approx(1.0 / max(each), rel=1e-12)
+
+
+# -- all loops together ----------------------------------------------------------------------------
+def test_loops_together_are_the_loops_one_by_one():
+    """With a filter and old angles in z, and a torque that changes within the period."""
+    s = ba.Scenario("LESO", hardware="rabbit", bandwidth=160.0, filter_time=2e-3, delay=1e-3)
+    loops = specification_of(s).loops
+    each = [loops[i, j] for i in range(4) for j in range(5)]
+    np.testing.assert_allclose(loops.growth().ravel(), [one.growth() for one in each], rtol=1e-9)
+    margins = [one.delay_margin(0.05) for one in each]
+    assert loops.delay_margin(0.05) == pytest.approx(min(margins), abs=2e-9)
+    assert np.ptp(margins) > 1e-4
+    np.testing.assert_allclose(loops[2, 3].sensitivity()[:100], loops.sensitivity()[2, 3, :100])
+
+
+def test_numbers_that_act_in_one_ratio_count_as_one():
+    """z_1 and z_2 act by z_1 + 2 z_2 alone, and on z_3 nothing depends: the same u from the same (q, q')."""
+    Z = np.array([[[0.5, 1.0, 0.0], [0.1, 0.2, 0.0], [1.0, 2.0, 0.0]]])
+    Y, C, E = np.array([[[1.0], [3.0], [1.0]]]), np.array([[[0.5, 1.0, 0.0]]]), np.zeros((1, 1, 1))
+    some = _acting(TickMatrices(Z, Y, C, E))
+    assert some.Z.shape == (1, 1, 1)
+    angles = np.array([[0.3, 2.0]])
+    whole, less = (Response.of(*tick).at(angles) for tick in ((Z, Y, C, E), some))
+    np.testing.assert_allclose(less, whole, rtol=1e-12)
 
 
 # -- words and numbers -----------------------------------------------------------------------------
@@ -306,10 +369,8 @@ def test_an_unstable_loop_is_the_word(walks):
 
 def test_other_inertias_can_only_take_from_a_margin():
     s = ba.Scenario("LESO", hardware="rabbit", bandwidth=160.0, order=2)
-    from biped_adrc.scenario.specified import specification_of
-
     spec = specification_of(s)
-    alone = replace(spec, loops=tuple(loops[:1] for loops in spec.loops))
+    alone = replace(spec, loops=spec.loops[:, :1])
     assert spec.delay_margin < alone.delay_margin
     assert spec.disk_margin <= alone.disk_margin
     assert "ms of hidden delay" in str(spec)

@@ -62,9 +62,19 @@ def nothing(contestant, seed=1):
 def summary(*searches):
     """A summary of these searches, of a contest that asked for one more."""
     names = ["NPD", "NPID", "observer's rates", "assisted, m = 1", "m = 1", "m = 2", "m = 3", "DOB"]
-    place = {"margin": 0.002, "seeds": [1, 2]}
+    place = {
+        "margin": 0.002,
+        "seeds": {GAIT: [1, 2], "published": [1]},
+        "leaves": ["filter", "policy"],
+    }
     asked = [[x[k] for k in ("place", "gait", "contestant", "seed")] for x in searches]
     two = {"seeds": {"count": 10}, "amplitudes": [60.0, 80.0]}
+    windows = {"from": 0.003, "to": 0.03, "when": {"contact": ["hold"]}}
+    policies = {"contact": {"choices": ["none", "hold"]}, "contact_window": windows}
+    leaves = {
+        "filter": {"words": "the filter", "variables": {"filter_time": {"from": 0.1, "to": 1.0}}},
+        "policy": {"words": "the policy", "variables": policies},
+    }
     contest = {
         "search": {"per_variable": 25},
         "limits": {"legal": 0.9, "friction": 0.57},
@@ -72,13 +82,17 @@ def summary(*searches):
         "training": {"seeds": {"count": 6}, "amplitudes": [60.0]},
         "selection": two,
         "test": {"seeds": {"count": SEEDS}, "amplitudes": [60.0, 80.0]},
-        "places": {PLACE: place, "ideal": place},
-        "gaits": {GAIT: [1, 2], "published": [1]},
-        "gains": {"K_p": {"from": 200.0, "to": 20000.0}},
+        "places": {
+            PLACE: place,
+            "ideal": {**place, "walk": {"impacts": 4}, "leaves": [], "contestants": names[:7]},
+        },
+        "leaves": leaves,
+        "gains": {"K_p": {"from": 200.0, "to": 20000.0, "scale": "log"}},
         "contestants": {n: {"own": {"own.K_i": {"from": 2.4, "to": 9.0}}} for n in names},
     }
     missing = [PLACE, "published", "DOB", 1]
-    return {"contest": contest, "asked": [*asked, missing], "searches": list(searches)}
+    told = {"contest": contest, "asked": [*asked, missing], "searches": list(searches)}
+    return {**told, "beside": {}}
 
 
 def answers(script, *searches):
@@ -184,6 +198,7 @@ def test_the_page_says_who_wins_by_how_much_and_how_near_the_goal_is(script):
     assert "gait published, seed 1 of the optimiser: DOB" in text
     assert "the best on the selection set is *m = 1*" in text
     assert "its ratio to the next, *m = 2*, is 0.5 (0.5 to 0.5) (carried)" in text
+    assert "Best on the selection set, over 1 place and gait: *m = 1* 1." in text
     assert "Against *NPD*, the reference, carried are a smaller error of *m = 1* 0.45" in text
     assert "*m = 3* (no setting that keeps the limits)" in text
     assert "the first is met. Of its walks 30 of 30 are legal, which is at least 88.6 %" in text
@@ -193,9 +208,8 @@ def test_the_page_says_who_wins_by_how_much_and_how_near_the_goal_is(script):
     assert "| m = 2 | K\\_p = 500, K\\_i = 2.5 | 2.5 |" in text
     assert "| 28 of 30 |" in text
     assert "| not stable | 0 of 30 |" in text
-    assert (
-        "is a value of RABBIT, 1 ms, gait v0.5, *NPD*, seed 1 (K_i = 2.5 of 2.4 to 9); RABB" in text
-    )
+    assert "At ideal, where a walk takes long, are **left out** DOB." in text
+    assert "is at RABBIT, 1 ms: K_i of *NPD* (v0.5, seed 1); K_i of *NPID*" in text
 
 
 def test_a_search_in_which_no_candidate_was_walked_says_nothing_beyond_its_ranges(script):
@@ -203,13 +217,13 @@ def test_a_search_in_which_no_candidate_was_walked_says_nothing_beyond_its_range
         **nothing("m = 3"),
         "why": "study 'x: y': none of 9 keeps all limits that need no walk; a",
     }
-    page, (entry,) = script("tuned_page"), script("tuned_entries").entries(summary(told))
-    assert page.reason(entry).startswith(
+    gaps, (entry,) = script("tuned_gaps"), script("tuned_entries").entries(summary(told))
+    assert gaps.reason(entry).startswith(
         "none of 9 keeps all limits that need no walk; a. So none was"
     )
-    assert "outside them" in page.reason(entry)
+    assert "outside them" in gaps.reason(entry)
     (entry,) = script("tuned_entries").entries(summary(nothing("m = 3")))
-    assert page.reason(entry) == "none of 75 candidates keeps"
+    assert gaps.reason(entry) == "none of 75 candidates keeps"
 
 
 def test_a_goal_that_is_missed_is_missed_by_so_much(script):
@@ -251,8 +265,176 @@ def test_another_seed_of_the_optimiser_that_moves_a_conclusion_is_named(script):
     assert "asked with one seed alone so far" in told[2]
     same[-1] = search("DOB", 1.5, seed=2)
     moved = seeds.other_seeds(entries(summary(*same)))[1]
-    assert "another seed moves 1 of 2 conclusions: DOB (seed 1: smaller, 0.5" in moved
+    assert (
+        "moves 1 of 2 conclusions, 1 of them from smaller to larger: DOB (seed 1: smaller, 0.5"
+        in moved
+    )
     assert "seed 2: larger, 1.5" in moved
+
+
+def test_a_difference_within_the_spread_of_searches_is_open(script):
+    """Three searches each of two contestants; the spread is a t of 4 degrees of freedom times s sqrt(2)."""
+    seeds, entries = script("tuned_seeds"), script("tuned_entries").entries
+    factors = {"NPD": (1.0, 1.2, 1.44), "NPID": (2.0, 2.4, 2.88)}
+    given = [search(n, f, seed=i) for n, some in factors.items() for i, f in enumerate(some, 1)]
+    found = entries(summary(*given, search("m = 1", 0.7), search("m = 2", 0.3)))
+    spread = seeds.spread_of(seeds.repeated(found))
+    assert spread[1:] == (2, ())
+    assert spread.factor() == pytest.approx(math.exp(2.776445 * math.log(1.2) * math.sqrt(2.0)))
+    page = script("tuned_page")
+    contest, *_ = page.families(page.first_groups(found), spread.factor)
+    assert {x.a.contestant: x.verdict for x in contest} == {
+        "NPID": "open",
+        "m = 1": "open",
+        "m = 2": "smaller",
+    }
+    within = next(x.within for x in contest if x.a.contestant == "m = 1")
+    assert within == pytest.approx(spread.factor() / 0.7)
+    assert spread.factor(4) == pytest.approx(spread.factor() ** 0.5)
+
+
+def test_searches_with_several_seeds_of_the_optimiser_count_with_all_their_walks(script):
+    """Two searches of two contestants: the middle of both ratios, and half the spread's logarithm squared."""
+    module, questions = script("tuned_entries"), script("tuned_questions")
+    given = summary(
+        *(search("NPD", seed=s) for s in (1, 2)),
+        *(search("m = 1", f, seed=s) for s, f in ((1, 0.4), (2, 0.9))),
+        *(search("m = 2", 0.5, seed=s) for s in (1,)),
+        search("m = 3", 0.5),
+        nothing("m = 3", seed=2),
+    )
+    (g,) = module.groups_of(module.entries(given))
+    assert {n: e.searches for n, e in g.items()} == {"NPD": 2, "m = 1": 2, "m = 2": 1, "m = 3": 2}
+    assert g["m = 1"].tuned.rms_error.shape == (4, SEEDS)
+    assert g["m = 1"].selected == pytest.approx(0.6)
+    assert (g["m = 3"].selected, g["m = 3"].found) == (math.inf, True)
+    assert g["m = 3"].tuned.legal.mean() == 0.5
+    (x,) = questions.answered([(g["m = 1"], g["NPD"])], lambda k: 2.0 ** (1.0 / k))
+    assert x.ratio.value == pytest.approx(0.6)
+    assert (x.won, x.spread) == (SEEDS, pytest.approx(2.0**0.5))
+
+
+def test_a_placebo_is_judged_by_the_spread_of_the_others(script):
+    seeds, entries = script("tuned_seeds"), script("tuned_entries").entries
+    same = [search("NPD", f, seed=s) for s, f in enumerate((1.0, 1.02, 1.04), 1)]
+    wide = [search("DOB", f, seed=s) for s, f in enumerate((1.0, 1.3, 1.7), 1)]
+    narrow = [search("m = 1", 0.5, seed=s) for s in (1, 2, 3)]
+    lost = [search("m = 2", 0.5), nothing("m = 2", seed=2), search("m = 2", 0.5, seed=3)]
+    alone, both = seeds.placebos(entries(summary(*same, *wide)))
+    assert len(alone) == sum(x.verdict != "open" for x in alone) == 6
+    by_name = {x.a.contestant: x.spread for x in both}
+    assert by_name["NPD"] > by_name["DOB"] > 1.0
+    assert {x.a.contestant for x in both if x.verdict != "open"} == {"DOB"}
+    said = seeds.placebo_sentences(entries(summary(*same, *narrow, *lost)))
+    assert "(from 2 contestants; left out of it: m = 2)" in said[0]
+    assert "9 pairs" in said[1]
+    assert "*m = 2*, seeds 1 and 2, 0" in said[1]
+
+
+def with_beside(told, **beside):
+    """A summary with what beside.py walked, each told by contestant."""
+    key = {"place": PLACE, "gait": GAIT, "seed": 1}
+    return told | {"beside": {kind: [key | x for x in some] for kind, some in beside.items()}}
+
+
+def test_a_leaf_is_worth_what_is_lost_without_it(script):
+    beside, module = script("tuned_leaves"), script("tuned_entries")
+    given = with_beside(
+        summary(search("NPD", 0.5), search("m = 1", 0.4)),
+        without=[
+            {"contestant": "NPD", "leaf": "filter", "walks": walks(1.0)},
+            {"contestant": "m = 1", "leaf": "filter", "walks": walks(0.2)},
+            {"contestant": "NPD", "leaf": "policy", "walks": walks(0.5)},
+            {"contestant": "m = 1", "leaf": "policy", "walks": walks(0.4, range(SEEDS))},
+        ],
+    )
+    found = module.entries(given)
+    told = {(x.leaf, x.answer.a.contestant): x.answer for x in beside.worths(given, found)}
+    assert {k: x.verdict for k, x in told.items()} == {
+        ("filter", "NPD"): "smaller",
+        ("filter", "m = 1"): "larger",
+        ("policy", "NPD"): "open",
+        ("policy", "m = 1"): "smaller",
+    }
+    assert told["filter", "NPD"].ratio.value == pytest.approx(0.5)
+    of_filter, of_policy = beside.worth_sentences(given, found)
+    assert of_filter == (
+        "**the filter**: RABBIT, 1 ms, smaller with it in 1 of 2, the middle ratio is 0.5, larger in 1 "
+        "(*m = 1* at gait v0.5)."
+    )
+    assert "in 1 of 2, the middle ratio is 0, open in 1 (within a factor 1)." in of_policy
+    head, rows = beside.worth_rows(given, found)
+    assert head == ["place, gait", "contestant", "the filter", "the policy"]
+    assert rows[0][2:] == ["0.5 (0.5 to 0.5)", "1 (1 to 1) (open)"]
+
+
+def brackets(low, width=2.5, count=SEEDS):
+    return [[low, low + width]] * count
+
+
+def test_pushes_that_are_known_to_intervals_count_where_these_do_not_overlap(script):
+    beside, page = script("tuned_pushes"), script("tuned_page")
+    ends = {
+        "NPD": brackets(40.0),
+        "NPID": brackets(41.0),
+        "m = 1": [*brackets(60.0, count=SEEDS - 1), [320.0, "inf"]],
+        "m = 2": [*brackets(20.0, count=SEEDS - 1), [0.0, 0.0]],
+        "DOB": brackets(42.5),
+    }
+    told = [{"contestant": name, "ends": x} for name, x in ends.items()]
+    given = with_beside(summary(*(search(n) for n in ends)), pushes=told)
+    groups = page.first_groups(script("tuned_entries").entries(given))
+    found = {x.a.contestant: x for x in beside.pushes(given, groups)}
+    assert {n: (x.won, x.lost, x.verdict) for n, x in found.items()} == {
+        "NPID": (0, 0, "open"),
+        "m = 1": (SEEDS, 0, "larger"),
+        "m = 2": (0, SEEDS, "smaller"),
+        "DOB": (SEEDS, 0, "open"),  # each is larger for certain, by a factor that may be 1
+    }
+    assert found["m = 1"].low.value == pytest.approx(60.0 / 42.5)
+    assert found["m = 1"].high.value == pytest.approx(62.5 / 40.0)
+    assert found["NPID"].within == pytest.approx(43.5 / 40.0)
+    said = beside.push_sentences(list(found.values()))
+    assert "*m = 1* bears larger pushes than *NPD*, by a median factor of at least 1.41" in said[1]
+    assert "within a factor 1.09 of each other; median 41 to 43.5 N m" in said[0]
+
+
+def test_a_setting_that_no_search_made_stands_beside_the_best_and_its_limit(script):
+    given = with_beside(
+        summary(search("NPD"), search("m = 1", 0.5)),
+        unsearched=[{"name": "Table I", "margin": 2e-5, "walks": walks(0.1)}],
+    )
+    page = script("tuned_page")
+    groups = page.first_groups(script("tuned_entries").entries(given))
+    (said,) = script("tuned_leaves").unsearched_sentences(given, groups)
+    assert "the best of those tuned. Its delay margin of 0.02 ms misses the limit of 2 ms." in said
+
+
+def test_the_interquartile_mean_is_infinite_where_more_than_a_quarter_is(script):
+    mean = script("tuned_text").interquartile
+    x = np.arange(1.0, 9.0)[None, :]
+    assert mean(x).value == pytest.approx(4.5)
+    x[0, 6:] = np.inf
+    assert mean(x).value == pytest.approx(4.5)
+    x[0, 5:] = np.inf
+    assert mean(x).value == math.inf
+
+
+def test_an_order_with_a_worse_loop_and_a_larger_error_does_not_pay_at_an_equal_one(script):
+    """m = 2 has less margin and more ripple than m = 1, m = 3 less ripple."""
+    given = with_beside(
+        summary(search("m = 1"), *(search(f"m = {m}", 2.0) for m in (2, 3))),
+        linear=[{"contestant": f"m = {m}", "ripple": r} for m, r in ((1, 5.0), (2, 6.0), (3, 4.0))],
+    )
+    page = script("tuned_page")
+    *_, orders = page.families(page.first_groups(script("tuned_entries").entries(given)))
+    first, spot = script("tuned_sentences").order_pays(orders)
+    assert first == (
+        "An order above 1 pays in 0 of 2 questions. At equal margin and ripple: of 2 settings of a higher "
+        "order 1 have neither more delay margin nor less ripple than that of m = 1; of these 1 have a larger "
+        "error, and 0 a smaller one that is carried."
+    )
+    assert "as ratio to m = 1 (2.5 ms of margin, 5 N m of ripple): costs: *m = 2* 2" in spot
 
 
 class Asked(NamedTuple):
@@ -272,7 +454,10 @@ def test_a_folder_of_searches_becomes_a_summary(script, monkeypatch, tmp_path):
     module = script("tuned_entries")
     asked = [Asked(PLACE, GAIT, name, 1) for name in ("NPD", "NPID", "m = 1", "DOB")]
     notes = {
-        "NPD": {"found": True, "chosen": {"K_p": 1234.567}},
+        "NPD": {
+            "found": True,
+            "chosen": {"K_p": 1234.567, "contact": None, "contact_window": 0.01},
+        },
         "NPID": {"found": False, "why": "none keeps all limits"},
         "m = 1": {"found": False, "why": "of other versions"},
     }
@@ -294,12 +479,13 @@ def test_a_folder_of_searches_becomes_a_summary(script, monkeypatch, tmp_path):
     conditions = [{"name": "60 N m"}, {"name": "80 N m"}]
     write(tmp_path / "NPD" / "test_set.json", {"conditions": conditions, "seeds": [8, 9]})
     monkeypatch.setattr(module, "read_store", lambda _: Store())
-    found = module.collected(tmp_path, {}, asked)
+    found = module.collected(tmp_path, summary()["contest"], asked)
     assert (len(found["asked"]), len(found["searches"])) == (4, 2)
     npd, npid = found["searches"]
     assert npd["tuned"][0] == [[4068.0, 4069.0], [4088.0, 4089.0]]  # candidate, condition, seed
     assert npd["published"][0] == [[68.0, 69.0], [88.0, 89.0]]
-    assert (npd["chosen"], npd["selected"]) == ({"K_p": 1235.0}, 0.001234)
+    assert npd["chosen"] == {"K_p": 1235.0, "contact": None}  # no window without a policy
+    assert (npd["selected"], found["beside"]) == (0.001234, {})
     assert npd["margins"] == [0.002, "-inf"]
     assert npid == {**asked[1]._asdict(), "why": "none keeps all limits"}
 

@@ -26,7 +26,7 @@ from biped_adrc.paper.physical_laws import walk_laws, work_identity
 from biped_adrc.paper.plan import Plan, RecipeResult
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.tables import _runs, _torso
-from biped_adrc.robots.robot_toml import KnownLimits
+from biped_adrc.robots.limits import KnownLimits
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.cycle_stability import PoincareResult

@@ -5,6 +5,10 @@ Run: python benchmarks/bench/studies.py [OUT] [--quick]
 Every walk has 25 impacts at 1 kHz under ADRC with a push of its own and counts its own error, torque and work.
 The hash is of every row, in the order of the study. `memory` is the highest that was resident in the process
 that carries the study out, `workers` in its largest child, both so far.
+
+A second table has the same walks as a bare batch: the walkers are there before the clock starts, with the same
+meter, and nobody asks for a row. `share` is CPU time of the batch over that of the study, medians of rounds in
+turn, children included; what is missing to 1 is what a study costs beside its walks.
 """
 
 from __future__ import annotations
@@ -12,19 +16,30 @@ from __future__ import annotations
 import hashlib
 import json
 import resource
+import statistics
 import sys
 import tempfile
 import time
+from collections.abc import Callable, Mapping
+from concurrent.futures import Executor
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from report import Table, arguments
+from report import Table, arguments, forked, spent
 
+from biped_adrc.bench.build import case
+from biped_adrc.bench.compare_study import RESULTS, run_comparison
+from biped_adrc.bench.parameters import trial
 from biped_adrc.bench.study import Study
 from biped_adrc.bench.sweep import Sweep, sweep
-from biped_adrc.campaign.workers import Processes, Threads
+from biped_adrc.campaign.chunk import Record
+from biped_adrc.campaign.execute import LARGEST_CHUNK
+from biped_adrc.campaign.store_open import read_store
+from biped_adrc.campaign.workers import Processes, Threads, Workers
+from biped_adrc.engine.batch import Case, simulate_many
 
 KB = 1024.0 * 1e-6  # [MB]
 
@@ -75,6 +90,69 @@ def on_a_cluster(asked: Study) -> tuple[float, str] | None:
         return carried_out(asked, Cluster(cluster.scheduler_address))
 
 
+CASES: list[Case] = []
+"""The walks of the bare batch; processes that are forked have them too."""
+
+
+def walk(first: int, last: int) -> int:
+    """Some of the cases, one after the other; the number of their impacts."""
+    return sum(walked.impacts for walked in simulate_many(CASES[first:last], threads=1))
+
+
+def bare(executor: Executor | None) -> None:
+    """All cases: in chunks on an executor, in this process without one."""
+    if executor is None:
+        walk(0, len(CASES))
+        return
+    chunks = range(0, len(CASES), LARGEST_CHUNK)
+    for future in [executor.submit(walk, i, i + LARGEST_CHUNK) for i in chunks]:
+        future.result()
+
+
+def swept(asked: Study, workers: Workers | Executor) -> list[Record]:
+    """Carry a study out in a folder of its own; the records of its walks."""
+    with tempfile.TemporaryDirectory() as folder:
+        sweep(asked, Path(folder), workers)
+    return [p.record for p in asked.points()]
+
+
+def compared(seeds: int, workers: Workers | Executor) -> list[Record]:
+    """A comparison of two controllers with its figures and page; the records of its walks."""
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder)
+        run_comparison(out, "", ("NPD", "ADRC"), seeds=seeds, pushes=False, workers=workers)
+        with read_store(out / RESULTS) as store:
+            return [json.loads(text) for (text,) in store.connection.execute(RECORDS)]
+
+
+RECORDS = "SELECT record FROM runs ORDER BY record"
+Way = Callable[[Workers | Executor], list[Record]]
+
+
+def on_two(run: Callable[[Executor], object]) -> None:
+    """A call with two processes of its own."""
+    with forked() as executor:
+        run(executor)
+
+
+def beside_bare(ways: Mapping[str, Way], rounds: int) -> Table:
+    """Studies and the bare batches of their walks, in turn."""
+    note = f"medians of {rounds} rounds; sweep: ADRC, 25 impacts; compare: NPD and ADRC, all conditions"
+    table = Table("Studies beside bare batches", "CPU s", note, ("numba",))
+    for name, way in ways.items():
+        CASES[:] = [case(trial(record)) for record in way(Threads(2))]
+        runs: dict[str, tuple[Callable[[], object], Callable[[], object]]] = {
+            "1 thread": (partial(way, Threads(1)), partial(bare, None)),
+            "2 processes": (partial(on_two, way), partial(on_two, bare)),
+        }
+        for who, both in runs.items():
+            times = [tuple(spent(run).cpu for run in both) for _ in range(rounds)]
+            whole, batch = (statistics.median(part) for part in zip(*times, strict=True))
+            share = statistics.median(b / a for a, b in times)
+            table.add(f"{name}, {who}", walks=len(CASES), study=whole, batch=batch, share=share)
+    return table
+
+
 def main() -> None:
     """Print the table, and write it when asked."""
     asked = arguments(__doc__).parse_args()
@@ -83,13 +161,13 @@ def main() -> None:
     )
     carried_out(study(4), Processes(2))  # whatever is compiled once
     size = 100 if asked.quick else 1000
-    ways: dict[str, Any] = {
+    crews: dict[str, Any] = {
         "1 process": Processes(1),
         "2 processes": Processes(2),
         "2 threads": Threads(2),
     }
     alone, known = 0.0, ""
-    for name, workers in ways.items():
+    for name, workers in crews.items():
         wall, found = carried_out(study(size), workers)
         alone, known = alone or wall, known or found
         add(table, f"{name}, {size}", size, wall, alone, found == known, workers.number)
@@ -102,6 +180,11 @@ def main() -> None:
         wall, _ = carried_out(study(many, 5), Processes(2))
         add(table, f"2 processes, {many} of 5 impacts", many, wall, wall, True, 2)
     table.finish(asked.out)
+    ways: dict[str, Way] = {
+        "sweep": partial(swept, study(size)),
+        "compare": partial(compared, size // 50),
+    }
+    beside_bare(ways, 3).finish(asked.out)
 
 
 def add(

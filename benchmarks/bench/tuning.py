@@ -4,23 +4,28 @@ Run: python benchmarks/bench/tuning.py [OUT] [--quick]
 
 200 candidates of two gains and a bandwidth, each on 20 walks of 10 impacts under a push of their own, at 1 kHz
 with exact measurements. `bare` are the rows of the very same settings, found by workers of the same kind that
-are told nothing of a search. The selection and test sets have one walk each.
+are told nothing of a search; `overhead` is what the search takes more of CPU time, all workers included.
+The selection and test sets have few walks. Processes are forked from this one, where all is imported.
 """
 
 from __future__ import annotations
 
 import sys
 import tempfile
-import time
+from collections.abc import Callable
+from concurrent.futures import Executor, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from report import Table, arguments
+from report import Table, arguments, forked, spent
 
 from biped_adrc.bench.run import run_trials
-from biped_adrc.campaign.workers import Processes, Threads
+from biped_adrc.campaign.chunk import Record
+from biped_adrc.campaign.execute import LARGEST_CHUNK
+from biped_adrc.campaign.workers import Threads, Workers
+from biped_adrc.tuning.candidate import Candidate
 from biped_adrc.tuning.study import TuningStudy
 from biped_adrc.tuning.study_file import read_tuning
 from biped_adrc.tuning.tune import tune
@@ -60,28 +65,23 @@ def study(budget: int, walks: int) -> TuningStudy:
     )
 
 
-def searched(asked: TuningStudy, workers: Any) -> tuple[float, list[dict[str, object]]]:
-    """Wall time [s] of the search, and the records of all walks of its training set."""
+def searched(asked: TuningStudy, workers: Workers | Executor) -> list[Candidate]:
+    """The candidates of a search in a folder of its own."""
     with tempfile.TemporaryDirectory() as folder:
-        begin = time.perf_counter()
-        found = tune(asked, Path(folder), workers)
-        spent = time.perf_counter() - begin
-    settings = [asked.values(c.chosen) for c in found.candidates]
-    return spent, [
-        dict(p.record) for values in settings for p in asked.walks("training").points(values, {})
-    ]
+        return list(tune(asked, Path(folder), workers).candidates)
 
 
-def bare(records: list[dict[str, object]], workers: Any) -> float:
-    """Wall time [s] of the walks alone, in chunks of 20, with the start of the workers."""
-    begin = time.perf_counter()
-    workers.prepare()
-    pool = workers.start()
-    chunks = [records[i : i + 20] for i in range(0, len(records), 20)]
-    for future in [pool.submit(run_trials, chunk) for chunk in chunks]:
+def records(asked: TuningStudy, found: list[Candidate]) -> list[Record]:
+    """Of all walks of the training set."""
+    settings = [asked.values(c.chosen) for c in found]
+    return [p.record for values in settings for p in asked.walks("training").points(values, {})]
+
+
+def bare(given: list[Record], executor: Executor) -> None:
+    """The walks alone, in chunks as those of a search."""
+    chunks = [given[i : i + LARGEST_CHUNK] for i in range(0, len(given), LARGEST_CHUNK)]
+    for future in [executor.submit(run_trials, chunk) for chunk in chunks]:
         future.result()
-    workers.stop(pool, True)
-    return time.perf_counter() - begin
 
 
 def main() -> None:
@@ -92,16 +92,29 @@ def main() -> None:
         "Tuning", "s", f"{budget} candidates, {walks} walks of {IMPACTS} impacts each", ("optuna",)
     )
     searched(study(4, 2), Threads(1))  # whatever is compiled once
-    for name, make in (("2 threads", lambda: Threads(2)), ("2 processes", lambda: Processes(2))):
-        spent, records = searched(study(budget, walks), make())
-        alone = bare(records, make())
+    for name, make in (("2 threads", lambda: ThreadPoolExecutor(2)), ("2 processes", forked)):
+        found: list[Candidate] = []
+
+        def search(make: Callable[[], Any] = make, found: list[Candidate] = found) -> None:
+            with make() as executor:
+                found += searched(study(budget, walks), executor)
+
+        whole = spent(search)
+        given = records(study(budget, walks), found)
+
+        def walked(make: Callable[[], Any] = make, given: list[Record] = given) -> None:
+            with make() as executor:
+                bare(given, executor)
+
+        alone = spent(walked)
         table.add(
             name,
-            walks=len(records),
-            search=spent,
-            bare=alone,
-            ratio=spent / alone,
-            walks_per_s=len(records) / spent,
+            walks=len(given),
+            search=whole.wall,
+            bare=alone.wall,
+            search_CPU=whole.cpu,
+            bare_CPU=alone.cpu,
+            overhead=whole.cpu / alone.cpu - 1.0,
         )
     table.finish(asked.out)
 

@@ -16,7 +16,8 @@ from cases import Setting, load, paper
 from report import Table, arguments
 
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
-from biped_adrc.hybrid.integrators import RK4, Adaptive, Exponential, OneStepMethod
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod
 
 IN_PYTHON = {
     "ADRC": (Exponential(1e-3, feedback=True),),

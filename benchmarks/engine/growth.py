@@ -12,7 +12,8 @@ from cases import TICK, load, paper, ready, with_observer
 from report import Table, arguments, rounds
 
 from biped_adrc.engine.batch import run_case
-from biped_adrc.hybrid.integrators import RK4, Exponential
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4
 
 STEPS = (25, 100, 400, 1600, 10_000)
 BANDWIDTH = 500.0  # [rad/s]

@@ -24,7 +24,8 @@ from report import Table, arguments, rounds
 
 import biped_adrc as ba
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
-from biped_adrc.hybrid.integrators import RK4, Adaptive, Exponential, OneStepMethod
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod
 from biped_adrc.types import Array
 
 STEPS = (2e-4, 5e-4, 1e-3)  # [s]

@@ -38,7 +38,7 @@ from solvers import (
 
 import biped_adrc as ba
 from biped_adrc.errors import ModelError
-from biped_adrc.hybrid.integrators import Exponential
+from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.types import Array
 
 DURATION, INSTANTS, RESTARTS = 0.4, 20, 25  # [s] of each restart, and how many of them

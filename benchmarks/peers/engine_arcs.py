@@ -15,7 +15,8 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.run import ArcRun, arc
 from biped_adrc.engine.program import Program
-from biped_adrc.hybrid.integrators import RK4, Adaptive, Exponential, OneStepMethod
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod
 from biped_adrc.types import Array
 
 METHODS: Mapping[str, OneStepMethod] = {

@@ -11,18 +11,22 @@ interrupted goes on. docs/write_tuned.py makes the page of what is in the folder
 from __future__ import annotations
 
 import argparse
+import itertools
 import json
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from biped_adrc.campaign.workers import Threads
+from biped_adrc.errors import InputError
 from biped_adrc.tuning.candidate import NoneKeepsLimits
 from biped_adrc.tuning.study_file import read_tuning
 from biped_adrc.tuning.tune import tune
 
 HERE = Path(__file__).parent
+NOTE = "entry.json"
+"""What came of a search, in its folder."""
 
 
 class Entry(NamedTuple):
@@ -46,40 +50,50 @@ def contest(path: Path = HERE / "contest.toml") -> dict[str, dict]:
 
 
 def entries(c: dict[str, dict]) -> Iterator[Entry]:
-    """All searches, those of the first optimiser seed and of the place with most seeds first."""
+    """All searches, those of the first optimiser seed first, then by place and gait."""
     found = [
         Entry(place, gait, name, seed)
         for place, p in c["places"].items()
-        for gait, seeds in c["gaits"].items()
-        for name in c["contestants"]
-        for seed in p["seeds"]
-        if seed in seeds
+        for gait, seeds in p["seeds"].items()
+        for name in p.get("contestants", c["contestants"])
+        for seed in seeds
     ]
-    order = {place: -len(p["seeds"]) for place, p in c["places"].items()}
-    gaits = list(c["gaits"])
-    return iter(sorted(found, key=lambda e: (e.seed, order[e.place], gaits.index(e.gait))))
+    return iter(sorted(found, key=lambda e: e.seed))
+
+
+def of_place(c: dict[str, dict], place: str, table: str) -> dict[str, Any]:
+    """A table such as "walk" with the values that a place has in place of those of all."""
+    return {**c[table], **c["places"][place].get(table, {})}
+
+
+def variables(c: dict[str, dict], e: Entry) -> dict[str, Any]:
+    """What a search may choose: gains, the contestant's own, and the leaves of the place."""
+    leaves = (c["leaves"][name]["variables"] for name in c["places"][e.place]["leaves"])
+    own = c["contestants"][e.contestant].get("own", {})
+    return dict(itertools.chain(c["gains"].items(), own.items(), *(x.items() for x in leaves)))
 
 
 def tables(c: dict[str, dict], e: Entry) -> dict[str, object]:
     """The study of one search, as plain tables."""
     place, who = c["places"][e.place], c["contestants"][e.contestant]
-    variables = {**c["gains"], **who.get("own", {}), **place["leaves"]}
-    search = c["search"]
+    search, searched = of_place(c, e.place, "search"), variables(c, e)
 
     def walks(kind: str) -> dict[str, object]:
-        given = [{"name": f"{a:g} N m", "amplitude": a} for a in c[kind]["amplitudes"]]
-        return {"seeds": c[kind]["seeds"], "conditions": given}
+        of = of_place(c, e.place, kind)
+        given = [{"name": f"{a:g} N m", "amplitude": a} for a in of["amplitudes"]]
+        return {"seeds": of["seeds"], "conditions": given}
 
+    walk = of_place(c, e.place, "walk")
     return {
         "study": {
             "name": f"{e.contestant}: {e.place}, {e.gait}",
-            "budget": search["per_variable"] * len(variables),
+            "budget": search["per_variable"] * len(searched),
             "generation": search["generation"],
             "finalists": search["finalists"],
             "seed": e.seed,
         },
-        "fixed": {**c["walk"], **place["values"], **who["values"], "gait": e.gait},
-        "variables": variables,
+        "fixed": {**walk, **place["values"], **who["values"], "gait": e.gait},
+        "variables": searched,
         "objectives": [{"column": "rms_error"}],
         "limits": [
             {"column": "delay_margin", "least": place["margin"]},
@@ -98,15 +112,21 @@ def tables(c: dict[str, dict], e: Entry) -> dict[str, object]:
 
 
 def carry_out(c: dict[str, dict], e: Entry, out: Path) -> dict[str, object]:
-    """Search for one entry. The note says what came of it, or why nothing did."""
+    """Search for one entry. The note says what came of it, or why nothing did.
+
+    Raises InputError where the folder has the note of another study.
+    """
     folder = out / e.folder
     folder.mkdir(parents=True, exist_ok=True)
-    told = folder / "entry.json"
+    told, study = folder / NOTE, read_tuning(tables(c, e), e.folder)
     if told.is_file():
-        return json.loads(told.read_text(encoding="utf-8"))
-    note: dict[str, object] = e._asdict()
+        note: dict[str, object] = json.loads(told.read_text(encoding="utf-8"))
+        if note.get("study") != study.hash:
+            raise InputError(f"'{told}' is of another study than contest.toml says; move it away")
+        return note
+    note = {**e._asdict(), "study": study.hash}
     try:
-        tuned = tune(read_tuning(tables(c, e), e.folder), folder, Threads(1))
+        tuned = tune(study, folder, Threads(1))
         note |= {"chosen": tuned.chosen.chosen, "found": True}
     except NoneKeepsLimits as error:
         note |= {"found": False, "why": str(error)}

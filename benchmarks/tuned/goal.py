@@ -9,8 +9,8 @@ Of all settings that the searches have chosen, one for each role is taken on the
     NPD, NPID     of the least median error
     the rival     the better of both
     closest       the ADRC of the least median error
-    goal          of the ADRC's whose selection walks are all legal, and whose error is small enough beside the
-                  rival's, the one that needs the least friction
+    goal          of the ADRC's whose error is small enough beside the rival's those with the most legal walks,
+                  and of them the one that needs the least friction
 
 They walk the test set and outside of what was searched with; the largest legal push is bisected. Rows of walks
 are kept in the folder, so that what was interrupted goes on. docs/write_robot_goal.py makes the page of
@@ -117,11 +117,11 @@ def roles(g: Mapping[str, Any], rows: Sequence[dict[str, Any]]) -> dict[str, dic
     rival = least(found.values(), "error")
     adrc = [r for r in legal if r["contestant"] in g["adrc"]]
     most = of["ratio"] * rival["error"]
-    good = [r for r in adrc if r["legal"][0] == 1.0 and r["error"] <= most]
+    good = [r for r in adrc if r["error"] <= most]
     return found | {
         "rival": rival,
         "closest": least(adrc, "error"),
-        "goal": least(good, "friction"),
+        "goal": min(good, key=lambda r: (-r["legal"][0], r["friction"])),
     }
 
 

@@ -35,7 +35,7 @@ from biped_adrc.control.npd import NPDController
 from biped_adrc.errors import InputError, check_positive
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
-from biped_adrc.hybrid.simulator import event_time_error
+from biped_adrc.hybrid.watch import event_time_error
 from biped_adrc.model.biped import Biped
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array, ComplexArray

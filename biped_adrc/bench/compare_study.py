@@ -13,6 +13,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
+from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -31,9 +32,9 @@ from biped_adrc.campaign.chunk import Point, Record, Row, key_of, text_of
 from biped_adrc.campaign.execute import LARGEST_CHUNK, Progress, run_study
 from biped_adrc.campaign.store import About, Store
 from biped_adrc.campaign.store_open import open_store
-from biped_adrc.campaign.workers import Workers, workers_of
+from biped_adrc.campaign.workers import Kept, Workers, workers_of
 from biped_adrc.files import write_text
-from biped_adrc.robots.robot_toml import Limits
+from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.build import RIGID
 from biped_adrc.scenario.registry import find, is_own, source_hash, words
 from biped_adrc.versions import numerical_versions
@@ -60,8 +61,8 @@ class Stored:
 
     store: Store
     """The open file of results."""
-    workers: Workers | Executor | int | None
-    """Who walks, as of `campaign.workers.workers_of`."""
+    workers: Workers
+    """Who walks; they stay from one call to the next."""
     progress: Callable[[Progress], None] | None
     """Called now and then; None for nobody."""
     shared: Record = field(default_factory=dict)
@@ -127,9 +128,10 @@ def run_comparison(
     sources |= engines_of((plant,))
     about = About("comparison", key_of(text_of(asked)), asked, {**numerical_versions(), **sources})
     check_folder(out)
-    workers_of(workers).prepare()
-    with open_store(out / RESULTS, about, other_versions) as store:
-        carry = Stored(store, workers, progress, shared)
+    crew = workers_of(workers)
+    crew.prepare()
+    with open_store(out / RESULTS, about, other_versions) as store, closing(Kept(crew)) as kept:
+        carry = Stored(store, kept, progress, shared)
         found = compare(carry, controllers, conditions, seeds, pushes)
     return write(found, out, command, carry.walks, shared)
 

@@ -311,10 +311,13 @@ def some_points(study: Study, spread: int) -> Iterator[tuple[At, At]]:
 
 
 def _some_of_a_case(study: Study, spread: int) -> Iterator[At]:
-    """The points of `some_points` for one case under one condition, as values by axis."""
+    """The points of `some_points` for one case under one condition, as values by axis.
+
+    Of the seeds, which draw numbers alone, the first and the last stand for all.
+    """
     axes: dict[str, Sequence[Value]] = dict(study.grid)
     if study.seeds:
-        axes[SEED] = study.seeds
+        axes[SEED] = tuple(dict.fromkeys((study.seeds[0], study.seeds[-1])))
     samples = itertools.cycle(itertools.islice(study.samples(), MOST_LEVELS))
     sample, first = next(samples), {name: levels[0] for name, levels in axes.items()}
     for name, levels in axes.items():

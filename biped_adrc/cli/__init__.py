@@ -36,6 +36,7 @@ COMMANDS = (
     "gait",
     "look",
     "observer",
+    "replay",
     "reproduce",
     "robot",
     "sweep",

@@ -8,6 +8,7 @@ stores the run. `poincare` finds the fixed point of the return map and its multi
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,12 +18,14 @@ from rich.table import Table
 
 from biped_adrc.cli.app import EXIT_FELL, app, bar, console, inputs, run_path, say, say_written
 from biped_adrc.cli.options import of_scenario, texts, values_of
+from biped_adrc.errors import InputError
+from biped_adrc.files import keep_inputs, output_path
 from biped_adrc.types import PlainRecord
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.certificate import Certificate
     from biped_adrc.analysis.legality import Legality
-    from biped_adrc.robots.robot_toml import Limits
+    from biped_adrc.robots.limits import Limits
     from biped_adrc.scenario.outcome import Outcome
     from biped_adrc.scenario.recording import Walk
     from biped_adrc.scenario.scenario import Scenario
@@ -54,6 +57,7 @@ def simulate(
     as_printed: bool = False,
     end_illegal: bool = False,
     out: Path | None = None,
+    log: Path | None = None,
 ) -> None:
     """Walk, and print what each step needed of the ground and of the motors."""
     from biped_adrc.scenario.build import limits
@@ -63,7 +67,7 @@ def simulate(
     values = {"controller": usual(given), **values_of(given, push, sets, scenario), **printed}
     s = Scenario(**values)
     read = inputs(s.robot, s.gait)
-    _walk(s, limits(s), end_illegal, run_path(out, read))
+    _walk(s, limits(s), end_illegal, run_path(out, read), log_path(log, s, read))
 
 
 def usual(given: PlainRecord, motors: str = "ADRC") -> str:
@@ -75,7 +79,25 @@ def usual(given: PlainRecord, motors: str = "ADRC") -> str:
     return motors if is_own(robot) or load_description(robot).actuated else "passive"
 
 
-def _walk(s: Scenario, limits: Limits, end_illegal: bool, out: Path | None) -> None:
+def log_path(log: Path | None, s: Scenario, read: Iterable[Path]) -> Path | None:
+    """The path of a log, checked before the walk; None for none.
+
+    Raises InputError for another kind of file, one that is read, and a walk in continuous time; OutputError.
+    """
+    if log is None:
+        return None
+    path = output_path(log, (".csv",), default=True)
+    keep_inputs((path,), read)
+    if s.period is None:
+        raise InputError(
+            "--log needs sample instants, and this walk is in continuous time; give a --period, such as 0.001"
+        )
+    return path
+
+
+def _walk(
+    s: Scenario, limits: Limits, end_illegal: bool, out: Path | None, log: Path | None
+) -> None:
     """Carry out a scenario, print it, and write it where it is asked for; raises the exit if the robot fell.
 
     A walk with motors is carried out again at half the step; only the first one is stored.
@@ -95,6 +117,11 @@ def _walk(s: Scenario, limits: Limits, end_illegal: bool, out: Path | None) -> N
     if out is not None:
         # first, as printing may fail
         (full.save if out.suffix.lower() == ".npz" else full.export)(out)
+    if log is not None:
+        from biped_adrc.logs.log_file import write_log
+        from biped_adrc.logs.log_of_walk import logged
+
+        write_log(logged(full), log, full.walker.nominal)
     if half is None:
         _print_passive(full, limits)
     else:
@@ -105,6 +132,7 @@ def _walk(s: Scenario, limits: Limits, end_illegal: bool, out: Path | None) -> N
     for remark in full.remarks:
         say(f"note: {remark}")
     say_written(out)
+    say_written(log)
     if not full.trajectory.status.ok:
         raise typer.Exit(EXIT_FELL)
 
@@ -225,7 +253,8 @@ def poincare(
 ) -> None:
     """Fixed point of the return map, and its multipliers by every method beside each other."""
     from biped_adrc.scenario.build import limits
-    from biped_adrc.scenario.scenario import Scenario, idle
+    from biped_adrc.scenario.idle import idle
+    from biped_adrc.scenario.scenario import Scenario
     from biped_adrc.studies.cycle_stability import (
         cycle_of,
         cycle_stability,

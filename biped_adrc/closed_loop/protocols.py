@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol
 
 from biped_adrc.control.base import Measurement
-from biped_adrc.hardware.meter import Outside
+from biped_adrc.hardware.loads import Outside
 from biped_adrc.hardware.sample_hold import HeldParameters
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import Estimate

@@ -26,7 +26,8 @@ import numpy as np
 from biped_adrc.closed_loop.noticing import labelled, noticed, unnoticed
 from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.control.base import Measurement
-from biped_adrc.hardware.meter import Hit, loads, metered
+from biped_adrc.hardware.loads import loads
+from biped_adrc.hardware.meter import Hit, metered
 from biped_adrc.hardware.motors import Line, acting, limited, mean_torque, sent
 from biped_adrc.hardware.sample_hold import (
     Held,
@@ -82,7 +83,11 @@ def measurement(loop: Loop, t: float, q: Array, v: Array, mode: Mode, body: bool
         of_body = frozen(loop.nominal.body_terms(q, v))
     if terms.D.flags.writeable:
         terms = frozen(terms)
-    return Measurement(t, mode.step, t - mode.start, q, v, terms, of_body)
+
+    def elsewhere(q: Array, v: Array) -> Measurement:
+        return measurement(loop, t, q, v, mode, body)
+
+    return Measurement(t, mode.step, t - mode.start, q, v, terms, of_body, elsewhere)
 
 
 def applied(u: Array, zeta: Array) -> Array:

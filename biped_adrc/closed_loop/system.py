@@ -27,7 +27,8 @@ from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import BipedError, InputError, NotFiniteError
 from biped_adrc.gait.reference import Reference, check_point
 from biped_adrc.hardware import sample_hold as held
-from biped_adrc.hardware.meter import MeterParameters, Outside
+from biped_adrc.hardware.loads import Outside
+from biped_adrc.hardware.meter import MeterParameters
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import Held, HeldParameters
 from biped_adrc.hardware.sensing import Sensor

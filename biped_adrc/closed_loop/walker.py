@@ -27,7 +27,8 @@ from biped_adrc.control.base import Controller
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError
 from biped_adrc.ground import StepDown, StepUp, check_slope, check_steps, drop_of
-from biped_adrc.hardware.meter import Meter, MeterParameters, Outside
+from biped_adrc.hardware.loads import Outside
+from biped_adrc.hardware.meter import Meter, MeterParameters
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import check_parts
 from biped_adrc.hardware.sensing import Sensor

@@ -21,25 +21,17 @@ itself is its `ResetPolicy`.
 from __future__ import annotations
 
 import math
-from abc import abstractmethod
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, NamedTuple, Self
+from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.control.base import Controller, ControllerLaws, Measurement, controller_laws
+from biped_adrc.control.around import Around, AroundParameters, filled, passed_on
+from biped_adrc.control.base import ControllerLaws, Measurement, controller_laws
 from biped_adrc.errors import InputError
 from biped_adrc.timing import SAME_INSTANT
 from biped_adrc.types import Array
-
-
-class ContactParameters(NamedTuple):
-    """Of the controller inside, and of the policy."""
-
-    inner: Any
-    own: Any
 
 
 class SettlingParameters(NamedTuple):
@@ -49,84 +41,15 @@ class SettlingParameters(NamedTuple):
     rate: float
 
 
-def nothing(k: object, m: Measurement) -> Array:
-    """The state (0,) of a controller without one."""
-    return m.q[:0]
-
-
-def unchanged(k: object, s: Array, *given: object) -> Array:
-    """The state s (size,) as it is."""
-    return s
-
-
-def not_sampled(k: object, s: Array, *given: object) -> Array:
-    """Raises InputError: the controller inside is still that of continuous time."""
-    raise InputError("a policy across contact works at ticks; call sampled(period)")
-
-
-def filled(laws: ControllerLaws) -> ControllerLaws:
-    """The laws in sampled time, with one that changes nothing in place of each that is missing."""
-    at_ticks = unchanged if laws.flow is None else not_sampled
-    usual: dict[str, Any] = {
-        "initial_state": nothing,
-        "jump": unchanged,
-        "correct": at_ticks,
-        "predict": at_ticks,
-    }
-    missing = {name: law for name, law in usual.items() if getattr(laws, name) is None}
-    return laws._replace(**missing, flow=None)
-
-
 @dataclass(frozen=True)
-class AcrossContact(Controller):
-    """Base of the policies around `inner`: a leaf says how its laws are made of those inside."""
-
-    inner: Controller
-
-    @abstractmethod
-    def around(self, inner: ControllerLaws) -> ControllerLaws:
-        """The laws, without parameters, around those of `inner`, none of which is missing but `estimate`.
-
-        Their k is a `ContactParameters`. Cached by `inner`, so that equal laws share their machine code.
-        """
-
-    @property
-    def own(self) -> Any:
-        """The policy's own numbers, `ContactParameters.own`."""
-        return ()
-
-    @property
-    def needs_body(self) -> bool:  # type: ignore[override]
-        """As the controller inside."""
-        return self.inner.needs_body
+class AcrossContact(Around):
+    """Base of the policies: a leaf is given laws of which none is missing but `estimate`, in sampled time."""
 
     @property
     def laws(self) -> ControllerLaws:
         inner = controller_laws(self.inner)
-        k = ContactParameters(inner.parameters, self.own)
+        k = AroundParameters(inner.parameters, self.own)
         return self.around(filled(inner.functions))._replace(parameters=k, obstacle=inner.obstacle)
-
-    def sampled(self, period: float) -> Self:
-        return replace(self, inner=self.inner.sampled(period))
-
-
-@lru_cache(maxsize=64)
-def passed_on(inner: ControllerLaws) -> ControllerLaws:
-    """The laws inside for the parameters of a policy, with the same state."""
-
-    def inside(law: Callable[..., Any]) -> Callable[..., Any]:
-        def passed(k: ContactParameters, *given: object) -> Any:
-            return law(k.inner, *given)
-
-        return passed
-
-    def blind(k: ContactParameters, m: Measurement, a: Array) -> ContactParameters:
-        assert inner.blind is not None
-        return k._replace(inner=inner.blind(k.inner, m, a))
-
-    given = {name: law for name, law in inner._asdict().items() if callable(law)}
-    passed: dict[str, Any] = {name: inside(law) for name, law in given.items()}
-    return inner._replace(**passed | ({} if inner.blind is None else {"blind": blind}))
 
 
 @dataclass(frozen=True)
@@ -152,7 +75,7 @@ def holding(inner: ControllerLaws) -> ControllerLaws:
     """The laws of `Hold` around these."""
     passed = passed_on(inner)
 
-    def correct(k: ContactParameters, s: Array, m: Measurement) -> Array:
+    def correct(k: AroundParameters, s: Array, m: Measurement) -> Array:
         assert inner.initial_state is not None
         assert inner.correct is not None
         fresh, run = inner.initial_state(k.inner, m), inner.correct(k.inner, s, m)
@@ -179,7 +102,7 @@ def fading(inner: ControllerLaws) -> ControllerLaws:
     """The laws of `Fade` around these."""
     passed = passed_on(inner)
 
-    def output(k: ContactParameters, s: Array, m: Measurement) -> Array:
+    def output(k: AroundParameters, s: Array, m: Measurement) -> Array:
         assert inner.initial_state is not None
         u = inner.output(k.inner, s, m)
         fresh = inner.output(k.inner, inner.initial_state(k.inner, m), m)

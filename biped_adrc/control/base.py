@@ -46,6 +46,8 @@ class Measurement(NamedTuple):
     """D, Omega, kappa, xi of the nominal model at (q, v)."""
     body: BodyTerms | None = None
     """G, C' q' and the ground's force of the nominal model, for a controller with `needs_body`."""
+    elsewhere: Callable[[Array, Array], Measurement] | None = None
+    """elsewhere(q, v) -> what would be given in that state, at the same time; None outside of a closed loop."""
 
     @property
     def q_b(self) -> Array:

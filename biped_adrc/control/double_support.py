@@ -22,12 +22,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.control.across_contact import (
-    ContactParameters,
-    ContactWindow,
-    SettlingParameters,
-    ramp,
-)
+from biped_adrc.control.across_contact import ContactWindow, SettlingParameters, ramp
+from biped_adrc.control.around import AroundParameters
 from biped_adrc.control.base import ControllerLaws, Measurement
 from biped_adrc.control.kept_torque import parts
 from biped_adrc.errors import InputError
@@ -52,29 +48,29 @@ def commanding(inner: ControllerLaws, command: Command) -> ControllerLaws:
     def of(s: Array, m: Measurement) -> tuple[Array, Array]:
         return parts(s, m.terms.kappa.shape[0])
 
-    def output(k: ContactParameters, s: Array, m: Measurement) -> Array:
+    def output(k: AroundParameters, s: Array, m: Measurement) -> Array:
         z, u_0 = of(s, m)
         u = inner.output(k.inner, z, m)
         return np.where(m.t_step < k.own.until, command(k.own, u, u_0, m), u)
 
-    def initial_state(k: ContactParameters, m: Measurement) -> Array:
+    def initial_state(k: AroundParameters, m: Measurement) -> Array:
         z = start(k.inner, m)
         return np.concatenate((z, inner.output(k.inner, z, m)))
 
-    def jump(k: ContactParameters, s: Array, after: Measurement, swap: Array) -> Array:
+    def jump(k: AroundParameters, s: Array, after: Measurement, swap: Array) -> Array:
         z, u_0 = of(s, after)
         return np.concatenate((jumped(k.inner, z, after, swap), u_0[swap]))
 
-    def correct(k: ContactParameters, s: Array, m: Measurement) -> Array:
+    def correct(k: AroundParameters, s: Array, m: Measurement) -> Array:
         z, u_0 = of(s, m)
         return np.concatenate((corrected(k.inner, z, m), u_0))
 
-    def predict(k: ContactParameters, s: Array, m: Measurement, u: Array) -> Array:
+    def predict(k: AroundParameters, s: Array, m: Measurement, u: Array) -> Array:
         z, u_0 = of(s, m)
         kept = np.where(m.t_step < k.own.until, u_0, u)
         return np.concatenate((predicted(k.inner, z, m, u), kept))
 
-    def estimate(k: ContactParameters, s: Array, m: Measurement) -> Estimate | None:
+    def estimate(k: AroundParameters, s: Array, m: Measurement) -> Estimate | None:
         return None if told is None else told(k.inner, of(s, m)[0], m)
 
     seen = None if told is None else estimate

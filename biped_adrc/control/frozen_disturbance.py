@@ -14,7 +14,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from biped_adrc.control.across_contact import ContactParameters, ContactWindow, passed_on
+from biped_adrc.control.across_contact import ContactWindow
+from biped_adrc.control.around import AroundParameters, passed_on
 from biped_adrc.control.base import ControllerLaws, Measurement, controller_laws
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
@@ -28,11 +29,11 @@ def freezing(inner: ControllerLaws) -> ControllerLaws:
     assert correct_inside is not None
     assert predict_inside is not None
 
-    def correct(k: ContactParameters, s: Array, m: Measurement) -> Array:
+    def correct(k: AroundParameters, s: Array, m: Measurement) -> Array:
         new = correct_inside(k.inner, s, m)
         return np.where(m.t_step < k.own.until, freeze(k.inner, s, new), new)
 
-    def predict(k: ContactParameters, s: Array, m: Measurement, u: Array) -> Array:
+    def predict(k: AroundParameters, s: Array, m: Measurement, u: Array) -> Array:
         new = predict_inside(k.inner, s, m, u)
         return np.where(m.t_step < k.own.until, freeze(k.inner, s, new), new)
 

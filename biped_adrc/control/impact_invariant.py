@@ -29,7 +29,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.control.across_contact import ContactParameters, ContactWindow, passed_on
+from biped_adrc.control.across_contact import ContactWindow
+from biped_adrc.control.around import AroundParameters, passed_on
 from biped_adrc.control.base import ControllerLaws, Measurement, controller_laws
 from biped_adrc.control.outer_loop import tracked_constraint
 from biped_adrc.control.tracking import body_of
@@ -88,13 +89,13 @@ def projecting(inner: ControllerLaws) -> ControllerLaws:
     assert blind is not None
     assert corrected is not None
 
-    def output(k: ContactParameters, s: Array, m: Measurement) -> Array:
+    def output(k: AroundParameters, s: Array, m: Measurement) -> Array:
         u = inner.output(k.inner, s, m)
         if k.own.rates == 0:
             return u
         return near(k.own, m, inner.output(blind(k.inner, m, directions(k.own, m)), s, m), u)
 
-    def correct(k: ContactParameters, s: Array, m: Measurement) -> Array:
+    def correct(k: AroundParameters, s: Array, m: Measurement) -> Array:
         new = corrected(k.inner, s, m)
         if k.own.innovation == 0:
             return new

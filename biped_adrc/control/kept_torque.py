@@ -20,7 +20,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from biped_adrc.control.across_contact import AcrossContact, ContactParameters
+from biped_adrc.control.across_contact import AcrossContact
+from biped_adrc.control.around import AroundParameters
 from biped_adrc.control.base import ControllerLaws, Measurement, controller_laws
 from biped_adrc.errors import InputError
 from biped_adrc.observers.base import Estimate
@@ -50,25 +51,25 @@ def keeping(inner: ControllerLaws) -> ControllerLaws:
     assert corrected is not None
     assert predicted is not None
 
-    def output(k: ContactParameters, s: Array, m: Measurement) -> Array:
+    def output(k: AroundParameters, s: Array, m: Measurement) -> Array:
         return inner.output(k.inner, parts(s, m.terms.kappa.shape[0])[0], m)
 
-    def initial_state(k: ContactParameters, m: Measurement) -> Array:
+    def initial_state(k: AroundParameters, m: Measurement) -> Array:
         return np.concatenate((start(k.inner, m), np.zeros(m.terms.kappa.shape[0])))
 
-    def jump(k: ContactParameters, s: Array, after: Measurement, swap: Array) -> Array:
+    def jump(k: AroundParameters, s: Array, after: Measurement, swap: Array) -> Array:
         w = parts(s, len(swap))[1][swap]
         return np.concatenate((begin(k.inner, after, w), w))
 
-    def correct(k: ContactParameters, s: Array, m: Measurement) -> Array:
+    def correct(k: AroundParameters, s: Array, m: Measurement) -> Array:
         z = corrected(k.inner, parts(s, m.terms.kappa.shape[0])[0], m)
         return np.concatenate((z, outside_torque(told(k.inner, z, m), m)))
 
-    def predict(k: ContactParameters, s: Array, m: Measurement, u: Array) -> Array:
+    def predict(k: AroundParameters, s: Array, m: Measurement, u: Array) -> Array:
         z, w = parts(s, len(u))
         return np.concatenate((predicted(k.inner, z, m, u), w))
 
-    def estimate(k: ContactParameters, s: Array, m: Measurement) -> Estimate | None:
+    def estimate(k: AroundParameters, s: Array, m: Measurement) -> Estimate | None:
         return told(k.inner, parts(s, m.terms.kappa.shape[0])[0], m)
 
     return ControllerLaws(None, output, initial_state, None, jump, correct, predict, estimate)

@@ -20,7 +20,8 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.deploy.computer import Computer
 from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerStructure
 from biped_adrc.engine.symbolic_loop import SymbolicInstant
-from biped_adrc.engine.symbols import Scalar, Tracer, Vector, column, run, where
+from biped_adrc.engine.symbols import Scalar, Vector, column, where
+from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.hardware.motors import Line
 from biped_adrc.hardware.sample_hold import read
 from biped_adrc.hardware.sensors import sensor_state

@@ -30,7 +30,8 @@ from biped_adrc.engine.ir import generated
 from biped_adrc.engine.kernels.layout import OUTSIDE
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.program import NotCompiled, Program
-from biped_adrc.engine.symbols import Untraceable, Vector, floats, run
+from biped_adrc.engine.symbols import Untraceable, Vector, floats
+from biped_adrc.engine.tracer import run
 from biped_adrc.errors import ModelError
 from biped_adrc.gait.reference import Reference, ReferenceLaws, ReferencePoint, reference_laws
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
@@ -105,7 +106,7 @@ def _inputs(walker: Walker, arc: Arc) -> Array:
 
 def _code(make: WalkerStructure, watched: SignalNumbers, h: ReferenceLaws) -> LoadedCode:
     """Machine code of `observe`, under a hash of the walker's structure, its laws and the reference's."""
-    laws = "\n".join(law_text(law) for law in (*make.laws[1:], h.point))
+    laws = law_text(*make.laws[1:], h.point)
     key = hash_of(
         *("observe", structure_text(make.robot), laws, make.size, make.held),
         *(structure_text(watched), versions_text()),

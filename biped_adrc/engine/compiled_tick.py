@@ -82,7 +82,7 @@ class CompiledTick:
 
     def _code(self) -> LoadedCode:
         """The function in memory, under a hash of all that decides it."""
-        laws = "\n".join(law_text(law) for law in self.make.laws[1:])
+        laws = law_text(*self.make.laws[1:])
         make, numbers = self.make, self.numbers
         try:
             key = hash_of(

@@ -46,9 +46,11 @@ from biped_adrc.engine.kernels.run_plan import (
 )
 from biped_adrc.engine.machine import LoadedCode, ModuleText, remembered
 from biped_adrc.engine.program import NotCompiled, Program
-from biped_adrc.engine.symbols import Tracer, Untraceable, Vector, column, floats, run
+from biped_adrc.engine.symbols import Untraceable, Vector, column, floats
+from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.errors import InputError
-from biped_adrc.hybrid.integrators import OneStepMethod, no_coordinates
+from biped_adrc.hybrid.exponential import no_coordinates
+from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.timing import LONGEST_PERIOD, SampledTime
 from biped_adrc.types import Array
 

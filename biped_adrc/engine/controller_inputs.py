@@ -24,7 +24,8 @@ from biped_adrc.engine.equations import SymbolicFunction, count
 from biped_adrc.engine.fingerprint import hash_of, law_text, structure_text, versions_text
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.mechanics import PlanarRobot
-from biped_adrc.engine.symbols import Tracer, Untraceable, Vector, column, floats, run
+from biped_adrc.engine.symbols import Untraceable, Vector, column, floats
+from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.gait.reference import Reference, ReferenceLaws, ReferencePoint
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import PlantArrays

@@ -39,7 +39,8 @@ from biped_adrc.engine.symbolic_loop import (
     laws_on,
     traced_sensors,
 )
-from biped_adrc.engine.symbols import Scalar, Tracer, Vector, column, floats
+from biped_adrc.engine.symbols import Scalar, Vector, column, floats
+from biped_adrc.engine.tracer import Tracer
 from biped_adrc.hardware.sample_hold import HeldParameters, HeldSizes
 from biped_adrc.model.planar import PlantArrays
 from biped_adrc.types import Array
@@ -111,7 +112,7 @@ class SymbolicFunction(NamedTuple):
 
 def count(example: object) -> int:
     """Length of the vector K of an example: one more than its floats, so that it is never empty."""
-    return 1 + sum(1 for _ in floats(example))
+    return 1 + len(floats(example))
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ import platform
 import sys
 import sysconfig
 import types
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from enum import Enum
 from functools import lru_cache
 from pathlib import Path
@@ -29,7 +29,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.engine.symbols import Untraceable, names_of
+from biped_adrc.engine.symbols import Untraceable
+from biped_adrc.engine.tracer import names_of
 from biped_adrc.versions import NEVER_TRACED, packages, source_text
 
 _PACKAGE = __name__.partition(".")[0]
@@ -54,12 +55,15 @@ def hash_of(*parts: object) -> str:
     return hashlib.sha256("\0".join(map(str, parts)).encode()).hexdigest()[:32]
 
 
-def law_text(law: object) -> str:
-    """The code of a law and all that it reaches, as text. Raises Untraceable where its content is hidden.
+def law_text(*laws: object) -> str:
+    """The code of laws and all that they reach, as text. Raises Untraceable where its content is hidden.
 
-    Two laws with the same text compile to the same code.
+    Two rows of laws with the same text compile to the same code. What several of them reach is told once.
     """
-    return "\n".join(_Reach().tell(law))
+    reach = _Reach()
+    for law in laws:
+        reach.tell(law)
+    return "\n".join(reach.texts)
 
 
 def structure_text(tree: object) -> str:
@@ -72,119 +76,124 @@ def structure_text(tree: object) -> str:
         inside = ", ".join(
             f"{name}={structure_text(x)}" for name, x in zip(names, tree, strict=True)
         )
-        return f"{law_text(type(tree))}({inside})"
+        return f"{_class_text(type(tree))}({inside})"
     if isinstance(tree, np.ndarray) and tree.dtype.kind == "f":
         return f"float{tree.shape}"
     return "float" if isinstance(tree, float | np.floating) else law_text(tree)
 
 
+def _class_text(cls: type) -> str:
+    """The text of a class; kept for those of libraries and of this package, whose text never changes."""
+    return _kept_text(cls) if all(_known(x.__module__) for x in cls.__mro__) else law_text(cls)
+
+
 class _Reach:
     """Texts of what is reached, each thing once, in a fixed order.
 
-    seen: by identity; the objects are kept, so that no identity is used again.
+    seen: by identity the place in this order; the objects are kept, so that no identity is used again.
+    texts: of what has been told.
     """
 
     def __init__(self) -> None:
-        self.seen: dict[int | tuple[int, frozenset[str]], object] = {}
+        self.seen: dict[int | tuple[int, frozenset[str]], tuple[int, object]] = {}
+        self.texts: list[str] = []
 
-    def tell(self, x: object, names: frozenset[str] = frozenset()) -> Iterator[str]:
+    def tell(self, x: object, names: frozenset[str] = frozenset()) -> None:
         """The texts of x; of a module those of the attributes with these names.
 
-        A thing met again is named only, so that circles end.
+        A thing met again is told by its place only, so that circles end.
         """
         if isinstance(x, _PLAIN):
-            yield f"{type(x).__qualname__} {x!r}"
+            self.texts.append(f"{type(x).__qualname__} {x!r}")
             return
         key = (id(x), names) if isinstance(x, types.ModuleType) else id(x)
         if key in self.seen:
-            yield f"again {getattr(x, '__qualname__', type(x).__qualname__)}"
+            self.texts.append(f"again {self.seen[key][0]}")
             return
-        self.seen[key] = x
-        yield f"{type(x).__module__}.{type(x).__qualname__}"
+        self.seen[key] = len(self.seen), x
+        self.texts.append(f"{type(x).__module__}.{type(x).__qualname__}")
         if isinstance(x, types.FunctionType):
-            yield from self.function(x)
+            self.function(x)
         elif isinstance(x, types.ModuleType):
-            yield x.__name__
+            self.texts.append(x.__name__)
             if not _known(x.__name__):
                 inside = {name: value for name, value in vars(x).items() if name in names}
-                yield from self.named(inside, names)
+                self.named(inside, names)
         elif isinstance(x, type):
-            yield from self.class_(x)
+            self.class_(x)
         else:
-            yield from self.value(x)
+            self.value(x)
 
-    def function(self, x: types.FunctionType) -> Iterator[str]:
+    def function(self, x: types.FunctionType) -> None:
         """Code, defaults, and what its names stand for, here and in modules that it imports.
 
         A library's function is known by its name; its version is in `versions_text`.
         """
-        yield f"{x.__module__}.{x.__qualname__}"
+        self.texts.append(f"{x.__module__}.{x.__qualname__}")
         if _known(x.__module__) and not x.__module__.startswith(_PACKAGE):
             return
         names = names_of(x.__code__) | _words(x.__code__)
-        yield _code_text(x.__code__)
+        self.texts.append(_code_text(x.__code__))
         if x.__defaults__ or x.__kwdefaults__:
-            yield from self.tell((x.__defaults__, x.__kwdefaults__))
+            self.tell((x.__defaults__, x.__kwdefaults__))
         scope = x.__globals__
         used = {name: scope[name] for name in names if name in scope}
-        yield from self.named(used, names)
+        self.named(used, names)
         for cell in x.__closure__ or ():
-            yield from self.tell(cell.cell_contents, names)
+            self.tell(cell.cell_contents, names)
         for name in sorted(_imported(x.__code__)):
             if name in sys.modules:
-                yield from self.tell(sys.modules[name], names)
+                self.tell(sys.modules[name], names)
 
-    def class_(self, x: type) -> Iterator[str]:
+    def class_(self, x: type) -> None:
         """A class by its name and fields; one of the user's with all that it and its bases hold."""
-        yield f"{x.__module__}.{x.__qualname__}{getattr(x, '_fields', '')}"
+        self.texts.append(f"{x.__module__}.{x.__qualname__}{getattr(x, '_fields', '')}")
         for cls in x.__mro__:
             if not _known(cls.__module__):
-                yield cls.__qualname__
-                yield from self.named({k: v for k, v in vars(cls).items() if k not in _BARE})
+                self.texts.append(cls.__qualname__)
+                self.named({k: v for k, v in vars(cls).items() if k not in _BARE})
 
-    def named(
-        self, values: Mapping[str, object], names: frozenset[str] = frozenset()
-    ) -> Iterator[str]:
+    def named(self, values: Mapping[str, object], names: frozenset[str] = frozenset()) -> None:
         """Names, sorted, and what they stand for."""
         for name in sorted(values):
-            yield name
-            yield from self.tell(values[name], names)
+            self.texts.append(name)
+            self.tell(values[name], names)
 
-    def value(self, x: object) -> Iterator[str]:
+    def value(self, x: object) -> None:
         """An object by its parts, an array by its bytes; a set sorted by text, since its order is not fixed."""
         if isinstance(x, np.ndarray | np.generic) and x.dtype.kind != "O":
-            yield f"{x.dtype}{x.shape}{x.tobytes().hex()}"
+            self.texts.append(f"{x.dtype}{x.shape}{x.tobytes().hex()}")
         elif isinstance(x, tuple | list | np.ndarray):
             for part in x:
-                yield from self.tell(part)
+                self.tell(part)
         elif isinstance(x, dict | types.MappingProxyType):
             for pair in x.items():
-                yield from self.tell(pair)
+                self.tell(pair)
         elif isinstance(x, set | frozenset):
-            yield from sorted("\n".join(_Reach().tell(part)) for part in x)
+            self.texts += sorted(law_text(part) for part in x)
         elif isinstance(x, types.BuiltinFunctionType):
-            yield x.__qualname__
+            self.texts.append(x.__qualname__)
             if x.__self__ is not None:
-                yield from self.tell(x.__self__)
+                self.tell(x.__self__)
         elif isinstance(x, _NAMED):
-            yield x.__qualname__
+            self.texts.append(x.__qualname__)
         elif isinstance(x, np.ufunc):
-            yield self.ufunc(x)
+            self.texts.append(self.ufunc(x))
         else:
-            yield from self.by_parts(x)
+            self.by_parts(x)
 
-    def by_parts(self, x: object) -> Iterator[str]:
+    def by_parts(self, x: object) -> None:
         """What is inside an object of any class; of a library's the pickled form.
 
         Raises Untraceable where there is neither.
         """
         inside = _inside(x)
         if inside or not _known(type(x).__module__):
-            yield from self.class_(type(x))
-            yield from self.named(inside)
+            self.class_(type(x))
+            self.named(inside)
             return
         try:
-            yield pickle.dumps(x, protocol=4).hex()
+            self.texts.append(pickle.dumps(x, protocol=4).hex())
         except Exception as error:  # whatever a class of any library says
             raise _untold(x) from error
 
@@ -193,6 +202,11 @@ class _Reach:
         if getattr(np, x.__name__, None) is not x:
             raise _untold(x)
         return x.__name__
+
+
+@lru_cache(maxsize=1024)
+def _kept_text(cls: type) -> str:
+    return law_text(cls)
 
 
 @lru_cache(maxsize=1024)

@@ -25,7 +25,8 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from biped_adrc.engine.symbols import Tracer, solve_positive, tanh
+from biped_adrc.engine.symbols import solve_positive, tanh
+from biped_adrc.engine.tracer import Tracer
 from biped_adrc.model.biped import STICTION_SPEED, Biped
 from biped_adrc.model.planar import (
     PlanarTree,

@@ -179,7 +179,7 @@ def structure_key(make: WalkerStructure, numbers: WalkerNumbers) -> str:
     Parameters count by their names and shapes alone.
     """
     split = () if make.split is None else make.split[3:]
-    laws = "\n".join(law_text(law) for law in (*make.laws[1:], *split))
+    laws = law_text(*make.laws[1:], *split)
     return hash_of(
         "walker",
         structure_text(make.robot),

@@ -13,9 +13,10 @@ from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.protocols import ControlLaw, Mode
 from biped_adrc.control.base import ControllerLaws, Measurement
 from biped_adrc.engine.mechanics import PlanarRobot
-from biped_adrc.engine.symbols import Scalar, Tracer, Vector, maximum, minimum, run, where
+from biped_adrc.engine.symbols import Scalar, Vector, maximum, minimum, where
+from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.errors import InputError
-from biped_adrc.hardware.meter import Outside
+from biped_adrc.hardware.loads import Outside
 from biped_adrc.hardware.sample_hold import HeldParameters
 from biped_adrc.observers.base import Estimate
 from biped_adrc.types import Array, Indices

@@ -19,7 +19,6 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.engine.equations import Equations, WalkerNumbers, WalkerStructure
-from biped_adrc.engine.kernels.layout import OUTSIDE
 from biped_adrc.engine.program import NotCompiled, structure_key, structure_of
 from biped_adrc.engine.symbols import Untraceable, floats
 from biped_adrc.errors import InputError, ModelError, NotFiniteError
@@ -51,13 +50,25 @@ def tick_derivative(walker: Walker, nx: int) -> Ticked:
         function = _function(make, numbers)
     except (NotCompiled, ModelError, Untraceable):
         return partial(_differenced, walker)
-    K, rest = np.array([*floats(numbers), 0.0]), np.zeros(make.robot.n + OUTSIDE)
+    return _Evaluated(function, np.array([*floats(numbers), 0.0]), nx)
 
-    def ticked(t: float, x: Array, mode: Mode) -> tuple[Array, Array]:
-        after, J = function(K, np.concatenate(([t, mode.step, mode.start], x, rest)))
-        return _finite(np.array(after).ravel(), np.array(J))
 
-    return ticked
+class _Evaluated:
+    """A function with its numbers K and the memory in which it is evaluated, which CasADi knows by address."""
+
+    def __init__(self, function: ca.Function, K: Array, nx: int) -> None:
+        self.K, self.inp = K, np.zeros(function.size1_in(1))
+        self.after, self.columns = np.zeros(nx), np.zeros((nx, nx))
+        self.buffer, self.evaluate = function.buffer()
+        for i, given in enumerate((self.K, self.inp)):
+            self.buffer.set_arg(i, given.data)  # type: ignore[call-arg]
+        for i, found in enumerate((self.after, self.columns)):
+            self.buffer.set_res(i, found.data)  # type: ignore[call-arg]
+
+    def __call__(self, t: float, x: Array, mode: Mode) -> tuple[Array, Array]:
+        self.inp[: 3 + len(x)] = t, mode.step, mode.start, *x
+        self.evaluate()
+        return _finite(self.after.copy(), self.columns.T.copy())
 
 
 _FUNCTIONS: dict[str, ca.Function] = {}
@@ -71,8 +82,8 @@ def _function(make: WalkerStructure, numbers: WalkerNumbers) -> ca.Function:
         while len(_FUNCTIONS) >= REMEMBERED:
             _FUNCTIONS.pop(next(iter(_FUNCTIONS)))
         tick = Equations.of(make, numbers).tick()
-        after = tick.out[: make.nx]
-        J = ca.jacobian(after, tick.inp)[:, 3 : 3 + make.nx]
+        after = ca.densify(tick.out[: make.nx])
+        J = ca.densify(ca.jacobian(after, tick.inp)[:, 3 : 3 + make.nx])
         _FUNCTIONS[key] = ca.Function("tick", [tick.K, tick.inp], [after, J], {"cse": True})
     return _FUNCTIONS[key]
 

@@ -246,11 +246,16 @@ class TicksWithoutHardware(HybridSystem):
         hold, at, output = seen.hold, seen.at, law.output
         saturate, bounded = walker.saturate, walker.bounded
         predict, s = walker.calls.predict, frozen(s)
+
+        def measured(t: float, mode: Mode, q: Array, v: Array) -> Measurement:
+            return walker.measure(t, q, v, mode)
+
         for q, v, terms, point, following in seen:
             reference.now = q, v, point
             if t == due:
                 B = None if body is None else body(q, v)
-                m = _MEASUREMENT((t, step, t - began, q, v, terms, B))
+                elsewhere = partial(measured, t, mode)
+                m = _MEASUREMENT((t, step, t - began, q, v, terms, B, elsewhere))
                 count += 1
                 due = origin + count * period
                 if not size:

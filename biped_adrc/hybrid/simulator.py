@@ -19,23 +19,18 @@ from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
 
 from biped_adrc.errors import InputError, NotFiniteError, RanAwayError, SingularError, check_count
 from biped_adrc.hybrid.integrators import Form, OneStepMethod, Step, StepFailed
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.system import Clock, FoundEvent, Guard, HybridSystem, Mode, Outcome, Split
+from biped_adrc.hybrid.system import Clock, FoundEvent, HybridSystem, Mode, Outcome, Split
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
+from biped_adrc.hybrid.watch import Watch, interior
 from biped_adrc.parts import handing_out
 from biped_adrc.types import Array
 
 Progress = Callable[[float, int], None]
 """Called after every event with the time [s] and the number of events so far."""
-
-RESOLUTION = 2e-3
-"""Longest stretch [s] of a step over which a double crossing of a witness could pass unseen."""
-_T_XTOL, _T_RTOL = 1e-15, 9e-16  # of the event time: [s], and relative to it
-_ITERATIONS = 10_000  # a witness that touches zero flatly takes more than SciPy's 100
 
 
 @dataclass
@@ -78,12 +73,6 @@ class Record:
         """All nodes as one arc that ran in `mode` and ended in `event`."""
         read = {name: np.vstack(rows) for name, rows in self.read.items()}
         return Arc(mode, np.hstack(self.t), np.vstack(self.x), np.vstack(self.dx), event, read)
-
-
-def interior(t0: float, t1: float) -> list[float]:
-    """Times in (t0, t1] [s] no further apart than RESOLUTION, the last one t1."""
-    count = max(1, math.ceil((t1 - t0) / RESOLUTION - 1e-9))
-    return [t0 + (t1 - t0) * k / count for k in range(1, count)] + [t1]
 
 
 def slope_of(step: Step, t: float) -> Array:
@@ -254,7 +243,7 @@ def _flow_arc(
     move = system.mover(fired)
     if move is None:
         assert method is not None
-        watch = _Watch(system.guards(mode), t, x, fired)
+        watch = Watch(system.guards(mode), t, x, fired)
         move = _Steps(system, method, method.split(system, mode), watch)
     try:
         while t < options.t_end and found is None:
@@ -271,11 +260,6 @@ def _flow_arc(
     return FlownArc(record.arc(mode, found.event), found.status, "", found.outcome)
 
 
-def event_time_error(t: float) -> float:
-    """How far the root finder may leave the time of an event at t [s] from the root [s], in both engines."""
-    return _T_XTOL + _T_RTOL * abs(t)
-
-
 @dataclass(frozen=True)
 class _Steps:
     """Moves a system over one arc by the steps of a one-step method, and watches its event functions."""
@@ -283,7 +267,7 @@ class _Steps:
     system: HybridSystem
     method: OneStepMethod
     split: Form | None
-    watch: _Watch
+    watch: Watch
 
     def __call__(
         self, t: float, x: Array, mode: Mode, until: float, record: Record
@@ -366,65 +350,3 @@ def _next_break(
             k += 1
         times.append(start + k * clock.period)
     return min([*times, t_end])
-
-
-class _Watch:
-    """The witnesses (event functions) along one arc; a guard is armed once its witness has left zero.
-
-    values: those at the last time looked at.
-    """
-
-    def __init__(self, guards: tuple[Guard, ...], t: float, x: Array, fired: str | None):
-        """`fired` has just ended the last arc: what is left of its witness is round-off, taken as zero."""
-        self.guards = guards
-        self.values = [0.0 if g.name == fired else g.witness(t, x) for g in guards]
-
-    def first(self, step: Step) -> FoundEvent | None:
-        """The earliest crossing in `step` that is an event; None without one.
-
-        Long steps are looked through every RESOLUTION, and a reset that returns None lets a
-        crossing pass.
-        """
-        before_t = step.t0
-        for t in interior(step.t0, step.t1):
-            x = step.x1 if t == step.t1 else step.at(t)
-            after = [guard.witness(t, x) for guard in self.guards]
-            crossed = [
-                (*self._locate(guard, step, (before_t, w0), (t, w1)), guard)
-                for guard, w0, w1 in zip(self.guards, self.values, after, strict=True)
-                if guard.direction.crossed(w0, w1)
-            ]
-            self.values, before_t = after, t
-            for te, xe, guard in sorted(crossed, key=lambda c: c[0]):
-                if guard.terminal is not None:
-                    return FoundEvent(Event(guard.name, te, xe, None), None, guard.terminal)
-                outcome = guard.reset(te, xe) if guard.reset is not None else None
-                if outcome is not None:
-                    return FoundEvent(Event(guard.name, te, xe, outcome[0]), outcome)
-        return None
-
-    @staticmethod
-    def _locate(
-        guard: Guard, step: Step, start: tuple[float, float], end: tuple[float, float]
-    ) -> tuple[float, Array]:
-        """Time [s] and state (nx,) of the crossing between two (time, witness), by Brent's method to round-off.
-
-        The witnesses at both ends are those that differ in sign: taken again, dense output may give
-        others in their last bit. Raises NotFiniteError for a state in between that is not finite.
-        """
-        known = dict((start, end))
-
-        def witness(t: float) -> float:
-            return known[t] if t in known else guard.witness(t, state(t))
-
-        def state(t: float) -> Array:
-            x = step.at(t)
-            if not math.isfinite(x.dot(x)):
-                raise NotFiniteError(f"the state is not finite at t = {t:.6g} s, within a step")
-            return x
-
-        if end[1] == 0.0:
-            return end[0], state(end[0])
-        limits = {"xtol": _T_XTOL, "rtol": _T_RTOL, "maxiter": _ITERATIONS}
-        te = float(brentq(witness, start[0], end[0], **limits))
-        return te, state(te)

@@ -28,7 +28,8 @@ from biped_adrc.model.pinned import finite_angles, frame_index
 from biped_adrc.model.reduction import Reduction, reduce
 from biped_adrc.robots.robot_toml import GRAVITY
 from biped_adrc.robots.urdf import Vector
-from biped_adrc.robots.urdf_reader import numbers, parse, place_of, straightened
+from biped_adrc.robots.urdf_reader import numbers, place_of, straightened
+from biped_adrc.robots.urdf_xml import parse
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 

@@ -32,7 +32,8 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.gait.gait import Gait
 from biped_adrc.observer_design.disk_margin import disk_margin
 from biped_adrc.observer_design.frozen_gait import FrozenGait
-from biped_adrc.observer_design.walker_loop import WalkerLoop, linear_twin, tick_matrices
+from biped_adrc.observer_design.tick_matrices import TickMatrices, linear_twin, tick_matrices
+from biped_adrc.observer_design.walker_loop import WalkerLoops
 from biped_adrc.shown import Shown
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
@@ -58,12 +59,12 @@ class Worst(NamedTuple):
 class Specification(Shown):
     """The loops of one candidate, and what they bear. Make it by `specification`.
 
-    Each number is computed when it is asked for: `stable` and `ripple` in about 10 ms, a margin in about
-    0.1 s. For an unstable loop the text says "unstable"; its margins are 0 and its ripple is infinite.
+    Each number is computed when it is asked for, in milliseconds. For an unstable loop the text says
+    "unstable"; its margins are 0 and its ripple is infinite.
     """
 
-    loops: tuple[tuple[WalkerLoop, ...], ...]
-    """By phase, then by robot; the first robot is the plant."""
+    loops: WalkerLoops
+    """By phase and by robot; the first robot is the plant."""
     shares: tuple[float, ...]
     """Of the phases: time since the step began, over that of a step [1]."""
     period: float
@@ -74,12 +75,9 @@ class Specification(Shown):
     @cached_property
     def worst(self) -> Worst:
         """The mode that decays least, over phases and robots."""
-        found = (
-            Worst(loop.growth(), share, i)
-            for share, loops in zip(self.shares, self.loops, strict=True)
-            for i, loop in enumerate(loops)
-        )
-        return max(found)
+        growth = self.loops.growth()
+        phase, robot = np.unravel_index(np.argmax(growth), growth.shape)
+        return Worst(float(growth[phase, robot]), self.shares[phase], int(robot))
 
     @property
     def stable(self) -> bool:
@@ -89,28 +87,23 @@ class Specification(Shown):
     @cached_property
     def delay_margin(self) -> float:
         """The smallest hidden delay [s] with which one of the loops is unstable, at most MOST_DELAY."""
-        if not self.stable:
-            return 0.0
-        least = MOST_DELAY
-        for loop in (loop for loops in self.loops for loop in loops):
-            if not loop.growth(least) < 0.0:
-                least = min(least, loop.delay_margin(least))
-        return least
+        return self.loops.delay_margin(MOST_DELAY)
 
     @cached_property
     def disk_margin(self) -> float:
         """The smallest multiloop disk margin of the loops [1]; above 2 no gain alone makes one unstable."""
         if not self.stable:
             return 0.0
-        S = np.concatenate([loop.sensitivity() for loops in self.loops for loop in loops])
-        return disk_margin(S)
+        S = self.loops.sensitivity()
+        return disk_margin(S.reshape(-1, *S.shape[-2:]))
 
     @cached_property
     def ripple(self) -> float:
         """rms torque [N m] of the sensors' errors over a step, of the motor with most, on the plant itself."""
         if not self.stable:
             return math.inf
-        squares = [np.diag(loops[0].covariance_of_torque(self.errors)) for loops in self.loops]
+        plant = (self.loops[i, 0] for i in range(len(self.shares)))
+        squares = [np.diag(loop.covariance_of_torque(self.errors)) for loop in plant]
         return float(np.sqrt(np.max(np.mean(squares, axis=0))))
 
     def columns(self) -> dict[str, float]:
@@ -148,12 +141,9 @@ def specification(walker: Walker, gait: Gait | FrozenGait) -> Specification:
         gait = FrozenGait.of(walker.plant, gait, walker.nominal)
     T, delay, slow = twin.timing.period, twin.timing.delay, OWN * gait.falling
     lag = 0.0 if walker.motors is None else walker.motors.lag
-    loops = tuple(
-        tuple(
-            WalkerLoop(tick, *robot, T, delay, lag, slow) for robot in zip(at.A, at.B, strict=True)
-        )
-        for tick, at in zip(tick_matrices(twin, gait.points), gait.points, strict=True)
-    )
+    tick = TickMatrices(*(x[:, np.newaxis] for x in tick_matrices(twin, gait.points)))
+    A, B = (np.array([getattr(at, name) for at in gait.points]) for name in "AB")
+    loops = WalkerLoops(tick, A, B, T, delay, lag, slow)
     n, exact = walker.plant.n, np.zeros(2 * walker.plant.n)
     sensors = walker.sensors
     errors = exact if sensors is None else sensors.errors(n, walker.plant.p, exact)

@@ -28,7 +28,8 @@ from biped_adrc.control.base import Measurement
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.engine.run import COMPILED, simulate_by
 from biped_adrc.gait.reference import TimeReference
-from biped_adrc.hybrid.integrators import RK4, Exponential
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import HybridSystem, Mode
 from biped_adrc.model.biped import Biped

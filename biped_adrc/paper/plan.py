@@ -34,7 +34,7 @@ from biped_adrc.gait.published import X_STAR
 from biped_adrc.gait.recipe import impact_smoothness
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.paper.claims.admissible import method
-from biped_adrc.paper.claims.evidence import claim_tasks
+from biped_adrc.paper.claims.tasks import claim_tasks
 from biped_adrc.paper.pair import CONTROLLERS
 from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.paper.push_map import PATTERNS, push_map, pushes

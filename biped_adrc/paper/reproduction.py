@@ -28,8 +28,8 @@ from biped_adrc.files import check_place, plain, write_text
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper import verdicts
-from biped_adrc.paper.claims.evidence import gathered
 from biped_adrc.paper.claims.table import claims
+from biped_adrc.paper.claims.tasks import gathered
 from biped_adrc.paper.claims.words import MEANINGS, PREFACE, Claim, claim_checks
 from biped_adrc.paper.convergence import observed_order, records
 from biped_adrc.paper.figures import push_window

@@ -15,7 +15,7 @@ from typing import Any
 
 from biped_adrc.analysis.regression import Regression
 from biped_adrc.checks import Check
-from biped_adrc.paper.claims.evidence import Evidence
+from biped_adrc.paper.claims.tasks import Evidence
 from biped_adrc.paper.pair import CONTROLLERS
 from biped_adrc.paper.plan import Headline, Plan, RecipeResult
 from biped_adrc.paper.push_map import PushCell

@@ -2,7 +2,9 @@
 
 - `urdf`        links and joints as a small tree, what makes it physical, and writing it
 - `urdf_reader` reading a URDF into that tree
-- `robot_toml`  the record robot.toml, parameter presets, and the limits of ground and motors
+- `urdf_xml`    the XML that it is read from
+- `robot_toml`  the record robot.toml and parameter presets
+- `limits`      what ground and motors can give, within which a walk is legal
 - `symmetry`    exchange of the legs at impact
 
 A robot is a folder with these two files and no code; `model.biped` makes the dynamics from them,

@@ -45,12 +45,11 @@ from biped_adrc.robots.urdf import (
     Visual,
     validated,
 )
+from biped_adrc.robots.urdf_xml import expanded, parse
 from biped_adrc.types import Array
 
 LARGEST = 1e100
 """Bound on every number in a URDF, in any unit; products of larger ones overflow."""
-DEEPEST, MOST_LINKS = 50, 200
-"""Of elements inside one another, and links of a robot."""
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _ALMOST_ONE = 1e-6  # how far an axis may be from unit length, dimensionless
 _ROUND_OFF = 1e-15  # entries of a turn below this are the round-off of pi, dimensionless
@@ -110,7 +109,7 @@ def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> UrdfCont
     foot for legs that end with a shin. Raises ModelError.
     """
     path = Path(path)
-    source, robot = str(path), _expanded(path)
+    source, robot = str(path), expanded(path)
     for link, place in (tips or {}).items():
         _add_tip(robot, link, place)
     tree, undrawn, flat = straightened(robot, source)
@@ -134,59 +133,6 @@ def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> UrdfCont
 def tip_of(link: str) -> str:
     """Name of the link that `read` puts at the tip of `link`."""
     return f"{link}_tip"
-
-
-# -- the file --------------------------------------------------------------------------------------
-def parse(path: Path | str) -> ET.Element:
-    """The element <robot> of a URDF file, as it stands. Raises ModelError."""
-    path = Path(path)
-    if not path.is_file():
-        raise ModelError(f"URDF '{path}' not found; give the path of an existing .urdf file")
-    try:
-        root = ET.fromstring(path.read_bytes(), ET.XMLParser(target=_Shallow()))
-    except (ET.ParseError, ValueError, LookupError) as error:  # the last two of an encoding
-        raise ModelError(f"URDF '{path}' is not well-formed XML: {error}") from error
-    except OSError as error:
-        raise ModelError(f"URDF '{path}' cannot be read: {error.strerror}") from error
-    if root.tag != "robot":
-        raise ModelError(f"URDF '{path}': root element is <{root.tag}>, expected <robot>")
-    count = len(root.findall("link"))
-    if count > MOST_LINKS:
-        raise ModelError(f"URDF '{path}' has {count} links, expected at most {MOST_LINKS}")
-    return root
-
-
-class _Shallow(ET.TreeBuilder):
-    """Builds elements down to a depth. Raises ValueError below, where functions that recurse would crash."""
-
-    depth = 0
-
-    def start(self, tag: str, attrs: dict[str, str], /) -> ET.Element:
-        self.depth += 1
-        if self.depth > DEEPEST:
-            raise ValueError(f"elements are nested {self.depth} deep, expected at most {DEEPEST}")
-        return super().start(tag, attrs)
-
-    def end(self, tag: str, /) -> ET.Element:
-        self.depth -= 1
-        return super().end(tag)
-
-
-def _expanded(path: Path) -> ET.Element:
-    """<robot> of a file without xacro macros. Raises ModelError that says how to expand them."""
-    try:
-        robot = parse(path)
-        macros = path.suffix == ".xacro" or any("xacro}" in element.tag for element in robot.iter())
-    except ModelError:
-        if not path.is_file() or b"<xacro:" not in path.read_bytes():
-            raise
-        macros = True
-    if macros:
-        raise ModelError(
-            f"'{path}' holds xacro macros, expected the URDF they expand to; try "
-            f"'xacro {path.name} > robot.urdf' and give robot.urdf"
-        )
-    return robot
 
 
 def _add_tip(robot: ET.Element, link: str, place: Vector) -> None:
@@ -220,7 +166,6 @@ def _by_joint(
     return found
 
 
-# -- its elements ----------------------------------------------------------------------------------
 def numbers(element: ET.Element | None, key: str, default: str, count: int, where: str) -> Vector:
     """`count` finite numbers of an attribute, `default` where it is missing; for xyz, rpy, rgba and size.
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -31,7 +32,7 @@ from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.model_errors import ModelErrors, impact_error
-from biped_adrc.robots.robot_toml import ENDS, Limits
+from biped_adrc.robots.limits import ENDS, Limits
 from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.disturbances import disturbances, taken
 from biped_adrc.scenario.registry import construct, find, own, takes
@@ -39,7 +40,7 @@ from biped_adrc.scenario.scenario import Scenario, drawn
 from biped_adrc.soft.ground import SoftGround
 from biped_adrc.soft.walking import stepping_loop
 from biped_adrc.timing import ContinuousTime, SampledTime
-from biped_adrc.types import Array
+from biped_adrc.types import Array, frozen
 
 WALKED = ("robot", "preset", "controller", "impacts", "slope", "friction_limit", "force_window")
 RIGID = "rigid"
@@ -64,12 +65,12 @@ WITHOUT_MOTORS = (*WALKED, "method", "h", "tolerance", "engine", "runaway_speed"
 """Fields of a scenario that have an effect for a robot without motors."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RobotAndGait:
     """The nominal robot of a scenario, and the gait that it walks or, without motors, its known cycle.
 
     Loading both takes longer than making a walker; studies of many walks of one robot make this once and hand
-    it to `build` and `start`.
+    it to `build` and `start`. It is equal to itself alone, so that what is made of it may be kept under it.
     """
 
     biped: Biped
@@ -102,6 +103,14 @@ class RobotAndGait:
         if s.continued:
             gait = replace(gait, constraint=continued(gait.constraint))
         return cls(biped, gait)
+
+    @cached_property
+    def on_orbit(self) -> tuple[Array, Array]:
+        """(q, v), each (n,) [rad, rad/s], just after the impact of the gait's orbit, read-only.
+
+        Raises InputError for a robot without motors.
+        """
+        return frozen(self.walked.start(self.biped))
 
     @property
     def walked(self) -> Gait:
@@ -191,7 +200,7 @@ def start(s: Scenario, scene: RobotAndGait) -> tuple[Array, Array]:
     First random offsets of every coordinate, then the rates scaled by start_speed, then the values of
     `Scenario.start`. Raises InputError for a coordinate that the robot does not have.
     """
-    q, v = scene.walked.start(scene.biped)
+    q, v = scene.on_orbit
     random = np.random.default_rng(drawn(s, "start"))
     q = q + s.start_spread * random.standard_normal(len(q))
     v = v + s.start_rate_spread * random.standard_normal(len(v))

@@ -8,6 +8,8 @@ Where each argument comes from, by its name:
     reset, solve_theta, torque_limit                the scenario's values of these names
     inner, window                                   of a policy across contact: the controller, contact_window
                                                     or double_support_window
+    inner, and the entry's name                     of an entry `[around]` of the registry: the controller, and
+                                                    the scenario's number of that name
     everything else                                 from `Scenario.own`
 
 "Own values" are those in `Scenario.own`: what a controller or observer takes beside the scenario's fields. An
@@ -100,7 +102,19 @@ class ControllerMaker:
         ):  # an outer loop goes around the policies: its state does not begin anew at a touchdown
             for chosen_by in POLICIES:
                 made = self._across_contact(chosen_by, made)
+            for name in REGISTRY["around"]:
+                made = self._around(name, made)
         return made
+
+    def _around(self, name: str, inner: Controller) -> Controller:
+        """What has the scenario's number of this name, around a controller; itself where that is 0."""
+        number = getattr(self.s, name)
+        if number == 0.0:
+            return inner
+        make, own = find("around", name).load(), self._own((*CONTEXT, "inner", name))
+        self._seen(make, (), own)
+        given = {**self._context(), **own, "inner": inner, name: number}
+        return construct(f"{name} = {number:g}", make, given, Controller)
 
     def _across_contact(self, chosen_by: str, inner: Controller) -> Controller:
         """The policy across contact that this field names, around a controller; itself where there is none."""

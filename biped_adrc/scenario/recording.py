@@ -38,7 +38,7 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import Reference, TimeReference
 from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.robots.robot_toml import Limits
+from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.columns import columns_of, data_frame, write_csv
 from biped_adrc.scenario.edges import edge_remarks, step_remarks
 from biped_adrc.scenario.outcome import Outcome, outcome_of

@@ -27,8 +27,10 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from functools import lru_cache
 from importlib import import_module
 from inspect import Parameter, signature
+from types import MappingProxyType
 from typing import TypeVar
 
 from biped_adrc.errors import BipedError, InputError
@@ -67,6 +69,7 @@ class Entry:
 BASES = {
     "controller": "biped_adrc.control.base:Controller",
     "contact": "biped_adrc.control.across_contact:AcrossContact",
+    "around": "biped_adrc.control.base:Controller",
     "observer": "biped_adrc.observers.base:Observer",
     "curve": "biped_adrc.gait.curves:Curve",
     "sensor": "biped_adrc.hardware.sensing:Sensor",
@@ -256,10 +259,18 @@ def takes(make: Callable[..., object]) -> Mapping[str, Parameter]:
     Raises InputError for what has no signature, such as functions written in C.
     """
     try:
-        found = signature(make).parameters
+        return _takes(make)
+    except TypeError:  # what has no hash
+        return _takes.__wrapped__(make)
     except ValueError as error:
         raise InputError(f"{error}; expected a class or a function written in Python") from error
-    return {name: p for name, p in found.items() if p.kind not in _VARIADIC}
+
+
+@lru_cache(maxsize=1024)
+def _takes(make: Callable[..., object]) -> Mapping[str, Parameter]:
+    """As `takes`; kept, since each walk of a study asks for the same."""
+    found = signature(make).parameters
+    return MappingProxyType({name: p for name, p in found.items() if p.kind not in _VARIADIC})
 
 
 def lacking(make: Callable[..., object], values: Container[str]) -> list[str]:

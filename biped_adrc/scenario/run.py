@@ -23,14 +23,16 @@ from biped_adrc.control.passive import Passive
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.published import passive_cycle
-from biped_adrc.hybrid.integrators import RK4, Adaptive, Exponential, OneStepMethod, Stiff
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod, Stiff
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_step, soft_loop, start
+from biped_adrc.scenario.idle import idle
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.recording import Walk, watched
-from biped_adrc.scenario.scenario import FREE, Scenario, idle
+from biped_adrc.scenario.scenario import FREE, Scenario
 from biped_adrc.scenario.walk import (
     FINE_STEP,
     Part,

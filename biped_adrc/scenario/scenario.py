@@ -18,6 +18,7 @@ import json
 import math
 import re
 from collections.abc import Iterable, Mapping
+from copy import deepcopy
 from dataclasses import asdict, field
 from typing import Any
 
@@ -80,7 +81,7 @@ OF_RIGID = ("method", "h", "fine", "impact_error")
 OF_SAMPLING = (
     *("delay", "delay_known", "counts", "noise", "pitch_noise", "rate_noise"),
     *("velocity", "filter_time", "sensor", "rate_limit", "lag", "contact"),
-    *("double_support", "touchdown"),
+    *("double_support", "touchdown", "prediction"),
 )
 """Fields that have an effect in sampled time only."""
 FREE = ("adaptive", "stiff")
@@ -128,6 +129,8 @@ class Scenario(Shown):
     contact_window: float | None = None
     double_support: str | None = None
     double_support_window: float | None = None
+    prediction: float = 0.0
+    feedforward: float = 0.0
     solve_theta: bool = True
     own: dict[str, object] = field(default_factory=dict)
     # sampling, sensors, motors
@@ -264,17 +267,17 @@ class Scenario(Shown):
         pushed, last = self.push != "none", self.first_step + self.impacts - 1
         return {
             "amplitude or force without a push": not pushed and self.amplitude + self.force > 0.0,
-            **{f"{name} without a push": not pushed and self._given(name) for name in OF_PUSH},
+            **{f"{name} without a push": not pushed and self.given(name) for name in OF_PUSH},
             **{
-                f"{name} without a period": self.period is None and self._given(name)
+                f"{name} without a period": self.period is None and self.given(name)
                 for name in OF_SAMPLING
             },
             **{
-                f"{name} with the plant 'rigid'": self.plant == "rigid" and self._given(name)
+                f"{name} with the plant 'rigid'": self.plant == "rigid" and self.given(name)
                 for name in OF_PLANT
             },
             **{
-                f"{name} with the plant '{self.plant}'": self.plant != "rigid" and self._given(name)
+                f"{name} with the plant '{self.plant}'": self.plant != "rigid" and self.given(name)
                 for name in OF_RIGID
             },
             "friction_error without friction": self.friction_error > 0.0 and not self.friction,
@@ -293,13 +296,15 @@ class Scenario(Shown):
             and self.contact_window is not None,
             "a double_support_window without double_support": self.double_support is None
             and self.double_support_window is not None,
+            "delay_known with a prediction, which tells the observer of the delay": self.delay_known
+            and self.prediction > 0.0,
             "poles and an order": self.poles is not None and self.order is not None,
             "poles and a bandwidth": self.poles is not None and self.bandwidth is not None,
             "a tolerance without the method adaptive or stiff": self.tolerance != 1e-9
             and self.method not in FREE,
         }
 
-    def _given(self, name: str) -> bool:
+    def given(self, name: str) -> bool:
         """True where a field differs from its default."""
         return bool(getattr(self, name) != DEFAULTS[name])
 
@@ -311,9 +316,10 @@ class Scenario(Shown):
         module:Class, by which any other process finds it.
         """
         usual = {**DEFAULTS, **HARDWARE[self.hardware]}
-        found = {name: x for name, x in sorted(asdict(self).items()) if x != usual[name]}
+        given = ((name, getattr(self, name)) for name in sorted(FIELDS))
+        found = {name: deepcopy(x) for name, x in given if x != usual[name]}
         if self.pushes:
-            found["pushes"] = [_told(push) for push in found["pushes"]]
+            found["pushes"] = [_told(asdict(push)) for push in found["pushes"]]
         for name, kind in {**NAMED, "robot": "robot", "gait": "gait"}.items():
             if name in found:
                 found[name] = portable(kind, found[name])
@@ -352,39 +358,6 @@ UNITS = {name: units_of("scenario.toml")[name] for name in FIELDS}
 def _told(push: dict[str, float]) -> dict[str, float]:
     """A push without an infinite stop (a step that lasts for good), which JSON cannot hold."""
     return {name: x for name, x in push.items() if not (name == "stop" and math.isinf(x))}
-
-
-RANDOM = (
-    *("noise", "pitch_noise", "rate_noise", "sensor", "mass_error", "com_error", "inertia_error"),
-    *("friction_error", "impact_error", "ground_rms"),
-    *("start_speed_spread", "start_spread", "start_rate_spread"),
-)
-"""Fields that make something random in a walk; a push of noise, on random joints or without onset does too."""
-
-
-def idle(s: Scenario) -> tuple[str, ...]:
-    """Sentences on values that are given and do nothing in this walk.
-
-    They are said and not refused: a study gives every walk a seed, and old files of runs have such values.
-    """
-    pushed = s.push != "none"
-    drawn_push = pushed and (s.onset is None or s.push == "noise" or s.on == "random joints")
-    own = "seed" in s.own or "touchdown_missed" in s.own or "missed" in s.own
-    found = {
-        "seed": not drawn_push and not any(map(s._given, RANDOM)) and not own,
-        "pushed_step": not pushed and s.ground_step == 0.0,
-        "fine": not pushed and not s.pushes,
-    }
-    because = {
-        "seed": "nothing in this walk is random",
-        "pushed_step": "there is neither a push nor a step of the ground",
-        "fine": "no push switches",
-    }
-    return tuple(
-        f"{name} = {getattr(s, name)} does nothing: {because[name]}"
-        for name, is_so in found.items()
-        if is_so and s._given(name)
-    )
 
 
 def drawn(s: Scenario, what: str) -> int:

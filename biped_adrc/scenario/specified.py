@@ -9,11 +9,20 @@ ground and start, has no part in it; what it does to the robot has, as plant bes
 
 from __future__ import annotations
 
+import json
+from functools import lru_cache
+
 from biped_adrc.errors import InputError
 from biped_adrc.observer_design.frozen_gait import FrozenGait
 from biped_adrc.observer_design.specification import Specification, specification
-from biped_adrc.scenario.build import RIGID, RobotAndGait, build
+from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_of
 from biped_adrc.scenario.scenario import Scenario
+
+OF_PLANT = (
+    *("mass", "inertia", "trunk_load", "seed"),
+    *("mass_error", "com_error", "inertia_error", "friction_error"),
+)
+"""Fields of a scenario that `build.plant_of` makes the plant with."""
 
 
 def specification_of(
@@ -21,9 +30,9 @@ def specification_of(
 ) -> Specification:
     """Of the walker that a scenario describes.
 
-    scene, frozen: robot and gait, and their linearisation, where they are at hand; for many candidates make
-    them once. Raises InputError for a scenario in continuous time, on another plant than the rigid one,
-    without motors, or whose controller has to notice touchdowns.
+    scene, frozen: robot and gait, and their linearisation, where they are at hand; for many candidates give
+    the same scene, whose linearisations are kept. Raises InputError for a scenario in continuous time, on
+    another plant than the rigid one, without motors, or whose controller has to notice touchdowns.
     """
     if s.plant != RIGID:
         raise InputError(
@@ -31,10 +40,21 @@ def specification_of(
             "linearises"
         )
     scene = RobotAndGait.of(s) if scene is None else scene
-    gait, walker = scene.walked, build(s, scene)
+    walker = build(s, scene)
     if frozen is None:
-        frozen = FrozenGait.of(walker.plant, gait, walker.nominal)
+        wrong = {name: x for name, x in s.record().items() if name in OF_PLANT}
+        frozen = _frozen(scene, json.dumps(wrong, sort_keys=True))
     return specification(walker, frozen)
+
+
+@lru_cache(maxsize=16)
+def _frozen(scene: RobotAndGait, wrong: str) -> FrozenGait:
+    """The gait linearised for a plant with the model errors of a scenario; wrong: those as JSON.
+
+    No controller has a part in it, so the candidates of a search share it.
+    """
+    plant = plant_of(Scenario(**json.loads(wrong)), scene.biped)
+    return FrozenGait.of(plant, scene.walked, scene.biped)
 
 
 def specified(

@@ -29,13 +29,14 @@ from biped_adrc.control.base import controller_laws
 from biped_adrc.engine.run import COMPILED, simulate_by
 from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.gait import Gait
-from biped_adrc.hybrid.integrators import RK4, Exponential, OneStepMethod
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4, OneStepMethod
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.derivatives import friction_derivative
 from biped_adrc.parts import check_part, handing_out, numbers
-from biped_adrc.robots.robot_toml import Limits
+from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.build import plant_around
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.soft.walking import stepping_loop, walk_on

@@ -9,7 +9,7 @@ import ctypes
 import pickle
 import shutil
 from dataclasses import replace
-from functools import cache, singledispatch
+from functools import cache, partial, singledispatch
 from pathlib import Path
 from tempfile import mkdtemp
 
@@ -26,7 +26,8 @@ from biped_adrc.engine.fingerprint import hash_of
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.machine import ModuleText, load_or_compile
 from biped_adrc.engine.program import Program
-from biped_adrc.engine.symbols import Tracer, Vector, column, floats, run
+from biped_adrc.engine.symbols import Vector, column, floats
+from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.gait.curves import Curve
 from biped_adrc.gait.outputs import Outputs
 from biped_adrc.gait.reference import check_point, reference_laws
@@ -333,8 +334,15 @@ def measurements(count):
     q, v = gait().start(robot())
     for _ in range(count):
         x = q + 0.05 * random.normal(size=5), v + 0.5 * random.normal(size=5)
-        m = walker.measure(0.1, *x, ba.Mode())
-        yield m._replace(body=robot().body_terms(*x)), random
+        m = walker.measure(0.1, *x, ba.Mode())._replace(body=robot().body_terms(*x))
+        yield m._replace(elsewhere=partial(moved_to, m)), random
+
+
+def moved_to(m, q, v):
+    """What is measured elsewhere, on symbols too: of a model that differs from that of m by a factor."""
+    f = 1.0 + 0.1 * np.sin(q[0])
+    terms, body = (part._make(f * x for x in part) for part in (m.terms, m.body))
+    return m._replace(q=q, v=v, terms=terms, body=body)
 
 
 def contract(law, m, random, sampled):

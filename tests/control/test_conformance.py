@@ -81,6 +81,16 @@ ROWS = {
         "ramp torque": lambda make, h: [make(ba.ADRCController(h, SLOW), 0.2)],
         "damping": lambda make, h: [make(MomentumDOBController(h), 0.2, damping=5.0)],
     },
+    "around": {
+        "prediction": lambda make, h: [
+            make(ba.ADRCController(h, SLOW), 2.3e-3),
+            make(MomentumDOBController(h), 1e-3),
+        ],
+        "feedforward": lambda make, h: [
+            make(ba.ADRCController(h, SLOW), h, robot(), 0.8),
+            make(ba.NPDController(h), h, robot(), 1.0),
+        ],
+    },
     "observer": {
         "GPI": lambda make: [make.from_poles(), make.from_bandwidth(300.0, 0)],
         "high gain": lambda make: [make.from_epsilon(0.002), make.from_epsilon(0.01, m=2)],
@@ -151,7 +161,7 @@ IN_PYTHON = {"CLF-QP", "output NPD", "finite time", "stride PI", "reference rese
 """Controllers that are methods; all other things of the registry compile."""
 EACH = [(kind, name) for kind, rows in ROWS.items() for name in rows]
 PARTS_OF_CONTROL = {"OuterLoop", "ObservingController", "AbsentController"}
-PARTS_OF_CONTROL |= {"AcrossContact", "ContactWindow", "DoubleSupport"}
+PARTS_OF_CONTROL |= {"Around", "AcrossContact", "ContactWindow", "DoubleSupport"}
 BASES = {
     ba.Controller: ("control", PARTS_OF_CONTROL),
     ba.Observer: ("observers", {"ChainObserver", "InjectedChain", "MomentumChain"}),
@@ -189,14 +199,14 @@ def bent(q):
 
 def made(kind, name):
     """The things of a row."""
-    given = (gait().constraint,) if kind in ("controller", "contact") else ()
+    given = (gait().constraint,) if kind in ("controller", "contact", "around") else ()
     return ROWS[kind][name](find(kind, name).load(), *given)
 
 
 @pytest.mark.parametrize(("kind", "name"), EACH)
 def test_every_leaf(kind, name):
     for thing in made(kind, name):
-        if kind in ("controller", "contact", "observer", "disturbance"):
+        if kind in ("controller", "contact", "around", "observer", "disturbance"):
             said = (
                 thing._obstacle or "it has laws: give it a row of laws alone, and none of IN_PYTHON"
             )

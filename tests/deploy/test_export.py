@@ -190,12 +190,14 @@ def test_without_a_compiler_it_is_said(cases, monkeypatch):
         Loaded(loaded.source).functions  # noqa: B018
 
 
-@pytest.mark.parametrize("compiler", ["gcc -std=c99", "clang -std=c99", "g++ -x c++"])
+COMPILERS = ["gcc -std=c99", "g++ -x c++", *(["clang -std=c99"] if shutil.which("clang") else [])]
+"""The first two are wherever packages are built; the third is asked where it is."""
+
+
+@pytest.mark.parametrize("compiler", COMPILERS)
 @pytest.mark.parametrize("real", ["double", "float"])
 def test_no_compiler_warns(tmp_path, compiler, real):
     program, *flags = compiler.split()
-    if shutil.which(program) is None:
-        pytest.skip(f"no {program} here")
     export_c(CASES["on a robot"], tmp_path / "c", prefix="leg")
     strict = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", f"-DLEG_REAL={real}"]
     command = [program, *flags, *strict, "-c", "-o", os.devnull]

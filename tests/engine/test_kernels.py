@@ -34,7 +34,7 @@ from biped_adrc.engine.kernels.run_plan import (
 from biped_adrc.errors import InputError, NotFiniteError, SingularError
 from biped_adrc.hybrid import integrators, simulator
 from biped_adrc.hybrid import system as hybrid
-from biped_adrc.hybrid.integrators import Exponential, phi_table
+from biped_adrc.hybrid.exponential import Exponential, phi_table
 from biped_adrc.hybrid.status import Status
 from biped_adrc.observers.gpi import GPIObserver
 

@@ -10,13 +10,13 @@ import biped_adrc as ba
 from biped_adrc.analysis.certificate import depths, forces
 from biped_adrc.analysis.quadrature import integral
 from biped_adrc.bench.run import run_trial
-from biped_adrc.engine.symbols import Scalar, Tracer
+from biped_adrc.engine.symbols import Scalar
+from biped_adrc.engine.tracer import Tracer
+from biped_adrc.hardware.loads import Loads, Outside
 from biped_adrc.hardware.meter import (
     READINGS,
     Hit,
-    Loads,
     Meter,
-    Outside,
     Reading,
     greater,
     metered,

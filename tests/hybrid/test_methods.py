@@ -9,7 +9,8 @@ import pytest
 from scipy.special import ellipk
 
 import biped_adrc as ba
-from biped_adrc.hybrid.integrators import RK4, Adaptive, Exponential, Stiff, phi_functions
+from biped_adrc.hybrid.exponential import Exponential, phi_functions
+from biped_adrc.hybrid.integrators import RK4, Adaptive, Stiff
 from biped_adrc.hybrid.relaxation import relaxation
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import Guard, HybridSystem, Relaxing, Split

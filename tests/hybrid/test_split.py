@@ -12,7 +12,7 @@ from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import CorrectedConstraint
 from biped_adrc.gait.reference import TimeReference
-from biped_adrc.hybrid.integrators import Exponential
+from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import HybridSystem
 from biped_adrc.observers.gpi import TABLE_I

@@ -12,7 +12,8 @@ from biped_adrc.resources import data_folder
 from biped_adrc.robots import symmetry
 from biped_adrc.robots.robot_toml import load_description, robot_names
 from biped_adrc.robots.urdf import to_xml
-from biped_adrc.robots.urdf_reader import load_tree, parse
+from biped_adrc.robots.urdf_reader import load_tree
+from biped_adrc.robots.urdf_xml import parse
 
 FLOATING = data_folder("urdf") / "rabbit" / "floating.urdf"
 TORSO_MASS = '<mass value="12.0"/>'

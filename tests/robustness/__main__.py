@@ -11,9 +11,14 @@ import sys
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-from tests.robustness import contact, engines, steps
+from tests.robustness import contact, engines, searches, steps
 
-ATTACKS = {"engines": (engines, 2000), "contact": (contact, 1000), "steps": (steps, 200)}
+ATTACKS = {
+    "engines": (engines, 2000),
+    "contact": (contact, 1000),
+    "steps": (steps, 200),
+    "searches": (searches, searches.ATTACKS),
+}
 """The module of each, and how many scenarios it draws."""
 
 

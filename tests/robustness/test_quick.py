@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.robustness import contact, engines, steps
+from tests.robustness import contact, engines, searches, steps
 
 SOME = (0, 5, 55)
 """Of the engines' scenarios; in 55 the slope is lost within a step of the stiff method."""
@@ -58,5 +58,8 @@ def test_a_table_has_a_row_for_every_word() -> None:
     changed = {"k": 1, "status": ["FELL", "COMPLETED"], "off": {}, "edge": False, "changed": True}
     changed["chatters"] = None
     assert "| another end, not near an edge | 1 |" in steps.table([changed])
+    killed = {"k": 2, "way": "killed", "found": 9, "rows": 90, "same": {"rows": False}}
+    assert "| killed | 9 | 90 | NO |" in searches.table([killed])
+    assert searches.faults([killed]) == ["2 killed: {'rows': False}"]
     few = "0 of 1 agree, expected 95 %"
     assert steps.faults([changed]) == ["1: ['FELL', 'COMPLETED']", few]

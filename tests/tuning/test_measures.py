@@ -176,12 +176,13 @@ def test_held_out_numbers_are_paired_by_seed():
 
 
 def test_columns_without_a_walk_are_those_of_the_specification():
-    """Numbers of a candidate's loop, margins 0 where it is unstable, none for what has no linear loop."""
+    """Numbers of the loop, margins 0 where it is unstable; on soft ground those of the rigid plant."""
     names = ("stable", "delay_margin", "disk_margin", "ripple")
     values = {"controller": "NPD", "period": 1e-3, "delay": 1e-3, "impacts": 2}
     told = ba.specified(ba.Scenario(**values))
     assert numbers_without_walk(names, values) == {name: told[name] for name in names}
     late = numbers_without_walk(names, values | {"delay": 0.012})
     assert late == {"stable": 0.0, "delay_margin": 0.0, "disk_margin": 0.0, "ripple": None}
-    soft = numbers_without_walk(names, values | {"plant": "mujoco"})
-    assert soft == dict.fromkeys(names)
+    soft = values | {"plant": "mujoco", "ground_friction": 0.8, "time_constant": 5e-3}
+    assert numbers_without_walk(names, soft) == {name: told[name] for name in names}
+    assert numbers_without_walk(names, values | {"period": None}) == dict.fromkeys(names)

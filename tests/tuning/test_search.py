@@ -88,6 +88,29 @@ def test_any_workers_give_the_same_bits(tmp_path):
         assert (other.out / "summary.json").read_text() == (first.out / "summary.json").read_text()
 
 
+def test_walks_of_threads_and_processes_have_the_same_bits(tmp_path):
+    """Of the robot, with pushes; ten kills, one process and Dask are `python -m tests.robustness searches`."""
+    push = {"push": "pulse", "on": "random joints", "amplitude": 20.0, "pushed_step": 2}
+    study = read_tuning(
+        {
+            "study": {"name": "walks", "budget": 4, "generation": 2, "finalists": 1, "seed": 1},
+            "fixed": {"controller": "NPD", "impacts": 2, **push},
+            "variables": {
+                "K_p": {"from": 1000.0, "to": 9000.0},
+                "K_d": {"from": 60.0, "to": 150.0},
+            },
+            "objectives": [{"column": "rms_error", "counts": "made"}],
+            "limits": [{"column": "delay_margin", "least": 1e-3}],
+            **{kind: {"seeds": [i]} for i, kind in enumerate(("training", "selection", "test"))},
+        }
+    )
+    made = [tune(study, tmp_path / f"{i}", w) for i, w in enumerate((Threads(2), Processes(2)))]
+    one, other = (results(tuned.out) for tuned in made)
+    assert one == other
+    assert len({json.dumps(row) for *_, row in one}) >= 6
+    assert (made[0].candidates, made[0].held_out) == (made[1].candidates, made[1].held_out)
+
+
 def test_a_search_that_is_killed_goes_on_to_the_same_rows(tmp_path, started):
     script = Path(__file__).parent / "tune_slowly.py"
     process = started(sys.executable, str(script), str(tmp_path / "killed"))

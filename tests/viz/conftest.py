@@ -6,7 +6,8 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.npd import NPDController
 from biped_adrc.gait.gait import load_gait
-from biped_adrc.hybrid.integrators import RK4, Exponential
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import walk_scenario

@@ -20,7 +20,8 @@ from biped_adrc.control.npd import NPDController
 from biped_adrc.disturbances.pulse import TorquePulse
 from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import load_gait
-from biped_adrc.hybrid.integrators import RK4, Exponential
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
 from biped_adrc.paper.figures import NAMES, draw, push_window
 from biped_adrc.scenario.recording import Walk

@@ -51,7 +51,7 @@ PERIOD_PART, LAG_SPEED, F_HEAD = 7, 8, 9
 RK4, DOP853, ETD = 0, 1, 2
 """Kinds of method."""
 HALF, HALF_PHI, FULL_STEP, FIRST, MIDDLE, LAST, MATRICES = 0, 1, 2, 3, 4, 5, 6
-"""Matrices of one level of halving, in the order of `hybrid.integrators.PhiTable`; their number."""
+"""Matrices of one level of halving, in the order of `hybrid.exponential.PhiTable`; their number."""
 STAGES = 12
 """Of DOP853."""
 B_AT, C_AT, E3_AT, E5_AT, TABLEAU = 144, 156, 168, 181, 194

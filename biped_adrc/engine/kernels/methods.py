@@ -24,7 +24,7 @@ import numpy as np
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.run_plan import Ints, MethodTable
 from biped_adrc.errors import InputError, check_positive
-from biped_adrc.hybrid.integrators import Phi, PhiTable
+from biped_adrc.hybrid.exponential import Phi, PhiTable
 from biped_adrc.types import Array
 
 TERMS = 24
@@ -110,7 +110,7 @@ def _doubled(phi: Phi) -> Phi:
 
 
 def phi_levels(A: Array, h: float, levels: int) -> Array:
-    """The six matrices of `hybrid.integrators.PhiTable` for h 2^-level, (levels, 6, k, k); A (k, k)
+    """The six matrices of `hybrid.exponential.PhiTable` for h 2^-level, (levels, 6, k, k); A (k, k)
     [1/s], h [s].
     """
     size = float(np.max(np.sum(np.abs(A), axis=1), initial=0.0)) * h

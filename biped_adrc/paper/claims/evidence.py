@@ -1,4 +1,4 @@
-"""Runs and closed forms for all claims beside the push on the joints, and the tasks that compute them.
+"""Runs and closed forms for all claims beside the push on the joints.
 
     cycles          multipliers and speed of the walking cycle of both gaits under both controllers
     needs           friction, torque and cost of both gaits, undisturbed
@@ -9,27 +9,24 @@
     jumps           how far the total disturbance is from smooth
 
 Each function takes a preset and returns records whose numbers are at the step used and at half of it. The runs
-are declared in admissible.toml. `paper.plan` runs `claim_tasks`; `claims.table` reads the `Evidence`.
+are declared in admissible.toml. `claims.tasks` joins them to the `Evidence`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, fields, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.analysis.regression import regress_multipliers
-from biped_adrc.campaign.pool import Task
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.errors import BipedError
 from biped_adrc.gait.recipe import impact_smoothness
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
-from biped_adrc.paper.claims.admissible import Member, declared, members, method
-from biped_adrc.paper.claims.orders import Order, orders
+from biped_adrc.paper.claims.admissible import Member, declared, method
 from biped_adrc.paper.claims.tally import AtTwoSteps
 from biped_adrc.paper.claims.walks import (
     MemberOutcome,
@@ -369,79 +366,3 @@ def noise_spectrum() -> Array:
         for _ in range(k["draws"])
     ]
     return np.median(found, axis=0)
-
-
-@dataclass(frozen=True)
-class Evidence:
-    """All that the claims rest on, for the presets asked for; also a part of it, with the other
-    fields empty.
-    """
-
-    members: tuple[MemberOutcome, ...] = ()
-    """The push on the joints at all admissible choices."""
-    cycles: tuple[GaitCycle, ...] = ()
-    """As of `cycles`."""
-    needs: tuple[Needs, ...] = ()
-    """As of `needs`."""
-    unmatched: tuple[Pair, ...] = ()
-    """As of `unmatched`."""
-    uncertainty: tuple[Pair, ...] = ()
-    """As of `uncertainty`."""
-    pushed_recipe: tuple[MemberOutcome, ...] = ()
-    """As of `pushed_recipe`."""
-    basin: tuple[Start, ...] = ()
-    """As of `basin`."""
-    jumps: tuple[Jumps, ...] = ()
-    """As of `jumps`."""
-    orders: tuple[Order, ...] = ()
-    """Observers of different order, as of `claims.orders`."""
-
-
-def member_evidence(preset: str) -> Evidence:
-    """The push on the joints at the choices with this preset."""
-    return Evidence(members=tuple(tried(m) for m in members() if m.preset == preset))
-
-
-def preset_evidence(preset: str) -> Evidence:
-    """What is computed once for a preset, beside the members of the set."""
-    return Evidence(
-        cycles=cycles(preset),
-        needs=needs(preset),
-        unmatched=unmatched(preset),
-        uncertainty=uncertainty(preset),
-        pushed_recipe=pushed_recipe(preset),
-        basin=basin(preset),
-        jumps=jumps(preset),
-    )
-
-
-def order_evidence(preset: str) -> Evidence:
-    """Observers of different order in this preset."""
-    return Evidence(orders=orders(preset))
-
-
-def claim_tasks(presets: tuple[str, ...]) -> dict[str, Task[Evidence]]:
-    """The tasks by name, the longest first; each returns a part of the evidence.
-
-    Per preset one task for the members of the set and one for all else; one for the observers of different
-    order.
-    """
-    out = {}
-    for preset in presets:
-        count = sum(member.preset == preset for member in members())
-        out[f"claims members {preset}"] = Task(
-            f"claims, {count} pushes, {preset}", member_evidence, (preset,)
-        )
-    for preset in presets:
-        out[f"claims rest {preset}"] = Task(
-            f"claims, cycles and needs, {preset}", preset_evidence, (preset,)
-        )
-    out["claims orders"] = Task("claims, order of the observer", order_evidence, (presets[0],))
-    return out
-
-
-def gathered(parts: Iterable[Evidence]) -> Evidence:
-    """The whole evidence of its parts, field by field in the order of the parts."""
-    found = tuple(parts)
-    names = (field.name for field in fields(Evidence))
-    return Evidence(**{x: tuple(y for part in found for y in getattr(part, x)) for x in names})

@@ -11,10 +11,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from biped_adrc.paper.claims.evidence import Evidence, gathered
 from biped_adrc.paper.claims.rows_control import control_claims
 from biped_adrc.paper.claims.rows_gait import gait_claims
 from biped_adrc.paper.claims.rows_push import long_walk, push_claims
+from biped_adrc.paper.claims.tasks import Evidence, gathered
 from biped_adrc.paper.claims.words import Claim, told
 from biped_adrc.paper.plan import Plan
 from biped_adrc.paper.push_map import PushCell

@@ -23,7 +23,7 @@ from biped_adrc.gait.curves import Polynomial
 from biped_adrc.hardware.meter import Meter
 from biped_adrc.observers.high_gain import HighGainObserver
 from biped_adrc.observers.momentum import MomentumObserver
-from biped_adrc.robots.robot_toml import ENDS
+from biped_adrc.robots.limits import ENDS
 from tests.photograph.adapter import own
 from validation import three_link
 

@@ -1,0 +1,68 @@
+"""`biped-adrc replay`: a robot's log through any controller and observer of the package.
+
+The scenario says which; `logs.replay` does it. Its table is printed, signals, table and figure go to a folder.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from rich.table import Table
+
+from biped_adrc.cli.app import app, console, inputs, say, say_written
+from biped_adrc.cli.options import of_scenario, texts, values_of
+from biped_adrc.files import keep_inputs, output_path, write_text
+from biped_adrc.types import PlainRecord
+
+WHO = ("controller", "gait", "robot", "preset", "period", "torque_limit")
+"""Fields of a scenario that are options of `replay`: whose sample instants they are."""
+LAW = ("K_p", "K_d", "observer", "poles", "bandwidth", "order", "reset")
+"""Those of the controller."""
+
+
+@app.command("replay")
+@of_scenario(*WHO, *LAW)
+@texts("replay")
+def replay_command(
+    given: PlainRecord,
+    log: Path,
+    sets: list[str] | None = None,
+    scenario: Path | None = None,
+    window: float = 0.02,
+    filter_time: float | None = None,
+    out: Path | None = None,
+) -> None:
+    """Show a robot's log to a controller and its observer, and print what they make of it."""
+    from biped_adrc.logs.replay import HEADER, cells, replay
+    from biped_adrc.scenario.scenario import Scenario
+    from biped_adrc.viz.style import write_figure
+
+    s = Scenario(**values_of(given, None, sets, scenario))
+    paths = _paths(out, (log, *inputs(s.robot, s.gait)))
+    found = replay(log, s, window, filter_time)
+    if paths is not None:
+        table, text, figure = paths
+        found.to_csv(table)
+        write_text(text, f"{found.text()}\n")
+        write_figure(figure, found.plot())
+    shown = Table(*HEADER)
+    for row in found.rows:
+        shown.add_row(*cells(row))
+    console.print(shown)
+    for remark in found.remarks:
+        say(f"note: {remark}")
+    for path in paths or ():
+        say_written(path)
+
+
+def _paths(out: Path | None, read: tuple[Path, ...]) -> tuple[Path, Path, Path] | None:
+    """Where signals, table and figure go, checked before anything is computed; None for nowhere.
+
+    Raises InputError where the log itself is there under one of these names, and OutputError.
+    """
+    if out is None:
+        return None
+    names = ("replay.csv", "steps.txt", "replay.svg")
+    table, text, figure = (output_path(out / name, (Path(name).suffix,)) for name in names)
+    keep_inputs((table, text, figure), read)
+    return table, text, figure

@@ -1,0 +1,191 @@
+"""What a robot's computer wrote down while it walked: t, q, u, and which leg stood, at its sample instants.
+
+    row k      q_k, and where there are rates v_k, as sensors showed them at t_k
+               u_k, the mean torque of the motors from t_k until t_(k+1)
+
+Angles and torques have the labels of the package: they are of stance and swing leg, and change at a touchdown.
+Rows of one single support are one period apart; the first row of the next may come earlier. `log_file` reads
+and writes logs, in labels of the robot's legs too, `log_of_walk` makes one of a simulated walk.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from biped_adrc.errors import InputError
+from biped_adrc.parts import numbers
+from biped_adrc.shown import Shown
+from biped_adrc.timing import LONGEST_PERIOD
+from biped_adrc.types import Array, Indices, read_only
+
+GAP = 0.5
+"""Share of the period by which two rows may come too early or too late; beyond it a row is missing."""
+EVEN = 1e-3
+"""The same share below which a clock counts as even, and rows are taken as they are."""
+
+
+@dataclass(frozen=True)
+class RobotLog(Shown):
+    """K rows of n coordinates and p motors.
+
+    Raises InputError for what is no log, with the row, what was found there and what was expected.
+    """
+
+    t: Array
+    """(K,) [s]."""
+    step: Array
+    """Number of the single support (K,); it grows by 1 at a touchdown."""
+    q: Array
+    """(K, n) [rad], in the labels of stance and swing leg."""
+    u: Array
+    """(K, p) [N m], the mean torque until the next row."""
+    v: Array | None = None
+    """(K, n) [rad/s]; None where no rate was measured."""
+    measured: Array | None = None
+    """(n,), 1 where v has a measured rate, 0 where none was; None: all of v."""
+    remarks: tuple[str, ...] = ()
+    """What was converted, left out or resampled."""
+
+    def __post_init__(self) -> None:
+        """Copy the arrays, and check them; see the class."""
+        for name in ("t", "step", "q", "u"):
+            object.__setattr__(
+                self, name, read_only(numbers(getattr(self, name), f"{name} of the log"))
+            )
+        v, had, n = self.v, self.measured, self.q.shape[-1:]
+        had = numbers(np.full(n, v is not None) if had is None else had, "measured of the log")
+        v = np.zeros(self.q.shape) if v is None else numbers(v, "v of the log")
+        if had.shape != n:
+            raise InputError(
+                f"measured of the log has the shape {had.shape}, expected {n}, 1 or 0 for each rate"
+            )
+        object.__setattr__(self, "v", read_only(v))
+        object.__setattr__(self, "measured", read_only(had))
+        names = [f"row {k}" for k in range(1, self.t.size + 1)]
+        check_rows(self.t, self.step, self.q, self.u, v, names)
+
+    def __repr__(self) -> str:
+        K, n = self.q.shape
+        return f"RobotLog({K} rows, {self.t[0]:.4g} to {self.t[-1]:.4g} s, n = {n}, p = {self.u.shape[1]})"
+
+    @property
+    def rates(self) -> Array:
+        """v (K, n) [rad/s], zero where no rate was measured."""
+        assert self.v is not None
+        return self.v
+
+    @property
+    def has_rate(self) -> NDArray[np.bool_]:
+        """Of which coordinates the rate was measured (n,)."""
+        assert self.measured is not None
+        return self.measured > 0.5
+
+    @cached_property
+    def period(self) -> float:
+        """Median time between two rows of a single support [s], without the round-off of the times."""
+        return float(f"{np.median(self._ways):.9g}")
+
+    @property
+    def _ways(self) -> Array:
+        """Times between two rows of the same single support [s]."""
+        ways: Array = np.diff(self.t)[np.diff(self.step) == 0.0]
+        return ways
+
+    def even(self, period: float) -> bool:
+        """Whether the rows of every single support are `period` [s] apart."""
+        return bool(np.all(np.abs(self._ways - period) <= EVEN * period))
+
+    def resampled(self, period: float) -> RobotLog:
+        """The log on an even clock that starts with every single support, rows `period` [s] apart.
+
+        Angles and rates lie on straight lines between rows, torques are means of those that were held.
+        """
+        begins = np.flatnonzero(np.diff(self.step)) + 1
+        supports = np.split(np.arange(len(self.t)), begins)
+        parts = zip(*(self._support(rows, period) for rows in supports), strict=True)
+        t, step, q, u, v = (np.concatenate(x) for x in parts)
+        said = f"resampled from {self.period:.6g} s to {period:.6g} s: straight lines for q, means of held u"
+        return replace(self, t=t, step=step, q=q, u=u, v=v, remarks=(*self.remarks, said))
+
+    def _support(self, rows: Indices, period: float) -> tuple[Array, ...]:
+        """t, step, q, u, v of one single support, these rows (K,), on the even clock."""
+        t, u, line = self.t[rows], self.u[rows], (self.q[rows], self.rates[rows])
+        at = t[0] + period * np.arange(math.floor((t[-1] - t[0]) / period + EVEN) + 1)
+        edges = np.append(t, t[-1] + self.period)
+        impulse = np.cumsum(u * np.diff(edges)[:, np.newaxis], axis=0)
+        impulse = np.vstack((np.zeros_like(u[:1]), impulse))
+        end = np.minimum(at + period, edges[-1])
+        given = _between(end, edges, impulse) - _between(at, edges, impulse)
+        q, v = (_between(at, t, x) for x in line)
+        return at, np.full(len(at), self.step[rows[0]]), q, given / (end - at)[:, np.newaxis], v
+
+
+def _between(at: Array, t: Array, x: Array) -> Array:
+    """x (K, k) at the times `at` (M,) [s], on straight lines between t (K,) [s]; (M, k)."""
+    return np.column_stack([np.interp(at, t, column) for column in x.T])
+
+
+def check_rows(t: Array, step: Array, q: Array, u: Array, v: Array, names: list[str]) -> None:
+    """Raise InputError for shapes that differ, what is not finite, a gap, a doubled time, milliseconds.
+
+    Shapes as in `RobotLog`; names (K,): what each row is called, such as "line 7".
+    """
+    K = (len(names),)
+    fits = t.shape == step.shape == q.shape[:1] == u.shape[:1] == K and q.ndim == u.ndim == 2
+    if not fits or v.shape != q.shape:
+        raise InputError(
+            f"the log has t {t.shape}, step {step.shape}, q {q.shape}, u {u.shape} and v {v.shape}, expected K "
+            "rows of each: (K,), (K,), (K, n), (K, p), (K, n)"
+        )
+    table = np.column_stack((t, step, q, v, u))
+    bad = np.flatnonzero(~np.all(np.isfinite(table), axis=1))
+    if len(bad):
+        raise InputError(f"{names[bad[0]]} of the log has {table[bad[0]]}, expected finite numbers")
+    _check_steps(step, names)
+    _check_times(t, step, names)
+
+
+def _check_steps(step: Array, names: list[str]) -> None:
+    """Raise InputError for numbers of single supports (K,) that are not whole, or do not grow one by one."""
+    change = np.diff(step, prepend=step[:1])
+    bad = np.flatnonzero(
+        (step != np.round(step)) | (step < 1.0) | ((change != 0.0) & (change != 1.0))
+    )
+    if len(bad):
+        raise InputError(
+            f"{names[bad[0]]} of the log is of single support {step[bad[0]]:g}, expected whole numbers from 1 "
+            "that grow by 1 at a touchdown"
+        )
+
+
+def _check_times(t: Array, step: Array, names: list[str]) -> None:
+    """Raise InputError for times (K,) [s] that do not grow, are in another unit, or have a gap."""
+    ways, same = np.diff(t), np.diff(step) == 0.0
+    for k in np.flatnonzero(ways <= 0.0)[:1]:
+        found = "the same time as" if ways[k] == 0.0 else f"{-ways[k]:g} s before"
+        raise InputError(
+            f"{names[k + 1]} of the log has t = {t[k + 1]:.9g} s, {found} the row before, expected times that "
+            "grow; leave doubled rows out"
+        )
+    if np.count_nonzero(same) < 2:
+        raise InputError(
+            f"the log has {len(t)} rows, expected at least three of one single support, "
+            "from which its period follows"
+        )
+    period = float(np.median(ways[same]))
+    if period > LONGEST_PERIOD:
+        raise InputError(
+            f"the rows of the log are {period:g} s apart, expected at most {LONGEST_PERIOD} s; if its "
+            "times are in milliseconds, call the column 't [ms]'"
+        )
+    late = ways > (1.0 + GAP) * period
+    for k in np.flatnonzero(late | (same & (ways < (1.0 - GAP) * period)))[:1]:
+        raise InputError(
+            f"{names[k + 1]} of the log comes {ways[k]:.6g} s after the row before, expected {period:.6g} s as "
+            f"most rows do; rows are missing there, or too many: fill them in, or replay the parts one by one"
+        )

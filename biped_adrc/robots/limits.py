@@ -1,0 +1,84 @@
+"""What ground and motors can give, within which a walk is legal.
+
+A walk makes a single support legally when the force of the ground, averaged over any window within it,
+lies in the friction cone (F_N > 0 and |F_T| <= mu F_N), every torque is within the motors' limit, and the
+swing foot does not scuff away from the ends of the step. The impulse at impact is not part of it. A mean
+and not an instant is used: the edge of a push leaves the cone for a millisecond and a foot does not
+move in it, while torques that chatter leave it in the mean as well. `analysis.certificate` applies
+the limits; what they leave open is in the robot's record.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from biped_adrc.errors import InputError, check_positive
+from biped_adrc.robots.robot_toml import RobotDescription
+from biped_adrc.shown import Shown
+
+WINDOW = 5e-3
+"""Time over which the force of the ground is averaged [s]."""
+
+
+ROUND_OFF = 1e-9
+"""Relative amount by which a force may lie outside the friction cone and still count as inside."""
+
+
+ENDS = 0.03
+"""Share of a step at either end in which the swing foot may touch the ground, dimensionless."""
+
+
+class KnownLimits(NamedTuple):
+    """`Limits` of one robot, every number known."""
+
+    friction: float
+    """Dry friction mu of the ground, dimensionless."""
+    torque: float
+    """Of every motor [N m]."""
+    window: float
+    """Time over which the ground's force is averaged [s]."""
+
+
+@dataclass(frozen=True)
+class Limits(Shown):
+    """What ground and motors can give, within which a walk is legal; None takes the robot's record.
+
+    Raises InputError for a friction that is not above 0 and at most 1, or a torque or window that
+    is not positive.
+    """
+
+    friction: float | None = None
+    """Dry friction mu of the ground, dimensionless."""
+    torque: float | None = None
+    """Of every motor [N m]."""
+    window: float = WINDOW
+    """Time over which the force of the ground is averaged [s]."""
+
+    def __post_init__(self) -> None:
+        mu, torque = self.friction, self.torque
+        if mu is not None and not 0.0 < mu <= 1.0:
+            raise InputError(
+                f"the friction limit is {mu}, expected a number above 0 and at most 1, or None for the "
+                "robot's record"
+            )
+        if torque is not None and not torque > 0.0:
+            raise InputError(
+                f"the torque limit is {torque} N m, expected a positive number, or None for the robot's record"
+            )
+        check_positive(self.window, f"the force window is {self.window} s")
+
+    def of(self, robot: RobotDescription) -> KnownLimits:
+        """These limits with the values of the robot's record where None was given."""
+        own = KnownLimits(robot.friction_coefficient, robot.peak_torque, self.window)
+        return completed(self, own)
+
+
+def completed(limits: Limits | KnownLimits, known: KnownLimits) -> KnownLimits:
+    """`limits` with the numbers of `known` where None was given; the window is that of `known`."""
+    mu, torque = limits.friction, limits.torque
+    return KnownLimits(
+        known.friction if mu is None else float(mu),
+        known.torque if torque is None else float(torque),
+        float(known.window),
+    )

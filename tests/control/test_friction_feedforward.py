@@ -1,0 +1,134 @@
+"""Friction feedforward: with the right friction a plant walks as one without, and nothing counts twice."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.control.friction_feedforward import FrictionFeedforward, friction_feedforward
+from biped_adrc.control.momentum_dob import MomentumDOBController
+from biped_adrc.errors import InputError
+from biped_adrc.scenario.build import build
+
+T = 1e-3
+FAST = ba.GPIObserver.from_bandwidth(500.0)
+
+
+@pytest.fixture(scope="module")
+def rubbing(biped):
+    return replace(biped, friction=True)
+
+
+def inside(h):
+    return [ba.NPDController(h), ba.ADRCController(h, FAST), MomentumDOBController(h)]
+
+
+def walked(plant, model, law, timing, start, until=0.1):
+    walker = ba.Walker(plant, law, timing=timing, model=None if plant is model else model)
+    run = ba.simulate(walker, walker.initial_state(*start), ba.Mode(), ba.RK4(1e-3), t_end=until)
+    assert run.status is ba.Status.COMPLETED
+    return walker, run.arcs[0]
+
+
+def fed(biped, gait, m):
+    """F by the record and by differences of the gait along the motion of Theta."""
+    h, d = gait.constraint, 1e-6
+    ends = [h(m.t, m.q + e * m.v, m.v).q_d for e in (-d, d)]
+    rates = np.append((ends[1] - ends[0]) / (2.0 * d), 0.0)
+    return -replace(biped, friction=True).friction_torque(rates)[:4]
+
+
+@pytest.mark.parametrize("timing", [ba.ContinuousTime(), ba.SampledTime(T)], ids=["all", "ticks"])
+def test_the_controller_inside_is_told_the_torque_beyond_the_feedforward(biped, gait, timing):
+    """Whatever acts, such as a torque at its limit."""
+    q, v = gait.start(biped)
+    for inner in inside(gait.constraint):
+        law = friction_feedforward(inner, gait.constraint, biped, 0.8)
+        walker = ba.Walker(biped, law, timing=timing)
+        inner = ba.Walker(biped, inner, timing=timing).law
+        m = walker.measure(0.0, q + 0.02, 1.1 * v, ba.Mode())
+        F, s = 0.8 * fed(biped, gait, m), 1.1 * inner.initial_state(m)
+        np.testing.assert_allclose(walker.law.output(s, m), inner.output(s, m) + F, rtol=1e-7)
+        acts = np.array([150.0, -3.0, 0.0, -150.0])
+        step = "predict" if walker.sampled else "flow"
+        found, told = (
+            getattr(x, step)(s, m, u) for x, u in ((walker.law, acts), (inner, acts - F))
+        )
+        np.testing.assert_allclose(found, told, rtol=1e-7, atol=1e-9)
+
+
+def test_no_share_is_the_controller_inside_bit_for_bit(biped, gait):
+    q, v = gait.start(biped)
+    for controller in inside(gait.constraint):
+        law = friction_feedforward(controller, gait.constraint, biped, 0.0).sampled(T)
+        inner = controller.sampled(T)
+        walker = ba.Walker(biped, controller, timing=ba.SampledTime(T))
+        m = walker.measure(0.0, q, v, ba.Mode())
+        s, u = 1.1 * inner.initial_state(m), np.ones(4)
+        assert np.array_equal(law.output(s, m), inner.output(s, m))
+        assert np.array_equal(law.predict(s, m, u), inner.predict(s, m, u))
+    assert type(build(ba.Scenario("NPD", feedforward=0.0)).controller) is ba.NPDController
+
+
+def test_with_the_right_friction_a_walk_is_that_without_to_the_order_of_the_error(
+    biped, rubbing, gait
+):
+    """The rates of the joints differ from the reference's by the error, and so does friction."""
+    q, v = gait.start(biped)
+    h, gaps = gait.constraint, []
+    compensated = friction_feedforward(ba.NPDController(h), h, biped, 1.0)
+    for e in (0.0, 0.005, 0.01):
+        start = q, v + e * np.array([1.0, -1.0, 0.5, -0.5, 0.0])
+        runs = [
+            walked(plant, biped, controller, ba.ContinuousTime(), start)[1].x[-1]
+            for plant, controller in (
+                (rubbing, compensated),
+                (biped, ba.NPDController(h)),
+                (rubbing, ba.NPDController(h)),
+            )
+        ]
+        gaps.append(np.max(np.abs(runs[0] - runs[1])))
+        without = np.max(np.abs(runs[2] - runs[1]))
+    assert gaps[0] < 1e-3 * without
+    assert (gaps[2] - gaps[0]) / (gaps[1] - gaps[0]) == pytest.approx(2.0, abs=0.3)
+
+
+def test_the_work_of_motors_is_energy_and_what_friction_takes(biped, rubbing, gait):
+    law = friction_feedforward(ba.NPDController(gait.constraint), gait.constraint, biped, 1.0)
+    walker, run = walked(rubbing, biped, law, ba.ContinuousTime(), gait.start(biped))
+    t, q, v = run.t, run.x[:, :5], run.x[:, 5:10]
+    u = np.array([walker.instant(*x, ba.Mode()).u for x in zip(t, run.x, strict=True)])
+    taken = -np.array([rubbing.friction_torque(x) for x in v])
+    power = np.sum(u * v[:, :4], axis=1) - np.sum(taken * v, axis=1)
+    before, after = (
+        biped.kinetic_energy(q[k], v[k]) + biped.potential_energy(q[k]) for k in (0, -1)
+    )
+    assert np.trapezoid(power, t) == pytest.approx(after - before, rel=1e-4)
+    assert np.trapezoid(np.sum(taken * v, axis=1), t) > 1.0
+
+
+@pytest.mark.parametrize("share", [0.0, 0.6, 1.0])
+def test_what_is_estimated_is_the_disturbance_beside_the_torque_that_acts(
+    biped, rubbing, gait, share
+):
+    """So xi^ - xi is as without the feedforward: friction is in xi, whoever compensates it."""
+    h = gait.constraint
+    law = friction_feedforward(ba.ADRCController(h, FAST), h, biped, share)
+    walker, run = walked(rubbing, biped, law, ba.SampledTime(T), gait.start(biped), 0.15)
+    x = walker.tick(run.t[-1], run.x[-1], ba.Mode())
+    i = walker.instant(run.t[-1], x, ba.Mode())
+    xi = i.a[:4] - i.measurement.terms.kappa @ i.u
+    found = walker.law.estimate(i.s, i.measurement).disturbance
+    model = i.measurement.terms.xi
+    assert np.max(np.abs(found - xi)) < 0.1 * np.max(np.abs(model - xi))
+
+
+def test_what_does_not_fit_is_refused(biped, gait):
+    for wrong in ({"share": -0.1}, {"static": (1.0, np.nan, 0.0, 0.0)}):
+        values = {"viscous": (1.0,) * 4, "static": (1.0,) * 4, **wrong}
+        with pytest.raises(InputError, match="none of them below 0"):
+            FrictionFeedforward(ba.NPDController(gait.constraint), gait.constraint, **values)
+    smooth = ba.Biped.load("three_link")
+    with pytest.raises(InputError, match="whose record has none"):
+        friction_feedforward(ba.NPDController(gait.constraint), gait.constraint, smooth, 1.0)

@@ -1,0 +1,211 @@
+"""Prediction over a known delay: of a linear plant the loop is that without delay, when its torque acts."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.control.across_contact import Hold
+from biped_adrc.control.base import Measurement
+from biped_adrc.control.friction_feedforward import FrictionFeedforward
+from biped_adrc.control.momentum_dob import MomentumDOBController
+from biped_adrc.control.predicted import Predicted, PredictionParameters, ahead, weights
+from biped_adrc.errors import InputError
+from biped_adrc.gait.reference import ReferencePoint
+from biped_adrc.hardware.motors import whole_and_part
+from biped_adrc.model.reduction import reduce
+from biped_adrc.scenario.build import build
+
+T = 1e-3
+SLOW = ba.GPIObserver.from_bandwidth(200.0)
+TERMS = reduce(np.array([[2.0, 0.3], [0.3, 1.5]]), np.array([4.0, -3.0]), 2)
+"""Of a plant with two motors whose q'' = kappa u + xi does not depend on its state."""
+
+
+class Swinging(ba.Reference):
+    """Two angles as a function of time."""
+
+    def __call__(self, t, q, v):
+        w, one = 7.0, np.array([0.2, -0.1])
+        s, c = np.sin(w * t), np.cos(w * t)
+        return ReferencePoint(one * s, w * one * c, -w * w * one * s, np.zeros((2, 2)))
+
+
+def looked(t, q, v):
+    return Measurement(t, 1, t, q, v, TERMS, None, lambda q, v: looked(t, q, v))
+
+
+def moved(q, v, u, h):
+    a = TERMS.kappa @ u + TERMS.xi
+    return q + h * v + 0.5 * h * h * a, v + h * a
+
+
+def run(law, delay, q, v, t0=0.0, ticks=60):
+    """(q, v, u) (ticks, 6) at the sample instants t0 + k T of the plant whose torque acts `delay` later."""
+    j, f = whole_and_part(delay, T)
+    sent, rows = [np.zeros(2)] * (j + 1), []
+    s = law.initial_state(looked(t0, q, v))
+    for k in range(ticks):
+        m = looked(t0 + k * T, q, v)
+        s = law.correct(s, m)
+        u = law.output(s, m)
+        s = law.predict(s, m, u)
+        rows.append(np.concatenate((q, v, u)))
+        sent.append(u)
+        q, v = moved(q, v, sent[-2 - j], f * T) if f > 0.0 else (q, v)
+        q, v = moved(q, v, sent[-1 - j], (1.0 - f) * T)
+    return np.array(rows)
+
+
+@pytest.mark.parametrize("delay", [0.4 * T, T, 1.6 * T, 3.0 * T])
+@pytest.mark.parametrize(
+    "make", [ba.NPDController, lambda h: ba.ADRCController(h, SLOW)], ids=["NPD", "ADRC"]
+)
+def test_the_torque_of_a_delayed_loop_is_that_of_the_loop_without_delay_from_where_it_acts(
+    make, delay
+):
+    """Of the plant that is linear: what no torque changes any more in time d, q and v at d, is its start."""
+    q, v = np.array([0.1, -0.2]), np.array([0.5, 1.0])
+    inner = make(Swinging()).sampled(T)
+    late = run(Predicted(make(Swinging()), delay).sampled(T), delay, q, v)
+    free = run(inner, 0.0, *moved(q, v, np.zeros(2), delay), t0=delay)
+    np.testing.assert_allclose(late[:, 4:], free[:, 4:], rtol=1e-9, atol=1e-9)
+    hidden = run(inner, delay, q, v)
+    assert np.max(np.abs(hidden[:, 4:] - free[:, 4:])) > 1.0
+
+
+def eigenvalues(law, delay):
+    """Of one period of the loop about its state at rest, by differences: exact, since it is linear."""
+    j, f = whole_and_part(delay, T)
+    count = j + int(f > 0.0)
+
+    def period(X):
+        q, v, sent, s = X[:2], X[2:4], X[4 : 4 + 2 * count].reshape(-1, 2), X[4 + 2 * count :]
+        m = looked(0.0, q, v)
+        u = law.output(s, m)
+        s = law.predict(s, m, u)
+        line = np.vstack((sent, u))
+        if f > 0.0:
+            q, v = moved(q, v, line[-2 - j], f * T)
+        q, v = moved(q, v, line[-1 - j], (1.0 - f) * T)
+        return np.concatenate((q, v, line[1:].ravel() if count else [], s))
+
+    X = np.zeros(4 + 2 * count + len(law.initial_state(looked(0.0, *np.zeros((2, 2))))))
+    J = np.array([period(X + e) - period(X) for e in np.eye(len(X))]).T
+    return np.sort(np.abs(np.linalg.eigvals(J)))[::-1]
+
+
+@pytest.mark.parametrize("delay", [0.4 * T, 1.6 * T])
+def test_the_poles_are_those_of_the_loop_without_delay_and_zeros(delay):
+    inner = ba.NPDController(Swinging()).sampled(T)
+    late = eigenvalues(Predicted(inner, delay).sampled(T), delay)
+    free = eigenvalues(inner, 0.0)
+    np.testing.assert_allclose(late[:4], free, rtol=1e-9)
+    assert np.max(late[4:]) < 1e-3  # a zero of several is found to a root of the round-off
+    assert np.max(np.abs(eigenvalues(inner, delay)[:4] - free)) > 1e-4
+
+
+def test_on_the_robot_what_is_missed_goes_with_the_second_power_of_the_time(biped, gait):
+    """Of the rates, and with the third of the angles: the torque is held, and the rest of q'' changes."""
+    q, v = gait.start(biped)
+    walker = ba.Walker(biped, ba.Passive())
+    u, missed = np.array([30.0, -20.0, 10.0, 5.0]), []
+    for d in (8e-3, 4e-3, 2e-3):
+        m = walker.measure(0.0, q, v, ba.Mode())
+        found = ahead(
+            PredictionParameters(d, *weights(d, 1e-3)), np.tile(u, (round(d / 1e-3), 1)), m
+        )
+        x, n = np.concatenate((q, v)), 50
+        for _ in range(n):
+            x = rk4(biped, x, np.append(u, 0.0), d / n)
+        missed.append([np.max(np.abs(found.v - x[5:])), np.max(np.abs(found.q - x[:5]))])
+        np.testing.assert_array_equal(found.terms.D, biped.reduction(found.q, found.v).D)
+        assert found.t == d
+    for one, two in pairwise(missed):
+        assert one[0] / two[0] == pytest.approx(4.0, rel=0.1)
+        assert one[1] / two[1] == pytest.approx(8.0, rel=0.1)
+
+
+def rk4(biped, x, force, h):
+    def f(x):
+        return np.concatenate((x[5:], biped.acceleration(x[:5], x[5:], force)))
+
+    a = f(x)
+    b = f(x + 0.5 * h * a)
+    c = f(x + 0.5 * h * b)
+    return x + h / 6.0 * (a + 2.0 * b + 2.0 * c + f(x + h * c))
+
+
+def test_torques_on_their_way_are_relabelled_at_an_impact_and_move_up_at_a_tick(biped, gait):
+    law = Predicted(MomentumDOBController(gait.constraint), 2.5 * T)
+    walker = ba.Walker(biped, law, timing=ba.SampledTime(T))
+    law = walker.law
+    m = walker.measure(0.0, *gait.start(biped), ba.Mode())
+    U, u = np.arange(12.0).reshape(3, 4), np.array([9.0, 8.0, 7.0, 6.0])
+    s = np.concatenate((law.inner.initial_state(m), U.ravel()))
+    swap = np.array([1, 0, 3, 2])
+    assert np.array_equal(law.jump(s, m, swap)[-12:], U[:, swap].ravel())
+    assert np.array_equal(law.correct(s, m)[-12:], U.ravel())
+    assert np.array_equal(law.predict(s, m, u)[-12:], [*U[1:].ravel(), *u])
+    by_hand = law.inner.output(s[:-12], ahead(law.own, U, m))
+    assert np.array_equal(law.output(s, m), by_hand)
+
+
+def test_both_engines_walk_alike_with_all_leaves(gait):
+    shared = {"hardware": "rabbit", "delay": 2e-3, "prediction": 2e-3, "feedforward": 0.9}
+    shared |= {"contact": "hold", "impacts": 2, "bandwidth": 150.0, "filter_time": 5e-3}
+    walks = [
+        ba.walk_scenario(ba.Scenario("LESO", **shared, engine=engine)).trajectory
+        for engine in ("compiled", "pinocchio")
+    ]
+    assert [walk.settings["engine"] for walk in walks] == ["compiled", "pinocchio"]
+    one, two = (walk.final_state for walk in walks)
+    assert walks[0].status is ba.Status.COMPLETED
+    np.testing.assert_allclose(one, two, rtol=1e-7, atol=1e-7)
+
+
+@pytest.mark.parametrize("share", [0.4, 1.0, 2.6])
+def test_the_clock_of_a_walker_has_the_torques_on_their_way_that_are_predicted_with(
+    biped, gait, share
+):
+    """What the controller is shown at a tick is the walk d later, but for the change of q'' in that time."""
+    d, (q, v) = share * T, gait.start(biped)
+    law, clock = Predicted(ba.NPDController(gait.constraint), d), ba.SampledTime(T, delay=d)
+    walker = ba.Walker(biped, law, timing=clock)
+    start = walker.initial_state(q, 1.02 * v)
+    arc = ba.simulate(walker, start, ba.Mode(), ba.RK4(T / 5), t_end=0.03).arcs[0]
+    count, worst, least = len(walker.law.own.of_rate), 0.0, np.inf
+    for k in range(5, 25):
+        before, later = (np.searchsorted(arc.t, x - 1e-9) for x in (k * T, k * T + d))
+        x, m = arc.x[before], walker.measure(k * T, *np.split(arc.x[before, :10], 2), ba.Mode())
+        found = ahead(walker.law.own, x[10 : 10 + 4 * count].reshape(count, 4), m)
+        worst = max(worst, np.max(np.abs(found.v - arc.x[later, 5:10])))
+        least = min(least, np.max(np.abs(m.v - arc.x[later, 5:10])))
+    assert worst < 0.02 * least
+
+
+def test_what_does_not_fit_is_refused(gait):
+    inner = ba.NPDController(gait.constraint)
+    for wrong in (0.0, -1e-3, np.nan, np.inf):
+        with pytest.raises(InputError, match="expected a positive time"):
+            Predicted(inner, wrong)
+    with pytest.raises(InputError, match="at most 100 periods"):
+        Predicted(inner, 0.2).sampled(T)
+    with pytest.raises(InputError, match=r"SampledTime\("):
+        Predicted(inner, T).continuous()
+    with pytest.raises(InputError, match="call sampled"):
+        Predicted(inner, T).output(np.zeros(0), None)
+    with pytest.raises(InputError, match="delay_known with a prediction"):
+        ba.Scenario("NPD", period=T, delay=T, delay_known=True, prediction=T)
+    with pytest.raises(InputError, match="prediction without a period"):
+        ba.Scenario("NPD", prediction=T)
+
+
+def test_no_prediction_is_the_controller_itself_and_both_leaves_go_around_the_policies():
+    s = ba.Scenario("LESO", hardware="rabbit", contact="hold", prediction=T, feedforward=0.5)
+    outer = build(s).controller
+    assert (type(outer), outer.share) == (FrictionFeedforward, 0.5)
+    assert (type(outer.inner), outer.inner.prediction) == (Predicted, T)
+    assert type(outer.inner.inner) is Hold
+    assert type(build(ba.Scenario("NPD", period=T, prediction=0.0)).controller) is ba.NPDController

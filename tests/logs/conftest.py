@@ -1,0 +1,31 @@
+"""Walks whose logs are replayed, made once."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+import biped_adrc as ba
+
+PULSE = "q1,q2=20@2:0.1-0.3"
+"""20 N m on both hips, in the second single support."""
+
+
+@cache
+def walk_of(**values):
+    """A walk of three steps under the pulse; own values are pairs."""
+    values = {"controller": "NPD", "impacts": 3, "pushes": PULSE, **values}
+    return ba.walk_scenario(ba.Scenario(**{**values, "own": dict(values.get("own", ()))}))
+
+
+@pytest.fixture(scope="session")
+def walked():
+    """Makes a walk of these values, or finds it."""
+    return walk_of
+
+
+@pytest.fixture(scope="session")
+def log(walked):
+    """Of a walk with exact angles and rates, at 1 kHz."""
+    return ba.logged(walked(period=1e-3))

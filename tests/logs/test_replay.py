@@ -1,0 +1,229 @@
+"""What a replay shows: the walk's own torques again, and disturbances that are known."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.signal import cont2discrete, dlsim
+
+import biped_adrc as ba
+from biped_adrc.errors import InputError, NotFiniteError
+
+LESO = {"controller": "LESO", "bandwidth": 160.0}
+RABBIT = {"hardware": "rabbit", "filter_time": 5e-3}
+ROUND_OFF = 1e-9
+"""[N m] of the two engines, through these observers."""
+
+
+def asked(walk, log=None):
+    """The replay of a walk by its own scenario."""
+    return ba.replay(ba.logged(walk) if log is None else log, walk.scenario).signals
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"controller": "NPD", "period": 1e-3},
+        {**LESO, "period": 1e-3, "contact": "hold", "contact_window": 0.015},
+        {**LESO, **RABBIT},
+        {**LESO, "period": 1e-3, "touchdown": "kinematics"},
+        {"controller": "NPD", "period": 1e-3, "touchdown": "told", "own": (("late", 5e-3),)},
+        {"controller": "DOB", "period": 1e-3},
+        {**LESO, "hardware": "rabbit", "plant": "mujoco"},
+    ],
+    ids=lambda values: "-".join(f"{x}" for x in values.values()),
+)
+def test_the_torque_asked_for_is_the_one_that_the_walk_had(walked, values):
+    if "plant" in values:
+        pytest.importorskip("mujoco")
+    x = asked(walked(**values))
+    later = x.step > 1  # the first state of an observer behind encoders is the true one
+    assert len(np.unique(x.step[later])) == 2
+    assert np.max(np.abs(x.torque - x.u)[later]) < ROUND_OFF
+
+
+def test_a_known_delay_of_one_period_moves_the_torques_by_one_row(walked):
+    x = asked(walked(**LESO, period=1e-3, delay=1e-3, delay_known=True))
+    same = np.diff(x.step) == 0.0
+    assert np.max(np.abs(x.torque[:-1] - x.u[1:])[same]) < ROUND_OFF
+    assert np.max(np.abs(x.torque[:-1] - x.u[:-1])[same]) > 1.0
+
+
+def test_a_torque_that_comes_within_a_period_is_logged_as_its_mean(walked):
+    x = asked(walked(**LESO, period=1e-3, delay=2.5e-4))
+    inside = (x.step[1:] == 2) & (x.step[:-1] == 2)
+    mean = 0.25 * x.torque[:-1] + 0.75 * x.torque[1:]
+    # of a hidden delay the observer on board was told less than the log tells it
+    assert np.sqrt(np.mean((mean - x.u[1:])[inside] ** 2)) < 0.02 * np.std(x.u)
+
+
+def test_rates_that_the_log_has_not_are_those_of_the_encoders(walked):
+    walk = walked(**LESO, **RABBIT)
+    log = ba.logged(walk)
+    x, y = asked(walk), asked(walk, replace(log, v=None, measured=None))
+    later = x.step > 1
+    assert np.max(np.abs(x.torque - y.torque)[later]) < ROUND_OFF
+    assert np.max(np.abs(x.v - y.v)[later]) < ROUND_OFF
+    faster = ba.replay(replace(log, v=None, measured=None), walk.scenario, filter_time=0.0).signals
+    assert np.std(np.diff(faster.v, axis=0)) > 2.0 * np.std(np.diff(x.v, axis=0))
+    mixed = asked(walk, replace(log, measured=[0.0, 0.0, 0.0, 0.0, 1.0]))
+    assert np.max(np.abs(x.torque - mixed.torque)[later]) < ROUND_OFF
+
+
+# -- disturbances that are known ---------------------------------------------------------------------
+def pulse(x):
+    """zeta (K, p) [N m] of `conftest.PULSE` that acts from each row of a replay to the next."""
+    on = (x.step == 2) & (x.t_step >= 0.1 - 1e-9) & (x.t_step < 0.3 - 1e-9)
+    return np.where(on[:, np.newaxis], [20.0, 20.0, 0.0, 0.0], 0.0)
+
+
+def lagged(x, period, bandwidth, order):
+    """x (K, p) behind (bandwidth / (s + bandwidth))^order, from rest."""
+    A = bandwidth * (np.eye(order, k=-1) - np.eye(order))
+    B, C = bandwidth * np.eye(order)[:, :1], np.eye(order)[-1:]
+    *system, _ = cont2discrete((A, B, C, np.zeros((1, 1))), period)
+    return np.column_stack([dlsim((*system, period), y)[1][:, 0] for y in x.T])
+
+
+def missed(walk, controller, order, bandwidth, unit):
+    """Of the second single support the rms by which the estimate is off the lagged pulse, and off the pulse.
+
+    unit: "N m", or "rad/s^2" for an observer that filters kappa zeta.
+    """
+    period = walk.scenario.period
+    x = ba.replay(ba.logged(walk), ba.Scenario(controller, bandwidth=bandwidth)).signals
+    found, true = x.zeta_estimate, pulse(x)
+    if unit == "rad/s^2":
+        model = walk.walker.nominal
+        kappa = [model.reduction(q, v).kappa for q, v in zip(x.q, x.v, strict=True)]
+        found, true = (np.einsum("kij,kj->ki", kappa, y) for y in (found, true))
+    rows = x.step == 2
+    found, true = found[rows], true[rows]
+    expected = lagged(true, period, bandwidth, order)
+    return [float(np.sqrt(np.mean((found - y) ** 2))) for y in (expected, true)]
+
+
+@pytest.mark.parametrize(
+    ("controller", "order", "unit"), [("DOB", 2, "N m"), ("ADRC assisted", 3, "rad/s^2")]
+)
+def test_the_estimate_is_the_pulse_behind_the_observers_own_lag(walked, controller, order, unit):
+    """(w / (s + w))^2 with the two poles of the momentum observer, ^3 with m = 1: late by order / w."""
+    errors = [missed(walked(period=T), controller, order, 100.0, unit) for T in (4e-3, 2e-3, 1e-3)]
+    off, late = np.array(errors).T
+    assert np.all(off < 0.1 * late)
+    assert np.all((off[:-1] / off[1:] > 1.6) & (off[:-1] / off[1:] < 2.5))  # of first order in T
+
+
+def test_the_estimate_converges_to_the_pulse_as_the_bandwidth_grows(walked):
+    walk = walked(period=1e-3)
+    late = [missed(walk, "DOB", 2, w, "N m")[1] for w in (25.0, 50.0, 100.0)]
+    # the rms of exp(-w t) after each of two edges goes with w^(-1/2)
+    assert np.allclose(np.divide(late[:-1], late[1:]), np.sqrt(2.0), rtol=0.02)
+
+
+def test_in_mujoco_the_pulse_is_found_beside_the_contact(walked):
+    pytest.importorskip("mujoco")
+    found = ba.replay(ba.logged(walked(period=1e-3, plant="mujoco")), ba.Scenario("DOB"))
+    x = found.signals
+    rows = (x.step == 2) & (x.t_step > 0.15) & (x.t_step < 0.3)
+    assert np.allclose(np.mean(x.zeta_estimate[rows], axis=0), [20.0, 20.0, 0.0, 0.0], atol=1.0)
+    assert found.rows[1].contact > 100.0  # the rigid model knows no force of contact
+    rigid = ba.replay(ba.logged(walked(period=1e-3)), ba.Scenario("DOB"))
+    assert rigid.rows[1].contact < 1.0
+
+
+def test_the_parts_of_the_estimate_make_the_whole(log):
+    found = ba.replay(log, ba.Scenario(**LESO), window=0.03)
+    x = found.signals
+    assert np.allclose(x.xi_nominal + x.xi_model_error + x.xi_contact, x.xi_estimate)
+    inside = (x.step > 1) & (x.t_step < 0.03)
+    assert np.any(x.xi_contact[inside])
+    assert not np.any(x.xi_contact[~inside])
+    assert not np.any(x.xi_model_error[inside])
+    row = found.rows[1]
+    rows = (x.step == 2) & ~inside
+    assert row.beyond == pytest.approx(np.sqrt(np.mean(x.zeta_estimate[rows] ** 2, axis=0)).max())
+    assert row.contact == np.abs(x.zeta_estimate[inside & (x.step == 2)]).max()
+    assert row.residual == pytest.approx(
+        np.sqrt(np.mean(x.residual[x.step == 2] ** 2, axis=0)).max()
+    )
+    assert row.most_apart == np.abs(x.torque - x.u)[x.step == 2].max()
+
+
+def test_without_an_observer_nothing_is_estimated(log):
+    found = ba.replay(log, ba.Scenario("NPD"))
+    assert np.isnan(found.signals.xi_estimate).all()
+    assert np.isfinite(found.signals.torque).all()
+    assert found.text().splitlines()[1].split()[2] == "-"
+    found.plot()
+
+
+def test_another_period_is_resampled_and_said(log):
+    half = replace(log, t=log.t, remarks=())
+    found = ba.replay(half, ba.Scenario(**LESO, period=2e-3))
+    first = found.log.step == 1
+    rows = np.flatnonzero(log.step == 1)[::2]
+    assert np.allclose(found.log.q[first], log.q[rows], atol=1e-12)
+    pairs = 0.5 * (log.u[rows] + log.u[rows + 1])
+    assert np.allclose(found.log.u[first][:-1], pairs[:-1], atol=1e-9)
+    assert "resampled from 0.001 s to 0.002 s" in found.remarks[0]
+    assert ba.replay(half, ba.Scenario(**LESO, period=1e-3)).remarks == ()
+
+
+def test_an_uneven_clock_is_resampled_and_an_even_one_is_not(log):
+    t = np.array(log.t)
+    t[5] += 2e-4
+    assert log.even(1e-3)
+    assert not replace(log, t=t).even(1e-3)
+    found = ba.replay(replace(log, t=t), ba.Scenario(**LESO))
+    assert "resampled" in found.remarks[0]
+    assert found.log.even(1e-3)
+
+
+def test_what_is_handed_out_cannot_be_written_to(log):
+    found = ba.replay(log, ba.Scenario(**LESO))
+    for array in (found.signals.xi_estimate, found.log.q, log.u):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 0.0
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        (lambda log: ba.replay(log, ba.Scenario("passive", robot="compass")), "has no motors"),
+        (lambda log: ba.replay(log, ba.Scenario(robot="three_link", gait="x")), "gait"),
+        (lambda log: ba.replay(log, "ADRC"), "expected"),
+        (lambda log: ba.replay(3.0, ba.Scenario()), "expected"),
+        (lambda log: ba.replay(log, ba.Scenario(), window=0.0), "window of contact is 0.0 s"),
+        (
+            lambda log: ba.replay(
+                replace(log, q=log.q[:, :3], v=None, measured=None), ba.Scenario()
+            ),
+            "3 angles",
+        ),
+    ],
+)
+def test_what_cannot_be_replayed_is_refused(log, call, said):
+    with pytest.raises(InputError, match=said):
+        call(log)
+
+
+class Wild(ba.Controller):
+    """Its state grows with every sample until it is infinite."""
+
+    def output(self, s, m):
+        return np.zeros(4)
+
+    def initial_state(self, m):
+        return np.ones(1)
+
+    def predict(self, s, m, u):
+        return s * 1e200
+
+
+def test_a_controller_that_diverges_on_the_log_is_named(log):
+    ba.register("controller", "diverging on a log", Wild)
+    with pytest.raises(NotFiniteError, match="Wild"):
+        ba.replay(log, ba.Scenario("diverging on a log"))
