@@ -121,7 +121,7 @@ def main() -> None:
         rounded, costs = row(name, scenario)
         rounding.append(rounded)
         cost.append(costs)
-    cost.append(["PD of the joints, by hand", "16", "0", *timed(None, CASES["NPD"])])
+    cost.append(["PD of the joints, by hand", "12", "0", *timed(None, CASES["NPD"])])
     text = PAGE.read_text()
     text = filled(text, "rounding", ROUNDING, rounding)
     PAGE.write_text(filled(text, "ticks", COSTS, cost))

@@ -15,6 +15,7 @@ from biped_adrc.deploy.computer import Computer
 from biped_adrc.deploy.export import export_c
 from biped_adrc.deploy.loaded import FLAGS, NO_RESULT, NOT_MEASURED, OK, Loaded
 from biped_adrc.deploy.records import fed, recorded
+from biped_adrc.deploy.ripple import ripple
 from biped_adrc.deploy.rounding import proof
 from biped_adrc.deploy.source import source_of
 from biped_adrc.engine.c_text import in_double
@@ -234,3 +235,15 @@ def test_differences_of_angles_and_what_they_are_made_of_stay_in_double():
     wide = in_double(f, [True, True, False])
     codes = sorted(f.instruction_id(i) for i in wide)
     assert codes == sorted([ca.OP_MUL, ca.OP_SIN, ca.OP_SUB])
+
+
+@pytest.mark.parametrize(
+    ("controller", "least", "most"), [("ADRC", 0.1, 1.0), ("ADRC output", 0.0, 1e-4)]
+)
+def test_random_roundings_foretell_what_floats_do_to_a_walk(controller, least, most):
+    scenario = ba.Scenario(controller, hardware="ideal", impacts=1)
+    found = ripple(build(scenario), start(scenario, RobotAndGait.of(scenario)), impacts=1)
+    assert 0.5 < found.single / found.predicted_single < 2.0
+    assert 0.5 < found.double / found.predicted_double < 2.0
+    assert least <= found.single / found.torque < most
+    assert found.same_status
