@@ -73,11 +73,8 @@ def page(summary: dict[str, Any]) -> str:
         table(list(SHARES), [share_texts(c) for c in cells]),
         "Medians over legal walks with bootstrap intervals:",
         table(list(MEDIANS), [median_texts(c) for c in cells]),
-        *(
-            ["## Largest pushes", PUSH_WORDS, table(list(PUSHES), _pushes(pushes))]
-            if pushes
-            else []
-        ),
+        "## Largest pushes",
+        *([PUSH_WORDS, table(list(PUSHES), _pushes(pushes))] if pushes else [NO_PUSHES]),
         "## Controllers and conditions",
         table(["controller", "what it is"], [list(x) for x in summary["controllers"].items()]),
         table(list(UNDER), condition_texts(summary)),
@@ -99,6 +96,11 @@ WORDS = (
 PUSH_WORDS = (
     "In N m, between what the median over seeds lies, and between what all seeds lie. Where the highest torque "
     "tried is passed it is only known to be at least that, so there are no means."
+)
+NO_PUSHES = (
+    "These walks were made with `--no-pushes`: the largest push that each controller bears was not searched. "
+    "Without that option `compare` searches it, over 12 combinations of joints and phase, which takes some "
+    "seven times as many walks."
 )
 SETTINGS_WORDS = (
     "Values of a scenario, by the place where they were tuned. PD, ADRC of the outputs and CLF-QP have no "
