@@ -29,7 +29,7 @@ from biped_adrc.types import Array
 NONE = np.zeros(0)
 
 
-class Call(NamedTuple):
+class RecordedCall(NamedTuple):
     """One call of the computer, and what it made of it."""
 
     kind: str
@@ -46,16 +46,16 @@ class Call(NamedTuple):
     """Torque that was sent (p,) [N m]; empty but for step."""
 
 
-def recorded(walker: Walker, run: Trajectory) -> list[Call]:
+def recorded(walker: Walker, run: Trajectory) -> list[RecordedCall]:
     """The calls of a walk in sampled time whose trajectory has every node of its method."""
     return list(_calls(walker, run))
 
 
-def _calls(walker: Walker, run: Trajectory) -> Iterator[Call]:
+def _calls(walker: Walker, run: Trajectory) -> Iterator[RecordedCall]:
     """As `recorded`."""
     begin, n = float(run.arcs[0].t[0]), walker.plant.n
     x, step, landed = run.arcs[0].x[0], run.arcs[0].mode.step, None
-    yield Call("init", begin, x[:n], x[n : 2 * n], NONE, NONE)
+    yield RecordedCall("init", begin, x[:n], x[n : 2 * n], NONE, NONE)
     for arc in run.arcs:
         if landed is not None:
             yield _call(walker, "touchdown", float(arc.t[0]), landed)
@@ -80,7 +80,7 @@ def _ticks(walker: Walker, arc: Arc, begin: float) -> Iterator[tuple[float, Arra
         k += 1
 
 
-def _call(walker: Walker, kind: str, t: float, x: Array) -> Call:
+def _call(walker: Walker, kind: str, t: float, x: Array) -> RecordedCall:
     """A call at t [s] that left the walker in x (nx,), in the labels that the controller believes in."""
     (q, v, s, tail), k = parts(walker, x), walker.held
     assert k is not None
@@ -88,7 +88,7 @@ def _call(walker: Walker, kind: str, t: float, x: Array) -> Call:
     line, other = h.line, 0.0 if k.sizes.told == 0 else belief_of(h.b).other
     seen = as_seen(k, h.w, *turned(walker, other, q, v))
     u = sent_last(relabelled(line, walker.swap) if other > 0.5 else line)
-    return Call(kind, t, *seen, s, u if kind == "step" else NONE)
+    return RecordedCall(kind, t, *seen, s, u if kind == "step" else NONE)
 
 
 def _belief(walker: Walker, x: Array) -> Belief:
@@ -109,7 +109,7 @@ class Made(NamedTuple):
     """Torques of the calls of step (K, p) [N m], NaN for others."""
 
 
-def fed(loaded: Loaded, calls: Sequence[Call]) -> Made:
+def fed(loaded: Loaded, calls: Sequence[RecordedCall]) -> Made:
     """The calls through an exported controller, whose own state goes on from call to call."""
     x, flags, states = np.zeros((), loaded.state), [], []
     torques = np.full((len(calls), loaded.source.p), np.nan)

@@ -21,7 +21,7 @@ from biped_adrc.deploy.computer import Computer
 from biped_adrc.deploy.functions import sent_last
 from biped_adrc.deploy.layout import fields_of
 from biped_adrc.deploy.loaded import OK, Loaded, Record
-from biped_adrc.deploy.records import NONE, Call
+from biped_adrc.deploy.records import NONE, RecordedCall
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.sample_hold import read
 from biped_adrc.types import Array
@@ -30,7 +30,7 @@ from biped_adrc.types import Array
 class Given(NamedTuple):
     """A call, and the state in which it finds the computer."""
 
-    call: Call
+    call: RecordedCall
     mode: Mode
     """Single support of the call: of a touchdown, the one that begins."""
     last: float
@@ -92,7 +92,7 @@ class PythonComputer:
         )
 
 
-def in_python(computer: Computer, calls: Sequence[Call]) -> list[tuple[Given, Result]]:
+def in_python(computer: Computer, calls: Sequence[RecordedCall]) -> list[tuple[Given, Result]]:
     """All calls in Python, each from the controller's state s that the walk had there."""
     python, made = PythonComputer(computer), list[tuple[Given, Result]]()
     x, last, mode = NONE, calls[0].t, Mode(1, calls[0].t)
@@ -151,7 +151,7 @@ def _struct(computer: Computer, loaded: Loaded, given: Given, size: int, names: 
 
 
 def proof(
-    computer: Computer, loaded: Loaded, calls: Sequence[Call], every: int = 1, seed: int = 0
+    computer: Computer, loaded: Loaded, calls: Sequence[RecordedCall], every: int = 1, seed: int = 0
 ) -> Rounding:
     """The exported controller beside Python over the calls of a walk.
 
