@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.deploy.computer import Computer
+from biped_adrc.deploy.source import source_of
 from biped_adrc.observers.base import Estimate
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.shown import LONGEST, Shown, one_line
@@ -102,6 +104,8 @@ def things(biped, gait):
         "paper", h.curve.coefficients, h.theta_plus, h.theta_minus, phase=h.phase
     )
     samples = ba.Samples(walk.signals.t, walk.signals.q, walk.signals.v)
+    exported = ba.Loaded(source_of(Computer(ba.Walker(biped, npd, timing=period))))
+    found += [exported, exported.source, ba.ExportedController(exported)]
     return [*found, record, samples]
 
 

@@ -81,6 +81,9 @@ class Loaded:
     real: str = "float64"
     flags: tuple[str, ...] = FLAGS
 
+    def __repr__(self) -> str:
+        return f"Loaded({self.source.prefix}, {self.real})"
+
     @cached_property
     def measurement(self) -> np.dtype[np.void]:
         """The struct of a measurement."""

@@ -46,6 +46,9 @@ class Source:
     p: int
     """Motors."""
 
+    def __repr__(self) -> str:
+        return f"Source({', '.join(self.files)}; {self.written['step'].operations} operations)"
+
 
 def source_of(
     computer: Computer,
