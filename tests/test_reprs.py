@@ -106,7 +106,7 @@ def things(biped, gait):
     samples = ba.Samples(walk.signals.t, walk.signals.q, walk.signals.v)
     exported = ba.Loaded(source_of(Computer(ba.Walker(biped, npd, timing=period))))
     found += [exported, exported.source, ba.ExportedController(exported)]
-    log = ba.RobotLog(np.arange(3) * 1e-3, np.zeros(3), np.zeros((3, 5)), np.zeros((3, 4)))
+    log = ba.RobotLog(np.arange(3) * 1e-3, np.ones(3), np.zeros((3, 5)), np.zeros((3, 4)))
     return [*found, record, samples, log]
 
 

@@ -41,7 +41,7 @@ DIGITS = 6
 REFERENCE = "NPD"
 """The reference controller that is walked anew with every result, and that others are held against."""
 
-Walks = Mapping[str, Sequence[Sequence[float | None]]]
+BenchWalks = Mapping[str, Sequence[Sequence[float | None]]]
 """By condition the walks of one controller, each the values of the metrics, in the order of the seeds."""
 
 
@@ -68,7 +68,7 @@ class Benchmark(NamedTuple):
     """Their tuned values by place."""
     versions: Mapping[str, str]
     """With which the reference was walked."""
-    walks: Mapping[str, Walks]
+    walks: Mapping[str, BenchWalks]
     """Of the reference controllers."""
 
     def record(self, condition: str, values: Record, seed: int) -> dict[str, object]:
@@ -110,7 +110,7 @@ def _short(x: object) -> float | None:
     return float(f"{x:.{DIGITS}g}") if isinstance(x, float) and math.isfinite(x) else None
 
 
-def cells(bench: Benchmark, walks: Walks) -> dict[str, PlainRecord]:
+def cells(bench: Benchmark, walks: BenchWalks) -> dict[str, PlainRecord]:
     """The cell of each condition in plain values."""
     return {name: _cell(bench, name, rows) for name, rows in walks.items()}
 
@@ -133,7 +133,7 @@ def _cell(bench: Benchmark, condition: str, rows: Sequence[Sequence[float | None
     return {"walks": len(rows), **told}
 
 
-def held_against(bench: Benchmark, walks: Walks, usual: Walks) -> dict[str, PlainRecord]:
+def held_against(bench: Benchmark, walks: BenchWalks, usual: BenchWalks) -> dict[str, PlainRecord]:
     """Each condition's walks beside the reference's with the same seeds.
 
     rms_error: median ratio with its interval and p-value, over pairs that are both legal, None without any;

@@ -27,7 +27,7 @@ from typing import Any, NamedTuple
 from biped_adrc.bench.benchmark import (
     REFERENCE,
     Benchmark,
-    Walks,
+    BenchWalks,
     cells,
     held_against,
     load_benchmark,
@@ -59,7 +59,7 @@ class BenchResult(NamedTuple):
     """By condition: shares and medians with their intervals, infinite numbers as the text "inf"."""
     against: Mapping[str, PlainRecord]
     """By condition, beside NPD."""
-    walks: Walks
+    walks: BenchWalks
     """By condition, the values of the metrics for each seed."""
     versions: Mapping[str, str]
     """With which it was walked."""
@@ -73,8 +73,8 @@ def result_of(
     bench: Benchmark,
     controller: str,
     chosen: Mapping[str, Record],
-    mine: Walks,
-    again: Walks,
+    mine: BenchWalks,
+    again: BenchWalks,
     versions: Mapping[str, str],
     command: str,
 ) -> dict[str, Any]:
@@ -103,7 +103,7 @@ def result_of(
     }
 
 
-def _computed(bench: Benchmark, mine: Walks, count: int) -> dict[str, Any]:
+def _computed(bench: Benchmark, mine: BenchWalks, count: int) -> dict[str, Any]:
     """The parts `COMPUTED` of a result."""
     kept = {
         name: {c: rows[:count] for c, rows in walks.items()} for name, walks in bench.walks.items()
@@ -117,7 +117,7 @@ def _computed(bench: Benchmark, mine: Walks, count: int) -> dict[str, Any]:
     return {"cells": cells(bench, mine), "against": against, "reference": reference}
 
 
-def _machine(bench: Benchmark, again: Walks, count: int) -> dict[str, Any]:
+def _machine(bench: Benchmark, again: BenchWalks, count: int) -> dict[str, Any]:
     """Whether NPD walked anew has the frozen numbers: legal walks, and the medians of all metrics."""
     frozen = cells(bench, {c: rows[:count] for c, rows in bench.walks[REFERENCE].items()})
     found, apart, same = cells(bench, again), 0.0, True

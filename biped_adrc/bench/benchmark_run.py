@@ -12,7 +12,7 @@ from concurrent.futures import Executor
 from contextlib import closing
 from pathlib import Path
 
-from biped_adrc.bench.benchmark import REFERENCE, Benchmark, Walks, load_benchmark
+from biped_adrc.bench.benchmark import REFERENCE, Benchmark, BenchWalks, load_benchmark
 from biped_adrc.bench.benchmark_result import check_settings, result_of, source_of, text_of_result
 from biped_adrc.bench.compare_study import Stored
 from biped_adrc.bench.comparison import walked_rows
@@ -74,7 +74,7 @@ def run_benchmark(
     return result
 
 
-def walked(bench: Benchmark, carry: Stored, who: Mapping[str, Record], count: int) -> Walks:
+def walked(bench: Benchmark, carry: Stored, who: Mapping[str, Record], count: int) -> BenchWalks:
     """The walks of a controller under all conditions, with the first seeds. who: its values by place."""
     seeds = bench.seeds[:count]
     records = [

@@ -19,7 +19,7 @@ from biped_adrc.scenario.recording import Walk
 from biped_adrc.timing import SAME_INSTANT, SampledTime
 from biped_adrc.types import Array
 
-Row = tuple[float, float, Array, Array, Array]
+LoggedRow = tuple[float, float, Array, Array, Array]
 """t [s], number of the single support, q (n,) [rad], u (p,) [N m], v (n,) [rad/s]."""
 
 
@@ -59,7 +59,7 @@ def _ticks(arc: Arc, time: SampledTime, start: float) -> list[tuple[int, int]]:
     return list(zip(after.tolist(), before[: len(after)], strict=True))
 
 
-def _row(walker: Walker, arc: Arc, k: int, end: int) -> Row:
+def _row(walker: Walker, arc: Arc, k: int, end: int) -> LoggedRow:
     """What was sensed at node k, in the labels that the controller believed in, and the torque until `end`."""
     q, v, _, tail = parts(walker, arc.x[k])
     held = walker.held
