@@ -36,6 +36,7 @@ from biped_adrc.hybrid import integrators, simulator
 from biped_adrc.hybrid import system as hybrid
 from biped_adrc.hybrid.exponential import Exponential, phi_table
 from biped_adrc.hybrid.status import Status
+from biped_adrc.hybrid.watch import RESOLUTION
 from biped_adrc.observers.gpi import GPIObserver
 
 GRAVITY, ALPHA, A0, A1, ZERO_PIVOT_AT, NAN_AT, BLOW, GAIN, LOWEST_HIP, LONGEST, HOLE = range(11)
@@ -570,7 +571,7 @@ def test_the_matrices_are_scipy_s(h):
 
 
 def test_the_constants_are_those_of_the_python_loop():
-    assert layout.RESOLUTION == simulator.RESOLUTION
+    assert layout.RESOLUTION == RESOLUTION
     assert layout.LANDING == integrators.LANDING
 
 
