@@ -105,3 +105,22 @@ def filled(laws: ControllerLaws) -> ControllerLaws:
     }
     missing = {name: law for name, law in usual.items() if getattr(laws, name) is None}
     return laws._replace(**missing, flow=None)
+
+
+class TickLaws(NamedTuple):
+    """The laws of `filled` that act at ticks; signatures are those of `ControllerLaws`."""
+
+    initial_state: Callable[..., Array]
+    jump: Callable[..., Array]
+    correct: Callable[..., Array]
+    predict: Callable[..., Array]
+
+
+def tick_laws(laws: ControllerLaws) -> TickLaws:
+    """Those of a controller that has them all, as what `filled` returns."""
+    start, jump, correct, predict = laws.initial_state, laws.jump, laws.correct, laws.predict
+    assert start is not None
+    assert jump is not None
+    assert correct is not None
+    assert predict is not None
+    return TickLaws(start, jump, correct, predict)

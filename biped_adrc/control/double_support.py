@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from biped_adrc.control.across_contact import ContactWindow, SettlingParameters, ramp
-from biped_adrc.control.around import AroundParameters
+from biped_adrc.control.around import AroundParameters, tick_laws
 from biped_adrc.control.base import ControllerLaws, Measurement
 from biped_adrc.control.kept_torque import parts
 from biped_adrc.errors import InputError
@@ -38,12 +38,8 @@ the controller inside asks for."""
 @lru_cache(maxsize=64)
 def commanding(inner: ControllerLaws, command: Command) -> ControllerLaws:
     """The laws of a policy around these, which commands so within its window."""
-    start, jumped, told = inner.initial_state, inner.jump, inner.estimate
-    corrected, predicted = inner.correct, inner.predict
-    assert start is not None
-    assert jumped is not None
-    assert corrected is not None
-    assert predicted is not None
+    start, jumped, corrected, predicted = tick_laws(inner)
+    told = inner.estimate
 
     def of(s: Array, m: Measurement) -> tuple[Array, Array]:
         return parts(s, m.terms.kappa.shape[0])

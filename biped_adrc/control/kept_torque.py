@@ -21,7 +21,7 @@ from functools import lru_cache
 import numpy as np
 
 from biped_adrc.control.across_contact import AcrossContact
-from biped_adrc.control.around import AroundParameters
+from biped_adrc.control.around import AroundParameters, tick_laws
 from biped_adrc.control.base import ControllerLaws, Measurement, controller_laws
 from biped_adrc.errors import InputError
 from biped_adrc.observers.base import Estimate
@@ -43,13 +43,10 @@ def outside_torque(x: Estimate | None, m: Measurement) -> Array:
 @lru_cache(maxsize=64)
 def keeping(inner: ControllerLaws) -> ControllerLaws:
     """The laws of `KeepTorque` around these."""
-    start, begin, told = inner.initial_state, inner.begin, inner.estimate
-    corrected, predicted = inner.correct, inner.predict
-    assert start is not None
+    start, _, corrected, predicted = tick_laws(inner)
+    begin, told = inner.begin, inner.estimate
     assert begin is not None
     assert told is not None
-    assert corrected is not None
-    assert predicted is not None
 
     def output(k: AroundParameters, s: Array, m: Measurement) -> Array:
         return inner.output(k.inner, parts(s, m.terms.kappa.shape[0])[0], m)

@@ -25,7 +25,7 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from biped_adrc.control.around import Around, AroundParameters, filled
+from biped_adrc.control.around import Around, AroundParameters, filled, tick_laws
 from biped_adrc.control.base import ControllerLaws, Measurement
 from biped_adrc.errors import InputError
 from biped_adrc.observers.base import Estimate
@@ -70,12 +70,8 @@ def ahead(k: PredictionParameters, U: Array, m: Measurement) -> Measurement:
 @lru_cache(maxsize=64)
 def predicting(inner: ControllerLaws) -> ControllerLaws:
     """The laws of `Predicted` around these."""
-    start, jumped, told = inner.initial_state, inner.jump, inner.estimate
-    corrected, predicted = inner.correct, inner.predict
-    assert start is not None
-    assert jumped is not None
-    assert corrected is not None
-    assert predicted is not None
+    start, jumped, corrected, predicted = tick_laws(inner)
+    told = inner.estimate
 
     def parts(k: AroundParameters, s: Array, p: int) -> tuple[Array, Array]:
         """The inner state, and U (N, p)."""
