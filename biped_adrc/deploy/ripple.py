@@ -50,10 +50,16 @@ class Ripple(NamedTuple):
     """Root mean square of the torque itself."""
 
 
-def ripple(walker: Walker, begin: tuple[Array, Array], impacts: int = 2, h: float = 5e-4) -> Ripple:
-    """The ripple of a walker from (q, v), each (n,), for some impacts; h: step of the method [s].
+def ripple(
+    walker: Walker,
+    begin: tuple[Array, Array],
+    impacts: int = 2,
+    h: float = 5e-4,
+    flags: tuple[str, ...] = FLAGS,
+) -> Ripple:
+    """The ripple of a walker from (q, v), each (n,), for some impacts.
 
-    Raises InputError for what cannot be exported.
+    h: step of the method [s]. flags: of the compiler. Raises InputError for what cannot be exported.
     """
     computer = Computer(walker)
     source = source_of(computer)
@@ -65,12 +71,12 @@ def ripple(walker: Walker, begin: tuple[Array, Array], impacts: int = 2, h: floa
         )
         return run_compiled(w, w.initial_state(*begin), Mode(), RK4(h), options)
 
-    double = walked(ExportedController(Loaded(source)))
-    single = walked(ExportedController(Loaded(source, "float32")))
+    double = walked(ExportedController(Loaded(source, flags=flags)))
+    single = walked(ExportedController(Loaded(source, "float32", flags)))
     shaken, predicted = source_of(computer, shaken=True), dict[str, float]()
     for wide in ("(x)", "shaken(x)"):
-        flags = (*FLAGS, f"-DSCALE={SCALE!r}", f"-DWIDE(x)={wide}")
-        run = walked(ExportedController(Loaded(shaken, flags=flags)))
+        given = (*flags, f"-DSCALE={SCALE!r}", f"-DWIDE(x)={wide}")
+        run = walked(ExportedController(Loaded(shaken, flags=given)))
         predicted[wide] = rms(walker, run, double) / SCALE
     return Ripple(
         predicted["shaken(x)"] * DOUBLE,

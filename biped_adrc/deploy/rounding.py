@@ -107,14 +107,15 @@ def in_python(computer: Computer, calls: Sequence[RecordedCall]) -> list[tuple[G
     return made
 
 
+def by_one_ulp(x: Array, random: np.random.Generator) -> Array:
+    """Every number of x (K,) up or down by one ulp."""
+    return np.nextafter(x, random.choice((-np.inf, np.inf), len(x)))
+
+
 def nudged(given: Given, random: np.random.Generator) -> Given:
     """The same call with every angle, rate and number of the state up or down by one ulp."""
-
-    def moved(x: Array) -> Array:
-        return np.nextafter(x, random.choice((-np.inf, np.inf), len(x)))
-
-    call = given.call._replace(q=moved(given.call.q), v=moved(given.call.v))
-    return given._replace(call=call, x=moved(given.x))
+    q, v = by_one_ulp(given.call.q, random), by_one_ulp(given.call.v, random)
+    return given._replace(call=given.call._replace(q=q, v=v), x=by_one_ulp(given.x, random))
 
 
 def in_c(computer: Computer, loaded: Loaded, given: Given) -> Result:
