@@ -2,25 +2,29 @@
 
 Run: python benchmarks/deploy/rounding.py
 
-Each row is one controller on RABBIT's published gait at 1 kHz, two steps. It walks under a push for the
-proof, undisturbed for the ripple. Times are of this machine.
+Each row is one controller on RABBIT's published gait at 1 kHz, two steps: under a push call by call and as a
+walk, undisturbed for the ripple. Times are of this machine.
 """
 
 from __future__ import annotations
 
 import re
+import resource
 import subprocess
 import tempfile
 from pathlib import Path
 
 import biped_adrc as ba
+from biped_adrc.deploy.apart import apart
 from biped_adrc.deploy.computer import Computer
-from biped_adrc.deploy.loaded import FLAGS, Loaded, compiled
+from biped_adrc.deploy.loaded import FLAGS, UNOPTIMISED, Loaded, compiled
 from biped_adrc.deploy.records import recorded
 from biped_adrc.deploy.ripple import ripple
 from biped_adrc.deploy.rounding import proof
 from biped_adrc.deploy.source import Source, source_of
+from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.scenario.build import RobotAndGait, build, start
+from biped_adrc.scenario.registry import names
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "guide" / "robot.md"
 PUSH = "q1,q2=20@1:0.1-0.3"
@@ -29,27 +33,27 @@ CASES = {
     "NPD": ba.Scenario("NPD", hardware="ideal", impacts=2),
     "NPID": ba.Scenario("NPID", hardware="ideal", impacts=2),
     "super twisting": ba.Scenario("super twisting", hardware="ideal", impacts=2),
-    "ADRC, Table I": ba.Scenario("ADRC", hardware="ideal", impacts=2),
-    "ADRC output, Table I": ba.Scenario("ADRC output", hardware="ideal", impacts=2),
-    "LESO, 160 rad/s": ba.Scenario("LESO", hardware="ideal", impacts=2, bandwidth=160.0),
-    "LESO, 500 rad/s": ba.Scenario("LESO", hardware="ideal", impacts=2),
-    "ADRC output, m = 1, 160 rad/s": ba.Scenario(
+    "ADRC, GPI of Table I": ba.Scenario("ADRC", hardware="ideal", impacts=2),
+    "ADRC output, GPI of Table I": ba.Scenario("ADRC output", hardware="ideal", impacts=2),
+    "LESO, GPI, 160 rad/s": ba.Scenario("LESO", hardware="ideal", impacts=2, bandwidth=160.0),
+    "LESO, GPI, 500 rad/s": ba.Scenario("LESO", hardware="ideal", impacts=2),
+    "ADRC output, GPI, m = 1, 160 rad/s": ba.Scenario(
         "ADRC output", hardware="ideal", impacts=2, bandwidth=160.0, order=1
     ),
-    "ADRC assisted, 160 rad/s": ba.Scenario(
+    "ADRC assisted, GPI, 160 rad/s": ba.Scenario(
         "ADRC assisted", hardware="ideal", impacts=2, bandwidth=160.0
     ),
-    "high gain, 0.01 s": ba.Scenario(
+    "LESO, high gain, 0.01 s": ba.Scenario(
         "LESO", hardware="ideal", impacts=2, observer="high gain", own={"epsilon": 0.01}
     ),
-    "Kalman": ba.Scenario(
+    "LESO, Kalman": ba.Scenario(
         "LESO",
         hardware="ideal",
         impacts=2,
         observer="Kalman",
         own={"drift": 1e4, "measurement": 1e-4},
     ),
-    "DOB, 160 rad/s": ba.Scenario("DOB", hardware="ideal", impacts=2, bandwidth=160.0),
+    "DOB, momentum, 160 rad/s": ba.Scenario("DOB", hardware="ideal", impacts=2, bandwidth=160.0),
 }
 """Rows of the tables."""
 HOLDS = 0.01
@@ -116,21 +120,27 @@ int controller_step(controller_state *x, const controller_measurement *m, double
 
 def main() -> None:
     """Make all rows and write them into the page."""
-    rounding, cost = [], []
-    for name, scenario in CASES.items():
-        rounded, costs = row(name, scenario)
-        rounding.append(rounded)
-        cost.append(costs)
+    told = " ".join(CASES)
+    assert all(name in told for name in names("observer")), "an observer is in no row"
+    rows = [row(name, scenario) for name, scenario in CASES.items()]
+    ulps, rounding, cost = map(list, zip(*rows, strict=True))
     cost.append(["PD of the joints, by hand", "12", "0", *timed(None, CASES["NPD"])])
-    text = PAGE.read_text()
+    text = filled(PAGE.read_text(), "ulps", ULPS, ulps)
     text = filled(text, "rounding", ROUNDING, rounding)
     PAGE.write_text(filled(text, "ticks", COSTS, cost))
 
 
-ROUNDING = (
-    "controller",
+ULPS = (
+    "controller, observer",
     "one ulp, double [N m]",
     "C - Python [N m]",
+    "one ulp, float [N m]",
+    "C in float - Python [N m]",
+    "a walk, one ulp [rad/s]",
+    "C - Python [rad/s]",
+)
+ROUNDING = (
+    "controller",
     "ripple in double: predicted",
     "measured [N m]",
     "in float: predicted",
@@ -145,35 +155,40 @@ COSTS = (
     "99.9 % [us]",
     "worst [us]",
     "state [bytes]",
+    "lines of C",
     "code [bytes]",
+    "compiler, -O2 [s]",
 )
 
 
-def row(name: str, scenario: ba.Scenario) -> tuple[list[str], list[str]]:
-    """The cells of a controller in both tables."""
+def row(name: str, scenario: ba.Scenario) -> tuple[list[str], list[str], list[str]]:
+    """The cells of a controller in the three tables."""
     walk = ba.walk_scenario(ba.Scenario(**{"pushes": PUSH, **scenario.record()}))
-    computer = Computer(walk.walker)
-    source = source_of(computer)
-    found = proof(computer, Loaded(source), recorded(walk.walker, walk.trajectory))
-    r = ripple(build(scenario), start(scenario, RobotAndGait.of(scenario)))
-    print(name, found, r, flush=True)
+    computer, begin = Computer(walk.walker), start(scenario, RobotAndGait.of(scenario))
+    source, calls = source_of(computer), recorded(walk.walker, walk.trajectory)
+    loaded, in_float = (Loaded(source, x, UNOPTIMISED) for x in ("float64", "float32"))
+    double, single = proof(computer, loaded, calls), proof(computer, in_float, calls)
+    options = RunOptions(4.0, stop_after=("foot_strike", scenario.impacts))
+    walked = apart(computer, loaded, begin, options)
+    assert walked.proved, (name, walked)
+    r = ripple(build(scenario), begin, flags=UNOPTIMISED)
+    print(name, double, single, walked, r, flush=True)
+    ulps = (double.amplification, double.difference, single.amplification, single.difference)
+    ripples = (r.predicted_double, r.double, r.predicted_single, r.single)
     holds = r.same_status and r.single < HOLDS * r.torque
-    numbers = (
-        found.amplification,
-        found.difference,
-        r.predicted_double,
-        r.double,
-        r.predicted_single,
-        r.single,
-    )
     said = "holds" if holds else f"does not hold: {r.single / r.torque:.0%} of the torque"
     step = source.written["step"]
-    costs = [name, str(step.operations), str(step.doubles), *timed(source, scenario)]
-    return [name, *(f"{x:.1e}" for x in numbers), said], costs
+    return (
+        [name, *(f"{x:.1e}" for x in (*ulps, walked.amplification, walked.difference))],
+        [name, *(f"{x:.1e}" for x in ripples), said],
+        [name, str(step.operations), str(step.doubles), *timed(source, scenario)],
+    )
 
 
 def timed(source: Source | None, scenario: ba.Scenario) -> list[str]:
-    """Median, 99.9 % and worst time of step [us], bytes of state and of code; None: the one by hand."""
+    """Median, 99.9 % and worst time of step [us], bytes of state, lines and bytes of code, and the compiler's
+    time [s]; None: the one by hand.
+    """
     q, v = start(scenario, RobotAndGait.of(scenario))
     made = source or source_of(Computer(build(scenario)))
     files = dict(made.files)
@@ -184,8 +199,10 @@ def timed(source: Source | None, scenario: ba.Scenario) -> list[str]:
         folder = Path(name)
         for file, text in files.items():
             (folder / file).write_text(text)
-        compiled(folder, ["timer.c", "controller.c"], folder / "timer", FLAGS)
+        began = compilers_time()
         compiled(folder, ["controller.c"], folder / "controller.o", (*FLAGS, "-c"))
+        took = f"{compilers_time() - began:.1f}"
+        compiled(folder, ["timer.c", "controller.o"], folder / "timer", FLAGS)
         printed = subprocess.run([folder / "timer"], capture_output=True, text=True, check=True)
         size = subprocess.run(
             ["size", folder / "controller.o"], capture_output=True, text=True, check=True
@@ -193,7 +210,14 @@ def timed(source: Source | None, scenario: ba.Scenario) -> list[str]:
     median, late, worst, state, bad = printed.stdout.split()
     assert bad == "0", printed.stdout
     times = [f"{float(x) / 1e3:.2f}" for x in (median, late, worst)]
-    return [*times, state, size.stdout.splitlines()[1].split()[0]]
+    lines = str(len(files["controller.c"].splitlines()))
+    return [*times, state, lines, size.stdout.splitlines()[1].split()[0], took]
+
+
+def compilers_time() -> float:
+    """Processor's time of all processes that were started and have ended [s]."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def filled(text: str, name: str, header: tuple[str, ...], rows: list[list[str]]) -> str:

@@ -27,6 +27,8 @@ from biped_adrc.types import Array
 
 FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic")
 """How an exported controller is compiled."""
+UNOPTIMISED = tuple("-O0" if flag == "-O2" else flag for flag in FLAGS)
+"""As FLAGS with the same results to the last bit: sooner compiled, slower to run."""
 COMPILERS = ("cc", "gcc", "clang")
 """Names of C compilers, the first one found is taken; the variable CC goes before them."""
 OK, NOT_MEASURED, NO_RESULT = 0, 1, 2

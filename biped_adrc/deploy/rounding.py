@@ -107,15 +107,17 @@ def in_python(computer: Computer, calls: Sequence[RecordedCall]) -> list[tuple[G
     return made
 
 
-def by_one_ulp(x: Array, random: np.random.Generator) -> Array:
-    """Every number of x (K,) up or down by one ulp."""
-    return np.nextafter(x, random.choice((-np.inf, np.inf), len(x)))
+def by_one_ulp(x: Array, random: np.random.Generator, real: str = "float64") -> Array:
+    """Every number of x (K,) up or down by one ulp of "float64" or "float32"."""
+    ulp = np.spacing(np.abs(x).astype(real)).astype(float)
+    return x + random.choice((-1.0, 1.0), len(x)) * ulp
 
 
-def nudged(given: Given, random: np.random.Generator) -> Given:
-    """The same call with every angle, rate and number of the state up or down by one ulp."""
-    q, v = by_one_ulp(given.call.q, random), by_one_ulp(given.call.v, random)
-    return given._replace(call=given.call._replace(q=q, v=v), x=by_one_ulp(given.x, random))
+def nudged(given: Given, random: np.random.Generator, real: str = "float64") -> Given:
+    """The same call with every angle, rate and number of the state up or down by one ulp of a type."""
+    call, x = given.call, by_one_ulp(given.x, random, real)
+    q, v = by_one_ulp(call.q, random, real), by_one_ulp(call.v, random, real)
+    return given._replace(call=call._replace(q=q, v=v), x=x)
 
 
 def in_c(computer: Computer, loaded: Loaded, given: Given) -> Result:
@@ -154,7 +156,7 @@ def _struct(computer: Computer, loaded: Loaded, given: Given, size: int, names: 
 def proof(
     computer: Computer, loaded: Loaded, calls: Sequence[RecordedCall], every: int = 1, seed: int = 0
 ) -> Rounding:
-    """The exported controller beside Python over the calls of a walk.
+    """The exported controller beside Python over the calls of a walk; ulps are those of its type.
 
     every: which of the calls of step are looked at; those of init and touchdown are always.
     """
@@ -165,7 +167,8 @@ def proof(
     for i, (given, found) in enumerate(in_python(computer, calls)):
         if given.call.kind == "step" and i % every > 1:
             continue
-        here, shaken = in_c(computer, loaded, given), python(nudged(given, random))
+        here = in_c(computer, loaded, given)
+        shaken = python(nudged(given, random, loaded.real))
         off = np.fmax(off, np.abs(_row(here, p) - _row(found, p)))  # NaN: no place in the struct
         moved = np.fmax(moved, np.abs(_row(shaken, p) - _row(found, p)))
         torque = float(np.max(np.abs(found.u), initial=torque))

@@ -15,8 +15,6 @@ HOLD = 5
 """Of the header."""
 SANITIZED = ("-std=c99", "-O1", "-ffp-contract=off", "-fno-sanitize-recover=all")
 SANITIZED += ("-fsanitize=address,undefined",)
-QUICK = ("-std=c99", "-O0", "-ffp-contract=off")
-"""The compiler takes longest to make code fast."""
 ODD = [math.nan, math.inf, -math.inf, 5e-324, -5e-324, 1e-310, 2.2e-308, 1e-45, 0.0, -0.0]
 ODD += [1e16, -1e20, 3.5e38, 1e155, -1e200, 1.7e308, -1.7e308]
 """Entries that no robot measures: NaN, infinite, denormal and too large, as doubles and as floats."""

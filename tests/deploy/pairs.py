@@ -3,6 +3,7 @@
 A thing that is new in the registry has a row there, or that suite fails. So it is exported, or refused, here.
 """
 
+import time
 from functools import cache
 from itertools import cycle
 from typing import NamedTuple
@@ -19,7 +20,7 @@ from biped_adrc.deploy.source import source_of
 from biped_adrc.errors import InputError
 from biped_adrc.observers.momentum import MomentumChain
 from tests.control.conforms import PERIOD, gait, heavy, robot
-from tests.control.test_conformance import ROWS, made
+from tests.control.test_conformance import ROWS, UNNAMED, made
 
 KINDS = ("controller", "contact", "around", "observer", "sensor", "touchdown")
 """Kinds of the registry of which the computer has a part, or which decide how it is called."""
@@ -63,6 +64,8 @@ class Pair(NamedTuple):
                 MomentumDOBController if isinstance(thing, MomentumChain) else ba.ADRCController
             )
             laws = {"controller": around(gait().constraint, thing)}
+        elif self.kind == "reference":
+            laws = {"controller": ba.NPDController(thing)}
         elif self.kind == "sensor":
             laws["sensors"] = thing
         elif self.kind == "touchdown":
@@ -77,16 +80,25 @@ class Pair(NamedTuple):
 
 
 def things():
-    """Kind, name and thing: all that the registry has of these kinds."""
+    """Kind, name and thing: what the registry has of these kinds, and references, which it does not name."""
     for kind in KINDS:
         for name in ROWS[kind]:
             for thing in made(kind, name):
                 yield kind, name, thing
+    for name, row in UNNAMED.items():
+        for thing in row(gait().constraint):
+            if isinstance(thing, ba.Reference):
+                yield "reference", name, thing
 
 
 def pairs():
-    """Every thing on every hardware."""
-    return [Pair(*thing, hardware) for thing in things() for hardware in HARDWARE]
+    """Every controller on all hardware, every other thing on one kind of it in turn."""
+    given, each, other = list(things()), list(HARDWARE), cycle(HARDWARE)
+    return [
+        Pair(*thing, hardware)
+        for thing in given
+        for hardware in (each if thing[0] == "controller" else [next(other)])
+    ]
 
 
 def some_pairs():
@@ -96,11 +108,11 @@ def some_pairs():
 
 
 @cache
-def before_touchdown(time):
+def before_touchdown(so_long):
     """(q, v), each (n,), so long [s] before the touchdown of the gait's orbit."""
     walker = ba.Walker(robot(), ba.NPDController(gait().constraint))
     arc = ba.walk(walker, gait(), 1).trajectory.arcs[0]
-    x = arc.x[np.searchsorted(arc.t, arc.t[-1] - time)]
+    x = arc.x[np.searchsorted(arc.t, arc.t[-1] - so_long)]
     return x[:5].copy(), x[5:10].copy()
 
 
@@ -115,6 +127,8 @@ class Proved(NamedTuple):
     """The walk."""
     kinds: frozenset[str] = frozenset()
     """Of calls in it."""
+    compiling: float = 0.0
+    """Time of the compiler [s]."""
 
 
 def proved(pair, begin, options, flags=FLAGS, every=1, walks=2):
@@ -124,7 +138,10 @@ def proved(pair, begin, options, flags=FLAGS, every=1, walks=2):
         loaded = Loaded(source_of(computer), flags=flags)
     except InputError as reason:
         return Proved(str(reason))
+    began = time.monotonic()
+    loaded.functions  # noqa: B018
+    compiling = time.monotonic() - began
     found = apart(computer, loaded, begin, options, walks)
     calls = python_calls(computer, found.run)
     kinds = frozenset(call.kind for call in calls)
-    return Proved("", proof(computer, loaded, calls, every), found, kinds)
+    return Proved("", proof(computer, loaded, calls, every), found, kinds, compiling)

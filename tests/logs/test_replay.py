@@ -110,14 +110,15 @@ def missed(walk, controller, order, bandwidth, unit):
 )
 def test_the_estimate_is_the_pulse_behind_the_observers_own_lag(walked, controller, order, unit):
     """(w / (s + w))^2 with the two poles of the momentum observer, ^3 with m = 1: late by order / w."""
-    errors = [missed(walked(period=T), controller, order, 100.0, unit) for T in (4e-3, 2e-3, 1e-3)]
+    walks = [walked(period=T, impacts=2) for T in (4e-3, 2e-3, 1e-3)]
+    errors = [missed(walk, controller, order, 100.0, unit) for walk in walks]
     off, late = np.array(errors).T
     assert np.all(off < 0.1 * late)
     assert np.all((off[:-1] / off[1:] > 1.6) & (off[:-1] / off[1:] < 2.5))  # of first order in T
 
 
 def test_the_estimate_converges_to_the_pulse_as_the_bandwidth_grows(walked):
-    walk = walked(period=1e-3)
+    walk = walked(period=1e-3, impacts=2)
     late = [missed(walk, "DOB", 2, w, "N m")[1] for w in (25.0, 50.0, 100.0)]
     # the rms of exp(-w t) after each of two edges goes with w^(-1/2)
     assert np.allclose(np.divide(late[:-1], late[1:]), np.sqrt(2.0), rtol=0.02)
@@ -125,13 +126,13 @@ def test_the_estimate_converges_to_the_pulse_as_the_bandwidth_grows(walked):
 
 def test_in_mujoco_the_pulse_is_found_beside_the_contact(walked):
     pytest.importorskip("mujoco")
-    found = ba.replay(ba.logged(walked(period=1e-3, plant="mujoco")), ba.Scenario("DOB"))
+    soft, rigid = (walked(period=1e-3, impacts=2, plant=x) for x in ("mujoco", "rigid"))
+    found = ba.replay(ba.logged(soft), ba.Scenario("DOB"))
     x = found.signals
     rows = (x.step == 2) & (x.t_step > 0.15) & (x.t_step < 0.3)
     assert np.allclose(np.mean(x.zeta_estimate[rows], axis=0), [20.0, 20.0, 0.0, 0.0], atol=1.0)
     assert found.rows[1].contact > 100.0  # the rigid model knows no force of contact
-    rigid = ba.replay(ba.logged(walked(period=1e-3)), ba.Scenario("DOB"))
-    assert rigid.rows[1].contact < 1.0
+    assert ba.replay(ba.logged(rigid), ba.Scenario("DOB")).rows[1].contact < 1.0
 
 
 def test_the_parts_of_the_estimate_make_the_whole(log):
