@@ -1,27 +1,30 @@
 """What `python -m tests.deploy` does with one name of the registry, in a process of its own."""
 
+import resource
+
+import numpy as np
+
 from biped_adrc.deploy.apart import TIMES, PythonController, python_calls, walk
 from biped_adrc.deploy.computer import Computer
-from biped_adrc.deploy.loaded import UNOPTIMISED
 from biped_adrc.deploy.rounding import PythonComputer
 from biped_adrc.deploy.source import source_of
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.simulator import RunOptions
 from tests.deploy.fuzz import attack
-from tests.deploy.pairs import before_touchdown, gait, pairs, proved, robot, some_pairs
+from tests.deploy.pairs import gait, pairs, proved, robot, short_walk, some_pairs
 
-OPTIONS = RunOptions(0.55)
-"""A step, its touchdown and what comes after it [s]."""
+WHO = resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN
 
 
-def row(key):
-    """The row of a name, how many were exported, the compiler's time [s], and whether all are proved."""
-    begin = gait().start(robot())
-    found = [
-        proved(pair, begin, OPTIONS, UNOPTIMISED, every=5, walks=1)
-        for pair in pairs()
-        if pair[:2] == key
-    ]
+def row(key, whole):
+    """The row of a name, how many were exported, whether all are proved, and times as `times` has them.
+
+    whole: all things of the name, over a step, its touchdown and what comes after it; else as CI has it.
+    """
+    used = times()
+    chosen = [pair for pair in (pairs() if whole else some_pairs()) if pair[:2] == key]
+    long = gait().start(robot()), RunOptions(0.55), 5
+    found = [proved(pair, *(long if whole else short_walk(pair))) for pair in chosen]
     made = [x for x in found if not x.refused]
     why = [x.refused.split(",")[0] for x in found if x.refused]
     worst = ["", ""]
@@ -30,7 +33,12 @@ def row(key):
         worst.append(f"{max(x.apart.worst for x in made):.2f}")
     cells = [" ".join(key), len(made), len(why), *worst, why[0] if why else ""]
     good = all(x.rounding.worst <= TIMES and x.apart.proved for x in made)
-    return f"| {' | '.join(map(str, cells))} |", len(made), sum(x.compiling for x in made), good
+    return f"| {' | '.join(map(str, cells))} |", len(made), good, times() - used
+
+
+def times():
+    """Time of processor of this process, and of those that it started and that have ended (2,) [s]."""
+    return np.array([sum(resource.getrusage(who)[:2]) for who in WHO])
 
 
 def fuzzed(key):
@@ -40,8 +48,8 @@ def fuzzed(key):
         computer = Computer(pair.walker)
     except InputError as reason:
         return f"{key}: refused, {reason}"
-    begin = before_touchdown(0.11 if pair.kind == "touchdown" else 0.03)
-    run = walk(computer.walker, PythonController(PythonComputer(computer)), begin, RunOptions(0.06))
+    python = PythonController(PythonComputer(computer))
+    run = walk(computer.walker, python, *short_walk(pair))
     given = computer, source_of(computer), python_calls(computer, run)
     seen = [sorted(attack(*given, 20_000, real=real)) for real in ("float64", "float32")]
     return f"{key}: as the header says, {seen}"
