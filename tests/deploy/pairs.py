@@ -31,7 +31,7 @@ HARDWARE = {
     "ideal": {},
     "encoders": {"sensors": ENCODERS, "torque_limit": 150.0},
     "known delay": {
-        "timing": ba.SampledTime(PERIOD, delay=1.4 * PERIOD, delay_known=True),
+        "timing": ba.SampledTime(PERIOD, delay=1.95 * PERIOD, delay_known=True),
         "motors": ba.Motors(rate_limit=3e4),
         "torque_limit": 80.0,
     },
