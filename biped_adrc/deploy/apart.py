@@ -114,9 +114,12 @@ def apart(
     loaded: Loaded,
     begin: tuple[Array, Array],
     options: RunOptions,
-    walks: int = 2,
+    walks: int = 3,
 ) -> Apart:
-    """How far walks come apart from (q, v), each (n,); walks: in Python with ulps, at least 1."""
+    """How far walks come apart from (q, v), each (n,).
+
+    walks: in Python with ulps, at least 1. Of one alone the random ulps may cancel.
+    """
     python, walker = PythonComputer(computer), computer.walker
     base = walk(walker, PythonController(python), begin, options)
     exported = walk(walker, ExportedController(loaded), begin, options)

@@ -142,7 +142,7 @@ def proved(pair, begin, options, every=1):
         loaded = Loaded(source_of(computer), flags=UNOPTIMISED)
     except InputError as reason:
         return Proved(str(reason))
-    found = apart(computer, loaded, begin, options, walks=1)
+    found = apart(computer, loaded, begin, options)
     calls = python_calls(computer, found.run)
     kinds = frozenset(call.kind for call in calls)
     return Proved("", proof(computer, loaded, calls, every), found, kinds)
