@@ -31,8 +31,8 @@ def export_c(
 ) -> Source:
     """Write the controller of a scenario, or of a walker, as C99 into a folder, and hand out what was written.
 
-    prefix: of all names in C. real: "float64" or "float32". fmu: with a unit for co-simulation by
-    FMI 2.0 beside it, such as controller.fmu.
+    prefix: of all names in C. real: "float64" or "float32". fmu: with a functional mock-up
+    unit (FMU) for co-simulation by FMI 2.0 beside it, such as controller.fmu.
 
     Raises InputError for a scenario that cannot be exported, and OutputError for a folder that holds
     other files or cannot be written.
@@ -47,14 +47,14 @@ def export_c(
     return source
 
 
-def write_folder(folder: Path, source: Source, unit: Fmu | None = None) -> None:
+def write_folder(folder: Path, source: Source, fmu: Fmu | None = None) -> None:
     """Write the files into a folder that is new, empty, or holds files of these names alone.
 
     Raises OutputError for any other.
     """
     if folder.exists() and not folder.is_dir():
         raise OutputError(f"'{folder}' is a file, expected the name of a folder")
-    names = {*source.files, *([unit.name] if unit else [])}
+    names = {*source.files, *([fmu.name] if fmu else [])}
     others = (
         sorted(x.name for x in folder.iterdir() if x.name not in names) if folder.exists() else []
     )
@@ -64,5 +64,5 @@ def write_folder(folder: Path, source: Source, unit: Fmu | None = None) -> None:
         )
     for name, text in source.files.items():
         write_text(folder / name, text)
-    if unit:
-        write_bytes(folder / unit.name, unit.data)
+    if fmu:
+        write_bytes(folder / fmu.name, fmu.data)

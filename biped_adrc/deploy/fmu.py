@@ -1,10 +1,10 @@
-"""A controller as an FMI 2.0 unit for co-simulation, that other simulators step: `controller.fmu`.
+"""A controller as a functional mock-up unit (FMU) of FMI 2.0, that other simulators step: `controller.fmu`.
 
-    unit = fmu_of(source)         # of a `deploy.source.Source`
-    unit.data                     # the bytes of the archive
+    fmu = fmu_of(source)         # of a `deploy.source.Source`
+    fmu.data                     # the bytes of the archive
 
-The unit is the exported C, unchanged, a wrapper with the functions of FMI, the description of its
-variables, a page about it and the licence; and a binary, where there is a C compiler. The same
+The FMU is the exported C, unchanged, a wrapper with the functions of FMI, the description of its
+ports, a page about it and the licence; and a binary, where there is a C compiler. The same
 source and compiler give the same bytes.
 """
 
@@ -30,8 +30,8 @@ AS_READ = {True: "read at every step", False: "read at the first step only"}
 
 
 @dataclass(frozen=True)
-class Variable:
-    """A variable of a unit; its place among all is its value reference."""
+class Port:
+    """An input or output of an FMU; its place among all is its value reference."""
 
     name: str
     """As in the header of the C."""
@@ -50,7 +50,7 @@ class Variable:
 
 @dataclass(frozen=True)
 class Fmu:
-    """The files of a unit, by their path inside."""
+    """The files of an FMU, by their path inside."""
 
     name: str
     """Of the file."""
@@ -72,7 +72,7 @@ class Fmu:
 
 
 def fmu_of(source: Source) -> Fmu:
-    """The unit of an exported controller. Raises InputError where the compiler refuses the C."""
+    """The FMU of an exported controller. Raises InputError where the compiler refuses the C."""
     texts = _texts(source, "")
     guid = uuid.UUID(bytes=hashlib.sha256("".join(texts.values()).encode()).digest()[:16])
     files = {path: text.encode() for path, text in _texts(source, f"{{{guid}}}").items()}
@@ -81,8 +81,8 @@ def fmu_of(source: Source) -> Fmu:
     return Fmu(f"{source.prefix}.fmu", files)
 
 
-def variables(source: Source) -> list[Variable]:
-    """The variables of a unit, in the order of their value references."""
+def ports(source: Source) -> list[Port]:
+    """The ports of an FMU, in the order of their value references."""
     joints, read = source.words["joint_names"], source.words["rates_read"]
     assert isinstance(joints, tuple)
     assert isinstance(read, tuple)
@@ -94,24 +94,24 @@ def variables(source: Source) -> list[Variable]:
         "0, or why the step has no result: 1 not measured, 2 no number; u is held, and zero later"
     )
     return [
-        *(Variable(f"q[{i}]", "input", angle, f"angle of {joint}") for i, joint in numbered),
+        *(Port(f"q[{i}]", "input", angle, f"angle of {joint}") for i, joint in numbered),
         *(
-            Variable(f"v[{i}]", "input", rate, f"rate of {joint}, {AS_READ[i in read]}")
+            Port(f"v[{i}]", "input", rate, f"rate of {joint}, {AS_READ[i in read]}")
             for i, joint in numbered
         ),
         *(
-            Variable(f"u[{i}]", "output", torque, f"torque of the motor of {joint}")
+            Port(f"u[{i}]", "output", torque, f"torque of the motor of {joint}")
             for i, joint in numbered[: source.p]
         ),
-        Variable("touchdown", "input", '<Boolean start="false"/>', landed),
-        Variable("flag", "output", flags, flag),
+        Port("touchdown", "input", '<Boolean start="false"/>', landed),
+        Port("flag", "output", flags, flag),
     ]
 
 
 def _texts(source: Source, guid: str) -> dict[str, str]:
-    """The files of a unit but its binary, by their path inside."""
+    """The files of an FMU but its binary, by their path inside."""
     P = source.prefix
-    given = {**source.words, "guid": guid, "variables": variables(source)}
+    given = {**source.words, "guid": guid, "ports": ports(source)}
     return {
         "modelDescription.xml": rendered("modelDescription.xml", given),
         "documentation/index.html": rendered("index.html", given),
@@ -124,7 +124,7 @@ def _texts(source: Source, guid: str) -> dict[str, str]:
 
 
 def without_binary() -> str:
-    """Why a unit that is made on this machine has no binary; empty where it has one."""
+    """Why an FMU that is made on this machine has no binary; empty where it has one."""
     if not _machine():
         return f"FMI 2.0 has no name for {platform.system()} on {platform.machine()}"
     if compiler() is None:
@@ -133,7 +133,7 @@ def without_binary() -> str:
 
 
 def contents() -> str:
-    """What a unit that is made on this machine holds, in words."""
+    """What an FMU that is made on this machine holds, in words."""
     if why := without_binary():
         return f"sources alone, since {why}"
     return f"sources, and a binary for {_machine()}"
@@ -153,5 +153,5 @@ def _binary(source: Source, files: Mapping[str, bytes]) -> bytes:
                 (folder / Path(path).name).write_bytes(data)
         flags = (*FLAGS, "-shared", "-fPIC", "-fvisibility=hidden")
         names = [f"{source.prefix}.c", f"{source.prefix}_fmu.c"]
-        compiled(folder, names, folder / "unit.so", flags)
-        return (folder / "unit.so").read_bytes()
+        compiled(folder, names, folder / "fmu.so", flags)
+        return (folder / "fmu.so").read_bytes()

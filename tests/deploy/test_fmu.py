@@ -1,4 +1,4 @@
-"""An exported controller as an FMI 2.0 unit: FMPy steps it beside the C, call by call."""
+"""An exported controller as an FMU of FMI 2.0: FMPy steps it beside the C, call by call."""
 
 import ctypes
 import os
@@ -85,21 +85,21 @@ def torques(loaded, calls):
 
 @pytest.fixture(scope="module")
 def folder(loaded, tmp_path_factory):
-    """The unit as a folder."""
-    return unpacked(fmu_of(loaded.source), tmp_path_factory.mktemp("unit"))
+    """The FMU as a folder."""
+    return unpacked(fmu_of(loaded.source), tmp_path_factory.mktemp("fmu"))
 
 
 @pytest.fixture(scope="module")
 def leg(tmp_path_factory):
-    """The folder and the source of another controller with its unit, of another prefix and type."""
+    """The folder and the source of another controller with its FMU, of another prefix and type."""
     place = tmp_path_factory.mktemp("other") / "c"
     return place, export_c(ba.Scenario("NPD", hardware="ideal"), place, "leg", "float32", fmu=True)
 
 
-def unpacked(unit, place):
-    """The folder of a unit, which is written as a file beside it."""
-    (place / unit.name).write_bytes(unit.data)
-    return Path(fmpy.extract(place / unit.name, unzipdir=place / "unit"))
+def unpacked(fmu, place):
+    """The folder of an FMU, which is written as a file beside it."""
+    (place / fmu.name).write_bytes(fmu.data)
+    return Path(fmpy.extract(place / fmu.name, unzipdir=place / "fmu"))
 
 
 def in_order(calls):
@@ -109,7 +109,7 @@ def in_order(calls):
 
 
 class Stepped:
-    """An instance of a unit that FMPy steps, and what it said."""
+    """An instance of an FMU that FMPy steps, and what it said."""
 
     def __init__(self, folder, stop=None, start=0.0):
         self.said = []
@@ -121,37 +121,37 @@ class Stepped:
         self.callbacks.freeMemory = defaultCallbacks.freeMemory
         description = fmpy.read_model_description(folder)
         identifier = description.coSimulation.modelIdentifier
-        self.fmu = FMU2Slave(
+        self.slave = FMU2Slave(
             guid=description.guid,
             modelIdentifier=identifier,
             unzipDirectory=folder,
             instanceName="a",
         )
-        self.fmu.instantiate(callbacks=self.callbacks)
+        self.slave.instantiate(callbacks=self.callbacks)
         self.initialized(start, stop)
 
     def initialized(self, start=0.0, stop=None):
-        self.fmu.setupExperiment(startTime=start, stopTime=stop)
-        self.fmu.enterInitializationMode()
-        self.fmu.exitInitializationMode()
+        self.slave.setupExperiment(startTime=start, stopTime=stop)
+        self.slave.enterInitializationMode()
+        self.slave.exitInitializationMode()
 
     def __enter__(self):
         return self
 
     def __exit__(self, *error):
-        self.fmu.freeInstance()
+        self.slave.freeInstance()
 
     def given(self, q, v, touchdown=False):
-        self.fmu.setReal(range(2 * N), [*q, *v])
-        self.fmu.setBoolean([TOUCHDOWN], [touchdown])
+        self.slave.setReal(range(2 * N), [*q, *v])
+        self.slave.setBoolean([TOUCHDOWN], [touchdown])
 
     def do_step(self, t, step=PERIOD):
-        return self.fmu.fmi2DoStep(self.fmu.component, t, step, 1)
+        return self.slave.fmi2DoStep(self.slave.component, t, step, 1)
 
     @property
     def made(self):
         """The flag and the torque (p,) [N m]."""
-        return self.fmu.getInteger([FLAG])[0], self.fmu.getReal(range(U, U + P))
+        return self.slave.getInteger([FLAG])[0], self.slave.getReal(range(U, U + P))
 
     def run(self, calls):
         """Torques of the calls of step, each of which has a result."""
@@ -170,15 +170,15 @@ class Stepped:
 def test_the_description_is_valid_and_says_what_there_is(folder):
     assert validate_fmu(str(folder.parent / "controller.fmu")) == []
     found = fmpy.read_model_description(folder, validate_model_structure=True)
-    units = {x.name: (x.causality, x.variability, x.unit) for x in found.modelVariables}
-    assert units["q[4]"] == ("input", "continuous", "rad")
-    assert units["v[0]"] == ("input", "continuous", "rad/s")
-    assert units["u[3]"] == ("output", "discrete", "N.m")
-    assert units["touchdown"][:2] == ("input", "discrete")
-    assert units["flag"][:2] == ("output", "discrete")
-    assert [x.valueReference for x in found.modelVariables] == list(range(len(units)))
+    ports = {x.name: (x.causality, x.variability, x.unit) for x in found.modelVariables}
+    assert ports["q[4]"] == ("input", "continuous", "rad")
+    assert ports["v[0]"] == ("input", "continuous", "rad/s")
+    assert ports["u[3]"] == ("output", "discrete", "N.m")
+    assert ports["touchdown"][:2] == ("input", "discrete")
+    assert ports["flag"][:2] == ("output", "discrete")
+    assert [x.valueReference for x in found.modelVariables] == list(range(len(ports)))
     names = [*(f"q[{i}]" for i in range(N)), *(f"v[{i}]" for i in range(N))]
-    assert [*units] == [*names, *(f"u[{i}]" for i in range(P)), "touchdown", "flag"]
+    assert [*ports] == [*names, *(f"u[{i}]" for i in range(P)), "touchdown", "flag"]
     assert "left_hip" in found.modelVariables[0].description
     assert float(found.defaultExperiment.stepSize) == PERIOD
     assert all(x.dependencies == [] for x in found.outputs)  # u is of the sample before
@@ -201,12 +201,12 @@ def test_the_c_is_unchanged_and_the_archive_is_the_same_each_time(loaded, folder
 def test_the_torques_are_those_of_the_c_bit_for_bit(folder, calls, torques):
     assert [call.kind for call in calls].count("touchdown") == 2
     assert np.max(np.abs(torques)) > 90.0
-    with Stepped(folder) as unit:
-        np.testing.assert_array_equal(unit.run(calls), torques)
+    with Stepped(folder) as fmu:
+        np.testing.assert_array_equal(fmu.run(calls), torques)
         last = ctypes.c_double()
-        unit.fmu.fmi2GetRealStatus(unit.fmu.component, fmi2LastSuccessfulTime, ctypes.byref(last))
+        fmu.slave.fmi2GetRealStatus(fmu.slave.component, fmi2LastSuccessfulTime, ctypes.byref(last))
         assert last.value == pytest.approx(calls[-1].t + PERIOD, abs=1e-12)
-        assert not unit.said
+        assert not fmu.said
 
 
 def test_from_the_sources_alone_the_torques_are_the_same(
@@ -222,17 +222,17 @@ def test_from_the_sources_alone_the_torques_are_the_same(
     (tmp_path / "build").mkdir()
     options = {"CMAKE_C_FLAGS:STRING": "-ffp-contract=off -Werror"}
     build_platform_binary(folder, tmp_path / "build", all_warnings=True, cmake_options=options)
-    with Stepped(folder) as unit:
-        np.testing.assert_array_equal(unit.run(calls), torques)
+    with Stepped(folder) as fmu:
+        np.testing.assert_array_equal(fmu.run(calls), torques)
 
 
-def test_units_side_by_side_do_not_disturb_each_other(folder, leg, calls, torques):
+def test_fmus_side_by_side_do_not_disturb_each_other(folder, leg, calls, torques):
     place, source = leg
     beside = Loaded(source, "float32")
     steps = [call for call in calls if call.kind == "step"][:200]
     _, x = beside.init(beside.measured(*steps[0][1:4]))
     unpacked(fmu_of(source), place.parent)
-    with Stepped(folder) as one, Stepped(folder) as still, Stepped(place.parent / "unit") as other:
+    with Stepped(folder) as one, Stepped(folder) as still, Stepped(place.parent / "fmu") as other:
         for i, call in enumerate(steps):
             one.given(call.q, call.v)
             one.do_step(call.t)
@@ -251,22 +251,22 @@ def test_units_side_by_side_do_not_disturb_each_other(folder, leg, calls, torque
 def test_a_state_that_was_saved_goes_on_equally(folder, calls, torques, serialized):
     half = next(i for i, call in enumerate(calls) if call.kind == "touchdown") + 3
     done = sum(call.kind == "step" for call in calls[:half])
-    with Stepped(folder) as unit, Stepped(folder) as other:
-        unit.run(calls[:half])
-        state = unit.fmu.getFMUstate()
-        unit.run(calls[half - 1 :])
-        fmu = other.fmu if serialized else unit.fmu
+    with Stepped(folder) as fmu, Stepped(folder) as other:
+        fmu.run(calls[:half])
+        state = fmu.slave.getFMUstate()
+        fmu.run(calls[half - 1 :])
+        again = other if serialized else fmu
         if serialized:
-            data = unit.fmu.serializeFMUstate(state)
-            unit.fmu.freeFMUstate(state)
-            state = fmu.deSerializeFMUstate(data)
+            data = fmu.slave.serializeFMUstate(state)
+            fmu.slave.freeFMUstate(state)
+            state = other.slave.deSerializeFMUstate(data)
             with pytest.raises(FMICallException):
-                unit.fmu.deSerializeFMUstate(data[:-1])
-            assert "not as many bytes" in unit.said[-1][1]
-        fmu.setFMUstate(state)
-        fmu.freeFMUstate(state)
-        again = (other if serialized else unit).run(calls[half - 1 :])
-    np.testing.assert_array_equal(again, torques[done:])
+                fmu.slave.deSerializeFMUstate(data[:-1])
+            assert "not as many bytes" in fmu.said[-1][1]
+        again.slave.setFMUstate(state)
+        again.slave.freeFMUstate(state)
+        u = again.run(calls[half - 1 :])
+    np.testing.assert_array_equal(u, torques[done:])
 
 
 WRONG = {
@@ -282,25 +282,25 @@ WRONG = {
 @pytest.mark.parametrize("name", WRONG)
 def test_a_wrong_step_is_refused_until_reset(folder, calls, torques, name):
     t, step, words = WRONG[name]
-    with Stepped(folder, stop=PERIOD / 2 if name == "beyond the end" else 1.0) as unit:
-        unit.given(calls[1].q, calls[1].v)
+    with Stepped(folder, stop=PERIOD / 2 if name == "beyond the end" else 1.0) as fmu:
+        fmu.given(calls[1].q, calls[1].v)
         for _ in range(2):
             with pytest.raises(FMICallException, match="error"):
-                unit.do_step(t, step)
-        assert words in unit.said[0][1]
-        assert "fmi2DoStep was called where" in unit.said[1][1]
+                fmu.do_step(t, step)
+        assert words in fmu.said[0][1]
+        assert "fmi2DoStep: FMI 2.0 does not allow" in fmu.said[1][1]
         for _ in range(2):  # a second time after steps
-            unit.fmu.reset()
-            unit.initialized()
-            np.testing.assert_array_equal(unit.run(calls[:50]), torques[:49])
+            fmu.slave.reset()
+            fmu.initialized()
+            np.testing.assert_array_equal(fmu.run(calls[:50]), torques[:49])
 
 
 def test_rounding_of_the_clock_is_no_wrong_step(folder, calls):
-    with Stepped(folder, start=1e4) as unit:
+    with Stepped(folder, start=1e4) as fmu:
         t = 1e4
         for call in calls[1:200]:
-            unit.given(call.q, call.v)
-            unit.do_step(t, (t + PERIOD) - t)
+            fmu.given(call.q, call.v)
+            fmu.do_step(t, (t + PERIOD) - t)
             t += PERIOD
 
 
@@ -309,89 +309,89 @@ def test_what_is_not_measured_ends_in_the_safe_torque_and_a_touchdown_then_waits
 ):
     landing = next(i for i, call in enumerate(calls) if call.kind == "touchdown")
     _, x = loaded.init(loaded.measured(*calls[1][1:4]))
-    with Stepped(folder) as unit:
-        unit.run(calls[:landing])
+    with Stepped(folder) as fmu:
+        fmu.run(calls[:landing])
         for call in calls[1:landing]:
             _, u = loaded.step(x, loaded.measured(*call[1:4]))
         for i in range(7):
             t = calls[landing + 1].t + i * PERIOD
             q = calls[landing + 1].q
-            unit.given([np.nan, *q[1:]], np.zeros(N), touchdown=True)
-            assert unit.do_step(t) == fmi2Warning
-            assert unit.made == (NOT_MEASURED, u.tolist() if i < 5 else [0.0] * P)
+            fmu.given([np.nan, *q[1:]], np.zeros(N), touchdown=True)
+            assert fmu.do_step(t) == fmi2Warning
+            assert fmu.made == (NOT_MEASURED, u.tolist() if i < 5 else [0.0] * P)
             assert loaded.step(x, loaded.measured(np.nan, q, q))[0] == NOT_MEASURED
         for i, call in enumerate(calls[landing + 8 : landing + 12]):
             t += PERIOD
             m = loaded.measured(t, call.q, call.v)
-            unit.given(call.q, call.v, touchdown=True)
-            assert unit.do_step(t) == fmi2OK
+            fmu.given(call.q, call.v, touchdown=True)
+            assert fmu.do_step(t) == fmi2OK
             assert i > 0 or loaded.touchdown(x, m) == OK
-            assert unit.made == (OK, loaded.step(x, m)[1].tolist())
+            assert fmu.made == (OK, loaded.step(x, m)[1].tolist())
         assert x["step"] == 2
-        assert {x for x, _ in unit.said} == {fmi2Warning}
+        assert {x for x, _ in fmu.said} == {fmi2Warning}
 
 
 def test_a_switch_that_is_on_from_the_start_is_no_touchdown(folder, calls, torques):
-    with Stepped(folder) as unit:
+    with Stepped(folder) as fmu:
         for i, call in enumerate(calls[1:20]):
-            unit.given(call.q, call.v, touchdown=True)
-            unit.do_step(call.t)
-            assert unit.made == (OK, torques[i].tolist())
+            fmu.given(call.q, call.v, touchdown=True)
+            fmu.do_step(call.t)
+            assert fmu.made == (OK, torques[i].tolist())
 
 
 def test_a_start_without_a_measurement_is_refused(folder):
-    with Stepped(folder) as unit:
-        unit.given(np.full(N, np.nan), np.zeros(N))
+    with Stepped(folder) as fmu:
+        fmu.given(np.full(N, np.nan), np.zeros(N))
         with pytest.raises(FMICallException):
-            unit.do_step(0.0)
-        assert "controller_init has no result" in unit.said[0][1]
-        assert unit.made[1] == [0.0] * P
+            fmu.do_step(0.0)
+        assert "controller_init has no result" in fmu.said[0][1]
+        assert fmu.made[1] == [0.0] * P
 
 
-def after_the_end(unit):
-    unit.fmu.terminate()
-    unit.fmu.setReal([0], [0.0])
+def after_the_end(fmu):
+    fmu.slave.terminate()
+    fmu.slave.setReal([0], [0.0])
 
 
 CALLS = {
     "an input after the end": after_the_end,
-    "a step before the start": lambda unit: unit.do_step(0.0),
-    "a second start": lambda unit: unit.initialized(),
-    "a torque as input": lambda unit: unit.fmu.setReal([U], [1.0]),
-    "no such number": lambda unit: unit.fmu.getReal([TOUCHDOWN]),
-    "no such yes or no": lambda unit: unit.fmu.setBoolean([0], [True]),
-    "a flag as input": lambda unit: unit.fmu.setInteger([FLAG], [1]),
-    "a text": lambda unit: unit.fmu.getString([0]),
-    "a derivative": lambda unit: unit.fmu.getDirectionalDerivative([U], [0], [1.0]),
-    "an end that is no time": lambda unit: unit.fmu.setupExperiment(startTime=np.nan),
+    "a step before the start": lambda fmu: fmu.do_step(0.0),
+    "a second start": lambda fmu: fmu.initialized(),
+    "a torque as input": lambda fmu: fmu.slave.setReal([U], [1.0]),
+    "no such number": lambda fmu: fmu.slave.getReal([TOUCHDOWN]),
+    "no such yes or no": lambda fmu: fmu.slave.setBoolean([0], [True]),
+    "a flag as input": lambda fmu: fmu.slave.setInteger([FLAG], [1]),
+    "a text": lambda fmu: fmu.slave.getString([0]),
+    "a derivative": lambda fmu: fmu.slave.getDirectionalDerivative([U], [0], [1.0]),
+    "an end that is no time": lambda fmu: fmu.slave.setupExperiment(startTime=np.nan),
 }
 
 
 @pytest.mark.parametrize("name", CALLS)
 def test_what_fmi_does_not_allow_is_refused(folder, name):
-    with Stepped(folder) as unit:
+    with Stepped(folder) as fmu:
         if name in ("a step before the start", "an end that is no time"):
-            unit.fmu.reset()
+            fmu.slave.reset()
         with pytest.raises(FMICallException):
-            CALLS[name](unit)
-        assert len(unit.said) == 1
+            CALLS[name](fmu)
+        assert len(fmu.said) == 1
 
 
 def test_another_description_model_exchange_and_a_tool_without_memory_are_refused(folder):
-    with Stepped(folder) as unit:
+    with Stepped(folder) as fmu:
 
         def made(guid, kind):
-            given = b"a", kind, guid.encode(), b"", ctypes.byref(unit.callbacks), 0, 0
-            return unit.fmu.fmi2Instantiate(*given)
+            given = b"a", kind, guid.encode(), b"", ctypes.byref(fmu.callbacks), 0, 0
+            return fmu.slave.fmi2Instantiate(*given)
 
         assert made("{another}", fmi2CoSimulation) is None
-        assert made(unit.fmu.guid, fmi2ModelExchange) is None
-        assert ["GUID" in unit.said[0][1], "co-simulation" in unit.said[1][1]] == [True, True]
-        unit.callbacks.allocateMemory = type(unit.callbacks.allocateMemory)()
-        assert made(unit.fmu.guid, fmi2CoSimulation) is None
+        assert made(fmu.slave.guid, fmi2ModelExchange) is None
+        assert ["GUID" in fmu.said[0][1], "co-simulation" in fmu.said[1][1]] == [True, True]
+        fmu.callbacks.allocateMemory = type(fmu.callbacks.allocateMemory)()
+        assert made(fmu.slave.guid, fmi2CoSimulation) is None
 
 
-def test_the_folder_of_the_c_may_hold_its_unit_and_no_other_file(leg):
+def test_the_folder_of_the_c_may_hold_its_fmu_and_no_other_file(leg):
     place, source = leg
     assert {x.name for x in place.iterdir()} == {*source.files, "leg.fmu"}
     write_folder(place, source, Fmu("leg.fmu", {}))
@@ -425,7 +425,7 @@ int main(void)
   const fmi2Real x[N] = { QS };
   fmi2Byte bytes[sizeof(kept_type)];
   fmi2FMUstate state = NULL, again = NULL;
-  const char *name = "a name that is longer than all the place that a unit has for names of its own";
+  const char *name = "a name that is longer than all the place that a fmu has for names of its own";
   fmi2Component c = fmi2Instantiate(name, fmi2CoSimulation, GUID, NULL, &tool, 0, 0);
   fmi2SetupExperiment(c, 0, 0, 0, 0, 0);
   fmi2EnterInitializationMode(c);
