@@ -54,7 +54,7 @@ def refined(
 ) -> list[dict[str, Value]] | None:
     """`count` settings by CMA-ES, each with a value of every variable; None while TPE is to propose.
 
-    TPE goes on until its part of the budget is spent and a candidate keeps all limits.
+    TPE proposes until its part of the budget is spent, and goes on where there is little to refine.
     """
     library = cma_library()
     begin = _begin(study, [c for c in found if c.generation < generation])
@@ -84,13 +84,10 @@ def _places(study: TuningStudy, found: Sequence[Candidate]) -> list[dict[str, Va
 
 def _begin(study: TuningStudy, found: Sequence[Candidate]) -> int | None:
     """The first generation of CMA-ES, by the candidates of all generations so far; None if not yet."""
-    walked, feasible = 0, False
-    last = max((c.generation for c in found), default=-1)
-    for generation in range(last + 1):
-        here = [c for c in found if c.generation == generation]
-        walked += sum(c.walked for c in here)
-        feasible = feasible or any(c.feasible for c in here)
-        if feasible and walked >= FIRST_PART * study.budget:
+    walked = 0
+    for generation in range(1 + max((c.generation for c in found), default=-1)):
+        walked += sum(c.walked for c in found if c.generation == generation)
+        if walked >= FIRST_PART * study.budget:
             return generation + 1
     return None
 
