@@ -16,7 +16,6 @@ import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
@@ -62,13 +61,12 @@ class Channel(Protocol):
         ...
 
 
-@dataclass
 class ControllerProcess:
     """A running process and the socket that is connected to it; a `Channel`."""
 
-    running: subprocess.Popen[str]
-    line: socket.socket
-    number: int = 0
+    def __init__(self, program: subprocess.Popen[str], connection: socket.socket):
+        """As `started` makes it."""
+        self.running, self.line, self.number = program, connection, 0
 
     def __repr__(self) -> str:
         return f"ControllerProcess({HOST}:{self.port}, {self.number} datagrams sent)"

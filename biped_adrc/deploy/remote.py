@@ -129,7 +129,7 @@ class RealTime(RemoteController):
     """
 
     deadline: float
-    ticks: list[Tick] = field(default_factory=list, repr=False, compare=False)
+    ticks: list[Tick] = field(default_factory=list, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         check_positive(self.deadline, f"the deadline is {self.deadline} s")

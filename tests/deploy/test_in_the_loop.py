@@ -141,9 +141,11 @@ class Double:
     steps: int = 0
     busy: float = 0.0
     under_way: list[tuple[float, Answer]] = field(default_factory=list)
+    sent: list[tuple[int, float]] = field(default_factory=list)
 
     def send(self, kind, t, q, v):
         self.number += 1
+        self.sent.append((kind, self.clock - t))
         m, u, after = self.loaded.measured(t, q, v), np.zeros(4), 1e-4
         if kind == INIT:
             flag, self.x = self.loaded.init(m)
@@ -174,14 +176,15 @@ class Double:
         self.clock = max(self.clock, until)
 
 
-def test_of_a_late_controller_the_misses_are_known_and_the_last_torque_goes_on(loaded, offline):
-    late = {1: 1.1e-3, 40: 1.2e-3, 41: 2.9e-3, 200: 1.4e-3, 290: 1.3e-3}
-    controller = RealTime(Double(loaded, late, {}), deadline=1e-3)
-    walk = ba.walk_scenario(
-        ba.Scenario(**{**WALKS["rigid"].record(), "impacts": 2}), controller=controller
-    )
-    times, at = controller.times, np.array(sorted((*late, 42))) - 1
-    assert times.missed.tolist() == times.t[at].tolist()  # that after 41 comes behind it
+def test_of_a_late_controller_the_misses_are_known_and_the_last_torque_goes_on(loaded):
+    late = {1: 1.1e-3, 40: 1.2e-3, 41: 2.9e-3, 200: 1.4e-3, 279: 1.3e-3}
+    double = Double(loaded, late, {})
+    controller = RealTime(double, deadline=1e-3)
+    two = ba.Scenario(**{**WALKS["rigid"].record(), "impacts": 2})
+    walk = ba.walk_scenario(two, controller=controller)
+    times, at = controller.times, np.array(sorted((*late, 42))) - 1  # 42 comes behind 41
+    assert times.missed.tolist() == times.t[at].tolist()
+    assert times.missed[-1] == walk.trajectory.arcs[1].t[0]  # and left is right from there on
     assert times.without_result == 0
     others = np.delete(np.arange(len(times.t)), at)
     np.testing.assert_allclose(times.trip[others], 1e-4, rtol=0, atol=1e-12)
@@ -189,6 +192,9 @@ def test_of_a_late_controller_the_misses_are_known_and_the_last_torque_goes_on(l
     assert len(times.overrun) == 0
     assert same_motion(walk, held("rigid", loaded, times.missed, impacts=2))
     assert not same_motion(walk, held("rigid", loaded, times.missed[1:], impacts=2))
+    kinds, starts = zip(*double.sent, strict=True)
+    assert sorted(kinds)[-2:] == [TOUCHDOWN, TOUCHDOWN]
+    np.testing.assert_allclose(starts[1:], starts[1], rtol=0, atol=1e-12)
 
 
 def test_a_slow_plant_is_counted_apart_and_catches_up(loaded, offline):
