@@ -1,6 +1,6 @@
 """The table of docs/guide/robot.md on real time: an exported controller as a process of its own, at 1 kHz.
 
-Run: python benchmarks/deploy/in_the_loop.py
+Run: chrt -f 50 python benchmarks/deploy/in_the_loop.py
 
 Each row is a walk of RABBIT with its hardware by the clock on the wall, on the machine at hand.
 """
