@@ -2,6 +2,7 @@
 
 import signal
 import socket
+import struct
 import subprocess
 from dataclasses import dataclass, field
 
@@ -299,6 +300,23 @@ def test_whatever_happens_no_process_stays(program, loaded, monkeypatch, happens
         ba.walk_scenario(WALKS["rigid"], controller=controller)
     assert process.running.poll() is not None
     assert process.line.fileno() == -1
+
+
+def test_a_process_that_ends_with_a_datagram_unread_is_noticed(process):
+    process.running.send_signal(signal.SIGSTOP)
+    process.send(STEP, 0.0, np.zeros(5), np.zeros(5))
+    process.running.kill()
+    with pytest.raises(SimulationError, match=r"has ended.*exit code -9"):
+        process.receive(process.now() + 10.0)
+
+
+def test_an_answer_in_another_layout_is_none():
+    good = struct.pack("<4sHHIIIIQ2d", b"BADR", 1, STEP, 7, 48, OK, 3, 5, 1.5, -2.0)
+    answer = answer_of(good)
+    assert answer[:-1] == (STEP, 7, OK, 3, 5)
+    assert answer.u.tolist() == [1.5, -2.0]
+    for bad in (b"", good[:-1], good[:-8], good + bytes(8), b"X" + good[1:], good[:4] + good[5:]):
+        assert answer_of(bad) is None
 
 
 def test_it_ends_when_told_by_a_signal_or_by_silence_or_without_its_parent(program, tmp_path):
