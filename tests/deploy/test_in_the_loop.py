@@ -4,7 +4,7 @@ import signal
 import socket
 import struct
 import subprocess
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pytest
@@ -83,6 +83,26 @@ def test_a_walk_in_lock_step_is_the_walk_offline(process, offline, plant):
     assert walk.trajectory.status.ok
     assert same_motion(walk, offline(plant))
     assert process.number > 250
+
+
+def test_motions_are_the_same_where_no_bit_of_time_state_and_torque_differs(offline):
+    walk = offline("rigid")
+    (arc,) = walk.trajectory.arcs
+
+    def with_arc(**changed):
+        return replace(walk, trajectory=replace(walk.trajectory, arcs=(replace(arc, **changed),)))
+
+    n, p = 2 * walk.walker.plant.n, walk.walker.plant.p
+    for place in (0, n - 1, -p, -1):
+        other = arc.x.copy()
+        other[7, place] = np.nextafter(other[7, place], 9.0)
+        assert not same_motion(walk, with_arc(x=other))
+    other = arc.x.copy()
+    other[:, n] += 1.0  # of the controller, which is elsewhere
+    assert same_motion(walk, with_arc(x=other))
+    assert not same_motion(walk, with_arc(t=arc.t + 1e-15))
+    fell = replace(walk, trajectory=replace(walk.trajectory, status=ba.Status.FELL))
+    assert not same_motion(walk, fell)
 
 
 @dataclass(frozen=True)
@@ -211,7 +231,7 @@ def test_a_slow_plant_is_counted_apart_and_catches_up(loaded, offline):
 
 
 def exchange(process, data):
-    """The answer to raw bytes; None where there is none before that to a good measurement."""
+    """The next answer after some bytes."""
     process.line.send(data)
     return answer_of(process.line.recv(1000))
 
@@ -222,21 +242,22 @@ def test_datagrams_that_are_none_are_ignored_and_counted(process, loaded):
     process.line.settimeout(10.0)
     before = exchange(process, measurement(STEP, 7, 0.0, q, v))
     assert (before.number, before.flag, before.u.tolist()) == (7, NOT_MEASURED, [0.0] * 4)
-    good = measurement(INIT, 8, 0.0, q, v)
+    good, later = measurement(INIT, 8, 0.0, q, v), measurement(INIT, 100, 0.0, q, v)
     for bad in (
         b"",
-        good[:-1],
-        good + b"\0",
-        b"X" + good[1:],
-        good[:4] + b"\2" + good[5:],  # version
-        good[:6] + b"\5" + good[7:],  # kind
-        good[:6] + b"\0" + good[7:],
-        good[:12] + b"\1" + good[13:],  # size
+        later[:-1],
+        later + b"\0",
+        b"X" + later[1:],
+        later[:4] + b"\2" + later[5:],  # version
+        later[:6] + b"\5" + later[7:],  # kind
+        later[:6] + b"\0" + later[7:],
+        later[:12] + b"\1" + later[13:],  # size
         measurement(INIT, 7, 0.0, q, v),  # a second copy
         measurement(INIT, 2**32 + 6, 0.0, q, v),  # overtaken
     ):
         process.line.send(bad)
-    assert exchange(process, good).flag == OK
+    begun = exchange(process, good)
+    assert (begun.number, begun.flag) == (8, OK)
     step = exchange(process, measurement(STEP, 9, 0.0, q, v))
     assert (step.kind, step.number, step.flag, step.support, step.ignored) == (STEP, 9, OK, 1, 10)
     assert np.max(np.abs(step.u)) > 1.0
