@@ -67,15 +67,10 @@ class ControllerProcess:
     def __init__(self, program: subprocess.Popen[str], connection: socket.socket):
         """As `started` makes it."""
         self.running, self.line, self.number = program, connection, 0
+        self.port: int = connection.getpeername()[1]
 
     def __repr__(self) -> str:
         return f"ControllerProcess({HOST}:{self.port}, {self.number} datagrams sent)"
-
-    @property
-    def port(self) -> int:
-        """On which it listens."""
-        port: int = self.line.getpeername()[1]
-        return port
 
     def send(self, kind: int, t: float, q: Array, v: Array) -> int:
         """As `Channel.send`. Raises SimulationError where the process has ended."""
@@ -124,7 +119,7 @@ class ControllerProcess:
 
 @contextmanager
 def controller_process(
-    source: Source, port: int = 0, silence: int = SILENCE, flags: Sequence[str] = FLAGS
+    source: Source, port: int = 0, silence: int = SILENCE
 ) -> Iterator[ControllerProcess]:
     """Compile loop.c of an export, start it, and end it where the block is left.
 
@@ -132,7 +127,7 @@ def controller_process(
     itself. Raises InputError where there is no compiler, it refuses, or the port is taken.
     """
     with tempfile.TemporaryDirectory() as name:
-        program = built(source, Path(name), flags)
+        program = built(source, Path(name))
         with started([str(program), str(port), str(silence)], source.n) as process:
             yield process
 
