@@ -220,12 +220,14 @@ def compilers_time() -> float:
     return used.ru_utime + used.ru_stime
 
 
-def filled(text: str, name: str, header: tuple[str, ...], rows: list[list[str]]) -> str:
-    """The page with a table between its marks."""
+def filled(
+    text: str, name: str, header: tuple[str, ...], rows: list[list[str]], by: str = "rounding"
+) -> str:
+    """The page with a table between its marks, which say by which script it is."""
     lines = [header, ("---",) * len(header), *rows]
     table = "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
     begin, end = (
-        f"<!-- {name}: made by benchmarks/deploy/rounding.py -->",
+        f"<!-- {name}: made by benchmarks/deploy/{by}.py -->",
         f"<!-- end of {name} -->",
     )
     found = re.sub(

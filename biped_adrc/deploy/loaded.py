@@ -25,7 +25,7 @@ from biped_adrc.deploy.source import Source
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
 
-FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic")
+FLAGS: tuple[str, ...] = ("-std=c99", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic")
 """How an exported controller is compiled."""
 UNOPTIMISED = tuple("-O0" if flag == "-O2" else flag for flag in FLAGS)
 """As FLAGS with the same results to the last bit: sooner compiled, slower to run."""

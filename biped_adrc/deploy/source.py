@@ -13,6 +13,7 @@ from functools import cache
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from biped_adrc.deploy.computer import Computer
+from biped_adrc.deploy.datagram import VERSION
 from biped_adrc.deploy.layout import Field, Functions, functions
 from biped_adrc.engine.c_text import Written, c_text, decimal, used_numbers
 from biped_adrc.engine.symbols import floats, paths
@@ -45,6 +46,8 @@ class Source:
     """Coordinates."""
     p: int
     """Motors."""
+    words: Mapping[str, object]
+    """What the templates say of it, such as its title and its scenario."""
 
     def __repr__(self) -> str:
         return f"Source({', '.join(self.files)}; {self.written['step'].operations} operations)"
@@ -57,7 +60,7 @@ def source_of(
     scenario: Sequence[str] = (),
     shaken: bool = False,
 ) -> Source:
-    """Header, source, main.c, Makefile and README of a computer's functions.
+    """Header, source, main.c, loop.c, Makefile and README of a computer's functions.
 
     prefix: of all names, a word of small letters. real: "float64" or "float32", which
     -DCONTROLLER_REAL=float overrides. scenario: lines for the comment. shaken: with random roundings, as
@@ -98,12 +101,13 @@ def source_of(
         "header.h": f"{prefix}.h",
         "source.c": f"{prefix}.c",
         "main.c": "main.c",
+        "loop.c": "loop.c",
         "Makefile": "Makefile",
         "README.md": "README.md",
         "LICENSE": "LICENSE",
     }
-    rendered = {name: _rendered(template, given) for template, name in texts.items()}
-    return Source(prefix, rendered, made.fields, written, len(used), k.n, k.p)
+    files = {name: rendered(template, given) for template, name in texts.items()}
+    return Source(prefix, files, made.fields, written, len(used), k.n, k.p, given)
 
 
 def _of_robot(computer: Computer, made: Functions) -> dict[str, object]:
@@ -124,10 +128,12 @@ def _of_robot(computer: Computer, made: Functions) -> dict[str, object]:
             f"q[{i}] {joint}, {unit}"
             for i, (joint, unit) in enumerate(zip(joints, units, strict=True))
         ],
+        "joint_names": joints,
         "n": k.n,
         "p": k.p,
         "period": decimal(computer.timing.period),
         "swap": walker.swap.tolist(),
+        "rates_read": made.rates,
         "rates": _rates(made.rates, k.n),
         "rates_finite": " && ".join(f"{x} - {x} == 0" for x in read) or "1",
         "limits": "".join(f", {x}" for x in limits),
@@ -138,6 +144,7 @@ def _of_robot(computer: Computer, made: Functions) -> dict[str, object]:
         ),
         "fields": made.fields,
         "line": ON_THE_LINE,
+        "version": VERSION,
         "versions": packages(("biped-adrc", "casadi", "pin", "numpy")),
     }
 
@@ -166,7 +173,7 @@ def _rates(rates: tuple[int, ...], n: int) -> str:
     return f"v are their rates; init reads all of them, zero at rest; step reads {read}."
 
 
-def _rendered(template: str, given: Mapping[str, object]) -> str:
+def rendered(template: str, given: Mapping[str, object]) -> str:
     """The text of a file from its template."""
     return _environment().get_template(f"{template}.j2").render(given)
 
