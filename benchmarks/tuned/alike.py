@@ -69,8 +69,11 @@ def of_place(c: dict[str, dict], place: str, table: str) -> dict[str, Any]:
 def variables(c: dict[str, dict], e: Entry) -> dict[str, Any]:
     """What a search may choose: gains, the contestant's own, and the leaves of the place."""
     leaves = (c["leaves"][name]["variables"] for name in c["places"][e.place]["leaves"])
-    own = c["contestants"][e.contestant].get("own", {})
-    return dict(itertools.chain(c["gains"].items(), own.items(), *(x.items() for x in leaves)))
+    who = c["contestants"][e.contestant]
+    gains = c["gains"] if who.get("gains", True) else {}
+    return dict(
+        itertools.chain(gains.items(), who.get("own", {}).items(), *(x.items() for x in leaves))
+    )
 
 
 def tables(c: dict[str, dict], e: Entry) -> dict[str, object]:
@@ -80,7 +83,8 @@ def tables(c: dict[str, dict], e: Entry) -> dict[str, object]:
 
     def walks(kind: str) -> dict[str, object]:
         of = of_place(c, e.place, kind)
-        given = [{"name": f"{a:g} N m", "amplitude": a} for a in of["amplitudes"]]
+        more = of.get("values", {})
+        given = [{"name": f"{a:g} N m", "amplitude": a, **more} for a in of["amplitudes"]]
         return {"seeds": of["seeds"], "conditions": given}
 
     walk = of_place(c, e.place, "walk")

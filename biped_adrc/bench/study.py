@@ -80,6 +80,15 @@ class Range(Part):
             return self.low * (self.high / self.low) ** w
         return self.low + (self.high - self.low) * w
 
+    def share(self, x: float) -> float:
+        """The w in [0, 1] of a value x: the inverse of `at`, of an integer the middle of its interval."""
+        a, b = self.low, self.high
+        if self.whole:
+            return (x - a + 0.5) / (b - a + 1.0)
+        if self.scale == "log":
+            return math.log(x / a) / math.log(b / a)
+        return (x - a) / (b - a)
+
     def levels(self, count: int) -> list[float]:
         """`count` values from low to high, evenly spaced on the scale.
 

@@ -28,7 +28,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.control.around import Around, AroundParameters, filled, passed_on
-from biped_adrc.control.base import ControllerLaws, Measurement, controller_laws
+from biped_adrc.control.base import ControllerLaws, Measurement
 from biped_adrc.errors import InputError
 from biped_adrc.timing import SAME_INSTANT
 from biped_adrc.types import Array
@@ -45,11 +45,8 @@ class SettlingParameters(NamedTuple):
 class AcrossContact(Around):
     """Base of the policies: a leaf is given laws of which none is missing but `estimate`, in sampled time."""
 
-    @property
-    def laws(self) -> ControllerLaws:
-        inner = controller_laws(self.inner)
-        k = AroundParameters(inner.parameters, self.own)
-        return self.around(filled(inner.functions))._replace(parameters=k, obstacle=inner.obstacle)
+    def taken(self, inner: ControllerLaws) -> ControllerLaws:
+        return filled(inner)
 
 
 @dataclass(frozen=True)

@@ -38,6 +38,10 @@ class Around(Controller):
         Their k is an `AroundParameters`. Cached by `inner`, so that equal laws share their machine code.
         """
 
+    def taken(self, inner: ControllerLaws) -> ControllerLaws:
+        """The laws of `inner`, without parameters, in the form in which `around` takes them."""
+        return inner
+
     @property
     def own(self) -> Any:
         """The leaf's own numbers, `AroundParameters.own`."""
@@ -52,7 +56,9 @@ class Around(Controller):
     def laws(self) -> ControllerLaws:
         inner = controller_laws(self.inner)
         k = AroundParameters(inner.parameters, self.own)
-        return self.around(inner.functions)._replace(parameters=k, obstacle=inner.obstacle)
+        return self.around(self.taken(inner.functions))._replace(
+            parameters=k, obstacle=inner.obstacle
+        )
 
     def sampled(self, period: float) -> Self:
         return replace(self, inner=self.inner.sampled(period))

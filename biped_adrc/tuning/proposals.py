@@ -7,11 +7,12 @@ makes a fresh study in memory, adds what is finished in the order of numbers, an
 
 so that what is proposed depends on these and on finished candidates alone, and no sampler is ever stored.
 
-For one objective the sampler is TPE (Bergstra et al., NeurIPS 2011; with constraints). It takes
-ranges, whole numbers and choices together, uses only the order of results, so that an infinite one does no
-harm, and needs no more than NumPy; Optuna's Gaussian processes need torch, and its CMA-ES knows neither choices
-nor limits. For several objectives it is NSGA-II (Deb et al., IEEE Trans. Evol. Comp. 6, 2002): on a linear
-plant whose front is known, TPE may stay in one part of it.
+For one objective the sampler is "cma-es": TPE (Bergstra et al., NeurIPS 2011; with constraints) for the first
+part of the budget, CMA-ES around its best candidate for the rest (`tuning.refinement`). TPE takes ranges,
+whole numbers and choices together, and uses only the order of results, so that an infinite one does no
+harm; Optuna's Gaussian processes need torch. Its own CMA-ES knows neither choices nor limits. For several
+objectives it is NSGA-II (Deb et al., IEEE Trans. Evol. Comp. 6, 2002): on a linear plant whose front is known,
+TPE may stay in one part of it.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ import numpy as np
 from biped_adrc.bench.parameters import Value
 from biped_adrc.errors import InputError
 from biped_adrc.tuning.candidate import Candidate
+from biped_adrc.tuning.refinement import refined
 from biped_adrc.tuning.study import TuningStudy
 from biped_adrc.tuning.variables import Variable
 
@@ -58,8 +60,13 @@ def proposed(
     study: TuningStudy, found: Sequence[Candidate], generation: int, round_: int, count: int
 ) -> list[dict[str, Value]]:
     """`count` settings to try, each with a value of every variable, after the candidates `found`."""
+    seed = _seed(study, generation, round_)
+    if study.sampler == "cma-es":
+        settings = refined(study, found, generation, count, seed)
+        if settings is not None:
+            return settings
     with optuna_quiet() as optuna:
-        made = optuna_study(optuna, study, found, _sampler(optuna, study, generation, round_))
+        made = optuna_study(optuna, study, found, _sampler(optuna, study, generation, seed))
         space = _distributions(optuna, study.variables)
         return [dict(made.ask(space).params) for _ in range(count)]
 
@@ -113,10 +120,14 @@ def importances(study: TuningStudy, found: Sequence[Candidate]) -> dict[str, flo
     return {name: float(x) for name, x in shares.items()}
 
 
-def _sampler(optuna: Any, study: TuningStudy, generation: int, round_: int) -> Any:
-    """The sampler of the study, with the random numbers of this generation and round."""
+def _seed(study: TuningStudy, generation: int, round_: int) -> int:
+    """Of the random numbers of this generation and round."""
     sequence = np.random.SeedSequence(study.seed, spawn_key=(generation, round_))
-    seed = int(sequence.generate_state(1)[0])
+    return int(sequence.generate_state(1)[0])
+
+
+def _sampler(optuna: Any, study: TuningStudy, generation: int, seed: int) -> Any:
+    """The sampler of the study."""
     if study.sampler == "random":
         return optuna.samplers.RandomSampler(seed=seed)
     if study.sampler == "nsga-ii":

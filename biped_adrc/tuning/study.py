@@ -27,7 +27,7 @@ SETS = ("training", "selection", "test")
 SET, CANDIDATE = "set", "candidate"
 """Names under which the set and the candidate's number stand beside the condition and the seed of a walk."""
 
-Sampler = Literal["tpe", "nsga-ii", "random"]
+Sampler = Literal["cma-es", "tpe", "nsga-ii", "random"]
 """What proposes candidates."""
 
 
@@ -81,7 +81,7 @@ class TuningStudy(Part):
     """Candidates that are walked on the selection set."""
     seed: int = Field(ge=0)
     """Of the sampler."""
-    sampler: Sampler = "tpe"
+    sampler: Sampler = "cma-es"
 
     @property
     def measures(self) -> tuple[Measure, ...]:

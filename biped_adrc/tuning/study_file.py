@@ -77,7 +77,7 @@ def read_tuning(
     for key in head:
         r.known(key, HEAD, "study.")
     several = isinstance(found := tables.get("objectives"), list) and len(found) > 1
-    usual = "nsga-ii" if several else "tpe"
+    usual = "nsga-ii" if several else "cma-es"
     made = {
         "name": r.text(head, "name", "study."),
         "description": r.text(head, "description", "study.", ""),

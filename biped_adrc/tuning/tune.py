@@ -45,6 +45,7 @@ from biped_adrc.tuning.candidate import (
 from biped_adrc.tuning.held_out import held_out
 from biped_adrc.tuning.page import write
 from biped_adrc.tuning.proposals import optuna_quiet
+from biped_adrc.tuning.refinement import cma_library
 from biped_adrc.tuning.search import search
 from biped_adrc.tuning.study import SETS, TuningStudy
 from biped_adrc.tuning.study_file import load_tuning
@@ -78,7 +79,7 @@ def tune(
     """
     study = study if isinstance(study, TuningStudy) else load_tuning(study)
     with optuna_quiet():
-        pass  # it is there
+        cma_library()  # both are there
     if function is None:
         rehearse(study)
         from biped_adrc.bench.run import run_trials
@@ -156,7 +157,12 @@ def about_tuning(study: TuningStudy, crew: Workers) -> About:
             "may not have, or have others; run it with processes or threads of this machine"
         )
     of_parts = own_of_study(given) | plants_of_study(given)
-    versions = {**numerical_versions(), **packages(["optuna"]), **hashes(files), **of_parts}
+    versions = {
+        **numerical_versions(),
+        **packages(["optuna", "cmaes"]),
+        **hashes(files),
+        **of_parts,
+    }
     return About(study.name, study.hash, study.configuration, versions)
 
 

@@ -322,6 +322,16 @@ def test_texts_that_are_no_times(text):
         quantity(text, "s")
 
 
+@pytest.mark.parametrize(
+    "given", [(2.0, 9.0, "linear"), (0.5, 80.0, "log"), (3, 7, "linear", True)]
+)
+def test_the_share_of_a_value_of_a_range_gives_it_back(given):
+    made = Range(**dict(zip(("low", "high", "scale", "whole"), given, strict=False)))
+    for w in (0.0, 0.3, 0.77, 0.999):
+        assert made.at(made.share(made.at(w))) == pytest.approx(made.at(w), rel=1e-12)
+    assert 0.0 <= made.share(made.low) < made.share(made.high) <= 1.0
+
+
 def test_levels_have_both_ends_and_even_steps():
     linear = Range(low=0.1, high=0.7, scale="linear").levels(7)
     assert (linear[0], linear[-1]) == (0.1, 0.7)

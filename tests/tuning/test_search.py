@@ -31,14 +31,29 @@ def walked(asked):
     return [[("", row)] for row in plant.rows([{"own": values} for values in own])]
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
-def test_the_optimum_of_riccati_is_reached_within_a_percent(seed):
-    study = study_of(seed=seed)
-    found = search(study, walked)
-    assert (len(found), found[0].chosen) == (200, {})
-    best = ranked(study, found)[0].objectives[0]
+def test_the_optimum_of_riccati_is_reached():
+    """Within 1 % with each of three seeds, within 0.05 % in the mean; TPE alone ends at 0.09 %."""
     exact = sum(plant.costs(*plant.optimum()))
-    assert exact * (1.0 - 1e-9) <= best < 1.01 * exact
+    missed = []
+    for seed in (1, 2, 3):
+        study = study_of(seed=seed)
+        found = search(study, walked)
+        assert (study.sampler, len(found), found[0].chosen) == ("cma-es", 200, {})
+        missed.append(ranked(study, found)[0].objectives[0] / exact - 1.0)
+    assert -1e-9 < min(missed) <= max(missed) < 0.01
+    assert np.mean(missed) < 5e-4
+
+
+def test_cma_es_keeps_the_choices_of_the_best_and_leaves_idle_ranges_alone():
+    idle = {"from": 0.0, "to": 1.0, "when": {"contact": "hold"}}
+    choices = {"contact": {"choices": ["none", "hold"]}, "contact_window": idle}
+    study = study_of({"variables": {**plant.tables()["variables"], **choices}}, budget=60)
+    found = search(study, walked)
+    last = [c for c in found if c.generation == max(c.generation for c in found)]
+    first = ranked(study, [c for c in found if c.generation < last[0].generation])[0].chosen
+    assert {c.chosen["contact"] for c in last} == {first["contact"]}
+    windows = {c.chosen["contact_window"] for c in last}
+    assert len(windows) == (1 if first["contact"] is None else len(last))
 
 
 def test_random_candidates_do_not_reach_it():

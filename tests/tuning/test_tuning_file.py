@@ -78,7 +78,7 @@ def changed(**changes):
         ({"objectives__0__condition": "push"}, r"objectives\[1\].condition: found 'push'"),
         ({"limits__0__most": 1.0}, r"limits\[1\]: has \['least', 'most'\], expected one of"),
         ({"limits__0__least": ...}, r"limits\[1\]: has \[\], expected one of"),
-        ({"study__sampler": "cma-es"}, "sampler: found 'cma-es'"),
+        ({"study__sampler": "cobyla"}, "sampler: found 'cobyla'"),
         ({"study__budget": 0}, "study.budget: found 0, expected a whole number from 1"),
         ({"study__generation": 2}, "study.generation: found 2, expected at least 4"),
         (
