@@ -31,6 +31,12 @@ MOST_TORQUE = 200.0
 """Largest torque of a hand on one coordinate [N m], above the 150 N m of RABBIT's motors."""
 
 
+REACH = 3.0
+"""Largest distance of a point from the origin of its link [m]: it is on the link, or on what that carries."""
+MOST_POINTS = 64
+"""Points kept in closed form."""
+
+
 class Hand(NamedTuple):
     """What acts over one sample, in plain numbers."""
 
@@ -83,6 +89,8 @@ class LinkPoints:
     def of(self, link: str, at: tuple[float, float]) -> LinkPoint:
         """The point `at` [m] of a link. Raises ModelError for a link that the robot has not."""
         if (link, at) not in self.made:
+            if len(self.made) >= MOST_POINTS:
+                self.made.clear()
             self.made[link, at] = link_point(self.biped, link, at)
         return self.made[link, at]
 
@@ -105,7 +113,8 @@ def check_hand(hand: Hand, n: int) -> None:
     """
     if len(hand.torque) != n:
         raise InputError(f"the hand has {len(hand.torque)} torques, expected {n}, one a coordinate")
-    if not all(map(math.isfinite, (*hand.torque, *hand.force, *hand.at))):
+    check_point(hand.at)
+    if not all(map(math.isfinite, (*hand.torque, *hand.force))):
         raise InputError(f"the hand is {hand}, expected finite numbers")
     if (torque := max(map(abs, hand.torque))) > MOST_TORQUE:
         raise InputError(
@@ -113,3 +122,11 @@ def check_hand(hand: Hand, n: int) -> None:
         )
     if (force := math.hypot(*hand.force)) > MOST_FORCE * (1.0 + 1e-9):
         raise InputError(f"the force of the hand is {force:g} N, expected at most {MOST_FORCE:g}")
+
+
+def check_point(at: tuple[float, float]) -> None:
+    """Raise InputError for a point (x, z) [m] of a link that is not finite, or beyond REACH."""
+    if not math.hypot(*at) <= REACH:
+        raise InputError(
+            f"the point of the link is at {at} m in its frame, expected two numbers within {REACH:g} m"
+        )

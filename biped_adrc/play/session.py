@@ -18,7 +18,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple, Self
 
@@ -27,7 +26,7 @@ import numpy as np
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.simulator import FlownArc
 from biped_adrc.parts import check_part
-from biped_adrc.play.hand import Hand, Spring, check_hand
+from biped_adrc.play.hand import Hand, Spring, check_hand, check_point
 from biped_adrc.play.record import Change, Held, SessionRecord
 from biped_adrc.play.track import OF_CONTROLLER, Track, revised
 from biped_adrc.robots.symmetry import twins
@@ -42,9 +41,15 @@ WALK, GHOST = 0, 1
 class Mark(NamedTuple):
     """A session at one sample, to go back to."""
 
-    record: SessionRecord
+    samples: int
     tracks: tuple[Track, ...]
     hand: Hand | None
+    changes: int
+    """How many there were."""
+    hands: int
+    """How many rows of the hand there were."""
+    last: Held | None
+    """The last of these rows."""
 
 
 class Session:
@@ -67,7 +72,8 @@ class Session:
 
     def _begin(self, scenario: Scenario, ghost: Scenario | None) -> None:
         """At the first sample, with nothing done yet."""
-        self.record = SessionRecord(scenario, ghost)
+        self.given = scenario, ghost
+        self.samples, self.changes, self.hands = 0, list[Change](), list[Held]()
         self.tracks = [Track.begun(s) for s in (scenario, ghost) if s is not None]
         self.hand: Hand | None = None
         self.marks = [self._mark()]
@@ -76,9 +82,14 @@ class Session:
 
     def __repr__(self) -> str:
         names = " and ".join(track.scenario.controller for track in self.tracks)
-        return f"Session({names}, {self.record.samples} samples, {self.t:.4g} s)"
+        return f"Session({names}, {self.samples} samples, {self.t:.4g} s)"
 
     # -- where it is -------------------------------------------------------------------------------
+    @property
+    def record(self) -> SessionRecord:
+        """What was done so far."""
+        return SessionRecord(*self.given, tuple(self.changes), tuple(self.hands), self.samples)
+
     @property
     def leader(self) -> Track:
         """The walk that counts the samples: the first that has not ended, or the walk itself."""
@@ -107,7 +118,7 @@ class Session:
         for k, track in enumerate(self.tracks):
             while k != first and track.walks and track.now.t < until:
                 track = self._sampled(k, nodes)
-        self.record = replace(self.record, samples=self.record.samples + 1)
+        self.samples += 1
         return nodes
 
     def _sampled(self, k: int, nodes: list[list[FlownArc]]) -> Track:
@@ -139,10 +150,10 @@ class Session:
 
     def _act(self) -> None:
         """The hand for the coming sample: what has run out is let go, and a spring is looked at anew."""
-        k, hand, first = self.record.samples, self.hand, self.tracks.index(self.leader)
+        hand, first = self.hand, self.tracks.index(self.leader)
         if self.leader.now.mode.step != self.marks[-1].tracks[first].now.mode.step:
             self.marks.append(self._mark())
-        if k >= self.ends:
+        if self.samples >= self.ends:
             hand, self.ends = None, math.inf
         if self.spring is not None:
             hand = self._pulled(self.spring)
@@ -150,16 +161,20 @@ class Session:
 
     def _mark(self) -> Mark:
         """Where the session is, to go back to."""
-        return Mark(self.record, (*self.tracks,), self.hand)
+        rows = len(self.hands)
+        last = self.hands[-1] if rows else None
+        return Mark(self.samples, (*self.tracks,), self.hand, len(self.changes), rows, last)
 
     def hold(self, hand: Hand | None) -> None:
         """What acts from the coming sample on, as it is; noted where it is something else than before."""
         if hand is not None and hand.idle:
             hand = None
-        if hand != self.hand:
-            self.hand, k = hand, self.record.samples
-            before = tuple(x for x in self.record.hands if x.sample < k)
-            self.record = replace(self.record, hands=(*before, Held(k, hand)))
+        if hand == self.hand:
+            return
+        self.hand = hand
+        if self.hands and self.hands[-1].sample == self.samples:
+            self.hands.pop()
+        self.hands.append(Held(self.samples, hand))
 
     # -- the hand ----------------------------------------------------------------------------------
     def push(
@@ -191,7 +206,7 @@ class Session:
         self.let_go()
         self.hold(hand)
         lasting = seconds / self.leader.moving.timing.period
-        self.ends = self.record.samples + (max(1, round(lasting)) if lasting < 1e9 else math.inf)
+        self.ends = self.samples + (max(1, round(lasting)) if lasting < 1e9 else math.inf)
 
     def pull(self, link: str, at: tuple[float, float], anchor: tuple[float, float]) -> None:
         """Pull a point (x, z) [m] of a link by a `hand.Spring` to the anchor (x, z) [m] in the world.
@@ -199,9 +214,9 @@ class Session:
         Until `let_go`; called again it moves the anchor. The ghost gets the force that the walk gets. Raises
         InputError and ModelError.
         """
-        numbers = (*at, *anchor)
-        if not all(isinstance(x, int | float) and math.isfinite(x) for x in numbers):
-            raise InputError(f"the spring is at {at} and {anchor} m, expected finite numbers")
+        check_point(at)
+        if not all(map(math.isfinite, anchor)):
+            raise InputError(f"the anchor of the spring is at {anchor} m, expected finite numbers")
         self.tracks[WALK].moving.points.of(link, at)
         self.spring, self.ends = Spring(link, at, anchor), math.inf
 
@@ -239,8 +254,8 @@ class Session:
         if after is before:
             return
         self.tracks[walk] = after
-        change = Change(self.record.samples, walk, differing(before.scenario, after.scenario))
-        self.record = replace(self.record, changes=(*self.record.changes, change))
+        values = differing(before.scenario, after.scenario)
+        self.changes.append(Change(self.samples, walk, values))
 
     def back(self) -> None:
         """To where the present single support of the walk began, or the one before if it has just begun.
@@ -248,12 +263,15 @@ class Session:
         What was done since is forgotten, but the scenarios stay as they are now. The hand lets go.
         """
         now = [track.scenario for track in self.tracks]
-        while len(self.marks) > 1 and self.marks[-1].record.samples >= self.record.samples:
+        while len(self.marks) > 1 and self.marks[-1].samples >= self.samples:
             self.marks.pop()
-        self.record, tracks, self.hand = self.marks[-1]
-        self.tracks = [*tracks]
+        mark = self.marks[-1]
+        self.samples, self.tracks, self.hand = mark.samples, [*mark.tracks], mark.hand
+        del self.changes[mark.changes :], self.hands[mark.hands :]
+        if mark.last is not None:  # a row of the same sample may have taken its place
+            self.hands[-1] = mark.last
         self.let_go()
-        for k, (track, s) in enumerate(zip(tracks, now, strict=True)):
+        for k, (track, s) in enumerate(zip(mark.tracks, now, strict=True)):
             self.change(k, **differing(track.scenario, s))
 
     def reset(self) -> None:

@@ -178,6 +178,23 @@ def test_back_is_where_the_single_support_began_and_the_same_again_is_the_same()
     assert session.record.scenario.controller == "NPID"
 
 
+def test_back_at_a_sample_where_the_hand_has_changed_twice_it_is_the_first_again():
+    session, still = (Session(ba.Scenario("NPD", **IDEAL)) for _ in range(2))
+    for each in (session, still):
+        while each.tracks[WALK].now.mode.step == 1:
+            each.sample()
+    session.push({"q1": 5.0}, seconds=0.01)
+    session.let_go()
+    session.pull("torso", (0.0, 0.0), (1.0, 1.0))
+    session.advance(0.02)
+    session.back()
+    for each in (session, still):
+        each.advance(0.02)
+    x = session.tracks[WALK].now.x
+    assert np.array_equal(x, still.tracks[WALK].now.x)
+    assert np.array_equal(x, session.walk().trajectory.arcs[-1].x[-1])
+
+
 def test_another_controller_begins_as_after_an_impact():
     session = Session(ba.Scenario("NPD", **IDEAL))
     session.advance(0.2)
@@ -258,6 +275,8 @@ def test_the_ghost_gets_the_same_push_and_goes_on_where_the_walk_has_fallen():
         (lambda s: s.push(force=(1e4, 0.0)), "at most 300"),
         (lambda s: s.push(force=(1.0, 0.0), link="tail"), "tail"),
         (lambda s: s.push({"q1": 1.0}, seconds=0.0), "positive"),
+        (lambda s: s.push(force=(1.0, 0.0), at=(1e9, 0.0)), "within 3 m"),
+        (lambda s: s.pull("torso", (math.nan, 0.0), (0.0, 0.0)), "within 3 m"),
         (lambda s: s.pull("torso", (0.0, 0.0), (math.inf, 0.0)), "finite"),
         (lambda s: s.pull("tail", (0.0, 0.0), (0.0, 0.0)), "tail"),
         (lambda s: s.advance(-1.0), "0 s or more"),
