@@ -26,7 +26,7 @@ from biped_adrc.types import Array
 _LAW = ctypes.PYFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
 
 
-class Push(Protocol):
+class PlantPush(Protocol):
     """What acts from outside, in any form."""
 
     def load(self, t: float, q: Array, v: Array, mode: Mode) -> Load | None:

@@ -15,7 +15,7 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import Advanced, Contact, PlantState, StridingPlant
-from biped_adrc.engine.compiled_push import Push
+from biped_adrc.engine.compiled_push import PlantPush
 from biped_adrc.engine.compiled_tick import CompiledTick
 from biped_adrc.errors import NotFiniteError
 from biped_adrc.hybrid.simulator import Record
@@ -101,7 +101,7 @@ class Strides(HybridSystem):
     """The loop's."""
     code: CompiledTick | None
     """Sample instants in machine code; None for Python."""
-    push: Push
+    push: PlantPush
     t_first: float
     """Start of the run [s]."""
     began: float | None = None

@@ -39,7 +39,7 @@ def on_the_plan(walker: Walker) -> Walker:
     return replace(walker, disturbance=given + TorqueStep(np.zeros(n)) + force)
 
 
-class Numbers:
+class HandNumbers:
     """Puts the numbers of a hand into the vector F of a plan that is a walk's own."""
 
     def __init__(self, made: CompiledWalker, points: LinkPoints):
@@ -78,11 +78,11 @@ class MovingCode(Moving):
     """A walk that is machine code as a whole."""
 
     made: CompiledWalker
-    numbers: Numbers = field(init=False)
+    numbers: HandNumbers = field(init=False)
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        object.__setattr__(self, "numbers", Numbers(self.made, self.points))
+        object.__setattr__(self, "numbers", HandNumbers(self.made, self.points))
 
     def at(self, t: float, x: Array, mode: Mode, began: float, fired: str | None) -> Now:
         return Now(t, x, mode, began, fired, starting(self.made, x, t, mode, t, fired))
@@ -99,11 +99,11 @@ class MovingPython(Moving):
     """A walk whose controller is plain Python, on the compiled plant."""
 
     system: TicksWithHardware
-    numbers: Numbers = field(init=False)
+    numbers: HandNumbers = field(init=False)
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        object.__setattr__(self, "numbers", Numbers(self.system.plant, self.points))
+        object.__setattr__(self, "numbers", HandNumbers(self.system.plant, self.points))
 
     def fly(self, now: Now, hand: Hand | None) -> tuple[FlownArc, Array]:
         self.numbers.hold(hand)

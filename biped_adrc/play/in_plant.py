@@ -11,7 +11,7 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import Load
 from biped_adrc.engine.compiled_loop import CompiledLoop
-from biped_adrc.engine.compiled_push import Push, PythonPush
+from biped_adrc.engine.compiled_push import PlantPush, PythonPush
 from biped_adrc.engine.strides import Strides
 from biped_adrc.hybrid.simulator import FlownArc, Record
 from biped_adrc.hybrid.system import Clock, FoundEvent, HybridSystem, Mover
@@ -56,7 +56,7 @@ class MovingPlant(Moving):
 class WithHand:
     """What acts on a loop from outside, and a hand."""
 
-    push: Push
+    push: PlantPush
     hand: Hand
     points: LinkPoints
 

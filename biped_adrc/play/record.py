@@ -33,7 +33,7 @@ class Change(NamedTuple):
     """By name."""
 
 
-class Held(NamedTuple):
+class HandRow(NamedTuple):
     """What the hand does from a sample on."""
 
     sample: int
@@ -48,7 +48,7 @@ class SessionRecord:
     scenario: Scenario
     ghost: Scenario | None = None
     changes: tuple[Change, ...] = ()
-    hands: tuple[Held, ...] = ()
+    hands: tuple[HandRow, ...] = ()
     samples: int = 0
 
     def plain(self) -> dict[str, object]:
@@ -75,7 +75,7 @@ class SessionRecord:
                 Scenario(**plain["scenario"]),
                 None if ghost is None else Scenario(**ghost),
                 tuple(Change(int(k), int(walk), dict(x)) for k, walk, x in plain["changes"]),
-                tuple(Held(int(k), None if x is None else _hand(*x)) for k, x in plain["hands"]),
+                tuple(HandRow(int(k), None if x is None else _hand(*x)) for k, x in plain["hands"]),
                 int(plain["samples"]),
             )
         except (KeyError, TypeError, ValueError, AttributeError) as error:

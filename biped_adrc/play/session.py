@@ -27,8 +27,8 @@ from biped_adrc.errors import InputError
 from biped_adrc.hybrid.simulator import FlownArc
 from biped_adrc.parts import check_part
 from biped_adrc.play.hand import Hand, Spring, check_hand, check_point
-from biped_adrc.play.record import Change, Held, SessionRecord
-from biped_adrc.play.track import OF_CONTROLLER, Track, revised
+from biped_adrc.play.live_walk import OF_CONTROLLER, LiveWalk, revised
+from biped_adrc.play.record import Change, HandRow, SessionRecord
 from biped_adrc.robots.symmetry import twins
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.scenario import DEFAULTS, HARDWARE, Scenario
@@ -42,13 +42,13 @@ class Mark(NamedTuple):
     """A session at one sample, to go back to."""
 
     samples: int
-    tracks: tuple[Track, ...]
+    walking: tuple[LiveWalk, ...]
     hand: Hand | None
     changes: int
     """How many there were."""
     hands: int
     """How many rows of the hand there were."""
-    last: Held | None
+    last: HandRow | None
     """The last of these rows."""
 
 
@@ -73,15 +73,15 @@ class Session:
     def _begin(self, scenario: Scenario, ghost: Scenario | None) -> None:
         """At the first sample, with nothing done yet."""
         self.given = scenario, ghost
-        self.samples, self.changes, self.hands = 0, list[Change](), list[Held]()
-        self.tracks = [Track.begun(s) for s in (scenario, ghost) if s is not None]
+        self.samples, self.changes, self.hands = 0, list[Change](), list[HandRow]()
+        self.walking = [LiveWalk.begun(s) for s in (scenario, ghost) if s is not None]
         self.hand: Hand | None = None
         self.marks = [self._mark()]
         self.spring: Spring | None = None
         self.ends = math.inf
 
     def __repr__(self) -> str:
-        names = " and ".join(track.scenario.controller for track in self.tracks)
+        names = " and ".join(live.scenario.controller for live in self.walking)
         return f"Session({names}, {self.samples} samples, {self.t:.4g} s)"
 
     # -- where it is -------------------------------------------------------------------------------
@@ -91,9 +91,9 @@ class Session:
         return SessionRecord(*self.given, tuple(self.changes), tuple(self.hands), self.samples)
 
     @property
-    def leader(self) -> Track:
+    def leader(self) -> LiveWalk:
         """The walk that counts the samples: the first that has not ended, or the walk itself."""
-        return next((track for track in self.tracks if track.walks), self.tracks[WALK])
+        return next((live for live in self.walking if live.walks), self.walking[WALK])
 
     @property
     def t(self) -> float:
@@ -103,29 +103,29 @@ class Session:
     @property
     def walks(self) -> bool:
         """Whether any of the walks goes on."""
-        return any(track.walks for track in self.tracks)
+        return any(live.walks for live in self.walking)
 
     # -- moving on ---------------------------------------------------------------------------------
     def sample(self) -> list[list[FlownArc]]:
         """One sample on; the nodes of each walk. Nothing where all walks have ended."""
-        nodes: list[list[FlownArc]] = [[] for _ in self.tracks]
+        nodes: list[list[FlownArc]] = [[] for _ in self.walking]
         if not self.walks:
             return nodes
         self._act()
-        first = self.tracks.index(self.leader)
+        first = self.walking.index(self.leader)
         self._sampled(first, nodes)
-        until = self.tracks[first].now.t
-        for k, track in enumerate(self.tracks):
-            while k != first and track.walks and track.now.t < until:
-                track = self._sampled(k, nodes)
+        until = self.walking[first].now.t
+        for k, live in enumerate(self.walking):
+            while k != first and live.walks and live.now.t < until:
+                live = self._sampled(k, nodes)
         self.samples += 1
         return nodes
 
-    def _sampled(self, k: int, nodes: list[list[FlownArc]]) -> Track:
+    def _sampled(self, k: int, nodes: list[list[FlownArc]]) -> LiveWalk:
         """Walk k one sample on, under the hand that acts now."""
-        before = self.tracks[k]
+        before = self.walking[k]
         after, flown = before.sampled(self.hand)
-        self.tracks[k] = after
+        self.walking[k] = after
         nodes[k].append(flown)
         if flown.outcome is not None and k == WALK:
             self._touched_down()
@@ -133,7 +133,7 @@ class Session:
 
     def _touched_down(self) -> None:
         """The links have changed their names: the spring stays at the same metal."""
-        plant = self.tracks[WALK].moving.walker.plant
+        plant = self.walking[WALK].moving.walker.plant
         if self.spring is not None:
             d = plant.description
             other = twins(plant.tree, (d.stance_foot, d.swing_foot))
@@ -150,8 +150,8 @@ class Session:
 
     def _act(self) -> None:
         """The hand for the coming sample: what has run out is let go, and a spring is looked at anew."""
-        hand, first = self.hand, self.tracks.index(self.leader)
-        if self.leader.now.mode.step != self.marks[-1].tracks[first].now.mode.step:
+        hand, first = self.hand, self.walking.index(self.leader)
+        if self.leader.now.mode.step != self.marks[-1].walking[first].now.mode.step:
             self.marks.append(self._mark())
         if self.samples >= self.ends:
             hand, self.ends = None, math.inf
@@ -163,7 +163,7 @@ class Session:
         """Where the session is, to go back to."""
         rows = len(self.hands)
         last = self.hands[-1] if rows else None
-        return Mark(self.samples, (*self.tracks,), self.hand, len(self.changes), rows, last)
+        return Mark(self.samples, (*self.walking,), self.hand, len(self.changes), rows, last)
 
     def hold(self, hand: Hand | None) -> None:
         """What acts from the coming sample on, as it is; noted where it is something else than before."""
@@ -174,7 +174,7 @@ class Session:
         self.hand = hand
         if self.hands and self.hands[-1].sample == self.samples:
             self.hands.pop()
-        self.hands.append(Held(self.samples, hand))
+        self.hands.append(HandRow(self.samples, hand))
 
     # -- the hand ----------------------------------------------------------------------------------
     def push(
@@ -191,7 +191,7 @@ class Session:
         made whole samples of the leading walk's clock; infinite until `let_go`. Raises InputError and
         ModelError for what is no push of this robot.
         """
-        moving = self.tracks[WALK].moving
+        moving = self.walking[WALK].moving
         plant = moving.walker.plant
         if not seconds > 0.0:
             raise InputError(f"the push lasts {seconds} s, expected a positive time")
@@ -217,7 +217,7 @@ class Session:
         check_point(at)
         if not all(map(math.isfinite, anchor)):
             raise InputError(f"the anchor of the spring is at {anchor} m, expected finite numbers")
-        self.tracks[WALK].moving.points.of(link, at)
+        self.walking[WALK].moving.points.of(link, at)
         self.spring, self.ends = Spring(link, at, anchor), math.inf
 
     def let_go(self) -> None:
@@ -227,33 +227,35 @@ class Session:
 
     def _pulled(self, spring: Spring) -> Hand:
         """The hand of a spring where the walk is now."""
-        track = self.tracks[WALK]
-        p, rate = track.moving.points.place(spring.link, spring.at, track.q, track.v)
-        force = spring.force(p + track.foot, rate)
-        return Hand((0.0,) * len(track.q), spring.link, spring.at, force)
+        live = self.walking[WALK]
+        p, rate = live.moving.points.place(spring.link, spring.at, live.q, live.v)
+        force = spring.force(p + live.foot, rate)
+        return Hand((0.0,) * len(live.q), spring.link, spring.at, force)
 
     def pulled(self) -> tuple[Array, Array] | None:
         """Where the spring is at the robot (2,) [m] in the world, and its force (2,) [N]; None without one."""
         if self.spring is None:
             return None
-        track, hand = self.tracks[WALK], self._pulled(self.spring)
-        p, _ = track.moving.points.place(hand.link, hand.at, track.q, track.v)
-        return p + track.foot, np.array(hand.force)
+        live, hand = self.walking[WALK], self._pulled(self.spring)
+        p, _ = live.moving.points.place(hand.link, hand.at, live.q, live.v)
+        return p + live.foot, np.array(hand.force)
 
     # -- other values, and other times -------------------------------------------------------------
     def change(self, walk: int = WALK, **values: object) -> None:
-        """Other values of a walk's scenario from the coming sample on, by name; see `play.track`.
+        """Other values of a walk's scenario from the coming sample on, by name; see `play.live_walk`.
 
         walk: 0, or 1 for the ghost. Raises InputError for values that are none, or cannot change; then all
         is as it was.
         """
-        if walk not in range(len(self.tracks)):
-            raise InputError(f"walk {walk} is changed, and there are {len(self.tracks)}, from 0 on")
-        before = self.tracks[walk]
+        if walk not in range(len(self.walking)):
+            raise InputError(
+                f"walk {walk} is changed, and there are {len(self.walking)}, from 0 on"
+            )
+        before = self.walking[walk]
         after = before.changed(values)
         if after is before:
             return
-        self.tracks[walk] = after
+        self.walking[walk] = after
         values = differing(before.scenario, after.scenario)
         self.changes.append(Change(self.samples, walk, values))
 
@@ -262,21 +264,21 @@ class Session:
 
         What was done since is forgotten, but the scenarios stay as they are now. The hand lets go.
         """
-        now = [track.scenario for track in self.tracks]
+        now = [live.scenario for live in self.walking]
         while len(self.marks) > 1 and self.marks[-1].samples >= self.samples:
             self.marks.pop()
         mark = self.marks[-1]
-        self.samples, self.tracks, self.hand = mark.samples, [*mark.tracks], mark.hand
+        self.samples, self.walking, self.hand = mark.samples, [*mark.walking], mark.hand
         del self.changes[mark.changes :], self.hands[mark.hands :]
         if mark.last is not None:  # a row of the same sample may have taken its place
             self.hands[-1] = mark.last
         self.let_go()
-        for k, (track, s) in enumerate(zip(mark.tracks, now, strict=True)):
-            self.change(k, **differing(track.scenario, s))
+        for k, (live, s) in enumerate(zip(mark.walking, now, strict=True)):
+            self.change(k, **differing(live.scenario, s))
 
     def reset(self) -> None:
         """To the start, with the scenarios as they are now; the record begins anew."""
-        scenario, *ghost = [track.scenario for track in self.tracks]
+        scenario, *ghost = [live.scenario for live in self.walking]
         self._begin(scenario, ghost[0] if ghost else None)
 
     # -- what is kept of it ------------------------------------------------------------------------
@@ -298,7 +300,7 @@ class Session:
 def differing(before: Scenario, after: Scenario) -> dict[str, Any]:
     """The values that a scenario has and the one before had not, by name, as JSON has them.
 
-    With another controller those of its observer too, which would be forgotten otherwise (`track.revised`).
+    With another controller those of its observer too, which would be forgotten otherwise (`live_walk.revised`).
     """
     usual = {**DEFAULTS, **HARDWARE[after.hardware]}
     names = {x for x in DEFAULTS if getattr(before, x) != getattr(after, x)}

@@ -30,9 +30,9 @@ from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.play.hand import Hand
 from biped_adrc.play.in_code import MovingCode
+from biped_adrc.play.live_walk import LiveWalk
 from biped_adrc.play.record import SessionRecord
 from biped_adrc.play.session import Session
-from biped_adrc.play.track import Track
 from biped_adrc.scenario.build import build, soft_loop
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.scenario.run import method_of
@@ -49,7 +49,7 @@ RECORD = "session"
 class Stretch:
     """What was walked with one scenario."""
 
-    track: Track
+    live: LiveWalk
     """As it began."""
     arcs: list[FlownArc] = field(default_factory=list)
     hands: list[tuple[float, Hand | None]] = field(default_factory=list)
@@ -69,13 +69,13 @@ def walks_of(record: SessionRecord) -> tuple[Walk, ...]:
     session = Session.of(record.scenario, record.ghost)
     if record.samples < 1:
         raise InputError("nothing has been walked in this session; let it go on for a sample first")
-    stretches = [[Stretch(track)] for track in session.tracks]
+    stretches = [[Stretch(live)] for live in session.walking]
     changes, hands = [*record.changes], dict(record.hands)
     for k in range(record.samples):
         while changes and changes[0].sample == k:
             change = changes.pop(0)
             session.change(change.walk, **change.values)
-            stretches[change.walk].append(Stretch(session.tracks[change.walk]))
+            stretches[change.walk].append(Stretch(session.walking[change.walk]))
         if k in hands:
             session.hold(hands[k])
         for mine, flown in zip(stretches, session.sample(), strict=True):
@@ -85,11 +85,11 @@ def walks_of(record: SessionRecord) -> tuple[Walk, ...]:
 
 def walk_of(stretch: Stretch) -> Walk:
     """A stretch as a walk of its own, with the hand among its disturbances."""
-    track = stretch.track
-    s, scene, last = track.scenario, track.scene, stretch.arcs[-1]
+    live = stretch.live
+    s, scene, last = live.scenario, live.scene, stretch.arcs[-1]
     walker = build(s, scene)
     label = method_of(s, walker).label
-    engine = COMPILED if isinstance(track.moving, MovingCode) else COMPILED_PLANT
+    engine = COMPILED if isinstance(live.moving, MovingCode) else COMPILED_PLANT
     run = Trajectory(
         together(stretch.arcs), last.status, last.detail, {"method": label, "engine": engine}
     )

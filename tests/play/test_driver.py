@@ -92,7 +92,7 @@ def test_every_message_reaches_the_session():
     say(driver, do="let_go")
     assert session.hand is None
     say(driver, do="change", values={"controller": "ADRC", "bandwidth": 300.0})
-    assert session.tracks[0].scenario.bandwidth == 300.0
+    assert session.walking[0].scenario.bandwidth == 300.0
     say(driver, do="back")
     assert session.record.samples == 0
     say(driver, do="reset")

@@ -8,8 +8,8 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.errors import BipedError, InputError
 from biped_adrc.play.hand import Spring
+from biped_adrc.play.live_walk import revised
 from biped_adrc.play.session import GHOST, WALK, Session
-from biped_adrc.play.track import revised
 
 IDEAL = {"hardware": "ideal", "impacts": 2}
 
@@ -62,12 +62,12 @@ def test_it_pushes_as_the_scenario_of_the_same_push(as_scenario, by_hand):
     states = []
     for t in (0.15, 0.22):
         session.advance(t - session.t)
-        states.append(session.tracks[WALK].now.x[:10])
+        states.append(session.walking[WALK].now.x[:10])
         assert session.t == pytest.approx(t, abs=1e-12)
         assert states[-1] == pytest.approx(walk(t)[:10], abs=1e-9)
     session.back()
     session.advance(0.22)
-    assert np.max(np.abs(states[-1] - session.tracks[WALK].now.x[:10])) > 1e-3
+    assert np.max(np.abs(states[-1] - session.walking[WALK].now.x[:10])) > 1e-3
 
 
 @pytest.mark.parametrize("plant", ["rigid", "mujoco"])
@@ -79,7 +79,7 @@ def test_a_hand_against_the_push_of_the_scenario_leaves_the_walk_as_it_was(plant
     sessions[1].push(force=(40.0, 0.0), link="right_shin", seconds=0.1)
     for session in sessions:
         session.advance(0.08)
-    still, held, pushed = (session.tracks[WALK].now.x[:14] for session in sessions)
+    still, held, pushed = (session.walking[WALK].now.x[:14] for session in sessions)
     assert held == pytest.approx(still, abs=1e-9)
     assert np.max(np.abs(pushed - still)) > 1e-3
 
@@ -123,15 +123,15 @@ def test_a_stored_session_is_walked_again_bit_for_bit(tmp_path):
     found = ba.replay_session(path)
     assert found.same
     assert found.record == session.record
-    for walk, track in zip((found.walk, found.ghost), session.tracks, strict=True):
+    for walk, live in zip((found.walk, found.ghost), session.walking, strict=True):
         last = walk.trajectory.arcs[-1]
-        assert last.t[-1] == track.now.t
-        assert np.array_equal(last.x[-1, :10], track.now.x[:10])
+        assert last.t[-1] == live.now.t
+        assert np.array_equal(last.x[-1, :10], live.now.x[:10])
     stored = ba.load_walk(path)
     assert np.array_equal(stored.signals.zeta, found.walk.signals.zeta)
     assert np.diff(stored.signals.t).min() >= 0.0
-    assert stored.signals.foothold[-1] == pytest.approx(session.tracks[WALK].foot[0], abs=1e-12)
-    assert session.tracks[WALK].foot[0] > 0.2
+    assert stored.signals.foothold[-1] == pytest.approx(session.walking[WALK].foot[0], abs=1e-12)
+    assert session.walking[WALK].foot[0] > 0.2
     assert "NPD -> ADRC" in found.walk.remarks[0]
 
 
@@ -157,14 +157,14 @@ def test_another_hand_is_noticed(tmp_path):
 def test_back_is_where_the_single_support_began_and_the_same_again_is_the_same():
     session = Session(ba.Scenario("NPD", **IDEAL))
     session.advance(0.6)
-    began = session.tracks[WALK].now.mode.start
+    began = session.walking[WALK].now.mode.start
     states = []
     for _ in range(2):
         session.back()
         assert session.t == began
         session.push({"q3": 15.0}, seconds=0.1)
         session.advance(0.15)
-        states.append(session.tracks[WALK].now.x)
+        states.append(session.walking[WALK].now.x)
     assert np.array_equal(*states)
     session.back()
     session.back()
@@ -172,7 +172,7 @@ def test_back_is_where_the_single_support_began_and_the_same_again_is_the_same()
     session.change(controller="NPID")
     session.advance(0.1)
     session.back()
-    assert session.tracks[WALK].scenario.controller == "NPID"
+    assert session.walking[WALK].scenario.controller == "NPID"
     session.reset()
     assert session.record.samples == 0
     assert session.record.scenario.controller == "NPID"
@@ -181,7 +181,7 @@ def test_back_is_where_the_single_support_began_and_the_same_again_is_the_same()
 def test_back_at_a_sample_where_the_hand_has_changed_twice_it_is_the_first_again():
     session, still = (Session(ba.Scenario("NPD", **IDEAL)) for _ in range(2))
     for each in (session, still):
-        while each.tracks[WALK].now.mode.step == 1:
+        while each.walking[WALK].now.mode.step == 1:
             each.sample()
     session.push({"q1": 5.0}, seconds=0.01)
     session.let_go()
@@ -190,17 +190,17 @@ def test_back_at_a_sample_where_the_hand_has_changed_twice_it_is_the_first_again
     session.back()
     for each in (session, still):
         each.advance(0.02)
-    x = session.tracks[WALK].now.x
-    assert np.array_equal(x, still.tracks[WALK].now.x)
+    x = session.walking[WALK].now.x
+    assert np.array_equal(x, still.walking[WALK].now.x)
     assert np.array_equal(x, session.walk().trajectory.arcs[-1].x[-1])
 
 
 def test_another_controller_begins_as_after_an_impact():
     session = Session(ba.Scenario("NPD", **IDEAL))
     session.advance(0.2)
-    before = session.tracks[WALK]
+    before = session.walking[WALK]
     session.change(controller="ADRC")
-    after = session.tracks[WALK]
+    after = session.walking[WALK]
     q, v, u = before.q, before.v, before.moving.torque(before.now)
     assert np.array_equal(after.q, q)
     assert np.array_equal(after.v, v)
@@ -208,31 +208,31 @@ def test_another_controller_begins_as_after_an_impact():
     fresh = after.moving.walker.initial_state(q, v, before.now.mode)
     assert np.array_equal(after.now.x[:-4], fresh[:-4])
     session.advance(0.01)
-    assert not np.array_equal(after.moving.torque(session.tracks[WALK].now), u)
+    assert not np.array_equal(after.moving.torque(session.walking[WALK].now), u)
 
 
 def test_with_another_controller_its_observer_goes_and_what_is_given_comes():
     session = Session(ba.Scenario("ADRC", bandwidth=200.0, order=1, **IDEAL))
     session.change(controller="NPD")
-    assert session.tracks[WALK].scenario.bandwidth is None
+    assert session.walking[WALK].scenario.bandwidth is None
     session.change(controller="ADRC", bandwidth=250.0)
     session.change(K_p=500.0)
-    s = session.tracks[WALK].scenario
+    s = session.walking[WALK].scenario
     assert (s.bandwidth, s.order, s.K_p) == (250.0, None, 500.0)
     session.change(controller="ADRC assisted", bandwidth=250.0)
     values = session.record.changes[-1].values
-    assert revised(s, values) == session.tracks[WALK].scenario
+    assert revised(s, values) == session.walking[WALK].scenario
 
 
 def test_a_spring_stays_at_the_metal_that_it_holds():
     session = Session(ba.Scenario("NPD", **IDEAL))
     session.advance(0.3)
     session.pull("right_shin", (0.0, -0.2), (0.2, 0.3))
-    while session.tracks[WALK].now.mode.step == 1:
+    while session.walking[WALK].now.mode.step == 1:
         before = session.pulled()[0]
         session.sample()
     assert session.spring.link == "left_shin"
-    fastest = np.max(np.abs(session.tracks[WALK].v))
+    fastest = np.max(np.abs(session.walking[WALK].v))
     assert np.linalg.norm(session.pulled()[0] - before) < 1e-3 * fastest
 
 
@@ -249,7 +249,7 @@ def test_the_ghost_gets_the_same_push_and_goes_on_where_the_walk_has_fallen():
     session = Session(ba.Scenario("NPD", K_p=1.0, K_d=0.1, **IDEAL), {"K_p": None, "K_d": None})
     session.push(force=(30.0, 0.0), seconds=0.1)
     session.advance(1.5)
-    walk, ghost = session.tracks
+    walk, ghost = session.walking
     assert not walk.walks
     assert ghost.walks
     assert session.t == ghost.now.t > 1.4 > walk.now.t
@@ -285,10 +285,10 @@ def test_the_ghost_gets_the_same_push_and_goes_on_where_the_walk_has_fallen():
 )
 def test_what_is_none_is_refused_and_changes_nothing(do, message):
     session = Session(ba.Scenario("ADRC", **IDEAL))
-    before = session.record, [*session.tracks], session.hand, session.spring
+    before = session.record, [*session.walking], session.hand, session.spring
     with pytest.raises(BipedError, match=message):
         do(session)
-    assert before == (session.record, session.tracks, session.hand, session.spring)
+    assert before == (session.record, session.walking, session.hand, session.spring)
 
 
 @pytest.mark.parametrize(

@@ -35,7 +35,7 @@ OF_CONTROLLER = ("observer", "poles", "bandwidth", "order", "reset")
 
 
 @dataclass(frozen=True)
-class Track:
+class LiveWalk:
     """A walk at one sample instant."""
 
     scenario: Scenario
@@ -52,7 +52,7 @@ class Track:
     """Place (x, z) (2,) [m] of the stance foot in the world."""
 
     @classmethod
-    def begun(cls, s: Scenario) -> Track:
+    def begun(cls, s: Scenario) -> LiveWalk:
         """A scenario just after the impact with which it begins. Raises InputError."""
         scene = RobotAndGait.of(s)
         scene.walked  # noqa: B018  # a robot without motors is refused
@@ -75,7 +75,7 @@ class Track:
         n = self.moving.walker.plant.n
         return self.now.x[n : 2 * n]
 
-    def sampled(self, hand: Hand | None) -> tuple[Track, FlownArc]:
+    def sampled(self, hand: Hand | None) -> tuple[LiveWalk, FlownArc]:
         """One sample on, with its nodes. Of a walk that has ended there is none."""
         flown, now = self.moving.moved(self.now, hand)
         last = self.now._replace(t=float(flown.arc.t[-1]), x=flown.arc.x[-1])
@@ -86,7 +86,7 @@ class Track:
         stride = self.moving.walker.plant.swing_foot(last.x[: len(self.q)])
         return replace(self, now=now, foot=self.foot + stride), flown
 
-    def changed(self, values: Mapping[str, object]) -> Track:
+    def changed(self, values: Mapping[str, object]) -> LiveWalk:
         """With other values of its scenario, by name, from this sample instant on.
 
         Raises InputError for values that are none, or that cannot change while it walks.
