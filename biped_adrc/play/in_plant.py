@@ -10,6 +10,7 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import Load
+from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.engine.compiled_loop import CompiledLoop
 from biped_adrc.engine.compiled_push import PlantPush, PythonPush
 from biped_adrc.engine.strides import Strides
@@ -29,6 +30,15 @@ class MovingPlant(Moving):
     @property
     def loop(self) -> SteppingLoop:
         return self.on
+
+    def begun(self, q: Array, v: Array, mode: Mode, own: Array | None) -> Array:
+        k = self.on.held
+        assert k is not None
+        if own is None or len(own) != k.sizes.own:
+            return self.on.initial_state(q, v, mode)
+        x = ClosedLoop.initial_state(self.on, q, v, mode)
+        x[len(x) - k.sizes.total :][: len(own)] = own
+        return x
 
     def torque(self, now: Now) -> Array:
         return self.on.motor_torque(now.x)

@@ -100,7 +100,10 @@ class LiveWalk:
             return self
         t, mode = self.now.t, self.now.mode
         new = moved_by(s, self.scene, t)
-        now = new.start(self.q, self.v, mode, t, moving.torque(self.now))
+        if not self.walks:
+            return replace(self, scenario=s, moving=new)
+        own = moving.own(self.now) if s.plant == self.scenario.plant else None
+        now = new.start(self.q, self.v, mode, t, moving.torque(self.now), own)
         return replace(self, scenario=s, moving=new, now=now)
 
 

@@ -80,14 +80,33 @@ class Moving:
         """Of the walker."""
         return cast(SampledTime, self.walker.timing)
 
-    def start(self, q: Array, v: Array, mode: Mode, t: float, u: Array | None = None) -> Now:
+    def start(
+        self,
+        q: Array,
+        v: Array,
+        mode: Mode,
+        t: float,
+        u: Array | None = None,
+        own: Array | None = None,
+    ) -> Now:
         """At t [s] in q (n,) [rad], v (n,) [rad/s], within the single support `mode`.
 
         The controller begins as after an impact, by its `initial_state` at what is measured there. u (p,)
-        [N m]: the torque that acts until its first one; none without.
+        [N m]: the torque that acts until its first one; none without. own: numbers of a plant that goes on
+        as it is, where it has as many.
         """
-        x = self.loop.initial_state(q, v, mode)
+        x = self.begun(q, v, mode, own)
         return self.at(t, x if u is None else self._acting(x, u), mode, t, None)
+
+    def begun(self, q: Array, v: Array, mode: Mode, own: Array | None) -> Array:
+        """x (nx,) of `start`."""
+        return self.loop.initial_state(q, v, mode)
+
+    def own(self, now: Now) -> Array:
+        """The plant's own numbers (k,), none of the rigid plant."""
+        k = self.loop.held
+        assert k is not None
+        return parts(self.loop, now.x)[3][: k.sizes.own]
 
     def _acting(self, x: Array, u: Array) -> Array:
         """x (nx,) with u (p,) [N m] as every torque that is on its way."""

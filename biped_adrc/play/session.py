@@ -156,7 +156,7 @@ class Session:
         if self.samples >= self.ends:
             hand, self.ends = None, math.inf
         if self.spring is not None:
-            hand = self._pulled(self.spring)
+            hand = self._pulled(self.spring) if self.walking[WALK].walks else None
         self.hold(hand)
 
     def _mark(self) -> Mark:

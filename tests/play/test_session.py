@@ -211,6 +211,30 @@ def test_another_controller_begins_as_after_an_impact():
     assert not np.array_equal(after.moving.torque(session.walking[WALK].now), u)
 
 
+def test_with_another_controller_the_plant_goes_on_as_it_is():
+    session = Session(ba.Scenario("NPD", plant="mujoco", **IDEAL))
+    while session.walking[WALK].now.mode.step == 1:  # the swing foot is in the ground just after
+        session.sample()
+    before = session.walking[WALK]
+    session.change(controller="NPID")
+    after = session.walking[WALK]
+    own = before.moving.own(before.now)
+    assert len(own) == 5
+    assert np.array_equal(after.moving.own(after.now), own)
+    session.advance(0.05)
+    assert session.walks
+
+
+def test_the_scenario_of_a_walk_that_has_fallen_may_change_for_the_next():
+    session = Session(ba.Scenario("NPD", K_p=1.0, K_d=0.1, **IDEAL))
+    session.pull("torso", (0.0, 0.0), (0.5, 1.0))
+    assert not session.advance(2.0)
+    session.change(K_p=None, K_d=None)
+    assert not session.walks
+    session.reset()
+    assert session.advance(0.5)
+
+
 def test_with_another_controller_its_observer_goes_and_what_is_given_comes():
     session = Session(ba.Scenario("ADRC", bandwidth=200.0, order=1, **IDEAL))
     session.change(controller="NPD")
@@ -248,7 +272,10 @@ def test_a_spring_pulls_towards_the_hand_and_not_more_than_it_may():
 def test_the_ghost_gets_the_same_push_and_goes_on_where_the_walk_has_fallen():
     session = Session(ba.Scenario("NPD", K_p=1.0, K_d=0.1, **IDEAL), {"K_p": None, "K_d": None})
     session.push(force=(30.0, 0.0), seconds=0.1)
-    session.advance(1.5)
+    session.advance(0.2)
+    session.pull("torso", (0.0, 0.0), (0.5, 1.0))
+    session.advance(1.3)
+    assert session.hand is None
     walk, ghost = session.walking
     assert not walk.walks
     assert ghost.walks
