@@ -133,6 +133,9 @@ def test_a_stored_session_is_walked_again_bit_for_bit(tmp_path):
     assert stored.signals.foothold[-1] == pytest.approx(session.walking[WALK].foot[0], abs=1e-12)
     assert session.walking[WALK].foot[0] > 0.2
     assert "NPD -> ADRC" in found.walk.remarks[0]
+    stored.animate(tmp_path / "me.html")
+    assert (tmp_path / "me.html").stat().st_size > 1e5
+    assert stored.plot().axes
 
 
 def test_another_hand_is_noticed(tmp_path):
