@@ -338,6 +338,7 @@ TO_C = {
     "sets": Row("--set K_p=3", same("scenario.K_p"), 3.0),
     "prefix": Row("--prefix leg", same("prefix"), "leg"),
     "real": Row("--real float32", same("real"), "float32"),
+    "fmu": Row("--fmu", same("fmu"), True),
 }
 SWEEP = {
     **CREW,

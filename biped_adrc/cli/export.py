@@ -24,17 +24,19 @@ def export_command(
     sets: list[str] | None = None,
     prefix: str = "controller",
     real: str = "float64",
+    fmu: bool = False,
 ) -> None:
     """Write the controller of a scenario as C99 that needs no library, for a robot's computer."""
     from biped_adrc.deploy.export import export_c
     from biped_adrc.scenario.scenario import Scenario
 
-    source = export_c(Scenario(**values_of({}, None, sets, scenario)), out, prefix, real)
-    _print(source, out)
+    source = export_c(Scenario(**values_of({}, None, sets, scenario)), out, prefix, real, fmu)
+    _print(source, out, fmu)
 
 
-def _print(source: Source, out: Path) -> None:
+def _print(source: Source, out: Path, fmu: bool) -> None:
     """Print what was written, what it costs, and what a compiler says of it."""
+    from biped_adrc.deploy.fmu import contents
     from biped_adrc.deploy.loaded import tried
 
     step = source.written["step"]
@@ -43,4 +45,8 @@ def _print(source: Source, out: Path) -> None:
         f"constants; state {', '.join(f'{x.name} {x.size}' for x in source.fields) or 'none'}"
     )
     say(tried(source))
-    say(f"written to {out}: {', '.join(source.files)}")
+    if fmu:
+        say(f"{source.prefix}.fmu, for co-simulation by FMI 2.0: {contents()}")
+    say(
+        f"written to {out}: {', '.join([*source.files, *([f'{source.prefix}.fmu'] if fmu else [])])}"
+    )

@@ -13,9 +13,10 @@ from pathlib import Path
 from biped_adrc.bench.scenario_file import scenario_lines
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.deploy.computer import Computer
+from biped_adrc.deploy.fmu import Fmu, fmu_of
 from biped_adrc.deploy.source import Source, source_of
 from biped_adrc.errors import OutputError
-from biped_adrc.files import write_text
+from biped_adrc.files import write_bytes, write_text
 from biped_adrc.parts import check_part
 from biped_adrc.scenario.build import build
 from biped_adrc.scenario.scenario import Scenario
@@ -26,10 +27,12 @@ def export_c(
     folder: Path | str,
     prefix: str = "controller",
     real: str = "float64",
+    fmu: bool = False,
 ) -> Source:
     """Write the controller of a scenario, or of a walker, as C99 into a folder, and hand out what was written.
 
-    prefix: of all names in C. real: "float64" or "float32".
+    prefix: of all names in C. real: "float64" or "float32". fmu: with a functional mock-up
+    unit (FMU) for co-simulation by FMI 2.0 beside it, such as controller.fmu.
 
     Raises InputError for a scenario that cannot be exported, and OutputError for a folder that holds
     other files or cannot be written.
@@ -40,21 +43,20 @@ def export_c(
     else:
         walker, lines = build(scenario), scenario_lines(scenario)
     source = source_of(Computer(walker), prefix, real, lines)
-    write_folder(Path(folder), source)
+    write_folder(Path(folder), source, fmu_of(source) if fmu else None)
     return source
 
 
-def write_folder(folder: Path, source: Source) -> None:
+def write_folder(folder: Path, source: Source, fmu: Fmu | None = None) -> None:
     """Write the files into a folder that is new, empty, or holds files of these names alone.
 
     Raises OutputError for any other.
     """
     if folder.exists() and not folder.is_dir():
         raise OutputError(f"'{folder}' is a file, expected the name of a folder")
+    names = {*source.files, *([fmu.name] if fmu else [])}
     others = (
-        sorted(x.name for x in folder.iterdir() if x.name not in source.files)
-        if folder.exists()
-        else []
+        sorted(x.name for x in folder.iterdir() if x.name not in names) if folder.exists() else []
     )
     if others:
         raise OutputError(
@@ -62,3 +64,5 @@ def write_folder(folder: Path, source: Source) -> None:
         )
     for name, text in source.files.items():
         write_text(folder / name, text)
+    if fmu:
+        write_bytes(folder / fmu.name, fmu.data)

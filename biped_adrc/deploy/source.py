@@ -45,6 +45,8 @@ class Source:
     """Coordinates."""
     p: int
     """Motors."""
+    words: Mapping[str, object]
+    """What the templates say of it, such as its title and its scenario."""
 
     def __repr__(self) -> str:
         return f"Source({', '.join(self.files)}; {self.written['step'].operations} operations)"
@@ -102,8 +104,8 @@ def source_of(
         "README.md": "README.md",
         "LICENSE": "LICENSE",
     }
-    rendered = {name: _rendered(template, given) for template, name in texts.items()}
-    return Source(prefix, rendered, made.fields, written, len(used), k.n, k.p)
+    files = {name: rendered(template, given) for template, name in texts.items()}
+    return Source(prefix, files, made.fields, written, len(used), k.n, k.p, given)
 
 
 def _of_robot(computer: Computer, made: Functions) -> dict[str, object]:
@@ -124,10 +126,12 @@ def _of_robot(computer: Computer, made: Functions) -> dict[str, object]:
             f"q[{i}] {joint}, {unit}"
             for i, (joint, unit) in enumerate(zip(joints, units, strict=True))
         ],
+        "joint_names": joints,
         "n": k.n,
         "p": k.p,
         "period": decimal(computer.timing.period),
         "swap": walker.swap.tolist(),
+        "rates_read": made.rates,
         "rates": _rates(made.rates, k.n),
         "rates_finite": " && ".join(f"{x} - {x} == 0" for x in read) or "1",
         "limits": "".join(f", {x}" for x in limits),
@@ -166,7 +170,7 @@ def _rates(rates: tuple[int, ...], n: int) -> str:
     return f"v are their rates; init reads all of them, zero at rest; step reads {read}."
 
 
-def _rendered(template: str, given: Mapping[str, object]) -> str:
+def rendered(template: str, given: Mapping[str, object]) -> str:
     """The text of a file from its template."""
     return _environment().get_template(f"{template}.j2").render(given)
 
