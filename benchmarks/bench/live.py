@@ -103,7 +103,7 @@ def main() -> None:
         )
     table.finish(asked.out)
     made, before = session({}, True), resident()
-    sampled(made, 10.0 if asked.quick else 600.0, False)
+    made.advance(10.0 if asked.quick else 600.0)
     memory = Table("Memory of a session", "MB")
     memory.add("rigid, ghost", walked_s=made.t, memory=resident() - before, marks=len(made.marks))
     memory.finish(asked.out)

@@ -145,7 +145,8 @@ class Moving:
         if made.outcome is not None and event is not None:
             x, mode = made.outcome
             return Moved(made, self.at(event.t, x, mode, event.t, FOOT_STRIKE))
-        return Moved(made, Now(t, made.arc.x[-1], now.mode, now.began, None, s))
+        x = made.arc.x[-1].copy()  # a view would keep all nodes of the sample
+        return Moved(made, Now(t, x, now.mode, now.began, None, s))
 
     @abstractmethod
     def fly(self, now: Now, hand: Hand | None) -> tuple[FlownArc, Array]:

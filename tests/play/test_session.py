@@ -33,11 +33,12 @@ def nodes(walk):
 def test_untouched_it_is_the_walk_of_its_scenario_bit_for_bit(values):
     s = ba.Scenario(**(IDEAL | {"impacts": 1} | values))
     t, x = nodes(ba.walk_scenario(s))
-    session = Session(s)
-    session.advance(t[-1] + 0.02)
-    found_t, found_x = nodes(session.walk())
-    assert np.array_equal(found_t[: len(t)], t)
-    assert np.array_equal(found_x[: len(t)], x)
+    session, samples = Session(s), []
+    while session.walking[WALK].now.mode.step == 1:
+        samples += [flown.arc for flown in session.sample()[WALK]]
+    n = 10 if "plant" in values else x.shape[1]  # what MuJoCo keeps for itself is not in the walk
+    assert np.array_equal(np.concatenate([arc.t for arc in samples]), t)
+    assert np.array_equal(np.vstack([arc.x for arc in samples])[:, :n], x[:, :n])
 
 
 TORQUES = {"pushes": "q1,q5=25@1:0.1-0.2"}
@@ -135,7 +136,6 @@ def test_a_stored_session_is_walked_again_bit_for_bit(tmp_path):
     assert "NPD -> ADRC" in found.walk.remarks[0]
     stored.animate(tmp_path / "me.html")
     assert (tmp_path / "me.html").stat().st_size > 1e5
-    assert stored.plot().axes
 
 
 def test_another_hand_is_noticed(tmp_path):
