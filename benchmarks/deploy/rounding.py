@@ -196,12 +196,14 @@ def timed(source: Source | None, scenario: ba.Scenario) -> list[str]:
     return [*times, state, size.stdout.splitlines()[1].split()[0]]
 
 
-def filled(text: str, name: str, header: tuple[str, ...], rows: list[list[str]]) -> str:
-    """The page with a table between its marks."""
+def filled(
+    text: str, name: str, header: tuple[str, ...], rows: list[list[str]], by: str = "rounding"
+) -> str:
+    """The page with a table between its marks, which say by which script it is."""
     lines = [header, ("---",) * len(header), *rows]
     table = "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
     begin, end = (
-        f"<!-- {name}: made by benchmarks/deploy/rounding.py -->",
+        f"<!-- {name}: made by benchmarks/deploy/{by}.py -->",
         f"<!-- end of {name} -->",
     )
     found = re.sub(

@@ -25,7 +25,7 @@ from biped_adrc.deploy.source import Source
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
 
-FLAGS = ("-std=c99", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic")
+FLAGS: tuple[str, ...] = ("-std=c99", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic")
 """How an exported controller is compiled."""
 COMPILERS = ("cc", "gcc", "clang")
 """Names of C compilers, the first one found is taken; the variable CC goes before them."""

@@ -13,6 +13,7 @@ from functools import cache
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from biped_adrc.deploy.computer import Computer
+from biped_adrc.deploy.datagram import VERSION
 from biped_adrc.deploy.layout import Field, Functions, functions
 from biped_adrc.engine.c_text import Written, c_text, decimal, used_numbers
 from biped_adrc.engine.symbols import floats, paths
@@ -59,7 +60,7 @@ def source_of(
     scenario: Sequence[str] = (),
     shaken: bool = False,
 ) -> Source:
-    """Header, source, main.c, Makefile and README of a computer's functions.
+    """Header, source, main.c, loop.c, Makefile and README of a computer's functions.
 
     prefix: of all names, a word of small letters. real: "float64" or "float32", which
     -DCONTROLLER_REAL=float overrides. scenario: lines for the comment. shaken: with random roundings, as
@@ -100,6 +101,7 @@ def source_of(
         "header.h": f"{prefix}.h",
         "source.c": f"{prefix}.c",
         "main.c": "main.c",
+        "loop.c": "loop.c",
         "Makefile": "Makefile",
         "README.md": "README.md",
         "LICENSE": "LICENSE",
@@ -142,6 +144,7 @@ def _of_robot(computer: Computer, made: Functions) -> dict[str, object]:
         ),
         "fields": made.fields,
         "line": ON_THE_LINE,
+        "version": VERSION,
         "versions": packages(("biped-adrc", "casadi", "pin", "numpy")),
     }
 

@@ -15,10 +15,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from types import NoneType
 
 from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.analysis.variational import periodic_orbit
 from biped_adrc.closed_loop.walker import Mode, Walker
+from biped_adrc.control.base import Controller
 from biped_adrc.control.passive import Passive
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.errors import InputError, check_count
@@ -135,22 +137,30 @@ def cycle_start(biped: Biped, slope: float) -> tuple[Array, Array]:
 
 
 def walk_scenario(
-    s: Scenario, progress: Progress | None = None, method: OneStepMethod | None = None
+    s: Scenario,
+    progress: Progress | None = None,
+    method: OneStepMethod | None = None,
+    controller: Controller | None = None,
 ) -> Walk:
     """Simulate a scenario from the impact of the gait's periodic orbit, or of a passive robot's cycle.
 
     The same scenario gives the same walk in every process: all random numbers come from its seed.
 
-    progress: called as the walk goes on. method: in place of the scenario's. A fall is a status of the
-    trajectory, not an error. Raises InputError for values that do not fit together.
+    progress: called as the walk goes on. method, controller: in place of the scenario's; the walk with another
+    controller, such as an exported one, keeps no scenario. A fall is a status of the trajectory, not an error.
+    Raises InputError for values that do not fit together.
     """
     check_part(s, "what is to walk", Scenario)
+    check_part(controller, "the controller of the walk", Controller, NoneType)
     scene = RobotAndGait.of(s)
     walker = build(s, scene)
+    kept = s if controller is None else None
+    if controller is not None:
+        walker = replace(walker, controller=controller)
     begin = start(s, scene) if scene.gait else cycle_start(scene.biped, walker.slope)
     if (loop := soft_loop(s, walker)) is not None:
         run = walk_on(loop, walker, begin, Mode(s.first_step), s.impacts, progress)
-        return watched(walker, scene.gait, run, s).saying(idle(s))
+        return watched(walker, scene.gait, run, kept).saying(idle(s))
     return walk_in_parts(
         walker,
         scene.gait,
@@ -159,7 +169,7 @@ def walk_scenario(
         first_step=s.first_step,
         progress=progress,
         engine=s.engine,
-        scenario=s,
+        scenario=kept,
     ).saying(idle(s))
 
 

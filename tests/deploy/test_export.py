@@ -201,7 +201,7 @@ def test_no_compiler_warns(tmp_path, compiler, real):
     export_c(CASES["on a robot"], tmp_path / "c", prefix="leg")
     strict = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", f"-DLEG_REAL={real}"]
     command = [program, *flags, *strict, "-c", "-o", os.devnull]
-    for name in ("leg.c", "main.c"):
+    for name in ("leg.c", "main.c", "loop.c"):
         subprocess.run([*command, str(tmp_path / "c" / name)], check=True)
 
 
