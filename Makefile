@@ -8,7 +8,7 @@ OUT ?= out
 ARGS ?=
 BIN := .venv/bin
 BENCHMARKS := engine/calls engine/paper_run engine/engines engine/sampled engine/batches engine/growth \
-  engine/compiling engine/continued engine/soft peers/plant peers/closed_loop bench/studies bench/tuning bench/metering \
+  engine/compiling engine/continued engine/soft peers/plant peers/closed_loop bench/studies bench/tuning bench/metering bench/live \
   pinocchio_calls
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile --constraint constraints.txt
 

@@ -43,6 +43,7 @@ NEVER_TRACED = (
     "logs",
     "observer_design",
     "paper",
+    "play",
     "scenario",
     "soft",
     "studies",

@@ -107,7 +107,8 @@ def things(biped, gait):
     exported = ba.Loaded(source_of(Computer(ba.Walker(biped, npd, timing=period))))
     found += [exported, exported.source, ba.ExportedController(exported)]
     log = ba.RobotLog(np.arange(3) * 1e-3, np.ones(3), np.zeros((3, 5)), np.zeros((3, 4)))
-    return [*found, record, samples, log]
+    session = ba.Session(ba.Scenario("NPD", hardware="ideal"), {"controller": "NPID"})
+    return [*found, record, samples, log, session]
 
 
 ELSEWHERE = {

@@ -58,7 +58,7 @@ class CompiledLoop(SteppingLoop):
         began = Mode() if mode is None else mode
         x0 = self.checked_start(x0, options, began)
         made = self._compiled(self.controller_size(x0))
-        system = self._system(made, options.t0)
+        system = self.system(self.controller_size(x0), options.t0)
         run = simulator.run(system, x0, began, None, options)
         settings = (
             {"engine": COMPILED} if made.tick else {"engine": COMPILED_MODEL, "why": made.why}
@@ -90,8 +90,9 @@ class CompiledLoop(SteppingLoop):
         except NotCompiled as reason:
             return Compiled(on_compiled_model(parts), None, str(reason))
 
-    def _system(self, made: Compiled, t_first: float) -> HybridSystem:
-        """What the simulator runs from t_first [s] on."""
+    def system(self, size: int, t_first: float) -> HybridSystem:
+        """What the simulator runs from t_first [s] on, for a controller with `size` states."""
+        made = self._compiled(size)
         assert self.held is not None
         if not isinstance(self.plant, StridingPlant) or self.held.sizes.waiting:
             return self if made.tick else made.loop

@@ -9,6 +9,7 @@ from __future__ import annotations
 import ctypes
 import math
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -23,6 +24,16 @@ from biped_adrc.engine.symbols import floats
 from biped_adrc.types import Array
 
 _LAW = ctypes.PYFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
+
+
+class PlantPush(Protocol):
+    """What acts from outside, in any form."""
+
+    def load(self, t: float, q: Array, v: Array, mode: Mode) -> Load | None:
+        """At t [s], q (n,) [rad], v (n,) [rad/s]; None for nothing."""
+
+    def zeta(self, t: Array, q: Array, v: Array, mode: Mode) -> Array:
+        """zeta (K, n) [N m] at K times [s], q (K, n) [rad], v (K, n) [rad/s]."""
 
 
 @dataclass(frozen=True)

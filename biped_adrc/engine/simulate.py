@@ -87,17 +87,22 @@ def on_compiled_plant(
     walker: Walker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
 ) -> Trajectory:
     """A run in Python from x0 (nx,) with compiled dynamics and references. Raises as `run_compiled`."""
-    points: list[CompiledReference] = []
-    controller = compiled_references(walker.controller, walker.plant.n, points)
-    model = None if walker.model is None else CompiledBiped.of(walker.model)
-    plant = CompiledBiped.of(walker.plant)
-    walker = replace(walker, plant=plant, model=model, controller=controller)
+    walker, points = compiled_plant(walker)
     if walker.sampled:
         try:
             return run_ticks(walker, x0, mode, method, options, points)
         except NotCompiled:  # a disturbance or a method without a compiled form
             pass
     return simulator.run(walker, x0, mode, method, options)
+
+
+def compiled_plant(walker: Walker) -> tuple[Walker, list[CompiledReference]]:
+    """The walker with compiled dynamics and references, and these references. Raises ModelError."""
+    points: list[CompiledReference] = []
+    controller = compiled_references(walker.controller, walker.plant.n, points)
+    model = None if walker.model is None else CompiledBiped.of(walker.model)
+    plant = CompiledBiped.of(walker.plant)
+    return replace(walker, plant=plant, model=model, controller=controller), points
 
 
 @dataclass(frozen=True)
@@ -125,20 +130,40 @@ class _Arcs:
         """One arc from x (nx,) at t [s], and the impact at its end; fired: the event before, None
         at the start.
         """
-        plan, K = self.compiled.plan, self.compiled.K
-        s = plan.start(x, t, mode.step, mode.start, self.options.t_end)
-        s[layout.FIRED] = -1.0 if fired is None else layout.FOOT_STRIKE
-        found = arc(plan, K, s, self.options.store_every, self.room)
-        s, code = found.s, found.code
-        t, x_minus, event, outcome = float(s[layout.TIME]), s[layout.HEAD :].copy(), None, None
-        if code == layout.STRUCK:
-            code = kernels().strike(plan.P, plan.F, K, plan.work(), s)
-            if code == layout.COMPLETED:
-                outcome = s[layout.HEAD :].copy(), Mode(mode.step + 1, t)
-                event = Event(FOOT_STRIKE, t, x_minus, outcome[0])
-        elif STATUS[code] in TERMINAL:
-            event = Event(TERMINAL[STATUS[code]], t, x_minus, None)
-        nodes = Arc(mode, found.t.copy(), found.x.copy(), found.dx.copy(), event)
-        lost = STATUS[code] in simulator.FAILURES
-        detail = f"after t = {nodes.t[-1]:.6g} s" if lost else ""
-        return FlownArc(nodes, STATUS[code], detail, outcome)
+        s = starting(self.compiled, x, t, mode, self.options.t_end, fired)
+        return flown(self.compiled, s, mode, self.options.store_every, self.room)[0]
+
+
+def starting(
+    made: CompiledWalker, x: Array, t: float, mode: Mode, end: float, fired: str | None
+) -> Array:
+    """The run vector of an arc from x (nx,) at t [s] to `end` [s]; fired: the event before, None at
+    the start.
+    """
+    s = made.plan.start(x, t, mode.step, mode.start, end)
+    s[layout.FIRED] = -1.0 if fired is None else layout.FOOT_STRIKE
+    return s
+
+
+def flown(
+    made: CompiledWalker, s: Array, mode: Mode, every: int, room: int
+) -> tuple[FlownArc, Array]:
+    """From the run vector s to its END or the first event, with the impact there; and s where that ended.
+
+    every: each so many-th step is kept. room: nodes to make room for at first.
+    """
+    plan, K = made.plan, made.K
+    found = arc(plan, K, s, every, room)
+    s, code = found.s, found.code
+    t, x_minus, event, outcome = float(s[layout.TIME]), s[layout.HEAD :].copy(), None, None
+    if code == layout.STRUCK:
+        code = kernels().strike(plan.P, plan.F, K, plan.work(), s)
+        if code == layout.COMPLETED:
+            outcome = s[layout.HEAD :].copy(), Mode(mode.step + 1, t)
+            event = Event(FOOT_STRIKE, t, x_minus, outcome[0])
+    elif STATUS[code] in TERMINAL:
+        event = Event(TERMINAL[STATUS[code]], t, x_minus, None)
+    nodes = Arc(mode, found.t.copy(), found.x.copy(), found.dx.copy(), event)
+    lost = STATUS[code] in simulator.FAILURES
+    detail = f"after t = {nodes.t[-1]:.6g} s" if lost else ""
+    return FlownArc(nodes, STATUS[code], detail, outcome), s

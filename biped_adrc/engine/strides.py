@@ -15,7 +15,7 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import Advanced, Contact, PlantState, StridingPlant
-from biped_adrc.engine.compiled_push import CompiledPush, PythonPush
+from biped_adrc.engine.compiled_push import PlantPush
 from biped_adrc.engine.compiled_tick import CompiledTick
 from biped_adrc.errors import NotFiniteError
 from biped_adrc.hybrid.simulator import Record
@@ -26,9 +26,11 @@ from biped_adrc.types import Array, Indices
 class Breaks:
     """What interrupts an arc from t to `until` [s]: sample instants, edges of the disturbance, its end."""
 
-    def __init__(self, loop: SteppingLoop, mode: Mode, t: float, t_first: float, until: float):
-        """t_first [s]: start of the run."""
-        self.origin, self.period = t if loop.timing.restart else t_first, loop.timing.period
+    def __init__(
+        self, loop: SteppingLoop, mode: Mode, t: float, t_first: float, until: float, began: float
+    ):
+        """t_first [s]: start of the run. began [s]: of the arc."""
+        self.origin, self.period = began if loop.timing.restart else t_first, loop.timing.period
         self.count = max(0, math.floor((t - self.origin) / self.period))
         while self.origin + self.count * self.period < t:
             self.count += 1
@@ -99,9 +101,11 @@ class Strides(HybridSystem):
     """The loop's."""
     code: CompiledTick | None
     """Sample instants in machine code; None for Python."""
-    push: PythonPush | CompiledPush
+    push: PlantPush
     t_first: float
     """Start of the run [s]."""
+    began: float | None = None
+    """Where the arc did [s], for what goes on from the middle of one."""
 
     def mover(self, fired: str | None) -> Mover:
         return self.move
@@ -111,7 +115,9 @@ class Strides(HybridSystem):
     ) -> tuple[float, Array, FoundEvent | None]:
         """Over a whole arc from x (nx,) at t [s], as `hybrid.system.Mover`."""
         n, plant, at = self.plant.n, self.plant, self.places(x)
-        arc, breaks = Stretches(at, [t], [x[at]]), Breaks(self.loop, mode, t, self.t_first, until)
+        began = t if self.began is None else self.began
+        arc = Stretches(at, [t], [x[at]])
+        breaks = Breaks(self.loop, mode, t, self.t_first, until, began)
         try:
             contacts = self.strides(arc, breaks, x, mode, until)
         finally:

@@ -5,7 +5,7 @@ instant, and ends at the first event. Events are located by Brent's method on th
 again with a shorter length, so that x- has the accuracy of the method and not of an interpolant. At
 breaks the flow is asked for its limit from the left.
 
-`run_arcs` is shared: the Python engine flies an arc with `_flow_arc`, the compiled one with a
+`run_arcs` is shared: the Python engine flies an arc with `flow_arc`, the compiled one with a
 kernel (`engine.simulate`). Systems that move by themselves give a `Mover` in place of a flow.
 """
 
@@ -157,7 +157,7 @@ def run(
 ) -> Trajectory:
     """As `simulate`, from x0 (nx,) with options as a record; a system with a mover needs no method."""
     label = "steps of the plant's own" if method is None else method.label
-    return run_arcs(partial(_flow_arc, system, method, options), x0, mode, label, options)
+    return run_arcs(partial(flow_arc, system, method, options), x0, mode, label, options)
 
 
 def run_arcs(
@@ -180,7 +180,7 @@ def run_arcs(
     while True:
         # what overflows ends as the status NOT_FINITE
         with handing_out(), np.errstate(over="ignore", invalid="ignore"):
-            flown = _finite(fly(t, x, mode, fired))
+            flown = finite(fly(t, x, mode, fired))
         arcs.append(flown.arc)
         event, status = flown.arc.event, flown.status
         if flown.outcome is None or event is None:
@@ -197,7 +197,7 @@ def run_arcs(
     return Trajectory(tuple(arcs), status, flown.detail, {"method": label})
 
 
-def _finite(flown: FlownArc) -> FlownArc:
+def finite(flown: FlownArc) -> FlownArc:
     """The arc up to its last node that is finite, and without an event whose states are not."""
     arc, event = flown.arc, flown.arc.event
     rows = (arc.t[:, np.newaxis], arc.x, arc.dx)
@@ -223,7 +223,7 @@ FAILURES: Mapping[Status, type[Exception]] = {
 """The errors that end a run with a status in place of being raised."""
 
 
-def _flow_arc(
+def flow_arc(
     system: HybridSystem,
     method: OneStepMethod | None,
     options: RunOptions,
@@ -231,14 +231,15 @@ def _flow_arc(
     x: Array,
     mode: Mode,
     fired: str | None,
+    began: float | None = None,
 ) -> FlownArc:
     """One arc from (t, x) in Python: clock updates and moves until an event, t_end, or an error of
     `FAILURES`.
 
-    fired: the event that ended the arc before. An arc that fails before its first node keeps its
-    start.
+    fired: the event that ended the arc before. began [s]: where the arc did, for what goes on from
+    the middle of one. An arc that fails before its first node keeps its start.
     """
-    record, t_arc, found = Record(options.store_every), t, None
+    record, t_arc, found = Record(options.store_every), t if began is None else began, None
     status, detail = Status.COMPLETED, ""
     move = system.mover(fired)
     if move is None:

@@ -71,12 +71,14 @@ def save_walk(walk: Walk, path: Path | str, settings: Mapping[str, object] | Non
     """Write a walk (.npz) that `load_walk` reads anywhere; returns its path.
 
     settings: more plain values to be stored beside it. All signals are stored where a class of the user's takes
-    part, torques only elsewhere, since the others can be computed again. Raises InputError and OutputError.
+    part, and those that were recorded; torques only elsewhere, since the others can be computed again. Raises
+    InputError and OutputError.
     """
     writer = Writer()
     walker, gait = writer.part(walk.walker), writer.plain(walk.gait)
     record = {"parts": writer.records, "walker": walker, "gait": gait}
-    seen = vars(walk.signals) if writer.own else {"u": walk.signals.u}
+    whole = bool(writer.own) or walk.recorded is not None
+    seen = vars(walk.signals) if whole else {"u": walk.signals.u}
     about: dict[str, object] = {"versions": versions()}
     if walk.scenario is not None:
         about["scenario"] = walk.scenario.record()

@@ -123,7 +123,11 @@ def walk_on(
         stop_after=(FOOT_STRIKE, impacts),
         progress=progress,
     )
-    run = loop.run(x0, options, mode)
+    return as_walked(loop, loop.run(x0, options, mode))
+
+
+def as_walked(loop: SteppingLoop, run: Trajectory) -> Trajectory:
+    """A run of the loop with states as of the walker, and with what its feet did beside them."""
     if isinstance(loop.plant, OnFeet):
         run = with_readings(loop, run)
     arcs = tuple(_as_rigid(loop, arc) for arc in run.arcs)

@@ -165,7 +165,10 @@ PARTS_OF_CONTROL |= {"Around", "AcrossContact", "ContactWindow", "DoubleSupport"
 BASES = {
     ba.Controller: ("control", PARTS_OF_CONTROL),
     ba.Observer: ("observers", {"ChainObserver", "InjectedChain", "MomentumChain"}),
-    ba.Disturbance: ("disturbances", {"Windowed", "WindowedTorque", "AbsentDisturbance"}),
+    ba.Disturbance: (
+        "disturbances",
+        {"Windowed", "WindowedTorque", "AbsentDisturbance", "RecordedHand"},
+    ),
     ba.Reference: ("gait", set()),
     Outputs: ("gait", set()),
     OneStepMethod: ("hybrid", {"_SciPy"}),

@@ -51,7 +51,7 @@ Say = Callable[[str], None]
 
 
 @dataclass
-class Session:
+class ServerState:
     """State that the request handlers and tasks of one server share.
 
     html: text of the page. hosts: names under which it may be asked for. stop: set to the reason
@@ -88,9 +88,9 @@ class Session:
 class Guarded(RequestHandler):
     """Base of the handlers: refuses requests under a host name that is not the server's."""
 
-    session: Session
+    session: ServerState
 
-    def initialize(self, session: Session) -> None:
+    def initialize(self, session: ServerState) -> None:
         """Take the session; called by tornado for every request."""
         self.session = session
 
@@ -193,7 +193,7 @@ async def _serve(
             f"port {port} cannot be used on {ADDRESS} ({error}); leave out --port for a free one"
         ) from error
     port = sockets[0].getsockname()[1]
-    session = Session(html, (f"{ADDRESS}:{port}", f"localhost:{port}"), loop.create_future())
+    session = ServerState(html, (f"{ADDRESS}:{port}", f"localhost:{port}"), loop.create_future())
     for number in (signal.SIGINT, signal.SIGTERM):
         loop.add_signal_handler(number, session.end, f"stopped by {number.name}")
     pages = [(r"/", Front, {"session": session}), (r"/poses", Pages, {"session": session})]
@@ -231,7 +231,7 @@ async def _launch(url: str) -> asyncio.subprocess.Process:
     )
 
 
-async def _stream(session: Session, scenes: Mapping[str, WalkScene], fps: float) -> str:
+async def _stream(session: ServerState, scenes: Mapping[str, WalkScene], fps: float) -> str:
     """Send a message for each frame while a page is open, by the clock; from the start again after the end.
 
     fps [1/s]: frames per second at most. It ends only by being cancelled or by an error.
@@ -265,7 +265,7 @@ def _poses(scenes: Mapping[str, WalkScene], t: float) -> list[dict[str, object]]
     return found
 
 
-async def _watch(session: Session, wait: float) -> str:
+async def _watch(session: ServerState, wait: float) -> str:
     """Wait for what ends a session by itself, and return it in words: no page comes within `wait` [s],
     or the last one has gone for good.
     """
@@ -282,7 +282,7 @@ async def _watch(session: Session, wait: float) -> str:
 
 
 async def _close(
-    session: Session,
+    session: ServerState,
     server: HTTPServer,
     tasks: list[asyncio.Task[str]],
     launcher: asyncio.subprocess.Process | None,

@@ -1,0 +1,150 @@
+"""What a page may say, and the pace of a session: by a clock of the test's own."""
+
+import json
+
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.errors import BipedError, InputError
+from biped_adrc.play import driver
+from biped_adrc.play.driver import Driver
+from biped_adrc.play.messages import (
+    MOST_AT_ONCE,
+    MOST_BYTES,
+    MOST_RATE,
+    NEEDED,
+    Allowance,
+    message_of,
+)
+
+
+class Clock:
+    """Goes on by hand, and by `tick` [s] whenever it is asked."""
+
+    def __init__(self, tick=0.0):
+        self.t, self.tick = 0.0, tick
+
+    def __call__(self):
+        self.t += self.tick
+        return self.t
+
+
+def driven(tick=0.0):
+    clock = Clock(tick)
+    made = Driver(ba.Session(ba.Scenario("NPD", hardware="ideal")), clock)
+    return made, made.session, clock
+
+
+def say(driver, **words):
+    driver.take(message_of(json.dumps(words)))
+
+
+@pytest.mark.parametrize("rate", [0.25, 1.0, 2.0])
+def test_the_walk_keeps_pace_with_the_clock_to_a_sample(rate):
+    driver, session, clock = driven()
+    say(driver, do="rate", rate=rate)
+    for k in range(1, 31):
+        clock.t = k / 60.0
+        assert driver.go_on() or rate < 1.0
+        assert abs(session.t - rate * clock.t) < 2e-3
+    assert driver.reached == pytest.approx(rate + (1.0 - rate) * (1 - 1 / 60) ** 30, rel=0.02)
+
+
+def test_a_walk_that_cannot_keep_up_says_the_rate_that_it_reached():
+    made, session, clock = driven(tick=0.01)  # a sample seems to take 10 ms
+    for _ in range(100):
+        clock.t += 0.02
+        made.go_on()
+    assert session.t < 0.15 * clock.t
+    assert made.reached == pytest.approx(0.1, abs=0.05)
+    assert made.owed <= 0.0
+
+
+def test_after_a_long_rest_it_does_not_run_after_the_clock():
+    made, session, clock = driven()
+    clock.t = 100.0
+    made.go_on()
+    assert session.t == pytest.approx(driver.LONGEST, abs=2e-3)
+
+
+def test_pause_step_and_go():
+    driver, session, clock = driven()
+    say(driver, do="pause")
+    clock.t = 1.0
+    assert not driver.go_on()
+    say(driver, do="step")
+    assert session.record.samples == 1
+    clock.t = 2.0
+    say(driver, do="go")
+    clock.t = 2.05
+    assert driver.go_on()
+    assert session.t == pytest.approx(0.051, abs=2e-3)
+
+
+def test_every_message_reaches_the_session():
+    driver, session, _ = driven()
+    say(driver, do="push", torque={"q1": 20}, force=[5, 0], link="torso", seconds=0.01)
+    assert session.hand.torque[0] == 20.0
+    assert session.hand.force == (5.0, 0.0)
+    say(driver, do="pull", link="torso", at=[0, 0.3], anchor=[0.5, 1.2])
+    say(driver, do="step")
+    assert session.hand.force[0] > 10.0
+    say(driver, do="let_go")
+    assert session.hand is None
+    say(driver, do="change", values={"controller": "ADRC", "bandwidth": 300.0})
+    assert session.walking[0].scenario.bandwidth == 300.0
+    say(driver, do="back")
+    assert session.record.samples == 0
+    say(driver, do="reset")
+    assert session.record.changes == ()
+    assert session.record.scenario.controller == "ADRC"
+    assert all(hasattr(driver, f"_{name}") for name in NEEDED)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("{", "no JSON"),
+        ("[" * 1500, "no JSON|expected"),
+        ('{"do": "rate", "rate": NaN}', "no JSON"),
+        ('{"do": "rate", "rate": 1e999}', "finite"),
+        ('{"do": "rate", "rate": true}', "finite"),
+        ("[]", "does None"),
+        ("7", "does None"),
+        ('{"do": ["go"]}', "does"),
+        ('{"do": "__init__"}', "does '__init__'"),
+        ('{"do": "take"}', "does 'take'"),
+        ('{"do": "go", "x": 1}', "has or lacks"),
+        ('{"do": "pull", "link": "torso"}', "has or lacks"),
+        ('{"do": "push", "force": [1]}', "two finite numbers"),
+        ('{"do": "push", "torque": {"q1": "a"}}', "finite numbers by name"),
+        ('{"do": "change", "values": {"own": {"a": 1}}}', "by name"),
+        ('{"do": "change", "values": []}', "by name"),
+        ('{"do": "rate", "rate": 50}', "0.01 to 10"),
+        ('{"do": "change", "values": {"bandwidth": -1}}', "bandwidth"),
+        ('{"do": "change", "values": {"walk": 1}}', "no field"),
+        ('{"do": "change", "walk": 0.5, "values": {}}', "whole number"),
+        ('{"do": "push", "torque": {"q1": 999}}', "at most 200"),
+        (" " * MOST_BYTES + "{}", "at most 2000"),
+    ],
+)
+def test_another_message_is_refused_in_words_and_does_nothing(text, message):
+    driver, session, _ = driven()
+    before = session.record, driver.rate, driver.paused
+    with pytest.raises(BipedError, match=message) as raised:
+        driver.take(message_of(text))
+    assert len(str(raised.value)) < 500
+    assert before == (session.record, driver.rate, driver.paused)
+
+
+def test_bytes_that_are_no_text_are_refused():
+    with pytest.raises(InputError, match="no JSON"):
+        message_of(b"\xff\xfe{")
+
+
+def test_a_page_that_says_too_much_is_not_heard():
+    allowance = Allowance()
+    at_once = sum(allowance.taken(10.0) for _ in range(1000))
+    assert at_once == MOST_AT_ONCE
+    later = sum(allowance.taken(10.0 + k * 1e-3) for k in range(1, 2001))
+    assert later == pytest.approx(2.0 * MOST_RATE, abs=1.0)
