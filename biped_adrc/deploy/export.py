@@ -16,7 +16,7 @@ from biped_adrc.deploy.computer import Computer
 from biped_adrc.deploy.fmu import Fmu, fmu_of
 from biped_adrc.deploy.source import Source, source_of
 from biped_adrc.errors import OutputError
-from biped_adrc.files import write_bytes, write_text
+from biped_adrc.files import write_bytes
 from biped_adrc.parts import check_part
 from biped_adrc.scenario.build import build
 from biped_adrc.scenario.scenario import Scenario
@@ -48,21 +48,24 @@ def export_c(
 
 
 def write_folder(folder: Path, source: Source, fmu: Fmu | None = None) -> None:
-    """Write the files into a folder that is new, empty, or holds files of these names alone.
+    """Write the files into a folder that is new, empty, or holds the same files alone.
 
-    Raises OutputError for any other.
+    Raises OutputError for any other, so that a `main.c` that was changed by hand stays as it is.
     """
     if folder.exists() and not folder.is_dir():
         raise OutputError(f"'{folder}' is a file, expected the name of a folder")
-    names = {*source.files, *([fmu.name] if fmu else [])}
-    others = (
-        sorted(x.name for x in folder.iterdir() if x.name not in names) if folder.exists() else []
-    )
+    files = {name: text.encode() for name, text in source.files.items()}
+    files |= {fmu.name: fmu.data} if fmu else {}
+    found = sorted(folder.iterdir()) if folder.exists() else []
+    others = [
+        x.name
+        for x in found
+        if x.name not in files or x.is_dir() or x.read_bytes() != files[x.name]
+    ]
     if others:
         raise OutputError(
-            f"folder '{folder}' holds other files, such as '{others[0]}'; choose a new or an empty one"
+            f"folder '{folder}' holds '{others[0]}', other than it would be written; choose a new or an "
+            "empty folder"
         )
-    for name, text in source.files.items():
-        write_text(folder / name, text)
-    if fmu:
-        write_bytes(folder / fmu.name, fmu.data)
+    for name, data in files.items():
+        write_bytes(folder / name, data)

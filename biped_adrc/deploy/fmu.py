@@ -88,7 +88,7 @@ def ports(source: Source) -> list[Port]:
     assert isinstance(read, tuple)
     numbered = list(enumerate(joints))
     angle, rate = '<Real unit="rad" start="0"/>', '<Real unit="rad/s" start="0"/>'
-    torque, flags = '<Real unit="N.m"/>', '<Integer min="0" max="2"/>'
+    torque, flags = '<Real unit="N.m"/>', '<Integer min="0" max="4"/>'
     landed = "becomes true at the first sample after a touchdown, from which on q, v and u have the new labels"
     flag = (
         "0, or why the step has no result: 1 not measured, 2 no number; u is held, and zero later"

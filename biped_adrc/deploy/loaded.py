@@ -11,7 +11,7 @@ import os
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -22,7 +22,13 @@ from numpy.typing import NDArray
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.deploy.source import Source
-from biped_adrc.errors import InputError
+from biped_adrc.errors import (
+    BipedError,
+    InputError,
+    NotFiniteError,
+    RanAwayError,
+    SingularError,
+)
 from biped_adrc.types import Array
 
 FLAGS: tuple[str, ...] = ("-std=c99", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic")
@@ -31,8 +37,15 @@ UNOPTIMISED = tuple("-O0" if flag == "-O2" else flag for flag in FLAGS)
 """As FLAGS with the same results to the last bit: sooner compiled, slower to run."""
 COMPILERS = ("cc", "gcc", "clang")
 """Names of C compilers, the first one found is taken; the variable CC goes before them."""
-OK, NOT_MEASURED, NO_RESULT = 0, 1, 2
+OK, NOT_MEASURED, NO_RESULT, SINGULAR, RAN_AWAY = range(5)
 """What the functions of the C return."""
+ERRORS: Mapping[int, type[BipedError]] = {
+    NOT_MEASURED: NotFiniteError,
+    NO_RESULT: NotFiniteError,
+    SINGULAR: SingularError,
+    RAN_AWAY: RanAwayError,
+}
+"""What the controller in Python raises there: it ends a walk with the status of the same name."""
 
 Record = NDArray[np.void]
 """A struct of C."""
@@ -143,6 +156,12 @@ class Loaded:
         return {name: x for name, x in vars(self).items() if name != "functions"}
 
 
+def check_flag(flag: int) -> None:
+    """Raise what `ERRORS` has for a sample without a result."""
+    if flag != OK:
+        raise ERRORS[flag](f"the exported controller returned {flag}: it has no result")
+
+
 def _at(array: NDArray[Any]) -> ctypes.c_void_p:
     """The address of an array, as C takes it."""
     return ctypes.c_void_p(array.ctypes.data)
@@ -152,8 +171,8 @@ def _at(array: NDArray[Any]) -> ctypes.c_void_p:
 class ExportedController(Controller):
     """The exported controller in the place of the one that it was made from.
 
-    Its state s is the struct of the C and the torque, as floats. A sample without a result raises
-    InputError: in a walk that is a fault, on a robot the last torque goes on.
+    Its state s is the struct of the C and the torque, as floats. A sample without a result ends the
+    walk with the status that the controller in Python would give it; on a robot the last torque goes on.
     """
 
     loaded: Loaded
@@ -193,8 +212,7 @@ class ExportedController(Controller):
         return x
 
     def _kept(self, flag: int, x: Record, u: Array) -> Array:
-        """The struct and the torque (p,) as floats. Raises InputError for a sample without a result."""
-        if flag != OK:
-            raise InputError(f"the exported controller returned {flag}: it has no result")
+        """The struct and the torque (p,) as floats. Raises what `ERRORS` has for a sample without a result."""
+        check_flag(flag)
         parts = [np.ravel(x[name]) for name in self.loaded.state.names or ()]
         return np.concatenate((*parts, u)).astype(float)

@@ -24,7 +24,7 @@ import numpy as np
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.deploy.datagram import INIT, NUMBERS, STEP, TOUCHDOWN, Answer
-from biped_adrc.deploy.loaded import OK
+from biped_adrc.deploy.loaded import OK, check_flag
 from biped_adrc.deploy.process import Channel
 from biped_adrc.deploy.tick_times import Tick, TickTimes
 from biped_adrc.errors import InputError, SimulationError, check_positive
@@ -79,14 +79,13 @@ class RemoteController(Controller):
         )
 
     def waited(self, number: int) -> Answer:
-        """The answer to this datagram. Raises SimulationError for none, InputError for one without a result."""
+        """The answer to this datagram. Raises SimulationError for none, and as `check_flag`."""
         answer = answer_to(self.channel, number, self.channel.now() + PATIENCE)
         if answer is None:
             raise SimulationError(
                 f"the controller's process is there, and has not answered for {PATIENCE:g} s"
             )
-        if answer.flag != OK:
-            raise InputError(f"the exported controller returned {answer.flag}: it has no result")
+        check_flag(answer.flag)
         return answer
 
     def _wall(self, s: Array, m: Measurement) -> float:

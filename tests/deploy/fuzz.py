@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from biped_adrc.deploy.layout import functions
-from biped_adrc.deploy.loaded import NO_RESULT, NOT_MEASURED, OK, compiled
+from biped_adrc.deploy.loaded import ERRORS, NOT_MEASURED, OK, compiled
 
 HOLD = 5
 """Of the header."""
@@ -107,7 +107,7 @@ def check_contract(computer, source, calls, found, real):
         read = np.asarray(v, real)[... if kind == "i" else rates]
         finite = np.all(np.isfinite(np.concatenate(([t], q, read))))
         assert (flag == NOT_MEASURED) == (not finite), call
-        assert flag in (OK, NOT_MEASURED, NO_RESULT)
+        assert flag in (OK, *ERRORS)
         seen.add((kind, flag))
         if kind == "i":
             sent, without = np.zeros(source.p), HOLD * (flag != OK)

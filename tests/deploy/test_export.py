@@ -1,5 +1,6 @@
 """An exported controller against Python, call by call over walks, and what its folder is like."""
 
+import ctypes
 import os
 import re
 import shutil
@@ -12,7 +13,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.deploy import loaded as loading
-from biped_adrc.deploy.apart import TIMES, apart
+from biped_adrc.deploy.apart import TIMES, apart, walk
 from biped_adrc.deploy.computer import Computer
 from biped_adrc.deploy.export import export_c
 from biped_adrc.deploy.loaded import FLAGS, NOT_MEASURED, OK, UNOPTIMISED, Loaded
@@ -24,6 +25,7 @@ from biped_adrc.engine.c_text import in_double
 from biped_adrc.errors import InputError, OutputError
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hybrid.simulator import RunOptions
+from biped_adrc.hybrid.status import Status
 from biped_adrc.scenario.build import RobotAndGait, build, start
 
 PUSH = "q1,q2=20@1:0.1-0.3"
@@ -138,12 +140,43 @@ def test_what_is_not_measured_leaves_the_state_and_the_torque_and_then_none(case
         assert loaded.step(x, good)[0] == OK
 
 
-def test_an_initial_state_that_is_none_gives_no_torque(cases):
-    _, loaded, calls = cases("NPD")
+@pytest.mark.parametrize("name", ["NPD", "on a robot"])
+def test_an_initial_state_that_is_none_is_zero_and_gives_no_torque(cases, name):
+    _, loaded, calls = cases(name)
     m = loaded.measured(np.nan, calls[0].q, calls[0].v)
-    flag, x = loaded.init(m)
-    assert flag == NOT_MEASURED
+    x = np.frombuffer(bytearray(b"\xff" * loaded.state.itemsize), loaded.state)[0:1].reshape(())
+    at = (ctypes.c_void_p(a.ctypes.data) for a in (x, m))
+    assert loaded.functions["init"](*at) == NOT_MEASURED
+    left = {field: x[field].tolist() for field in loaded.state.names if np.any(x[field] != 0)}
+    assert left == {"step": 1, "without": 5}
     assert not np.any(loaded.step(x, m)[1])
+
+
+def test_a_walk_that_runs_away_ends_as_that_of_python():
+    scenario = ba.Scenario("NPD", period=1e-3, delay=2e-2, impacts=1)
+    computer = Computer(build(scenario))
+    loaded = Loaded(source_of(computer), flags=UNOPTIMISED)
+    found = apart(computer, loaded, start(scenario, RobotAndGait.of(scenario)), RunOptions(1.0))
+    assert found.run.status is Status.RAN_AWAY
+    assert found.proved, found
+    here = ba.walk_scenario(scenario).trajectory
+    there = ba.walk_scenario(scenario, controller=ba.ExportedController(loaded)).trajectory
+    assert (there.status, there.t_end) == (here.status, here.t_end)
+
+
+@pytest.mark.parametrize("flag", loading.ERRORS)
+def test_every_flag_ends_a_walk_with_the_status_of_its_name(cases, flag):
+    computer, loaded, _ = cases("NPD")
+    name = {NOT_MEASURED: "NOT_FINITE", 2: "NOT_FINITE", 3: "SINGULAR", 4: "RAN_AWAY"}[flag]
+    begin = start(CASES["NPD"], RobotAndGait.of(CASES["NPD"]))
+
+    class Failing(ba.ExportedController):
+        def correct(self, s, m):
+            return super()._kept(flag if m.t > 2.5e-3 else OK, self._state(s), self.output(s, m))
+
+    run = walk(computer.walker, Failing(loaded), begin, RunOptions(1.0))
+    assert run.status is Status[name]
+    assert run.t_end == pytest.approx(3e-3)
 
 
 class Own(Sensor):
@@ -176,6 +209,14 @@ def test_a_folder_with_other_files_is_left_alone(tmp_path):
     before = {x.name: x.read_bytes() for x in (tmp_path / "new").iterdir()}
     export_c(CASES["NPD"], tmp_path / "new")
     assert {x.name: x.read_bytes() for x in (tmp_path / "new").iterdir()} == before
+    with pytest.raises(OutputError, match="other than it would be written"):
+        export_c(CASES["touchdown noticed"], tmp_path / "new")
+    assert {x.name: x.read_bytes() for x in (tmp_path / "new").iterdir()} == before
+    (tmp_path / "new" / "main.c").write_text("changed by hand")
+    with pytest.raises(OutputError, match=r"main\.c"):
+        export_c(CASES["NPD"], tmp_path / "new")
+    assert (tmp_path / "new" / "main.c").read_text() == "changed by hand"
+    (tmp_path / "new" / "main.c").unlink()
     (tmp_path / "new" / "mine.txt").write_text("mine")
     with pytest.raises(OutputError, match=r"mine\.txt"):
         export_c(CASES["NPD"], tmp_path / "new")
@@ -227,6 +268,27 @@ def test_the_program_under_sanitizers_prints_the_torques(tmp_path, cases):
     assert printed[-1, 0] == NOT_MEASURED
     before = [call.u for call in calls[:200] if call.kind == "step"]
     np.testing.assert_allclose(printed[: len(before), 1:], before, rtol=1e-9, atol=1e-9)
+
+
+def test_in_the_program_a_touchdown_that_is_not_measured_waits(tmp_path, cases):
+    _, loaded, calls = cases("NPD")
+    for name, text in loaded.source.files.items():
+        (tmp_path / name).write_text(text)
+    loading.compiled(tmp_path, ["main.c", "controller.c"], tmp_path / "main", UNOPTIMISED)
+    at = next(i for i, call in enumerate(calls) if call.kind == "touchdown")
+    first, bad, good = calls[0], calls[at]._replace(t=np.nan), calls[at + 2]
+    x = loaded.init(loaded.measured(*first[1:4]))[1]
+    made = [loaded.step(x, loaded.measured(*call[1:4])) for call in (first, bad)]
+    assert loaded.touchdown(x, loaded.measured(*good[1:4])) == OK
+    made.append(loaded.step(x, loaded.measured(*good[1:4])))
+    rows = [(0, first), (1, bad), (0, good)]
+    lines = [" ".join(map(repr, map(float, (c.t, *c.q, *c.v)))) for _, c in rows]
+    told = "\n".join(f"{landed} {line}" for (landed, _), line in zip(rows, lines, strict=True))
+    done = subprocess.run(
+        [tmp_path / "main"], input=told, capture_output=True, text=True, check=True
+    )
+    printed = [list(map(float, line.split())) for line in done.stdout.splitlines()]
+    assert printed == [[flag, *u.tolist()] for flag, u in made]
 
 
 def test_differences_of_angles_and_what_they_are_made_of_stay_in_double():
