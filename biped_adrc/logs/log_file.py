@@ -14,7 +14,6 @@ alone, and it is said.
 from __future__ import annotations
 
 import csv
-import math
 import re
 from pathlib import Path
 
@@ -24,6 +23,7 @@ from numpy.typing import NDArray
 from biped_adrc.bench.parameters import unit_of
 from biped_adrc.errors import InputError
 from biped_adrc.files import number_in, reading
+from biped_adrc.logs.plausible import check_plausible
 from biped_adrc.logs.robot_log import RobotLog, check_rows
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.columns import write_csv
@@ -34,8 +34,6 @@ UNITS = {"t": "s", "q": "rad", "v": "rad/s", "u": "N m"}
 CONTACT, STEP = "contact", "step"
 LEGS = (1.0, 2.0)
 """What `contact` may be."""
-MOST_ANGLE = 4.0 * math.pi
-"""[rad]: a joint that turned twice is one in degrees."""
 
 _COLUMN = re.compile(r"\s*(\w+?)\s*(?:\[(.*)\])?\s*")
 """A name, and its unit in brackets."""
@@ -183,13 +181,11 @@ def _log(
             raise InputError(
                 f"{names[k]}, column '{CONTACT}': found {legs[k]:g}, expected 1 or 2, the leg that stands"
             )
-        q, v, u = exchanged(legs, q, v, u, biped)
         step = 1.0 + np.cumsum(np.diff(legs, prepend=legs[:1]) != 0.0)
     log = table["t"], step, q, u, v
     check_rows(*log, names)
-    for k, i in np.argwhere(np.abs(q) > MOST_ANGLE)[:1]:
-        raise InputError(
-            f"{names[k]} has q{i + 1} = {q[k, i]:g} rad, expected at most two turns; if the column is in "
-            f"degrees, call it 'q{i + 1} [deg]'"
-        )
+    check_plausible(log, measured, biped, names)
+    if CONTACT in table:
+        q, v, u = exchanged(table[CONTACT], q, v, u, biped)
+        log = table["t"], step, q, u, v
     return RobotLog(*log, measured.astype(float), said)

@@ -25,6 +25,8 @@ from biped_adrc.types import Array, Indices, read_only
 
 GAP = 0.5
 """Share of the period by which two rows may come too early or too late; beyond it a row is missing."""
+SHORTEST_PERIOD = 1e-5
+"""[s]: rows closer together are in another unit of time."""
 EVEN = 1e-3
 """The same share below which a clock counts as even, and rows are taken as they are."""
 
@@ -182,6 +184,11 @@ def _check_times(t: Array, step: Array, names: list[str]) -> None:
         raise InputError(
             f"the rows of the log are {period:g} s apart, expected at most {LONGEST_PERIOD} s; if its "
             "times are in milliseconds, call the column 't [ms]'"
+        )
+    if period < SHORTEST_PERIOD:
+        raise InputError(
+            f"the rows of the log are {period:g} s apart, expected at least {SHORTEST_PERIOD} s; if its "
+            "times are in seconds, call the column 't [s]'"
         )
     late = ways > (1.0 + GAP) * period
     for k in np.flatnonzero(late | (same & (ways < (1.0 - GAP) * period)))[:1]:

@@ -112,6 +112,18 @@ def scaled(name, factor):
     return change
 
 
+def turned_once(k, name):
+    """A change of one angle by a whole turn from row k on."""
+
+    def change(lines):
+        at = column(lines, name)
+        for row in lines[k:]:
+            row[at] = repr(float(row[at]) + 2.0 * np.pi)
+        return lines
+
+    return change
+
+
 DAMAGE = {
     "gap": (lambda x: x[:4] + x[8:], "line 5 of the log comes 0.005 s after .* expected 0.001 s"),
     "doubled": (lambda x: [*x[:5], x[4], *x[5:]], "line 6 .* the same time as the row before"),
@@ -132,6 +144,17 @@ DAMAGE = {
     "short": (lambda x: [*x[:3], x[3][:-1], *x[4:]], "line 4 has 15 entries, expected 16"),
     "degrees": (scaled("q1", 57.3), "line 2 has q1 = .* call it 'q1 \\[deg\\]'"),
     "milliseconds": (scaled("t", 1e3), "1 s apart, expected at most 0.1 s; .* 't \\[ms\\]'"),
+    "seconds": (put(0, "t", "t [ms]"), "1e-06 s apart, expected at least 1e-05 s; .* 't \\[s\\]'"),
+    "rates in degrees": (scaled("v3", 57.3), "q3 changes by 0.0175 times what v3 says"),
+    "angles as degrees": (put(0, "q3", "q3 [deg]"), "q3 changes by 0.0175 times what v3 says"),
+    "angles of the other leg": (
+        put(0, "q4", "q4 [deg]"),
+        "q4 changes by 0.0175 times what v4 says",
+    ),
+    "sign of a rate": (scaled("v3", -1.0), "q3 changes by -(1|0.99.*) times what v3 says"),
+    "a rate that rests": (scaled("v3", 0.0), "q3 changes by inf times what v3 says"),
+    "whole turn": (turned_once(7, "q2"), "line 8 has q2 = .* expected angles that go on"),
+    "millinewtons": (scaled("u1", 1e6), "has u1 = .* call it 'u1 \\[mN m\\]'"),
     "two rows": (lambda x: x[:3], "the log has 2 rows, expected at least three"),
     "no rows": (lambda x: x[:1], "the log has 0 rows"),
     "nothing": (lambda x: [], "its columns are \\[\\], expected t \\[s\\]"),
