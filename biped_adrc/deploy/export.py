@@ -48,7 +48,7 @@ def export_c(
 
 
 def write_folder(folder: Path, source: Source, fmu: Fmu | None = None) -> None:
-    """Write the files into a folder that is new, empty, or holds the same files alone.
+    """Write the files into a folder that is new, empty, or holds the same files alone; an FMU is replaced.
 
     Raises OutputError for any other, so that a `main.c` that was changed by hand stays as it is.
     """
@@ -57,10 +57,12 @@ def write_folder(folder: Path, source: Source, fmu: Fmu | None = None) -> None:
     files = {name: text.encode() for name, text in source.files.items()}
     files |= {fmu.name: fmu.data} if fmu else {}
     found = sorted(folder.iterdir()) if folder.exists() else []
+    built = fmu.name if fmu else None  # a compiler's result, which nobody changes by hand
     others = [
         x.name
         for x in found
-        if x.name not in files or x.is_dir() or x.read_bytes() != files[x.name]
+        if x.name != built
+        and (x.name not in files or x.is_dir() or x.read_bytes() != files[x.name])
     ]
     if others:
         raise OutputError(

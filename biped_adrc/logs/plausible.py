@@ -52,7 +52,7 @@ def check_plausible(log: tuple[Array, ...], has: Array, biped: Biped, names: lis
             f"the robot's peak; if the column is in mN m, call it 'u{i + 1} [mN m]'"
         )
     turned, integral = _stretches(t, step, q, v)
-    for i in np.flatnonzero(has & (len(turned) > 0)):
+    for i in np.flatnonzero(has).tolist() if len(turned) else []:
         _check_rate(turned[:, i], integral[:, i], i)
 
 
