@@ -49,6 +49,9 @@ int main(void)
     else if (kind == 't') flag = controller_touchdown(&x, &m);
     else flag = controller_step(&x, &m, u);
     before.without = x.without;
+#ifdef FRESH
+    if (kind == 's') before.fresh[0] = x.fresh[0];
+#endif
     same = memcmp(&before, &x, sizeof x) == 0;
     printf("%d %d", flag, same);
     for (i = 0; i < CONTROLLER_P; ++i) printf(" %a", (double)u[i]);
@@ -57,7 +60,7 @@ int main(void)
   return 0;
 }
 """
-"""Reads calls and prints flag, whether the state but `without` is as before, and torque."""
+"""Reads calls and prints flag, whether the state but `without` and `fresh` is as before, and torque."""
 
 
 def program(source, folder, flags=SANITIZED, flush=False):
@@ -66,6 +69,8 @@ def program(source, folder, flags=SANITIZED, flush=False):
         (Path(folder) / name).write_text(text)
     if flush and platform.machine() in ("x86_64", "AMD64"):
         flags = (*flags, "-DFLUSH")
+    if any(field.name == "fresh" for field in source.fields):
+        flags = (*flags, "-DFRESH")
     out = Path(folder) / "driver"
     compiled(Path(folder), ["driver.c", "controller.c"], out, flags)
     return out

@@ -140,6 +140,21 @@ def test_what_is_not_measured_leaves_the_state_and_the_torque_and_then_none(case
         assert loaded.step(x, good)[0] == OK
 
 
+def test_no_difference_is_taken_over_a_sample_that_is_not_measured(cases):
+    _, loaded, calls = cases("on a robot")
+    rates = {}
+    for bad in (range(40, 43), range(0)):
+        x, made = loaded.init(loaded.measured(*calls[0][1:4]))[1], []
+        for i, call in enumerate(calls[1:60]):
+            flag, _ = loaded.step(x, loaded.measured(np.nan if i in bad else call.t, *call[2:4]))
+            assert flag == (NOT_MEASURED if i in bad else OK)
+            made.append(x["rate"].copy())
+        rates[len(bad)] = np.array(made)
+    assert np.array_equal(rates[3][43], rates[3][39])
+    off = np.max(np.abs(rates[3] - rates[0]), axis=1)
+    assert np.all(np.diff(off[43:]) < 0.0)
+
+
 @pytest.mark.parametrize("name", ["NPD", "on a robot"])
 def test_an_initial_state_that_is_none_is_zero_and_gives_no_torque(cases, name):
     _, loaded, calls = cases(name)
