@@ -286,7 +286,7 @@ def test_the_program_under_sanitizers_prints_the_torques(tmp_path, cases):
 
 
 def test_in_the_program_a_touchdown_that_is_not_measured_waits(tmp_path, cases):
-    _, loaded, calls = cases("NPD")
+    _, loaded, calls = cases("on a robot")
     for name, text in loaded.source.files.items():
         (tmp_path / name).write_text(text)
     loading.compiled(tmp_path, ["main.c", "controller.c"], tmp_path / "main", UNOPTIMISED)
