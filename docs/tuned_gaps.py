@@ -12,7 +12,8 @@ from tuned_text import at, name
 
 LEFT_OUT = (
     "An observer's reset at the instant of impact stays as it is; the leaf is a policy for the time after it.",
-    "Controllers that run in Python alone (CLF-QP, reference governors) are **left out**.",
+    "**Left out** are controllers that run in Python alone (*CLF-QP*, *output NPD*, *finite time*), *stride "
+    "PI*, which learns from step to step, and *delayed*, which has no samples.",
 )
 
 

@@ -368,6 +368,23 @@ def test_a_leaf_is_worth_what_is_lost_without_it(script):
     assert rows[0][2:] == ["0.5 (0.5 to 0.5)", "1 (1 to 1) (open)"]
 
 
+def test_what_moves_with_half_the_step_is_said_by_place(script):
+    half = [[x[0]] for x in walks(0.5)]
+    fewer = [[x[0]] for x in walks(0.44, (3,))]
+    given = with_beside(
+        summary(search("NPD", 0.5), search("m = 1", 0.4)),
+        halved=[{"contestant": "NPD", "walks": half}, {"contestant": "m = 1", "walks": fewer}],
+    )
+    module = script("tuned_steps")
+    found = script("tuned_entries").entries(given)
+    changes = {x.entry.contestant: x.change for x in module.moved(given, found)}
+    assert changes["NPD"] == 0.0
+    assert changes["m = 1"] == pytest.approx(0.1, rel=0.3)
+    (said,) = module.step_sentences(given, found)
+    assert "of 2 settings the median error moves most for *m = 1* at gait v0.5" in said
+    assert f"Of {SEEDS} walks each -1 are legal at most, -1 of all {2 * SEEDS}." in said
+
+
 def brackets(low, width=2.5, count=SEEDS):
     return [[low, low + width]] * count
 

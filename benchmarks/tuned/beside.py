@@ -7,6 +7,7 @@ Of the searches of the first optimiser seed that are finished and found a settin
 
     linear     its delay margin [s], disk margin and ripple [N m]
     without    the setting with one leaf taken away and not tuned again, on the test set of its place
+    halved     its walks under the first condition of the test set, with every step of integration half as long
     pushes     brackets of the largest legal push, at the places and gaits of [push] in contest.toml
 
 and of each setting in [unsearched] its walks of the test set and its delay margin. No search knows of it. Rows
@@ -25,10 +26,11 @@ from alike import NOTE, Entry, contest, entries, of_place, tables
 from goal import LINEAR, Walked, largest
 from goal_numbers import plain
 
-from biped_adrc.bench.parameters import read
+from biped_adrc.bench.parameters import read, trial
 from biped_adrc.bench.study import record_of
 from biped_adrc.campaign.chunk import Row
 from biped_adrc.files import write_text
+from biped_adrc.scenario.run import halved
 from biped_adrc.tuning.study import TuningStudy
 from biped_adrc.tuning.study_file import read_tuning
 from biped_adrc.tuning.variables import Values
@@ -71,10 +73,21 @@ def without(
 
 def tested(study: TuningStudy, values: Values, walk: Walked) -> list[Any]:
     """The kept columns of a setting on the test set of a study, each a list of seeds for each condition."""
-    rows = walk([p.record for p in study.test.points(values, {})])
-    n = len(study.test.seeds)
+    return kept(walk([p.record for p in study.test.points(values, {})]), len(study.test.seeds))
+
+
+def kept(rows: list[Row], n: int) -> list[Any]:
+    """The kept columns of rows, each a list of n seeds for each condition."""
     sets = [rows[i : i + n] for i in range(0, len(rows), n)]
     return [[[short(row, column) for row in rows] for rows in sets] for column in KEPT]
+
+
+def with_half_steps(study: TuningStudy, values: Values, walk: Walked) -> list[Any]:
+    """The kept columns under the first condition of the test set, with every step half as long."""
+    first = study.test.named[0].values
+    records = [record_of({**values, **first, "seed": i}) for i in study.test.seeds]
+    rows = walk([halved(trial(r)).record() for r in records])
+    return kept(rows, len(rows))
 
 
 def short(row: Row, column: str) -> float | int | None:
@@ -117,8 +130,11 @@ def main() -> None:
     found = list(chosen(c, out))
     told: dict[str, list[Any]] = {"unsearched": list(unsearched(c, walk)), "without": []}
     told["linear"] = [e._asdict() | linear(study.values(x)) for e, study, x in found]
+    told["halved"] = []
     for e, study, picked in found:
         told["without"] += without(c, e, study, picked, walk)
+        steps = with_half_steps(study, study.values(picked), walk)
+        told["halved"].append({**e._asdict(), "walks": steps})
         print(e.folder, flush=True)
     told["pushes"] = list(pushed(c, found, walk))
     text = json.dumps(plain(told), allow_nan=False)
