@@ -56,9 +56,9 @@ def step_sentences(summary: Mapping[str, Any], found: Sequence[Entry]) -> list[s
         lines.append(
             f"{place}: of {len(here)} settings the median error moves most for {name(most.entry)} at gait "
             f"{most.entry.gait}, from {a} to {b} mrad; in the middle of them by "
-            f"{100.0 * np.median([x.change for x in here]):.2g} %. Of {here[0].usual.legal.size} walks each "
-            f"{max(shifts, key=abs):+d} are legal at most, {sum(shifts):+d} of all "
-            f"{sum(x.usual.legal.size for x in here)}."
+            f"{100.0 * np.median([x.change for x in here]):.2g} %. Legal walks of a setting change by at most "
+            f"{max(shifts, key=abs):+d} of {here[0].usual.legal.size}, those of all settings by {sum(shifts):+d} "
+            f"of {sum(x.usual.legal.size for x in here)}."
         )
     return lines
 

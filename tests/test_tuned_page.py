@@ -382,7 +382,7 @@ def test_what_moves_with_half_the_step_is_said_by_place(script):
     assert changes["m = 1"] == pytest.approx(0.1, rel=0.3)
     (said,) = module.step_sentences(given, found)
     assert "of 2 settings the median error moves most for *m = 1* at gait v0.5" in said
-    assert f"Of {SEEDS} walks each -1 are legal at most, -1 of all {2 * SEEDS}." in said
+    assert f"by at most -1 of {SEEDS}, those of all settings by -1 of {2 * SEEDS}." in said
 
 
 def brackets(low, width=2.5, count=SEEDS):

@@ -86,7 +86,7 @@ def test_tuned_controllers_are_not_walked_again_at_equal_bandwidth():
 
 def half(r):
     """A row whose errors are half of NPD's, for whoever has an observer; order 3 doubles them."""
-    known = {"NPD": 1.0, "LESO": 0.5, "ADRC": 0.5, "PD": 0.5, "my_law:Mine": 0.5}
+    known = {"NPD": 1.0, "LESO": 0.5, "ADRC": 0.5, "CLF-QP": 0.5, "my_law:Mine": 0.5}
     error = known[r["controller"]] * (2.0 if r.get("order") == 3 else 1.0)
     return row(rms_error=error, peak_error=error)
 
