@@ -57,8 +57,8 @@ def step_sentences(summary: Mapping[str, Any], found: Sequence[Entry]) -> list[s
             f"{place}: of {len(here)} settings the median error moves most for {name(most.entry)} at gait "
             f"{most.entry.gait}, from {a} to {b} mrad; in the middle of them by "
             f"{100.0 * np.median([x.change for x in here]):.2g} %. Legal walks of a setting change by at most "
-            f"{max(shifts, key=abs):+d} of {here[0].usual.legal.size}, those of all settings by {sum(shifts):+d} "
-            f"of {sum(x.usual.legal.size for x in here)}."
+            f"{max(shifts, key=abs):+d} of {here[0].usual.legal.size}, those of all settings by "
+            f"{sum(shifts):+d} of {sum(x.usual.legal.size for x in here)}."
         )
     return lines
 
