@@ -27,19 +27,8 @@ from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.status import Status
 from biped_adrc.scenario.build import RobotAndGait, build, start
+from tests.deploy.robot import PUSH, ROBOT
 
-PUSH = "q1,q2=20@1:0.1-0.3"
-ROBOT = {  # all that a robot's computer has: encoders, filter, delay, limits, a policy at contact
-    "hardware": "rabbit",
-    "counts": 1e5,
-    "filter_time": 1e-3,
-    "delay": 2e-3,
-    "delay_known": True,
-    "rate_limit": 3e4,
-    "bandwidth": 100.0,
-    "contact": "hold",
-    "contact_window": 0.015,
-}
 CASES = {
     "NPD": ba.Scenario("NPD", hardware="ideal", impacts=2, pushes=PUSH),
     "Table I": ba.Scenario("ADRC", hardware="ideal", impacts=2, pushes=PUSH),

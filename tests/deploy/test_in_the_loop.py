@@ -23,22 +23,11 @@ from biped_adrc.deploy.remote import LockStep, RealTime
 from biped_adrc.deploy.source import source_of
 from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.scenario.build import build
+from tests.deploy.robot import PUSH, ROBOT
 
 PERIOD = 1.5e-3
-ROBOT = {  # encoders, filter, delay, limits of torque and rate, a policy at contact, a push
-    "hardware": "rabbit",
-    "counts": 1e5,
-    "filter_time": 1e-3,
-    "delay": 2e-3,
-    "delay_known": True,
-    "rate_limit": 3e4,
-    "bandwidth": 100.0,
-    "contact": "hold",
-    "contact_window": 0.015,
-    "pushes": "q1,q2=20@1:0.1-0.3",
-    "impacts": 1,
-}
-WALKS = {plant: ba.Scenario("LESO", plant=plant, **ROBOT) for plant in ("rigid", "mujoco")}
+ON_ROBOT = {**ROBOT, "pushes": PUSH, "impacts": 1}
+WALKS = {plant: ba.Scenario("LESO", plant=plant, **ON_ROBOT) for plant in ("rigid", "mujoco")}
 QUICK = (*FLAGS, "-O0")
 STRICT = (*QUICK, "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 
