@@ -1,4 +1,4 @@
-"""What a robot's computer has, in values of a scenario: encoders, filter, delay, limits, a policy at contact."""
+"""What a robot's computer has: encoders, filter, delay, limits and a policy at contact, as of a scenario."""
 
 PUSH = "q1,q2=20@1:0.1-0.3"
 ROBOT = {
