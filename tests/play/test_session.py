@@ -145,7 +145,7 @@ def test_another_hand_is_noticed(tmp_path):
     path = session.save(tmp_path / "me.npz")
     with np.load(path) as file:
         arrays = dict(file)
-    arrays["meta"] = np.array(str(arrays["meta"]).replace("1.0,", "1.0000000001,", 1))
+    arrays["beside.hand"] = np.array(str(arrays["beside.hand"]).replace(",1.0,", ",1.0000000001,"))
     np.savez(path, **arrays)
     found = ba.replay_session(path)
     assert not found.same
