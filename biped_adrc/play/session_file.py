@@ -27,6 +27,7 @@ Floats are read back to the same bits. Without `ended` the session is walked, an
 from __future__ import annotations
 
 import hashlib
+import json
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -81,7 +82,22 @@ class Ended(NamedTuple):
 
 
 def write_session(path: Path, record: SessionRecord, ended: Sequence[Ended]) -> None:
-    """Write a session as a scenario with its inputs. Raises InputError and OutputError."""
+    """Write a session as a scenario with its inputs.
+
+    Raises InputError for a value that has no text in such a file, as None among a controller's own, and
+    OutputError.
+    """
+    text = to_text(record, ended)
+    again, _ = from_text(text)
+    if json.dumps(again.plain()) != json.dumps(record.plain()):
+        raise InputError(
+            f"the values of this session are not read back from '{path}' as they are; save it as a run (.npz)"
+        )
+    write_text(path, text)
+
+
+def to_text(record: SessionRecord, ended: Sequence[Ended]) -> str:
+    """A session as TOML; see the module."""
     lines = [*HEAD, *scenario_lines(record.scenario)]
     if record.ghost is not None:
         lines += ["", "[ghost]", *scenario_lines(record.ghost)]
@@ -92,30 +108,35 @@ def write_session(path: Path, record: SessionRecord, ended: Sequence[Ended]) -> 
         lines.append(f"hand = {toml(table)}" if "'''" in table else f"hand = '''\n{table}'''")
     for end in ended:
         lines += ["", "[[ended]]", *(f"{name} = {toml(x)}" for name, x in end._asdict().items())]
-    write_text(path, "\n".join(lines) + "\n")
+    return "\n".join(lines) + "\n"
 
 
 def read_session(path: Path) -> tuple[SessionRecord, tuple[Ended, ...]]:
     """What `write_session` wrote; no `Ended` where the file has none. Raises InputError."""
     with reading("session file", path, InputError):
-        tables = tomllib.loads(path.read_text(encoding="utf-8"))
-        given = tables.pop("session", None)
-        if not isinstance(given, dict):
-            raise InputError(
-                f"'{path}' has no table [session]; walk a scenario with 'biped-adrc simulate --scenario {path}'"
-            )
-        if more := sorted(set(given) - PARTS):
-            raise ValueError(f"[session] has {more}, expected {sorted(PARTS)}")
-        check_version(given["version"])
-        ghost, ended = tables.pop("ghost", None), tables.pop("ended", ())
-        record = SessionRecord(
-            _scenario(tables, f"session file '{path}'"),
-            None if ghost is None else _scenario(ghost, f"session file '{path}', ghost"),
-            tuple(_change(x, f"session file '{path}', changes") for x in given.get("changes", ())),
-            from_table(given.get("hand", "")),
-            whole(given["samples"]),
+        return from_text(path.read_text(encoding="utf-8"))
+
+
+def from_text(text: str) -> tuple[SessionRecord, tuple[Ended, ...]]:
+    """The inverse of `to_text`. Raises InputError; for what else a damaged file raises see `files.reading`."""
+    tables = tomllib.loads(text)
+    given = tables.pop("session", None)
+    if not isinstance(given, dict):
+        raise InputError(
+            "it has no table [session]; a scenario is walked by 'biped-adrc simulate --scenario FILE'"
         )
-        return record, tuple(_ended(x) for x in ended)
+    if more := sorted(set(given) - PARTS):
+        raise InputError(f"[session] has {more}, expected {sorted(PARTS)}")
+    check_version(given["version"])
+    ghost, ended = tables.pop("ghost", None), tables.pop("ended", ())
+    record = SessionRecord(
+        _scenario(tables, "scenario"),
+        None if ghost is None else _scenario(ghost, "ghost"),
+        tuple(map(_change, given.get("changes", ()))),
+        from_table(given.get("hand", "")),
+        whole(given["samples"]),
+    )
+    return record, tuple(map(_ended, ended))
 
 
 def _scenario(values: Mapping[str, object], what: str) -> Scenario:
@@ -123,12 +144,12 @@ def _scenario(values: Mapping[str, object], what: str) -> Scenario:
     return Scenario(**nested(read_values(values, what)))
 
 
-def _change(given: Mapping[str, Any], what: str) -> Change:
+def _change(given: Mapping[str, Any]) -> Change:
     """One change."""
-    values = dict(given["values"])
-    read = nested(read_values(values, what))
-    empty = {name: {} for name in TABLES if values.get(name) == {}}
-    return Change(whole(given["sample"]), whole(given["walk"]), read | empty)
+    sample, walk, values = whole(given["sample"]), whole(given["walk"]), dict(given["values"])
+    read = nested(read_values(values, f"change at sample {sample}"))
+    empty: dict[str, Any] = {name: {} for name in TABLES if values.get(name) == {}}
+    return Change(sample, walk, read | empty)
 
 
 def _ended(given: Mapping[str, Any]) -> Ended:
