@@ -33,11 +33,20 @@ SUFFIXES = (".npz", ".toml")
 """Kinds of files of a session."""
 
 
-def save_session(record: SessionRecord, walks: tuple[Walk, ...], path: Path | str) -> Path:
-    """Write a session that was walked as a run (.npz) or as a scenario with its inputs (.toml); its path.
+def save_session(record: SessionRecord, path: Path | str, *more: Path | str) -> Path:
+    """Walk a session again, and write it to `path` and to each of `more`; the path.
 
-    Raises InputError and OutputError.
+    A name that ends in .npz is a run, in .toml a scenario with its inputs. Raises InputError and OutputError.
     """
+    paths = [output_path(each, SUFFIXES, default=True) for each in (path, *more)]
+    walks = walks_of(record)
+    for each in paths:
+        save_walked(record, walks, each)
+    return paths[0]
+
+
+def save_walked(record: SessionRecord, walks: tuple[Walk, ...], path: Path | str) -> Path:
+    """As `save_session`, with the walks of the record at hand; the path."""
     path = output_path(path, SUFFIXES, default=True)
     if path.suffix.lower() == ".toml":
         write_session(path, record, [Ended.of(walk.trajectory) for walk in walks])
@@ -74,7 +83,7 @@ class Replayed(Shown):
 
     def save(self, path: Path | str) -> Path:
         """Write it as `Session.save` does: .npz or .toml. Raises InputError and OutputError."""
-        return save_session(self.record, self.walks, path)
+        return save_walked(self.record, self.walks, path)
 
 
 def replay_session(path: Path | str) -> Replayed:

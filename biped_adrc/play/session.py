@@ -25,7 +25,6 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 
 from biped_adrc.errors import InputError
-from biped_adrc.files import output_path
 from biped_adrc.hybrid.simulator import FlownArc
 from biped_adrc.parts import check_part
 from biped_adrc.play.hand import Hand, Spring, check_hand, check_point
@@ -297,11 +296,9 @@ class Session:
         Returns the path. `ba.replay_session` and `biped-adrc simulate` walk both again; `ba.load_walk`,
         `plot` and `animate` read the .npz as any run. Raises InputError and OutputError.
         """
-        from biped_adrc.play.repeated import SUFFIXES, save_session
-        from biped_adrc.play.stored import walks_of
+        from biped_adrc.play.repeated import save_session
 
-        output_path(path, SUFFIXES, default=True)
-        return save_session(self.record, walks_of(self.record), path)
+        return save_session(self.record, path)
 
 
 def differing(before: Scenario, after: Scenario) -> dict[str, Any]:

@@ -19,7 +19,7 @@ from biped_adrc.hybrid.storage import load_beside
 from biped_adrc.play.hand import Hand
 from biped_adrc.play.hand_table import HandRow, from_table, to_table
 from biped_adrc.play.record import Change, SessionRecord
-from biped_adrc.play.repeated import save_session
+from biped_adrc.play.repeated import save_session, save_walked
 from biped_adrc.play.session import GHOST, WALK, Session
 from biped_adrc.play.session_file import Ended, from_text, to_text, write_session
 from biped_adrc.play.stored import walks_of
@@ -120,7 +120,7 @@ def test_whatever_was_done_both_files_walk_it_again_bit_for_bit(tmp_path, done):
         DO[name](session)
     walks = walks_of(session.record)
     for name in ("me.npz", "me.toml"):
-        found = ba.replay_session(save_session(session.record, walks, tmp_path / name))
+        found = ba.replay_session(save_walked(session.record, walks, tmp_path / name))
         assert found.same, name
         assert found.record == session.record
         for walk, live in zip(found.walks, session.walking, strict=True):
@@ -141,8 +141,7 @@ def folder(tmp_path_factory):
     session.change(GHOST, K_p=300.0)
     session.advance(0.01)
     made = tmp_path_factory.mktemp("session")
-    for name in ("me.npz", "me.toml"):
-        session.save(made / name)
+    save_session(session.record, made / "me.npz", made / "me.toml")
     return made
 
 
