@@ -281,8 +281,10 @@ def test_a_difference_within_the_spread_of_searches_is_open(script):
     factors = {"NPD": (1.0, 1.2, 1.44), "m = 1": (0.8, 0.896, 1.00352), "m = 2": (0.2, 0.25, 0.3)}
     given = [search(n, f, seed=i) for n, some in factors.items() for i, f in enumerate(some, 1)]
     found = entries(summary(*given))
-    own = seeds.by_contestant(seeds.repeated(found))
-    assert own["NPD"].factor == pytest.approx(math.exp(4.302653 * math.log(1.2) * math.sqrt(2.0)))
+    own = seeds.spreads_of(seeds.repeated(found))
+    assert own["NPD", found[0].kind].factor == pytest.approx(
+        math.exp(4.302653 * math.log(1.2) * math.sqrt(2.0))
+    )
     (g,) = script("tuned_entries").groups_of(found)
     scatter = seeds.scatter_of(seeds.repeated(found))
     pairs = [(g[n], g["NPD"]) for n in ("m = 1", "m = 2")]
