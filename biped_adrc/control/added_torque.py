@@ -6,7 +6,7 @@ u_i is what the controller inside asks for, a (p,) [N m] a number for each motor
 the sum that acts: its observer does not take a for a disturbance, and so does not fight it. Around `Passive` it
 is the torque a itself.
 
-a is a parameter: machine code reads it from its vector K, and Python from the array that it was made with, which
+a is a parameter: machine code reads it from its vector K, Python from the array that it was made with, which
 stays its maker's to write. So `biped_adrc.gym` gives another a before each sample, and compiles nothing.
 """
 

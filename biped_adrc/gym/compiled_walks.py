@@ -22,7 +22,6 @@ from biped_adrc.gym.episode import Episode
 from biped_adrc.gym.view import learner_view
 from biped_adrc.types import Array
 
-
 LAW = "learner"
 """Name of `learner_view` in machine code."""
 
@@ -73,7 +72,9 @@ class CompiledWalks:
         self.given[i] = made.given
         width = made.W.shape[1]
         if self.seen.shape[1] < width:
-            self.seen = np.hstack((self.seen, np.zeros((len(self.seen), width - self.seen.shape[1]))))
+            self.seen = np.hstack(
+                (self.seen, np.zeros((len(self.seen), width - self.seen.shape[1])))
+            )
         kernels().looks(self.given[i], self.seen[i : i + 1])
         self.codes[i] = 0
 

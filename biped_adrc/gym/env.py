@@ -10,7 +10,7 @@ strikes ends there, where the clock restarts. `view` has the observation, `task`
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -40,20 +40,20 @@ def check_options(options: dict[str, Any] | None) -> None:
         raise InputError(f"reset has the options {sorted(options)}, expected none")
 
 
-class WalkEnv(gymnasium.Env[Array, Array]):
+class WalkEnv(gymnasium.Env[Any, Any]):
     """One walk.
 
     - scenario: `biped_adrc.Scenario`, or a condition of the bench by name ("nothing" without), on the base of
       its comparisons. values: fields of the scenario by name, such as plant, gait, push, amplitude.
-    - action: "torques", all of the torque, or "added", beside that of the scenario's controller. It is a share of
-      the motors' limit, `torque` [N m], for each motor; the motors give no more than that, whatever is asked.
+    - action: "torques", all of the torque, or "added", beside that of the scenario's controller. For each motor
+      a share of its limit, `torque` [N m]; the motors give no more than that, whatever is asked.
     - seconds [s]: longest walk. alive, tracking, effort: weights of the reward (`task.Task`).
     - render_mode: "rgb_array", or "human", a window of matplotlib's; without a screen there is none.
 
     `reset(seed=k)` walks the scenario with seed = k; without a seed another one is drawn. Raises InputError.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": list(RENDER_MODES), "render_fps": 1000}
+    metadata: dict[str, Any] = {"render_modes": [*RENDER_MODES], "render_fps": 1000}  # noqa: RUF012
 
     def __init__(
         self,
@@ -108,7 +108,9 @@ class WalkEnv(gymnasium.Env[Array, Array]):
 
     def _info(self) -> dict[str, Any]:
         """Of this walk alone."""
-        return {name: x[0] if name == "status" else x.item() for name, x in self.stage.infos().items()}
+        return {
+            name: x[0] if name == "status" else x.item() for name, x in self.stage.infos().items()
+        }
 
     def render(self) -> Any:
         """A picture (height, width, 3), uint8; None for "human", and without a render_mode."""

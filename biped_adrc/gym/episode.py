@@ -1,8 +1,8 @@
 """One walk of a learner, made ready: the scenario's walker with a torque from outside, and where it begins.
 
-The learner's torque is that of `control.added_torque`: around no controller at all (action "torques"), or around
-the scenario's own ("added"). Everything else, sensors, limits, delay, pushes, ground and errors of the model, is
-the scenario's, drawn from its seed.
+The learner's torque is that of `control.added_torque`: around no controller at all (action "torques"), or
+around the scenario's own ("added"). Everything else, sensors, limits, delay, pushes, ground and errors of the
+model, is the scenario's, drawn from its seed.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.added_torque import AddedTorque
 from biped_adrc.control.passive import Passive
+from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, soft_loop, start
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.types import Array
 
 TORQUES, ADDED = "torques", "added"

@@ -8,8 +8,6 @@ numbers of `soft.meters`, or where a torque is beyond the limit.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 import numpy as np
 
 from biped_adrc.closed_loop.feet import OnFeet
@@ -27,27 +25,20 @@ from biped_adrc.gym.view import learner_view
 from biped_adrc.hybrid.status import Status
 from biped_adrc.play.in_plant import MovingPlant
 from biped_adrc.play.movers import moving_of
-from biped_adrc.play.moving import Moving, Now
 from biped_adrc.robots.limits import KnownLimits
 from biped_adrc.soft.meters import AT_CONE, CARRYING, PRESSED, SLIP_SPEED
 from biped_adrc.types import Array
 
 
-@dataclass
 class MovedWalk:
     """One walk, where it is, and its legality so far as `view.LEGALITY`."""
 
-    episode: Episode
-    moving: Moving
-    now: Now
-    limits: KnownLimits
-    legality: Array = field(default_factory=lambda: np.array([0.0, 0.0, np.inf, 0.0]))
-
-    @classmethod
-    def of(cls, episode: Episode, limits: KnownLimits) -> MovedWalk:
+    def __init__(self, episode: Episode, limits: KnownLimits):
         """At its start. Raises InputError for what cannot walk sample by sample."""
-        moving = moving_of(episode.walker, episode.method, episode.loop)
-        return cls(episode, moving, moving.start(episode.q, episode.v, episode.mode, 0.0), limits)
+        self.episode, self.limits = episode, limits
+        self.moving = moving_of(episode.walker, episode.method, episode.loop)
+        self.now = self.moving.start(episode.q, episode.v, episode.mode, 0.0)
+        self.legality, self.looks = np.zeros(4), 0
 
     def give(self, torque: Array) -> None:
         """The learner's torque (p,) [N m] of the coming sample, where the controller reads it."""
@@ -76,7 +67,9 @@ class MovedWalk:
             return reference(m.t, m.q, m.v)
 
         view = learner_view(self.moving.loop, self.now.t, self.now.x, self.now.mode, point)
-        return np.concatenate([*view[:-1], view.legality if len(view.legality) else self._on_feet()])
+        return np.concatenate(
+            [*view[:-1], view.legality if len(view.legality) else self._on_feet()]
+        )
 
     def _on_feet(self) -> Array:
         """Legality (4,) of a walk on soft ground, with where it is now."""
@@ -85,12 +78,12 @@ class MovedWalk:
         (q, v, _, tail), k = parts(loop, now.x), loop.held
         assert k is not None
         u, state = torque_held(k, tail), PlantState(now.t, q, v, tail[: k.sizes.own])
-        if not isinstance(loop.plant, OnFeet) or not np.any(u):
+        if not isinstance(loop.plant, OnFeet) or now.t <= 0.0:
             return self.legality
         feet = loop.plant.footing(state, u, loop.load(now.t, q, v, now.mode))
         along, out = ground_axes(self.episode.walker.slope)
         F_T, F_N = np.abs(feet.force @ along), feet.force @ out
-        at_cone = F_T >= AT_CONE * self.limits.friction * F_N
+        at_cone = AT_CONE * self.limits.friction * F_N <= F_T
         slips = (F_N > CARRYING) & at_cone & (np.abs(feet.speed @ along) > SLIP_SPEED)
         first, friction, normal, peak = self.legality
         broken = np.any(slips) or np.max(np.abs(u)) > self.limits.torque
@@ -98,10 +91,11 @@ class MovedWalk:
             [
                 first if first or not broken else now.mode.step,
                 max(friction, *(F_T / np.where(F_N > PRESSED, F_N, np.inf))),
-                min(normal, float(np.sum(F_N))),
+                min(normal, float(np.sum(F_N))) if self.looks else float(np.sum(F_N)),
                 max(peak, float(np.max(np.abs(u)))),
             ]
         )
+        self.looks += 1
         return self.legality
 
 
@@ -117,7 +111,7 @@ class MovedWalks:
 
     def begin(self, i: int, episode: Episode) -> None:
         """Walk i anew; row i of `seen` is what is to be seen at its start."""
-        walk = self.walks[i] = MovedWalk.of(episode, self.limits)
+        walk = self.walks[i] = MovedWalk(episode, self.limits)
         row = walk.seen(self.reference)
         if self.seen.shape[1] != len(row):
             self.seen = np.zeros((len(self.codes), len(row)))

@@ -55,7 +55,7 @@ class Picture:
         return found
 
     def drawn(self, q: Array, step: int, foot: Array, t: float) -> NDArray[np.uint8]:
-        """(HEIGHT, WIDTH, 3) at q (n,) [rad] in single support `step`, stance foot at `foot` (2,) [m], t [s]."""
+        """(HEIGHT, WIDTH, 3) at q (n,) [rad] in single support `step`, its foot at `foot` (2,) [m], t [s]."""
         image = Image.new("RGB", (WIDTH, HEIGHT), "white")
         pen = ImageDraw.Draw(image)
         middle = foot + self.biped.hip(q) * np.array([1.0, 0.0])
@@ -67,10 +67,12 @@ class Picture:
                 HEIGHT - MARGIN - self.scale * (z - level),
             )
 
-        reach = WIDTH / 2 / self.scale
-        for k in range(math.floor((middle[0] - reach) / TILE), math.ceil((middle[0] + reach) / TILE)):
-            ends = [pixel(x, foot[1] - self.fall * (x - foot[0])) for x in (k * TILE, (k + 1) * TILE)]
-            pen.line(ends, fill=GREY if k % 2 else TRUNK, width=4)
+        reach, x_0 = WIDTH / 2 / self.scale, float(middle[0])
+        for k in range(math.floor((x_0 - reach) / TILE), math.ceil((x_0 + reach) / TILE)):
+            tile = [
+                pixel(x, foot[1] - self.fall * (x - foot[0])) for x in (k * TILE, (k + 1) * TILE)
+            ]
+            pen.line(tile, fill=GREY if k % 2 else TRUNK, width=4)
         for ends, leg in self._lines(q, step, foot):
             pen.line([pixel(*end) for end in ends.tolist()], fill=COLOURS[leg], width=LINE)
         pen.text((8, 8), f"t = {t:.3f} s, step {step}", fill=TRUNK)
@@ -78,7 +80,7 @@ class Picture:
 
 
 class Window:
-    """A window that shows one picture after the other, no faster than the walk's time; none without a screen."""
+    """A window that shows one picture after the other, no faster than the walk; none without a screen."""
 
     def __init__(self) -> None:
         self.figure: Any = None

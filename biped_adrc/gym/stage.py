@@ -26,8 +26,10 @@ TURNS = 4.0 * np.pi
 """Largest angle of an observation [rad], two turns."""
 FASTEST = 1000.0
 """Largest rate of an observation [rad/s] for a robot whose record has none."""
-NAMES = np.array([status.name.lower().replace("_", " ") for status in STATUS], dtype=object)
-"""Of the statuses, by code; "completed" while it walks."""
+NAMES = np.array(
+    ["walks", *(status.name.lower().replace("_", " ") for status in STATUS[1:])], dtype=object
+)
+"""Of the statuses, by code."""
 
 Flags = NDArray[np.bool_]
 
@@ -38,9 +40,7 @@ class Stage:
     def __init__(self, task: Task, count: int):
         self.scene = RobotAndGait.of(task.scenario)
         self.limits = task.limits(self.scene)
-        self.task = replace(
-            task, scenario=replace(task.scenario, torque_limit=self.limits.torque)
-        )
+        self.task = replace(task, scenario=replace(task.scenario, torque_limit=self.limits.torque))
         self.plant, self.phase = self.scene.biped, self.scene.walked.constraint.phase
         self.walks = self._walks(count)
         self.walks.codes[:] = 1
@@ -109,13 +109,10 @@ class Stage:
     # -- where they are ----------------------------------------------------------------------------
     def observations(self) -> Array:
         """(N, size), within the bounds."""
-        seen, n = self.walks.seen, self.plant.n
+        seen = self.walks.seen
         found = np.empty((len(seen), self.size))
         found[:, :-1] = seen[:, : self.first]
-        theta = self.phase[0] * seen[:, 0]
-        for j in range(1, n):  # row by row the same numbers, whatever N is
-            theta = theta + self.phase[j] * seen[:, j]
-        found[:, -1] = theta
+        found[:, -1] = np.vecdot(seen[:, : self.plant.n], self.phase)
         return np.minimum(np.maximum(found, -self.highest, out=found), self.highest, out=found)
 
     def rewards(self) -> Array:

@@ -12,7 +12,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from biped_adrc.bench.conditions import BASE, CONDITIONS, conditions_on
-from biped_adrc.control.passive import Passive
 from biped_adrc.errors import InputError
 from biped_adrc.gym.episode import ADDED, TORQUES
 from biped_adrc.parts import check_part
@@ -67,7 +66,9 @@ class Task(Shown):
             )
         if s.fine is not None:
             raise InputError(f"steps of a sample have one length; leave out fine = {s.fine:g} s")
-        mine = [x for x in ("controller", *OF_CONTROLLER, "contact", "double_support") if s.given(x)]
+        mine = [
+            x for x in ("controller", *OF_CONTROLLER, "contact", "double_support") if s.given(x)
+        ]
         if self.action == TORQUES and mine:
             raise InputError(
                 f"{', '.join(mine)} would do nothing where the action is all of the torque; leave it out, or "
@@ -113,5 +114,7 @@ class Task(Shown):
 
     def rewards(self, squares: Array, goes_on: Array) -> Array:
         """Of N walks (N,), from |e|^2 [rad^2] and |u|^2 [N^2 m^2] (N, 2) and whether each goes on (N,)."""
-        paid: Array = self.alive * goes_on - self.tracking * squares[:, 0] - self.effort * squares[:, 1]
+        paid: Array = (
+            self.alive * goes_on - self.tracking * squares[:, 0] - self.effort * squares[:, 1]
+        )
         return paid

@@ -9,9 +9,8 @@ Each walk is that of `env.WalkEnv`, bit for bit. A walk that has ended begins an
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, ClassVar
+from typing import Any
 
-import gymnasium
 import numpy as np
 from gymnasium.utils import seeding
 from gymnasium.vector import AutoresetMode, VectorEnv
@@ -19,7 +18,7 @@ from gymnasium.vector.utils import batch_space
 
 from biped_adrc.errors import InputError, check_count
 from biped_adrc.gym.drawn import Drawn
-from biped_adrc.gym.env import RENDER_MODES, check_options, checked_mode, spaces_of
+from biped_adrc.gym.env import check_options, checked_mode, spaces_of
 from biped_adrc.gym.episode import TORQUES
 from biped_adrc.gym.stage import Flags, Stage
 from biped_adrc.gym.task import Task
@@ -27,13 +26,13 @@ from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 from biped_adrc.types import Array
 
 
-class WalkVectorEnv(VectorEnv[Array, Array, Array]):
+class WalkVectorEnv(VectorEnv[Array, Array, Any]):
     """num_envs walks; what else it takes is as of `env.WalkEnv`.
 
     `reset(seed=k)` gives walk i the seed k + i, as Gymnasium's own vectors do; a list has one for each.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {  # type: ignore[misc]
+    metadata: dict[str, Any] = {  # noqa: RUF012
         "render_modes": ["rgb_array"],
         "render_fps": 1000,
         "autoreset_mode": AutoresetMode.NEXT_STEP,

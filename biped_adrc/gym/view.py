@@ -23,7 +23,6 @@ from biped_adrc.hardware.meter import Reading
 from biped_adrc.hardware.sample_hold import as_seen, motor_torque, read
 from biped_adrc.types import Array
 
-
 LEGALITY = tuple(
     Reading._fields.index(name)
     for name in ("illegal_step", "mean_friction", "mean_normal_force", "peak_torque")

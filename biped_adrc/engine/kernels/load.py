@@ -32,7 +32,7 @@ _LOCK = Lock()
 
 
 def kernels() -> ModuleType:
-    """The compiled module, with `arc`, `strike`, `stride` and `samples`; made once, by the first thread that asks."""
+    """The compiled module, with `arc`, `strike`, `stride`, `samples`; made by the first thread that asks."""
     with _LOCK:
         return _kernels()
 

@@ -17,7 +17,7 @@ from biped_adrc.engine.kernels.layout import *
 from biped_adrc.types import Array
 
 GIVEN = 7
-"""Numbers in `given` for each walk: addresses of P, F, K, W and s, place of the torques in K, address of the law."""
+"""Numbers in `given` for a walk: addresses of P, F, K, W, s, place of the torques in K, address of the law."""
 MOST_ARCS = 100
 """In one sample (EVENT_LIMIT)."""
 
@@ -44,7 +44,7 @@ def sample(P: Ints, F: Array, K: Array, W: Array, s: Array) -> int:
 
 @unit
 def look(P: Ints, F: Array, K: Array, W: Array, s: Array, law: int, out: Array) -> None:
-    """out = law(t, step, t_start, x, zeta, outside) in s, as a sample instant that is due there is given them."""
+    """out = law(t, step, t_start, x, zeta, outside) in s, as a sample instant there is given them."""
     n, nx, inp, zeta = P[COORDINATES], P[STATES], row(P, W, INP), row(P, W, ZETA)
     load(P, W, s)
     lower(P, F, W)
