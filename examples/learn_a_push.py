@@ -22,7 +22,7 @@ envs = gymnasium.make_vec(
 
 
 def friction(weights, seeds):
-    """|F_T| / F_N (C, S) that C candidates (C, 8) need on S seeds; torques a + b (torso's rate); 2 for a fall."""
+    """|F_T| / F_N (C, S) that C candidates (C, 8) need on S seeds: torques a + b (torso's rate). 2: a fall."""
     each = np.repeat(weights, len(seeds), axis=0).reshape(-1, 2, 4)
     seen, info = envs.reset(seed=[int(seed) for seed in np.tile(seeds, len(weights))])
     walks, needed = np.ones(len(each), dtype=bool), info["friction"]
