@@ -26,7 +26,7 @@ LAW = "learner"
 """Name of `learner_view` in machine code."""
 
 
-class Made(NamedTuple):
+class LoadedWalk(NamedTuple):
     """One walk in memory; what the kernels read by address is kept alive here."""
 
     walker: CompiledWalker
@@ -60,7 +60,7 @@ class CompiledWalks:
         self.h = reference_laws(reference)
         self.laws = dict[int, LoadedCode]()
         """By the address of the walk's own code, with which they change."""
-        self.made: list[Made | None] = [None] * count
+        self.made: list[LoadedWalk | None] = [None] * count
         self.given = np.zeros((count, kernels().GIVEN), dtype=np.int64)
         self.codes = np.ones(count, dtype=np.int64)
         self.seen = np.zeros((count, 0))
@@ -82,7 +82,7 @@ class CompiledWalks:
         """Every walk whose code is 0 by one sample, under its row of torques (N, p) [N m]."""
         kernels().samples(self.given.ravel(), torques, self.seen, self.codes)
 
-    def _made(self, episode: Episode) -> Made:
+    def _made(self, episode: Episode) -> LoadedWalk:
         walker = episode.walker
         x = walker.initial_state(episode.q, episode.v, episode.mode)
         made = CompiledWalker.of(walker, episode.method, walker.controller_size(x))
@@ -92,4 +92,4 @@ class CompiledWalks:
             self.laws[of] = reading_code(LAW, learner_view, made.program.make, watched, self.h)
         K = np.array([*floats(watched), 0.0])
         s = made.plan.start(x, 0.0, *episode.mode, 0.0)
-        return Made(made, self.laws[of], made.plan.P, made.plan.F, K, made.plan.work(), s)
+        return LoadedWalk(made, self.laws[of], made.plan.P, made.plan.F, K, made.plan.work(), s)

@@ -21,7 +21,7 @@ from biped_adrc.gym.drawn import Drawn
 from biped_adrc.gym.episode import TORQUES
 from biped_adrc.gym.picture import Window
 from biped_adrc.gym.stage import Stage
-from biped_adrc.gym.task import Task
+from biped_adrc.gym.task import LearnerTask
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 from biped_adrc.types import Array
 
@@ -47,7 +47,7 @@ class WalkEnv(gymnasium.Env[Any, Any]):
       its comparisons. values: fields of the scenario by name, such as plant, gait, push, amplitude.
     - action: "torques", all of the torque, or "added", beside that of the scenario's controller. For each motor
       a share of its limit, `torque` [N m]; the motors give no more than that, whatever is asked.
-    - seconds [s]: longest walk. alive, tracking, effort: weights of the reward (`task.Task`).
+    - seconds [s]: longest walk. alive, tracking, effort: weights of the reward (`task.LearnerTask`).
     - render_mode: "rgb_array", or "human", a window of matplotlib's; without a screen there is none.
 
     `reset(seed=k)` walks the scenario with seed = k; without a seed another one is drawn. Raises InputError.
@@ -60,15 +60,15 @@ class WalkEnv(gymnasium.Env[Any, Any]):
         scenario: Scenario | None = None,
         condition: str | None = None,
         action: str = TORQUES,
-        seconds: float = Task.seconds,
-        alive: float = Task.alive,
-        tracking: float = Task.tracking,
-        effort: float = Task.effort,
+        seconds: float = LearnerTask.seconds,
+        alive: float = LearnerTask.alive,
+        tracking: float = LearnerTask.tracking,
+        effort: float = LearnerTask.effort,
         render_mode: str | None = None,
         **values: object,
     ):
         how = {"action": action, "seconds": seconds, "alive": alive, "tracking": tracking}
-        task = Task.of(scenario, condition, values, effort=effort, **how)
+        task = LearnerTask.of(scenario, condition, values, effort=effort, **how)
         self.render_mode = checked_mode(render_mode)
         self.stage = Stage(task, 1)
         self.observation_space, self.action_space = spaces_of(self.stage)

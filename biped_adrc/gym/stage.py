@@ -18,7 +18,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.gym.compiled_walks import CompiledWalks
 from biped_adrc.gym.episode import Episode
 from biped_adrc.gym.moved_walks import MovedWalks
-from biped_adrc.gym.task import FALLEN_FROM, Task
+from biped_adrc.gym.task import FALLEN_FROM, LearnerTask
 from biped_adrc.scenario.build import RIGID, RobotAndGait
 from biped_adrc.types import Array
 
@@ -37,7 +37,7 @@ Flags = NDArray[np.bool_]
 class Stage:
     """N walks. Raises InputError for a task that cannot be walked."""
 
-    def __init__(self, task: Task, count: int):
+    def __init__(self, task: LearnerTask, count: int):
         self.scene = RobotAndGait.of(task.scenario)
         self.limits = task.limits(self.scene)
         self.task = replace(task, scenario=replace(task.scenario, torque_limit=self.limits.torque))

@@ -28,7 +28,7 @@ FALLEN_FROM = 1e-9
 
 
 @dataclass(frozen=True)
-class Task(Shown):
+class LearnerTask(Shown):
     """A scenario for learners.
 
     Raises InputError for an action that there is not, a time or weight out of range, and a scenario in
@@ -82,7 +82,7 @@ class Task(Shown):
         condition: str | None,
         values: Mapping[str, object],
         **how: object,
-    ) -> Task:
+    ) -> LearnerTask:
         """A scenario, or a condition of the bench on its base, with other values by name.
 
         Raises InputError for a condition that there is not on this plant, and values that are no scenario.

@@ -21,7 +21,7 @@ from biped_adrc.gym.drawn import Drawn
 from biped_adrc.gym.env import check_options, checked_mode, spaces_of
 from biped_adrc.gym.episode import TORQUES
 from biped_adrc.gym.stage import Flags, Stage
-from biped_adrc.gym.task import Task
+from biped_adrc.gym.task import LearnerTask
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 from biped_adrc.types import Array
 
@@ -44,10 +44,10 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         scenario: Scenario | None = None,
         condition: str | None = None,
         action: str = TORQUES,
-        seconds: float = Task.seconds,
-        alive: float = Task.alive,
-        tracking: float = Task.tracking,
-        effort: float = Task.effort,
+        seconds: float = LearnerTask.seconds,
+        alive: float = LearnerTask.alive,
+        tracking: float = LearnerTask.tracking,
+        effort: float = LearnerTask.effort,
         render_mode: str | None = None,
         **values: object,
     ):
@@ -55,7 +55,7 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         if checked_mode(render_mode) == "human":
             raise InputError("a vector of walks has no window; expected render_mode 'rgb_array'")
         how = {"action": action, "seconds": seconds, "alive": alive, "tracking": tracking}
-        task = Task.of(scenario, condition, values, effort=effort, **how)
+        task = LearnerTask.of(scenario, condition, values, effort=effort, **how)
         self.num_envs, self.render_mode = num_envs, render_mode
         self.stage = Stage(task, num_envs)
         self.single_observation_space, self.single_action_space = spaces_of(self.stage)
