@@ -97,6 +97,21 @@ def test_a_torque_is_the_share_of_the_limit_and_acts_over_the_sample():
     assert np.max(np.abs(observation[:10] - x)) < 1e-6
 
 
+ADDED = [
+    {"action": "torques", "plant": "mujoco"},
+    {"action": "added", "controller": "NPD", "plant": "mujoco"},
+    {"action": "added", "controller": "NPD"},
+    {"action": "added", "controller": "CLF-QP"},
+]
+
+
+@pytest.mark.parametrize("values", ADDED, ids=lambda values: " ".join(map(str, values.values())))
+def test_an_addition_is_added(values):
+    env, action = made(**values), np.array([0.1, -0.05, 0.02, 0.03])
+    torques = [walked(env, 0, 1, a)[0][0][18:22] for a in (np.zeros(4), action)]
+    assert np.allclose(torques[1] - torques[0], 150.0 * action, rtol=0.0, atol=1e-9)
+
+
 def test_observation_and_reward_are_those_of_the_walks_signals():
     env = made(action="added", condition="push on joints", tracking=3.0, effort=2e-4, **SLOW)
     rows = walked(env, 5, 460)
