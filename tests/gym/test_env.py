@@ -107,8 +107,12 @@ ADDED = [
 
 @pytest.mark.parametrize("values", ADDED, ids=lambda values: " ".join(map(str, values.values())))
 def test_an_addition_is_added(values):
-    env, action = made(**values), np.array([0.1, -0.05, 0.02, 0.03])
-    torques = [walked(env, 0, 1, a)[0][0][18:22] for a in (np.zeros(4), action)]
+    """In the second sample, so that it is not one that the walk was made with."""
+    env, action, torques = made(**values), np.array([0.1, -0.05, 0.02, 0.03]), []
+    for given in (np.zeros(4), action):
+        env.reset(seed=0)
+        env.step(-action)
+        torques.append(env.step(given)[0][18:22])
     assert np.allclose(torques[1] - torques[0], 150.0 * action, rtol=0.0, atol=1e-9)
 
 
