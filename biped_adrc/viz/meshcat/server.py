@@ -34,8 +34,6 @@ from biped_adrc.errors import InputError
 ADDRESS = "127.0.0.1"
 GRACE = 2.0
 """Time [s] a closed page may take to come back, as when it is loaded again."""
-PING = 2.0
-"""Time [s] between signs of life asked of the page, and how long it may take to give one."""
 FAREWELL = 0.5
 """Time [s] the pages are given to be told of the end."""
 MOST_BODY = 10_000
@@ -50,6 +48,8 @@ class Listener:
 
     longest = 1000
     """Bytes of a message; a page that sends a longer one is closed."""
+    patience = 2.0
+    """Time [s] between signs of life asked of the page, and how long it may take to give one."""
 
     def came(self, page: Pages) -> None:
         """A page has been opened."""
@@ -218,8 +218,8 @@ async def _serve(
     server = HTTPServer(
         Application(
             pages,
-            websocket_ping_interval=PING,
-            websocket_ping_timeout=PING,
+            websocket_ping_interval=listener.patience,
+            websocket_ping_timeout=listener.patience,
             websocket_max_message_size=listener.longest,
             log_function=lambda handler: None,
         ),
