@@ -1,4 +1,4 @@
-"""What a page changes while it walks: sliders and choices of controls.toml, with the texts of scenario.toml.
+"""What a page changes while it walks: sliders and choices of controls.toml, and the stations of the tour.
 
 In controls.toml and tour.toml the text "none" stands for no value, as in a scenario file.
 """
@@ -25,6 +25,13 @@ def _named(name: str, x: dict[str, Any]) -> dict[str, Any]:
     """A control with the name, text and unit of its field."""
     unit = "" if UNITS[name] == "1" else UNITS[name]
     return {"name": name, "text": FIELDS[name].description, "unit": unit, **x}
+
+
+@cache
+def tour() -> list[dict[str, Any]]:
+    """The stations of tour.toml, each with all values that it sets."""
+    told = plain(packaged("biped_adrc.play", "tour.toml"))
+    return [x | {"values": told["base"] | x["values"]} for x in told["station"]]
 
 
 def plain(x: Any) -> Any:

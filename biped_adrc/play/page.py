@@ -21,13 +21,12 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part
-from biped_adrc.play.controls import controls, plain
+from biped_adrc.play.controls import controls, tour
 from biped_adrc.play.driver import Driver
 from biped_adrc.play.hand import MOST_FORCE, MOST_TORQUE
 from biped_adrc.play.live_walk import LiveWalk
 from biped_adrc.play.session import Session
 from biped_adrc.play.stage import Stage
-from biped_adrc.resources import packaged
 from biped_adrc.scenario.build import limits
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.viz.meshcat import objects as draw
@@ -142,7 +141,7 @@ def settings(session: Session, scenes: Mapping[str, WalkScene]) -> dict[str, obj
         "limits": {"friction": known.friction, "torque": torque},
         "most": {"force": MOST_FORCE, "torque": MOST_TORQUE},
         "controls": controls(),
-        "tour": plain(packaged("biped_adrc.play", "tour.toml"))["station"],
+        "tour": tour(),
     }
 
 

@@ -59,7 +59,7 @@ socket.onclose = () => tell("The session has ended: this picture no longer moves
 const KEYS = {
   " ": toggle, ArrowRight: ACTIONS.step, Backspace: ACTIONS.reset, b: ACTIONS.back,
   "-": ACTIONS.slower, "+": ACTIONS.faster, "=": ACTIONS.faster, v: ACTIONS.view, s: ACTIONS.save,
-  "?": ACTIONS.help, t: tour, n: () => { if (station >= 0) goTo(station + 1); }, p: ACTIONS["torque-plus"],
+  "?": ACTIONS.help, t: tour, n: () => { if (station >= 0) goTo(station + 1); }, p: pushOnce,
   f: ACTIONS["shove-on"], r: ACTIONS["shove-back"], Escape: () => { release(); select(null); },
 };
 document.addEventListener("keydown", (event) => {

@@ -18,12 +18,16 @@ function goTo(k) {
   element("tour-page").textContent = "Read on in the documentation: " + s.page;
   element("tour-next").textContent = k + 1 < scene.tour.length ? "next (n)" : "end (n)";
   element("tour-title").focus();
-  for (const message of [{ do: "let_go" }, { do: "change", values: s.values }, { do: "reset" }, { do: "rate", rate: s.rate }, { do: "go" }]) {
-    send(message);
-  }
+  send({ do: "let_go" });
+  send({ do: "change", values: s.values });
+  send({ do: "reset" });
+  send({ do: "rate", rate: s.rate });
+  send({ do: "go" });
   if (s.push) timers = [setTimeout(pushAgain, 1000 * s.after / s.rate)];
 }
-const pushAgain = () => { if (station >= 0 && scene.tour[station].push) send({ do: "push", ...scene.tour[station].push }); };
+const pushAgain = () => send({ do: "push", ...scene.tour[station].push });
+// in the tour the push of the station, else that of the buttons
+const pushOnce = () => (station >= 0 && scene.tour[station].push ? pushAgain() : pushJoint(1));
 const tour = () => (station < 0 ? goTo(0) : leaveTour());
 element("start-tour").onclick = tour;
 element("tour-next").onclick = () => goTo(station + 1);

@@ -72,6 +72,7 @@ def served(
     """Play while `visit(url)` goes on; why it ended, and what was said. stop: sent after the visit."""
     said: list[str] = []
     raised: list[BaseException] = []
+    visitors: list[threading.Thread] = []
 
     async def visited_and_left(url):
         Page.opened.clear()
@@ -85,16 +86,18 @@ def served(
             asyncio.run(visited_and_left(url))
         except BaseException as error:
             raised.append(error)
-        if stop or raised:
-            os.kill(os.getpid(), stop or signal.SIGTERM)
+        if stop and not raised:
+            os.kill(os.getpid(), stop)
 
     def say(text):
         said.append(text)
         if text.startswith("http"):
-            threading.Thread(target=visited, args=(text.split()[0],), daemon=True).start()
+            visitors.append(threading.Thread(target=visited, args=(text.split()[0],), daemon=True))
+            visitors[0].start()
 
     scenario = options.pop("scenario", ba.Scenario("NPD", hardware="ideal"))
     why = play(scenario, open_browser=False, say=say, **options)
+    visitors[0].join(SOON)
     if raised:
         raise raised[0]
     return why, said

@@ -1,0 +1,117 @@
+"""The page in headless Chromium: a pull by the mouse, fields, keys, the tour, and what it loads."""
+
+import time
+
+import pytest
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+import biped_adrc as ba
+
+from .browser import chromium, console, needs_chromium, requested
+from .served import SOON, served
+
+SHOWN = "return page.last !== null && known[0].controller !== undefined"
+PLACE = """
+const box = pane.getBoundingClientRect();
+const part = [...parts].find(([, link]) => link === "torso")[0];
+viewer.scene.updateMatrixWorld(true);
+const at = part.getWorldPosition(new MeshCat.THREE.Vector3()).project(viewer.camera);
+return [box.left + 0.5 * (at.x + 1) * box.width, box.top + 0.5 * (1 - at.y) * box.height];
+"""
+
+
+def until(browser, script, *given):
+    """What a script returns, once that is true."""
+    end = time.monotonic() + SOON
+    while not (found := browser.execute_script(script, *given)):
+        assert time.monotonic() < end, script
+        time.sleep(0.05)
+    return found
+
+
+def field(browser, name, text):
+    """Type into the number field of a slider."""
+    found = browser.find_element(By.ID, f"field-{name}")
+    found.clear()
+    found.send_keys(text, Keys.ENTER)
+
+
+@needs_chromium
+def test_the_page_by_mouse_and_by_keys(tmp_path):
+    found = {}
+
+    async def visit(url):
+        with chromium() as browser:
+            browser.get(url)
+            until(browser, SHOWN)
+            look(browser, url)
+
+    def look(browser, url):
+        body = browser.find_element(By.TAG_NAME, "body")
+        body.send_keys(" ")
+        until(browser, "return paused")
+        x, y = (round(place) for place in browser.execute_script(PLACE))
+        mouse = ActionChains(browser)
+        mouse.w3c_actions.pointer_action.move_to_location(x, y)
+        mouse.double_click().perform()
+        until(browser, "return selected && selected.link === 'torso'")
+        mouse = ActionChains(browser).key_down(Keys.CONTROL).click_and_hold()
+        mouse.move_by_offset(60, -20).perform()
+        body.send_keys(Keys.ARROW_RIGHT)
+        found["hand"] = until(browser, "return page.last.hand")
+        assert until(browser, "return element('force').textContent").endswith(" N")
+        ActionChains(browser).release().key_up(Keys.CONTROL).perform()
+        until(browser, "return page.last.hand === null")
+        body.send_keys("s")
+        saved = until(browser, "return /saved as (.*)/.exec(element('said').textContent)")
+        found["path"] = saved[1]
+
+        field(browser, "bandwidth", "-3")
+        sentence = until(browser, "return element('refused-bandwidth').textContent")
+        assert "bandwidth" in sentence
+        assert browser.find_element(By.ID, "field-bandwidth").get_attribute("value") == ""
+        field(browser, "K_p", "4000")
+        until(browser, "return known[0].K_p === 4000")
+        browser.execute_script("document.activeElement.blur()")
+        body.send_keys("-")
+        until(browser, "return rate === 0.5")
+        body.send_keys("t")
+        until(browser, "return station === 0 && !paused && page.last.t > 0.02")
+        body.send_keys("t")
+        until(browser, "return station === -1")
+        assert console(browser) == []
+        assert all(
+            address.split("//")[1].startswith(url.split("//")[1]) for address in requested(browser)
+        )
+
+    why, _ = served(visit, scenario=ba.Scenario("ADRC", hardware="ideal"), out=tmp_path)
+    assert why == "stopped by SIGTERM"
+    assert found["hand"]["anchor"] is not None
+    again = ba.replay_session(found["path"])
+    assert again.same
+    assert again.record.hands[0].hand.force == tuple(found["hand"]["force"])
+
+
+@needs_chromium
+@pytest.mark.parametrize("width", [360, 1280])
+def test_nothing_is_wider_than_the_window_and_every_field_has_a_name(width):
+    async def visit(url):
+        with chromium() as browser:
+            browser.set_window_size(max(width, 500), 800)
+            browser.execute_cdp_cmd(
+                "Emulation.setDeviceMetricsOverride",
+                {"width": width, "height": 800, "deviceScaleFactor": 1, "mobile": False},
+            )
+            browser.get(url)
+            until(browser, SHOWN)
+            assert browser.execute_script("return document.documentElement.scrollWidth") <= width
+            nameless = browser.execute_script(
+                "return [...document.querySelectorAll('button, input, select')].filter((x) =>"
+                "!(x.textContent.trim() && x.tagName === 'BUTTON') && !x.labels?.length"
+                "&& !x.getAttribute('aria-label')).map((x) => x.outerHTML)"
+            )
+            assert nameless == []
+
+    served(visit)
