@@ -49,6 +49,7 @@ walkbench: .venv/.core
 # docs/tuned.md with its figures, from the searches in $(OUT)/tuned, which are made or finished first: hours
 tuned: .venv/.dev
 	$(BIN)/python benchmarks/tuned/alike.py $(OUT)/tuned
+	$(BIN)/python benchmarks/tuned/alike.py $(OUT)/tuned_orders --contest benchmarks/tuned/orders.toml
 	$(BIN)/python benchmarks/tuned/beside.py $(OUT)/tuned
 	$(BIN)/python docs/write_tuned.py $(OUT)/tuned
 

@@ -35,11 +35,11 @@ def setting(s: Mapping[str, Any], role: str) -> Any:
     return s["settings"][s["roles"][role]]
 
 
-def verdicts(s: Mapping[str, Any], g: Mapping[str, Any]) -> list[Verdict]:
-    """What the goal demands, and what was found."""
-    goal, cell, one = g["goal"], s["test"]["goal"], setting(s, "goal")
+def verdicts(s: Mapping[str, Any], g: Mapping[str, Any], role: str = "goal") -> list[Verdict]:
+    """What the goal demands, and what was found by the setting of a role."""
+    goal, cell, one = g["goal"], s["test"][role], setting(s, role)
     ratio, friction, cost = (cell[k] for k in ("ratio", "friction_ratio", "cost_ratio"))
-    push, legal = s["push"]["goal"]["ratio"], round(cell["legal"][0] * cell["walks"])
+    push, legal = s["push"][role]["ratio"], round(cell["legal"][0] * cell["walks"])
     least = math.ceil(goal["legal"] * cell["walks"] / g["test"]["seeds"]["count"])
     borne = one["delay_margin"] + one["values"]["delay"]
     return [
@@ -101,11 +101,17 @@ def reached(found: Sequence[Verdict]) -> bool:
 
 
 def outcome(s: Mapping[str, Any], g: Mapping[str, Any]) -> str:
-    """The sentence at the top."""
-    found = verdicts(s, g)
-    missed = [v for v in found if not v.met]
-    told = "; ".join(f"{v.words}: {v.found}, needed {v.needed}" for v in missed)
-    if reached(found):
-        beside = f" What is not reached beside it: {told}." if missed else ""
-        return f"**The goal is met.**{beside}"
-    return f"**The goal is not met.** What is missed: {told}."
+    """The sentences at the top."""
+    if reached(verdicts(s, g)):
+        missed = _missed(verdicts(s, g))
+        return "**The goal is met.**" + (
+            f" What is not reached beside it: {missed}." if missed else ""
+        )
+    return (
+        f"**The goal is not met.** What the ADRC for the goal misses: {_missed(verdicts(s, g))}. What the "
+        f"closest ADRC misses: {_missed(verdicts(s, g, 'closest'))}."
+    )
+
+
+def _missed(found: Sequence[Verdict]) -> str:
+    return "; ".join(f"{v.words}: {v.found}, needed {v.needed}" for v in found if not v.met)

@@ -75,6 +75,11 @@ class Entry(NamedTuple):
         """Whether there is a setting that keeps the limits."""
         return not self.why
 
+    @property
+    def medians(self) -> Array:
+        """Median error of the walks of each search (searches,) [rad]."""
+        return np.asarray(np.median(self.tuned.rms_error.reshape(self.searches, -1), axis=1))
+
 
 def collected(out: Path, contest: Mapping[str, Any], asked: Sequence[Any]) -> dict[str, Any]:
     """The summary of what is in a folder, finished or not.
@@ -107,6 +112,9 @@ def _search(folder: Path, contest: Mapping[str, Any]) -> dict[str, Any]:
     told["chosen"] = _acting(contest, told["chosen"])
     told["selected"] = _short(best["objectives"][0])
     told["margins"] = [_short(margin[side]["value"]) for side in ("chosen", "published")]
+    ripple = [x["chosen"]["value"] for x in summary["held_out"] if x["words"] == "mean ripple"]
+    if ripple:
+        told["ripple"] = _short(ripple[0])
     test = json.loads((folder / TEST_SET).read_text(encoding="utf-8"))
     with closing(read_store(folder / RESULTS)) as store:
         rows = [(r.at, r.row) for r in store.results() if r.at["set"] == "test"]
@@ -149,7 +157,9 @@ def entries(summary: Mapping[str, Any]) -> list[Entry]:
     c = summary["contest"]
     ripples = {key_of(told): told["ripple"] for told in summary["beside"].get("linear", [])}
     found = [
-        _entry(told, shape(c, told["place"]))._replace(ripple=ripples.get(key_of(told)))
+        _entry(told, shape(c, told["place"]))._replace(
+            ripple=told.get("ripple", ripples.get(key_of(told)))
+        )
         for told in summary["searches"]
     ]
     places, names = (list(c[x]) for x in ("places", "contestants"))
@@ -210,11 +220,22 @@ def pooled(same: Sequence[Entry]) -> Entry:
 
 
 def groups_of(found: Sequence[Entry]) -> list[dict[str, Entry]]:
-    """For each place and gait the contestants, each with the walks of all of its searches."""
+    """For each place and gait the contestants, each with the walks of all of its searches.
+
+    Seeds of the optimiser with which only some contestants have been searched so far do not count.
+    """
     spots: dict[tuple[str, str], dict[str, list[Entry]]] = {}
     for e in found:
         spots.setdefault((e.place, e.gait), {}).setdefault(e.contestant, []).append(e)
-    return [{name: pooled(same) for name, same in spot.items()} for spot in spots.values()]
+    groups = []
+    for spot in spots.values():
+        seeds = [{e.seed for e in same} for same in spot.values()]
+        all_of = {
+            name: [e for e in same if e.seed in set.intersection(*seeds)]
+            for name, same in spot.items()
+        }
+        groups.append({name: pooled(same) for name, same in all_of.items() if same})
+    return groups
 
 
 def group(found: Sequence[Entry], place: str, gait: str, seed: int) -> dict[str, Entry]:

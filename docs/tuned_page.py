@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from soft_text import bullets
 from tuned_entries import Entry, entries, group, groups_of, of_place
+from tuned_equal import equal_loops
 from tuned_gaps import LEFT_OUT, at_ends, missing, of_places, without_setting
 from tuned_leaves import unsearched_sentences, with_all_leaves, worth_rows, worth_sentences
 from tuned_pushes import push_sentences, pushes
@@ -16,15 +17,16 @@ from tuned_questions import (
     RUNGS,
     Answer,
     Group,
+    Scatter,
     against_reference,
     answered,
     between,
 )
-from tuned_seeds import Spread, other_seeds, placebo_sentences, repeated, spread_of
+from tuned_seeds import other_seeds, placebo_sentences, repeated, scatter_of
 from tuned_sentences import goal, order_pays, rung_worths, who_is_legal, winners
 from tuned_steps import step_sentences
 from tuned_tables import answer_table, of_group
-from tuned_text import MRAD, number
+from tuned_text import MRAD
 from write_results import table
 
 from biped_adrc.viz.pages import captions
@@ -58,17 +60,19 @@ second contest, searched by TPE alone, two searches of one contestant ended up t
 placebos were found different and another seed moved 4 of 22 conclusions; so this third one goes on with CMA-ES
 after TPE, with the same number of candidates, and has test seeds that none has seen. The rule that a difference
 has to exceed that of two searches came when two searches of one contestant were found different by their walks;
-that the walks of all seeds of the optimiser count together came after a first look at numbers of a test. Both
-change verdicts and no setting.
+that the walks of all seeds of the optimiser count together came after a first look at numbers of a test. While
+few searches were repeated that rule had one factor for all contestants, which came to 2.43; with searches of
+all contestants repeated it is a test with the scatter of the two that are compared. All this changes verdicts
+and no setting.
 
 A walk that falls or is not legal counts as one with an infinite error, torque and cost, and is never dropped; a
 contestant without a setting that keeps the limits ranks last. The interquartile mean is that of the middle half
 of the walks. Intervals of 95 % draw seeds, each with all of its walks; ratios are those of the same walk under
-two settings. A difference is *carried* where the exact sign test over seeds has p below {level:g} after Holm's
-correction over all questions of its kind, and the interval of the ratio is off 1 by more than two searches of
-the same contestant differ: a factor of {spread}{several}
-([from those](#another-seed-of-the-optimiser) that were repeated, and taken for all). What is not carried is
-*open*, and has the factor within which both are of each other with 95 %, after other searches too. The
+two settings. A difference is *carried* where two tests both have p below {level:g} after Holm's correction over
+all questions of its kind: the exact sign test over seeds of walks, and Welch's t test over searches, with the
+scatter of each contestant's [repeated searches](#another-seed-of-the-optimiser) over all places and gaits; and
+where the interval of the ratio does not reach 1. What is not carried is *open*, and has the factor within which
+both are of each other with 95 %, after other searches too. The
 *reference* is the better of NPD and NPID, by the selection set. Where there are several seeds of the optimiser
 the walks of all their settings count; leaves and pushes are those of the first seed."""
 
@@ -102,23 +106,24 @@ def page(summary: Mapping[str, Any]) -> str:
     """The text of docs/tuned.md."""
     found = entries(summary)
     groups, repeats = groups_of(found), repeated(found)
-    spread = spread_of(repeats)
-    contest, ladder, orders = families(groups, spread.factor)
+    scatter = scatter_of(repeats)
+    contest, ladder, orders = families(groups, scatter)
     first = against_reference(first_groups(found))
     parts = [
         "# Tuned alike",
-        introduction(summary, spread, max(map(len, repeats), default=1)),
+        introduction(summary),
         *missing(summary, found),
         "## What the numbers say",
         told(
             [
-                *winners(groups, contest, spread.factor),
+                *winners(groups, contest, scatter),
                 *who_is_legal(contest),
-                *goal(answered(first, spread.factor)),
+                *goal(answered(first, scatter)),
             ]
         ),
         "## Does an order above 1 pay?",
         told([*order_pays(orders), *unsearched_sentences(summary, groups)]),
+        *equal_loops(summary, found),
         "## The ladder",
         LADDER,
         told(rung_worths(ladder)),
@@ -129,7 +134,7 @@ def page(summary: Mapping[str, Any]) -> str:
         PUSHES,
         told(push_sentences(pushes(summary, groups))),
         "## Another seed of the optimiser",
-        told([*placebo_sentences(found), *other_seeds(found, spread.factor)]),
+        told([*placebo_sentences(found), *other_seeds(found, scatter)]),
         "## Half the step",
         STEPS,
         told(step_sentences(summary, found)),
@@ -180,16 +185,16 @@ def first_groups(found: Sequence[Entry]) -> list[Group]:
 
 
 def families(
-    groups: Sequence[Group], spread: Callable[[int], float] | None = None
+    groups: Sequence[Group], scatter: Scatter | None = None
 ) -> tuple[list[Answer], list[Answer], list[Answer]]:
     """The answers of the contest, of the ladder and of the orders, each corrected as one family."""
     asked = (against_reference(groups), between(groups, RUNGS), between(groups, ORDERS))
-    contest, ladder, orders = (answered(pairs, spread) for pairs in asked)
+    contest, ladder, orders = (answered(pairs, scatter) for pairs in asked)
     return contest, ladder, orders
 
 
-def introduction(summary: Mapping[str, Any], spread: Spread, most: int) -> str:
-    """What was searched, how, and how to read it. most: seeds of the optimiser where there are most."""
+def introduction(summary: Mapping[str, Any]) -> str:
+    """What was searched, how, and how to read it."""
     c = summary["contest"]
     margins = ", ".join(f"{MRAD * p['margin']:g} ms ({name})" for name, p in c["places"].items())
     return INTRODUCTION.format(
@@ -201,8 +206,6 @@ def introduction(summary: Mapping[str, Any], spread: Spread, most: int) -> str:
         friction=c["limits"]["friction"],
         places=place_table(c),
         level=LEVEL,
-        spread=number(spread.factor()),
-        several=f", {number(spread.factor(most))} with {most} searches each" if most > 1 else "",
     )
 
 

@@ -10,9 +10,18 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from scipy import stats
 from tuned_entries import Entry, reference
 
-from biped_adrc.analysis.statistics import Interval, holm, mcnemar, over_seeds, share, sign_test
+from biped_adrc.analysis.statistics import (
+    CONFIDENCE,
+    Interval,
+    holm,
+    mcnemar,
+    over_seeds,
+    share,
+    sign_test,
+)
 from biped_adrc.types import Array
 
 LEVEL = 0.05
@@ -34,6 +43,30 @@ ORDERS = tuple((name, "m = 1", name) for name in ("m = 2", "m = 3", "m = 7"))
 """The orders above 1, held against order 1."""
 
 
+class Searched(NamedTuple):
+    """How far the logarithms of two contestants' errors lie apart by their searches alone."""
+
+    error: float = 0.0
+    """Standard error of their difference."""
+    freedom: float = 1.0
+    """Its degrees of freedom."""
+
+    def p(self, log: float) -> float:
+        """Of the t test that a difference of logarithms is 0; 0 where searches are not repeated."""
+        if self.error == 0.0:
+            return 0.0
+        return float(2.0 * stats.t.sf(abs(log) / self.error, self.freedom))
+
+    @property
+    def factor(self) -> float:
+        """By how much both may differ with 95 %."""
+        return float(np.exp(stats.t.ppf(0.5 + CONFIDENCE / 2.0, self.freedom) * self.error))
+
+
+Scatter = Callable[[Entry, Entry], Searched]
+"""How the searches of two contestants scatter."""
+
+
 class Answer(NamedTuple):
     """How the error of a is to that of b, and how often each walks legally."""
 
@@ -46,25 +79,33 @@ class Answer(NamedTuple):
     lost: int
     """Seeds in which it is larger."""
     p: float
-    """Of the sign test over seeds, corrected by Holm's method over the family."""
+    """The larger one of the sign test over seeds and of the t test over searches, corrected by Holm's method
+    over the family."""
     legal_p: float
     """Of McNemar's test over seeds of which all walks are legal, corrected in the same way."""
     legal_bound: float
     """The shares of such seeds differ by at most this, with 95 %."""
-    spread: float = 1.0
-    """The factor by which searches of the same contestant may differ; 1 for settings of one search."""
+    searched: Searched = Searched()
+    """How its searches scatter; nothing for settings of one search, which is not repeated."""
 
     @property
     def verdict(self) -> str:
-        """Whether the error of a is "smaller" or "larger"; "open" where test or searches carry neither."""
-        if self.p < LEVEL and self.ratio.high * self.spread < 1.0:
+        """Whether the error of a is "smaller" or "larger"; "open" where walks or searches carry neither."""
+        if self.p < LEVEL and self.ratio.high < 1.0:
             return "smaller"
-        return "larger" if self.p < LEVEL and self.ratio.low > self.spread else "open"
+        return "larger" if self.p < LEVEL and self.ratio.low > 1.0 else "open"
 
     @property
     def within(self) -> float:
         """The factor within which both errors are of each other, with 95 %, after other searches too."""
-        return max(self.ratio.high, 1.0 / self.ratio.low) * self.spread
+        bound = max(self.ratio.high, 1.0 / self.ratio.low) * self.searched.factor
+        return float("inf") if mixed(self.a) or mixed(self.b) else bound
+
+
+def mixed(e: Entry) -> bool:
+    """Whether some searches of a contestant have a legal median walk, and some have not."""
+    some = np.isfinite(e.medians)
+    return bool(some.any() and not some.all())
 
 
 def log_ratios(a: Array, b: Array) -> Array:
@@ -75,34 +116,44 @@ def log_ratios(a: Array, b: Array) -> Array:
     return np.clip(found, -np.log(WORST), np.log(WORST))
 
 
-def answered(
-    pairs: Sequence[tuple[Entry, Entry]], spread: Callable[[int], float] | None = None
-) -> list[Answer]:
+def answered(pairs: Sequence[tuple[Entry, Entry]], scatter: Scatter | None = None) -> list[Answer]:
     """The answers of one family of questions, corrected for each other.
 
-    spread: from a number of searches to the factor by which their means may differ; None for settings of one
-    search, which is not repeated.
+    scatter: of the searches of two contestants; None for settings of one search, which is not repeated.
     """
-    found = [_answer(a, b) for a, b in pairs]
-    if spread is not None:
-        found = [x._replace(spread=spread(min(x.a.searches, x.b.searches))) for x in found]
+    found = [_answer(a, b, Searched() if scatter is None else scatter(a, b)) for a, b in pairs]
     errors, legal = holm([x.p for x in found]), holm([x.legal_p for x in found])
     both = zip(found, errors, legal, strict=True)
     return [x._replace(p=p, legal_p=legal_p) for x, p, legal_p in both]
 
 
-def _answer(a: Entry, b: Entry) -> Answer:
+def _answer(a: Entry, b: Entry, searched: Searched) -> Answer:
     """The answer to one question, not corrected."""
     logs = log_ratios(a.tuned.rms_error, b.tuned.rms_error)
     middle = over_seeds(logs, lambda sets: np.median(sets, axis=1))
     each = logs.mean(axis=0)
     won, lost = int(np.sum(each < 0.0)), int(np.sum(each > 0.0))
+    p = max(sign_test(won, lost), searched.p(least(a, b, middle.value)))
     x, y = (np.all(e.tuned.legal == 1.0, axis=0) for e in (a, b))
     apart = [share(int(np.sum(one & ~other)), len(x)).high for one, other in ((x, y), (y, x))]
     ratio = Interval(*np.exp(middle).tolist())
-    return Answer(
-        a, b, ratio, won, lost, sign_test(won, lost), mcnemar(list(x), list(y)), max(apart)
-    )
+    return Answer(a, b, ratio, won, lost, p, mcnemar(list(x), list(y)), max(apart), searched)
+
+
+def least(a: Entry, b: Entry, log: float) -> float:
+    """The logarithm of the ratio that searches are asked about.
+
+    Where only some searches of a contestant found something it is the one of two single searches that is
+    nearest to 0, and 0 where they do not agree in sign. That one search found nothing says nothing: another
+    one may.
+    """
+    sides = [(np.isfinite(e.medians), e.searches) for e in (a, b)]
+    if any(not found.any() and searches == 1 for found, searches in sides):
+        return 0.0
+    if not (mixed(a) or mixed(b)):
+        return log
+    each = log_ratios(a.medians[:, None], b.medians[None, :])
+    return float(np.min(np.abs(each))) if abs(np.sign(each).sum()) == each.size else 0.0
 
 
 Group = Mapping[str, Entry]

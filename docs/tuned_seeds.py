@@ -7,30 +7,37 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
-from tuned_entries import Entry, group
-from tuned_questions import ORDERS, Answer, against_reference, answered, between
+from tuned_entries import Entry, groups_of
+from tuned_questions import (
+    ORDERS,
+    Answer,
+    Group,
+    Scatter,
+    Searched,
+    against_reference,
+    answered,
+    between,
+)
 from tuned_text import MRAD, at, name, number, ratio
-
-from biped_adrc.analysis.statistics import CONFIDENCE
 
 Repeats = Sequence[Entry]
 """The searches of one contestant at one place and gait with several seeds of the optimiser."""
 
 
 class Spread(NamedTuple):
-    """By how much searches of the same contestant differ."""
+    """How the logarithms of median errors of searches of one contestant scatter."""
 
-    log: float
-    """Logarithm of the factor by which two of them differ at most, with 95 %; 0 where none was repeated."""
-    contestants: int
-    """Of so many it is taken."""
-    left_out: tuple[str, ...]
-    """Contestants of which a search found no setting, or whose median walk is not legal."""
+    variance: float
+    """Pooled over places and gaits."""
+    freedom: int
+    """Its degrees of freedom."""
+    left_out: int = 0
+    """At so many places and gaits a search has no legal median walk."""
 
-    def factor(self, searches: int = 1) -> float:
-        """By how much the means of so many searches each differ at most, with 95 %."""
-        return float(np.exp(self.log / np.sqrt(searches)))
+    @property
+    def factor(self) -> float:
+        """By how much two searches differ at most, with 95 %: the limit of repeatability of ISO 5725."""
+        return Searched(float(np.sqrt(2.0 * self.variance)), self.freedom).factor
 
 
 def repeated(found: Sequence[Entry]) -> list[Repeats]:
@@ -41,85 +48,94 @@ def repeated(found: Sequence[Entry]) -> list[Repeats]:
     return [some for some in same.values() if len(some) > 1]
 
 
-def spread_of(repeats: Sequence[Repeats]) -> Spread:
-    """The spread from the pooled variance of the logarithms of median errors within a contestant.
-
-    As the limit of repeatability of ISO 5725: t s sqrt(2), with t of the degrees of freedom.
-    """
-    logs = [np.log([_median(e) for e in some]) for some in repeats]
-    left_out = tuple(
-        some[0].contestant
-        for some, x in zip(repeats, logs, strict=True)
-        if not np.isfinite(x).all()
-    )
-    logs = [x for x in logs if np.isfinite(x).all()]
-    freedom = sum(len(x) - 1 for x in logs)
+def spread_of(repeats: Sequence[Repeats]) -> Spread | None:
+    """The spread within a contestant, at one or several places and gaits; None where none was repeated."""
+    logs = [np.log([float(e.medians[0]) for e in some]) for some in repeats]
+    finite = [x for x in logs if np.isfinite(x).all()]
+    freedom = sum(len(x) - 1 for x in finite)
     if freedom == 0:
-        return Spread(0.0, 0, left_out)
-    variance = sum(float(np.sum((x - x.mean()) ** 2)) for x in logs) / freedom
-    t = stats.t.ppf(0.5 + CONFIDENCE / 2, freedom)
-    return Spread(float(t * np.sqrt(2.0 * variance)), len(logs), left_out)
+        return None
+    squares = sum(float(np.sum((x - x.mean()) ** 2)) for x in finite)
+    return Spread(squares / freedom, freedom, len(logs) - len(finite))
 
 
-def _median(e: Entry) -> float:
-    return float(np.median(e.tuned.rms_error))
+def by_contestant(repeats: Sequence[Repeats]) -> dict[str, Spread]:
+    """The spread of each contestant that was repeated; of one without its own, that of all together."""
+    together = spread_of(repeats)
+    if together is None:
+        return {}
+    names = dict.fromkeys(some[0].contestant for some in repeats)
+    return {n: spread_of([x for x in repeats if x[0].contestant == n]) or together for n in names}
+
+
+def scatter_of(repeats: Sequence[Repeats]) -> Scatter | None:
+    """How searches of two contestants scatter, as Welch's t test has it; None where none was repeated."""
+    own, together = by_contestant(repeats), spread_of(repeats)
+    if together is None:
+        return None
+
+    def scatter(a: Entry, b: Entry) -> Searched:
+        spreads = [own.get(e.contestant, together) for e in (a, b)]
+        parts = [s.variance / e.searches for s, e in zip(spreads, (a, b), strict=True)]
+        below = sum(x * x / s.freedom for x, s in zip(parts, spreads, strict=True))
+        freedom = sum(parts) ** 2 / below if below > 0.0 else float(spreads[0].freedom)
+        return Searched(float(np.sqrt(sum(parts))), freedom)
+
+    return scatter
 
 
 def placebos(found: Sequence[Entry]) -> tuple[list[Answer], list[Answer]]:
-    """Two searches of one contestant as if they were two contestants: by the walks alone, and with the spread.
+    """Two searches of one contestant as if they were two contestants: by the walks alone, and by searches too.
 
-    The spread is that of the other contestants, so that a placebo does not judge itself.
+    How its searches scatter is taken from other places and gaits, so that a placebo does not judge itself.
     """
     repeats = repeated(found)
     pairs = [pair for some in repeats for pair in itertools.combinations(some, 2)]
-    alone = answered(pairs)
-    spreads = {
-        (r[0].place, r[0].gait, r[0].contestant): spread_of([x for x in repeats if x is not r])
-        for r in repeats
-    }
-    with_spread = [
-        x._replace(spread=spreads[x.a.place, x.a.gait, x.a.contestant].factor()) for x in alone
-    ]
-    return alone, with_spread
+
+    def elsewhere(a: Entry, b: Entry) -> Searched:
+        others = [x for x in repeats if (x[0].place, x[0].gait) != (a.place, a.gait)]
+        scatter = scatter_of(others)
+        return Searched() if scatter is None else scatter(a, b)
+
+    return answered(pairs), answered(pairs, elsewhere)
 
 
 def placebo_sentences(found: Sequence[Entry]) -> list[str]:
-    """What came of the placebos."""
+    """By how much searches differ, and what came of the placebos."""
     alone, both = placebos(found)
     if not alone:
         return []
-    spread = spread_of(repeated(found))
-    rest = f"; left out of it: {', '.join(spread.left_out)}" if spread.left_out else ""
+    spreads = by_contestant(repeated(found))
+    told = ", ".join(f"*{n}* {number(s.factor)}" for n, s in spreads.items())
+    rest = "; ".join(f"*{n}* at {s.left_out}" for n, s in spreads.items() if s.left_out)
+    left_out = (
+        f" Left out are places and gaits where a search found nothing: {rest}." if rest else ""
+    )
     different = [x for x in both if x.verdict != "open"]
     named = "".join(
-        f"; {name(x.a)}, seeds {x.a.seed} and {x.b.seed}, {ratio(x.ratio)}" for x in different
+        f"; {name(x.a)} at {at(x.a)}, seeds {x.a.seed} and {x.b.seed}, {ratio(x.ratio)}"
+        for x in different
     )
-    most = max(x.spread for x in both)
     return [
-        f"Two searches of one contestant differ by up to a factor {number(spread.factor())} with 95 % (from "
-        f"{spread.contestants} contestants{rest}).",
+        f"Two searches of one contestant differ, with 95 %, by up to a factor of: {told}.{left_out}",
         f"Placebo: two searches of one contestant as if they were two contestants, {len(alone)} pairs. By "
         f"their walks alone {sum(x.verdict != 'open' for x in alone)} of them are found different, since two "
-        f"searches do end at different settings. With the spread of the searches of all others (at most "
-        f"{number(most)}) {len(different)} of {len(both)} are found different{named}.",
+        f"searches do end at different settings. By the rule of this page, with the scatter of the same "
+        f"contestant's searches at all other places and gaits, {len(different)} of {len(both)} are found "
+        f"different{named}.",
     ]
 
 
-def other_seeds(found: Sequence[Entry], spread: Callable[[int], float] | None = None) -> list[str]:
-    """For each place and gait with several seeds of the optimiser: how errors and conclusions move."""
+def other_seeds(found: Sequence[Entry], scatter: Scatter | None = None) -> list[str]:
+    """For each place and gait with several seeds of the optimiser the errors, then which conclusions move."""
     lines = []
     for place, gait in dict.fromkeys((e.place, e.gait) for e in found):
         here = [e for e in found if (e.place, e.gait) == (place, gait)]
         seeds = sorted({e.seed for e in here})
-        if len(seeds) < 2:
-            continue
-        groups = [group(found, place, gait, seed) for seed in seeds]
-        lines.append(f"**{at(here[0])}**, seeds {', '.join(map(str, seeds))}: {errors(here)}.")
-        for question, pairs in (
-            ("the reference", against_reference(groups)),
-            ("m = 1", between(groups, ORDERS)),
-        ):
-            lines.append(f"Held against {question}: {moved(answered(pairs, spread))}.")
+        if len(seeds) > 1:
+            lines.append(f"**{at(here[0])}**, seeds {', '.join(map(str, seeds))}: {errors(here)}.")
+    for question, asked in (("the reference", against_reference), ("m = 1", against_first)):
+        lines += moved(found, scatter, question, asked)
     return lines
 
 
@@ -127,31 +143,77 @@ def errors(here: Sequence[Entry]) -> str:
     """The median errors of the contestants that were searched with several seeds."""
     told = []
     for who in dict.fromkeys(e.contestant for e in here):
-        medians = [_median(e) for e in here if e.contestant == who]
+        medians = [float(e.medians[0]) for e in here if e.contestant == who]
         if len(medians) > 1:
             told.append(f"{who} {', '.join(number(MRAD * x) for x in medians)}")
     return "median errors in mrad: " + "; ".join(told)
 
 
-def moved(answers: Sequence[Answer]) -> str:
-    """Which verdicts differ between the seeds, all of one family."""
-    by_name: dict[str, list[Answer]] = {}
-    for x in answers:
-        by_name.setdefault(x.a.contestant, []).append(x)
-    asked = {name: found for name, found in by_name.items() if len(found) > 1}
-    turned = [
-        f"{name} ({', '.join(f'seed {x.a.seed}: {x.verdict}, {ratio(x.ratio)}' for x in found)})"
-        for name, found in asked.items()
-        if len({x.verdict for x in found}) > 1
+def against_first(groups: Sequence[Group]) -> list[tuple[Entry, Entry]]:
+    """The orders above 1 beside order 1."""
+    return between(groups, ORDERS)
+
+
+Asked = Callable[[Sequence[Group]], list[tuple[Entry, Entry]]]
+Conclusions = dict[tuple[str, str], Answer]
+"""The answers by place and gait, and contestant."""
+
+
+def conclusions(found: Sequence[Entry], asked: Asked, scatter: Scatter | None) -> Conclusions:
+    """The answers of one family of questions."""
+    return {(at(x.a), x.a.contestant): x for x in answered(asked(groups_of(found)), scatter)}
+
+
+def moved(
+    found: Sequence[Entry], scatter: Scatter | None, question: str, asked: Asked
+) -> list[str]:
+    """Which conclusions move where one seed of the optimiser is left out, and where it stands alone."""
+    seeds = sorted({e.seed for e in found})
+    here, several = conclusions(found, asked, scatter), repeated_at(found)
+    here = {key: x for key, x in here.items() if key[0] in several}
+    if len(seeds) < 2 or not here:
+        return []
+    carried = {key: x for key, x in here.items() if x.verdict != "open"}
+    lines = []
+    for seed in seeds:
+        without = conclusions([e for e in found if e.seed != seed], asked, scatter)
+        lines.append(f"without seed {seed} {changes(here, without)}")
+    alone = [conclusions([e for e in found if e.seed == seed], asked, None) for seed in seeds]
+    against = [
+        f"{key[1]} at {key[0]} (seed {seed}: {ratio(x.ratio)})"
+        for seed, told in zip(seeds, alone, strict=True)
+        for key, x in told.items()
+        if key in carried and opposite(x, carried[key])
     ]
-    if not asked:
-        return "asked with one seed alone so far"
-    if turned:
-        opposite = sum(
-            {"smaller", "larger"} <= {x.verdict for x in found} for found in asked.values()
-        )
-        return (
-            f"another seed moves {len(turned)} of {len(asked)} conclusions, {opposite} of them from smaller to "
-            f"larger: {'; '.join(turned)}"
-        )
-    return f"another seed moves none of {len(asked)} conclusions"
+    said = "; ".join(against) or "none"
+    return [
+        f"Held against {question}, {len(here)} conclusions, {len(carried)} of them carried: "
+        f"{'; '.join(lines)}. By the walks of one seed alone another direction than the carried one: {said}."
+    ]
+
+
+def repeated_at(found: Sequence[Entry]) -> set[str]:
+    """Where all contestants were searched with several seeds."""
+    return {at(e) for g in groups_of(found) for e in g.values() if e.searches > 1}
+
+
+def opposite(x: Answer, carried: Answer) -> bool:
+    """Whether the interval of x lies on the other side of 1 than a carried verdict."""
+    return x.ratio.low > 1.0 if carried.verdict == "smaller" else x.ratio.high < 1.0
+
+
+def changes(here: Conclusions, without: Conclusions) -> str:
+    """How many verdicts differ, and which."""
+    both = [
+        key
+        for key in here
+        if key in without and without[key].b.contestant == here[key].b.contestant
+    ]
+    other = sum(key in without for key in here) - len(both)
+    turned = [
+        f"{who} at {spot} from {here[spot, who].verdict} to {without[spot, who].verdict}"
+        for spot, who in both
+        if here[spot, who].verdict != without[spot, who].verdict
+    ]
+    said = f"{len(turned)} of {len(both)} move" + (f" ({'; '.join(turned)})" if turned else "")
+    return said + (f", and {other} have another reference" if other else "")

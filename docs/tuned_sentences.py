@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import tuned_text as words
 from tuned_entries import Entry, reference
-from tuned_questions import LEVEL, RUNGS, Answer, Group, answered, first_of, first_two
+from tuned_questions import LEVEL, RUNGS, Answer, Group, Scatter, answered, first_of, first_two
 from tuned_text import MRAD, at, interval, legal, name, number, ratio
 
 from biped_adrc.analysis.statistics import share
@@ -20,10 +20,10 @@ GOAL_PLACE = "RABBIT, 1 ms"
 def winners(
     groups: Sequence[Group],
     contest: Sequence[Answer],
-    spread: Callable[[int], float] | None = None,
+    scatter: Scatter | None = None,
 ) -> list[str]:
     """For each place and gait who is the best, how far ahead, and what is carried against NPD and NPID."""
-    ahead = {at(x.a): x for x in answered(first_two(groups), spread)}
+    ahead = {at(x.a): x for x in answered(first_two(groups), scatter)}
     lines = [tally(groups)] if groups else []
     for g in groups:
         best = first_of(g)
@@ -139,29 +139,10 @@ def order_pays(orders: Sequence[Answer]) -> list[str]:
 
 
 def pays_at_all(orders: Sequence[Answer]) -> str:
-    """In how many questions an order above 1 pays, and in how many it does not at equal margin and ripple."""
+    """In how many questions an order above 1 pays."""
     paid = [f"{name(x.a)} at {at(x.a)}" for x in orders if x.verdict == "smaller"]
     where = f": {', '.join(paid)}" if paid else ""
-    said = f"An order above 1 pays in {len(paid)} of {len(orders)} questions{where}."
-    found = [x for x in orders if x.a.found]
-    same = [x for x in found if not better_loop(x.a, x.b)]
-    if not same:
-        return said
-    larger = sum(x.ratio.value > 1.0 for x in same)
-    carried = sum(x.verdict == "smaller" for x in same)
-    return (
-        f"{said} At equal margin and ripple: of {len(found)} settings of a higher order {len(same)} have "
-        f"neither more delay margin nor less ripple than that of m = 1; of these {larger} have a larger error, "
-        f"and {carried} a smaller one that is carried."
-    )
-
-
-def better_loop(a: Entry, b: Entry) -> bool:
-    """Whether the loop of a has more delay margin or less ripple than that of b, or one of them is unknown."""
-    (x, y), (r, s) = (a.margins[0], b.margins[0]), (a.ripple, b.ripple)
-    if x is None or y is None or r is None or s is None:
-        return True
-    return x > y or r < s
+    return f"An order above 1 pays in {len(paid)} of {len(orders)} questions{where}."
 
 
 def loop(e: Entry) -> str:

@@ -2,9 +2,9 @@
 
 Run: python docs/write_tuned.py OUT
 
-OUT: folder of `python benchmarks/tuned/alike.py OUT`, finished or not, or docs/tuned, whose summary.json has
-all that the page says. Searches that are not there yet are named on the page. Sentences follow from the
-numbers (`tuned_page`).
+OUT: folder of `python benchmarks/tuned/alike.py OUT`, finished or not, with that of orders.toml beside it as
+OUT_orders; or docs/tuned, whose summary.json has all that the page says. Searches that are not there yet are
+named on the page. Sentences follow from the numbers (`tuned_page`).
 """
 
 from __future__ import annotations
@@ -29,14 +29,19 @@ from biped_adrc.viz.style import render
 
 DOCS = Path(__file__).resolve().parent
 PAGE, FOLDER = DOCS / "tuned.md", DOCS / "tuned"
-ALIKE = DOCS.parent / "benchmarks" / "tuned" / "alike.py"
+TUNED = DOCS.parent / "benchmarks" / "tuned"
+ORDERS = "_orders"
+"""What a folder of searches of orders.toml is called after that of the contest."""
 
 
 def summarised(out: Path) -> dict[str, Any]:
     """What the page is written from, of a folder of searches. Raises InputError where none is finished."""
-    alike = runpy.run_path(str(ALIKE))
+    alike = runpy.run_path(str(TUNED / "alike.py"))
     contest = alike["contest"]()
     summary = collected(out, contest, list(alike["entries"](contest)))
+    orders = alike["contest"](TUNED / "orders.toml")
+    beside = out.with_name(out.name + ORDERS)
+    summary["orders"] = collected(beside, orders, list(alike["entries"](orders)))
     if not summary["searches"]:
         raise InputError(
             f"'{out}' has no finished search; run 'python benchmarks/tuned/alike.py {out}' first"

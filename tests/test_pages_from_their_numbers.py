@@ -184,8 +184,12 @@ def test_the_page_of_the_contest_is_that_of_its_searches(script):
     summary = module.read(module.FOLDER / "summary.json")
     assert read("tuned.md") == module.page(summary)
     assert module.compact(summary) == read("tuned/summary.json")
-    contest = (module.ALIKE.parent / "contest.toml").read_text(encoding="utf-8")
-    assert summary["contest"] == tomllib.loads(contest), "the searches are of another contest"
+    contest, orders = (
+        tomllib.loads((module.TUNED / name).read_text(encoding="utf-8"))
+        for name in ("contest.toml", "orders.toml")
+    )
+    assert summary["contest"] == contest, "the searches are of another contest"
+    assert summary["orders"]["contest"] == contest | orders, "the orders are of another contest"
     check_numbers("tuned", module.figures(summary))
 
 

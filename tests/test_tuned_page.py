@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
+from scipy import stats
 
 from biped_adrc.analysis.statistics import share, sign_test
 from biped_adrc.campaign.store import Result
@@ -254,81 +255,115 @@ def test_what_each_rung_is_worth_is_held_against_the_one_below(script):
     ]
 
 
-def test_another_seed_of_the_optimiser_that_moves_a_conclusion_is_named(script):
+def test_conclusions_that_a_seed_of_the_optimiser_moves_are_named(script):
     seeds, entries = script("tuned_seeds"), script("tuned_entries").entries
-    same = [
-        search(n, f, seed=s) for n, f in (("NPD", 1.0), ("NPID", 1.2), ("DOB", 0.5)) for s in (1, 2)
-    ]
-    told = seeds.other_seeds(entries(summary(*same)))
-    assert "; DOB 1, 1." in told[0]
-    assert "moves none of 2 conclusions" in told[1]
-    assert "asked with one seed alone so far" in told[2]
-    same[-1] = search("DOB", 1.5, seed=2)
-    moved = seeds.other_seeds(entries(summary(*same)))[1]
-    assert (
-        "moves 1 of 2 conclusions, 1 of them from smaller to larger: DOB (seed 1: smaller, 0.5"
-        in moved
-    )
-    assert "seed 2: larger, 1.5" in moved
+
+    def told(*factors):
+        same = {"NPD": (1.0, 1.0, 1.0), "NPID": (1.2, 1.2, 1.2), "DOB": factors}
+        given = [search(n, f, seed=s) for n, some in same.items() for s, f in enumerate(some, 1)]
+        return seeds.other_seeds(entries(summary(*given)))
+
+    errors, steady = told(0.5, 0.5, 0.5)
+    assert "; DOB 1, 1, 1." in errors
+    assert "2 conclusions, 2 of them carried: without seed 1 0 of 2 move; without" in steady
+    assert steady.endswith("than the carried one: none.")
+    _, turned = told(0.5, 1.9, 1.9)
+    where = "at RABBIT, 1 ms, gait v0.5"
+    assert f"without seed 1 0 of 2 move; without seed 2 1 of 2 move (DOB {where}" in turned
+    assert f"DOB {where} from larger to smaller" in turned
+    assert turned.endswith(f"DOB {where} (seed 1: 0.5 (0.5 to 0.5)).")
 
 
 def test_a_difference_within_the_spread_of_searches_is_open(script):
-    """Three searches each of two contestants; the spread is a t of 4 degrees of freedom times s sqrt(2)."""
+    """Welch's test of two contestants with three searches each is SciPy's; Holm over two questions."""
     seeds, entries = script("tuned_seeds"), script("tuned_entries").entries
-    factors = {"NPD": (1.0, 1.2, 1.44), "NPID": (2.0, 2.4, 2.88)}
+    questions = script("tuned_questions")
+    factors = {"NPD": (1.0, 1.2, 1.44), "m = 1": (0.8, 0.896, 1.00352), "m = 2": (0.2, 0.25, 0.3)}
     given = [search(n, f, seed=i) for n, some in factors.items() for i, f in enumerate(some, 1)]
-    found = entries(summary(*given, search("m = 1", 0.7), search("m = 2", 0.3)))
-    spread = seeds.spread_of(seeds.repeated(found))
-    assert spread[1:] == (2, ())
-    assert spread.factor() == pytest.approx(math.exp(2.776445 * math.log(1.2) * math.sqrt(2.0)))
-    page = script("tuned_page")
-    contest, *_ = page.families(page.first_groups(found), spread.factor)
-    assert {x.a.contestant: x.verdict for x in contest} == {
-        "NPID": "open",
-        "m = 1": "open",
-        "m = 2": "smaller",
-    }
-    within = next(x.within for x in contest if x.a.contestant == "m = 1")
-    assert within == pytest.approx(spread.factor() / 0.7)
-    assert spread.factor(4) == pytest.approx(spread.factor() ** 0.5)
+    found = entries(summary(*given))
+    own = seeds.by_contestant(seeds.repeated(found))
+    assert own["NPD"].factor == pytest.approx(math.exp(4.302653 * math.log(1.2) * math.sqrt(2.0)))
+    (g,) = script("tuned_entries").groups_of(found)
+    scatter = seeds.scatter_of(seeds.repeated(found))
+    pairs = [(g[n], g["NPD"]) for n in ("m = 1", "m = 2")]
+    near, far = questions.answered(pairs, scatter)
+    p = [
+        stats.ttest_ind(*(np.log(factors[n]) for n in (m, "NPD")), equal_var=False).pvalue
+        for m in ("m = 1", "m = 2")
+    ]
+    assert near.searched.p(np.log(0.896 / 1.2)) == pytest.approx(p[0])
+    assert (near.verdict, far.verdict) == ("open", "smaller")
+    assert near.p > 0.05 > far.p > 0.0
+    assert near.within == pytest.approx(near.searched.factor / near.ratio.low)
+    assert questions.answered(pairs)[0].verdict == "smaller"
+
+
+def test_that_one_search_finds_nothing_carries_no_difference_and_that_all_do_does(script):
+    seeds, module = script("tuned_seeds"), script("tuned_entries")
+    questions = script("tuned_questions")
+    base = [search("NPD", f, seed=i) for i, f in ((1, 1.0), (2, 1.01), (3, 0.99))]
+
+    def verdict(*given):
+        found = module.entries(summary(*base, *given))
+        (g,) = module.groups_of(found)
+        return questions.answered(
+            [(g["m = 2"], g["NPD"])], seeds.scatter_of(seeds.repeated(found))
+        )[0]
+
+    every = [nothing("m = 2", seed=i) for i in (1, 2, 3)]
+    assert verdict(*every).verdict == "larger"
+    some = verdict(*every[:2], search("m = 2", 0.8, seed=3))
+    assert (some.verdict, some.within) == ("open", math.inf)
+    assert verdict(*every[:2], search("m = 2", 4.0, seed=3)).verdict == "larger"
+    found = module.entries(summary(*base, every[0]))
+    single = [e for e in found if e.seed == 1]
+    pair = (single[1], single[0]) if single[0].contestant == "NPD" else tuple(single)
+    assert questions.answered([pair], seeds.scatter_of(seeds.repeated(found)))[0].verdict == "open"
 
 
 def test_searches_with_several_seeds_of_the_optimiser_count_with_all_their_walks(script):
-    """Two searches of two contestants: the middle of both ratios, and half the spread's logarithm squared."""
+    """Two searches of two contestants: the middle of both ratios."""
     module, questions = script("tuned_entries"), script("tuned_questions")
     given = summary(
         *(search("NPD", seed=s) for s in (1, 2)),
         *(search("m = 1", f, seed=s) for s, f in ((1, 0.4), (2, 0.9))),
-        *(search("m = 2", 0.5, seed=s) for s in (1,)),
         search("m = 3", 0.5),
         nothing("m = 3", seed=2),
     )
     (g,) = module.groups_of(module.entries(given))
-    assert {n: e.searches for n, e in g.items()} == {"NPD": 2, "m = 1": 2, "m = 2": 1, "m = 3": 2}
+    assert {n: e.searches for n, e in g.items()} == {"NPD": 2, "m = 1": 2, "m = 3": 2}
     assert g["m = 1"].tuned.rms_error.shape == (4, SEEDS)
     assert g["m = 1"].selected == pytest.approx(0.6)
     assert (g["m = 3"].selected, g["m = 3"].found) == (math.inf, True)
     assert g["m = 3"].tuned.legal.mean() == 0.5
-    (x,) = questions.answered([(g["m = 1"], g["NPD"])], lambda k: 2.0 ** (1.0 / k))
+    (x,) = questions.answered([(g["m = 1"], g["NPD"])])
     assert x.ratio.value == pytest.approx(0.6)
-    assert (x.won, x.spread) == (SEEDS, pytest.approx(2.0**0.5))
+    assert x.won == SEEDS
+    given["searches"].append(search("m = 1", 0.1, seed=3))
+    (g,) = module.groups_of(module.entries(given))
+    assert g["m = 1"].searches == 2, "a seed counts where all contestants have it"
 
 
-def test_a_placebo_is_judged_by_the_spread_of_the_others(script):
+def test_a_placebo_is_judged_by_searches_of_the_same_contestant_elsewhere(script):
     seeds, entries = script("tuned_seeds"), script("tuned_entries").entries
-    same = [search("NPD", f, seed=s) for s, f in enumerate((1.0, 1.02, 1.04), 1)]
-    wide = [search("DOB", f, seed=s) for s, f in enumerate((1.0, 1.3, 1.7), 1)]
-    narrow = [search("m = 1", 0.5, seed=s) for s in (1, 2, 3)]
-    lost = [search("m = 2", 0.5), nothing("m = 2", seed=2), search("m = 2", 0.5, seed=3)]
-    alone, both = seeds.placebos(entries(summary(*same, *wide)))
-    assert len(alone) == sum(x.verdict != "open" for x in alone) == 6
-    by_name = {x.a.contestant: x.spread for x in both}
-    assert by_name["NPD"] > by_name["DOB"] > 1.0
-    assert {x.a.contestant for x in both if x.verdict != "open"} == {"DOB"}
-    said = seeds.placebo_sentences(entries(summary(*same, *narrow, *lost)))
-    assert "(from 2 contestants; left out of it: m = 2)" in said[0]
-    assert "9 pairs" in said[1]
-    assert "*m = 2*, seeds 1 and 2, 0" in said[1]
+
+    def at_two(contestant, here, there):
+        return [
+            search(contestant, f, seed=s, gait=gait)
+            for gait, some in (("v0.5", here), ("published", there))
+            for s, f in enumerate(some, 1)
+        ]
+
+    steady = at_two("NPD", (1.0, 1.2, 1.4), (1.0, 1.2, 1.4))
+    sudden = at_two("DOB", (1.0, 1.3, 1.7), (1.0, 1.01, 1.02))
+    alone, both = seeds.placebos(entries(summary(*steady, *sudden)))
+    assert len(alone) == sum(x.verdict != "open" for x in alone) == 12
+    assert {(x.a.contestant, x.a.gait) for x in both if x.verdict != "open"} == {("DOB", "v0.5")}
+    lost = [search("m = 2", 0.5), nothing("m = 2", seed=2)]
+    said = seeds.placebo_sentences(entries(summary(*steady, *sudden, *lost)))
+    assert "*m = 2* at 1" in said[0]
+    assert "13 pairs" in said[1]
+    assert "*DOB* at RABBIT, 1 ms, gait v0.5, seeds 1 and 3" in said[1]
 
 
 def with_beside(told, **beside):
@@ -437,21 +472,27 @@ def test_the_interquartile_mean_is_infinite_where_more_than_a_quarter_is(script)
     assert mean(x).value == math.inf
 
 
-def test_an_order_with_a_worse_loop_and_a_larger_error_does_not_pay_at_an_equal_one(script):
-    """m = 2 has less margin and more ripple than m = 1, m = 3 less ripple."""
-    given = with_beside(
-        summary(search("m = 1"), *(search(f"m = {m}", 2.0) for m in (2, 3))),
-        linear=[{"contestant": f"m = {m}", "ripple": r} for m, r in ((1, 5.0), (2, 6.0), (3, 4.0))],
+def test_orders_searched_at_equal_margin_and_ripple_are_held_against_the_first(script):
+    beside, page = script("tuned_equal"), script("tuned_page")
+    place = {"place": "margin 3 ms"}
+    orders = summary(
+        *(
+            {**search(f"m = {m}", f, place="margin 3 ms"), "ripple": 5.0}
+            for m, f in ((1, 1.0), (2, 2.0))
+        ),
+        nothing("m = 3") | place,
     )
-    page = script("tuned_page")
-    *_, orders = page.families(page.first_groups(script("tuned_entries").entries(given)))
-    first, spot = script("tuned_sentences").order_pays(orders)
-    assert first == (
-        "An order above 1 pays in 0 of 2 questions. At equal margin and ripple: of 2 settings of a higher "
-        "order 1 have neither more delay margin nor less ripple than that of m = 1; of these 1 have a larger "
-        "error, and 0 a smaller one that is carried."
-    )
-    assert "as ratio to m = 1 (2.5 ms of margin, 5 N m of ripple): costs: *m = 2* 2" in spot
+    orders["contest"] = {
+        **orders["contest"],
+        "places": {"margin 3 ms": orders["contest"]["places"][PLACE]},
+    }
+    given = summary(search("NPD")) | {"orders": orders}
+    (*_, told, _, shown) = beside.equal_loops(given, [])
+    assert "**margin 3 ms**: *m = 1* has " in told
+    assert "costs: *m = 2* 2 (2 to 2), *m = 3* (no setting that keeps the limits)" in told
+    assert "2.5 | 2.5 | 5 | 4.01 (" in shown
+    assert told in page.page(given)
+    assert beside.equal_loops(summary(search("NPD")), []) == []
 
 
 class Asked(NamedTuple):

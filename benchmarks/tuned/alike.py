@@ -1,6 +1,7 @@
 """Controllers tuned alike: one study of `biped-adrc tune` for each place, gait, contestant and optimiser seed.
 
     python benchmarks/tuned/alike.py out/tuned [--share 1/2] [--only "RABBIT, 1 ms"]
+    python benchmarks/tuned/alike.py out/tuned_orders --contest benchmarks/tuned/orders.toml
 
 What may be chosen, the sets of walks and the limits are the same for all and stand in contest.toml; the budget
 grows with the number of free parameters. A candidate has to bear a delay margin, and its walks have to be
@@ -44,8 +45,16 @@ class Entry(NamedTuple):
         return named.replace(" ", "_").replace(",", "").replace("'", "").replace("=", "")
 
 
-def contest(path: Path = HERE / "contest.toml") -> dict[str, dict]:
-    """The tables of contest.toml."""
+CONTEST = HERE / "contest.toml"
+
+
+def contest(path: Path = CONTEST) -> dict[str, dict]:
+    """The tables of contest.toml, with those of another file in their place."""
+    return {**read(CONTEST), **read(path)} if path != CONTEST else read(path)
+
+
+def read(path: Path) -> dict[str, dict]:
+    """The tables of a file."""
     return tomllib.loads(path.read_text(encoding="utf-8"))
 
 
@@ -101,6 +110,7 @@ def tables(c: dict[str, dict], e: Entry) -> dict[str, object]:
         "objectives": [{"column": "rms_error"}],
         "limits": [
             {"column": "delay_margin", "least": place["margin"]},
+            *([{"column": "ripple", "most": place["ripple"]}] if "ripple" in place else []),
             {"column": "legal", "least": c["limits"]["legal"]},
             {
                 "column": "mean_friction",
@@ -143,9 +153,10 @@ def main() -> None:
     parser.add_argument("out", type=Path)
     parser.add_argument("--share", default="1/1", help="k/n: every n-th search, from the k-th")
     parser.add_argument("--only", help="name of one place")
+    parser.add_argument("--contest", type=Path, default=CONTEST, help="file of other places")
     given = parser.parse_args()
     k, n = (int(x) for x in given.share.split("/"))
-    c = contest()
+    c = contest(given.contest)
     mine = [e for e in entries(c) if given.only in (None, e.place)][k - 1 :: n]
     for i, e in enumerate(mine, 1):
         note = carry_out(c, e, given.out)

@@ -12,12 +12,12 @@ import argparse
 from collections.abc import Iterator
 from pathlib import Path
 
-from alike import HERE, carry_out, contest, entries
+from alike import HERE, carry_out, entries, read
 
 
 def contests() -> Iterator[tuple[str, dict[str, dict]]]:
     """For each limit of friction its folder and the tables of a contest with it."""
-    c = contest(HERE / "reserve.toml")
+    c = read(HERE / "reserve.toml")
     for friction in c["limits"]["friction"]:
         yield f"friction_{friction:g}", c | {"limits": {**c["limits"], "friction": friction}}
 
