@@ -1,6 +1,7 @@
 """A session in the browser: `ba.play`.
 
     ba.play(ba.Scenario("ADRC", hardware="ideal"), ghost={"controller": "NPD"})
+    ba.play(walker, gait)
 
 The page (viz/play) draws with the scripts of stored walks, from one `frame` after the other; its server is
 `viz.meshcat.server`, with a `Stage` that hears the pages. A live walk has no end and its ground is not known
@@ -13,10 +14,13 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 
+from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.errors import InputError
+from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.biped import Biped
@@ -25,6 +29,7 @@ from biped_adrc.play.controls import controls, tour
 from biped_adrc.play.driver import Driver
 from biped_adrc.play.hand import MOST_FORCE, MOST_TORQUE
 from biped_adrc.play.live_walk import LiveWalk
+from biped_adrc.play.of_walker import scenario_of
 from biped_adrc.play.session import Session
 from biped_adrc.play.stage import Stage
 from biped_adrc.scenario.build import limits
@@ -45,7 +50,8 @@ NEARER = -0.15
 
 
 def play(
-    scenario: Scenario,
+    scenario: Scenario | Walker,
+    gait: Gait | None = None,
     *,
     ghost: Mapping[str, object] | None = None,
     out: Path | str = ".",
@@ -56,13 +62,19 @@ def play(
 ) -> str:
     """A walk live in the browser, under one's own hand, until the page is closed; returns why it ended.
 
-    scenario: in sampled time, such as hardware = "ideal". ghost: values by which a walk beside it differs.
+    scenario: in sampled time, such as hardware = "ideal"; or a walker, with its gait, all of which a scenario
+    can say (`of_walker`). ghost: values by which a walk beside it differs.
     out: folder for sessions that are saved. port: 0 for a free one. open_browser: open the user's browser
     there. wait [s]: how long to wait for the first page. say: is given the address, and other sentences.
     Raises InputError for what cannot walk live, a folder that is none, a port that is in use, and inside a
     running event loop.
     """
-    check_part(scenario, "what is to walk live", Scenario)
+    check_part(scenario, "what is to walk live", Scenario, Walker)
+    if isinstance(scenario, Walker):
+        check_part(gait, "the gait of the walker", Gait)
+        scenario = scenario_of(scenario, cast(Gait, gait))
+    elif gait is not None:
+        raise InputError("a scenario has its gait; leave the other one out")
     folder = Path(out)
     if not folder.is_dir():
         raise InputError(f"'{folder}' is no folder; sessions are saved in one that there is")

@@ -27,7 +27,7 @@ class Page:
     opened: ClassVar[list[Page]] = []
 
     def __init__(self, socket):
-        self.socket, self.told = socket, []
+        self.socket, self.told, self.ended = socket, [], False
         Page.opened.append(self)
 
     @classmethod
@@ -37,8 +37,8 @@ class Page:
 
     async def close(self):
         self.socket.close()
-        while await self.socket.read_message() is not None:
-            pass
+        while not self.ended:
+            await self.heard()
 
     async def say(self, **message):
         await self.socket.write_message(json.dumps(message))
@@ -46,6 +46,7 @@ class Page:
     async def heard(self):
         """The next message; None where the server has closed the page."""
         text = await asyncio.wait_for(self.socket.read_message(), SOON)
+        self.ended = text is None
         return None if text is None else json.loads(text)
 
     async def until(self, fits: Callable[[Frame], object]) -> Frame:
@@ -98,6 +99,7 @@ def served(
     scenario = options.pop("scenario", ba.Scenario("NPD", hardware="ideal"))
     why = play(scenario, open_browser=False, say=say, **options)
     visitors[0].join(SOON)
+    assert not visitors[0].is_alive()
     if raised:
         raise raised[0]
     return why, said

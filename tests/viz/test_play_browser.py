@@ -17,6 +17,7 @@ PLACE = """
 const box = pane.getBoundingClientRect();
 const part = [...parts].find(([, link]) => link === "torso")[0];
 viewer.scene.updateMatrixWorld(true);
+viewer.render();
 const at = part.getWorldPosition(new MeshCat.THREE.Vector3()).project(viewer.camera);
 return [box.left + 0.5 * (at.x + 1) * box.width, box.top + 0.5 * (1 - at.y) * box.height];
 """
@@ -59,8 +60,10 @@ def test_the_page_by_mouse_and_by_keys(tmp_path):
         until(browser, "return selected && selected.link === 'torso'")
         mouse = ActionChains(browser).key_down(Keys.CONTROL).click_and_hold()
         mouse.move_by_offset(60, -20).perform()
-        body.send_keys(Keys.ARROW_RIGHT)
         found["hand"] = until(browser, "return page.last.hand")
+        before = browser.execute_script("return page.last.t")
+        body.send_keys(Keys.ARROW_RIGHT)
+        until(browser, "return page.last.t > arguments[0]", before)
         assert until(browser, "return element('force').textContent").endswith(" N")
         ActionChains(browser).release().key_up(Keys.CONTROL).perform()
         until(browser, "return page.last.hand === null")
@@ -86,8 +89,8 @@ def test_the_page_by_mouse_and_by_keys(tmp_path):
             address.split("//")[1].startswith(url.split("//")[1]) for address in requested(browser)
         )
 
-    why, _ = served(visit, scenario=ba.Scenario("ADRC", hardware="ideal"), out=tmp_path)
-    assert why == "stopped by SIGTERM"
+    why, _ = served(visit, None, scenario=ba.Scenario("ADRC", hardware="ideal"), out=tmp_path)
+    assert why == "the browser has closed the page"
     assert found["hand"]["anchor"] is not None
     again = ba.replay_session(found["path"])
     assert again.same
@@ -114,4 +117,4 @@ def test_nothing_is_wider_than_the_window_and_every_field_has_a_name(width):
             )
             assert nameless == []
 
-    served(visit)
+    served(visit, None)

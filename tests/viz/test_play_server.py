@@ -1,6 +1,7 @@
 """The page's server: what pages see and may say, who can reach it, and how it ends."""
 
 import asyncio
+import dataclasses
 import signal
 import threading
 
@@ -15,6 +16,7 @@ from biped_adrc.play.controls import controls, values
 from biped_adrc.play.driver import Driver
 from biped_adrc.play.frame import frame, named
 from biped_adrc.play.messages import MOST_AT_ONCE, MOST_BYTES, Message
+from biped_adrc.play.of_walker import scenario_of
 from biped_adrc.play.page import page, play
 from biped_adrc.scenario.scenario import FIELDS
 from biped_adrc.viz.meshcat.frames import pose
@@ -254,3 +256,24 @@ def test_the_page_holds_all_that_it_needs():
     html = page(ba.Session(ba.Scenario("NPD", hardware="ideal")))
     assert "connect-src 'self'" in html
     assert 'src="http' not in html
+
+
+def test_a_walker_plays_where_a_scenario_can_say_all_of_it():
+    biped = ba.Biped.load("rabbit")
+    gait, clock = ba.load_gait("published", biped), ba.SampledTime(1e-3)
+    walker = ba.Walker(
+        biped,
+        ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(300.0, 2)),
+        timing=clock,
+    )
+    s = scenario_of(walker, gait)
+    assert (s.controller, s.period, s.poles) == ("ADRC", 1e-3, (-300.0,) * 4)
+    pushed = dataclasses.replace(walker, disturbance=ba.TorquePulse([9, 0, 0, 0, 0], 3, 0.1, 0.2))
+    with pytest.raises(InputError, match="does not say all of this walker: disturbance"):
+        scenario_of(pushed, gait)
+    with pytest.raises(InputError, match="sample instants"):
+        ba.play(dataclasses.replace(walker, timing=ba.ContinuousTime()), gait)
+    with pytest.raises(InputError, match="the gait of the walker"):
+        ba.play(walker)
+    with pytest.raises(InputError, match="has its gait"):
+        ba.play(s, gait)

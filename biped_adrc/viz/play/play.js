@@ -65,7 +65,8 @@ const KEYS = {
 document.addEventListener("keydown", (event) => {
   const { tagName } = event.target, writes = ["INPUT", "SELECT", "TEXTAREA"].includes(tagName);
   const presses = tagName === "BUTTON" && event.key === " ";
-  if (event.ctrlKey || event.altKey || event.metaKey || writes || presses || !(event.key in KEYS)) return;
+  const other = (event.ctrlKey || event.metaKey) && !pull; // a shortcut of the browser's
+  if (other || event.altKey || writes || presses || !(event.key in KEYS)) return;
   if (element("keys").open && event.key !== "?") return;
   event.preventDefault();
   KEYS[event.key]();
