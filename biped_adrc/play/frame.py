@@ -1,9 +1,10 @@
 """One message to the pages: where the robots are, what acts on them, and the signals of the last sample.
 
-    {"t", "paused", "rate", "reached", "walks": [...], "hand": {...} or null}
+    {"t", "paused", "rate", "reached", "walks": [...], "hand": {...} or null, "felt"}
 
-Numbers that are not finite are null, as JSON has none. Poses are those of the drawn robot (`viz.placement`),
-whose legs do not change their names at a touchdown as those of the model do.
+`felt` says whether a hand acted in the last sample. Numbers that are not finite are null, as JSON has none.
+Poses are those of the drawn robot (`viz.placement`), whose legs do not change their names at a touchdown as
+those of the model do.
 """
 
 from __future__ import annotations
@@ -39,6 +40,7 @@ def frame(driver: Driver) -> dict[str, object]:
         "reached": driver.reached,
         "walks": walks,
         "hand": acting(session),
+        "felt": driver.hand is not None,
     }
 
 
