@@ -150,6 +150,7 @@ HINTS = {
     "tip": Row("--tip 0,0,0.5", same("hints.tip"), (0.0, 0.0, 0.5)),
 }
 SIMULATE = {
+    "session": Row("me.npz", same("path"), Path("me.npz"), "play.repeated:replay_session"),
     "scenario": Row("--scenario best.toml", scenario_field("K_d"), 33.0),
     "controller": Row("--controller npd", scenario_field("controller"), "NPD"),
     "gait": Row("--gait recipe", scenario_field("gait"), "recipe"),
@@ -369,7 +370,7 @@ ANIMATE = {
     "ghost": Row(
         "--ghost b.npz",
         same("paths"),
-        [Path("b.npz"), Path("run.npz")],
+        [Path("run.npz"), Path("b.npz")],
         "scenario.stored:load_walks",
     ),
     "out": Row("-o own.gif", same("path"), Path("own.gif")),
@@ -495,7 +496,10 @@ MJCF = {
     "gait": Row("--gait v0.7", lambda a: a.gait and a.gait.name, "v0.7", "soft.mjcf:mjcf"),
 }  # fmt: skip
 COMMANDS = {
-    "simulate": Command("simulate", "cli.walk:_walk", SIMULATE),
+    "simulate": Command(
+        "simulate", "cli.walk:_walk", SIMULATE,
+        others={"play.repeated:replay_session": ("simulate", "cli.walk:_walk")},
+    ),
     "replay": Command(
         "replay own.csv", "logs.replay:replay", REPLAY,
         others={"viz.style:write_figure": ("replay own.csv", "logs.replay:replay cli.replay:write_text")},

@@ -29,12 +29,22 @@ def read_scenario(path: Path) -> dict[str, Value]:
     """The values of a scenario file by name, those of tables with a dot. Raises InputError."""
     with reading("scenario file", path, InputError):
         tables = tomllib.loads(path.read_text(encoding="utf-8"))
+    if "session" in tables:
+        raise InputError(
+            f"scenario file '{path}' has inputs of a session, which would be left out here; repeat it with "
+            f"'biped-adrc simulate {path}'"
+        )
+    return read_values(tables, f"scenario file '{path}'")
+
+
+def read_values(values: Mapping[str, object], what: str) -> dict[str, Value]:
+    """Values of a scenario by name, those of tables with a dot. Raises InputError, which names `what`."""
     found = {}
-    for name, x in flat(tables).items():
+    for name, x in flat(values).items():
         try:
             found[name] = read(name, x)
         except (Refused, ValidationError) as error:
-            raise InputError(f"scenario file '{path}', {name}: {reason(error)}") from error
+            raise InputError(f"{what}, {name}: {reason(error)}") from error
     return found
 
 
@@ -51,8 +61,7 @@ def scenario_lines(s: Scenario) -> list[str]:
     """The values of a scenario that differ from the defaults, and whom it is of, as lines of TOML."""
     record = {"controller": s.controller, "robot": s.robot} | s.record()
     return [
-        f"{'.'.join(map(_key, name.split('.', 1)))} = {_toml(x)}"
-        for name, x in flat(record).items()
+        f"{'.'.join(map(_key, name.split('.', 1)))} = {toml(x)}" for name, x in flat(record).items()
     ]
 
 
@@ -61,12 +70,14 @@ def _key(name: str) -> str:
     return name if re.fullmatch("[A-Za-z0-9_-]+", name) else json.dumps(name)
 
 
-def _toml(x: object) -> str:
+def toml(x: object) -> str:
     """A plain value as TOML has it: floats read back to the same bits."""
     if x is None:
         return json.dumps(NONE)
     if isinstance(x, Mapping):
-        return "{ " + ", ".join(f"{_key(key)} = {_toml(inner)}" for key, inner in x.items()) + " }"
+        return "{ " + ", ".join(f"{_key(key)} = {toml(inner)}" for key, inner in x.items()) + " }"
     if isinstance(x, list | tuple):
-        return "[" + ", ".join(map(_toml, x)) + "]"
-    return json.dumps(x, ensure_ascii=False) if isinstance(x, str | bool | int) else repr(x)
+        return "[" + ", ".join(map(toml, x)) + "]"
+    if isinstance(x, str | bool | int):
+        return json.dumps(x, ensure_ascii=False)
+    return repr(float(x)) if isinstance(x, float) else repr(x)

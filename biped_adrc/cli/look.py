@@ -42,18 +42,24 @@ def animate(
     from biped_adrc.scenario.stored import load_walks
     from biped_adrc.viz.export import SUFFIXES, Clip, check_suffix, export
 
-    runs, clip = [*(ghost or []), run], Clip(start, stop, fps, view, apart, magnify, slower)
+    runs, clip = [run, *(ghost or [])], Clip(start, stop, fps, view, apart, magnify, slower)
     if not live:
         check_suffix(out)
         keep_inputs((output_path(out, SUFFIXES),), runs)
-        export(out, load_walks(runs), clip)
+        export(out, _solid_last(load_walks(runs)), clip)
         say_written(out)
     elif clip.moving:
         raise InputError(
             "--apart, --magnify and --slower are of a .gif; leave them out with --live"
         )
     else:
-        _show(load_walks(runs), clip, port, browser, wait)
+        _show(_solid_last(load_walks(runs)), clip, port, browser, wait)
+
+
+def _solid_last(walks: dict[str, Walk]) -> dict[str, Walk]:
+    """The first of the walks behind the others: the last one is drawn solid."""
+    first, *others = walks
+    return {name: walks[name] for name in (*others, first)}
 
 
 def _show(walks: dict[str, Walk], clip: Clip, port: int, browser: bool, wait: float) -> None:

@@ -2,8 +2,8 @@
 
 Both make a `Scenario` of the options. `simulate` walks it with `scenario.run`, once more at half
 the step to say how far the numbers can be trusted, judges every step (`analysis.legality`) and
-stores the run. `poincare` finds the fixed point of the return map and its multipliers
-(`studies.cycle_stability`).
+stores the run. With the file of a session it walks that again (`cli.repeat`). `poincare` finds the
+fixed point of the return map and its multipliers (`studies.cycle_stability`).
 """
 
 from __future__ import annotations
@@ -18,6 +18,8 @@ from rich.table import Table
 
 from biped_adrc.cli.app import EXIT_FELL, app, bar, console, inputs, run_path, say, say_written
 from biped_adrc.cli.options import of_scenario, texts, values_of
+from biped_adrc.cli.repeat import repeat
+from biped_adrc.cli.steps import instants, print_on_ground, print_supports
 from biped_adrc.errors import InputError
 from biped_adrc.files import keep_inputs, output_path
 from biped_adrc.types import PlainRecord
@@ -29,7 +31,6 @@ if TYPE_CHECKING:
     from biped_adrc.scenario.outcome import Outcome
     from biped_adrc.scenario.recording import Walk
     from biped_adrc.scenario.scenario import Scenario
-    from biped_adrc.soft.meters import SoftStep
 
 WHY = {
     "compiled": "generated from Pinocchio's model and checked against it",
@@ -51,6 +52,7 @@ NUMERICS = ("method", "engine", "friction_limit", "force_window")
 @texts("simulate")
 def simulate(
     given: PlainRecord,
+    session: Path | None = None,
     push: list[str] | None = None,
     sets: list[str] | None = None,
     scenario: Path | None = None,
@@ -59,10 +61,17 @@ def simulate(
     out: Path | None = None,
     log: Path | None = None,
 ) -> None:
-    """Walk, and print what each step needed of the ground and of the motors."""
+    """Walk, and print what each step needed of the ground and of the motors; or repeat a session."""
     from biped_adrc.scenario.build import limits
     from biped_adrc.scenario.scenario import Scenario
 
+    if session is not None:
+        if given or push or sets or scenario or as_printed or end_illegal or log:
+            raise InputError(
+                f"the session '{session}' is repeated as it was; leave out all options but --out"
+            )
+        repeat(session, out)
+        return
     printed = {"solve_theta": False} if as_printed else {}
     values = {"controller": usual(given), **values_of(given, push, sets, scenario), **printed}
     s = Scenario(**values)
@@ -125,7 +134,7 @@ def _walk(
     if half is None:
         _print_passive(full, limits)
     else:
-        _print_on_ground(full.soft_steps)
+        print_on_ground(full.soft_steps)
         _print_steps(replace(full.outcome, half=half.outcome), full.legal_within(limits))
     settings = full.trajectory.settings
     console.print(f"engine {settings['engine']}: {settings.get('why') or WHY[settings['engine']]}")
@@ -139,54 +148,16 @@ def _walk(
 
 def _print_steps(o: Outcome, legality: Legality) -> None:
     """Print what every step needed of ground and motors, a row each, and below how the walk ended."""
-    from biped_adrc.analysis.certificate import Certificate, ratio_text
     from biped_adrc.paper.convergence import error_text
 
-    names = ("step", "time [s]", "length [m]", "torque [N m]", "F_N [N]", "friction", "at impact")
-    table = Table(*names, "scuffs [mm]", "not legal")
-    for s in legality.supports:
-        c = s if isinstance(s, Certificate) else None
-        table.add_row(
-            f"{s.step}",
-            f"{s.duration:.4f}",
-            f"{c.step_length:.4f}" if c else "",
-            f"{s.peak_torque:.1f}",
-            f"{s.mean_normal_force:.1f}",
-            ratio_text(s.mean_friction),
-            ratio_text(c.impulse_ratio) if c else "",
-            f"{1e3 * s.scuffing:.2g}",
-            ", ".join(name.replace("_", " ") for name in s.illegal()),
-        )
-    console.print(table)
-    console.print(
-        f"F_N and friction: least and largest mean over {1e3 * legality.limits.window:g} ms; "
-        f"{_instants(legality)}\n"
+    print_supports(
+        legality,
         f"{o.status}: {o.message}\n{o.impacts} impacts, largest tracking error {error_text(o)}, "
-        f"peak torque {o.peak_torque:.1f} N m, {o.method}\n{legality.text()}"
+        f"peak torque {o.peak_torque:.1f} N m, {o.method}",
     )
     stays = [c.step for c in o.certificates if not c.old_foot_velocity > 0.0]
     if stays:
         console.print(f"the old stance foot does not lift off after steps {stays}")
-
-
-def _print_on_ground(steps: tuple[SoftStep, ...]) -> None:
-    """Print what the feet did on soft ground, a row for each single support; nothing without."""
-    if not steps:
-        return
-    table = Table(
-        "step", "slip [mm]", "in the air [ms]", "on both feet [ms]", "depth [mm]", "friction"
-    )
-    for k, s in enumerate(steps, 1):
-        times = (1e3 * s.flight, 1e3 * s.double_support)
-        slip, depth = 1e3 * max(s.slip), 1e3 * s.depth
-        row = (
-            f"{slip:.2g}",
-            *(f"{x:.1f}" for x in times),
-            f"{depth:.2g}",
-            f"{s.friction_used:.3f}",
-        )
-        table.add_row(f"{k}", *row)
-    console.print(table)
 
 
 def _print_passive(walk: Walk, limits: Limits) -> None:
@@ -218,14 +189,6 @@ def _print_passive(walk: Walk, limits: Limits) -> None:
     )
 
 
-def _instants(needed: Legality | Certificate) -> str:
-    """What no mean hides: the least normal force, and how long the force is outside the friction cone."""
-    return (
-        f"at an instant F_N is {needed.least_normal_force:.1f} N at least, and the force is outside the "
-        f"friction cone for {100.0 * needed.share_outside:.2g} % of the time"
-    )
-
-
 def _nominal(c: Certificate) -> str:
     """What the step of a cycle needs of ground and motors, and whether it is legal, in a sentence."""
     from biped_adrc.analysis.certificate import ratio_text
@@ -234,7 +197,7 @@ def _nominal(c: Certificate) -> str:
     return (
         f"its step: {c.step_length:.4f} m in {c.duration:.4f} s, peak torque {c.peak_torque:.1f} N m; in the "
         f"mean of {1e3 * c.window:g} ms friction {ratio_text(c.mean_friction)}, "
-        f"F_N {c.mean_normal_force:.1f} N; {_instants(c)}; the swing foot scuffs by {1e3 * c.scuffing:.2g} mm; "
+        f"F_N {c.mean_normal_force:.1f} N; {instants(c)}; the swing foot scuffs by {1e3 * c.scuffing:.2g} mm; "
         f"friction at impact {ratio_text(c.impulse_ratio)}, limit {c.friction_limit:g}; "
         f"{'not legal: ' + missed if missed else 'legal'}"
     )

@@ -116,7 +116,7 @@ def check_hand(hand: Hand, n: int) -> None:
     check_point(hand.at)
     if not all(map(math.isfinite, (*hand.torque, *hand.force))):
         raise InputError(f"the hand is {hand}, expected finite numbers")
-    if (torque := max(map(abs, hand.torque))) > MOST_TORQUE:
+    if (torque := max(map(abs, hand.torque), default=0.0)) > MOST_TORQUE:
         raise InputError(
             f"the torque of the hand is {torque:g} N m, expected at most {MOST_TORQUE:g}"
         )

@@ -7,6 +7,7 @@
     session.advance(0.5)
     session.back()                                 # to where the last single support began
     session.save("me.npz")                         # a run, with the record inside
+    session.save("me.toml")                        # the scenario with its inputs, to read
 
 Inputs change at sample instants alone. Saved is the walk that is there: what was taken back is not in it.
 
@@ -27,8 +28,9 @@ from biped_adrc.errors import InputError
 from biped_adrc.hybrid.simulator import FlownArc
 from biped_adrc.parts import check_part
 from biped_adrc.play.hand import Hand, Spring, check_hand, check_point
+from biped_adrc.play.hand_table import HandRow
 from biped_adrc.play.live_walk import OF_CONTROLLER, LiveWalk, revised
-from biped_adrc.play.record import Change, HandRow, SessionRecord
+from biped_adrc.play.record import Change, SessionRecord
 from biped_adrc.robots.symmetry import twins
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.scenario import DEFAULTS, HARDWARE, Scenario
@@ -289,10 +291,12 @@ class Session:
         return walks_of(self.record)[which]
 
     def save(self, path: Path | str) -> Path:
-        """Write the walk (.npz) with the record of the session; `ba.replay_session` does it again, and
-        `ba.load_walk`, `plot` and `animate` read it as any run. Raises InputError and OutputError.
+        """Write the walk with its ghost and the record (.npz), or the scenario with its inputs (.toml).
+
+        Returns the path. `ba.replay_session` and `biped-adrc simulate` walk both again; `ba.load_walk`,
+        `plot` and `animate` read the .npz as any run. Raises InputError and OutputError.
         """
-        from biped_adrc.play.stored import save_session
+        from biped_adrc.play.repeated import save_session
 
         return save_session(self.record, path)
 

@@ -5,7 +5,7 @@ computes or compiles. Sixty times a second that thread takes what the pages have
 clock, and makes a `frame` for all pages. Replies go to the page that spoke:
 
     {"refused": sentence, "names": [...]}       a message that was not taken, and the fields that it names
-    {"saved": path}, {"remark": sentence}
+    {"saved": [path, ...]}, {"remark": sentence}
 
 and to all pages `{"values": [...]}`, the values of each walk, when they are other ones.
 
@@ -20,6 +20,7 @@ import json
 import time
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
+from itertools import count
 from pathlib import Path
 from typing import NamedTuple
 
@@ -29,8 +30,8 @@ from biped_adrc.play.driver import Driver
 from biped_adrc.play.frame import frame, named
 from biped_adrc.play.messages import MOST_BYTES, Allowance, Message, message_of
 from biped_adrc.play.record import SessionRecord
+from biped_adrc.play.repeated import SUFFIXES, save_session
 from biped_adrc.play.session import WALK
-from biped_adrc.play.stored import save_session
 from biped_adrc.viz.meshcat.server import Listener, Pages, ServerState
 
 FPS = 60.0
@@ -131,11 +132,12 @@ class Stage(Listener):
     async def _save(self, page: Pages, record: SessionRecord) -> None:
         """Save a session in a thread of its own, and say where it is."""
         try:
-            path = await asyncio.to_thread(save_session, record, free_path(self.folder))
+            paths = free_paths(self.folder)
+            await asyncio.to_thread(save_session, record, *paths)
         except BipedError as error:
             page.post(json.dumps({"refused": str(error), "names": []}))
         else:
-            page.post(json.dumps({"saved": str(path)}))
+            page.post(json.dumps({"saved": [str(path) for path in paths]}))
 
     # -- in the thread of the session ----------------------------------------------------------------
     def ready(self) -> None:
@@ -192,9 +194,10 @@ def names(text: str | bytes | None) -> list[str]:
     return [*found] if isinstance(found, dict) else []
 
 
-def free_path(folder: Path) -> Path:
-    """session-1.npz in a folder, or the first number that is free."""
-    k = 1
-    while (path := folder / f"session-{k}.npz").exists():
-        k += 1
-    return path
+def free_paths(folder: Path) -> list[Path]:
+    """session-1.npz and session-1.toml in a folder, or the first number of which neither is there."""
+    for k in count(1):
+        paths = [folder / f"session-{k}{suffix}" for suffix in SUFFIXES]
+        if not any(path.exists() for path in paths):
+            break
+    return paths

@@ -1,8 +1,6 @@
-"""Sessions as walks and on disk: each walk made again from the record, and a file that can be walked again.
+"""Sessions as walks: each walk made again from the record.
 
     walk, ghost = walks_of(record)
-    session.save("me.npz")               a run, as `ba.load_walk` reads it, with the record inside
-    ba.replay_session("me.npz")          the same again, and whether it is the same bit for bit
 
 A session in which no value was changed is a walk like any other, with what the hand did as a disturbance
 (`disturbances.hand`). Where values were changed it is several stretches, each with a walker of its own. Joined
@@ -11,11 +9,10 @@ they keep (q, q') and all signals, but not the states of controllers, which diff
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
+from collections import deque
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, fields, replace
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -23,26 +20,21 @@ from biped_adrc.analysis.signals import Signals
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.disturbances.hand import RecordedHand
 from biped_adrc.engine.run import COMPILED, COMPILED_PLANT
-from biped_adrc.errors import InputError
-from biped_adrc.hybrid import storage
+from biped_adrc.errors import BipedError, InputError
 from biped_adrc.hybrid.simulator import FlownArc
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 from biped_adrc.model.biped import Biped
-from biped_adrc.play.hand import Hand
+from biped_adrc.play.hand import Hand, check_hand
+from biped_adrc.play.hand_table import HandRow
 from biped_adrc.play.in_code import MovingCode
 from biped_adrc.play.live_walk import LiveWalk
 from biped_adrc.play.record import SessionRecord
-from biped_adrc.play.session import Session
+from biped_adrc.play.session import WALK, Session
 from biped_adrc.scenario.build import build, soft_loop
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.scenario.run import method_of
-from biped_adrc.scenario.stored import load_walk
-from biped_adrc.shown import Shown
 from biped_adrc.soft.walking import as_walked
 from biped_adrc.types import Array
-
-RECORD = "session"
-"""Name of the record among the settings of a run."""
 
 
 @dataclass(frozen=True)
@@ -66,21 +58,44 @@ class Stretch:
 
 def walks_of(record: SessionRecord) -> tuple[Walk, ...]:
     """The walk of a session, and that of its ghost. Raises InputError for one without a sample."""
-    session = Session.of(record.scenario, record.ghost)
     if record.samples < 1:
         raise InputError("nothing has been walked in this session; let it go on for a sample first")
+    session = Session.of(record.scenario, record.ghost)
+    check_robot(record.hands, session)
     stretches = [[Stretch(live)] for live in session.walking]
-    changes, hands = [*record.changes], dict(record.hands)
+    changes, hands = deque(record.changes), dict(record.hands)
     for k in range(record.samples):
         while changes and changes[0].sample == k:
-            change = changes.pop(0)
-            session.change(change.walk, **change.values)
+            change = changes.popleft()
+            with at_sample(k):
+                session.change(change.walk, **change.values)
             stretches[change.walk].append(Stretch(session.walking[change.walk]))
         if k in hands:
             session.hold(hands[k])
+        if not session.walks:  # on another processor a walk may end before
+            break
         for mine, flown in zip(stretches, session.sample(), strict=True):
             mine[-1].add(session.hand, flown)
     return tuple(joined([walk_of(x) for x in mine if x.arcs]) for mine in stretches)
+
+
+def check_robot(hands: Sequence[HandRow], session: Session) -> None:
+    """Raise InputError, with the sample, for a hand on another robot than the one that walks."""
+    moving = session.walking[WALK].moving
+    for sample, hand in hands:
+        if hand is not None:
+            with at_sample(sample):
+                check_hand(hand, moving.walker.plant.n)
+                moving.points.of(hand.link, hand.at)
+
+
+@contextmanager
+def at_sample(k: int) -> Iterator[None]:
+    """While something of a record is done: an error becomes an InputError that names the sample."""
+    try:
+        yield
+    except BipedError as error:
+        raise InputError(f"at sample {k} of the session: {error}") from error
 
 
 def walk_of(stretch: Stretch) -> Walk:
@@ -191,52 +206,3 @@ def _advance(walk: Walk, s: Signals) -> Array:
     if event is None or event.x_plus is None:
         return foot
     return foot + walk.walker.plant.swing_foot(event.x_minus[: walk.walker.plant.n])
-
-
-def save_session(record: SessionRecord, path: Path | str) -> Path:
-    """Write the walk of a session (.npz) with its record; its path. Raises InputError and OutputError."""
-    return walks_of(record)[0].save(path, {RECORD: record.plain()})
-
-
-@dataclass(frozen=True)
-class Replayed(Shown):
-    """A session that was walked again."""
-
-    record: SessionRecord
-    walk: Walk
-    """As it was walked now."""
-    ghost: Walk | None
-    """The other walk; None without one."""
-    gap: float
-    """Largest difference of (q, q') to the file [rad, rad/s]; infinite where there are other nodes."""
-
-    @property
-    def same(self) -> bool:
-        """Whether times and states are those of the file, bit for bit."""
-        return self.gap == 0.0
-
-
-def replay_session(path: Path | str) -> Replayed:
-    """Walk a stored session again, from what was done in it, and compare it with the file.
-
-    Bits are those of the file on a processor of the same kind, with the same version of the package. Raises
-    InputError for a file that is no run, or a run of no session.
-    """
-    stored = load_walk(path)
-    plain: Any = stored.trajectory.settings.get(RECORD)
-    if not isinstance(plain, dict):
-        raise InputError(f"'{path}' is a run and no session; take a file that Session.save wrote")
-    with storage.reading_run(path):
-        record = SessionRecord.of(plain)
-    walk, *ghost = walks_of(record)
-    gap = difference(walk.trajectory, stored.trajectory)
-    return Replayed(record, walk, ghost[0] if ghost else None, gap)
-
-
-def difference(one: Trajectory, other: Trajectory) -> float:
-    """Largest difference of the states of two runs; infinite for other times or another number of them."""
-    t, s = (np.concatenate([arc.t for arc in run.arcs]) for run in (one, other))
-    x, y = (np.concatenate([arc.x for arc in run.arcs]) for run in (one, other))
-    if x.shape != y.shape or not np.array_equal(t, s):
-        return math.inf
-    return float(np.max(np.abs(x - y)))

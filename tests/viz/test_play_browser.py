@@ -67,7 +67,7 @@ def test_the_page_by_mouse_and_by_keys(tmp_path):
         ActionChains(browser).release().key_up(Keys.CONTROL).perform()
         until(browser, "return page.last.hand === null")
         body.send_keys("s")
-        saved = until(browser, "return /saved as (.*)/.exec(element('said').textContent)")
+        saved = until(browser, "return /saved as (.*) and/.exec(element('said').textContent)")
         found["path"] = saved[1]
 
         field(browser, "bandwidth", "-3")

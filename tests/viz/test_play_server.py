@@ -178,15 +178,16 @@ def test_what_was_saved_is_walked_again_bit_for_bit_and_nothing_is_overwritten(t
         await page.say(do="change", values={"controller": "ADRC"})
         await page.frame(lambda f: f["t"] > 0.3)
         await page.say(do="save")
-        paths.append((await page.reply("saved"))["saved"])
+        paths.extend((await page.reply("saved"))["saved"])
         await page.say(do="reset")
         await page.say(do="pause")
         await page.say(do="save")
 
     served(visit, out=tmp_path, ghost={"controller": "NPD"})
-    assert paths == [str(tmp_path / "session-2.npz")]
-    found = ba.replay_session(paths[0])
+    assert paths == [str(tmp_path / name) for name in ("session-2.npz", "session-2.toml")]
+    found, again = map(ba.replay_session, paths)
     assert found.same
+    assert again.same
     assert found.record.ghost.controller == "NPD"
     assert any(row.hand is not None for row in found.record.hands)
     assert [change.values["controller"] for change in found.record.changes] == ["ADRC"]

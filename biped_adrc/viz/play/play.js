@@ -31,7 +31,7 @@ function hear(message) {
   if (message.over) { tell(message.over); over = true; }
   else if (message.values) showValues(message.values);
   else if (message.refused) refuse(message);
-  else if (message.saved) element("said").textContent = "saved as " + message.saved;
+  else if (message.saved) element("said").textContent = "saved as " + message.saved.join(" and ");
   else if (message.remark) element("said").textContent = message.remark;
   else if (message.walks) {
     ({ rate, paused } = message);

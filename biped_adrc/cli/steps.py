@@ -1,0 +1,68 @@
+"""What a walk needed of the ground and of the motors, step by step, as the terminal shows it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rich.table import Table
+
+from biped_adrc.cli.app import console
+
+if TYPE_CHECKING:
+    from biped_adrc.analysis.certificate import Certificate
+    from biped_adrc.analysis.legality import Legality
+    from biped_adrc.soft.meters import SoftStep
+
+
+def print_supports(legality: Legality, ended: str) -> None:
+    """Print what every step needed of ground and motors, a row each; below how the walk ended, in words."""
+    from biped_adrc.analysis.certificate import Certificate, ratio_text
+
+    names = ("step", "time [s]", "length [m]", "torque [N m]", "F_N [N]", "friction", "at impact")
+    table = Table(*names, "scuffs [mm]", "not legal")
+    for s in legality.supports:
+        c = s if isinstance(s, Certificate) else None
+        table.add_row(
+            f"{s.step}",
+            f"{s.duration:.4f}",
+            f"{c.step_length:.4f}" if c else "",
+            f"{s.peak_torque:.1f}",
+            f"{s.mean_normal_force:.1f}",
+            ratio_text(s.mean_friction),
+            ratio_text(c.impulse_ratio) if c else "",
+            f"{1e3 * s.scuffing:.2g}",
+            ", ".join(name.replace("_", " ") for name in s.illegal()),
+        )
+    console.print(table)
+    console.print(
+        f"F_N and friction: least and largest mean over {1e3 * legality.limits.window:g} ms; "
+        f"{instants(legality)}\n{ended}\n{legality.text()}"
+    )
+
+
+def print_on_ground(steps: tuple[SoftStep, ...]) -> None:
+    """Print what the feet did on soft ground, a row for each single support; nothing without."""
+    if not steps:
+        return
+    table = Table(
+        "step", "slip [mm]", "in the air [ms]", "on both feet [ms]", "depth [mm]", "friction"
+    )
+    for k, s in enumerate(steps, 1):
+        times = (1e3 * s.flight, 1e3 * s.double_support)
+        slip, depth = 1e3 * max(s.slip), 1e3 * s.depth
+        row = (
+            f"{slip:.2g}",
+            *(f"{x:.1f}" for x in times),
+            f"{depth:.2g}",
+            f"{s.friction_used:.3f}",
+        )
+        table.add_row(f"{k}", *row)
+    console.print(table)
+
+
+def instants(needed: Legality | Certificate) -> str:
+    """What no mean hides: the least normal force, and how long the force is outside the friction cone."""
+    return (
+        f"at an instant F_N is {needed.least_normal_force:.1f} N at least, and the force is outside the "
+        f"friction cone for {100.0 * needed.share_outside:.2g} % of the time"
+    )
