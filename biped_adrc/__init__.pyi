@@ -103,6 +103,7 @@ from biped_adrc.observers.base import ResetPolicy as ResetPolicy
 from biped_adrc.observers.chain import chain_laws as chain_laws
 from biped_adrc.observers.gpi import TABLE_I as TABLE_I
 from biped_adrc.observers.gpi import GPIObserver as GPIObserver
+from biped_adrc.play.page import play as play
 from biped_adrc.play.repeated import replay_session as replay_session
 from biped_adrc.play.session import Session as Session
 from biped_adrc.robot_import.import_robot import biped_from_urdf as biped_from_urdf

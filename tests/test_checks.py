@@ -43,7 +43,7 @@ CHANGING = {
     "scenario/controllers.py": {"ControllerMaker"},
     "scenario/walker_record.py": {"Reader", "Writer"},
     "tuning/walks.py": {"StoredWalks"},
-    "viz/meshcat/live.py": {"ServerState"},
+    "viz/meshcat/server.py": {"ServerState"},
 }
 """Dataclasses that change on purpose, by file: what a run counts, and what is filled while it goes on."""
 

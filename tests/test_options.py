@@ -386,6 +386,31 @@ ANIMATE = {
     "browser": Row("--no-browser", same("open_browser"), False, "viz.meshcat.live:play"),
     "wait": Row("--wait 7", same("wait"), 7.0, "viz.meshcat.live:play"),
 }
+PLAY = {
+    **{
+        name: Row(
+            SIMULATE[name].words,
+            lambda a, name=name: getattr(a.scenario, name),
+            SIMULATE[name].value,
+        )
+        for name in (
+            *("controller", "gait", "preset", "seed", "hardware", "period", "torque_limit"),
+            *("K_p", "K_d", "observer", "poles", "bandwidth", "order", "reset", "friction"),
+            *("slope", "plant", "ground_friction", "time_constant"),
+        )
+    },
+    "robot": Row("--robot three_link", same("scenario.robot"), "three_link"),
+    "scenario": Row("best.toml", same("scenario.K_d"), 33.0),
+    "push": Row(
+        "--push q1=5@3:0.1-0.2", lambda a: [p.text() for p in a.scenario.pushes], ["q1=5@3:0.1-0.2"]
+    ),
+    "sets": Row(["--set", "max_step_time=900 ms"], same("scenario.max_step_time"), 0.9),
+    "ghost": Row("--ghost npd", same("ghost"), {"controller": "npd"}),
+    "out": Row("-o there", same("out"), Path("there")),
+    "port": Row("--port 8123", same("port"), 8123),
+    "browser": Row("--no-browser", same("open_browser"), False),
+    "wait": Row("--wait 7", same("wait"), 7.0),
+}
 PLOT = {
     "run": Row("", same("paths"), [Path("run.npz")], "scenario.stored:load_walks"),
     "beside": Row(
@@ -531,6 +556,7 @@ COMMANDS = {
         "animate run.npz", "viz.export:export", ANIMATE, LOAD,
         {LOAD: ("animate run.npz", ""), "viz.meshcat.live:play": ("animate run.npz --live", LOAD)},
     ),
+    "play": Command("play", "play.page:play", PLAY),
     "plot": Command(
         "plot run.npz", "paper.figures:draw", PLOT, LOAD,
         {LOAD: ("plot run.npz", ""), "viz.style:write_figure": ("plot run.npz", f"{LOAD} paper.figures:draw")},

@@ -37,6 +37,7 @@ COMMANDS = (
     "look",
     "loop",
     "observer",
+    "play",
     "replay",
     "reproduce",
     "robot",

@@ -2,7 +2,9 @@
 
     driver = Driver(session)
     driver.go_on()              # as far as the clock has come since the last call, at the rate asked for
-    driver.take(message)        # pause, go, step, back, reset, rate, push, pull, let_go, change
+    driver.take(message)        # pause, go, step, back, reset, rate, push, pull, let_go, change, ghost
+
+`nodes` and `hand` are those of the last sample, for `reading`; None where the walk has been changed since.
 
 A walk that cannot keep up is not made good later: what is owed after `BUSY` of computing is dropped, and
 `reached` says which rate there was.
@@ -14,6 +16,8 @@ import time
 from collections.abc import Callable
 
 from biped_adrc.errors import InputError
+from biped_adrc.hybrid.simulator import FlownArc
+from biped_adrc.play.hand import Hand
 from biped_adrc.play.messages import Message
 from biped_adrc.play.session import WALK, Session
 
@@ -35,6 +39,9 @@ class Driver:
         self.session, self.clock = session, clock
         self.paused, self.rate, self.reached = False, 1.0, 1.0
         self.owed, self.last = 0.0, clock()
+        self.nodes: list[FlownArc | None] = []
+        self.hand: Hand | None = None
+        self._forget()
 
     def go_on(self) -> bool:
         """On by the time since the last call; whether anything has moved."""
@@ -55,10 +62,16 @@ class Driver:
     def _sampled(self) -> float:
         """One sample on; how long it was [s]."""
         before = self.session.t
-        self.session.sample()
+        for k, made in enumerate(self.session.sample()):
+            self.nodes[k] = made[-1] if made else self.nodes[k]
+        self.hand = self.session.hand
         step = self.session.t - before
         self.owed -= step
         return step
+
+    def _forget(self) -> None:
+        """The last sample is not of the walk that is there now."""
+        self.nodes, self.hand = [None for _ in self.session.walking], None
 
     def take(self, message: Message) -> None:
         """Do what a message says. Raises InputError or ModelError; then all is as it was."""
@@ -74,13 +87,15 @@ class Driver:
     def _step(self) -> None:
         """One sample, and rest."""
         self.paused = True
-        self.session.sample()
+        self._sampled()
 
     def _back(self) -> None:
         self.session.back()
+        self._forget()
 
     def _reset(self) -> None:
         self.session.reset()
+        self._forget()
 
     def _let_go(self) -> None:
         self.session.let_go()
@@ -109,3 +124,9 @@ class Driver:
         if "walk" in values:
             raise InputError("'walk' is no field of a scenario")
         self.session.change(int(walk), **values)
+        self.nodes[int(walk)] = None
+
+    def _ghost(self, values: dict[str, object] | None = None) -> None:
+        """The session anew from its start, with a ghost of these values, or without one."""
+        self.session = Session(self.session.walking[WALK].scenario, values)
+        self._forget()

@@ -3,8 +3,9 @@
     {"do": "push", "torque": {"q1": 30}, "force": [0, 0], "link": "torso", "seconds": 0.2}
     {"do": "pull", "link": "torso", "at": [0, 0.3], "anchor": [1.2, 1.3]}
     {"do": "change", "walk": 0, "values": {"bandwidth": 300}}
+    {"do": "ghost", "values": {"controller": "NPD"}}
     {"do": "rate", "rate": 0.5}
-    {"do": "pause"}, "go", "step", "back", "reset", "let_go"
+    {"do": "pause"}, "go", "step", "back", "reset", "let_go", "save"
 
 A message is short, has these keys and no others, and holds finite numbers, short texts, and lists and
 mappings of them. Names of links and fields, and ranges, are checked by the session, which says what is
@@ -74,12 +75,14 @@ NEEDED: dict[str, dict[str, Kind]] = {
     "pull": {"link": TEXT, "at": PAIR, "anchor": PAIR},
     "change": {"values": VALUES},
     "rate": {"rate": NUMBER},
-    **{name: {} for name in ("push", "pause", "go", "step", "back", "reset", "let_go")},
+    **{name: {} for name in ("push", "ghost", "pause", "go", "step", "back", "reset", "let_go")},
+    "save": {},
 }
 """What may be done, and the keys that it needs."""
 OPTIONAL: dict[str, dict[str, Kind]] = {
     "push": {"torque": NUMBERS, "force": PAIR, "link": TEXT, "at": PAIR, "seconds": NUMBER},
     "change": {"walk": NUMBER},
+    "ghost": {"values": VALUES},
 }
 """Keys that it may have besides."""
 

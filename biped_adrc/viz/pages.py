@@ -207,16 +207,22 @@ def player(settings: Mapping[str, object], title: str, legend: Sequence[tuple[st
     pairs (colour, text), the text plain, as it is escaped here. With settings["live"] the page may
     open a WebSocket to the server it came from, and to nothing else.
     """
+    return with_viewer("player", settings, title=title, captions=legend, style="player.css")
+
+
+def with_viewer(template: str, settings: Mapping[str, object], **values: object) -> str:
+    """The text of a page that draws in Meshcat's viewer; its scripts read the settings as JSON.
+
+    settings: as `player` has them. values: those that the template names besides.
+    """
     viewer = files("meshcat").joinpath("viewer", "dist", "main.min.js").read_text(encoding="utf-8")
     return rendered(
-        "player",
+        template,
         s=settings,
-        title=title,
-        captions=legend,
-        style="player.css",
         policy=POLICY + ("; connect-src 'self'" if settings["live"] else ""),
         viewer=Markup(viewer),
         data=Markup(json.dumps(settings).replace("<", "\\u003c")),
+        **values,
     )
 
 

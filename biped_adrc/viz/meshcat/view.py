@@ -105,7 +105,7 @@ def _packed(frames: Frames) -> dict[str, str]:
 def scene_settings(
     scenes: Mapping[str, WalkScene], look: Look, frames: Mapping[str, Frames] | None = None
 ) -> dict[str, object]:
-    """What player.js is told: Meshcat's commands and, by walk, the paths of what moves.
+    """What scene.js and player.js are told: Meshcat's commands and, by walk, the paths of what moves.
 
     scenes: the solid walk first. frames: the samples of each walk, for a page; a live walk has
     none.

@@ -1,0 +1,131 @@
+"""One message to the pages: where the robots are, what acts on them, and the signals of the last sample.
+
+    {"t", "paused", "rate", "reached", "walks": [...], "hand": {...} or null, "felt"}
+
+`felt` says whether a hand acted in the last sample. Numbers that are not finite are null, as JSON has none.
+Poses are those of the drawn robot (`viz.placement`), whose legs do not change their names at a touchdown as
+those of the model do.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+
+from biped_adrc.play.driver import Driver
+from biped_adrc.play.hand import Hand
+from biped_adrc.play.live_walk import LiveWalk
+from biped_adrc.play.reading import Reading, reading
+from biped_adrc.play.session import WALK, Session
+from biped_adrc.robots.symmetry import twins
+from biped_adrc.types import Array
+from biped_adrc.viz.placement import exchanged, joint_values
+
+Numbers = list[float | None]
+
+
+def frame(driver: Driver) -> dict[str, object]:
+    """What is to be drawn of a session now."""
+    session = driver.session
+    walks = []
+    for live, nodes in zip(session.walking, driver.nodes, strict=True):
+        seen = None if nodes is None else reading(live, nodes, driver.hand)
+        walks.append(pose(live, seen, driver.hand) | signals(live, seen) | {"ending": ending(live)})
+    return {
+        "t": session.t,
+        "paused": driver.paused,
+        "rate": driver.rate,
+        "reached": driver.reached,
+        "walks": walks,
+        "hand": acting(session),
+        "felt": driver.hand is not None,
+    }
+
+
+def pose(live: LiveWalk, seen: Reading | None, hand: Hand | None) -> dict[str, object]:
+    """As scene.js takes it, of one robot: angles, forces, points; see `viz.meshcat.frames.Pose`.
+
+    support: number of the single support, stance leg (0 or 1), and its place (x, z) [m].
+    """
+    plant, step, q = live.moving.walker.plant, live.now.mode.step, live.q
+    values = joint_values(plant, q, step, *live.foot.tolist())
+    joints = [values[joint.name] for joint in plant.tree.joints if joint.type != "fixed"]
+    points = np.concatenate((plant.hip(q), plant.swing_foot(q))) + np.tile(live.foot, 2)
+    ground, other, zeta = (np.zeros(2), np.zeros(2), np.zeros(plant.n))
+    if seen is not None:
+        ground, other, zeta = seen.ground, seen.other, torques(live, seen, hand)
+    other_leg = exchanged(plant, step)
+    drawn = plant.R.T @ zeta if other_leg else zeta
+    x, z = live.foot.tolist()
+    return {
+        "joints": joints,
+        "loads": numbers((*ground, *drawn)),
+        "points": points.tolist(),
+        "contact": numbers((x, z, *other, 0.0)),
+        "support": {"number": step, "stance": int(other_leg), "x": x, "z": z},
+    }
+
+
+def torques(live: LiveWalk, seen: Reading, hand: Hand | None) -> Array:
+    """Torques from outside (n,) [N m] but for those of the force of the hand, which has an arrow of its own."""
+    if hand is None:
+        return seen.zeta
+    force = hand._replace(torque=(0.0,) * len(seen.zeta))
+    return seen.zeta - live.moving.points.load(force, seen.q).zeta
+
+
+def signals(live: LiveWalk, seen: Reading | None) -> dict[str, object]:
+    """What the page plots, of the last sample; `signals` is null where there is none."""
+    if seen is None:
+        return {"signals": None}
+    tangent, normal = seen.ground.tolist()
+    return {
+        "signals": {
+            "t": seen.t,
+            "error": numbers(seen.error),
+            "xi": numbers(seen.xi),
+            "xi_estimate": numbers(seen.xi_estimate),
+            "u": numbers(seen.u),
+            "normal": numbers((normal,))[0],
+            "friction": numbers((math.inf if normal == 0.0 else abs(tangent) / normal,))[0],
+        }
+    }
+
+
+def ending(live: LiveWalk) -> str:
+    """How a walk ended, such as "fell at 3.42 s: the robot fell", with what is known besides; else empty."""
+    if live.walks:
+        return ""
+    word, reason = live.status.name.lower().replace("_", " "), live.status.value.split(";")[0]
+    return f"{word} at {live.now.t:.2f} s: {reason}{f' ({live.detail})' if live.detail else ''}"
+
+
+def acting(session: Session) -> dict[str, object] | None:
+    """Where the hand holds the robot, its force [N], and the spring's other end; null for no force."""
+    live = session.walking[WALK]
+    if not live.walks:
+        return None
+    if session.spring is not None and (pulled := session.pulled()) is not None:
+        p, force = pulled
+        return {"at": p.tolist(), "force": force.tolist(), "anchor": [*session.spring.anchor]}
+    hand = session.hand
+    if hand is None or not any(hand.force):
+        return None
+    p, _ = live.moving.points.place(hand.link, hand.at, live.q, live.v)
+    return {"at": (p + live.foot).tolist(), "force": [*hand.force], "anchor": None}
+
+
+def named(live: LiveWalk, link: str) -> str:
+    """The model's name, in the present single support, of a link of the drawn robot."""
+    plant = live.moving.walker.plant
+    if not exchanged(plant, live.now.mode.step):
+        return link
+    d = plant.description
+    return twins(plant.tree, (d.stance_foot, d.swing_foot)).get(link, link)
+
+
+def numbers(row: Iterable[float]) -> Numbers:
+    """As JSON has them: null for one that is not finite."""
+    return [float(x) if math.isfinite(x) else None for x in row]

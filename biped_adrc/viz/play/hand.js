@@ -1,0 +1,81 @@
+// The mouse or a finger on the robot: a double click selects a link, a drag with Ctrl pulls it by a spring.
+const PULLS = 1000 / 75; // [ms] between two messages of a pull
+const ray = new MeshCat.THREE.Raycaster();
+const pane = element("meshcat-pane");
+const parts = new Map(scene.links.map(([path, link]) => [node(path), link]));
+let selected = null, pull = null;
+
+function aim({ clientX, clientY }) {
+  const box = pane.getBoundingClientRect();
+  const x = (clientX - box.left) / box.width, y = (clientY - box.top) / box.height;
+  ray.setFromCamera({ x: 2 * x - 1, y: 1 - 2 * y }, viewer.camera);
+}
+
+// the link under the pointer, and the point of it (x, z) [m] in its frame; null for none
+function pick(event) {
+  aim(event);
+  viewer.scene.updateMatrixWorld(true);
+  const [hit] = ray.intersectObjects([...parts.keys()], true);
+  if (!hit) return null;
+  let part = hit.object;
+  while (!parts.has(part)) part = part.parent;
+  const at = part.parent.worldToLocal(hit.point.clone());
+  return { link: parts.get(part), at: [at.x, at.z] };
+}
+
+// where the pointer is in the plane of the walk (x, z) [m]
+function pointed(event) {
+  aim(event);
+  const from = roots[0].worldToLocal(ray.ray.origin.clone());
+  const to = roots[0].worldToLocal(ray.ray.origin.clone().add(ray.ray.direction));
+  const along = to.sub(from), s = -from.y / along.y;
+  return Number.isFinite(s) ? [from.x + s * along.x, from.z + s * along.z] : null;
+}
+
+function select(found) {
+  selected = found;
+  element("link").value = found ? found.link : scene.robot.trunk;
+  for (const [part, link] of parts) {
+    part.traverse(({ material }) => {
+      if (material && material.emissive) material.emissive.setHex(found && found.link === link ? 0x662200 : 0);
+    });
+  }
+  element("selected").textContent = found ? found.link + " is selected" : "";
+  viewer.set_dirty();
+}
+
+function sendPull(event) {
+  const now = performance.now(), anchor = pointed(event);
+  pull.event = { clientX: event.clientX, clientY: event.clientY };
+  if (anchor === null || now - pull.sent < PULLS) return;
+  pull.sent = now;
+  send({ do: "pull", link: pull.link, at: pull.at, anchor });
+}
+// the camera goes along with the robot, and the pointer with the camera
+function keepPulling() {
+  if (pull) sendPull(pull.event);
+}
+function release() {
+  if (!pull) return;
+  pull = null;
+  send({ do: "let_go" });
+}
+
+const pulls = (event) => event.ctrlKey || event.metaKey || element("pull").getAttribute("aria-pressed") === "true";
+pane.addEventListener("dblclick", (event) => select(pick(event)));
+pane.addEventListener("pointerdown", (event) => {
+  if (!pulls(event) || event.button !== 0) return;
+  const found = selected || pick(event);
+  if (!found) return;
+  event.stopImmediatePropagation(); // the camera stays
+  event.preventDefault();
+  select(found);
+  pane.setPointerCapture(event.pointerId);
+  pull = { ...found, sent: 0, event: null };
+  sendPull(event);
+}, true);
+pane.addEventListener("pointermove", (event) => {
+  if (pull) sendPull(event);
+});
+for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) pane.addEventListener(end, release);
+addEventListener("blur", release);

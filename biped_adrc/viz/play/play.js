@@ -1,0 +1,75 @@
+// The page of a live walk: messages from the session, keys, and the line that says how it is.
+const STAYS = 600; // [ms] for which a breach of a limit can be read
+let breach = { words: "", until: 0 };
+
+function breachOf({ signals }) {
+  if (!signals) return "";
+  const { friction, torque } = scene.limits, most = Math.max(...signals.u.map(Math.abs));
+  if (signals.normal !== null && signals.normal <= 0) return "the ground would have to pull the foot";
+  if (signals.friction > friction) return "friction " + signals.friction.toFixed(2) + " > " + friction;
+  return most > torque * (1 + 1e-9) ? "torque " + most.toFixed(0) + " > " + torque + " N m" : "";
+}
+function describe(message) {
+  const [walk, ghost] = message.walks, now = performance.now(), found = breachOf(walk);
+  if (found) breach = { words: found, until: now + STAYS };
+  element("clock").textContent = "t = " + message.t.toFixed(2) + " s, step " + walk.support.number;
+  const slow = !message.paused && message.reached < 0.9 * message.rate;
+  element("rate").textContent = message.rate + " x" + (message.paused ? ", paused" : "")
+    + (slow ? ", reached " + message.reached.toFixed(2) + " x" : "");
+  element("legal").textContent = now < breach.until ? "not legal now: " + breach.words : "legal now";
+  element("legal").className = now < breach.until ? "bad" : "good";
+  const ends = [["walk", walk], ["ghost", ghost]].filter(([, w]) => w && w.ending);
+  tell(ends.map(([name, w]) => name + " " + w.ending).join(". "));
+}
+function tell(words) {
+  if (over) return;
+  if (element("message").textContent !== words) element("message").textContent = words;
+  element("message").hidden = words === "";
+}
+
+function hear(message) {
+  if (message.over) { tell(message.over); over = true; }
+  else if (message.values) showValues(message.values);
+  else if (message.refused) refuse(message);
+  else if (message.saved) element("said").textContent = "saved as " + message.saved.join(" and ");
+  else if (message.remark) element("said").textContent = message.remark;
+  else if (message.walks) {
+    ({ rate, paused } = message);
+    element("play").textContent = paused ? "go" : "pause";
+    drawWalks(message);
+    remember(message);
+    drawPlots();
+    describe(message);
+    keepPulling();
+    page.last = message;
+  }
+}
+
+const page = { frames: 0, last: null, text: "" };
+let over = false;
+const socket = new WebSocket("ws://" + location.host + "/poses");
+const send = (message) => { if (socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message)); };
+socket.onmessage = ({ data }) => {
+  page.frames += 1;
+  if (data !== page.text) hear(JSON.parse(data)); // at rest nothing is drawn
+  page.text = data;
+};
+socket.onclose = () => tell("The session has ended: this picture no longer moves. Start it again with 'biped-adrc play'.");
+
+const KEYS = {
+  " ": toggle, ArrowRight: ACTIONS.step, Backspace: ACTIONS.reset, b: ACTIONS.back,
+  "-": ACTIONS.slower, "+": ACTIONS.faster, "=": ACTIONS.faster, v: ACTIONS.view, s: ACTIONS.save,
+  "?": ACTIONS.help, t: tour, n: () => { if (station >= 0) goTo(station + 1); }, p: pushOnce,
+  f: ACTIONS["shove-on"], r: ACTIONS["shove-back"], Escape: () => { release(); select(null); },
+};
+document.addEventListener("keydown", (event) => {
+  const { tagName } = event.target, writes = ["INPUT", "SELECT", "TEXTAREA"].includes(tagName);
+  const presses = tagName === "BUTTON" && event.key === " ";
+  const other = (event.ctrlKey || event.metaKey) && !pull; // a shortcut of the browser's
+  if (other || event.altKey || writes || presses || !(event.key in KEYS)) return;
+  if (element("keys").open && event.key !== "?") return;
+  event.preventDefault();
+  KEYS[event.key]();
+});
+viewer.gui.close();
+look(scene.view);

@@ -1,0 +1,103 @@
+// Four plots of the last seconds, each on a canvas of its own.
+const SECONDS = 4;
+const COLOURS = { walk: "#0072b2", other: "#d55e00", ghost: "#666666", limit: "#000000" };
+const past = []; // rows {t, walk, ghost}: signals of both, in order of time
+let joint = 0;
+
+const of = (name) => (signals) => signals[name][joint];
+const PLOTS = [
+  {
+    canvas: "plot-error", unit: "mrad", scale: 1e3, least: 1,
+    lines: [["walk", of("error"), "walk"], ["ghost", of("error"), "ghost"]],
+  },
+  {
+    canvas: "plot-xi", unit: "rad/s²", scale: 1, least: 10,
+    lines: [["walk", of("xi"), "walk"], ["walk", of("xi_estimate"), "other"]],
+  },
+  {
+    canvas: "plot-torque", unit: "N m", scale: 1, least: 20, most: 5 * scene.limits.torque, limits: [-scene.limits.torque, scene.limits.torque],
+    lines: [["walk", of("u"), "walk"], ["ghost", of("u"), "ghost"]],
+  },
+  {
+    canvas: "plot-ground", unit: "F_T / F_N", scale: 1, least: 0.5, most: 2, limits: [scene.limits.friction],
+    lines: [["walk", (s) => s.friction, "walk"], ["ghost", (s) => s.friction, "ghost"]],
+  },
+];
+
+function remember(message) {
+  const [walk, ghost] = message.walks.map((w) => w.signals);
+  while (past.length && past[past.length - 1].t > message.t) past.pop();
+  if (!walk || (past.length && past[past.length - 1].t >= message.t)) return;
+  past.push({ t: message.t, walk, ghost: ghost || null });
+  while (past[0].t < message.t - SECONDS) past.shift();
+}
+
+// values of one line: pairs (t, y), y null where there is none
+const valuesOf = (plot, [whose, value]) => past.map((row) => {
+  const y = row[whose] === null ? null : value(row[whose]);
+  return [row.t, y === null ? null : plot.scale * y];
+});
+
+// the least of 1, 2, 5 times a power of ten that is not below x
+function ceiling(x) {
+  const power = 10 ** Math.floor(Math.log10(x));
+  return power * [1, 2, 5, 10].find((m) => m * power >= x * (1 - 1e-9));
+}
+
+function draw(plot) {
+  const canvas = element(plot.canvas), ratio = devicePixelRatio || 1;
+  const w = canvas.clientWidth, h = canvas.clientHeight;
+  if (canvas.width !== Math.round(w * ratio)) canvas.width = Math.round(w * ratio);
+  if (canvas.height !== Math.round(h * ratio)) canvas.height = Math.round(h * ratio);
+  const pen = canvas.getContext("2d");
+  pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+  pen.clearRect(0, 0, w, h);
+  const lines = plot.lines.map((line) => valuesOf(plot, line));
+  const sizes = lines.flat().map(([, y]) => Math.abs(y || 0)).filter(Number.isFinite);
+  const top = Math.min(ceiling(sizes.reduce((a, b) => Math.max(a, b), plot.least)), plot.most || Infinity);
+  const low = plot.canvas === "plot-ground" ? 0 : -top, end = past.length ? past[past.length - 1].t : 0;
+  const at = (t, y) => [w * (1 - (end - t) / SECONDS), 4 + (h - 8) * (top - Math.min(y, 9 * top)) / (top - low)];
+  axes(pen, plot, w, top, low, at);
+  lines.forEach((line, k) => stroke(pen, line, plot.lines[k][2], at));
+}
+
+function axes(pen, plot, w, top, low, at) {
+  pen.strokeStyle = "#bbb";
+  pen.lineWidth = 1;
+  pen.setLineDash([]);
+  const [, zero] = at(0, 0);
+  pen.strokeRect(0, zero, w, 0);
+  pen.strokeStyle = COLOURS.limit;
+  pen.setLineDash([6, 4]);
+  for (const limit of (plot.limits || []).filter((y) => y >= low && y <= top)) {
+    pen.strokeRect(0, at(0, limit)[1], w, 0);
+  }
+  pen.fillStyle = "#111";
+  pen.font = "13px system-ui, sans-serif";
+  pen.fillText(top + " " + plot.unit, 4, 16);
+}
+
+function stroke(pen, line, colour, at) {
+  pen.strokeStyle = COLOURS[colour];
+  pen.lineWidth = colour === "ghost" ? 1.5 : 2;
+  pen.setLineDash({ walk: [], other: [5, 3], ghost: [2, 3] }[colour]);
+  pen.beginPath();
+  let drawn = false;
+  for (const [t, y] of line) {
+    if (y === null) drawn = false;
+    else {
+      pen[drawn ? "lineTo" : "moveTo"](...at(t, y));
+      drawn = true;
+    }
+  }
+  pen.stroke();
+}
+let asked = false; // whether the browser has been asked for the next picture
+function drawPlots() {
+  if (asked) return;
+  asked = true;
+  requestAnimationFrame(() => {
+    asked = false;
+    PLOTS.forEach(draw);
+  });
+}

@@ -1,0 +1,36 @@
+// The guided tour: each station sets the walk, may push it, and says what to look at.
+let station = -1, timers = [];
+
+function leaveTour() {
+  timers.forEach(clearTimeout);
+  timers = [];
+  station = -1;
+  element("tour").hidden = true;
+}
+function goTo(k) {
+  if (k < 0 || k >= scene.tour.length) { leaveTour(); return; }
+  timers.forEach(clearTimeout);
+  station = k;
+  const s = scene.tour[k];
+  element("tour").hidden = false;
+  element("tour-title").textContent = k + 1 + " of " + scene.tour.length + ": " + s.title;
+  element("tour-text").textContent = s.text;
+  element("tour-page").textContent = "Read on in the documentation: " + s.page;
+  element("tour-next").textContent = k + 1 < scene.tour.length ? "next (n)" : "end (n)";
+  element("tour-title").focus();
+  send({ do: "let_go" });
+  send({ do: "change", values: s.values });
+  send({ do: "reset" });
+  send({ do: "rate", rate: s.rate });
+  send({ do: "go" });
+  if (s.push) timers = [setTimeout(pushAgain, 1000 * s.after / s.rate)];
+}
+const pushAgain = () => send({ do: "push", ...scene.tour[station].push });
+// in the tour the push of the station, else that of the buttons
+const pushOnce = () => (station >= 0 && scene.tour[station].push ? pushAgain() : pushJoint(1));
+const tour = () => (station < 0 ? goTo(0) : leaveTour());
+element("start-tour").onclick = tour;
+element("tour-next").onclick = () => goTo(station + 1);
+element("tour-before").onclick = () => goTo(Math.max(station - 1, 0));
+element("tour-again").onclick = () => goTo(station);
+element("tour-leave").onclick = leaveTour;

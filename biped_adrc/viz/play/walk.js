@@ -1,0 +1,81 @@
+// A live walk in Meshcat's viewer: robots, the ground that goes along with them, and the hand.
+const TRAIL = 240; // points of a trace: four seconds
+
+class LiveRobot extends Robot {
+  constructor(walk) {
+    super(walk);
+    const [first] = walk.supports, { x, z } = this.footprints[0].position;
+    this.under = { x: x - first.x, z: z - first.z };
+    this.prints = [];
+  }
+  show(pose) {
+    this.walk.supports = [pose.support];
+    super.show({ ...pose, arc: 0 });
+    this.stand(pose.support);
+    this.passed.push({ p: pose.points, arc: 0 });
+    if (this.passed.length > TRAIL) this.passed.shift();
+  }
+  // footprints of the last supports; after a step back those that are not there any more go
+  stand(support) {
+    this.prints = this.prints.filter((s) => s.number < support.number);
+    this.prints.push(support);
+    this.prints.splice(0, this.prints.length - this.footprints.length);
+    this.footprints.forEach((print, k) => {
+      const s = this.prints[k];
+      print.visible = s !== undefined;
+      if (s) print.position.set(s.x + this.under.x, 0, s.z + this.under.z);
+    });
+  }
+  forget() {
+    this.passed.length = 0;
+  }
+}
+const robots = scene.walks.map((walk) => new LiveRobot(walk));
+const leader = robots[scene.leader];
+const roots = ["walk", "ghost"].map((name) => node("meshcat/robots/" + name));
+
+// the tiles repeat after a metre
+function moveGround({ x, z }) {
+  const whole = Math.round(x);
+  node("meshcat/ground").position.set(whole, 0, z + leader.walk.fall * (x - whole));
+}
+
+const hand = {
+  arrow: new Arrow(scene.hand.arrow, { ...leader.walk, ground: 0 }),
+  line: new Trace(scene.hand.line, false),
+};
+// acting: where the hand holds the robot, its force and the spring's other end; null for none
+function drawHand(acting) {
+  node(scene.hand.line).visible = acting !== null && acting.anchor !== null;
+  if (acting === null) {
+    hand.arrow.show(0, 0, 0, 0);
+    element("force").hidden = true;
+    return;
+  }
+  const [x, z] = acting.at, [fx, fz] = acting.force;
+  hand.arrow.show(x, z, fx, fz);
+  if (acting.anchor) hand.line.fill([{ x, z }, { x: acting.anchor[0], z: acting.anchor[1] }]);
+  label(element("force"), x, z, Math.hypot(fx, fz).toFixed(0) + " N");
+}
+
+// a text beside a point (x, z) [m] of the walk's plane
+function label(text, x, z, words) {
+  const at = roots[0].localToWorld(new MeshCat.THREE.Vector3(x, 0, z)).project(viewer.camera);
+  const pane = element("meshcat-pane");
+  text.style.left = 0.5 * (at.x + 1) * pane.clientWidth + 14 + "px";
+  text.style.top = 0.5 * (1 - at.y) * pane.clientHeight - 28 + "px";
+  text.textContent = words;
+  text.hidden = false;
+}
+
+function drawWalks(message) {
+  if (message.t < drawWalks.t) robots.forEach((robot) => robot.forget());
+  drawWalks.t = message.t;
+  roots[1].visible = message.walks.length > 1;
+  message.walks.forEach((pose, k) => robots[k].show(pose));
+  moveGround(message.walks[0].support);
+  drawHand(message.hand);
+  viewer.set_dirty();
+}
+drawWalks.t = 0;
+roots[1].visible = false;

@@ -1,0 +1,280 @@
+"""The page's server: what pages see and may say, who can reach it, and how it ends."""
+
+import asyncio
+import dataclasses
+import signal
+import threading
+
+import numpy as np
+import psutil
+import pytest
+from tornado.httpclient import AsyncHTTPClient, HTTPClientError
+
+import biped_adrc as ba
+from biped_adrc.errors import InputError
+from biped_adrc.play.controls import controls, values
+from biped_adrc.play.driver import Driver
+from biped_adrc.play.frame import frame, named
+from biped_adrc.play.messages import MOST_AT_ONCE, MOST_BYTES, Message
+from biped_adrc.play.of_walker import scenario_of
+from biped_adrc.play.page import page, play
+from biped_adrc.scenario.scenario import FIELDS
+from biped_adrc.viz.meshcat.frames import pose
+from biped_adrc.viz.placement import WalkScene
+
+from .served import Page, served
+
+
+def walked(seconds, **scenario):
+    """A driver whose session has walked for so long."""
+    driver = Driver(
+        ba.Session(ba.Scenario(**{"controller": "NPD", "hardware": "ideal"} | scenario))
+    )
+    driver.session.advance(seconds - 1e-3)
+    driver.take(Message("step", {}))
+    return driver
+
+
+def test_a_frame_draws_what_the_finished_walk_draws_and_plots_its_signals():
+    driver = walked(0.6)
+    driver.take(Message("push", {"torque": {"q1": 20.0}}))
+    driver.take(Message("step", {}))
+    driver.take(Message("step", {}))
+    found = frame(driver)["walks"][0]
+    walk = driver.session.walk()
+    scene = WalkScene.of(walk)
+    last = len(walk.trajectory.arcs) - 1
+    drawn = pose(scene, last, walk.trajectory.t_end)
+    assert found["joints"] == pytest.approx(drawn.joints, abs=1e-12)
+    assert found["points"] == pytest.approx(drawn.points, abs=1e-12)
+    assert found["loads"][2:] == pytest.approx(drawn.loads[2:], abs=1e-12)
+    assert found["loads"][3] == 20.0  # of the other leg
+    assert found["contact"][:2] == pytest.approx(drawn.contact[:2], abs=1e-12)
+    assert found["support"]["number"] == 2
+    s = walk.signals
+    assert found["signals"]["error"] == pytest.approx(s.error[-1], abs=1e-12)
+    assert found["signals"]["friction"] == pytest.approx(
+        abs(s.ground_reaction[-1, 0]) / s.ground_reaction[-1, 1], rel=1e-9
+    )
+    assert found["signals"]["xi_estimate"] == [None] * 4
+    assert found["ending"] == ""
+
+
+def test_the_force_of_a_hand_is_drawn_where_it_acts_and_as_no_torque():
+    driver = walked(0.3)
+    driver.take(Message("push", {"force": (-50.0, 0.0), "link": "torso", "at": (0.0, 0.3)}))
+    driver.take(Message("step", {}))
+    found = frame(driver)
+    live = driver.session.walking[0]
+    p, _ = live.moving.points.place("torso", (0.0, 0.3), live.q, live.v)
+    assert found["hand"] == {"at": pytest.approx(p), "force": [-50.0, 0.0], "anchor": None}
+    assert found["walks"][0]["loads"][2:] == pytest.approx(np.zeros(5), abs=1e-10)
+
+
+def test_a_link_that_is_seen_is_the_model_s_in_either_step():
+    one, two = walked(0.1), walked(0.6)
+    assert [d.session.walking[0].now.mode.step for d in (one, two)] == [1, 2]
+    for link, other in (("left_shin", "right_shin"), ("torso", "torso")):
+        assert named(one.session.walking[0], link) == link
+        assert named(two.session.walking[0], link) == other
+
+
+def test_a_walk_that_has_fallen_says_why():
+    driver = walked(0.1)
+    driver.take(Message("push", {"force": (-290.0, 0.0), "seconds": 2.0}))
+    driver.session.advance(3.0)
+    assert " at " in frame(driver)["walks"][0]["ending"]
+    assert frame(driver)["hand"] is None
+
+
+def test_controls_are_fields_of_a_scenario_and_lie_in_their_ranges():
+    told, start = controls(), ba.Scenario("ADRC", hardware="ideal")
+    assert {x["name"] for x in told["sliders"]} == {
+        *("bandwidth", "K_p", "K_d", "filter_time", "noise", "delay")
+    }
+    for slider in told["sliders"]:
+        assert slider["low"] <= slider.get("usual", slider["given"]) <= slider["high"]
+        for end in ("low", "high"):
+            given = {} if slider["name"] != "filter_time" else {"velocity": "differences"}
+            ba.Scenario("ADRC", hardware="ideal", **{slider["name"]: slider[end]}, **given)
+    assert set(values(start)) <= set(FIELDS)
+
+
+def test_pages_see_one_session_and_what_each_of_them_does(tmp_path):
+    async def visit(url):
+        one, two = await Page.open(url), await Page.open(url)
+        first = await two.frame()
+        later = await two.frame(lambda f: f["t"] > first["t"] + 0.05)
+        assert later["walks"][0]["joints"] != first["walks"][0]["joints"]
+        await one.say(do="push", force=[40, 0], seconds=30)
+        seen = await two.frame(lambda f: f["hand"] is not None)
+        assert seen["hand"]["force"] == [40.0, 0.0]
+        await two.say(do="change", values={"controller": "ADRC", "bandwidth": 300})
+        told = await one.until(lambda m: m.get("values", [{}])[0].get("bandwidth") == 300)
+        assert told["values"][0]["controller"] == "ADRC"
+
+    assert served(visit)[0] == "stopped by SIGTERM"
+
+
+def test_what_is_wrong_is_answered_in_a_sentence_and_the_walk_goes_on():
+    async def visit(url):
+        page = await Page.open(url)
+        await page.say(do="change", values={"bandwidth": -1})
+        refused = await page.reply("refused")
+        assert refused["names"] == ["bandwidth"]
+        assert "bandwidth" in refused["refused"]
+        for text in ("{", "[]", '{"do": "__init__"}', b"\xff\x00"):
+            await page.socket.write_message(text, binary=isinstance(text, bytes))
+            assert "message" in (await page.reply("refused"))["refused"]
+        await page.frame()
+        loud, huge = await Page.open(url), await Page.open(url)
+        await huge.socket.write_message(" " * (MOST_BYTES + 1))
+        for _ in range(int(3 * MOST_AT_ONCE)):
+            await loud.say(do="go")
+        for closed, code in ((huge, 1009), (loud, 1008)):
+            while await closed.heard() is not None:
+                pass
+            assert closed.socket.close_code == code
+        now = await page.frame()
+        await page.frame(lambda f: f["t"] > now["t"] + 0.05)
+
+    served(visit)
+
+
+def test_a_hand_that_goes_away_in_the_middle_of_a_pull_lets_go():
+    async def visit(url):
+        one, two = await Page.open(url), await Page.open(url)
+        await one.say(do="pull", link="torso", at=[0, 0.3], anchor=[0.5, 1.3])
+        pulled = await two.frame(lambda f: f["hand"] is not None)
+        assert pulled["hand"]["anchor"] == [0.5, 1.3]
+        one.socket.close()
+        await two.frame(lambda f: f["hand"] is None and not f["walks"][0]["ending"])
+
+    served(visit)
+
+
+@pytest.mark.parametrize(
+    "headers", [{"Origin": "http://attacker.example"}, {"Host": "attacker.example"}]
+)
+def test_a_page_from_elsewhere_gets_nothing(headers):
+    async def visit(url):
+        with pytest.raises(HTTPClientError, match="403"):
+            await Page.open(url, **headers)
+        if "Host" in headers:
+            with pytest.raises(HTTPClientError, match="403"):
+                await AsyncHTTPClient().fetch(url, headers=headers)
+
+    served(visit)
+
+
+def test_what_was_saved_is_walked_again_bit_for_bit_and_nothing_is_overwritten(tmp_path):
+    (tmp_path / "session-1.npz").write_bytes(b"mine")
+    paths = []
+
+    async def visit(url):
+        page = await Page.open(url)
+        await page.say(do="pull", link="torso", at=[0, 0.3], anchor=[0.3, 1.3])
+        await page.frame(lambda f: f["t"] > 0.2)
+        await page.say(do="change", values={"controller": "ADRC"})
+        await page.frame(lambda f: f["t"] > 0.3)
+        await page.say(do="save")
+        paths.extend((await page.reply("saved"))["saved"])
+        await page.say(do="reset")
+        await page.say(do="pause")
+        await page.say(do="save")
+
+    served(visit, out=tmp_path, ghost={"controller": "NPD"})
+    assert paths == [str(tmp_path / name) for name in ("session-2.npz", "session-2.toml")]
+    found, again = map(ba.replay_session, paths)
+    assert found.same
+    assert again.same
+    assert found.record.ghost.controller == "NPD"
+    assert any(row.hand is not None for row in found.record.hands)
+    assert [change.values["controller"] for change in found.record.changes] == ["ADRC"]
+    assert (tmp_path / "session-1.npz").read_bytes() == b"mine"
+
+
+def test_a_ghost_comes_and_goes_and_both_begin_anew():
+    async def visit(url):
+        page = await Page.open(url)
+        await page.frame(lambda f: f["t"] > 0.1)
+        await page.say(do="ghost", values={"controller": "ADRC"})
+        both = await page.frame(lambda f: len(f["walks"]) == 2)
+        assert both["t"] < 0.11
+        await page.say(do="ghost", values={"controller": "no such"})
+        assert "no such" in (await page.reply("refused"))["refused"]
+        await page.say(do="ghost")
+        await page.frame(lambda f: len(f["walks"]) == 1)
+
+    served(visit)
+
+
+@pytest.mark.parametrize("stop", [None, signal.SIGINT, signal.SIGTERM])
+def test_it_ends_with_the_last_page_or_a_signal_and_leaves_no_process(stop):
+    before, threads = psutil.Process().children(), threading.active_count()
+
+    async def visit(url):
+        one, two = await Page.open(url), await Page.open(url)
+        one.socket.close()
+        await two.frame()
+        if stop is None:
+            two.socket.close()
+
+    why = "the browser has closed the page" if stop is None else f"stopped by {stop.name}"
+    assert served(visit, stop)[0] == why
+    assert psutil.Process().children() == before
+    assert threading.active_count() == threads
+
+
+def test_a_walk_that_cannot_keep_up_is_said_to_have_reached_less():
+    async def visit(url):
+        page = await Page.open(url)
+        await page.say(do="rate", rate=10)
+        await page.say(do="change", values={"plant": "mujoco", "torque_limit": 150})
+        slow = await page.frame(lambda f: f["rate"] == 10 and f["reached"] < 9.0)
+        assert slow["reached"] > 0.0
+
+    pytest.importorskip("mujoco")
+    _, said = served(visit)
+    assert "did not keep up" in said[-1]
+
+
+def test_bad_input_is_refused_before_anything_is_served(tmp_path):
+    ideal = ba.Scenario("NPD", hardware="ideal")
+    with pytest.raises(InputError, match="no folder"):
+        play(ideal, out=tmp_path / "none")
+    with pytest.raises(InputError, match="sample instants"):
+        play(ba.Scenario("NPD"))
+
+    async def inside():
+        play(ideal, open_browser=False)
+
+    with pytest.raises(InputError, match="running already"):
+        asyncio.run(inside())
+
+
+def test_the_page_holds_all_that_it_needs():
+    html = page(ba.Session(ba.Scenario("NPD", hardware="ideal")))
+    assert "connect-src 'self'" in html
+    assert 'src="http' not in html
+
+
+def test_a_walker_plays_where_a_scenario_can_say_all_of_it():
+    biped = ba.Biped.load("rabbit")
+    gait, clock = ba.load_gait("published", biped), ba.SampledTime(1e-3)
+    walker = ba.Walker(
+        biped,
+        ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(300.0, 2)),
+        timing=clock,
+    )
+    s = scenario_of(walker, gait)
+    assert (s.controller, s.period, s.poles) == ("ADRC", 1e-3, (-300.0,) * 4)
+    pushed = dataclasses.replace(walker, disturbance=ba.TorquePulse([9, 0, 0, 0, 0], 3, 0.1, 0.2))
+    with pytest.raises(InputError, match="does not say all of this walker: disturbance"):
+        scenario_of(pushed, gait)
+    with pytest.raises(InputError, match="sample instants"):
+        ba.play(dataclasses.replace(walker, timing=ba.ContinuousTime()), gait)
+    with pytest.raises(InputError, match="the gait of the walker"):
+        ba.play(walker)
+    with pytest.raises(InputError, match="has its gait"):
+        ba.play(s, gait)
