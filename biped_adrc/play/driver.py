@@ -121,8 +121,8 @@ class Driver:
     def _change(self, values: dict[str, object], walk: int = WALK) -> None:
         if walk != int(walk):
             raise InputError(f"walk {walk} is changed, expected a whole number")
-        if "walk" in values:
-            raise InputError("'walk' is no field of a scenario")
+        if none := {"self", "walk"} & set(values):
+            raise InputError(f"{sorted(none)} are no fields of a scenario")
         self.session.change(int(walk), **values)
         self.nodes[int(walk)] = None
 
