@@ -23,8 +23,6 @@ from biped_adrc.robots.symmetry import twins
 from biped_adrc.types import Array
 from biped_adrc.viz.placement import exchanged, joint_values
 
-Numbers = list[float | None]
-
 
 def frame(driver: Driver) -> dict[str, object]:
     """What is to be drawn of a session now."""
@@ -126,6 +124,6 @@ def named(live: LiveWalk, link: str) -> str:
     return twins(plant.tree, (d.stance_foot, d.swing_foot)).get(link, link)
 
 
-def numbers(row: Iterable[float]) -> Numbers:
+def numbers(row: Iterable[float]) -> list[float | None]:
     """As JSON has them: null for one that is not finite."""
     return [float(x) if math.isfinite(x) else None for x in row]
