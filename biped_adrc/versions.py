@@ -40,6 +40,7 @@ NEVER_TRACED = (
     "campaign",
     "cli",
     "deploy",
+    "gym",
     "logs",
     "observer_design",
     "paper",

@@ -22,6 +22,7 @@ WORDS = {
     "logs": "a robot's measurements replayed",
     "deploy": "a controller as C",
     "play": "a walk under one's own hand",
+    "gym": "walks for learners",
     "studies": "stability, design, observer of one gait",
     "scenario": "one walk in plain values, the registry",
     "viz": "figures, pages, Meshcat",

@@ -69,6 +69,8 @@ class Entry(NamedTuple):
     """rms torque of the encoders' counts [N m], of the chosen setting; None where unknown."""
     searches: int = 1
     """How many searches its walks are of."""
+    kind: str = ""
+    """Hardware and plant of the place; searches at places of one kind scatter alike."""
 
     @property
     def found(self) -> bool:
@@ -158,7 +160,7 @@ def entries(summary: Mapping[str, Any]) -> list[Entry]:
     ripples = {key_of(told): told["ripple"] for told in summary["beside"].get("linear", [])}
     found = [
         _entry(told, shape(c, told["place"]))._replace(
-            ripple=told.get("ripple", ripples.get(key_of(told)))
+            ripple=told.get("ripple", ripples.get(key_of(told))), kind=kind_of(c, told["place"])
         )
         for told in summary["searches"]
     ]
@@ -170,6 +172,12 @@ def entries(summary: Mapping[str, Any]) -> list[Entry]:
         return (*at, e.seed, names.index(e.contestant))
 
     return sorted(found, key=place_of)
+
+
+def kind_of(c: Mapping[str, Any], place: str) -> str:
+    """Hardware and plant of a place."""
+    values = c["places"][place].get("values", {})
+    return " ".join(values[x] for x in ("hardware", "plant") if x in values)
 
 
 def key_of(told: Mapping[str, Any]) -> tuple[str, str, str, int]:

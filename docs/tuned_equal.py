@@ -10,9 +10,10 @@ import tuned_text as words
 from soft_text import bullets
 from tuned_entries import Entry, entries, groups_of
 from tuned_gaps import missing
-from tuned_questions import ORDERS, Answer, Group, answered, between
+from tuned_questions import Answer, Group
 from tuned_seeds import repeated, scatter_of
 from tuned_sentences import against
+from tuned_steady import orders, steadied
 from tuned_text import MRAD, interval, legal, name, ratio, setting
 from write_results import table
 
@@ -34,7 +35,7 @@ def equal_loops(summary: Mapping[str, Any], contest: Sequence[Entry]) -> list[st
         return []
     found = entries(given)
     groups = groups_of(found)
-    asked = answered(between(groups, ORDERS), scatter_of(repeated([*contest, *found])))
+    asked = steadied(groups, found, orders, scatter_of(repeated([*contest, *found])))
     return [
         "## An order above 1 at equal delay margin and ripple",
         INTRODUCTION,

@@ -75,7 +75,7 @@ class Answer(NamedTuple):
     ratio: Interval
     """Median of the paired ratios of rms errors, between 1 / `WORST` and `WORST`."""
     won: int
-    """Seeds in which the error of a is smaller, by the mean of the logarithms over the conditions."""
+    """Seeds in which the error of a is smaller, by the median of the logarithms of their walks."""
     lost: int
     """Seeds in which it is larger."""
     p: float
@@ -87,10 +87,14 @@ class Answer(NamedTuple):
     """The shares of such seeds differ by at most this, with 95 %."""
     searched: Searched = Searched()
     """How its searches scatter; nothing for settings of one search, which is not repeated."""
+    steady: bool = True
+    """Whether its verdict is the same without any one seed of the optimiser (`tuned_steady`)."""
 
     @property
     def verdict(self) -> str:
         """Whether the error of a is "smaller" or "larger"; "open" where walks or searches carry neither."""
+        if not self.steady:
+            return "open"
         if self.p < LEVEL and self.ratio.high < 1.0:
             return "smaller"
         return "larger" if self.p < LEVEL and self.ratio.low > 1.0 else "open"
@@ -131,7 +135,7 @@ def _answer(a: Entry, b: Entry, searched: Searched) -> Answer:
     """The answer to one question, not corrected."""
     logs = log_ratios(a.tuned.rms_error, b.tuned.rms_error)
     middle = over_seeds(logs, lambda sets: np.median(sets, axis=1))
-    each = logs.mean(axis=0)
+    each = np.median(logs, axis=0)
     won, lost = int(np.sum(each < 0.0)), int(np.sum(each > 0.0))
     p = max(sign_test(won, lost), searched.p(least(a, b, middle.value)))
     x, y = (np.all(e.tuned.legal == 1.0, axis=0) for e in (a, b))

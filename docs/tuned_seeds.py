@@ -1,23 +1,15 @@
-"""What another seed of the optimiser finds: the spread of searches, placebos, and conclusions that move."""
+"""What another seed of the optimiser finds: the spread of searches, and placebos."""
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Sequence
+from collections import Counter
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from tuned_entries import Entry, groups_of
-from tuned_questions import (
-    ORDERS,
-    Answer,
-    Group,
-    Scatter,
-    Searched,
-    against_reference,
-    answered,
-    between,
-)
+from tuned_entries import Entry
+from tuned_questions import Answer, Scatter, Searched, answered
 from tuned_text import MRAD, at, name, number, ratio
 
 Repeats = Sequence[Entry]
@@ -31,8 +23,6 @@ class Spread(NamedTuple):
     """Pooled over places and gaits."""
     freedom: int
     """Its degrees of freedom."""
-    left_out: int = 0
-    """At so many places and gaits a search has no legal median walk."""
 
     @property
     def factor(self) -> float:
@@ -56,30 +46,44 @@ def spread_of(repeats: Sequence[Repeats]) -> Spread | None:
     if freedom == 0:
         return None
     squares = sum(float(np.sum((x - x.mean()) ** 2)) for x in finite)
-    return Spread(squares / freedom, freedom, len(logs) - len(finite))
+    return Spread(squares / freedom, freedom)
 
 
-def by_contestant(repeats: Sequence[Repeats]) -> dict[str, Spread]:
-    """The spread of each contestant that was repeated; of one without its own, that of all together."""
-    together = spread_of(repeats)
-    if together is None:
-        return {}
-    names = dict.fromkeys(some[0].contestant for some in repeats)
-    return {n: spread_of([x for x in repeats if x[0].contestant == n]) or together for n in names}
+Spreads = dict[tuple[str, str], Spread]
+"""By contestant and kind of place."""
+
+
+def spreads_of(repeats: Sequence[Repeats]) -> Spreads:
+    """The spread of each contestant that was repeated, at all places of a kind together."""
+    same: dict[tuple[str, str], list[Repeats]] = {}
+    for some in repeats:
+        same.setdefault((some[0].contestant, some[0].kind), []).append(some)
+    found = {key: spread_of(some) for key, some in same.items()}
+    return {key: spread for key, spread in found.items() if spread is not None}
 
 
 def scatter_of(repeats: Sequence[Repeats]) -> Scatter | None:
-    """How searches of two contestants scatter, as Welch's t test has it; None where none was repeated."""
-    own, together = by_contestant(repeats), spread_of(repeats)
-    if together is None:
+    """How searches of two contestants scatter, as Welch's t test has it; None where none was repeated.
+
+    One without a spread of its own scatters as the contestant that does so most at places of the same kind, or
+    at all places where nobody was repeated there.
+    """
+    own = spreads_of(repeats)
+    if not own:
         return None
 
+    def spread(e: Entry) -> Spread:
+        here = [s for (_, kind), s in own.items() if kind == e.kind] or list(own.values())
+        return own.get((e.contestant, e.kind)) or max(here, key=lambda s: s.factor)
+
     def scatter(a: Entry, b: Entry) -> Searched:
-        spreads = [own.get(e.contestant, together) for e in (a, b)]
-        parts = [s.variance / e.searches for s, e in zip(spreads, (a, b), strict=True)]
-        below = sum(x * x / s.freedom for x, s in zip(parts, spreads, strict=True))
-        freedom = sum(parts) ** 2 / below if below > 0.0 else float(spreads[0].freedom)
-        return Searched(float(np.sqrt(sum(parts))), freedom)
+        x, y = spread(a), spread(b)
+        of_a, of_b = x.variance / a.searches, y.variance / b.searches
+        error = float(np.sqrt(of_a + of_b))
+        if x is y or error == 0.0:  # one estimate, and not two
+            return Searched(error, x.freedom)
+        freedom = (of_a + of_b) ** 2 / (of_a**2 / x.freedom + of_b**2 / y.freedom)
+        return Searched(error, freedom)
 
     return scatter
 
@@ -87,7 +91,8 @@ def scatter_of(repeats: Sequence[Repeats]) -> Scatter | None:
 def placebos(found: Sequence[Entry]) -> tuple[list[Answer], list[Answer]]:
     """Two searches of one contestant as if they were two contestants: by the walks alone, and by searches too.
 
-    How its searches scatter is taken from other places and gaits, so that a placebo does not judge itself.
+    How its searches scatter is taken from other places and gaits of the same kind, and from all others where
+    there are none, so that a placebo does not judge itself.
     """
     repeats = repeated(found)
     pairs = [pair for some in repeats for pair in itertools.combinations(some, 2)]
@@ -105,9 +110,19 @@ def placebo_sentences(found: Sequence[Entry]) -> list[str]:
     alone, both = placebos(found)
     if not alone:
         return []
-    spreads = by_contestant(repeated(found))
-    told = ", ".join(f"*{n}* {number(s.factor)}" for n, s in spreads.items())
-    rest = "; ".join(f"*{n}* at {s.left_out}" for n, s in spreads.items() if s.left_out)
+    spreads = spreads_of(repeated(found))
+    kinds = dict.fromkeys(kind for _, kind in spreads)
+    told = [
+        f"{kind}: "
+        + ", ".join(f"*{n}* {number(s.factor)}" for (n, k), s in spreads.items() if k == kind)
+        for kind in kinds
+    ]
+    lost = Counter(
+        f"*{some[0].contestant}*"
+        for some in repeated(found)
+        if any(np.isinf(e.medians[0]) for e in some)
+    )
+    rest = ", ".join(f"{who} at {count}" for who, count in lost.items())
     left_out = (
         f" Left out are places and gaits where a search found nothing: {rest}." if rest else ""
     )
@@ -117,26 +132,14 @@ def placebo_sentences(found: Sequence[Entry]) -> list[str]:
         for x in different
     )
     return [
-        f"Two searches of one contestant differ, with 95 %, by up to a factor of: {told}.{left_out}",
+        f"Two searches of one contestant differ, with 95 %, by up to a factor of, by hardware and plant: "
+        f"{'; '.join(told)}.{left_out}",
         f"Placebo: two searches of one contestant as if they were two contestants, {len(alone)} pairs. By "
         f"their walks alone {sum(x.verdict != 'open' for x in alone)} of them are found different, since two "
         f"searches do end at different settings. By the rule of this page, with the scatter of the same "
-        f"contestant's searches at all other places and gaits, {len(different)} of {len(both)} are found "
+        f"contestant's searches at other places and gaits, {len(different)} of {len(both)} are found "
         f"different{named}.",
     ]
-
-
-def other_seeds(found: Sequence[Entry], scatter: Scatter | None = None) -> list[str]:
-    """For each place and gait with several seeds of the optimiser the errors, then which conclusions move."""
-    lines = []
-    for place, gait in dict.fromkeys((e.place, e.gait) for e in found):
-        here = [e for e in found if (e.place, e.gait) == (place, gait)]
-        seeds = sorted({e.seed for e in here})
-        if len(seeds) > 1:
-            lines.append(f"**{at(here[0])}**, seeds {', '.join(map(str, seeds))}: {errors(here)}.")
-    for question, asked in (("the reference", against_reference), ("m = 1", against_first)):
-        lines += moved(found, scatter, question, asked)
-    return lines
 
 
 def errors(here: Sequence[Entry]) -> str:
@@ -147,73 +150,3 @@ def errors(here: Sequence[Entry]) -> str:
         if len(medians) > 1:
             told.append(f"{who} {', '.join(number(MRAD * x) for x in medians)}")
     return "median errors in mrad: " + "; ".join(told)
-
-
-def against_first(groups: Sequence[Group]) -> list[tuple[Entry, Entry]]:
-    """The orders above 1 beside order 1."""
-    return between(groups, ORDERS)
-
-
-Asked = Callable[[Sequence[Group]], list[tuple[Entry, Entry]]]
-Conclusions = dict[tuple[str, str], Answer]
-"""The answers by place and gait, and contestant."""
-
-
-def conclusions(found: Sequence[Entry], asked: Asked, scatter: Scatter | None) -> Conclusions:
-    """The answers of one family of questions."""
-    return {(at(x.a), x.a.contestant): x for x in answered(asked(groups_of(found)), scatter)}
-
-
-def moved(
-    found: Sequence[Entry], scatter: Scatter | None, question: str, asked: Asked
-) -> list[str]:
-    """Which conclusions move where one seed of the optimiser is left out, and where it stands alone."""
-    seeds = sorted({e.seed for e in found})
-    here, several = conclusions(found, asked, scatter), repeated_at(found)
-    here = {key: x for key, x in here.items() if key[0] in several}
-    if len(seeds) < 2 or not here:
-        return []
-    carried = {key: x for key, x in here.items() if x.verdict != "open"}
-    lines = []
-    for seed in seeds:
-        without = conclusions([e for e in found if e.seed != seed], asked, scatter)
-        lines.append(f"without seed {seed} {changes(here, without)}")
-    alone = [conclusions([e for e in found if e.seed == seed], asked, None) for seed in seeds]
-    against = [
-        f"{key[1]} at {key[0]} (seed {seed}: {ratio(x.ratio)})"
-        for seed, told in zip(seeds, alone, strict=True)
-        for key, x in told.items()
-        if key in carried and opposite(x, carried[key])
-    ]
-    said = "; ".join(against) or "none"
-    return [
-        f"Held against {question}, {len(here)} conclusions, {len(carried)} of them carried: "
-        f"{'; '.join(lines)}. By the walks of one seed alone another direction than the carried one: {said}."
-    ]
-
-
-def repeated_at(found: Sequence[Entry]) -> set[str]:
-    """Where all contestants were searched with several seeds."""
-    return {at(e) for g in groups_of(found) for e in g.values() if e.searches > 1}
-
-
-def opposite(x: Answer, carried: Answer) -> bool:
-    """Whether the interval of x lies on the other side of 1 than a carried verdict."""
-    return x.ratio.low > 1.0 if carried.verdict == "smaller" else x.ratio.high < 1.0
-
-
-def changes(here: Conclusions, without: Conclusions) -> str:
-    """How many verdicts differ, and which."""
-    both = [
-        key
-        for key in here
-        if key in without and without[key].b.contestant == here[key].b.contestant
-    ]
-    other = sum(key in without for key in here) - len(both)
-    turned = [
-        f"{who} at {spot} from {here[spot, who].verdict} to {without[spot, who].verdict}"
-        for spot, who in both
-        if here[spot, who].verdict != without[spot, who].verdict
-    ]
-    said = f"{len(turned)} of {len(both)} move" + (f" ({'; '.join(turned)})" if turned else "")
-    return said + (f", and {other} have another reference" if other else "")

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import tuned_text as words
 from tuned_entries import Entry, reference
-from tuned_questions import LEVEL, RUNGS, Answer, Group, Scatter, answered, first_of, first_two
+from tuned_questions import LEVEL, RUNGS, Answer, Group, first_of
 from tuned_text import MRAD, at, interval, legal, name, number, ratio
 
 from biped_adrc.analysis.statistics import share
@@ -18,12 +18,13 @@ GOAL_PLACE = "RABBIT, 1 ms"
 
 
 def winners(
-    groups: Sequence[Group],
-    contest: Sequence[Answer],
-    scatter: Scatter | None = None,
+    groups: Sequence[Group], contest: Sequence[Answer], firsts: Sequence[Answer] = ()
 ) -> list[str]:
-    """For each place and gait who is the best, how far ahead, and what is carried against NPD and NPID."""
-    ahead = {at(x.a): x for x in answered(first_two(groups), scatter)}
+    """For each place and gait who is the best, how far ahead, and what is carried against NPD and NPID.
+
+    firsts: the answers of the best beside the next.
+    """
+    ahead = {at(x.a): x for x in firsts}
     lines = [tally(groups)] if groups else []
     for g in groups:
         best = first_of(g)

@@ -99,7 +99,7 @@ def summary(*searches):
 def answers(script, *searches):
     """What the contest answers about these searches, by contestant."""
     page, given = script("tuned_page"), script("tuned_entries").entries(summary(*searches))
-    return {x.a.contestant: x for x in page.families(page.first_groups(given))[0]}
+    return {x.a.contestant: x for x in page.families(page.first_groups(given))["the reference"]}
 
 
 def test_a_difference_is_carried_where_all_seeds_agree(script):
@@ -244,7 +244,7 @@ def test_what_each_rung_is_worth_is_held_against_the_one_below(script):
         nothing("m = 1"),
     )
     groups = page.first_groups(script("tuned_entries").entries(given))
-    said = script("tuned_sentences").rung_worths(page.families(groups)[1])
+    said = script("tuned_sentences").rung_worths(page.families(groups)["the rung below"])
     assert said == [
         "*NPD* to *observer's rates* (the rates of an observer, with the nominal xi): ratio 0.8; smaller at "
         "RABBIT, 1 ms, gait v0.5.",
@@ -255,23 +255,32 @@ def test_what_each_rung_is_worth_is_held_against_the_one_below(script):
     ]
 
 
-def test_conclusions_that_a_seed_of_the_optimiser_moves_are_named(script):
-    seeds, entries = script("tuned_seeds"), script("tuned_entries").entries
+def test_conclusions_that_a_seed_of_the_optimiser_decides_are_open_and_named(script):
+    module, entries = script("tuned_steady"), script("tuned_entries").entries
 
     def told(*factors):
         same = {"NPD": (1.0, 1.0, 1.0), "NPID": (1.2, 1.2, 1.2), "DOB": factors}
         given = [search(n, f, seed=s) for n, some in same.items() for s, f in enumerate(some, 1)]
-        return seeds.other_seeds(entries(summary(*given)))
+        found = entries(summary(*given))
+        asked = module.families(script("tuned_entries").groups_of(found), found)
+        verdicts = {x.a.contestant: x.verdict for x in asked["the reference"]}
+        return verdicts["DOB"], module.other_seeds(found, asked)
 
-    errors, steady = told(0.5, 0.5, 0.5)
+    verdict, (errors, steady, *_) = told(0.5, 0.5, 0.5)
+    assert verdict == "smaller"
     assert "; DOB 1, 1, 1." in errors
-    assert "2 conclusions, 2 of them carried: without seed 1 0 of 2 move; without" in steady
-    assert steady.endswith("than the carried one: none.")
-    _, turned = told(0.5, 1.9, 1.9)
+    assert "of 2 conclusions 2 are carried, each of them without any one seed too. By the" in steady
+    assert steady.endswith("the opposite: none.")
+    verdict, (_, turned, *_) = told(0.5, 1.9, 1.9)
     where = "at RABBIT, 1 ms, gait v0.5"
-    assert f"without seed 1 0 of 2 move; without seed 2 1 of 2 move (DOB {where}" in turned
-    assert f"DOB {where} from larger to smaller" in turned
-    assert turned.endswith(f"DOB {where} (seed 1: 0.5 (0.5 to 0.5)).")
+    assert verdict == "open"
+    assert (
+        f"1 more would be by all seeds together, and one seed decides: DOB {where} (larger"
+        in turned
+    )
+    verdict, (_, turned, *_) = told(1.2, 1.3, 0.9)
+    assert verdict == "larger"
+    assert turned.endswith(f"the opposite: DOB {where} (seed 3: 0.9 (0.9 to 0.9)).")
 
 
 def test_a_difference_within_the_spread_of_searches_is_open(script):
@@ -281,8 +290,10 @@ def test_a_difference_within_the_spread_of_searches_is_open(script):
     factors = {"NPD": (1.0, 1.2, 1.44), "m = 1": (0.8, 0.896, 1.00352), "m = 2": (0.2, 0.25, 0.3)}
     given = [search(n, f, seed=i) for n, some in factors.items() for i, f in enumerate(some, 1)]
     found = entries(summary(*given))
-    own = seeds.by_contestant(seeds.repeated(found))
-    assert own["NPD"].factor == pytest.approx(math.exp(4.302653 * math.log(1.2) * math.sqrt(2.0)))
+    own = seeds.spreads_of(seeds.repeated(found))
+    assert own["NPD", found[0].kind].factor == pytest.approx(
+        math.exp(4.302653 * math.log(1.2) * math.sqrt(2.0))
+    )
     (g,) = script("tuned_entries").groups_of(found)
     scatter = seeds.scatter_of(seeds.repeated(found))
     pairs = [(g[n], g["NPD"]) for n in ("m = 1", "m = 2")]

@@ -9,6 +9,7 @@ The disturbance zeta is an input, since it may be a function in plain Python.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import prod
 from typing import NamedTuple
 
@@ -47,11 +48,16 @@ class SignalNumbers(NamedTuple):
     """Parameters of the reference."""
 
 
-def observe(make: WalkerStructure, example: SignalNumbers, h: ReferenceLaws) -> SymbolicFunction:
+Reading = Callable[..., tuple[Array, ...]]
+"""read(loop, t, x, mode, reference), such as `signals_at`: what is read off the loop at one instant."""
+
+
+def observe(
+    make: WalkerStructure, example: SignalNumbers, h: ReferenceLaws, read: Reading = signals_at
+) -> SymbolicFunction:
     """The function for one structure of walker and reference, with symbols for the floats of an example.
 
-    make: structure of the walker; h: laws of the reference. The expressions are those of
-    `signals_at`.
+    make: structure of the walker; h: laws of the reference. The expressions are those of `read`.
     """
     K = Vector("K", count(example))
     watched = K.like(example)
@@ -61,7 +67,7 @@ def observe(make: WalkerStructure, example: SignalNumbers, h: ReferenceLaws) -> 
     def tracked(s: Array, m: Measurement) -> ReferencePoint:
         return run(at.trace, h.point, watched.h, m.t, m.q, m.v)
 
-    return equations.made(at.inp, *at.does(signals_at, tracked))
+    return equations.made(at.inp, *at.does(read, tracked))
 
 
 def compiled_readings(
@@ -80,7 +86,7 @@ def compiled_readings(
     try:
         program = Program.of(walker, walker.controller_size(nx))
         watched = SignalNumbers(program.numbers, h.parameters)
-        code = _code(program.make, watched, h)
+        code = reading_code("observe", signals_at, program.make, watched, h)
     except (NotCompiled, Untraceable, ModelError):
         return None
     K = np.array([*floats(watched), 0.0])
@@ -104,11 +110,16 @@ def _inputs(walker: Walker, arc: Arc) -> Array:
     return np.hstack((*head, arc.x, np.array(zeta), np.zeros((len(arc.t), OUTSIDE))))
 
 
-def _code(make: WalkerStructure, watched: SignalNumbers, h: ReferenceLaws) -> LoadedCode:
-    """Machine code of `observe`, under a hash of the walker's structure, its laws and the reference's."""
-    laws = law_text(*make.laws[1:], h.point)
+def reading_code(
+    name: str, read: Reading, make: WalkerStructure, watched: SignalNumbers, h: ReferenceLaws
+) -> LoadedCode:
+    """Machine code of what `read` says, a function of this name as `observe`.
+
+    Under a hash of the walker's structure, its laws, the reference's and `read` itself.
+    """
+    laws = law_text(*make.laws[1:], h.point, read)
     key = hash_of(
-        *("observe", structure_text(make.robot), laws, make.size, make.held),
+        *(name, structure_text(make.robot), laws, make.size, make.held),
         *(structure_text(watched), versions_text()),
     )
-    return generated(key, {"observe": lambda: observe(make, watched, h)})
+    return generated(key, {name: lambda: observe(make, watched, h, read)})

@@ -12,8 +12,10 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.control.added_torque import AddedTorque
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_adrc import OutputADRCController
+from biped_adrc.control.passive import Passive
 from biped_adrc.control.pd_gravity import JointGains
 from biped_adrc.control.stride import TORSO_LEAN
 from biped_adrc.errors import InputError
@@ -148,6 +150,10 @@ UNNAMED = {
     "outputs of a function": lambda h: [
         FunctionOutputs(bent),
         FunctionOutputs(bent, lambda q: np.eye(4, 5) * np.cos(q)),
+    ],
+    "added torque": lambda h: [
+        AddedTorque(Passive(), np.array([3.0, -2.0, 1.0, 0.5])),
+        AddedTorque(ba.ADRCController(h), np.full(4, 2.0)),
     ],
     "RK4": lambda h: [ba.RK4(2e-3)],
     "adaptive": lambda h: [ba.Adaptive(1e-9, 1e-9)],

@@ -170,12 +170,11 @@ def hold(given: Ints, seen: Array) -> int:
     return code
 
 
-@kernel
-def strike(ints: Ints, floats: Array, numbers: Array, work: Rows, run: Array) -> int:
-    """x+ in place of x- in `run` (HEAD + nx,), and the head of the next arc; a status, `run`
-    untouched where it is not 0.
+@unit
+def land(P: Ints, K: Array, W: Array, s: Array) -> int:
+    """x+ in place of x- in s (HEAD + nx,), and the head of the next arc; a status, s untouched where it is
+    not 0.
     """
-    P, K, W, s = data(ints), data(numbers), data(work), data(run)
     load(P, W, s)
     x, x_plus = row(P, W, X0), row(P, W, XE)
     code = jump(P, K, W, x, x_plus)
@@ -184,6 +183,12 @@ def strike(ints: Ints, floats: Array, numbers: Array, work: Rows, run: Array) ->
         W[FIRED], W[ARMED], W[COUNT] = FOOT_STRIKE, 0.0, 0.0
         save(P, W, s)
     return code
+
+
+@kernel
+def strike(ints: Ints, floats: Array, numbers: Array, work: Rows, run: Array) -> int:
+    """x+ in place of x- in `run` (HEAD + nx,), as `land`; a status."""
+    return land(data(ints), data(numbers), data(work), data(run))
 
 
 @kernel

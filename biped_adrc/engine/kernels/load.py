@@ -22,7 +22,7 @@ from biped_adrc.engine.machine import forget, load_source, seal
 from biped_adrc.errors import ModelError
 from biped_adrc.hybrid import relaxation
 
-FILES = ("layout", "call", "laws", "steps", "events", "segment", "arc")
+FILES = ("layout", "call", "laws", "steps", "events", "segment", "arc", "samples")
 """The kernel files, in the order in which they need each other."""
 _OWN = ("biped_adrc.engine.kernels", "biped_adrc.hybrid.relaxation")
 """Imports that are left out, since their text is there."""
@@ -32,7 +32,7 @@ _LOCK = Lock()
 
 
 def kernels() -> ModuleType:
-    """The compiled module, with `arc`, `strike` and `stride`; made once, by the first thread that asks."""
+    """The compiled module, with `arc`, `strike`, `stride`, `samples`; made by the first thread that asks."""
     with _LOCK:
         return _kernels()
 

@@ -1,0 +1,22 @@
+"""Walks as environments for learners: `gymnasium.make("biped_adrc.gym:biped_adrc/Walk-v0")`.
+
+Importing this registers the environment. Raises InputError without Gymnasium, of the extra `[gym]`.
+"""
+
+from biped_adrc.errors import InputError
+
+try:
+    import gymnasium
+except ImportError:
+    raise InputError(
+        "learners need Gymnasium, which is not installed; pip install 'biped-adrc[gym]'"
+    ) from None
+
+ID = "biped_adrc/Walk-v0"
+"""Of the environment."""
+
+gymnasium.register(
+    ID,
+    entry_point="biped_adrc.gym.env:WalkEnv",
+    vector_entry_point="biped_adrc.gym.vector:WalkVectorEnv",
+)

@@ -1,0 +1,95 @@
+"""N walks of learners in machine code: one call moves each of them on by a sample, under its own torque.
+
+The call goes over all walks and samples in compiled code (`engine.kernels.samples`), so that Python's part does
+not grow with N. Each walk has memory of its own, and its numbers do not depend on the other walks.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from biped_adrc.engine.compiled_signals import SignalNumbers, reading_code
+from biped_adrc.engine.compiled_walker import CompiledWalker
+from biped_adrc.engine.equations import WalkerNumbers
+from biped_adrc.engine.kernels.load import kernels
+from biped_adrc.engine.machine import LoadedCode
+from biped_adrc.engine.symbols import floats
+from biped_adrc.gait.reference import Reference, reference_laws
+from biped_adrc.gym.episode import Episode
+from biped_adrc.gym.view import learner_view
+from biped_adrc.types import Array
+
+LAW = "learner"
+"""Name of `learner_view` in machine code."""
+
+
+class LoadedWalk(NamedTuple):
+    """One walk in memory; what the kernels read by address is kept alive here."""
+
+    walker: CompiledWalker
+    code: LoadedCode
+    """Of the law LAW."""
+    P: NDArray[np.int64]
+    F: Array
+    K: Array
+    """Numbers of the walker, then those of the reference."""
+    W: Array
+    s: Array
+
+    @property
+    def given(self) -> list[int]:
+        """What the kernel `samples` is given of it."""
+        at = [x.ctypes.data for x in (self.P, self.F, self.K, self.W, self.s)]
+        return [*at, place_of_torque(self.walker.program.numbers), self.code.addresses[LAW]]
+
+
+def place_of_torque(numbers: WalkerNumbers) -> int:
+    """Where the learner's torque is among the numbers of a walker under an `AddedTorque`."""
+    inner = numbers.k.inner  # type: ignore[attr-defined]
+    return len(floats((numbers.plant, numbers.model, inner)))
+
+
+class CompiledWalks:
+    """N walks. Raises NotCompiled, when one begins, for a part without laws."""
+
+    def __init__(self, count: int, reference: Reference):
+        """reference: the curve that errors refer to."""
+        self.h = reference_laws(reference)
+        self.laws = dict[int, LoadedCode]()
+        """By the address of the walk's own code, with which they change."""
+        self.made: list[LoadedWalk | None] = [None] * count
+        self.given = np.zeros((count, kernels().GIVEN), dtype=np.int64)
+        self.codes = np.ones(count, dtype=np.int64)
+        self.seen = np.zeros((count, 0))
+
+    def begin(self, i: int, episode: Episode) -> None:
+        """Walk i anew; row i of `seen` is what is to be seen at its start."""
+        made = self._made(episode)
+        self.made[i] = made
+        self.given[i] = made.given
+        width = made.W.shape[1]
+        if self.seen.shape[1] < width:
+            self.seen = np.hstack(
+                (self.seen, np.zeros((len(self.seen), width - self.seen.shape[1])))
+            )
+        kernels().looks(self.given[i], self.seen[i : i + 1])
+        self.codes[i] = 0
+
+    def move(self, torques: Array) -> None:
+        """Every walk whose code is 0 by one sample, under its row of torques (N, p) [N m]."""
+        kernels().samples(self.given.ravel(), torques, self.seen, self.codes)
+
+    def _made(self, episode: Episode) -> LoadedWalk:
+        walker = episode.walker
+        x = walker.initial_state(episode.q, episode.v, episode.mode)
+        made = CompiledWalker.of(walker, episode.method, walker.controller_size(x))
+        watched = SignalNumbers(made.program.numbers, self.h.parameters)
+        of = made.program.address("tick")
+        if of not in self.laws:
+            self.laws[of] = reading_code(LAW, learner_view, made.program.make, watched, self.h)
+        K = np.array([*floats(watched), 0.0])
+        s = made.plan.start(x, 0.0, *episode.mode, 0.0)
+        return LoadedWalk(made, self.laws[of], made.plan.P, made.plan.F, K, made.plan.work(), s)

@@ -1,0 +1,139 @@
+"""A walk as an environment of Gymnasium: `gymnasium.make("biped_adrc.gym:biped_adrc/Walk-v0")`.
+
+    env = gymnasium.make("biped_adrc.gym:biped_adrc/Walk-v0", condition="push on joints")
+    observation, info = env.reset(seed=1)
+    observation, reward, terminated, truncated, info = env.step(action)
+
+A step is a sample of the walk, from one sample instant to the next (1 ms by default); one in which the foot
+strikes ends there, where the clock restarts. `view` has the observation, `task` the reward.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import gymnasium
+import numpy as np
+from gymnasium.spaces import Box
+
+from biped_adrc.errors import InputError
+from biped_adrc.gym.drawn import Drawn
+from biped_adrc.gym.episode import TORQUES
+from biped_adrc.gym.picture import Window
+from biped_adrc.gym.stage import Stage
+from biped_adrc.gym.task import LearnerTask
+from biped_adrc.scenario.scenario import MOST_SEED, Scenario
+from biped_adrc.types import Array
+
+RENDER_MODES = ("human", "rgb_array")
+
+
+def spaces_of(stage: Stage) -> tuple[Box, Box]:
+    """Of one observation and of one action."""
+    seen = Box(-stage.highest, stage.highest, dtype=np.float64)
+    return seen, Box(-1.0, 1.0, (stage.plant.p,), np.float64)
+
+
+def check_options(options: dict[str, Any] | None) -> None:
+    """Raise InputError for options of a reset: there are none."""
+    if options:
+        raise InputError(f"reset has the options {sorted(options)}, expected none")
+
+
+class WalkEnv(gymnasium.Env[Any, Any]):
+    """One walk.
+
+    - scenario: `biped_adrc.Scenario`, or a condition of the bench by name ("nothing" without), on the base of
+      its comparisons. values: fields of the scenario by name, such as plant, gait, push, amplitude.
+    - action: "torques", all of the torque, or "added", beside that of the scenario's controller. For each motor
+      a share of its limit, `torque` [N m]; the motors give no more than that, whatever is asked.
+    - seconds [s]: longest walk. alive, tracking, effort: weights of the reward (`task.LearnerTask`).
+    - render_mode: "rgb_array", or "human", a window of matplotlib's; without a screen there is none.
+
+    `reset(seed=k)` walks the scenario with seed = k; without a seed another one is drawn. Raises InputError.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": [*RENDER_MODES], "render_fps": 1000}  # noqa: RUF012
+
+    def __init__(
+        self,
+        scenario: Scenario | None = None,
+        condition: str | None = None,
+        action: str = TORQUES,
+        seconds: float = LearnerTask.seconds,
+        alive: float = LearnerTask.alive,
+        tracking: float = LearnerTask.tracking,
+        effort: float = LearnerTask.effort,
+        render_mode: str | None = None,
+        **values: object,
+    ):
+        how = {"action": action, "seconds": seconds, "alive": alive, "tracking": tracking}
+        task = LearnerTask.of(scenario, condition, values, effort=effort, **how)
+        self.render_mode = checked_mode(render_mode)
+        self.stage = Stage(task, 1)
+        self.observation_space, self.action_space = spaces_of(self.stage)
+        self.drawn = None if render_mode is None else Drawn(self.stage, 0)
+        self.window = Window() if render_mode == "human" else None
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Array, dict[str, Any]]:
+        """A walk from its start. Raises InputError for options, and a seed out of its range."""
+        super().reset(seed=seed)
+        check_options(options)
+        self.stage.begin(0, int(self.np_random.integers(MOST_SEED)) if seed is None else seed)
+        self._show(True)
+        return self.stage.observations()[0], self._info()
+
+    def step(self, action: Array) -> tuple[Array, float, bool, bool, dict[str, Any]]:
+        """One sample under an action (p,) [1]. Raises InputError for what is none, and after a fall."""
+        stage = self.stage
+        if stage.walks.codes[0] != 0:
+            raise InputError("there is no walk that goes on; call reset() first")
+        stage.move([action])  # type: ignore[arg-type]
+        fallen, late = stage.ended()
+        self._show(False)
+        return (
+            stage.observations()[0],
+            float(stage.rewards()[0]),
+            bool(fallen[0]),
+            bool(late[0]),
+            self._info(),
+        )
+
+    @property
+    def torque(self) -> float:
+        """Of an action of 1 [N m]: the limit of the motors, or the scenario's where that is lower."""
+        return self.stage.limits.torque
+
+    def _info(self) -> dict[str, Any]:
+        """Of this walk alone."""
+        return {
+            name: x[0] if name == "status" else x.item() for name, x in self.stage.infos().items()
+        }
+
+    def render(self) -> Any:
+        """A picture (height, width, 3), uint8; None for "human", and without a render_mode."""
+        if self.drawn is None or self.window is not None:
+            return None
+        return self.drawn.picture()
+
+    def _show(self, begins: bool) -> None:
+        """Keep the place of the foot, and show the window."""
+        if self.drawn is None:
+            return
+        self.drawn.follow(begins)
+        if self.window is not None and self.window.due(self.drawn.t, begins):
+            self.window.show(self.drawn.picture())
+
+    def close(self) -> None:
+        """Close the window."""
+        if self.window is not None:
+            self.window.close()
+
+
+def checked_mode(mode: str | None) -> str | None:
+    """A render_mode. Raises InputError for one that there is not."""
+    if mode is not None and mode not in RENDER_MODES:
+        raise InputError(f"render_mode is {mode!r}, expected one of {list(RENDER_MODES)}, or None")
+    return mode

@@ -1,0 +1,122 @@
+"""The robot from the side as an array of pixels, and a window that shows it.
+
+The lines are those of `viz.from_the_side`, drawn with Pillow, which takes a millisecond or two where a figure
+takes thirty. The window is matplotlib's; where there is no screen its backend has none, and nothing is shown.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw
+
+from biped_adrc.model.biped import Biped
+from biped_adrc.types import Array
+from biped_adrc.viz.from_the_side.side_view import Bone, bones
+from biped_adrc.viz.placement import TILE, exchanged, joint_values, link_placements
+from biped_adrc.viz.style import GREY, STANCE, SWING, TRUNK
+
+WIDTH, HEIGHT = 480, 360
+"""Of a picture [pixels]."""
+LINE, MARGIN = 6, 40
+"""Width of a link, and height of the ground in the picture [pixels]."""
+PICTURES = 50
+"""Of the window in a second of the walk."""
+COLOURS = {"stance": STANCE, "swing": SWING, "": TRUNK}
+OTHER = {"stance": "swing", "swing": "stance", "": ""}
+
+
+class Picture:
+    """The drawing of one robot on a slope [rad]; q (n,) [rad]: a posture that decides the scale."""
+
+    def __init__(self, biped: Biped, slope: float, q: Array):
+        self.biped, self.fall = biped, math.tan(slope)
+        highest = max(float(z) for ends, _ in self._lines(q, 1, np.zeros(2)) for z in ends[:, 1])
+        self.scale = (HEIGHT - 2 * MARGIN) / max(highest, 1e-3)
+
+    @cached_property
+    def _bones(self) -> list[Bone]:
+        return bones(self.biped)
+
+    def _lines(self, q: Array, step: int, foot: Array) -> list[tuple[Array, str]]:
+        """Ends (2, 2) [m] of every link in the world, and its leg: "stance", "swing" or ""."""
+        values = joint_values(self.biped, q, step, float(foot[0]), float(foot[1]))
+        placed, swapped = link_placements(self.biped.tree, values), exchanged(self.biped, step)
+        found = []
+        for bone in self._bones:
+            M = placed[bone.link]
+            ends = (bone.ends @ M[:3, :3].T + M[:3, 3])[:, [0, 2]]
+            found.append((ends, OTHER[bone.leg] if swapped else bone.leg))
+        return found
+
+    def drawn(self, q: Array, step: int, foot: Array, t: float) -> NDArray[np.uint8]:
+        """(HEIGHT, WIDTH, 3) at q (n,) [rad] in single support `step`, its foot at `foot` (2,) [m], t [s]."""
+        image = Image.new("RGB", (WIDTH, HEIGHT), "white")
+        pen = ImageDraw.Draw(image)
+        middle = foot + self.biped.hip(q) * np.array([1.0, 0.0])
+        level = float(foot[1]) - self.fall * float(middle[0] - foot[0])
+
+        def pixel(x: float, z: float) -> tuple[float, float]:
+            return (
+                WIDTH / 2 + self.scale * (x - float(middle[0])),
+                HEIGHT - MARGIN - self.scale * (z - level),
+            )
+
+        reach, x_0 = WIDTH / 2 / self.scale, float(middle[0])
+        for k in range(math.floor((x_0 - reach) / TILE), math.ceil((x_0 + reach) / TILE)):
+            tile = [
+                pixel(x, foot[1] - self.fall * (x - foot[0])) for x in (k * TILE, (k + 1) * TILE)
+            ]
+            pen.line(tile, fill=GREY if k % 2 else TRUNK, width=4)
+        for ends, leg in self._lines(q, step, foot):
+            pen.line([pixel(*end) for end in ends.tolist()], fill=COLOURS[leg], width=LINE)
+        pen.text((8, 8), f"t = {t:.3f} s, step {step}", fill=TRUNK)
+        return np.array(image)
+
+
+class Window:
+    """A window that shows one picture after the other, no faster than the walk; none without a screen."""
+
+    def __init__(self) -> None:
+        self.figure: Any = None
+        self.shown, self.clock = -math.inf, 0.0
+
+    def due(self, t: float, begins: bool) -> bool:
+        """Whether there should be another picture at t [s] of the walk."""
+        return begins or t - self.shown >= 1.0 / PICTURES
+
+    def show(self, picture: NDArray[np.uint8]) -> None:
+        """In the window, which is opened by the first one."""
+        import matplotlib.pyplot as plt
+
+        if self.figure is None:
+            self.figure = plt.figure(figsize=(WIDTH / 100, HEIGHT / 100), dpi=100)
+            axes = self.figure.add_axes((0.0, 0.0, 1.0, 1.0))
+            axes.set_axis_off()
+            self.image = axes.imshow(picture)
+            if self.on_screen:
+                self.figure.show()
+        self.image.set_data(picture)
+        if self.on_screen:
+            time.sleep(max(0.0, self.clock + 1.0 / PICTURES - time.monotonic()))
+            self.clock = time.monotonic()
+        self.figure.canvas.draw_idle()
+        self.figure.canvas.flush_events()
+
+    @property
+    def on_screen(self) -> bool:
+        """Whether the backend of matplotlib has windows."""
+        return self.figure.canvas.required_interactive_framework is not None
+
+    def close(self) -> None:
+        """Close it, if it is open."""
+        import matplotlib.pyplot as plt
+
+        if self.figure is not None:
+            plt.close(self.figure)
+            self.figure = None

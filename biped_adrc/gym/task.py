@@ -1,0 +1,120 @@
+"""What a learner is to do: a scenario, what its action is, when a walk is over, and the reward.
+
+    reward of a sample = alive (while it walks) - tracking |e|^2 - effort |u|^2
+
+with the true error e = q_b - h(Theta) [rad] and the torque u [N m] that acts, both at the end of the sample.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from biped_adrc.bench.conditions import BASE, CONDITIONS, conditions_on
+from biped_adrc.errors import InputError
+from biped_adrc.gym.episode import ADDED, TORQUES
+from biped_adrc.parts import check_part
+from biped_adrc.robots.limits import KnownLimits
+from biped_adrc.scenario.build import RIGID, RobotAndGait, limits
+from biped_adrc.scenario.controllers import OF_CONTROLLER
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.shown import Shown
+from biped_adrc.types import Array
+
+ACTIONS = (TORQUES, ADDED)
+FALLEN_FROM = 1e-9
+"""Of the time limit [s]: a sample that ends so little before it is the last."""
+
+
+@dataclass(frozen=True)
+class LearnerTask(Shown):
+    """A scenario for learners.
+
+    Raises InputError for an action that there is not, a time or weight out of range, and a scenario in
+    continuous time or for a robot without motors.
+    """
+
+    scenario: Scenario
+    """Its seed is that of each walk."""
+    action: str = TORQUES
+    """"torques": all of it; "added": beside the torque of the scenario's controller."""
+    seconds: float = 10.0
+    """Longest walk [s]."""
+    alive: float = 1.0
+    """Reward of a sample that does not end the walk [1]."""
+    tracking: float = 10.0
+    """Weight of |e|^2 [1/rad^2]."""
+    effort: float = 1e-5
+    """Weight of |u|^2 [1/(N m)^2]."""
+
+    def __post_init__(self) -> None:
+        check_part(self.scenario, "what is to be learnt", Scenario)
+        if self.action not in ACTIONS:
+            raise InputError(f"the action is {self.action!r}, expected one of {list(ACTIONS)}")
+        for name in ("seconds", "alive", "tracking", "effort"):
+            x = getattr(self, name)
+            if not (isinstance(x, int | float) and math.isfinite(x) and x >= 0.0):
+                raise InputError(f"{name} is {x!r}, expected a finite number, 0 or more")
+        if not self.seconds > 0.0:
+            raise InputError(f"seconds is {self.seconds}, expected a positive time")
+        s = self.scenario
+        if s.period is None:
+            raise InputError(
+                "a learner acts at sample instants, and this scenario has none; give a period, as period = "
+                "0.001 or hardware = 'ideal'"
+            )
+        if s.fine is not None:
+            raise InputError(f"steps of a sample have one length; leave out fine = {s.fine:g} s")
+        mine = [
+            x for x in ("controller", *OF_CONTROLLER, "contact", "double_support") if s.given(x)
+        ]
+        if self.action == TORQUES and mine:
+            raise InputError(
+                f"{', '.join(mine)} would do nothing where the action is all of the torque; leave it out, or "
+                "take action = 'added'"
+            )
+
+    @classmethod
+    def of(
+        cls,
+        scenario: Scenario | None,
+        condition: str | None,
+        values: Mapping[str, object],
+        **how: object,
+    ) -> LearnerTask:
+        """A scenario, or a condition of the bench on its base, with other values by name.
+
+        Raises InputError for a condition that there is not on this plant, and values that are no scenario.
+        """
+        if scenario is not None and condition is not None:
+            raise InputError("a scenario and a condition were given, expected one of them")
+        given = dict(values)
+        if scenario is None:
+            plant = str(given.get("plant", RIGID))
+            name, there = condition or "nothing", conditions_on(plant)
+            if name not in there:
+                raise InputError(
+                    f"there is no condition {name!r} on plant '{plant}', expected one of {list(there)}"
+                )
+            given = {**BASE, **CONDITIONS[name].values, **given}
+        try:
+            s = Scenario(**given) if scenario is None else replace(scenario, **given)  # type: ignore[arg-type]
+        except TypeError as error:
+            raise InputError(
+                f"{error}; expected fields of a scenario, such as gait = 'published' or push = 'pulse'"
+            ) from error
+        return cls(s, **how)  # type: ignore[arg-type]
+
+    def limits(self, scene: RobotAndGait) -> KnownLimits:
+        """Of ground and motors; the torque limit is the scenario's where it has one."""
+        known = limits(self.scenario).of(scene.biped.description)
+        limit = self.scenario.torque_limit
+        return known if limit is None else known._replace(torque=min(limit, known.torque))
+
+    def rewards(self, squares: Array, goes_on: Array) -> Array:
+        """Of N walks (N,), from |e|^2 [rad^2] and |u|^2 [N^2 m^2] (N, 2) and whether each goes on (N,)."""
+        paid: Array = (
+            self.alive * goes_on - self.tracking * squares[:, 0] - self.effort * squares[:, 1]
+        )
+        return paid

@@ -1,0 +1,87 @@
+"""What a learner is given at a sample instant, read off the closed loop; the same lines in Python and compiled.
+
+    observation  (q, q', e, e', u, Theta)       n + n + p + p + p + 1 numbers
+
+q, q' are what the walk's own controller would be given at this sample instant: behind the scenario's sensors,
+and, where touchdowns have to be noticed, in the labels that it believes in. e = q_b - h(Theta), e' and Theta
+follow from them; u [N m] is the torque that has acted. The reward goes by the true e and u.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.closed_loop.noticing import labelled, noticed
+from biped_adrc.closed_loop.protocols import Loop, Mode
+from biped_adrc.closed_loop.semantics import parts
+from biped_adrc.control.base import Measurement
+from biped_adrc.gait.reference import ReferencePoint
+from biped_adrc.hardware.meter import Reading
+from biped_adrc.hardware.sample_hold import as_seen, motor_torque, read
+from biped_adrc.types import Array
+
+LEGALITY = tuple(
+    Reading._fields.index(name)
+    for name in ("illegal_step", "mean_friction", "mean_normal_force", "peak_torque")
+)
+"""What is kept of the meter's `Reading`: the single support in which a limit was broken first, 0 for none;
+largest |F_T| / F_N and least F_N [N] of the mean force; largest torque [N m]."""
+
+
+class LearnerView(NamedTuple):
+    """At one sample instant; n coordinates, p motors."""
+
+    q: Array
+    """Angles as measured (n,) [rad]."""
+    v: Array
+    """Rates as measured (n,) [rad/s]."""
+    e: Array
+    """q_b - q_d of what is measured (p,) [rad]."""
+    de: Array
+    """Its rate (p,) [rad/s]."""
+    u: Array
+    """Torque that has acted (p,) [N m]."""
+    at: Array
+    """Time [s], and number of the single support, (2,)."""
+    squares: Array
+    """|q_b - q_d|^2 of the true state [rad^2], and |u|^2 [N^2 m^2], (2,)."""
+    legality: Array
+    """As `LEGALITY`, by the meter (4,); empty without one."""
+
+
+def learner_view(
+    loop: Loop,
+    t: float,
+    x: Array,
+    mode: Mode,
+    reference: Callable[[Array, Measurement], ReferencePoint],
+) -> LearnerView:
+    """What a learner is given in x (nx,) at a sample instant at t [s], before the controller has acted.
+
+    reference(s, m): the point of the reference at a measurement, s the controller's state.
+    """
+    (q, v, s, tail), k, p = parts(loop, x), loop.held, loop.plant.p
+    assert k is not None
+    h = read(k.sizes, tail)
+    true = loop.measure(t, q, v, mode)
+    if k.sizes.told > 0:
+        seen, _, _, b = noticed(loop, t, s, tail, q, v, mode)
+        line = labelled(loop, b, h.line)
+    else:
+        w = k.sensors.sense(k.sensors.parameters, h.w, q, v) if k.sizes.sensors > 0 else h.w
+        q_seen, v_seen = as_seen(k, w, q, v)
+        seen, line = true._replace(q=q_seen, v=v_seen), h.line
+    r, e, u = reference(s, seen), q[:p] - reference(s, true).q_d, motor_torque(h.line)
+    return LearnerView(
+        q=seen.q,
+        v=seen.v,
+        e=seen.q[:p] - r.q_d,
+        de=seen.v[:p] - r.dq_d,
+        u=motor_torque(line),
+        at=np.array([t, mode.step]),
+        squares=np.array([e @ e, u @ u]),
+        legality=np.array([h.g[i] for i in LEGALITY] if k.sizes.meter > 0 else h.g),
+    )

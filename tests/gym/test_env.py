@@ -1,0 +1,259 @@
+"""Walks as environments of Gymnasium: the interface, and that they are the walks of their scenarios."""
+
+import subprocess
+import sys
+from dataclasses import replace
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+
+import biped_adrc as ba
+from biped_adrc.engine.kernels import layout
+from biped_adrc.errors import InputError
+from biped_adrc.gym.moved_walks import MovedWalks
+
+ID = "biped_adrc.gym:biped_adrc/Walk-v0"
+SLOW = {"bandwidth": 160.0, "order": 1}
+
+
+def made(**values):
+    return gymnasium.make(ID, **values)
+
+
+def walked(env, seed, samples, action=(0.0, 0.0, 0.0, 0.0)):
+    """What a walk of an environment gives at its samples, in columns."""
+    env.reset(seed=seed)
+    rows = [env.step(np.array(action))]
+    while len(rows) < samples and not (rows[-1][2] or rows[-1][3]):
+        rows.append(env.step(np.array(action)))
+    return list(zip(*rows, strict=True))
+
+
+def state(env):
+    """x of the one walk."""
+    walks = env.unwrapped.stage.walks
+    if isinstance(walks, MovedWalks):
+        return walks.walks[0].now.x
+    return walks.made[0].s[layout.HEAD :]
+
+
+@pytest.mark.parametrize(
+    "values",
+    [{}, {"action": "added", "condition": "push on joints", **SLOW}, {"plant": "mujoco"}],
+    ids=["torques", "added", "mujoco"],
+)
+def test_gymnasium_finds_no_fault(values):
+    """Warnings are errors here; all render modes are made and drawn, without a screen."""
+    check_env(made(**values).unwrapped)
+
+
+CASES = {
+    "pushed": {"condition": "push on joints", **SLOW},
+    "RABBIT": {"condition": "RABBIT pushed", **SLOW},
+    "a touchdown to be noticed": {
+        "condition": "uneven ground",
+        "controller": "NPD",
+        "touchdown": "told",
+        "delay": 0.0015,
+    },
+    "MuJoCo": {"plant": "mujoco", **SLOW},
+    "plain Python": {"controller": "CLF-QP"},
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_nothing_added_is_the_scenarios_own_walk_bit_for_bit(name):
+    slow = name in ("MuJoCo", "plain Python")
+    env = made(action="added", **CASES[name])
+    *_, infos = walked(env, 3, 80 if slow else 480)
+    t, step = infos[-1]["t"], infos[-1]["step"]
+    assert step == (1 if slow else 2)
+    s = replace(env.unwrapped.stage.task.scenario, seed=3, impacts=3)
+    arc = ba.walk_scenario(s).trajectory.arcs[step - 1]
+    row = int(np.searchsorted(arc.t, t))
+    assert arc.t[row] == t
+    assert np.array_equal(arc.x[row, :10], state(env)[:10])
+
+
+def test_a_torque_is_the_share_of_the_limit_and_acts_over_the_sample():
+    env = made(start_speed_spread=0.0)
+    q, v = env.unwrapped.stage.scene.on_orbit
+    action = np.array([0.2, -0.1, 0.3, 0.05])
+    env.reset(seed=0)
+    observation = env.step(action)[0]
+    assert np.allclose(observation[18:22], 150.0 * action, rtol=1e-15)
+    plant, u = env.unwrapped.stage.plant, 150.0 * action
+
+    def slope(x):
+        force = np.append(u, 0.0)
+        return np.concatenate((x[5:], plant.acceleration(x[:5], x[5:], force)))
+
+    x, h = np.concatenate((q, v)), 1e-4
+    for _ in range(10):  # another method than that of the environment, at a tenth of its step
+        middle = x + 0.5 * h * slope(x)
+        x = x + h * slope(middle)
+    assert np.max(np.abs(observation[:10] - x)) < 1e-6
+
+
+ADDED = [
+    {"action": "torques", "plant": "mujoco"},
+    {"action": "added", "controller": "NPD", "plant": "mujoco"},
+    {"action": "added", "controller": "NPD"},
+    {"action": "added", "controller": "CLF-QP"},
+]
+
+
+@pytest.mark.parametrize("values", ADDED, ids=lambda values: " ".join(map(str, values.values())))
+def test_an_addition_is_added(values):
+    """In the second sample, so that it is not one that the walk was made with."""
+    env, action, torques = made(**values), np.array([0.1, -0.05, 0.02, 0.03]), []
+    for given in (np.zeros(4), action):
+        env.reset(seed=0)
+        env.step(-action)
+        torques.append(env.step(given)[0][18:22])
+    assert np.allclose(torques[1] - torques[0], 150.0 * action, rtol=0.0, atol=1e-9)
+
+
+def test_observation_and_reward_are_those_of_the_walks_signals():
+    env = made(action="added", condition="push on joints", tracking=3.0, effort=2e-4, **SLOW)
+    rows = walked(env, 5, 460)
+    s = replace(env.unwrapped.stage.task.scenario, seed=5, impacts=3)
+    signals = ba.walk_scenario(s).signals
+    for k in (200, 450):
+        observation, reward, info = rows[0][k], rows[1][k], rows[4][k]
+        i = int(np.searchsorted(signals.t, info["t"]))  # before the sample instant there
+        expected = (signals.q, signals.v, signals.error, None, signals.u, signals.theta[:, None])
+        parts = np.split(observation, [5, 10, 14, 18, 22])
+        for part, found in zip(parts, expected, strict=True):
+            if found is not None:
+                assert np.allclose(part, found[i], rtol=1e-9, atol=1e-11)
+        rate = signals.v[i, :4] - signals.dq_d[i]
+        assert np.allclose(parts[3], rate, rtol=1e-9, atol=1e-9)
+        e, u = signals.error[i], signals.u[i]
+        assert reward == pytest.approx(1.0 - 3.0 * e @ e - 2e-4 * u @ u, rel=1e-9)
+
+
+def test_behind_encoders_the_observation_is_what_they_show():
+    env = made(condition="encoders")
+    walked(env, 0, 20)
+    seen, x = env.unwrapped.stage.observations()[0], state(env)
+    count = 2.0 * np.pi / 8192.0
+    assert not np.array_equal(seen[:4], x[:4])
+    assert np.all(np.abs(seen[:4] - x[:4]) <= count)
+    assert np.allclose(seen[:4] / count, np.round(seen[:4] / count), atol=1e-9)
+
+
+def test_a_fall_terminates_and_time_truncates():
+    *_, infos = rows = walked(made(), 1, 2000)
+    assert (rows[2][-1], rows[3][-1]) == (True, False)
+    assert infos[-1]["status"] == "fell"
+    assert rows[1][-1] < rows[1][-2] - 0.9  # the last sample is not paid for being alive
+    for limit, value in (("seconds", 0.1), ("impacts", 1)):
+        rows = walked(made(action="added", **{limit: value}, **SLOW), 1, 2000)
+        assert (rows[2][-1], rows[3][-1]) == (False, True)
+    assert rows[4][-1]["step"] == 2
+    assert walked(made(action="added", seconds=0.1, **SLOW), 1, 999)[4][-1]["t"] == 0.1
+
+
+@pytest.mark.parametrize("push", [0.0, 60.0])
+def test_legality_is_that_of_the_walk(push):
+    """As the certificate of the walk has it, which goes by nodes between the sample instants too."""
+    pushed = {"push": "pulse", "on": "-q5", "amplitude": push, "pushed_step": 1, "onset": 0.1}
+    given = {"controller": "NPD", "impacts": 2, "start_speed_spread": 0.0}
+    env = made(action="added", **given, **(pushed if push else {}))
+    info = walked(env, 0, 2000)[4][-1]
+    found = ba.walk_scenario(replace(env.unwrapped.stage.task.scenario, seed=0)).outcome.legality
+    assert info["legal"] is (not found.reasons) is (push == 0.0)
+    assert info["friction"] == pytest.approx(found.mean_friction, rel=0.05)
+    assert info["normal_force"] == pytest.approx(found.mean_normal_force, rel=0.05)
+    assert info["peak_torque"] == pytest.approx(found.peak_torque, rel=1e-9)
+
+
+def test_seeds():
+    env = made(action="added", condition="wrong model", **SLOW)
+    first = [env.reset(seed=k)[0] for k in (1, 2, 1)]
+    assert np.array_equal(first[0], first[2])
+    assert not np.array_equal(first[0], first[1])
+    assert env.reset(seed=7)[1]["seed"] == 7
+    drawn = [env.reset()[1]["seed"] for _ in range(3)]
+    assert len(set(drawn)) == 3
+    env.reset(seed=7)
+    assert [env.reset()[1]["seed"] for _ in range(3)] == drawn
+
+
+def test_pictures():
+    env = made(render_mode="rgb_array", action="added", **SLOW)
+    env.reset(seed=0)
+    begin = env.render()
+    assert begin.dtype == np.uint8
+    for _ in range(430):
+        env.step(np.zeros(4))
+    drawn = env.unwrapped.drawn
+    assert drawn.step == 2
+    later = env.render()
+    assert begin.shape == later.shape
+    assert np.count_nonzero(np.any(begin != later, axis=2)) > 1000
+    trajectory = ba.walk_scenario(
+        replace(env.unwrapped.stage.task.scenario, seed=0, impacts=1)
+    ).trajectory
+    x_minus = trajectory.before("foot_strike")[0]
+    stride = env.unwrapped.stage.plant.swing_foot(x_minus[:5])
+    assert np.allclose(drawn.foot, stride, atol=1e-9)
+    shown = made(render_mode="human", action="added", **SLOW)
+    shown.reset(seed=0)
+    for _ in range(45):
+        assert shown.step(np.zeros(4))[1] > 0.0
+    assert shown.render() is None
+    shown.close()
+
+
+WRONG = {
+    "no condition": ({"condition": "windy"}, "no condition 'windy' on plant 'rigid', expected one"),
+    "not on this plant": ({"condition": "wrong impact", "plant": "mujoco"}, "on plant 'mujoco'"),
+    "no field": ({"gate": 3}, "gate"),
+    "no gait": ({"gait": "canter"}, "canter"),
+    "no push": ({"push": "shout"}, "shout"),
+    "no action": ({"action": "wishes"}, "expected one of .*torques.*added"),
+    "continuous time": ({"period": None}, "a learner acts at sample instants"),
+    "a controller of no effect": ({"controller": "NPD"}, "controller would do nothing"),
+    "no time": ({"seconds": 0.0}, "seconds is 0.0, expected a positive time"),
+    "no weight": ({"effort": float("nan")}, "effort is nan, expected a finite number"),
+    "two scenarios": ({"scenario": ba.Scenario(), "condition": "delay"}, "expected one of them"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_what_is_no_task_is_refused(name):
+    values, text = WRONG[name]
+    with pytest.raises(InputError, match=text):
+        made(**values)
+
+
+def test_what_is_no_action_is_refused():
+    env = made().unwrapped
+    with pytest.raises(InputError, match=r"call reset\(\) first"):
+        env.step(np.zeros(4))
+    env.reset(seed=0)
+    for action, text in (
+        (np.zeros(3), r"shape \(3,\), expected \(4,\)"),
+        (np.array([0.0, np.nan, 0.0, 0.0]), "expected finite numbers"),
+        (["much", 0, 0, 0], "expected numbers"),
+    ):
+        with pytest.raises(InputError, match=text):
+            env.step(action)
+    with pytest.raises(InputError, match="expected none"):
+        env.reset(options={"amplitude": 3.0})
+    assert env.step(np.zeros(4))[4]["t"] == 0.001  # and the walk goes on
+
+
+def test_without_gymnasium_the_extra_is_named():
+    code = (
+        "import sys; sys.modules['gymnasium'] = None\n"
+        "from biped_adrc.errors import InputError\n"
+        "try:\n    import biped_adrc.gym\n"
+        "except InputError as error:\n    print(error)\n"
+    )
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert "pip install 'biped-adrc[gym]'" in found.stdout

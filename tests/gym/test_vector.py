@@ -1,0 +1,78 @@
+"""Many walks in one call: each of them the walk of one environment, bit for bit."""
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.vector import AutoresetMode, VectorEnv
+
+from biped_adrc.errors import InputError
+
+ID = "biped_adrc.gym:biped_adrc/Walk-v0"
+
+
+def made(count, **values):
+    return gymnasium.make_vec(ID, num_envs=count, vectorization_mode="vector_entry_point", **values)
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"condition": "RABBIT pushed", "seconds": 0.5},
+        {"plant": "mujoco", "seconds": 0.04},
+    ],
+    ids=["rigid", "mujoco"],
+)
+def test_each_walk_is_that_of_one_environment_bit_for_bit(values):
+    """Until after falls and time limits, by NEXT_STEP: what ends begins anew at the step after."""
+    count, samples = 3, 60 if "plant" in values else 450
+    envs, single = made(count, **values), [gymnasium.make(ID, **values) for _ in range(count)]
+    assert isinstance(envs, VectorEnv)
+    assert envs.metadata["autoreset_mode"] is AutoresetMode.NEXT_STEP
+    rng = np.random.default_rng(0)
+    found, _ = envs.reset(seed=10)
+    for i, env in enumerate(single):
+        assert np.array_equal(found[i], env.reset(seed=10 + i)[0])
+    over, again = np.zeros(count, dtype=bool), 0
+    for _ in range(samples):
+        actions = rng.uniform(-0.5, 0.5, (count, 4))
+        found, rewards, fallen, late, infos = envs.step(actions)
+        for i, env in enumerate(single):
+            if over[i]:
+                expected = (env.reset()[0], 0.0, False, False)
+                again += 1
+            else:
+                expected = env.step(actions[i])
+            assert np.array_equal(found[i], expected[0])
+            assert (rewards[i], fallen[i], late[i]) == tuple(expected[1:4])
+            if len(expected) == 5:
+                assert {name: infos[name][i] for name in expected[4]} == expected[4]
+                assert all(infos[f"_{name}"].all() for name in expected[4])
+        over = fallen | late
+    assert again >= count
+
+
+def test_how_many_they_are_changes_no_bit():
+    actions = np.random.default_rng(1).uniform(-0.3, 0.3, (200, 4))
+    rows = []
+    for count in (1, 7):
+        envs = made(count, condition="sine on joints")
+        envs.reset(seed=[5] + [None] * (count - 1))
+        rows.append([envs.step(np.tile(a, (count, 1)))[0][0] for a in actions])
+    assert np.array_equal(*rows)
+
+
+def test_pictures_of_all():
+    envs = made(2, render_mode="rgb_array")
+    envs.reset(seed=0)
+    assert [picture.shape for picture in envs.render()] == [(360, 480, 3)] * 2
+
+
+def test_what_is_no_vector_is_refused():
+    with pytest.raises(InputError, match="no window"):
+        made(2, render_mode="human")
+    envs = made(2)
+    envs.reset(seed=0)
+    with pytest.raises(InputError, match=r"shape \(4,\), expected \(2, 4\)"):
+        envs.step(np.zeros(4))
+    with pytest.raises(InputError, match="3 seeds, expected 2"):
+        envs.reset(seed=[1, 2, 3])
