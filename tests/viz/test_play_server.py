@@ -60,6 +60,15 @@ def test_a_frame_draws_what_the_finished_walk_draws_and_plots_its_signals():
     assert found["ending"] == ""
 
 
+def test_signals_of_a_sample_before_a_change_are_not_read_with_the_controller_after_it():
+    driver = walked(0.1)
+    for message in (Message("change", {"values": {"controller": "ADRC"}}), Message("back", {})):
+        driver.take(message)
+        assert frame(driver)["walks"][0]["signals"] is None
+        driver.take(Message("step", {}))
+        assert frame(driver)["walks"][0]["signals"]["xi_estimate"][0] is not None
+
+
 def test_the_force_of_a_hand_is_drawn_where_it_acts_and_as_no_torque():
     driver = walked(0.3)
     driver.take(Message("push", {"force": (-50.0, 0.0), "link": "torso", "at": (0.0, 0.3)}))
