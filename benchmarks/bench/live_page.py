@@ -115,12 +115,17 @@ async def pulls(port: int, count: int) -> list[float]:
     socket = await websocket_connect(f"ws://127.0.0.1:{port}/poses")
     times = []
     for k in range(count):
+        if k % BATCH == 0:
+            await socket.write_message('{"do": "reset"}')
+        for _ in range(k % 17):  # at other times of a step
+            await frame(socket)
+        await asyncio.sleep(1e-3 * (k % 16))  # and of a frame
         x, z = (await frame(socket))["walks"][0]["points"][:2]
-        await asyncio.sleep(0.013 * (k % 17))  # at other times of a frame and of a step
         began = time.monotonic()
         await socket.write_message(json.dumps(PULL | {"anchor": [x + 0.05, z + 0.3]}))
-        while not (await frame(socket))["felt"]:
-            pass
+        while not (seen := await frame(socket))["felt"]:
+            if seen["walks"][0]["ending"]:
+                raise RuntimeError(f"the walk {seen['walks'][0]['ending']}, after {k} pulls")
         times.append(1e3 * (time.monotonic() - began))
         await socket.write_message('{"do": "let_go"}')
         while (await frame(socket))["felt"]:
