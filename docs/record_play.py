@@ -25,9 +25,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 from viz.browser import chromium
 
 import biped_adrc as ba
-from biped_adrc.play.driver import Driver
-from biped_adrc.play.page import page
-from biped_adrc.play.stage import Stage
+from biped_adrc.live.driver import Driver
+from biped_adrc.live.page import page
+from biped_adrc.live.stage import Stage
 from biped_adrc.viz.meshcat.server import run
 
 PATH = Path(__file__).parent / "recordings" / "play.gif"

@@ -12,12 +12,12 @@ from tornado.httpclient import AsyncHTTPClient, HTTPClientError
 
 import biped_adrc as ba
 from biped_adrc.errors import InputError
-from biped_adrc.play.controls import controls, values
-from biped_adrc.play.driver import Driver
-from biped_adrc.play.frame import frame, named
-from biped_adrc.play.messages import MOST_AT_ONCE, MOST_BYTES, Message
-from biped_adrc.play.of_walker import scenario_of
-from biped_adrc.play.page import page, play
+from biped_adrc.live.controls import controls, values
+from biped_adrc.live.driver import Driver
+from biped_adrc.live.frame import frame, named
+from biped_adrc.live.messages import MOST_AT_ONCE, MOST_BYTES, Message
+from biped_adrc.live.of_walker import scenario_of
+from biped_adrc.live.page import page, play
 from biped_adrc.scenario.scenario import FIELDS
 from biped_adrc.viz.meshcat.frames import pose
 from biped_adrc.viz.placement import WalkScene

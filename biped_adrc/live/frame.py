@@ -14,11 +14,11 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from biped_adrc.play.driver import Driver
-from biped_adrc.play.hand import Hand
-from biped_adrc.play.live_walk import LiveWalk
-from biped_adrc.play.reading import Reading, reading
-from biped_adrc.play.session import WALK, Session
+from biped_adrc.live.driver import Driver
+from biped_adrc.live.hand import Hand
+from biped_adrc.live.live_walk import LiveWalk
+from biped_adrc.live.reading import Reading, reading
+from biped_adrc.live.session import WALK, Session
 from biped_adrc.robots.symmetry import twins
 from biped_adrc.types import Array
 from biped_adrc.viz.placement import exchanged, joint_values

@@ -7,9 +7,9 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.errors import BipedError, InputError
-from biped_adrc.play.hand import Spring
-from biped_adrc.play.live_walk import revised
-from biped_adrc.play.session import GHOST, WALK, Session
+from biped_adrc.live.hand import Spring
+from biped_adrc.live.live_walk import revised
+from biped_adrc.live.session import GHOST, WALK, Session
 
 IDEAL = {"hardware": "ideal", "impacts": 2}
 
