@@ -173,12 +173,12 @@ def against_reference(groups: Sequence[Group]) -> list[tuple[Entry, Entry]]:
 def first_of(contestants: Group) -> Entry | None:
     """The best one on the selection set; None where nobody keeps the limits."""
     some = [e for e in contestants.values() if e.found]
-    return min(some, key=lambda e: e.selected) if some else None
+    return min(some, key=lambda e: e.rank) if some else None
 
 
 def first_two(groups: Sequence[Group]) -> list[tuple[Entry, Entry]]:
     """The best one on the selection set beside the next, of each group that has two."""
-    ranked = [sorted(g.values(), key=lambda e: e.selected) for g in groups]
+    ranked = [sorted(g.values(), key=lambda e: e.rank) for g in groups]
     return [(some[0], some[1]) for some in ranked if len(some) > 1 and some[1].found]
 
 

@@ -133,6 +133,18 @@ def test_the_reference_is_the_better_one_on_the_selection_set(script):
     assert not answers(script, search("NPD"), search("DOB"))
 
 
+def test_one_of_which_some_searches_found_a_setting_goes_before_one_of_which_none_did(script):
+    seeds = (1, 2, 3)
+    given = [nothing("NPD", seed=s) for s in seeds]
+    given += [nothing("NPID", seed=1), *(search("NPID", 1.2, seed=s) for s in (2, 3))]
+    given += [search("DOB", 0.5, seed=s) for s in seeds]
+    page, found = script("tuned_page"), script("tuned_entries").entries(summary(*given))
+    (g,) = script("tuned_entries").groups_of(found)
+    assert script("tuned_entries").reference(g).contestant == "NPID"
+    assert {n: e.failed for n, e in g.items()} == {"NPD": 3, "NPID": 1, "DOB": 0}
+    assert "Neither NPD nor NPID" not in page.page(summary(*given))
+
+
 def test_illegal_walks_rank_worst_and_are_not_dropped(script):
     found = answers(
         script,
