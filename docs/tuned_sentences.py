@@ -7,7 +7,17 @@ from collections.abc import Sequence
 
 import tuned_text as words
 from tuned_entries import Entry, reference
-from tuned_questions import LEVEL, RUNGS, Answer, Group, Scatter, answered, first_of, first_two
+from tuned_questions import (
+    LEVEL,
+    RUNGS,
+    Answer,
+    Group,
+    Scatter,
+    answered,
+    first_of,
+    first_two,
+    partly_failed,
+)
 from tuned_text import MRAD, at, interval, legal, name, number, ratio
 
 from biped_adrc.analysis.statistics import share
@@ -80,9 +90,8 @@ def against(x: Answer) -> str:
 
 def who_is_legal(contest: Sequence[Answer]) -> list[str]:
     """Whether some walk legally more often than the reference."""
-    some = [x for x in contest if x.a.found]
-    if not some:
-        return []
+    found = [x for x in contest if x.a.found]
+    some = [x for x in found if not (partly_failed(x.a) or partly_failed(x.b))]
     lines = [
         f"{at(x.a)}: {name(x.a)} walks {legal(x.a.tuned)} legally, {name(x.b)} {legal(x.b.tuned)} "
         f"(McNemar's test over seeds, p {words.p_value(x.legal_p)})."
@@ -97,7 +106,27 @@ def who_is_legal(contest: Sequence[Answer]) -> list[str]:
             "difference to the reference; the shares of seeds of which all walks are legal differ there by at "
             f"most {bound:.0f} % with 95 %."
         )
-    return lines
+    return lines + not_asked([x for x in found if x not in some])
+
+
+def not_asked(rest: Sequence[Answer]) -> list[str]:
+    """Of whom legality is not asked, as a search of several found nothing, which made no walks."""
+    if not rest:
+        return []
+    told = [
+        f"{spot}, beside {tried(next(x.b for x in rest if at(x.a) == spot))} "
+        + ", ".join(tried(x.a) for x in rest if at(x.a) == spot)
+        for spot in dict.fromkeys(at(x.a) for x in rest)
+    ]
+    return [
+        "Not asked is who walks legally more often where some searches found nothing, whose walks are counted "
+        f"as not legal and were never made (so many searches): {'; '.join(told)}."
+    ]
+
+
+def tried(e: Entry) -> str:
+    """A contestant with how many of its searches found nothing."""
+    return name(e) + (f" ({e.failed} of {e.searches})" if e.failed else "")
 
 
 def goal(contest: Sequence[Answer]) -> list[str]:

@@ -312,6 +312,41 @@ def test_a_difference_within_the_spread_of_searches_is_open(script):
     assert questions.answered(pairs)[0].verdict == "smaller"
 
 
+def test_in_which_order_searches_are_numbered_changes_no_answer(script):
+    """Errors of searches that are not in the middle of each other: Welch's test is that of their means."""
+    seeds, module = script("tuned_seeds"), script("tuned_entries")
+    npd, other = (1.0, 1.1, 1.9), (0.9, 0.5, 0.6)
+
+    def answer(*factors):
+        given = [search("m = 1", f, seed=i) for i, f in enumerate(factors, 1)]
+        given += [search("NPD", f, seed=i) for i, f in enumerate(npd, 1)]
+        found = module.entries(summary(*given))
+        (g,) = module.groups_of(found)
+        scatter = seeds.scatter_of(seeds.repeated(found))
+        return script("tuned_questions").answered([(g["m = 1"], g["NPD"])], scatter)[0]
+
+    x = answer(*other)
+    welch = stats.ttest_ind(np.log(other), np.log(npd), equal_var=False).pvalue
+    assert x.p == pytest.approx(welch)
+    assert x.ratio.value == pytest.approx(np.median(np.divide.outer(other, npd)))
+    turned = answer(*other[::-1])
+    assert turned.ratio == pytest.approx(x.ratio)
+    assert (turned.p, turned.won, turned.lost) == (pytest.approx(x.p), x.won, x.lost)
+
+
+def test_legality_is_not_asked_where_a_search_of_several_found_nothing(script):
+    given = [search(n, seed=s) for n in ("NPD", "NPID", "m = 1") for s in (1, 2)]
+    given += [search("DOB"), nothing("DOB", seed=2), nothing("m = 2"), nothing("m = 2", seed=2)]
+    module = script("tuned_entries")
+    groups = module.groups_of(module.entries(summary(*given)))
+    asked = script("tuned_page").families(groups)[0]
+    assert {x.a.contestant: x.legal_p for x in asked}["DOB"] == 1.0
+    same, left_out = script("tuned_sentences").who_is_legal(asked)
+    assert "of 2 settings that keep the limits, 2 have no carried difference" in same
+    assert left_out.startswith("Not asked")
+    assert left_out.endswith("beside *NPD* *DOB* (1 of 2).")
+
+
 def test_that_one_search_finds_nothing_carries_no_difference_and_that_all_do_does(script):
     seeds, module = script("tuned_seeds"), script("tuned_entries")
     questions = script("tuned_questions")
