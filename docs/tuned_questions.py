@@ -137,10 +137,17 @@ def answered(pairs: Sequence[tuple[Entry, Entry]], scatter: Scatter | None = Non
 
     scatter: of the searches of two contestants; None for settings of one search, which is not repeated.
     """
-    found = [_answer(a, b, Searched() if scatter is None else scatter(a, b)) for a, b in pairs]
+    found = uncorrected(pairs, scatter)
     errors, legal = holm([x.p for x in found]), holm([x.legal_p for x in found])
     both = zip(found, errors, legal, strict=True)
     return [x._replace(p=p, legal_p=legal_p) for x, p, legal_p in both]
+
+
+def uncorrected(
+    pairs: Sequence[tuple[Entry, Entry]], scatter: Scatter | None = None
+) -> list[Answer]:
+    """The answers of questions that are each asked alone."""
+    return [_answer(a, b, Searched() if scatter is None else scatter(a, b)) for a, b in pairs]
 
 
 def _answer(a: Entry, b: Entry, searched: Searched) -> Answer:

@@ -214,9 +214,11 @@ def test_the_page_says_who_wins_by_how_much_and_how_near_the_goal_is(script):
     assert "Best on the selection set, over 1 place and gait: *m = 1* 1." in text
     assert "Against *NPD*, the reference, carried are a smaller error of *m = 1* 0.45" in text
     assert "*m = 3* (no setting that keeps the limits)" in text
-    assert "the first is met. Of its walks 30 of 30 are legal, which is at least 88.6 %" in text
+    low = f"{100 * share(SEEDS, SEEDS).low:.1f}"
+    assert "of optimiser seed 1 has 0.45 (0.45 to 0.45), over all its searches 0.45" in text
+    assert f"first is met. Of its walks 30 of 30 are legal, which is at least {low} %" in text
     assert "the second is not shown by so few walks" in text
-    assert "An order above 1 pays in 0 of 2 questions." in text
+    assert "An order above 1 pays in 0 of 2 questions. It costs in 2, and 0 are open." in text
     assert "m = 3*, seed 1 of the optimiser: none of 75 candidates keeps." in text
     assert "| m = 2 | K\\_p = 500, K\\_i = 2.5 | 2.5 |" in text
     assert "| 28 of 30 |" in text
@@ -241,7 +243,13 @@ def test_a_search_in_which_no_candidate_was_walked_says_nothing_beyond_its_range
 
 def test_a_goal_that_is_missed_is_missed_by_so_much(script):
     given = (search("NPD"), search("NPID", 1.2), search("m = 1", 0.8, illegal=[0]))
-    (said,) = script("tuned_sentences").goal(list(answers(script, *given).values()))
+    first, longer = answers(script, *given), search("m = 1", 0.9, illegal=[0])
+    every = answers(script, *given[:2], longer)
+    (said,) = script("tuned_sentences").goal(list(first.values()), list(every.values()))
+    assert (
+        "of optimiser seed 1 has 0.8 (0.8 to 0.8), over all its searches 0.9 (0.9 to 0.9)" in said
+    )
+    assert f"which is at least {100 * share(SEEDS - 1, SEEDS).low:.1f} %" in said
     assert "the first is missed by 0.3" in said
     assert "28 of 30 are legal" in said
     assert "the second is missed by 4.0 %" in said
@@ -405,7 +413,7 @@ def test_a_placebo_is_judged_by_searches_of_the_same_contestant_elsewhere(script
 
     steady = at_two("NPD", (1.0, 1.2, 1.4), (1.0, 1.2, 1.4))
     sudden = at_two("DOB", (1.0, 1.3, 1.7), (1.0, 1.01, 1.02))
-    alone, both = seeds.placebos(entries(summary(*steady, *sudden)))
+    alone, both, single = seeds.placebos(entries(summary(*steady, *sudden)))
     assert len(alone) == sum(x.verdict != "open" for x in alone) == 12
     assert {(x.a.contestant, x.a.gait) for x in both if x.verdict != "open"} == {("DOB", "v0.5")}
     lost = [search("m = 2", 0.5), nothing("m = 2", seed=2)]
@@ -413,6 +421,10 @@ def test_a_placebo_is_judged_by_searches_of_the_same_contestant_elsewhere(script
     assert "*m = 2* at 1" in said[0]
     assert "13 pairs" in said[1]
     assert "*DOB* at RABBIT, 1 ms, gait v0.5, seeds 1 and 3" in said[1]
+    chance = sum(x.verdict != "open" for x in single)
+    assert chance == sum(x.p < 0.05 for x in single) >= 3
+    assert f"without it {chance} of the 12 pairs" in said[1]
+    assert "where 5 % of them would be by chance; the other 1 cannot be." in said[1]
 
 
 def with_beside(told, **beside):
