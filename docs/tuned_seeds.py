@@ -153,8 +153,8 @@ def placebo_sentences(found: Sequence[Entry]) -> list[str]:
         f"searches do end at different settings. By the rule of this page, with the scatter of the same "
         f"contestant's searches at other places and gaits, {len(different)} of {len(both)} are found "
         f"different{named}. That correction over so many pairs leaves few to be found: without it {chance} of "
-        f"the {len(single)} pairs of which both found something are different, where {100 * LEVEL:g} % of them would "
-        f"be by chance; the other {len(both) - len(single)} cannot be.",
+        f"the {len(single)} pairs of which both found something are different, where {100 * LEVEL:g} % of them "
+        f"would be by chance; the other {len(both) - len(single)} cannot be.",
     ]
 
 
