@@ -25,7 +25,8 @@ HEADINGS = (
 )
 INTRODUCTION = """Places of `benchmarks/tuned/orders.toml`, on RABBIT's hardware with 1 ms of delay and gait
 v0.5. Budget, leaves and walks are those of the contest; the ripple, which is the rms torque that the counts of
-the encoders alone cause, has a limit beside that of the delay margin."""
+the encoders alone cause, has a limit beside that of the delay margin. How searches scatter is taken from these
+and those of the contest on the same hardware."""
 
 
 def equal_loops(summary: Mapping[str, Any], contest: Sequence[Entry]) -> list[str]:

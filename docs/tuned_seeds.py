@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 from tuned_entries import Entry
-from tuned_questions import Answer, Scatter, Searched, answered
+from tuned_questions import LEVEL, Answer, Scatter, Searched, answered, uncorrected
 from tuned_text import MRAD, at, name, number, ratio
 
 Repeats = Sequence[Entry]
@@ -88,8 +88,9 @@ def scatter_of(repeats: Sequence[Repeats]) -> Scatter | None:
     return scatter
 
 
-def placebos(found: Sequence[Entry]) -> tuple[list[Answer], list[Answer]]:
-    """Two searches of one contestant as if they were two contestants: by the walks alone, and by searches too.
+def placebos(found: Sequence[Entry]) -> tuple[list[Answer], list[Answer], list[Answer]]:
+    """Two searches of one contestant as if they were two contestants: by the walks alone, by searches too, and
+    so, but each asked alone and without those pairs of which a search found nothing.
 
     How its searches scatter is taken from other places and gaits of the same kind, and from all others where
     there are none, so that a placebo does not judge itself.
@@ -102,12 +103,13 @@ def placebos(found: Sequence[Entry]) -> tuple[list[Answer], list[Answer]]:
         scatter = scatter_of(others)
         return Searched() if scatter is None else scatter(a, b)
 
-    return answered(pairs), answered(pairs, elsewhere)
+    able = [(a, b) for a, b in pairs if a.found and b.found]
+    return answered(pairs), answered(pairs, elsewhere), uncorrected(able, elsewhere)
 
 
 def placebo_sentences(found: Sequence[Entry]) -> list[str]:
     """By how much searches differ, and what came of the placebos."""
-    alone, both = placebos(found)
+    alone, both, single = placebos(found)
     if not alone:
         return []
     spreads = spreads_of(repeated(found))
@@ -127,6 +129,7 @@ def placebo_sentences(found: Sequence[Entry]) -> list[str]:
         f" Left out are places and gaits where a search found nothing: {rest}." if rest else ""
     )
     different = [x for x in both if x.verdict != "open"]
+    chance = sum(x.verdict != "open" for x in single)
     named = "".join(
         f"; {name(x.a)} at {at(x.a)}, seeds {x.a.seed} and {x.b.seed}, {ratio(x.ratio)}"
         for x in different
@@ -138,7 +141,9 @@ def placebo_sentences(found: Sequence[Entry]) -> list[str]:
         f"their walks alone {sum(x.verdict != 'open' for x in alone)} of them are found different, since two "
         f"searches do end at different settings. By the rule of this page, with the scatter of the same "
         f"contestant's searches at other places and gaits, {len(different)} of {len(both)} are found "
-        f"different{named}.",
+        f"different{named}. That correction over so many pairs leaves few to be found: without it {chance} of "
+        f"the {len(single)} pairs of which both found something are different, where {100 * LEVEL:g} % of them "
+        f"would be by chance; the other {len(both) - len(single)} cannot be.",
     ]
 
 
