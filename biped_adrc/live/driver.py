@@ -103,6 +103,9 @@ class Driver:
     def _rate(self, rate: float) -> None:
         if not SLOWEST <= rate <= FASTEST:
             raise InputError(f"the rate is {rate:g}, expected {SLOWEST:g} to {FASTEST:g}")
+        self.reached *= (
+            rate / self.rate
+        )  # the same share of what is asked for, until there is more to say
         self.rate = float(rate)
 
     def _push(
@@ -121,8 +124,8 @@ class Driver:
     def _change(self, values: dict[str, object], walk: int = WALK) -> None:
         if walk != int(walk):
             raise InputError(f"walk {walk} is changed, expected a whole number")
-        if "walk" in values:
-            raise InputError("'walk' is no field of a scenario")
+        if none := {"self", "walk"} & set(values):
+            raise InputError(f"{sorted(none)} are no fields of a scenario")
         self.session.change(int(walk), **values)
         self.nodes[int(walk)] = None
 

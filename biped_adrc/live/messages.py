@@ -8,8 +8,9 @@
     {"do": "pause"}, "go", "step", "back", "reset", "let_go", "save"
 
 A message is short, has these keys and no others, and holds finite numbers, short texts, and lists and
-mappings of them. Names of links and fields, and ranges, are checked by the session, which says what is
-wrong. `Allowance` counts how many messages a page may still send.
+mappings of them. The value of a field is no path and no `package.module:Class`: a page opens no file and runs
+no code. Names of links and fields, and ranges, are checked by the session, which says what is wrong.
+`Allowance` counts how many messages a page may still send.
 """
 
 from __future__ import annotations
@@ -25,6 +26,8 @@ MOST_BYTES = 2000
 """Of a message."""
 MOST_TEXT = 80
 """Characters of a text in a message."""
+MOST_SIZE = 1e300
+"""Of a number in a message, also of a whole one, which JSON does not limit."""
 MOST_ENTRIES = 20
 """Of a mapping in a message."""
 MOST_RATE, MOST_AT_ONCE = 150.0, 300.0
@@ -32,11 +35,15 @@ MOST_RATE, MOST_AT_ONCE = 150.0, 300.0
 
 
 def _number(x: object) -> bool:
-    return isinstance(x, int | float) and not isinstance(x, bool) and math.isfinite(x)
+    return isinstance(x, int | float) and not isinstance(x, bool) and abs(x) <= MOST_SIZE
 
 
 def _text(x: object) -> bool:
-    return isinstance(x, str) and len(x) <= MOST_TEXT
+    return isinstance(x, str) and len(x) <= MOST_TEXT and x.isprintable()
+
+
+def _name(x: object) -> bool:
+    return isinstance(x, str) and _text(x) and not set(x) & set(":/\\")
 
 
 def _pair(x: object) -> bool:
@@ -56,7 +63,7 @@ def _numbers(x: object) -> bool:
 
 
 def _values(x: object) -> bool:
-    return _entries(x, lambda y: y is None or isinstance(y, bool) or _number(y) or _text(y))
+    return _entries(x, lambda y: y is None or isinstance(y, bool) or _number(y) or _name(y))
 
 
 class Kind(NamedTuple):
@@ -70,7 +77,10 @@ NUMBER = Kind(_number, "a finite number")
 TEXT = Kind(_text, f"a text of at most {MOST_TEXT} characters")
 PAIR = Kind(_pair, "two finite numbers")
 NUMBERS = Kind(_numbers, f"at most {MOST_ENTRIES} finite numbers by name")
-VALUES = Kind(_values, f"at most {MOST_ENTRIES} numbers, texts or null by name")
+VALUES = Kind(
+    _values,
+    f"at most {MOST_ENTRIES} numbers, names or null by name; a page gives no path and no class of your own",
+)
 NEEDED: dict[str, dict[str, Kind]] = {
     "pull": {"link": TEXT, "at": PAIR, "anchor": PAIR},
     "change": {"values": VALUES},

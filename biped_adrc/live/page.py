@@ -29,7 +29,7 @@ from biped_adrc.live.hand import MOST_FORCE, MOST_TORQUE
 from biped_adrc.live.live_walk import LiveWalk
 from biped_adrc.live.of_walker import scenario_of
 from biped_adrc.live.session import Session
-from biped_adrc.live.stage import Stage
+from biped_adrc.live.stage import SLOW, Stage
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part
 from biped_adrc.scenario.build import limits
@@ -84,9 +84,9 @@ def play(
     why = run(
         html, stage.stream, listener=stage, port=port, open_browser=open_browser, wait=wait, say=say
     )
-    if stage.slow:
+    if stage.share < SLOW:
         say(
-            f"this walk did not keep up with the clock: {stage.driver.reached:.2f} of real time at last"
+            f"this walk did not keep up with the clock: at worst {stage.share:.2f} of the rate asked for"
         )
     return why
 

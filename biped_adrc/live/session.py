@@ -38,6 +38,8 @@ from biped_adrc.types import Array
 
 WALK, GHOST = 0, 1
 """The walks of a session."""
+FARTHEST = 1e6
+"""Largest distance of the anchor of a spring from the origin [m]: more than a session walks."""
 
 
 class Mark(NamedTuple):
@@ -217,8 +219,10 @@ class Session:
         InputError and ModelError.
         """
         check_point(at)
-        if not all(map(math.isfinite, anchor)):
-            raise InputError(f"the anchor of the spring is at {anchor} m, expected finite numbers")
+        if not math.hypot(*anchor) <= FARTHEST:
+            raise InputError(
+                f"the anchor of the spring is at {anchor} m, expected two numbers within {FARTHEST:g} m"
+            )
         self.walking[WALK].moving.points.of(link, at)
         self.spring, self.ends = Spring(link, at, anchor), math.inf
 

@@ -72,8 +72,8 @@ class Stage(Listener):
         self.known: list[dict[str, object]] = []
         """Values that the pages have been told."""
         self.saving: asyncio.Task[None] | None = None
-        self.slow = False
-        """Whether it has ever failed to keep up."""
+        self.share = 1.0
+        """Least share of the rate asked for that was reached."""
 
     # -- in the event loop of the server -------------------------------------------------------------
     def came(self, page: Pages) -> None:
@@ -163,7 +163,7 @@ class Stage(Listener):
                 replies.append((page, {"refused": str(error), "names": names(text)}))
         if going:
             self.driver.go_on()
-        self.slow |= not self.driver.paused and self.driver.reached < SLOW * self.driver.rate
+            self.share = min(self.share, self.driver.reached / self.driver.rate)
         walking = self.driver.session.walking
         return Turn(frame(self.driver), replies, [values(x.scenario) for x in walking], save)
 

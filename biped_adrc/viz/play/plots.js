@@ -59,6 +59,7 @@ function draw(plot) {
   const at = (t, y) => [w * (1 - (end - t) / SECONDS), 4 + (h - 8) * (top - Math.min(y, 9 * top)) / (top - low)];
   axes(pen, plot, w, top, low, at);
   lines.forEach((line, k) => stroke(pen, line, plot.lines[k][2], at));
+  scaleOf(pen, top + " " + plot.unit);
 }
 
 function axes(pen, plot, w, top, low, at) {
@@ -72,9 +73,15 @@ function axes(pen, plot, w, top, low, at) {
   for (const limit of (plot.limits || []).filter((y) => y >= low && y <= top)) {
     pen.strokeRect(0, at(0, limit)[1], w, 0);
   }
-  pen.fillStyle = "#111";
+}
+
+// what the upper end of the plot is, before all lines
+function scaleOf(pen, words) {
   pen.font = "13px system-ui, sans-serif";
-  pen.fillText(top + " " + plot.unit, 4, 16);
+  pen.fillStyle = "rgb(255 255 255 / 80%)";
+  pen.fillRect(2, 3, pen.measureText(words).width + 4, 17);
+  pen.fillStyle = "#111";
+  pen.fillText(words, 4, 16);
 }
 
 function stroke(pen, line, colour, at) {
