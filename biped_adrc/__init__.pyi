@@ -84,6 +84,9 @@ from biped_adrc.hybrid.simulator import simulate as simulate
 from biped_adrc.hybrid.status import Status as Status
 from biped_adrc.hybrid.trajectory import Trajectory as Trajectory
 from biped_adrc.linear import solve as solve
+from biped_adrc.live.page import play as play
+from biped_adrc.live.repeated import replay_session as replay_session
+from biped_adrc.live.session import Session as Session
 from biped_adrc.logs.log_file import read_log as read_log
 from biped_adrc.logs.log_file import write_log as write_log
 from biped_adrc.logs.log_of_walk import logged as logged
@@ -103,9 +106,6 @@ from biped_adrc.observers.base import ResetPolicy as ResetPolicy
 from biped_adrc.observers.chain import chain_laws as chain_laws
 from biped_adrc.observers.gpi import TABLE_I as TABLE_I
 from biped_adrc.observers.gpi import GPIObserver as GPIObserver
-from biped_adrc.play.page import play as play
-from biped_adrc.play.repeated import replay_session as replay_session
-from biped_adrc.play.session import Session as Session
 from biped_adrc.robot_import.import_robot import biped_from_urdf as biped_from_urdf
 from biped_adrc.robots.limits import Limits as Limits
 from biped_adrc.scenario.push import Push as Push

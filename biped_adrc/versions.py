@@ -44,7 +44,7 @@ NEVER_TRACED = (
     "logs",
     "observer_design",
     "paper",
-    "play",
+    "live",
     "scenario",
     "soft",
     "studies",

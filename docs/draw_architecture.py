@@ -21,7 +21,7 @@ WORDS = {
     "tuning": "the best setting, held-out walks",
     "logs": "a robot's measurements replayed",
     "deploy": "a controller as C",
-    "play": "a walk under one's own hand",
+    "live": "a walk under one's own hand",
     "gym": "walks for learners",
     "studies": "stability, design, observer of one gait",
     "scenario": "one walk in plain values, the registry",

@@ -1,4 +1,4 @@
-"""Record the page of `play` for docs/guide/play.md: docs/images/play.gif.
+"""Record the page of `play` for docs/guide/play.md: docs/recordings/play.gif.
 
 Run: python docs/record_play.py
 
@@ -25,12 +25,12 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 from viz.browser import chromium
 
 import biped_adrc as ba
-from biped_adrc.play.driver import Driver
-from biped_adrc.play.page import page
-from biped_adrc.play.stage import Stage
+from biped_adrc.live.driver import Driver
+from biped_adrc.live.page import page
+from biped_adrc.live.stage import Stage
 from biped_adrc.viz.meshcat.server import run
 
-PATH = Path(__file__).parent / "images" / "play.gif"
+PATH = Path(__file__).parent / "recordings" / "play.gif"
 WIDTH, HEIGHT = 1000, 700
 """Of the window [px]; the picture is as wide, and has no controls."""
 SMALLER = 0.72

@@ -69,6 +69,8 @@ class Entry(NamedTuple):
     """rms torque of the encoders' counts [N m], of the chosen setting; None where unknown."""
     searches: int = 1
     """How many searches its walks are of."""
+    failed: int = 0
+    """How many of them found no setting that keeps the limits."""
     kind: str = ""
     """Hardware and plant of the place; searches at places of one kind scatter alike."""
 
@@ -76,6 +78,11 @@ class Entry(NamedTuple):
     def found(self) -> bool:
         """Whether there is a setting that keeps the limits."""
         return not self.why
+
+    @property
+    def rank(self) -> tuple[float, int]:
+        """By the error on the selection set; where that is infinite, by how many searches found nothing."""
+        return self.selected, self.failed
 
     @property
     def medians(self) -> Array:
@@ -200,7 +207,7 @@ def _entry(told: Mapping[str, Any], size: tuple[int, int]) -> Entry:
     at = (told["place"], told["gait"], told["contestant"], told["seed"])
     worst = Walks(*(np.full(size, np.inf) for _ in KEPT[:-1]), np.zeros(size))
     if told["why"]:
-        return Entry(*at, {}, told["why"], np.inf, (None, None), worst, None)
+        return Entry(*at, {}, told["why"], np.inf, (None, None), worst, None, failed=1)
     margins = tuple(float(x) for x in told["margins"])
     sides = (walks_of(told["tuned"]), walks_of(told["published"]))
     return Entry(*at, told["chosen"], "", float(told["selected"]), margins, *sides)
@@ -224,7 +231,8 @@ def pooled(same: Sequence[Entry]) -> Entry:
         *(np.concatenate(columns) for columns in zip(*(e.tuned for e in same), strict=True))
     )
     selected = float(np.exp(np.mean(np.log([e.selected for e in same]))))
-    return first._replace(tuned=tuned, selected=selected, searches=len(same))
+    failed = sum(e.failed for e in same)
+    return first._replace(tuned=tuned, selected=selected, searches=len(same), failed=failed)
 
 
 def groups_of(found: Sequence[Entry]) -> list[dict[str, Entry]]:
@@ -256,4 +264,4 @@ def reference(contestants: Mapping[str, Entry]) -> Entry | None:
     """The better of NPD and NPID on the selection set; None where one of them has not been searched yet."""
     if not {"NPD", "NPID"} <= set(contestants):
         return None
-    return min((contestants[name] for name in ("NPD", "NPID")), key=lambda e: e.selected)
+    return min((contestants[name] for name in ("NPD", "NPID")), key=lambda e: e.rank)

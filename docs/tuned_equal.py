@@ -10,9 +10,10 @@ import tuned_text as words
 from soft_text import bullets
 from tuned_entries import Entry, entries, groups_of
 from tuned_gaps import missing
-from tuned_questions import ORDERS, Answer, Group, answered, between
+from tuned_questions import Answer, Group
 from tuned_seeds import repeated, scatter_of
 from tuned_sentences import against
+from tuned_steady import orders, steadied
 from tuned_text import MRAD, interval, legal, name, ratio, setting
 from write_results import table
 
@@ -24,7 +25,8 @@ HEADINGS = (
 )
 INTRODUCTION = """Places of `benchmarks/tuned/orders.toml`, on RABBIT's hardware with 1 ms of delay and gait
 v0.5. Budget, leaves and walks are those of the contest; the ripple, which is the rms torque that the counts of
-the encoders alone cause, has a limit beside that of the delay margin."""
+the encoders alone cause, has a limit beside that of the delay margin. How searches scatter is taken from these
+and those of the contest on the same hardware."""
 
 
 def equal_loops(summary: Mapping[str, Any], contest: Sequence[Entry]) -> list[str]:
@@ -34,7 +36,7 @@ def equal_loops(summary: Mapping[str, Any], contest: Sequence[Entry]) -> list[st
         return []
     found = entries(given)
     groups = groups_of(found)
-    asked = answered(between(groups, ORDERS), scatter_of(repeated([*contest, *found])))
+    asked = steadied(groups, found, orders, scatter_of(repeated([*contest, *found])))
     return [
         "## An order above 1 at equal delay margin and ripple",
         INTRODUCTION,

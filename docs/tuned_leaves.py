@@ -91,7 +91,7 @@ def with_all_leaves(summary: Mapping[str, Any], groups: Sequence[Group]) -> list
         if not npd.found:
             lines.append(f"{at(npd)}: with all leaves *NPD* has no setting that keeps the limits.")
         elif some:
-            best = min(some, key=lambda e: e.selected)
+            best = min(some, key=lambda e: e.rank)
             lines.append(
                 f"{at(npd)}: with all leaves *NPD* reaches {words.error(npd.tuned)} mrad with "
                 f"{words.legal(npd.tuned)} walks legal; {name(best)}, the best of the others, "
@@ -115,7 +115,7 @@ def unsearched_sentences(summary: Mapping[str, Any], groups: Sequence[Group]) ->
         some = [e for e in here if e.found]
         beside = ""
         if some:
-            best = min(some, key=lambda e: e.selected)
+            best = min(some, key=lambda e: e.rank)
             beside = (
                 f", beside {words.error(best.tuned)} mrad of {name(best)}, the best of those tuned"
             )

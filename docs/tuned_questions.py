@@ -75,22 +75,27 @@ class Answer(NamedTuple):
     ratio: Interval
     """Median of the paired ratios of rms errors, between 1 / `WORST` and `WORST`."""
     won: int
-    """Seeds in which the error of a is smaller, by the mean of the logarithms over the conditions."""
+    """Seeds in which the error of a is smaller, by the median of the logarithms of their walks."""
     lost: int
     """Seeds in which it is larger."""
     p: float
     """The larger one of the sign test over seeds and of the t test over searches, corrected by Holm's method
     over the family."""
     legal_p: float
-    """Of McNemar's test over seeds of which all walks are legal, corrected in the same way."""
+    """Of McNemar's test over seeds of which all walks are legal, corrected in the same way; 1 where a search of
+    several found nothing, of which there are no walks."""
     legal_bound: float
     """The shares of such seeds differ by at most this, with 95 %."""
     searched: Searched = Searched()
     """How its searches scatter; nothing for settings of one search, which is not repeated."""
+    steady: bool = True
+    """Whether its verdict is the same without any one seed of the optimiser (`tuned_steady`)."""
 
     @property
     def verdict(self) -> str:
         """Whether the error of a is "smaller" or "larger"; "open" where walks or searches carry neither."""
+        if not self.steady:
+            return "open"
         if self.p < LEVEL and self.ratio.high < 1.0:
             return "smaller"
         return "larger" if self.p < LEVEL and self.ratio.low > 1.0 else "open"
@@ -108,6 +113,11 @@ def mixed(e: Entry) -> bool:
     return bool(some.any() and not some.all())
 
 
+def partly_failed(e: Entry) -> bool:
+    """Whether some searches of a contestant found a setting, and some did not."""
+    return 0 < e.failed < e.searches
+
+
 def log_ratios(a: Array, b: Array) -> Array:
     """Logarithms of a / b (conditions, seeds), both positive or infinite, between -log and log of `WORST`."""
     with np.errstate(invalid="ignore"):
@@ -116,33 +126,52 @@ def log_ratios(a: Array, b: Array) -> Array:
     return np.clip(found, -np.log(WORST), np.log(WORST))
 
 
+def paired(a: Entry, b: Entry) -> Array:
+    """Logarithms of the ratios of errors of the same walk (pairs of searches and conditions, seeds).
+
+    Each search of a stands beside each of b: the seed of the optimiser pairs nothing.
+    """
+    x, y = (np.array(np.split(e.tuned.rms_error, e.searches)) for e in (a, b))
+    logs = log_ratios(*np.broadcast_arrays(x[:, None], y[None, :]))
+    return logs.reshape(-1, logs.shape[-1])
+
+
 def answered(pairs: Sequence[tuple[Entry, Entry]], scatter: Scatter | None = None) -> list[Answer]:
     """The answers of one family of questions, corrected for each other.
 
     scatter: of the searches of two contestants; None for settings of one search, which is not repeated.
     """
-    found = [_answer(a, b, Searched() if scatter is None else scatter(a, b)) for a, b in pairs]
+    found = uncorrected(pairs, scatter)
     errors, legal = holm([x.p for x in found]), holm([x.legal_p for x in found])
     both = zip(found, errors, legal, strict=True)
     return [x._replace(p=p, legal_p=legal_p) for x, p, legal_p in both]
 
 
+def uncorrected(
+    pairs: Sequence[tuple[Entry, Entry]], scatter: Scatter | None = None
+) -> list[Answer]:
+    """The answers of questions that are each asked alone."""
+    return [_answer(a, b, Searched() if scatter is None else scatter(a, b)) for a, b in pairs]
+
+
 def _answer(a: Entry, b: Entry, searched: Searched) -> Answer:
     """The answer to one question, not corrected."""
-    logs = log_ratios(a.tuned.rms_error, b.tuned.rms_error)
+    logs = paired(a, b)
     middle = over_seeds(logs, lambda sets: np.median(sets, axis=1))
-    each = logs.mean(axis=0)
+    each = np.median(logs, axis=0)
     won, lost = int(np.sum(each < 0.0)), int(np.sum(each > 0.0))
     p = max(sign_test(won, lost), searched.p(least(a, b, middle.value)))
     x, y = (np.all(e.tuned.legal == 1.0, axis=0) for e in (a, b))
+    legal_p = 1.0 if partly_failed(a) or partly_failed(b) else mcnemar(list(x), list(y))
     apart = [share(int(np.sum(one & ~other)), len(x)).high for one, other in ((x, y), (y, x))]
     ratio = Interval(*np.exp(middle).tolist())
-    return Answer(a, b, ratio, won, lost, p, mcnemar(list(x), list(y)), max(apart), searched)
+    return Answer(a, b, ratio, won, lost, p, legal_p, max(apart), searched)
 
 
 def least(a: Entry, b: Entry, log: float) -> float:
-    """The logarithm of the ratio that searches are asked about.
+    """The logarithm of the ratio that searches are asked about, log where one found nothing in all of them.
 
+    It is the difference of what scatters, the means over searches of the logarithms of median errors.
     Where only some searches of a contestant found something it is the one of two single searches that is
     nearest to 0, and 0 where they do not agree in sign. That one search found nothing says nothing: another
     one may.
@@ -150,6 +179,8 @@ def least(a: Entry, b: Entry, log: float) -> float:
     sides = [(np.isfinite(e.medians), e.searches) for e in (a, b)]
     if any(not found.any() and searches == 1 for found, searches in sides):
         return 0.0
+    if all(found.all() for found, _ in sides):
+        return float(np.mean(np.log(a.medians)) - np.mean(np.log(b.medians)))
     if not (mixed(a) or mixed(b)):
         return log
     each = log_ratios(a.medians[:, None], b.medians[None, :])
@@ -173,12 +204,12 @@ def against_reference(groups: Sequence[Group]) -> list[tuple[Entry, Entry]]:
 def first_of(contestants: Group) -> Entry | None:
     """The best one on the selection set; None where nobody keeps the limits."""
     some = [e for e in contestants.values() if e.found]
-    return min(some, key=lambda e: e.selected) if some else None
+    return min(some, key=lambda e: e.rank) if some else None
 
 
 def first_two(groups: Sequence[Group]) -> list[tuple[Entry, Entry]]:
     """The best one on the selection set beside the next, of each group that has two."""
-    ranked = [sorted(g.values(), key=lambda e: e.selected) for g in groups]
+    ranked = [sorted(g.values(), key=lambda e: e.rank) for g in groups]
     return [(some[0], some[1]) for some in ranked if len(some) > 1 and some[1].found]
 
 

@@ -1,24 +1,15 @@
-"""What another seed of the optimiser finds: the spread of searches, placebos, and conclusions that move."""
+"""What another seed of the optimiser finds: the spread of searches, and placebos."""
 
 from __future__ import annotations
 
 import itertools
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from tuned_entries import Entry, groups_of
-from tuned_questions import (
-    ORDERS,
-    Answer,
-    Group,
-    Scatter,
-    Searched,
-    against_reference,
-    answered,
-    between,
-)
+from tuned_entries import Entry
+from tuned_questions import LEVEL, Answer, Scatter, Searched, answered, uncorrected
 from tuned_text import MRAD, at, name, number, ratio
 
 Repeats = Sequence[Entry]
@@ -97,8 +88,9 @@ def scatter_of(repeats: Sequence[Repeats]) -> Scatter | None:
     return scatter
 
 
-def placebos(found: Sequence[Entry]) -> tuple[list[Answer], list[Answer]]:
-    """Two searches of one contestant as if they were two contestants: by the walks alone, and by searches too.
+def placebos(found: Sequence[Entry]) -> tuple[list[Answer], list[Answer], list[Answer]]:
+    """Two searches of one contestant as if they were two contestants: by the walks alone, by searches too, and
+    so, but each asked alone and without those pairs of which a search found nothing.
 
     How its searches scatter is taken from other places and gaits of the same kind, and from all others where
     there are none, so that a placebo does not judge itself.
@@ -111,12 +103,13 @@ def placebos(found: Sequence[Entry]) -> tuple[list[Answer], list[Answer]]:
         scatter = scatter_of(others)
         return Searched() if scatter is None else scatter(a, b)
 
-    return answered(pairs), answered(pairs, elsewhere)
+    able = [(a, b) for a, b in pairs if a.found and b.found]
+    return answered(pairs), answered(pairs, elsewhere), uncorrected(able, elsewhere)
 
 
 def placebo_sentences(found: Sequence[Entry]) -> list[str]:
     """By how much searches differ, and what came of the placebos."""
-    alone, both = placebos(found)
+    alone, both, single = placebos(found)
     if not alone:
         return []
     spreads = spreads_of(repeated(found))
@@ -136,6 +129,7 @@ def placebo_sentences(found: Sequence[Entry]) -> list[str]:
         f" Left out are places and gaits where a search found nothing: {rest}." if rest else ""
     )
     different = [x for x in both if x.verdict != "open"]
+    chance = sum(x.verdict != "open" for x in single)
     named = "".join(
         f"; {name(x.a)} at {at(x.a)}, seeds {x.a.seed} and {x.b.seed}, {ratio(x.ratio)}"
         for x in different
@@ -147,21 +141,10 @@ def placebo_sentences(found: Sequence[Entry]) -> list[str]:
         f"their walks alone {sum(x.verdict != 'open' for x in alone)} of them are found different, since two "
         f"searches do end at different settings. By the rule of this page, with the scatter of the same "
         f"contestant's searches at other places and gaits, {len(different)} of {len(both)} are found "
-        f"different{named}.",
+        f"different{named}. That correction over so many pairs leaves few to be found: without it {chance} of "
+        f"the {len(single)} pairs of which both found something are different, where {100 * LEVEL:g} % of them "
+        f"would be by chance; the other {len(both) - len(single)} cannot be.",
     ]
-
-
-def other_seeds(found: Sequence[Entry], scatter: Scatter | None = None) -> list[str]:
-    """For each place and gait with several seeds of the optimiser the errors, then which conclusions move."""
-    lines = []
-    for place, gait in dict.fromkeys((e.place, e.gait) for e in found):
-        here = [e for e in found if (e.place, e.gait) == (place, gait)]
-        seeds = sorted({e.seed for e in here})
-        if len(seeds) > 1:
-            lines.append(f"**{at(here[0])}**, seeds {', '.join(map(str, seeds))}: {errors(here)}.")
-    for question, asked in (("the reference", against_reference), ("m = 1", against_first)):
-        lines += moved(found, scatter, question, asked)
-    return lines
 
 
 def errors(here: Sequence[Entry]) -> str:
@@ -172,73 +155,3 @@ def errors(here: Sequence[Entry]) -> str:
         if len(medians) > 1:
             told.append(f"{who} {', '.join(number(MRAD * x) for x in medians)}")
     return "median errors in mrad: " + "; ".join(told)
-
-
-def against_first(groups: Sequence[Group]) -> list[tuple[Entry, Entry]]:
-    """The orders above 1 beside order 1."""
-    return between(groups, ORDERS)
-
-
-Asked = Callable[[Sequence[Group]], list[tuple[Entry, Entry]]]
-Conclusions = dict[tuple[str, str], Answer]
-"""The answers by place and gait, and contestant."""
-
-
-def conclusions(found: Sequence[Entry], asked: Asked, scatter: Scatter | None) -> Conclusions:
-    """The answers of one family of questions."""
-    return {(at(x.a), x.a.contestant): x for x in answered(asked(groups_of(found)), scatter)}
-
-
-def moved(
-    found: Sequence[Entry], scatter: Scatter | None, question: str, asked: Asked
-) -> list[str]:
-    """Which conclusions move where one seed of the optimiser is left out, and where it stands alone."""
-    seeds = sorted({e.seed for e in found})
-    here, several = conclusions(found, asked, scatter), repeated_at(found)
-    here = {key: x for key, x in here.items() if key[0] in several}
-    if len(seeds) < 2 or not here:
-        return []
-    carried = {key: x for key, x in here.items() if x.verdict != "open"}
-    lines = []
-    for seed in seeds:
-        without = conclusions([e for e in found if e.seed != seed], asked, scatter)
-        lines.append(f"without seed {seed} {changes(here, without)}")
-    alone = [conclusions([e for e in found if e.seed == seed], asked, None) for seed in seeds]
-    against = [
-        f"{key[1]} at {key[0]} (seed {seed}: {ratio(x.ratio)})"
-        for seed, told in zip(seeds, alone, strict=True)
-        for key, x in told.items()
-        if key in carried and opposite(x, carried[key])
-    ]
-    said = "; ".join(against) or "none"
-    return [
-        f"Held against {question}, {len(here)} conclusions, {len(carried)} of them carried: "
-        f"{'; '.join(lines)}. By the walks of one seed alone another direction than the carried one: {said}."
-    ]
-
-
-def repeated_at(found: Sequence[Entry]) -> set[str]:
-    """Where all contestants were searched with several seeds."""
-    return {at(e) for g in groups_of(found) for e in g.values() if e.searches > 1}
-
-
-def opposite(x: Answer, carried: Answer) -> bool:
-    """Whether the interval of x lies on the other side of 1 than a carried verdict."""
-    return x.ratio.low > 1.0 if carried.verdict == "smaller" else x.ratio.high < 1.0
-
-
-def changes(here: Conclusions, without: Conclusions) -> str:
-    """How many verdicts differ, and which."""
-    both = [
-        key
-        for key in here
-        if key in without and without[key].b.contestant == here[key].b.contestant
-    ]
-    other = sum(key in without for key in here) - len(both)
-    turned = [
-        f"{who} at {spot} from {here[spot, who].verdict} to {without[spot, who].verdict}"
-        for spot, who in both
-        if here[spot, who].verdict != without[spot, who].verdict
-    ]
-    said = f"{len(turned)} of {len(both)} move" + (f" ({'; '.join(turned)})" if turned else "")
-    return said + (f", and {other} have another reference" if other else "")

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
+import numpy as np
 import tuned_text as words
 from tuned_entries import Entry, reference
-from tuned_questions import LEVEL, RUNGS, Answer, Group, Scatter, answered, first_of, first_two
+from tuned_questions import LEVEL, RUNGS, Answer, Group, first_of, partly_failed
 from tuned_text import MRAD, at, interval, legal, name, number, ratio
 
 from biped_adrc.analysis.statistics import share
@@ -18,12 +19,13 @@ GOAL_PLACE = "RABBIT, 1 ms"
 
 
 def winners(
-    groups: Sequence[Group],
-    contest: Sequence[Answer],
-    scatter: Scatter | None = None,
+    groups: Sequence[Group], contest: Sequence[Answer], firsts: Sequence[Answer] = ()
 ) -> list[str]:
-    """For each place and gait who is the best, how far ahead, and what is carried against NPD and NPID."""
-    ahead = {at(x.a): x for x in answered(first_two(groups), scatter)}
+    """For each place and gait who is the best, how far ahead, and what is carried against NPD and NPID.
+
+    firsts: the answers of the best beside the next.
+    """
+    ahead = {at(x.a): x for x in firsts}
     lines = [tally(groups)] if groups else []
     for g in groups:
         best = first_of(g)
@@ -80,9 +82,8 @@ def against(x: Answer) -> str:
 
 def who_is_legal(contest: Sequence[Answer]) -> list[str]:
     """Whether some walk legally more often than the reference."""
-    some = [x for x in contest if x.a.found]
-    if not some:
-        return []
+    found = [x for x in contest if x.a.found]
+    some = [x for x in found if not (partly_failed(x.a) or partly_failed(x.b))]
     lines = [
         f"{at(x.a)}: {name(x.a)} walks {legal(x.a.tuned)} legally, {name(x.b)} {legal(x.b.tuned)} "
         f"(McNemar's test over seeds, p {words.p_value(x.legal_p)})."
@@ -97,32 +98,64 @@ def who_is_legal(contest: Sequence[Answer]) -> list[str]:
             "difference to the reference; the shares of seeds of which all walks are legal differ there by at "
             f"most {bound:.0f} % with 95 %."
         )
-    return lines
+    return lines + not_asked([x for x in found if x not in some])
 
 
-def goal(contest: Sequence[Answer]) -> list[str]:
-    """How near the best one with an observer comes to the goal on RABBIT's hardware."""
+def not_asked(rest: Sequence[Answer]) -> list[str]:
+    """Of whom legality is not asked, as a search of several found nothing, which made no walks."""
+    if not rest:
+        return []
+    told = [
+        f"{spot}, beside {tried(next(x.b for x in rest if at(x.a) == spot))} "
+        + ", ".join(tried(x.a) for x in rest if at(x.a) == spot)
+        for spot in dict.fromkeys(at(x.a) for x in rest)
+    ]
+    return [
+        "Not asked is who walks legally more often where some searches found nothing, whose walks are counted "
+        f"as not legal and were never made (so many searches): {'; '.join(told)}."
+    ]
+
+
+def tried(e: Entry) -> str:
+    """A contestant with how many of its searches found nothing."""
+    return name(e) + (f" ({e.failed} of {e.searches})" if e.failed else "")
+
+
+def goal(first: Sequence[Answer], contest: Sequence[Answer]) -> list[str]:
+    """How near the best one comes to the goal on RABBIT's hardware.
+
+    first: the answers by the first seed of the optimiser alone. contest: by all.
+    """
     lines = []
-    for gait in dict.fromkeys(x.a.gait for x in contest if x.a.place == GOAL_PLACE):
-        here = [x for x in contest if (x.a.place, x.a.gait) == (GOAL_PLACE, gait)]
+    for gait in dict.fromkeys(x.a.gait for x in first if x.a.place == GOAL_PLACE):
+        here = [x for x in first if (x.a.place, x.a.gait) == (GOAL_PLACE, gait)]
         some = [x for x in here if x.a.found and x.a.contestant not in ("NPD", "NPID")]
         if some:
-            lines.append(beside_goal(min(some, key=lambda x: x.a.selected)))
+            best = min(some, key=lambda x: x.a.rank)
+            lines.append(beside_goal(best, [x for x in contest if at(x.a) == at(best.a)]))
     return lines
 
 
-def beside_goal(x: Answer) -> str:
-    """One contestant beside the goal."""
-    legal_share = share(int(x.a.tuned.legal.sum()), x.a.tuned.legal.size)
+def beside_goal(x: Answer, contest: Sequence[Answer]) -> str:
+    """The setting of one search beside the goal, and the ratio over all searches of its contestant.
+
+    A seed is what is independent, so that the lower end is that of the share of seeds with legal walks alone.
+    """
+    walked = x.a.tuned.legal
+    found = float(walked.mean())
+    low = share(int(np.sum(np.all(walked == 1.0, axis=0))), walked.shape[1]).low
+    every = [ratio(y.ratio) for y in contest if y.a.contestant == x.a.contestant]
+    over_all = f", over all its searches {every[0]}" if every else ""
     met = "met" if x.ratio.high <= GOAL else f"missed by {number(x.ratio.high - GOAL, 2)}"
-    shown = "shown" if legal_share.low >= GOAL_LEGAL else "not shown by so few walks"
-    if legal_share.value < GOAL_LEGAL:
-        shown = f"missed by {100 * (GOAL_LEGAL - legal_share.value):.1f} %"
+    shown = "shown" if low >= GOAL_LEGAL else "not shown by so few walks"
+    if found < GOAL_LEGAL:
+        shown = f"missed by {100 * (GOAL_LEGAL - found):.1f} %"
     return (
         f"The goal on {GOAL_PLACE} was a ratio to the reference with an upper end of at most {GOAL:g}, and "
-        f"{100 * GOAL_LEGAL:.1f} % of the walks legal. On gait {x.a.gait} {name(x.a)} has {ratio(x.ratio)}: "
+        f"{100 * GOAL_LEGAL:.1f} % of the walks legal. On gait {x.a.gait} {name(x.a)} of optimiser "
+        f"seed {x.a.seed} has {ratio(x.ratio)}{over_all}. By that seed "
         f"the first is {met}. Of its walks {legal(x.a.tuned)} are legal, which is at least "
-        f"{100 * legal_share.low:.1f} % with 95 %: the second is {shown}."
+        f"{100 * low:.1f} % with 95 %: the second is {shown}."
     )
 
 
@@ -142,7 +175,11 @@ def pays_at_all(orders: Sequence[Answer]) -> str:
     """In how many questions an order above 1 pays."""
     paid = [f"{name(x.a)} at {at(x.a)}" for x in orders if x.verdict == "smaller"]
     where = f": {', '.join(paid)}" if paid else ""
-    return f"An order above 1 pays in {len(paid)} of {len(orders)} questions{where}."
+    costs, still_open = (sum(x.verdict == kind for x in orders) for kind in ("larger", "open"))
+    return (
+        f"An order above 1 pays in {len(paid)} of {len(orders)} questions{where}. It costs in {costs}, and "
+        f"{still_open} are open."
+    )
 
 
 def loop(e: Entry) -> str:

@@ -311,11 +311,16 @@ def earlier_searches(s: Mapping[str, Any], g: Mapping[str, Any]) -> str:
 
 
 def first_look(s: Mapping[str, Any], g: Mapping[str, Any]) -> str:
-    """What to know where not all of the test walks have been made."""
+    """How many walks and searches there are, and of whom."""
     made, all_ = s["test"]["goal"]["walks"], g["test"]["seeds"]["count"]
+    rivals = sum(r["contestant"] in g["rivals"] for r in s["settings"])
     searches = f"{len(s['settings'])} searches"
     if made == all_:
-        return f"All {all_} test walks have been made, with settings of {searches}."
+        return (
+            f"All {all_} test walks have been made, with settings of {searches}: {rivals} of the rivals and "
+            f"{len(s['settings']) - rivals} of ADRC. So each ADRC of a role is the best of "
+            "more searches than the rival, which favours it."
+        )
     return (
         f"*A first look: {made} of {all_} test walks have been made, with settings of {searches}. Intervals "
         "are wide, and shares near 1 are not known.*"

@@ -150,7 +150,7 @@ HINTS = {
     "tip": Row("--tip 0,0,0.5", same("hints.tip"), (0.0, 0.0, 0.5)),
 }
 SIMULATE = {
-    "session": Row("me.npz", same("path"), Path("me.npz"), "play.repeated:replay_session"),
+    "session": Row("me.npz", same("path"), Path("me.npz"), "live.repeated:replay_session"),
     "scenario": Row("--scenario best.toml", scenario_field("K_d"), 33.0),
     "controller": Row("--controller npd", scenario_field("controller"), "NPD"),
     "gait": Row("--gait recipe", scenario_field("gait"), "recipe"),
@@ -498,7 +498,7 @@ MJCF = {
 COMMANDS = {
     "simulate": Command(
         "simulate", "cli.walk:_walk", SIMULATE,
-        others={"play.repeated:replay_session": ("simulate", "cli.walk:_walk")},
+        others={"live.repeated:replay_session": ("simulate", "cli.walk:_walk")},
     ),
     "replay": Command(
         "replay own.csv", "logs.replay:replay", REPLAY,
@@ -556,7 +556,7 @@ COMMANDS = {
         "animate run.npz", "viz.export:export", ANIMATE, LOAD,
         {LOAD: ("animate run.npz", ""), "viz.meshcat.live:play": ("animate run.npz --live", LOAD)},
     ),
-    "play": Command("play", "play.page:play", PLAY),
+    "play": Command("play", "live.page:play", PLAY),
     "plot": Command(
         "plot run.npz", "paper.figures:draw", PLOT, LOAD,
         {LOAD: ("plot run.npz", ""), "viz.style:write_figure": ("plot run.npz", f"{LOAD} paper.figures:draw")},

@@ -33,6 +33,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 from report import Table, arguments
 
 PULL = {"do": "pull", "link": "torso", "at": [0, 0.3]}
+BATCH = 20
+"""Pulls of one script in the page, which begins anew with each."""
 IN_PAGE = """
 const done = arguments[arguments.length - 1], count = arguments[0], times = [], before = socket.onmessage;
 let began = null, wanted = true;
@@ -113,13 +115,17 @@ async def pulls(port: int, count: int) -> list[float]:
     socket = await websocket_connect(f"ws://127.0.0.1:{port}/poses")
     times = []
     for k in range(count):
-        x, z = (await frame(socket))["walks"][0]["points"][:2]
-        while time.monotonic() % 1.0 > 0.2 + 0.6 * (k % 7) / 7.0:
+        if k % BATCH == 0:
+            await socket.write_message('{"do": "reset"}')
+        for _ in range(k % 17):  # at other times of a step
             await frame(socket)
+        await asyncio.sleep(1e-3 * (k % 16))  # and of a frame
+        x, z = (await frame(socket))["walks"][0]["points"][:2]
         began = time.monotonic()
         await socket.write_message(json.dumps(PULL | {"anchor": [x + 0.05, z + 0.3]}))
-        while not (await frame(socket))["felt"]:
-            pass
+        while not (seen := await frame(socket))["felt"]:
+            if seen["walks"][0]["ending"]:
+                raise RuntimeError(f"the walk {seen['walks'][0]['ending']}, after {k} pulls")
         times.append(1e3 * (time.monotonic() - began))
         await socket.write_message('{"do": "let_go"}')
         while (await frame(socket))["felt"]:
@@ -137,7 +143,11 @@ def pulls_in_page(port: int, count: int) -> list[float]:
         browser.get(f"http://127.0.0.1:{port}/")
         while not browser.execute_script("return page.last !== null"):
             time.sleep(0.1)
-        return [float(x) for x in browser.execute_async_script(IN_PAGE, count)]
+        found: list[float] = []
+        for k in range(0, count, BATCH):
+            browser.execute_script("send({ do: 'reset' })")
+            found += browser.execute_async_script(IN_PAGE, min(BATCH, count - k))
+        return found
 
 
 def resident(process: int) -> float:

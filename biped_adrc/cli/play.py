@@ -1,4 +1,4 @@
-"""`biped-adrc play`: a walk live in the browser, to be pushed and changed by hand (`play.page`)."""
+"""`biped-adrc play`: a walk live in the browser, to be pushed and changed by hand (`live.page`)."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def play_command(
     wait: float = 120.0,
 ) -> None:
     """Push a walk yourself: live in the browser, with a guided tour; 'hardware' is ideal if not given."""
-    from biped_adrc.play.page import play
+    from biped_adrc.live.page import play
     from biped_adrc.scenario.scenario import Scenario
 
     values = {"controller": usual(given), **values_of(given, push, sets, scenario)}

@@ -12,13 +12,13 @@ from biped_adrc.cli.steps import print_on_ground, print_supports
 from biped_adrc.files import keep_inputs, output_path
 
 if TYPE_CHECKING:
-    from biped_adrc.play.repeated import Replayed
+    from biped_adrc.live.repeated import Replayed
     from biped_adrc.scenario.recording import Walk
 
 
 def repeat(session: Path, out: Path | None) -> None:
     """Walk a session again, print its steps, and write it where it is asked for; the exit where it differs."""
-    from biped_adrc.play.repeated import SUFFIXES, replay_session
+    from biped_adrc.live.repeated import SUFFIXES, replay_session
     from biped_adrc.scenario.build import limits
 
     path = _written(out, session)

@@ -1,7 +1,7 @@
 """N walks of learners moved on sample by sample, one after the other: plants that move by themselves, such as
 MuJoCo, and controllers in plain Python.
 
-The samples are those of `biped_adrc.play`. On soft ground friction and the direction of the force are what the
+The samples are those of `biped_adrc.live`. On soft ground friction and the direction of the force are what the
 simulator makes them, so legality is another thing there: a single support is illegal where a foot slips, by the
 numbers of `soft.meters`, or where a torque is beyond the limit.
 """
@@ -23,8 +23,8 @@ from biped_adrc.gym.compiled_walks import place_of_torque
 from biped_adrc.gym.episode import Episode
 from biped_adrc.gym.view import learner_view
 from biped_adrc.hybrid.status import Status
-from biped_adrc.play.in_plant import MovingPlant
-from biped_adrc.play.movers import moving_of
+from biped_adrc.live.in_plant import MovingPlant
+from biped_adrc.live.movers import moving_of
 from biped_adrc.robots.limits import KnownLimits
 from biped_adrc.soft.meters import AT_CONE, CARRYING, PRESSED, SLIP_SPEED
 from biped_adrc.types import Array

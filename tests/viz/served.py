@@ -14,7 +14,7 @@ from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
 
 import biped_adrc as ba
-from biped_adrc.play.page import play
+from biped_adrc.live.page import play
 
 SOON = 60.0
 """[s] within which something comes that would come at once on an idle computer."""

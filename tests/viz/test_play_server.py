@@ -12,12 +12,12 @@ from tornado.httpclient import AsyncHTTPClient, HTTPClientError
 
 import biped_adrc as ba
 from biped_adrc.errors import InputError
-from biped_adrc.play.controls import controls, values
-from biped_adrc.play.driver import Driver
-from biped_adrc.play.frame import frame, named
-from biped_adrc.play.messages import MOST_AT_ONCE, MOST_BYTES, Message
-from biped_adrc.play.of_walker import scenario_of
-from biped_adrc.play.page import page, play
+from biped_adrc.live.controls import controls, values
+from biped_adrc.live.driver import Driver
+from biped_adrc.live.frame import frame, named
+from biped_adrc.live.messages import MOST_AT_ONCE, MOST_BYTES, Message
+from biped_adrc.live.of_walker import scenario_of
+from biped_adrc.live.page import page, play
 from biped_adrc.scenario.scenario import FIELDS
 from biped_adrc.viz.meshcat.frames import pose
 from biped_adrc.viz.placement import WalkScene
@@ -58,6 +58,15 @@ def test_a_frame_draws_what_the_finished_walk_draws_and_plots_its_signals():
     )
     assert found["signals"]["xi_estimate"] == [None] * 4
     assert found["ending"] == ""
+
+
+def test_signals_of_a_sample_before_a_change_are_not_read_with_the_controller_after_it():
+    driver = walked(0.1)
+    for message in (Message("change", {"values": {"controller": "ADRC"}}), Message("back", {})):
+        driver.take(message)
+        assert frame(driver)["walks"][0]["signals"] is None
+        driver.take(Message("step", {}))
+        assert frame(driver)["walks"][0]["signals"]["xi_estimate"][0] is not None
 
 
 def test_the_force_of_a_hand_is_drawn_where_it_acts_and_as_no_torque():

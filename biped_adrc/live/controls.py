@@ -16,7 +16,7 @@ from biped_adrc.scenario.scenario import DEFAULTS, FIELDS, UNITS, Scenario
 @cache
 def controls() -> dict[str, Any]:
     """As play.js takes them: sliders and choices, each with name, text and unit."""
-    told = plain(packaged("biped_adrc.play", "controls.toml"))
+    told = plain(packaged("biped_adrc.live", "controls.toml"))
     sliders = [_named(name, x) | {"given": DEFAULTS[name]} for name, x in told["slider"].items()]
     return {"sliders": sliders, "choices": [_named(name, x) for name, x in told["choice"].items()]}
 
@@ -30,7 +30,7 @@ def _named(name: str, x: dict[str, Any]) -> dict[str, Any]:
 @cache
 def tour() -> list[dict[str, Any]]:
     """The stations of tour.toml, each with all values that it sets."""
-    told = plain(packaged("biped_adrc.play", "tour.toml"))
+    told = plain(packaged("biped_adrc.live", "tour.toml"))
     return [x | {"values": told["base"] | x["values"]} for x in told["station"]]
 
 

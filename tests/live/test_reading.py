@@ -5,7 +5,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.recorded_signals import FORCE, recorded
-from biped_adrc.play.reading import reading
+from biped_adrc.live.reading import reading
 
 
 @pytest.mark.parametrize(

@@ -17,9 +17,9 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.simulator import FlownArc
 from biped_adrc.hybrid.status import Status
-from biped_adrc.play.hand import Hand
-from biped_adrc.play.movers import moving_of
-from biped_adrc.play.moving import Moving, Now
+from biped_adrc.live.hand import Hand
+from biped_adrc.live.movers import moving_of
+from biped_adrc.live.moving import Moving, Now
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop, start
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import DEFAULTS, Scenario

@@ -40,8 +40,8 @@ from biped_adrc.bench.scenario_file import read_values, scenario_lines, toml
 from biped_adrc.errors import InputError
 from biped_adrc.files import reading, write_text
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.play.hand_table import from_table, to_table
-from biped_adrc.play.record import VERSION, Change, SessionRecord, check_version, whole
+from biped_adrc.live.hand_table import from_table, to_table
+from biped_adrc.live.record import VERSION, Change, SessionRecord, check_version, whole
 from biped_adrc.scenario.scenario import Scenario
 
 HEAD = (

@@ -16,8 +16,8 @@ from biped_adrc.engine.compiled_push import PlantPush, PythonPush
 from biped_adrc.engine.strides import Strides
 from biped_adrc.hybrid.simulator import FlownArc, Record
 from biped_adrc.hybrid.system import Clock, FoundEvent, HybridSystem, Mover
-from biped_adrc.play.hand import Hand, LinkPoints
-from biped_adrc.play.moving import Moving, Now, in_python
+from biped_adrc.live.hand import Hand, LinkPoints
+from biped_adrc.live.moving import Moving, Now, in_python
 from biped_adrc.types import Array
 
 

@@ -25,13 +25,13 @@ from pathlib import Path
 from typing import NamedTuple
 
 from biped_adrc.errors import BipedError
-from biped_adrc.play.controls import values
-from biped_adrc.play.driver import Driver
-from biped_adrc.play.frame import frame, named
-from biped_adrc.play.messages import MOST_BYTES, Allowance, Message, message_of
-from biped_adrc.play.record import SessionRecord
-from biped_adrc.play.repeated import SUFFIXES, save_session
-from biped_adrc.play.session import WALK
+from biped_adrc.live.controls import values
+from biped_adrc.live.driver import Driver
+from biped_adrc.live.frame import frame, named
+from biped_adrc.live.messages import MOST_BYTES, Allowance, Message, message_of
+from biped_adrc.live.record import SessionRecord
+from biped_adrc.live.repeated import SUFFIXES, save_session
+from biped_adrc.live.session import WALK
 from biped_adrc.viz.meshcat.server import Listener, Pages, ServerState
 
 FPS = 60.0

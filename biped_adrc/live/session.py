@@ -26,11 +26,11 @@ import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.simulator import FlownArc
+from biped_adrc.live.hand import Hand, Spring, check_hand, check_point
+from biped_adrc.live.hand_table import HandRow
+from biped_adrc.live.live_walk import OF_CONTROLLER, LiveWalk, revised
+from biped_adrc.live.record import Change, SessionRecord
 from biped_adrc.parts import check_part
-from biped_adrc.play.hand import Hand, Spring, check_hand, check_point
-from biped_adrc.play.hand_table import HandRow
-from biped_adrc.play.live_walk import OF_CONTROLLER, LiveWalk, revised
-from biped_adrc.play.record import Change, SessionRecord
 from biped_adrc.robots.symmetry import twins
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.scenario import DEFAULTS, HARDWARE, Scenario
@@ -248,7 +248,7 @@ class Session:
 
     # -- other values, and other times -------------------------------------------------------------
     def change(self, walk: int = WALK, **values: object) -> None:
-        """Other values of a walk's scenario from the coming sample on, by name; see `play.live_walk`.
+        """Other values of a walk's scenario from the coming sample on, by name; see `live.live_walk`.
 
         walk: 0, or 1 for the ghost. Raises InputError for values that are none, or cannot change; then all
         is as it was.
@@ -290,7 +290,7 @@ class Session:
     # -- what is kept of it ------------------------------------------------------------------------
     def walk(self, which: int = WALK) -> Walk:
         """What was walked so far, as one walk: made again from the record, bit for bit."""
-        from biped_adrc.play.stored import walks_of
+        from biped_adrc.live.stored import walks_of
 
         return walks_of(self.record)[which]
 
@@ -300,7 +300,7 @@ class Session:
         Returns the path. `ba.replay_session` and `biped-adrc simulate` walk both again; `ba.load_walk`,
         `plot` and `animate` read the .npz as any run. Raises InputError and OutputError.
         """
-        from biped_adrc.play.repeated import save_session
+        from biped_adrc.live.repeated import save_session
 
         return save_session(self.record, path)
 

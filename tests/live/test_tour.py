@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.play.controls import tour
-from biped_adrc.play.reading import reading
+from biped_adrc.live.controls import tour
+from biped_adrc.live.reading import reading
 
 DOCS = Path(__file__).parents[2] / "docs"
 

@@ -6,9 +6,9 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.errors import BipedError, InputError
-from biped_adrc.play import driver
-from biped_adrc.play.driver import Driver
-from biped_adrc.play.messages import (
+from biped_adrc.live import driver
+from biped_adrc.live.driver import Driver
+from biped_adrc.live.messages import (
     MOST_AT_ONCE,
     MOST_BYTES,
     MOST_RATE,

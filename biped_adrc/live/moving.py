@@ -28,8 +28,8 @@ from biped_adrc.hardware.sample_hold import motor_torque, read, written
 from biped_adrc.hybrid.simulator import FlownArc, RunOptions, finite, flow_arc
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import HybridSystem
+from biped_adrc.live.hand import Hand, LinkPoints
 from biped_adrc.parts import handing_out
-from biped_adrc.play.hand import Hand, LinkPoints
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
 

@@ -12,9 +12,9 @@ from biped_adrc.engine.simulate import compiled_plant
 from biped_adrc.engine.ticks import TicksWithHardware, flowing
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.integrators import OneStepMethod
-from biped_adrc.play.in_code import MovingCode, MovingPython, on_the_plan, own_plan
-from biped_adrc.play.in_plant import MovingPlant
-from biped_adrc.play.moving import Moving
+from biped_adrc.live.in_code import MovingCode, MovingPython, on_the_plan, own_plan
+from biped_adrc.live.in_plant import MovingPlant
+from biped_adrc.live.moving import Moving
 from biped_adrc.timing import SampledTime
 
 

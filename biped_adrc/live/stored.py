@@ -23,13 +23,13 @@ from biped_adrc.engine.run import COMPILED, COMPILED_PLANT
 from biped_adrc.errors import BipedError, InputError
 from biped_adrc.hybrid.simulator import FlownArc
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
+from biped_adrc.live.hand import Hand, check_hand
+from biped_adrc.live.hand_table import HandRow
+from biped_adrc.live.in_code import MovingCode
+from biped_adrc.live.live_walk import LiveWalk
+from biped_adrc.live.record import SessionRecord
+from biped_adrc.live.session import WALK, Session
 from biped_adrc.model.biped import Biped
-from biped_adrc.play.hand import Hand, check_hand
-from biped_adrc.play.hand_table import HandRow
-from biped_adrc.play.in_code import MovingCode
-from biped_adrc.play.live_walk import LiveWalk
-from biped_adrc.play.record import SessionRecord
-from biped_adrc.play.session import WALK, Session
 from biped_adrc.scenario.build import build, soft_loop
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.scenario.run import method_of

@@ -19,10 +19,10 @@ from biped_adrc.errors import BipedError, InputError
 from biped_adrc.files import output_path
 from biped_adrc.hybrid import storage
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.play.hand_table import from_table, to_table
-from biped_adrc.play.record import SessionRecord
-from biped_adrc.play.session_file import Ended, read_session, write_session
-from biped_adrc.play.stored import walks_of
+from biped_adrc.live.hand_table import from_table, to_table
+from biped_adrc.live.record import SessionRecord
+from biped_adrc.live.session_file import Ended, read_session, write_session
+from biped_adrc.live.stored import walks_of
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.stored import load_ghost, load_walk, save_walk
 from biped_adrc.shown import Shown

@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 from biped_adrc.errors import InputError
 from biped_adrc.files import number_in
-from biped_adrc.play.hand import Hand
+from biped_adrc.live.hand import Hand
 
 NAMES = ("sample", "link", "x [m]", "z [m]", "F_x [N]", "F_z [N]")
 """Columns before the torques."""

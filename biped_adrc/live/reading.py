@@ -20,9 +20,9 @@ from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.closed_loop.stepping_plant import Load, PlantState
 from biped_adrc.hybrid.simulator import FlownArc
 from biped_adrc.hybrid.trajectory import Arc
-from biped_adrc.play.hand import Hand
-from biped_adrc.play.live_walk import LiveWalk
-from biped_adrc.play.moving import Moving, Now
+from biped_adrc.live.hand import Hand
+from biped_adrc.live.live_walk import LiveWalk
+from biped_adrc.live.moving import Moving, Now
 from biped_adrc.types import Array
 
 

@@ -14,16 +14,14 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from biped_adrc.play.driver import Driver
-from biped_adrc.play.hand import Hand
-from biped_adrc.play.live_walk import LiveWalk
-from biped_adrc.play.reading import Reading, reading
-from biped_adrc.play.session import WALK, Session
+from biped_adrc.live.driver import Driver
+from biped_adrc.live.hand import Hand
+from biped_adrc.live.live_walk import LiveWalk
+from biped_adrc.live.reading import Reading, reading
+from biped_adrc.live.session import WALK, Session
 from biped_adrc.robots.symmetry import twins
 from biped_adrc.types import Array
 from biped_adrc.viz.placement import exchanged, joint_values
-
-Numbers = list[float | None]
 
 
 def frame(driver: Driver) -> dict[str, object]:
@@ -126,6 +124,6 @@ def named(live: LiveWalk, link: str) -> str:
     return twins(plant.tree, (d.stance_foot, d.swing_foot)).get(link, link)
 
 
-def numbers(row: Iterable[float]) -> Numbers:
+def numbers(row: Iterable[float]) -> list[float | None]:
     """As JSON has them: null for one that is not finite."""
     return [float(x) if math.isfinite(x) else None for x in row]

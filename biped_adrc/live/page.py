@@ -23,15 +23,15 @@ from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
+from biped_adrc.live.controls import controls, tour
+from biped_adrc.live.driver import Driver
+from biped_adrc.live.hand import MOST_FORCE, MOST_TORQUE
+from biped_adrc.live.live_walk import LiveWalk
+from biped_adrc.live.of_walker import scenario_of
+from biped_adrc.live.session import Session
+from biped_adrc.live.stage import SLOW, Stage
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part
-from biped_adrc.play.controls import controls, tour
-from biped_adrc.play.driver import Driver
-from biped_adrc.play.hand import MOST_FORCE, MOST_TORQUE
-from biped_adrc.play.live_walk import LiveWalk
-from biped_adrc.play.of_walker import scenario_of
-from biped_adrc.play.session import Session
-from biped_adrc.play.stage import SLOW, Stage
 from biped_adrc.scenario.build import limits
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.viz.meshcat import objects as draw

@@ -17,9 +17,9 @@ from collections.abc import Callable
 
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.simulator import FlownArc
-from biped_adrc.play.hand import Hand
-from biped_adrc.play.messages import Message
-from biped_adrc.play.session import WALK, Session
+from biped_adrc.live.hand import Hand
+from biped_adrc.live.messages import Message
+from biped_adrc.live.session import WALK, Session
 
 SLOWEST, FASTEST = 0.01, 10.0
 """Rates that may be asked for: seconds of the walk a second."""

@@ -17,8 +17,8 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 from biped_adrc.errors import InputError
-from biped_adrc.play.hand import check_hand
-from biped_adrc.play.hand_table import HandRow
+from biped_adrc.live.hand import check_hand
+from biped_adrc.live.hand_table import HandRow
 from biped_adrc.scenario.scenario import Scenario
 
 VERSION = 1

@@ -16,13 +16,13 @@ from biped_adrc.bench.scenario_file import read_scenario
 from biped_adrc.cli import app
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.storage import load_beside
-from biped_adrc.play.hand import Hand
-from biped_adrc.play.hand_table import HandRow, from_table, to_table
-from biped_adrc.play.record import Change, SessionRecord
-from biped_adrc.play.repeated import save_session, save_walked
-from biped_adrc.play.session import GHOST, WALK, Session
-from biped_adrc.play.session_file import Ended, from_text, to_text, write_session
-from biped_adrc.play.stored import walks_of
+from biped_adrc.live.hand import Hand
+from biped_adrc.live.hand_table import HandRow, from_table, to_table
+from biped_adrc.live.record import Change, SessionRecord
+from biped_adrc.live.repeated import save_session, save_walked
+from biped_adrc.live.session import GHOST, WALK, Session
+from biped_adrc.live.session_file import Ended, from_text, to_text, write_session
+from biped_adrc.live.stored import walks_of
 from biped_adrc.scenario.stored import load_ghost, load_walks
 
 IDEAL = {"hardware": "ideal", "impacts": 2}

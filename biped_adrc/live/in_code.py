@@ -23,8 +23,8 @@ from biped_adrc.engine.simulate import flown, starting
 from biped_adrc.engine.symbols import floats
 from biped_adrc.engine.ticks import TicksWithHardware
 from biped_adrc.hybrid.simulator import FlownArc
-from biped_adrc.play.hand import Hand, LinkPoints
-from biped_adrc.play.moving import Moving, Now, in_python
+from biped_adrc.live.hand import Hand, LinkPoints
+from biped_adrc.live.moving import Moving, Now, in_python
 from biped_adrc.types import Array
 
 ROOM = 16
