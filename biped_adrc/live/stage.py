@@ -36,6 +36,8 @@ from biped_adrc.viz.meshcat.server import Listener, Pages, ServerState
 
 FPS = 60.0
 """Frames a second at most."""
+MOST_IN_A_TURN, MOST_WAITING = 10, 300
+"""Messages that are taken in one turn, and that may wait of one page: a change may take much of a turn."""
 SLOW = 0.9
 """Share of the rate asked for below which a walk is said not to keep up."""
 
@@ -85,8 +87,10 @@ class Stage(Listener):
         """Keep what a page says for the coming turn; close a page that says too much."""
         if page not in self.allowances:
             return
-        if not self.allowances[page].taken(time.monotonic()):
+        waiting = sum(one.page is page for one in self.heard)
+        if waiting >= MOST_WAITING or not self.allowances[page].taken(time.monotonic()):
             del self.allowances[page]
+            self.heard = [one for one in self.heard if one.page is not page]
             page.close(1008, "too many messages")
             return
         self.heard.append(Heard(page, text))
@@ -96,6 +100,11 @@ class Stage(Listener):
         self.allowances.pop(page, None)
         self.heard.append(Heard(page, None))
 
+    def taken(self) -> list[Heard]:
+        """What the coming turn does of what was said; the rest waits."""
+        now, self.heard = self.heard[:MOST_IN_A_TURN], self.heard[MOST_IN_A_TURN:]
+        return now
+
     async def stream(self, session: ServerState) -> str:
         """Turn after turn while a page is open. It ends only by being cancelled or by an error."""
         loop = asyncio.get_running_loop()
@@ -103,8 +112,7 @@ class Stage(Listener):
             due = loop.time()
             while True:
                 await session.arrived.wait()
-                heard, self.heard = self.heard, []
-                going = bool(session.clients)
+                heard, going = self.taken(), bool(session.clients)
                 self.send(session, await loop.run_in_executor(thread, self.turn, heard, going))
                 due = max(due + 1.0 / FPS, loop.time())
                 await asyncio.sleep(due - loop.time())

@@ -4,6 +4,7 @@ import asyncio
 import dataclasses
 import signal
 import threading
+from pathlib import Path
 
 import numpy as np
 import psutil
@@ -15,9 +16,10 @@ from biped_adrc.errors import InputError
 from biped_adrc.live.controls import controls, values
 from biped_adrc.live.driver import Driver
 from biped_adrc.live.frame import frame, named
-from biped_adrc.live.messages import MOST_AT_ONCE, MOST_BYTES, Message
+from biped_adrc.live.messages import MOST_AT_ONCE, MOST_BYTES, Allowance, Message
 from biped_adrc.live.of_walker import scenario_of
 from biped_adrc.live.page import page, play
+from biped_adrc.live.stage import MOST_IN_A_TURN, MOST_WAITING, Stage
 from biped_adrc.scenario.scenario import FIELDS
 from biped_adrc.viz.meshcat.frames import pose
 from biped_adrc.viz.placement import WalkScene
@@ -148,6 +150,29 @@ def test_what_is_wrong_is_answered_in_a_sentence_and_the_walk_goes_on():
         await page.frame(lambda f: f["t"] > now["t"] + 0.05)
 
     served(visit)
+
+
+def test_a_flood_of_changes_is_taken_bit_by_bit_and_no_other_page_waits_for_its_end():
+    closed: list[tuple[object, ...]] = []
+
+    class Spoken:
+        def close(self, *why):
+            closed.append(why)
+
+    stage = Stage(Driver(ba.Session(ba.Scenario("NPD", hardware="ideal"))), Path())
+    loud, quiet = Spoken(), Spoken()
+    for one in (loud, quiet):
+        stage.came(one)
+    stage.said(quiet, '{"do": "pause"}')
+    for _ in range(MOST_WAITING + 1):
+        stage.allowances.get(loud, Allowance()).left = MOST_AT_ONCE
+        stage.said(loud, '{"do": "go"}')
+    assert closed == [(1008, "too many messages")]
+    assert [one.page for one in stage.heard] == [quiet]
+    for _ in range(2 * MOST_IN_A_TURN):
+        stage.said(quiet, '{"do": "go"}')
+    assert len(stage.taken()) == MOST_IN_A_TURN
+    assert len(stage.heard) == MOST_IN_A_TURN + 1
 
 
 def test_a_hand_that_goes_away_in_the_middle_of_a_pull_lets_go():
