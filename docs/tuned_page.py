@@ -52,9 +52,9 @@ placebos were found different and another seed moved 4 of 22 conclusions; so thi
 after TPE, with the same number of candidates, and has test seeds that none has seen. The rule that a difference
 has to exceed that of two searches came when two searches of one contestant were found different by their walks;
 that the walks of all seeds of the optimiser count together came after a first look at numbers of a test. While
-few searches were repeated that rule had one factor for all contestants, which came to 2.43; with searches of
-all contestants repeated it is a test with the scatter of the two that are compared. That was taken over all
-places at first, which found 4 of 200 placebos different, as searches at the ideal place end closer to each
+few searches were repeated that rule had one factor for all contestants; with searches of all contestants
+repeated it is a test with the scatter of the two that are compared. That was taken over all places at first,
+and some placebos were found different, as searches at the ideal place end closer to each
 other than on the robot; so it is taken over places of the same hardware and plant. That a seed of the walks
 counts by the median of its walks came when three searches made six of them, of which a single one that is not
 legal decided their mean; that a conclusion has to stand without any one seed of the optimiser came last. A
