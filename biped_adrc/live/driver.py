@@ -103,9 +103,7 @@ class Driver:
     def _rate(self, rate: float) -> None:
         if not SLOWEST <= rate <= FASTEST:
             raise InputError(f"the rate is {rate:g}, expected {SLOWEST:g} to {FASTEST:g}")
-        self.reached *= (
-            rate / self.rate
-        )  # the same share of what is asked for, until there is more to say
+        self.reached *= rate / self.rate  # the same share of what is asked for
         self.rate = float(rate)
 
     def _push(
