@@ -4,16 +4,18 @@
     driver.go_on()              # as far as the clock has come since the last call, at the rate asked for
     driver.take(message)        # pause, go, step, back, reset, rate, push, pull, let_go, change, ghost
 
-`nodes` and `hand` are those of the last sample, for `reading`; None where the walk has been changed since.
+`made` has the samples that were made since the last frame, of each walk, for `reading`: none where the walk has
+been changed since, and those of the last frame where it has not gone on.
 
 A walk that cannot keep up is not made good later: what is owed after `BUSY` of computing is dropped, and
-`reached` says which rate there was.
+`reached` says which rate there was, and `kept` the share of it over the whole session.
 """
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from typing import NamedTuple
 
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.simulator import FlownArc
@@ -32,6 +34,14 @@ SMOOTH = 1.0
 """Time constant [s] of the rate that is said."""
 
 
+class Sample(NamedTuple):
+    """One sample of a walk."""
+
+    flown: FlownArc
+    hand: Hand | None
+    """That acted over it."""
+
+
 class Driver:
     """A session, whether it goes on by itself, and how fast. clock: a time [s] that never goes back."""
 
@@ -39,39 +49,55 @@ class Driver:
         self.session, self.clock = session, clock
         self.paused, self.rate, self.reached = False, 1.0, 1.0
         self.owed, self.last = 0.0, clock()
-        self.nodes: list[FlownArc | None] = []
-        self.hand: Hand | None = None
+        self.asked, self.walked = 0.0, 0.0
         self._forget()
 
     def go_on(self) -> bool:
         """On by the time since the last call; whether anything has moved."""
         began = self.clock()
-        passed, self.last = min(LONGEST, began - self.last), began
+        passed, self.last = began - self.last, began
         if self.paused or not self.session.walks or passed <= 0.0:
             self.owed = 0.0
             return False
-        self.owed += self.rate * passed
+        self.owed += self.rate * min(LONGEST, passed)
         moved = 0.0
         while self.owed > 0.0 and self.session.walks and self.clock() - began < BUSY:
             moved += self._sampled()
+        self.asked, self.walked = self.asked + self.rate * passed, self.walked + moved
         share = min(1.0, passed / SMOOTH)
         self.reached += share * (moved / passed - self.reached)
         self.owed = min(self.owed, 0.0)
         return moved > 0.0
 
+    @property
+    def kept(self) -> float:
+        """Walked time over that asked for, since the session was begun; 1 before."""
+        return self.walked / self.asked if self.asked > 0.0 else 1.0
+
     def _sampled(self) -> float:
         """One sample on; how long it was [s]."""
         before = self.session.t
-        for k, made in enumerate(self.session.sample()):
-            self.nodes[k] = made[-1] if made else self.nodes[k]
-        self.hand = self.session.hand
+        for k, flown in enumerate(self.session.sample()):
+            if flown and k in self._shown:
+                self._shown.remove(k)
+                self.made[k] = []
+            self.made[k] += [Sample(one, self.session.hand) for one in flown]
         step = self.session.t - before
         self.owed -= step
         return step
 
+    def rest(self) -> None:
+        """Nobody looks: the time since the last call is not made good."""
+        self.last, self.owed = self.clock(), 0.0
+
+    def shown(self) -> None:
+        """The samples of `made` have been shown: with the next one it begins anew."""
+        self._shown = {*range(len(self.made))}
+
     def _forget(self) -> None:
-        """The last sample is not of the walk that is there now."""
-        self.nodes, self.hand = [None for _ in self.session.walking], None
+        """No sample is of the walks that are there now."""
+        self.made: list[list[Sample]] = [[] for _ in self.session.walking]
+        self._shown = set[int]()
 
     def take(self, message: Message) -> None:
         """Do what a message says. Raises InputError or ModelError; then all is as it was."""
@@ -125,7 +151,7 @@ class Driver:
         if none := {"self", "walk"} & set(values):
             raise InputError(f"{sorted(none)} are no fields of a scenario")
         self.session.change(int(walk), **values)
-        self.nodes[int(walk)] = None
+        self.made[int(walk)] = []
 
     def _ghost(self, values: dict[str, object] | None = None) -> None:
         """The session anew from its start, with a ghost of these values, or without one."""

@@ -1,36 +1,44 @@
-"""One message to the pages: where the robots are, what acts on them, and the signals of the last sample.
+"""One message to the pages: where the robots are, what acts on them, and the signals since the last message.
 
     {"t", "paused", "rate", "reached", "walks": [...], "hand": {...} or null, "felt"}
 
-`felt` says whether a hand acted in the last sample. Numbers that are not finite are null, as JSON has none.
-Poses are those of the drawn robot (`viz.placement`), whose legs do not change their names at a touchdown as
-those of the model do.
+Each walk has its pose, `rows` of signals of at most ROWS samples, evenly spread, the last of them that of the
+pose, and `worst`: least normal force, largest friction and torque of all samples since the last message; null
+where there is none. `felt` says whether a hand acted in the last sample. Numbers that are not finite are null,
+as JSON has none. Poses are those of the drawn robot (`viz.placement`), whose legs do not change their names at
+a touchdown as those of the model do.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from biped_adrc.live.driver import Driver
+from biped_adrc.live.driver import Driver, Sample
 from biped_adrc.live.hand import Hand
 from biped_adrc.live.live_walk import LiveWalk
-from biped_adrc.live.reading import Reading, reading
+from biped_adrc.live.reading import Reading, carried, reading
 from biped_adrc.live.session import WALK, Session
 from biped_adrc.robots.symmetry import twins
 from biped_adrc.types import Array
 from biped_adrc.viz.placement import exchanged, joint_values
+
+ROWS = 3
+"""Samples of a walk in one message: at sixty messages a second more than a plot has pixels."""
 
 
 def frame(driver: Driver) -> dict[str, object]:
     """What is to be drawn of a session now."""
     session = driver.session
     walks = []
-    for live, nodes in zip(session.walking, driver.nodes, strict=True):
-        seen = None if nodes is None else reading(live, nodes, driver.hand)
-        walks.append(pose(live, seen, driver.hand) | signals(live, seen) | {"ending": ending(live)})
+    for live, made in zip(session.walking, driver.made, strict=True):
+        seen = [reading(live, *sample) for sample in spread(made, ROWS)]
+        last = (seen[-1], made[-1].hand) if seen else (None, None)
+        told = {"rows": [*map(row, seen)], "worst": worst(live, made), "ending": ending(live)}
+        walks.append(pose(live, *last) | told)
+    felt = driver.made[WALK]
     return {
         "t": session.t,
         "paused": driver.paused,
@@ -38,7 +46,7 @@ def frame(driver: Driver) -> dict[str, object]:
         "reached": driver.reached,
         "walks": walks,
         "hand": acting(session),
-        "felt": driver.hand is not None,
+        "felt": bool(felt) and felt[-1].hand is not None,
     }
 
 
@@ -74,22 +82,41 @@ def torques(live: LiveWalk, seen: Reading, hand: Hand | None) -> Array:
     return seen.zeta - live.moving.points.load(force, seen.q).zeta
 
 
-def signals(live: LiveWalk, seen: Reading | None) -> dict[str, object]:
-    """What the page plots, of the last sample; `signals` is null where there is none."""
-    if seen is None:
-        return {"signals": None}
-    tangent, normal = seen.ground.tolist()
+def spread(made: Sequence[Sample], most: int) -> list[Sample]:
+    """At most so many of them, evenly spread, the last one among them."""
+    count = min(most, len(made))
+    return [made[round((k + 1) * len(made) / count) - 1] for k in range(count)]
+
+
+def row(seen: Reading) -> dict[str, object]:
+    """What the page plots, of one sample."""
     return {
-        "signals": {
-            "t": seen.t,
-            "error": numbers(seen.error),
-            "xi": numbers(seen.xi),
-            "xi_estimate": numbers(seen.xi_estimate),
-            "u": numbers(seen.u),
-            "normal": numbers((normal,))[0],
-            "friction": numbers((math.inf if normal == 0.0 else abs(tangent) / normal,))[0],
-        }
+        "t": seen.t,
+        "error": numbers(seen.error),
+        "xi": numbers(seen.xi),
+        "xi_estimate": numbers(seen.xi_estimate),
+        "u": numbers(seen.u),
+        "friction": numbers((friction(seen.ground),))[0],
     }
+
+
+def friction(ground: Array) -> float:
+    """|F_T| / F_N of a force (2,) [N] of the ground; infinite where that does not press on the foot."""
+    tangent, normal = ground.tolist()
+    return math.inf if normal <= 0.0 else abs(tangent) / normal
+
+
+def worst(live: LiveWalk, made: Sequence[Sample]) -> dict[str, object] | None:
+    """Least F_N [N], largest |F_T| / F_N and largest torque [N m] of all these samples; None without one."""
+    if not made:
+        return None
+    found = [carried(live, *sample) for sample in made]
+    extremes = (
+        min(float(one.ground[1]) for one in found),
+        max(friction(one.ground) for one in found),
+        max(float(np.max(np.abs(one.u))) for one in found),
+    )
+    return dict(zip(("normal", "friction", "torque"), numbers(extremes), strict=True))
 
 
 def ending(live: LiveWalk) -> str:

@@ -29,7 +29,7 @@ from biped_adrc.live.hand import MOST_FORCE, MOST_TORQUE
 from biped_adrc.live.live_walk import LiveWalk
 from biped_adrc.live.of_walker import scenario_of
 from biped_adrc.live.session import Session
-from biped_adrc.live.stage import SLOW, Stage
+from biped_adrc.live.stage import Stage
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part
 from biped_adrc.scenario.build import limits
@@ -43,6 +43,8 @@ from biped_adrc.viz.style import TORQUE
 
 AROUND = 4.0
 """How far [m] the ground reaches before and behind the robot."""
+SLOW = 0.9
+"""Share of the pace asked for below which a walk is said not to have kept up."""
 PRINTS = 12
 """Footprints that are there at once."""
 NEARER = -0.15
@@ -84,10 +86,8 @@ def play(
     why = run(
         html, stage.stream, listener=stage, port=port, open_browser=open_browser, wait=wait, say=say
     )
-    if stage.share < SLOW:
-        say(
-            f"this walk did not keep up with the clock: at worst {stage.share:.2f} of the rate asked for"
-        )
+    if (kept := stage.driver.kept) < SLOW:
+        say(f"this walk did not keep up with the clock: {kept:.2f} of the pace asked for")
     return why
 
 

@@ -2,7 +2,8 @@
 
 The session belongs to one thread, in which it is moved on and changed, so that the server answers while it
 computes or compiles. Sixty times a second that thread takes what the pages have said since, goes on by the
-clock, and makes a `frame` for all pages. Replies go to the page that spoke:
+clock, and makes a `frame` for all pages. What takes longer waits for the next turn. Replies go to the page
+that spoke:
 
     {"refused": sentence, "names": [...]}       a message that was not taken, and the fields that it names
     {"saved": [path, ...]}, {"remark": sentence}
@@ -26,7 +27,7 @@ from typing import NamedTuple
 
 from biped_adrc.errors import BipedError
 from biped_adrc.live.controls import values
-from biped_adrc.live.driver import Driver
+from biped_adrc.live.driver import BUSY, Driver
 from biped_adrc.live.frame import frame, named
 from biped_adrc.live.messages import MOST_BYTES, Allowance, Message, message_of
 from biped_adrc.live.record import SessionRecord
@@ -36,10 +37,8 @@ from biped_adrc.viz.meshcat.server import Listener, Pages, ServerState
 
 FPS = 60.0
 """Frames a second at most."""
-MOST_IN_A_TURN, MOST_WAITING = 10, 300
-"""Messages that are taken in one turn, and that may wait of one page: a change may take much of a turn."""
-SLOW = 0.9
-"""Share of the rate asked for below which a walk is said not to keep up."""
+MOST_WAITING = 300
+"""Messages of one page that may wait."""
 
 
 class Heard(NamedTuple):
@@ -58,6 +57,8 @@ class Turn(NamedTuple):
     """Of each walk."""
     save: list[tuple[Pages, SessionRecord]]
     """What is to be saved, for whom."""
+    waits: list[Heard]
+    """What was not done, as the turn was long enough: for the next one."""
 
 
 class Stage(Listener):
@@ -74,8 +75,6 @@ class Stage(Listener):
         self.known: list[dict[str, object]] = []
         """Values that the pages have been told."""
         self.saving: asyncio.Task[None] | None = None
-        self.share = 1.0
-        """Least share of the rate asked for that was reached."""
 
     # -- in the event loop of the server -------------------------------------------------------------
     def came(self, page: Pages) -> None:
@@ -95,25 +94,28 @@ class Stage(Listener):
             return
         self.heard.append(Heard(page, text))
 
+    def listens(self, one: Heard) -> bool:
+        """Whether this is still to be done: a page that was closed is not heard any more, but that it left."""
+        return one.text is None or one.page in self.allowances
+
     def left(self, page: Pages) -> None:
         """A page has gone."""
         self.allowances.pop(page, None)
         self.heard.append(Heard(page, None))
 
-    def taken(self) -> list[Heard]:
-        """What the coming turn does of what was said; the rest waits."""
-        now, self.heard = self.heard[:MOST_IN_A_TURN], self.heard[MOST_IN_A_TURN:]
-        return now
-
     async def stream(self, session: ServerState) -> str:
         """Turn after turn while a page is open. It ends only by being cancelled or by an error."""
         loop = asyncio.get_running_loop()
         with ThreadPoolExecutor(1) as thread:
+            await session.arrived.wait()
+            self.driver.rest()
             due = loop.time()
             while True:
-                await session.arrived.wait()
-                heard, going = self.taken(), bool(session.clients)
-                self.send(session, await loop.run_in_executor(thread, self.turn, heard, going))
+                heard, self.heard = self.heard, []
+                going = bool(session.clients)
+                turn = await loop.run_in_executor(thread, self.turn, heard, going)
+                self.heard[:0] = [one for one in turn.waits if self.listens(one)]
+                self.send(session, turn)
                 due = max(due + 1.0 / FPS, loop.time())
                 await asyncio.sleep(due - loop.time())
 
@@ -159,7 +161,9 @@ class Stage(Listener):
         """Do what was said, go on by the clock if there is a page, and make a frame."""
         replies: list[tuple[Pages, dict[str, object]]] = []
         save: list[tuple[Pages, SessionRecord]] = []
-        for page, text in heard:
+        waits, until = [*heard], self.driver.clock() + BUSY
+        while waits and self.driver.clock() <= until:
+            page, text = waits.pop(0)
             try:
                 if text is None:
                     self._gone(page)
@@ -171,9 +175,12 @@ class Stage(Listener):
                 replies.append((page, {"refused": str(error), "names": names(text)}))
         if going:
             self.driver.go_on()
-            self.share = min(self.share, self.driver.reached / self.driver.rate)
-        walking = self.driver.session.walking
-        return Turn(frame(self.driver), replies, [values(x.scenario) for x in walking], save)
+        else:
+            self.driver.rest()
+        told = [values(x.scenario) for x in self.driver.session.walking]
+        seen = frame(self.driver)
+        self.driver.shown()
+        return Turn(seen, replies, told, save, waits)
 
     def _take(self, page: Pages, message: Message) -> None:
         """A message of a page; links are those of the drawn robot. Raises InputError and ModelError."""

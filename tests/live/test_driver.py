@@ -57,6 +57,7 @@ def test_a_walk_that_cannot_keep_up_says_the_rate_that_it_reached():
         made.go_on()
     assert session.t < 0.15 * clock.t
     assert made.reached == pytest.approx(0.1, abs=0.05)
+    assert made.kept == pytest.approx(session.t / clock.t, rel=0.05)
     assert made.owed <= 0.0
 
 
@@ -65,6 +66,20 @@ def test_after_a_long_rest_it_does_not_run_after_the_clock():
     clock.t = 100.0
     made.go_on()
     assert session.t == pytest.approx(driver.LONGEST, abs=2e-3)
+
+
+def test_long_turns_are_counted_as_they_are_and_a_rest_is_not():
+    made, session, clock = driven()
+    for _ in range(100):
+        clock.t += 4 * driver.LONGEST
+        made.go_on()
+    assert made.reached == pytest.approx(0.25, rel=0.02)
+    assert made.kept == pytest.approx(0.25, rel=0.02)
+    before = session.t
+    clock.t += 100.0
+    made.rest()
+    assert not made.go_on()
+    assert (session.t, made.kept) == (before, pytest.approx(0.25, rel=0.02))
 
 
 def test_pause_step_and_go():

@@ -5,15 +5,11 @@ from __future__ import annotations
 import asyncio
 import signal
 import subprocess
-import sys
-import threading
 import time
 import urllib.error
-import urllib.request
 from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
-from queue import Empty, Queue
 
 import psutil
 import pytest
@@ -27,9 +23,9 @@ from biped_adrc.viz.meshcat.live import play
 from biped_adrc.viz.meshcat.view import Look
 
 from .browser import chromium, console, needs_chromium
+from .processes import COMMAND, SOON, Live, get, listening
 
-SOON = 30.0
-"""[s] within which a session, which would go on for ever, ends once its browser or its server is gone."""
+SERVED = ("--live", "--no-browser")
 
 
 @pytest.fixture(scope="module")
@@ -40,71 +36,11 @@ def stored(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-class Live:
-    """`biped-adrc animate --live` as a process of its own."""
-
-    def __init__(self, run: Path, *options: str) -> None:
-        command = [sys.executable, "-m", "biped_adrc.cli", "animate", str(run), "--live"]
-        self.process = subprocess.Popen(
-            [*command, "--no-browser", *options],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-        )
-        self.lines: Queue[str] = Queue()
-        self.reader = threading.Thread(target=self._read, daemon=True)
-        self.reader.start()
-        self.url = self.line().split()[0]
-        self.port = int(self.url.rstrip("/").rsplit(":", 1)[1])
-
-    def _read(self) -> None:
-        assert self.process.stdout is not None
-        for line in self.process.stdout:
-            self.lines.put(line)
-
-    def line(self, timeout: float = 2 * SOON) -> str:
-        try:
-            return self.lines.get(timeout=timeout)
-        except Empty:
-            pytest.fail("the session said nothing")
-
-    def ends(self, timeout: float = SOON) -> tuple[int, str]:
-        code = self.process.wait(timeout)
-        self.reader.join(SOON)
-        rest = []
-        while not self.lines.empty():
-            rest.append(self.lines.get())
-        return code, " ".join("".join(rest).split())
-
-    def close(self) -> None:
-        if self.process.poll() is None:
-            self.process.kill()
-        self.process.wait()
-        self.reader.join(SOON)
-        assert self.process.stdout is not None
-        self.process.stdout.close()
-
-
 @pytest.fixture
 def live(stored: Path) -> Iterator[Live]:
-    session = Live(stored)
+    session = Live("animate", str(stored), *SERVED)
     yield session
     session.close()
-
-
-def listening(process: int) -> list[tuple[str, int]]:
-    """Sockets the operating system lists for the process and its children."""
-    parent = psutil.Process(process)
-    connections = [
-        c for p in (parent, *parent.children(recursive=True)) for c in p.net_connections("inet")
-    ]
-    return [(c.laddr.ip, c.laddr.port) for c in connections if c.status == psutil.CONN_LISTEN]
-
-
-def get(url: str, host: str | None = None) -> str:
-    request = urllib.request.Request(url, headers={} if host is None else {"Host": host})
-    with urllib.request.urlopen(request, timeout=10) as answer:
-        return str(answer.read().decode("utf-8"))
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
@@ -121,7 +57,7 @@ def test_a_signal_ends_it_and_nothing_is_left(live: Live, number: signal.Signals
 
 
 def test_two_sessions_do_not_collide(live: Live, stored: Path) -> None:
-    other = Live(stored)
+    other = Live("animate", str(stored), *SERVED)
     try:
         assert other.port != live.port
         assert "MeshCat" in get(other.url)
@@ -133,9 +69,8 @@ def test_two_sessions_do_not_collide(live: Live, stored: Path) -> None:
 
 
 def test_a_port_in_use_is_refused(live: Live, stored: Path) -> None:
-    command = [sys.executable, "-m", "biped_adrc.cli", "animate", str(stored), "--live"]
     found = subprocess.run(
-        [*command, "--no-browser", "--port", str(live.port)],
+        [*COMMAND, "animate", str(stored), *SERVED, "--port", str(live.port)],
         capture_output=True,
         text=True,
         timeout=60,
@@ -216,7 +151,7 @@ def test_ending_it_tells_the_page(live: Live) -> None:
 
 
 def test_it_does_not_wait_for_ever_for_a_browser(stored: Path) -> None:
-    session = Live(stored, "--wait", "0.5")
+    session = Live("animate", str(stored), *SERVED, "--wait", "0.5")
     try:
         code, said = session.ends()
         assert (code, said) == (0, "no browser has opened the page within 0.5 s")

@@ -1,41 +1,20 @@
-"""The page in headless Chromium: a pull by the mouse, fields, keys, the tour, and what it loads."""
+"""The page in headless Chromium: mouse, finger, keys, fields, the tour, other windows, and what it loads."""
 
-import time
+import functools
+import http.server
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 
-from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
 import biped_adrc as ba
+from biped_adrc.live.controls import tour
 
 from .browser import chromium, console, needs_chromium, requested
-from .served import SOON, served
-
-SHOWN = "return page.last !== null && known[0].controller !== undefined"
-PLACE = """
-const box = pane.getBoundingClientRect();
-const part = [...parts].find(([, link]) => link === "torso")[0];
-viewer.scene.updateMatrixWorld(true);
-viewer.render();
-const at = part.getWorldPosition(new MeshCat.THREE.Vector3()).project(viewer.camera);
-return [box.left + 0.5 * (at.x + 1) * box.width, box.top + 0.5 * (1 - at.y) * box.height];
-"""
-
-
-def until(browser, script, *given):
-    """What a script returns, once that is true."""
-    end = time.monotonic() + SOON
-    while not (found := browser.execute_script(script, *given)):
-        assert time.monotonic() < end, script
-        time.sleep(0.05)
-    return found
-
-
-def field(browser, name, text):
-    """Type into the number field of a slider."""
-    found = browser.find_element(By.ID, f"field-{name}")
-    found.clear()
-    found.send_keys(text, Keys.ENTER)
+from .hands import SHOWN, keys, let_go, opened, pulled, torso, typed, until
+from .served import Page, served
 
 
 @needs_chromium
@@ -44,45 +23,28 @@ def test_the_page_by_mouse_and_by_keys(tmp_path):
 
     async def visit(url):
         with chromium() as browser:
-            browser.get(url)
-            until(browser, SHOWN)
+            opened(browser, url)
             look(browser, url)
 
     def look(browser, url):
-        body = browser.find_element(By.TAG_NAME, "body")
-        body.send_keys(" ")
-        until(browser, "return paused")
-        x, y = (round(place) for place in browser.execute_script(PLACE))
-        mouse = ActionChains(browser)
-        mouse.w3c_actions.pointer_action.move_to_location(x, y)
-        mouse.double_click().perform()
-        until(browser, "return selected && selected.link === 'torso'")
-        mouse = ActionChains(browser).key_down(Keys.CONTROL).click_and_hold()
-        mouse.move_by_offset(60, -20).perform()
-        found["hand"] = until(browser, "return page.last.hand")
+        found["hand"] = pulled(browser)
         before = browser.execute_script("return page.last.t")
-        body.send_keys(Keys.ARROW_RIGHT)
+        keys(browser, Keys.ARROW_RIGHT)
         until(browser, "return page.last.t > arguments[0]", before)
         assert until(browser, "return element('force').textContent").endswith(" N")
-        ActionChains(browser).release().key_up(Keys.CONTROL).perform()
-        until(browser, "return page.last.hand === null")
-        body.send_keys("s")
+        let_go(browser)
+        keys(browser, "s")
         saved = until(browser, "return /saved as (.*) and/.exec(element('said').textContent)")
         found["path"] = saved[1]
 
-        field(browser, "bandwidth", "-3")
+        typed(browser, "bandwidth", "-3")
         sentence = until(browser, "return element('refused-bandwidth').textContent")
         assert "bandwidth" in sentence
         assert browser.find_element(By.ID, "field-bandwidth").get_attribute("value") == ""
-        field(browser, "K_p", "4000")
+        typed(browser, "K_p", "4000")
         until(browser, "return known[0].K_p === 4000")
-        browser.execute_script("document.activeElement.blur()")
-        body.send_keys("-")
+        keys(browser, "-")
         until(browser, "return rate === 0.5")
-        body.send_keys("t")
-        until(browser, "return station === 0 && !paused && page.last.t > 0.02")
-        body.send_keys("t")
-        until(browser, "return station === -1")
         assert console(browser) == []
         assert all(
             address.split("//")[1].startswith(url.split("//")[1]) for address in requested(browser)
@@ -94,6 +56,133 @@ def test_the_page_by_mouse_and_by_keys(tmp_path):
     again = ba.replay_session(found["path"])
     assert again.same
     assert again.record.hands[0].hand.force == tuple(found["hand"]["force"])
+
+
+TOUCH = "Input.dispatchTouchEvent"
+
+
+@needs_chromium
+def test_a_finger_pulls_and_the_keys_of_the_tour_lead_through_it():
+    async def visit(url):
+        with chromium() as browser:
+            opened(browser, url)
+            finger(browser)
+            guided(browser)
+            assert console(browser) == []
+
+    def finger(browser):
+        browser.find_element(By.ID, "pull").click()
+        keys(browser, "v")
+        until(browser, "return view === 'perspective'")
+        x, y = torso(browser)
+        for kind, points in (
+            ("touchStart", [{"x": x, "y": y}]),
+            ("touchMove", [{"x": x + 40, "y": y - 10}]),
+        ):
+            browser.execute_cdp_cmd(TOUCH, {"type": kind, "touchPoints": points})
+        hand = until(browser, "return page.last.hand")
+        assert hand["anchor"] is not None
+        assert hand["force"][0] > 0.0
+        browser.execute_cdp_cmd(TOUCH, {"type": "touchEnd", "touchPoints": []})
+        until(browser, "return page.last.hand === null")
+
+    def guided(browser):
+        assert browser.find_element(By.ID, "invitation").is_displayed()
+        keys(browser, "t")
+        for k, station in enumerate(tour()):
+            assert until(browser, "return station === arguments[0]", k)
+            assert browser.find_element(By.ID, "tour-title").text.endswith(station["title"])
+            assert browser.find_element(By.ID, "tour-page").text.endswith(station["page"])
+            fits = "([name, x]) => !(name in known[0]) || known[0][name] === x"
+            values = f"return Object.entries(scene.tour[{k}].values).every({fits})"
+            until(browser, values)
+            if "push" in station:
+                keys(browser, "p")
+                until(
+                    browser,
+                    "return Math.max(...page.last.walks[0].loads.slice(2).map(Math.abs)) > 29",
+                )
+            keys(browser, "n")
+        until(browser, "return station === -1")
+        assert not browser.find_element(By.ID, "invitation").is_displayed()
+        keys(browser, "t")
+        until(browser, "return station === 0")
+        keys(browser, "t")
+        until(browser, "return station === -1")
+
+    served(visit, None)
+
+
+ELSEWHERE = """
+const [url, done] = arguments, found = [];
+const socket = new WebSocket(url.replace("http", "ws") + "poses");
+const frame = document.createElement("iframe");
+frame.src = url;
+document.body.append(frame);
+socket.onmessage = ({ data }) => found.push(data);
+socket.onclose = async () => {
+  for (const mode of ["no-cors", "cors"]) {
+    await fetch(url, { mode }).then((answer) => found.push(answer.type), (error) => found.push(error.name));
+  }
+  done(found);
+};
+"""
+
+
+@contextmanager
+def elsewhere(folder) -> Iterator[str]:
+    """The address of a page of another origin."""
+    (folder / "index.html").write_text("<!doctype html><title>elsewhere</title><body>")
+    handler = functools.partial(Quiet, directory=folder)
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        yield f"http://127.0.0.1:{server.server_port}/"
+        server.shutdown()
+
+
+class Quiet(http.server.SimpleHTTPRequestHandler):
+    """Says nothing of its requests."""
+
+    def log_message(self, *words):
+        """Nothing."""
+
+
+@needs_chromium
+def test_two_windows_see_one_walk_and_a_page_from_elsewhere_gets_nothing(tmp_path):
+    async def visit(url):
+        page = await Page.open(url)
+        with chromium() as browser, elsewhere(tmp_path) as other:
+            opened(browser, url)
+            one = browser.current_window_handle
+            browser.switch_to.new_window("window")
+            browser.get(url)
+            until(browser, SHOWN)
+            two = browser.current_window_handle
+            browser.switch_to.window(one)
+            pulled(browser)
+            browser.switch_to.window(two)
+            typed(browser, "K_p", "4000")
+            assert until(browser, "return page.last.hand")["anchor"] is not None
+            until(browser, "return known[0].K_p === 4000")
+            browser.execute_script("socket.send('{'); send({ do: 'rate', rate: 50 })")
+            until(browser, "return element('refused').textContent.includes('0.01 to 10')")
+            browser.execute_script("socket.send(' '.repeat(5000))")
+            assert "no longer moves" in until(browser, "return element('message').textContent")
+            browser.switch_to.window(one)
+            until(browser, "return page.last.hand")  # the hand of the first window holds on
+            for _ in range(3):
+                browser.execute_script("for (let k = 0; k < 400; k++) send({ do: 'go' })")
+            assert "no longer moves" in until(browser, "return element('message').textContent")
+            await page.frame(lambda f: f["hand"] is None)
+            browser.get(other)
+            found = browser.execute_async_script(ELSEWHERE, url)
+            assert found == ["TypeError", "TypeError"]
+            inside = "return document.querySelector('iframe').contentWindow.length"
+            assert browser.execute_script(inside) == 0
+            refused = [x for x in console(browser) if "frame-ancestors" in x]
+            assert refused
+
+    assert served(visit)[0] == "stopped by SIGTERM"
 
 
 NAMELESS = """
@@ -113,8 +202,7 @@ return all.map((x) => x.outerHTML.slice(0, 200));
 def test_nothing_is_wider_than_the_window_and_every_field_has_a_name():
     async def visit(url):
         with chromium() as browser:
-            browser.get(url)
-            until(browser, SHOWN)
+            opened(browser, url)
             assert browser.execute_script(NAMELESS) == []
             for width in (360, 1920):
                 size = {"width": width, "height": 800, "deviceScaleFactor": 1, "mobile": False}

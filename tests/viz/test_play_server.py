@@ -2,6 +2,7 @@
 
 import asyncio
 import dataclasses
+import itertools
 import signal
 import threading
 from pathlib import Path
@@ -15,11 +16,11 @@ import biped_adrc as ba
 from biped_adrc.errors import InputError
 from biped_adrc.live.controls import controls, values
 from biped_adrc.live.driver import Driver
-from biped_adrc.live.frame import frame, named
+from biped_adrc.live.frame import ROWS, frame, named
 from biped_adrc.live.messages import MOST_AT_ONCE, MOST_BYTES, Allowance, Message
 from biped_adrc.live.of_walker import scenario_of
 from biped_adrc.live.page import page, play
-from biped_adrc.live.stage import MOST_IN_A_TURN, MOST_WAITING, Stage
+from biped_adrc.live.stage import MOST_WAITING, Heard, Stage
 from biped_adrc.scenario.scenario import FIELDS
 from biped_adrc.viz.meshcat.frames import pose
 from biped_adrc.viz.placement import WalkScene
@@ -54,11 +55,12 @@ def test_a_frame_draws_what_the_finished_walk_draws_and_plots_its_signals():
     assert found["contact"][:2] == pytest.approx(drawn.contact[:2], abs=1e-12)
     assert found["support"]["number"] == 2
     s = walk.signals
-    assert found["signals"]["error"] == pytest.approx(s.error[-1], abs=1e-12)
-    assert found["signals"]["friction"] == pytest.approx(
+    seen = found["rows"][-1]
+    assert seen["error"] == pytest.approx(s.error[-1], abs=1e-12)
+    assert seen["friction"] == pytest.approx(
         abs(s.ground_reaction[-1, 0]) / s.ground_reaction[-1, 1], rel=1e-9
     )
-    assert found["signals"]["xi_estimate"] == [None] * 4
+    assert seen["xi_estimate"] == [None] * 4
     assert found["ending"] == ""
 
 
@@ -66,9 +68,34 @@ def test_signals_of_a_sample_before_a_change_are_not_read_with_the_controller_af
     driver = walked(0.1)
     for message in (Message("change", {"values": {"controller": "ADRC"}}), Message("back", {})):
         driver.take(message)
-        assert frame(driver)["walks"][0]["signals"] is None
+        seen = frame(driver)["walks"][0]
+        assert (seen["rows"], seen["worst"]) == ([], None)
         driver.take(Message("step", {}))
-        assert frame(driver)["walks"][0]["signals"]["xi_estimate"][0] is not None
+        (row,) = frame(driver)["walks"][0]["rows"]
+        assert row["xi_estimate"][0] is not None
+
+
+def test_the_worst_of_a_frame_is_of_all_its_samples_and_its_rows_are_of_some():
+    driver = walked(0.1)
+    driver.shown()
+    driver.session.push({"q1": 150.0}, seconds=0.001)
+    for _ in range(40):
+        driver.take(Message("step", {}))
+    found = frame(driver)["walks"][0]
+    s, after = driver.session.walk().signals, driver.session.t - 0.04 + 1e-9
+    last = s.t > after
+    friction = np.abs(s.ground_reaction[:, 0]) / s.ground_reaction[:, 1]
+    assert found["worst"]["torque"] == pytest.approx(np.abs(s.u[last]).max(), rel=1e-9)
+    assert found["worst"]["torque"] > max(np.abs(row["u"]).max() for row in found["rows"])
+    assert found["worst"]["normal"] <= min(s.ground_reaction[last, 1]) * (1 + 1e-9)
+    assert found["worst"]["friction"] >= friction[last].max() * (1 - 1e-9)
+    assert len(found["rows"]) == ROWS
+    assert found["rows"][-1]["t"] == pytest.approx(driver.session.t)
+    assert np.ptp(np.diff([row["t"] for row in found["rows"]])) < 1e-9
+    driver.shown()
+    assert frame(driver)["walks"][0] == found  # at rest
+    driver.take(Message("step", {}))
+    assert len(frame(driver)["walks"][0]["rows"]) == 1
 
 
 def test_the_force_of_a_hand_is_drawn_where_it_acts_and_as_no_torque():
@@ -169,10 +196,19 @@ def test_a_flood_of_changes_is_taken_bit_by_bit_and_no_other_page_waits_for_its_
         stage.said(loud, '{"do": "go"}')
     assert closed == [(1008, "too many messages")]
     assert [one.page for one in stage.heard] == [quiet]
-    for _ in range(2 * MOST_IN_A_TURN):
-        stage.said(quiet, '{"do": "go"}')
-    assert len(stage.taken()) == MOST_IN_A_TURN
-    assert len(stage.heard) == MOST_IN_A_TURN + 1
+
+
+def test_a_turn_ends_after_its_time_and_the_rest_is_done_in_the_next_one():
+    ticks = itertools.count()
+    driver = Driver(ba.Session(ba.Scenario("NPD", hardware="ideal")), lambda: 0.01 * next(ticks))
+    stage, one, other = Stage(driver, Path()), object(), object()
+    heard = [Heard(one, '{"do": "step"}')] * 20 + [Heard(other, '{"do": "step"}'), Heard(one, None)]
+    turn = stage.turn(heard, False)
+    assert 0 < driver.session.samples < 20
+    assert turn.waits == heard[driver.session.samples :]
+    assert [x for x in turn.waits if stage.listens(x)] == [
+        Heard(one, None)
+    ]  # both have been closed
 
 
 def test_a_hand_that_goes_away_in_the_middle_of_a_pull_lets_go():
@@ -201,7 +237,10 @@ def test_a_page_from_elsewhere_gets_nothing(headers):
     served(visit)
 
 
-def test_what_was_saved_is_walked_again_bit_for_bit_and_nothing_is_overwritten(tmp_path):
+@pytest.mark.parametrize("plant", ["rigid", "mujoco"])
+def test_what_was_saved_is_walked_again_bit_for_bit_and_nothing_is_overwritten(tmp_path, plant):
+    if plant == "mujoco":
+        pytest.importorskip("mujoco")
     (tmp_path / "session-1.npz").write_bytes(b"mine")
     paths = []
 
@@ -209,8 +248,12 @@ def test_what_was_saved_is_walked_again_bit_for_bit_and_nothing_is_overwritten(t
         page = await Page.open(url)
         await page.say(do="pull", link="torso", at=[0, 0.3], anchor=[0.3, 1.3])
         await page.frame(lambda f: f["t"] > 0.2)
-        await page.say(do="change", values={"controller": "ADRC"})
+        await page.say(do="let_go")
+        await page.say(do="change", values={"controller": "ADRC", "bandwidth": 160.0, "order": 1})
+        await page.say(do="change", values={"plant": plant, "torque_limit": 150.0})
         await page.frame(lambda f: f["t"] > 0.3)
+        await page.say(do="push", force=[40, 0], seconds=0.05)
+        await page.frame(lambda f: f["t"] > 0.4)
         await page.say(do="save")
         paths.extend((await page.reply("saved"))["saved"])
         await page.say(do="reset")
@@ -224,7 +267,10 @@ def test_what_was_saved_is_walked_again_bit_for_bit_and_nothing_is_overwritten(t
     assert again.same
     assert found.record.ghost.controller == "NPD"
     assert any(row.hand is not None for row in found.record.hands)
-    assert [change.values["controller"] for change in found.record.changes] == ["ADRC"]
+    assert found.record.changes[0].values["controller"] == "ADRC"
+    assert any(change.values.get("plant") == plant for change in found.record.changes) == (
+        plant == "mujoco"
+    )
     assert (tmp_path / "session-1.npz").read_bytes() == b"mine"
 
 

@@ -9,8 +9,9 @@ in words.
 
 Only this computer can connect, and requests under another host name than that of the server are
 refused: a page elsewhere could have its name resolved to the loopback address and read the stream
-(DNS rebinding). A WebSocket that a page of another origin opens is refused as well. A message of a page
-longer than `ServerState.longest` closes that page's WebSocket.
+(DNS rebinding). A WebSocket that a page of another origin opens is refused as well, and the page cannot be
+put into a frame of another one, where clicks would be led to it. A message of a page longer than
+`ServerState.longest` closes that page's WebSocket.
 """
 
 from __future__ import annotations
@@ -123,6 +124,8 @@ class Front(Guarded):
         """Answer with the page, never from the browser's cache."""
         self.set_header("Content-Type", "text/html; charset=utf-8")
         self.set_header("Cache-Control", "no-store")
+        self.set_header("Content-Security-Policy", "frame-ancestors 'none'")
+        self.set_header("Cross-Origin-Resource-Policy", "same-origin")
         self.write(self.session.html)
 
 
@@ -226,29 +229,38 @@ async def _serve(
         max_body_size=MOST_BODY,
     )
     server.add_sockets(sockets)
-    say(f"http://{ADDRESS}:{port}/  (Ctrl-C ends it)")
-    launcher = await _launch(f"http://{ADDRESS}:{port}/") if open_browser else None
-    tasks = [
-        asyncio.create_task(stream(session)),
-        asyncio.create_task(_watch(session, wait)),
-    ]
+    url = f"http://{ADDRESS}:{port}/"
+    say(f"{url}  (Ctrl-C ends it)")
+    tasks = [asyncio.create_task(stream(session)), asyncio.create_task(_watch(session, wait))]
+    opening = [asyncio.create_task(_open(url, say))] if open_browser else []
     try:
         ends = [session.stop, *tasks]
         done, _ = await asyncio.wait(ends, return_when=asyncio.FIRST_COMPLETED)
         return done.pop().result()
     finally:
-        await _close(session, server, tasks, launcher)
+        await _close(session, server, [*tasks, *opening])
 
 
-async def _launch(url: str) -> asyncio.subprocess.Process:
-    """Open the user's browser from a process of its own: some browsers do not return.
+OPEN = "import sys, webbrowser; sys.exit(not webbrowser.open(sys.argv[1]))"
+
+
+async def _open(url: str, say: Say) -> None:
+    """Open the user's browser from a process of its own, which ends with this task: some browsers do not
+    return. Say so where there is none.
 
     -I: nothing is imported from the working directory.
     """
     nowhere = asyncio.subprocess.DEVNULL
-    return await asyncio.create_subprocess_exec(
-        sys.executable, "-I", "-m", "webbrowser", url, stdin=nowhere, stdout=nowhere, stderr=nowhere
+    opening = await asyncio.create_subprocess_exec(
+        sys.executable, "-I", "-c", OPEN, url, stdin=nowhere, stdout=nowhere, stderr=nowhere
     )
+    try:
+        if await opening.wait() != 0:
+            say("no browser could be opened here: open the address above in one on this computer")
+    finally:
+        if opening.returncode is None:
+            opening.kill()
+            await opening.wait()
 
 
 async def _watch(session: ServerState, wait: float) -> str:
@@ -267,13 +279,8 @@ async def _watch(session: ServerState, wait: float) -> str:
             return "the browser has closed the page"
 
 
-async def _close(
-    session: ServerState,
-    server: HTTPServer,
-    tasks: list[asyncio.Task[str]],
-    launcher: asyncio.subprocess.Process | None,
-) -> None:
-    """Tell the pages of the end, close them and the server, and end the process that opened the browser.
+async def _close(session: ServerState, server: HTTPServer, tasks: list[asyncio.Task[Any]]) -> None:
+    """Tell the pages of the end, and close them, the tasks and the server.
 
     A page that does not take the message within `FAREWELL` is closed without it.
     """
@@ -288,6 +295,3 @@ async def _close(
         client.close()
     await asyncio.wait(tasks)
     await server.close_all_connections()
-    if launcher is not None and launcher.returncode is None:
-        launcher.kill()
-        await launcher.wait()

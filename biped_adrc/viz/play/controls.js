@@ -20,7 +20,7 @@ function showSlider(c) {
 function wireSlider(c) {
   const range = element("range-" + c.name), field = element("field-" + c.name);
   const sent = (x) => { complain(c.name, ""); change({ [c.name]: x }); };
-  element("mark-" + c.name).value = positionOf(c, usual(c));
+  element("mark-" + c.name).style.setProperty("--share", positionOf(c, usual(c)) / STEPS);
   range.oninput = () => { field.value = valueAt(c, range.value); };
   range.onchange = () => sent(valueAt(c, range.value));
   field.onchange = () => {

@@ -1,13 +1,15 @@
 // The page of a live walk: messages from the session, keys, and the line that says how it is.
 const STAYS = 600; // [ms] for which a breach of a limit can be read
+const SILENCE = 5000; // [ms] without a message after which the server is said to be silent
 let breach = { words: "", until: 0 };
 
-function breachOf({ signals }) {
-  if (!signals) return "";
-  const { friction, torque } = scene.limits, most = Math.max(...signals.u.map(Math.abs));
-  if (signals.normal !== null && signals.normal <= 0) return "the ground would have to pull the foot";
-  if (signals.friction > friction) return "friction " + signals.friction.toFixed(2) + " > " + friction;
-  return most > torque * (1 + 1e-9) ? "torque " + most.toFixed(0) + " > " + torque + " N m" : "";
+// of all samples since the last message
+function breachOf({ worst }) {
+  if (!worst) return "";
+  const { friction, torque } = scene.limits;
+  if (worst.normal !== null && worst.normal <= 0) return "the ground would have to pull the foot";
+  if (worst.friction > friction) return "friction " + worst.friction.toFixed(2) + " > " + friction;
+  return worst.torque > torque * (1 + 1e-9) ? "torque " + worst.torque.toFixed(0) + " > " + torque + " N m" : "";
 }
 function describe(message) {
   const [walk, ghost] = message.walks, now = performance.now(), found = breachOf(walk);
@@ -45,22 +47,30 @@ function hear(message) {
   }
 }
 
-const page = { frames: 0, last: null, text: "" };
+const page = { frames: 0, last: null, text: "", heard: performance.now() };
 let over = false;
 const socket = new WebSocket("ws://" + location.host + "/poses");
 const send = (message) => { if (socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message)); };
 socket.onmessage = ({ data }) => {
   page.frames += 1;
+  page.heard = performance.now();
   if (data !== page.text) hear(JSON.parse(data)); // at rest nothing is drawn
   page.text = data;
 };
+let silent = false;
+setInterval(() => {
+  const since = performance.now() - page.heard, was = silent;
+  silent = since > SILENCE;
+  if (silent) tell("The server has said nothing for " + (since / 1000).toFixed(0) + " s: it computes, or has stopped.");
+  else if (was && page.last) describe(page.last);
+}, 1000);
 socket.onclose = () => tell("The session has ended: this picture no longer moves. Start it again with 'biped-adrc play'.");
 
 const KEYS = {
   " ": toggle, ArrowRight: ACTIONS.step, Backspace: ACTIONS.reset, b: ACTIONS.back,
   "-": ACTIONS.slower, "+": ACTIONS.faster, "=": ACTIONS.faster, v: ACTIONS.view, s: ACTIONS.save,
   "?": ACTIONS.help, t: tour, n: () => { if (station >= 0) goTo(station + 1); }, p: pushOnce,
-  f: ACTIONS["shove-on"], r: ACTIONS["shove-back"], Escape: () => { release(); select(null); },
+  f: ACTIONS["shove-on"], r: ACTIONS["shove-back"], Escape: () => { release(); select(null); decline(); },
 };
 document.addEventListener("keydown", (event) => {
   const { tagName } = event.target, writes = ["INPUT", "SELECT", "TEXTAREA"].includes(tagName);

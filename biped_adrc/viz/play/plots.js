@@ -1,7 +1,7 @@
 // Four plots of the last seconds, each on a canvas of its own.
 const SECONDS = 4;
 const COLOURS = { walk: "#0072b2", other: "#d55e00", ghost: "#666666", limit: "#000000" };
-const past = []; // rows {t, walk, ghost}: signals of both, in order of time
+const past = { walk: [], ghost: [] }; // rows of signals of either, in order of time
 let joint = 0;
 
 const of = (name) => (signals) => signals[name][joint];
@@ -25,16 +25,17 @@ const PLOTS = [
 ];
 
 function remember(message) {
-  const [walk, ghost] = message.walks.map((w) => w.signals);
-  while (past.length && past[past.length - 1].t > message.t) past.pop();
-  if (!walk || (past.length && past[past.length - 1].t >= message.t)) return;
-  past.push({ t: message.t, walk, ghost: ghost || null });
-  while (past[0].t < message.t - SECONDS) past.shift();
+  for (const [k, rows] of Object.values(past).entries()) {
+    while (rows.length && rows[rows.length - 1].t > message.t) rows.pop();
+    const last = rows.length ? rows[rows.length - 1].t : -Infinity;
+    rows.push(...(message.walks[k] ? message.walks[k].rows : []).filter(({ t }) => t > last));
+    while (rows.length && rows[0].t < message.t - SECONDS) rows.shift();
+  }
 }
 
 // values of one line: pairs (t, y), y null where there is none
-const valuesOf = (plot, [whose, value]) => past.map((row) => {
-  const y = row[whose] === null ? null : value(row[whose]);
+const valuesOf = (plot, [whose, value]) => past[whose].map((row) => {
+  const y = value(row);
   return [row.t, y === null ? null : plot.scale * y];
 });
 
@@ -55,7 +56,7 @@ function draw(plot) {
   const lines = plot.lines.map((line) => valuesOf(plot, line));
   const sizes = lines.flat().map(([, y]) => Math.abs(y || 0)).filter(Number.isFinite);
   const top = Math.min(ceiling(sizes.reduce((a, b) => Math.max(a, b), plot.least)), plot.most || Infinity);
-  const low = plot.canvas === "plot-ground" ? 0 : -top, end = past.length ? past[past.length - 1].t : 0;
+  const low = plot.canvas === "plot-ground" ? 0 : -top, end = page.last ? page.last.t : 0;
   const at = (t, y) => [w * (1 - (end - t) / SECONDS), 4 + (h - 8) * (top - Math.min(y, 9 * top)) / (top - low)];
   axes(pen, plot, w, top, low, at);
   lines.forEach((line, k) => stroke(pen, line, plot.lines[k][2], at));

@@ -11,6 +11,7 @@ function goTo(k) {
   if (k < 0 || k >= scene.tour.length) { leaveTour(); return; }
   timers.forEach(clearTimeout);
   station = k;
+  decline();
   const s = scene.tour[k];
   element("tour").hidden = false;
   element("tour-title").textContent = k + 1 + " of " + scene.tour.length + ": " + s.title;
@@ -29,7 +30,10 @@ const pushAgain = () => send({ do: "push", ...scene.tour[station].push });
 // in the tour the push of the station, else that of the buttons
 const pushOnce = () => (station >= 0 && scene.tour[station].push ? pushAgain() : pushJoint(1));
 const tour = () => (station < 0 ? goTo(0) : leaveTour());
+const decline = () => { element("invitation").hidden = true; };
 element("start-tour").onclick = tour;
+element("take-tour").onclick = tour;
+element("no-tour").onclick = decline;
 element("tour-next").onclick = () => goTo(station + 1);
 element("tour-before").onclick = () => goTo(Math.max(station - 1, 0));
 element("tour-again").onclick = () => goTo(station);
