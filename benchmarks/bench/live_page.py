@@ -6,8 +6,9 @@ The server is a process of its own, held to one core: RABBIT at 1 kHz under ADRC
 pace of the clock. `socket` are pulls by messages over a WebSocket, `page` pulls by pointer events in headless
 Chromium, where drawing is by software and shares the computer with the server: the time from the event, or
 from the message, to the arrival of the first frame after a sample under the pull. A walk that is not pulled has
-other bits from that sample on. `memory` is what the server has taken more at the end of so many minutes than
-after the first ten seconds, with a page that reads all frames and pulls now and then.
+other bits from that sample on. The walk begins anew after every 20 pulls, and where it has fallen. `memory` is
+what the server has taken more at the end of so many minutes than after the first ten seconds, with a page that
+reads all frames and pulls for a fifteenth of a second every ten seconds.
 """
 
 from __future__ import annotations
@@ -34,15 +35,18 @@ from report import Table, arguments
 
 PULL = {"do": "pull", "link": "torso", "at": [0, 0.3]}
 BATCH = 20
-"""Pulls of one script in the page, which begins anew with each."""
+"""Pulls of one script in the page; the walk begins anew with each."""
+AWAY = 0.02
+"""Of the anchor from the point that is held [m]: 30 N."""
 IN_PAGE = """
 const done = arguments[arguments.length - 1], count = arguments[0], times = [], before = socket.onmessage;
-let began = null, wanted = true;
+let began = null, wanted = true, waiting = null;
+send({ do: "reset" });
 const torso = [...parts].find(([, link]) => link === "torso")[0];
 function pointer(kind) {
   const box = pane.getBoundingClientRect();
   const at = torso.getWorldPosition(new MeshCat.THREE.Vector3()).project(viewer.camera);
-  const clientX = box.left + 0.5 * (at.x + 1) * box.width + 20;
+  const clientX = box.left + 0.5 * (at.x + 1) * box.width + 4;
   const clientY = box.top + 0.5 * (1 - at.y) * box.height;
   const init = { clientX, clientY, ctrlKey: true, button: 0, pointerId: 1, bubbles: true };
   pane.dispatchEvent(new PointerEvent(kind, init));
@@ -50,19 +54,27 @@ function pointer(kind) {
 pane.setPointerCapture = () => {};
 socket.onmessage = (event) => {
   before(event);
+  if (page.last.walks[0].ending) {
+    release(); began = null; wanted = true; send({ do: "reset" }); wait();
+    return;
+  }
   if (page.last.felt !== wanted || began === null) return;
   if (wanted) { times.push(performance.now() - began); pointer("pointerup"); wanted = false; return; }
   began = null; wanted = true;
-  if (times.length < count) { setTimeout(pull, 150 + 100 * Math.random()); return; }
+  if (times.length < count) { wait(); return; }
   socket.onmessage = before;
   done(times);
 };
+function wait() {
+  clearTimeout(waiting);
+  waiting = setTimeout(pull, 150 + 100 * Math.random());
+}
 function pull() {
   select({ link: "torso", at: [0, 0.3] });
   began = performance.now();
   pointer("pointerdown");
 }
-pull();
+wait();
 """
 
 
@@ -122,7 +134,7 @@ async def pulls(port: int, count: int) -> list[float]:
         await asyncio.sleep(1e-3 * (k % 16))  # and of a frame
         x, z = (await frame(socket))["walks"][0]["points"][:2]
         began = time.monotonic()
-        await socket.write_message(json.dumps(PULL | {"anchor": [x + 0.05, z + 0.3]}))
+        await socket.write_message(json.dumps(PULL | {"anchor": [x + AWAY, z + 0.3]}))
         while not (seen := await frame(socket))["felt"]:
             if seen["walks"][0]["ending"]:
                 raise RuntimeError(f"the walk {seen['walks'][0]['ending']}, after {k} pulls")
@@ -145,7 +157,6 @@ def pulls_in_page(port: int, count: int) -> list[float]:
             time.sleep(0.1)
         found: list[float] = []
         for k in range(0, count, BATCH):
-            browser.execute_script("send({ do: 'reset' })")
             found += browser.execute_async_script(IN_PAGE, min(BATCH, count - k))
         return found
 
@@ -159,16 +170,19 @@ def resident(process: int) -> float:
 async def memory(process: int, port: int, seconds: float) -> tuple[float, float, float]:
     """Memory [MB] after ten seconds and at the end, and how long was walked [s]."""
     socket = await websocket_connect(f"ws://127.0.0.1:{port}/poses")
-    began, first, at = time.monotonic(), 0.0, 0.0
-    while time.monotonic() < began + seconds:
+    began, first, at, pulled = time.monotonic(), 0.0, 0.0, False
+    while (passed := time.monotonic() - began) < seconds:
         seen = await frame(socket)
-        if first == 0.0 and time.monotonic() > began + min(10.0, 0.5 * seconds):
+        if seen["walks"][0]["ending"]:
+            raise RuntimeError(f"the walk {seen['walks'][0]['ending']}")
+        if first == 0.0 and passed > min(10.0, 0.5 * seconds):
             first, at = resident(process), seen["t"]
-        if round(60 * seen["t"]) % 600 == 0:
-            x, z = seen["walks"][0]["points"][:2]
-            await socket.write_message(json.dumps(PULL | {"anchor": [x + 0.02, z + 0.3]}))
-        elif round(60 * seen["t"]) % 600 == 10:
-            await socket.write_message('{"do": "let_go"}')
+        if (passed % 10.0 < 1.0 / 15.0) == pulled:
+            continue
+        pulled = not pulled
+        x, z = seen["walks"][0]["points"][:2]
+        said = PULL | {"anchor": [x + 2.0 * AWAY, z + 0.3]} if pulled else {"do": "let_go"}
+        await socket.write_message(json.dumps(said))
     await closed(socket)
     return first, resident(process), seen["t"] - at
 
