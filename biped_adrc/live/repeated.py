@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -24,6 +25,7 @@ from biped_adrc.live.record import SessionRecord
 from biped_adrc.live.session_file import Ended, read_session, write_session
 from biped_adrc.live.stored import walks_of
 from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.registry import read_from_a_file
 from biped_adrc.scenario.stored import load_ghost, load_walk, save_walk
 from biped_adrc.shown import Shown
 
@@ -90,14 +92,17 @@ def replay_session(path: Path | str) -> Replayed:
     """Walk a stored session again, from what was done in it, and compare it with the file.
 
     path: .npz or .toml that a session wrote. Bits are those of the file on a processor of the same kind, with
-    the same version of the package. Raises InputError for a file that is none, or that cannot be walked.
+    the same version of the package. A class of one's own that a run names has to be imported or registered
+    before; one that a scenario file names is imported. Raises InputError for a file that is none, or that
+    cannot be walked.
     """
     as_text = isinstance(path, str | Path) and Path(path).suffix.lower() == ".toml"
-    record, gap_to = _of_text(Path(path)) if as_text else _of_run(path)
-    try:
-        walk, *ghost = walks_of(record)
-    except BipedError as error:
-        raise InputError(f"session '{path}': {error}") from error
+    with nullcontext() if as_text else read_from_a_file():
+        record, gap_to = _of_text(Path(path)) if as_text else _of_run(path)
+        try:
+            walk, *ghost = walks_of(record)
+        except BipedError as error:
+            raise InputError(f"session '{path}': {error}") from error
     found = tuple(x.trajectory for x in (walk, *ghost))
     return Replayed(record, walk, ghost[0] if ghost else None, gap_to(found))
 

@@ -75,10 +75,10 @@ class Session:
         return made
 
     def _begin(self, scenario: Scenario, ghost: Scenario | None) -> None:
-        """At the first sample, with nothing done yet."""
+        """At the first sample, with nothing done yet. Where a walk cannot begin, all is as it was."""
+        self.walking = [LiveWalk.begun(s) for s in (scenario, ghost) if s is not None]
         self.given = scenario, ghost
         self.samples, self.changes, self.hands = 0, list[Change](), list[HandRow]()
-        self.walking = [LiveWalk.begun(s) for s in (scenario, ghost) if s is not None]
         self.hand: Hand | None = None
         self.marks = [self._mark()]
         self.spring: Spring | None = None
@@ -247,7 +247,7 @@ class Session:
         return p + live.foot, np.array(hand.force)
 
     # -- other values, and other times -------------------------------------------------------------
-    def change(self, walk: int = WALK, **values: object) -> None:
+    def change(self, walk: int = WALK, /, **values: object) -> None:
         """Other values of a walk's scenario from the coming sample on, by name; see `live.live_walk`.
 
         walk: 0, or 1 for the ghost. Raises InputError for values that are none, or cannot change; then all
@@ -257,8 +257,11 @@ class Session:
             raise InputError(
                 f"walk {walk} is changed, and there are {len(self.walking)}, from 0 on"
             )
+        self._put(walk, self.walking[walk].changed(values))
+
+    def _put(self, walk: int, after: LiveWalk) -> None:
+        """A walk with other values from the coming sample on; noted where they are other ones."""
         before = self.walking[walk]
-        after = before.changed(values)
         if after is before:
             return
         self.walking[walk] = after
@@ -268,22 +271,30 @@ class Session:
     def back(self) -> None:
         """To where the present single support of the walk began, or the one before if it has just begun.
 
-        What was done since is forgotten, but the scenarios stay as they are now. The hand lets go.
+        What was done since is forgotten, but the scenarios stay as they are now. The hand lets go. Raises
+        InputError where they cannot walk on from there; then all is as it was.
         """
-        now = [live.scenario for live in self.walking]
-        while len(self.marks) > 1 and self.marks[-1].samples >= self.samples:
-            self.marks.pop()
-        mark = self.marks[-1]
+        before = [k for k, mark in enumerate(self.marks) if mark.samples < self.samples]
+        last = before[-1] if before else 0
+        mark = self.marks[last]
+        now = [
+            live.changed(differing(live.scenario, other.scenario))
+            for live, other in zip(mark.walking, self.walking, strict=True)
+        ]
+        del self.marks[last + 1 :]
         self.samples, self.walking, self.hand = mark.samples, [*mark.walking], mark.hand
         del self.changes[mark.changes :], self.hands[mark.hands :]
         if mark.last is not None:  # a row of the same sample may have taken its place
             self.hands[-1] = mark.last
         self.let_go()
-        for k, (live, s) in enumerate(zip(mark.walking, now, strict=True)):
-            self.change(k, **differing(live.scenario, s))
+        for k, live in enumerate(now):
+            self._put(k, live)
 
     def reset(self) -> None:
-        """To the start, with the scenarios as they are now; the record begins anew."""
+        """To the start, with the scenarios as they are now; the record begins anew.
+
+        Raises InputError where they cannot begin there; then all is as it was.
+        """
         scenario, *ghost = [live.scenario for live in self.walking]
         self._begin(scenario, ghost[0] if ghost else None)
 

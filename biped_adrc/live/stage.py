@@ -124,9 +124,9 @@ class Stage(Listener):
         if turn.values != self.known:
             self.known = turn.values
             for page in session.clients:
-                page.post(json.dumps({"values": turn.values}))
+                page.tell(json.dumps({"values": turn.values}))
         for page, reply in turn.replies:
-            page.post(json.dumps(reply))
+            page.tell(json.dumps(reply))
         for page, record in turn.save:
             self.save(page, record)
         session.send(turn.frame)
@@ -134,9 +134,9 @@ class Stage(Listener):
     def save(self, page: Pages, record: SessionRecord) -> None:
         """Begin to save a session, unless one is being saved."""
         if self.saving is not None and not self.saving.done():
-            page.post(json.dumps({"remark": "a session is being saved; wait for it"}))
+            page.tell(json.dumps({"remark": "a session is being saved; wait for it"}))
             return
-        page.post(json.dumps({"remark": "walking it again, to save it"}))
+        page.tell(json.dumps({"remark": "walking it again, to save it"}))
         self.saving = asyncio.create_task(self._save(page, record))
 
     async def _save(self, page: Pages, record: SessionRecord) -> None:
@@ -145,9 +145,9 @@ class Stage(Listener):
             paths = free_paths(self.folder)
             await asyncio.to_thread(save_session, record, *paths)
         except BipedError as error:
-            page.post(json.dumps({"refused": str(error), "names": []}))
+            page.tell(json.dumps({"refused": str(error), "names": []}))
         else:
-            page.post(json.dumps({"saved": [str(path) for path in paths]}))
+            page.tell(json.dumps({"saved": [str(path) for path in paths]}))
 
     # -- in the thread of the session ----------------------------------------------------------------
     def ready(self) -> None:

@@ -41,7 +41,7 @@ _OWN = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*(\.[^\W\d]\w*)*")
 """package.module:Class, or Class.Inner of a class inside a class."""
 
 _OF_A_FILE = ContextVar("_OF_A_FILE", default=False)
-"""Whether a stored run is being read."""
+"""Whether names come from a stored run."""
 _T = TypeVar("_T")
 _VARIADIC = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 
@@ -159,7 +159,9 @@ def own(kind: str, name: str) -> Callable[..., object] | None:
 
 @contextmanager
 def read_from_a_file() -> Iterator[None]:
-    """While a stored run is read: names of classes in it cause no import, which would run somebody's code."""
+    """While a stored run is read, or walked again: names in it cause no import, and no call of what is neither
+    registered nor the class of a part, which would run what somebody has written there.
+    """
     token = _OF_A_FILE.set(True)
     try:
         yield
@@ -223,7 +225,10 @@ def _imported(home: str) -> Callable[..., object]:
     """
     module, _, name = home.partition(":")
     ours = home.startswith("biped_adrc.")
-    if _OF_A_FILE.get() and not ours and module not in sys.modules:
+    of_a_file = _OF_A_FILE.get()
+    if of_a_file and (given := registered(home)) is not None:
+        return given
+    if of_a_file and not ours and module not in sys.modules:
         raise InputError(
             f"the file names '{home}', and reading a file imports nothing; import '{module}' before, if you "
             "trust it"
@@ -250,7 +255,29 @@ def _imported(home: str) -> Callable[..., object]:
         there = [key for key, x in vars(found).items() if isinstance(x, type)]
         near = get_close_matches(name, there, 1) or there
         raise InputError(f"'{home}': module '{module}' has no class '{name}'; it has {near}")
+    if of_a_file and not (_is_packaged(home) or _is_part(thing)):
+        raise InputError(
+            f"the file names '{home}', which is no class of a part, and reading a file calls nothing else; "
+            "register it before with ba.register, if you trust it"
+        )
     return thing
+
+
+def _is_packaged(home: str) -> bool:
+    """Whether a line of registry.toml says module:name."""
+    return any(entry.home == home for of_kind in REGISTRY.values() for entry in of_kind.values())
+
+
+def _is_part(thing: object) -> bool:
+    """Whether it is a class below one of BASES."""
+    if not isinstance(thing, type):
+        return False
+    bases = (home.split(":") for home in BASES.values())
+    return any(
+        (base.__module__, base.__qualname__) == (module, name)
+        for module, name in bases
+        for base in thing.__mro__
+    )
 
 
 def takes(make: Callable[..., object]) -> Mapping[str, Parameter]:

@@ -312,6 +312,23 @@ def test_the_ghost_gets_the_same_push_and_goes_on_where_the_walk_has_fallen():
         assert each.walker.disturbance.resultant(0.11, 1, 0.0) == pytest.approx([0.0, 0.0])
 
 
+@pytest.mark.parametrize("do", [Session.reset, Session.back])
+def test_where_it_cannot_walk_from_there_nothing_has_been_done(do):
+    pytest.importorskip("mujoco")
+    session = Session(ba.Scenario("NPD", **IDEAL), {"K_p": 4000.0})
+    session.push({"q1": 5.0}, seconds=1.0)
+    session.advance(0.2)
+    session.change(plant="mujoco", slope=0.01)  # at its start the foot would be in that ground
+    session.advance(0.01)
+    before, walking, hand = session.record, [*session.walking], session.hand
+    with pytest.raises(InputError, match="inside the ground"):
+        do(session)
+    assert session.record == before
+    assert session.walking == walking
+    assert session.hand == hand
+    assert session.walk().trajectory.t_end == session.t
+
+
 @pytest.mark.parametrize(
     ("do", "message"),
     [
@@ -320,7 +337,9 @@ def test_the_ghost_gets_the_same_push_and_goes_on_where_the_walk_has_fallen():
         (lambda s: s.change(controller="nonsense"), "nonsense"),
         (lambda s: s.change(period=None), "sample"),
         (lambda s: s.change(colour=1), "colour"),
-        (lambda s: s.change(walk=1), "walk 1"),
+        (lambda s: s.change(1), "walk 1"),
+        (lambda s: s.change(walk=1), "walk: unknown"),
+        (lambda s: s.change(self=1), "self"),
         (lambda s: s.push({"q9": 1.0}), "q9"),
         (lambda s: s.push({"q1": math.nan}), "finite"),
         (lambda s: s.push({"q1": 1e4}), "at most 200"),

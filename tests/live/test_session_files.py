@@ -366,3 +366,52 @@ def test_the_ghost_of_a_run_without_one_is_none(tmp_path):
     saved = path.save(tmp_path / "me.npz")
     assert load_ghost(saved) is None
     assert len(load_walks([saved])) == 1
+
+
+def with_record(folder, tmp_path, **values):
+    """The run with other entries of its record."""
+    with np.load(folder / "me.npz") as data:
+        arrays = dict(data)
+    meta = json.loads(str(arrays["meta"]))
+    meta["settings"]["session"] |= values
+    np.savez(tmp_path / "me.npz", **arrays | {"meta": np.array(json.dumps(meta))})
+    return tmp_path / "me.npz"
+
+
+@pytest.mark.parametrize(
+    ("home", "said"),
+    [
+        ("planted:X", "reading a file imports nothing"),
+        ("os:system", "reading a file calls nothing else"),
+        ("subprocess:Popen", "reading a file calls nothing else"),
+        ("biped_adrc.files:write_text", "reading a file calls nothing else"),
+    ],
+)
+@pytest.mark.parametrize("whose", ["scenario", "ghost", "changes"])
+def test_walking_a_run_again_imports_and_calls_nothing_that_it_names(
+    folder, tmp_path, monkeypatch, home, said, whose
+):
+    monkeypatch.chdir(tmp_path)
+    Path("planted.py").write_text("open('ran', 'w').close()\nclass X: pass\n")
+    own = {"command": "touch ran", "args": ["touch", "ran"], "path": "ran", "text": ""}
+    values = {"controller": home, "own": own}
+    scenario = values | {"hardware": "ideal"}
+    path = with_record(
+        folder, tmp_path, **{whose: [[3, 0, values]] if whose == "changes" else scenario}
+    )
+    with pytest.raises(InputError, match=said):
+        ba.replay_session(path)
+    assert not Path("ran").exists()
+
+
+def test_a_class_of_a_part_that_is_at_hand_is_walked_again(folder, tmp_path):
+    path = with_record(
+        folder, tmp_path, ghost={"controller": "biped_adrc.control.npd:NPDController"} | IDEAL
+    )
+    assert ba.replay_session(path).ghost.controller_name == "NPD"
+
+
+@pytest.mark.parametrize("name", ["walk", "self"])
+def test_a_change_of_what_is_no_field_is_refused(folder, tmp_path, name):
+    with pytest.raises(InputError, match=f"at sample 3 of the session: .*{name}"):
+        ba.replay_session(with_record(folder, tmp_path, changes=[[3, 0, {name: 1}]]))

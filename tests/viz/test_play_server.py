@@ -237,6 +237,15 @@ def test_a_page_from_elsewhere_gets_nothing(headers):
     served(visit)
 
 
+def test_another_request_than_get_is_refused():
+    async def visit(url):
+        for address in (url, url + "poses"):
+            with pytest.raises(HTTPClientError, match="405"):
+                await AsyncHTTPClient().fetch(address, method="POST", body="x")
+
+    served(visit)
+
+
 @pytest.mark.parametrize("plant", ["rigid", "mujoco"])
 def test_what_was_saved_is_walked_again_bit_for_bit_and_nothing_is_overwritten(tmp_path, plant):
     if plant == "mujoco":

@@ -95,7 +95,7 @@ class ServerState:
         text = json.dumps(message)
         for client, sent in list(self.clients.items()):
             if sent is None or sent.done():
-                self.clients[client] = client.post(text)
+                self.clients[client] = client.tell(text)
 
 
 Stream = Callable[[ServerState], Coroutine[Any, Any, str]]
@@ -150,7 +150,7 @@ class Pages(Guarded, WebSocketHandler):
         """A page says something."""
         self.session.listener.said(self, message)
 
-    def post(self, text: str) -> asyncio.Future[None]:
+    def tell(self, text: str) -> asyncio.Future[None]:
         """Send a text; the future is done when the page has taken it."""
         return asyncio.ensure_future(self._write(text))
 
@@ -288,7 +288,7 @@ async def _close(session: ServerState, server: HTTPServer, tasks: list[asyncio.T
         task.cancel()
     server.stop()
     over = json.dumps({"over": "This session was ended where it was started."})
-    told = [client.post(over) for client in list(session.clients)]
+    told = [client.tell(over) for client in list(session.clients)]
     if told:
         await asyncio.wait(told, timeout=FAREWELL)
     for client in list(session.clients):
