@@ -23,7 +23,7 @@ from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.live.hand_table import from_table, to_table
 from biped_adrc.live.record import SessionRecord
 from biped_adrc.live.session_file import Ended, read_session, write_session
-from biped_adrc.live.stored import walks_of
+from biped_adrc.live.stored import always, walks_of
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.registry import read_from_a_file
 from biped_adrc.scenario.stored import load_ghost, load_walk, save_walk
@@ -35,13 +35,16 @@ SUFFIXES = (".npz", ".toml")
 """Kinds of files of a session."""
 
 
-def save_session(record: SessionRecord, path: Path | str, *more: Path | str) -> Path:
+def save_session(
+    record: SessionRecord, path: Path | str, *more: Path | str, going: Callable[[], bool] = always
+) -> Path:
     """Walk a session again, and write it to `path` and to each of `more`; the path.
 
-    A name that ends in .npz is a run, in .toml a scenario with its inputs. Raises InputError and OutputError.
+    A name that ends in .npz is a run, in .toml a scenario with its inputs. going: asked before each sample
+    whether to go on. Raises InputError, and OutputError, also where it is given up.
     """
     paths = [output_path(each, SUFFIXES, default=True) for each in (path, *more)]
-    walks = walks_of(record)
+    walks = walks_of(record, going)
     for each in paths:
         save_walked(record, walks, each)
     return paths[0]

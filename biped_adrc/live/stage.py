@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import threading
 import time
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -33,7 +34,7 @@ from biped_adrc.live.messages import MOST_BYTES, Allowance, Message, message_of
 from biped_adrc.live.record import SessionRecord
 from biped_adrc.live.repeated import SUFFIXES, save_session
 from biped_adrc.live.session import WALK
-from biped_adrc.viz.meshcat.server import Listener, Pages, ServerState
+from biped_adrc.viz.meshcat.server import Listener, Pages, Say, ServerState
 
 FPS = 60.0
 """Frames a second at most."""
@@ -74,7 +75,9 @@ class Stage(Listener):
         self.puller: Pages | None = None
         self.known: list[dict[str, object]] = []
         """Values that the pages have been told."""
-        self.saving: asyncio.Task[None] | None = None
+        self.saving: asyncio.Task[list[Path]] | None = None
+        self.given_up = threading.Event()
+        """Whether what is being saved is not to be saved any more."""
 
     # -- in the event loop of the server -------------------------------------------------------------
     def came(self, page: Pages) -> None:
@@ -139,15 +142,33 @@ class Stage(Listener):
         page.tell(json.dumps({"remark": "walking it again, to save it"}))
         self.saving = asyncio.create_task(self._save(page, record))
 
-    async def _save(self, page: Pages, record: SessionRecord) -> None:
-        """Save a session in a thread of its own, and say where it is."""
+    async def _save(self, page: Pages, record: SessionRecord) -> list[Path]:
+        """Save a session in a thread of its own, and say where it is; nowhere where it cannot be written."""
         try:
             paths = free_paths(self.folder)
-            await asyncio.to_thread(save_session, record, *paths)
+            await asyncio.to_thread(save_session, record, *paths, going=self.goes_on)
         except BipedError as error:
             page.tell(json.dumps({"refused": str(error), "names": []}))
-        else:
-            page.tell(json.dumps({"saved": [str(path) for path in paths]}))
+            return []
+        page.tell(json.dumps({"saved": [str(path) for path in paths]}))
+        return paths
+
+    def goes_on(self) -> bool:
+        """Whether a session is still to be saved."""
+        return not self.given_up.is_set()
+
+    async def closing(self, again: asyncio.Event, say: Say) -> None:
+        """Wait for a session that is being saved, or until it is given up."""
+        if self.saving is None or self.saving.done():
+            return
+        say("a session is still being saved; Ctrl-C gives it up")
+        told = asyncio.ensure_future(again.wait())
+        await asyncio.wait((self.saving, told), return_when=asyncio.FIRST_COMPLETED)
+        told.cancel()
+        if again.is_set():
+            self.given_up.set()
+        paths = await self.saving
+        say(f"saved as {' and '.join(map(str, paths))}" if paths else "the session is not saved")
 
     # -- in the thread of the session ----------------------------------------------------------------
     def ready(self) -> None:

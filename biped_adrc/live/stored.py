@@ -10,7 +10,7 @@ they keep (q, q') and all signals, but not the states of controllers, which diff
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, fields, replace
 
@@ -20,7 +20,7 @@ from biped_adrc.analysis.signals import Signals
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.disturbances.hand import RecordedHand
 from biped_adrc.engine.run import COMPILED, COMPILED_PLANT
-from biped_adrc.errors import BipedError, InputError
+from biped_adrc.errors import BipedError, InputError, OutputError
 from biped_adrc.hybrid.simulator import FlownArc
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 from biped_adrc.live.hand import Hand, check_hand
@@ -56,8 +56,17 @@ class Stretch:
         self.arcs.extend(flown)
 
 
-def walks_of(record: SessionRecord) -> tuple[Walk, ...]:
-    """The walk of a session, and that of its ghost. Raises InputError for one without a sample."""
+def always() -> bool:
+    """Nobody gives it up."""
+    return True
+
+
+def walks_of(record: SessionRecord, going: Callable[[], bool] = always) -> tuple[Walk, ...]:
+    """The walk of a session, and that of its ghost.
+
+    going: asked before each sample whether to go on. Raises InputError for a session without a sample, and
+    OutputError where it is given up.
+    """
     if record.samples < 1:
         raise InputError("nothing has been walked in this session; let it go on for a sample first")
     session = Session.of(record.scenario, record.ghost)
@@ -65,6 +74,8 @@ def walks_of(record: SessionRecord) -> tuple[Walk, ...]:
     stretches = [[Stretch(live)] for live in session.walking]
     changes, hands = deque(record.changes), dict(record.hands)
     for k in range(record.samples):
+        if not going():
+            raise OutputError("the session is not saved: it was given up")
         while changes and changes[0].sample == k:
             change = changes.popleft()
             with at_sample(k):

@@ -68,9 +68,15 @@ class Page:
 
 
 def served(
-    visit: Callable[[str], Awaitable[None]], stop: signal.Signals | None = signal.SIGTERM, **options
+    visit: Callable[[str], Awaitable[None]],
+    stop: signal.Signals | None = signal.SIGTERM,
+    heard: Callable[[str], None] = lambda text: None,
+    **options,
 ) -> tuple[str, list[str]]:
-    """Play while `visit(url)` goes on; why it ended, and what was said. stop: sent after the visit."""
+    """Play while `visit(url)` goes on; why it ended, and what was said. stop: sent after the visit.
+
+    heard: is given each sentence, in the thread of the server.
+    """
     said: list[str] = []
     raised: list[BaseException] = []
     visitors: list[threading.Thread] = []
@@ -92,6 +98,7 @@ def served(
 
     def say(text):
         said.append(text)
+        heard(text)
         if text.startswith("http"):
             visitors.append(threading.Thread(target=visited, args=(text.split()[0],), daemon=True))
             visitors[0].start()

@@ -3,6 +3,7 @@
 import asyncio
 import dataclasses
 import itertools
+import os
 import signal
 import threading
 from pathlib import Path
@@ -14,6 +15,7 @@ from tornado.httpclient import AsyncHTTPClient, HTTPClientError
 
 import biped_adrc as ba
 from biped_adrc.errors import InputError
+from biped_adrc.live import stage as staging
 from biped_adrc.live.controls import controls, values
 from biped_adrc.live.driver import Driver
 from biped_adrc.live.frame import ROWS, frame, named
@@ -25,7 +27,7 @@ from biped_adrc.scenario.scenario import FIELDS
 from biped_adrc.viz.meshcat.frames import pose
 from biped_adrc.viz.placement import WalkScene
 
-from .served import Page, served
+from .served import SOON, Page, served
 
 
 def walked(seconds, **scenario):
@@ -281,6 +283,39 @@ def test_what_was_saved_is_walked_again_bit_for_bit_and_nothing_is_overwritten(t
         plant == "mujoco"
     )
     assert (tmp_path / "session-1.npz").read_bytes() == b"mine"
+
+
+@pytest.mark.parametrize("given_up", [False, True])
+def test_it_waits_for_a_session_that_is_being_saved_until_that_is_given_up(
+    tmp_path, monkeypatch, given_up
+):
+    begun, ended, save = threading.Event(), threading.Event(), staging.save_session
+
+    def slow(record, *paths, going):
+        begun.set()
+        while going() and not ended.wait(0.01):
+            pass
+        return save(record, *paths, going=going)
+
+    async def visit(url):
+        page = await Page.open(url)
+        await page.frame(lambda f: f["t"] > 0.1)
+        await page.say(do="save")
+        await asyncio.to_thread(begun.wait, SOON)
+
+    def heard(text):
+        if "being saved" in text and given_up:
+            os.kill(os.getpid(), signal.SIGINT)
+        elif "being saved" in text:
+            ended.set()
+
+    monkeypatch.setattr(staging, "save_session", slow)
+    why, said = served(visit, out=tmp_path, heard=heard)
+    assert why == "stopped by SIGTERM"
+    files = sorted(path.name for path in tmp_path.iterdir())
+    assert files == ([] if given_up else ["session-1.npz", "session-1.toml"])
+    assert said[-1].startswith("the session is not saved" if given_up else "saved as ")
+    assert given_up or ba.replay_session(tmp_path / "session-1.toml").same
 
 
 def test_a_ghost_comes_and_goes_and_both_begin_anew():

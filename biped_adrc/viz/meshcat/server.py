@@ -45,7 +45,9 @@ Say = Callable[[str], None]
 
 
 class Listener:
-    """What is done when pages come, speak and go: nothing. The server calls it from its event loop."""
+    """What is done when pages come, speak and go, and at the end: nothing. The server calls it from its event
+    loop.
+    """
 
     longest = 1000
     """Bytes of a message; a page that sends a longer one is closed."""
@@ -60,6 +62,9 @@ class Listener:
 
     def left(self, page: Pages) -> None:
         """A page has gone."""
+
+    async def closing(self, again: asyncio.Event, say: Say) -> None:
+        """The session has ended: finish what was begun. again: set by another signal."""
 
 
 @dataclass
@@ -238,7 +243,11 @@ async def _serve(
         done, _ = await asyncio.wait(ends, return_when=asyncio.FIRST_COMPLETED)
         return done.pop().result()
     finally:
+        again = asyncio.Event()
+        for number in (signal.SIGINT, signal.SIGTERM):
+            loop.add_signal_handler(number, again.set)
         await _close(session, server, [*tasks, *opening])
+        await listener.closing(again, say)
 
 
 OPEN = "import sys, webbrowser; sys.exit(not webbrowser.open(sys.argv[1]))"
