@@ -129,8 +129,8 @@ def worst(live: LiveWalk, made: Sequence[Sample]) -> dict[str, object] | None:
         max(float(np.max(np.abs(one.u))) for one in found),
     )
     slips = None if found[-1].slips is None else any(one.slips for one in found)
-    told = dict(zip(("normal", "friction", "torque"), numbers(extremes), strict=True))
-    return told | {"slips": slips}
+    normal, used, torque = numbers(extremes)
+    return {"normal": normal, "friction": used, "torque": torque, "slips": slips}
 
 
 def ending(live: LiveWalk) -> str:

@@ -64,7 +64,7 @@ function release() {
 const pulls = (event) => event.ctrlKey || event.metaKey || element("pull").getAttribute("aria-pressed") === "true";
 pane.addEventListener("dblclick", (event) => select(pick(event)));
 pane.addEventListener("pointerdown", (event) => {
-  if (!pulls(event) || event.button !== 0) return;
+  if (!pulls(event) || ![0, 2].includes(event.button)) return; // MuJoCo pulls with the right one
   const found = selected || pick(event);
   if (!found) return;
   event.stopImmediatePropagation(); // the camera stays

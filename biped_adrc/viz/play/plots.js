@@ -107,7 +107,7 @@ function drawPlots() {
   asked = true;
   requestAnimationFrame(() => {
     asked = false;
-    element("shown").textContent = "last " + Number(shown().toPrecision(2)) + " s";
+    element("shown").textContent = ", last " + Number(shown().toPrecision(2)) + " s";
     PLOTS.forEach(draw);
   });
 }
