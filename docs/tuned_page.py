@@ -47,9 +47,9 @@ first value.
 Changed after something had been seen. A first contest had only the filter as a leaf, 25 candidates for each
 parameter and 6 training walks. m = 7 then kept the limits in training and not in selection, so that there are
 more training walks, and one rule for the ranges of all orders; fewer candidates, to pay for the leaves. In a
-second contest, searched by TPE alone, two searches of one contestant ended up to a factor 1.94 apart, 5 of 36
-placebos were found different and another seed moved 4 of 22 conclusions; so this third one goes on with CMA-ES
-after TPE, with the same number of candidates, and has test seeds that none has seen. The rule that a difference
+second contest, searched by TPE alone, searches of one contestant ended far apart, placebos were found different
+and another seed of the optimiser moved conclusions; so this third one goes on with CMA-ES after TPE, with the
+same number of candidates, and has test seeds that none has seen. The rule that a difference
 has to exceed that of two searches came when two searches of one contestant were found different by their walks;
 that the walks of all seeds of the optimiser count together came after a first look at numbers of a test. While
 few searches were repeated that rule had one factor for all contestants; with searches of all contestants

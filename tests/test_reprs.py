@@ -18,97 +18,94 @@ from biped_adrc.shown import LONGEST, Shown, one_line
 LINE = 120
 
 
+PERIOD = ba.SampledTime(1e-3)
+
+
 @pytest.fixture(scope="module")
 def things(biped, gait):
     """One of every public class that holds numbers, and what they hand out."""
-    h, pulse = gait.constraint, ba.TorquePulse([30, 30, 30, 30, 0], step=1, start=0.1, stop=0.3)
-    npd, adrc = ba.NPDController(h), ba.ADRCController(h)
-    walker = ba.Walker(biped, adrc, pulse, timing=ba.SampledTime(1e-3), sensors=ba.Sensors())
-    walk = ba.walk(ba.Walker(biped, npd, pulse), gait, 1)
-    q, v = gait.start(biped)
-    m = ba.Walker(biped, npd).measure(0.0, q, v, ba.Mode())
-    zero = ba.ZeroDynamics.of(biped, h)
-    gains = ba.StrideGains(-1.0, -0.4)
+    npd, adrc = ba.NPDController(gait.constraint), ba.ADRCController(gait.constraint)
+    return [
+        *of_a_robot(biped, gait),
+        *of_controllers(biped, gait, npd, adrc),
+        *disturbances(biped),
+        *(ba.RK4(), ba.Adaptive(), ba.Exponential(), ba.Stiff(), ba.Mode(), ba.ContinuousTime()),
+        *(PERIOD, ba.Motors(), ba.Sensors(counts=4096), ba.ModelErrors(), ba.Limits()),
+        *(ba.Told(), ba.ByForce(), ba.ByKinematics(), ba.StepLimits(), ba.GaitLimits()),
+        *of_walks(biped, gait, npd, adrc),
+        *on_other_plants(biped, gait, npd),
+    ]
+
+
+def of_a_robot(biped, gait):
+    """Robot, gait, virtual constraint, and the zero dynamics on it."""
+    h, (q, v) = gait.constraint, gait.start(biped)
+    zero, cycle = ba.ZeroDynamics.of(biped, h), ba.find_cycle("compass")
+    marks = {"theta_plus": h.theta_plus, "theta_minus": h.theta_minus, "phase": h.phase}
+    return [
+        *(biped, biped.description, biped.tree, biped.impact(q, v)),
+        *(gait, h, h.curve, h.laws, h(0.0, q, v), zero, ba.ZeroOrbits.of(zero)),
+        *(cycle, cycle.P, ba.cycle_stability(cycle, samples=0)),
+        ba.GaitRecord("paper", h.curve.coefficients, **marks),
+    ]
+
+
+def of_controllers(biped, gait, npd, adrc):
+    """Controllers, observers, outputs and references."""
+    h, gains, (q, v) = gait.constraint, ba.StrideGains(-1.0, -0.4), gait.start(biped)
     outputs = ba.LinearOutputs(np.eye(4, 5), h)
-    cycle = ba.find_cycle("compass")
+    return [
+        *(npd, npd.laws, npd.gains, adrc, adrc.laws, adrc.observer, adrc.observer.laws),
+        *(Estimate(q, v, q), ba.ReferenceReset(adrc), ba.Passive(), ba.TimeReference(np.sin)),
+        *(outputs, outputs(0.0, q, v), ba.FunctionOutputs(np.sin)),
+        *(ba.OutputNPDController(outputs), ba.FiniteTimeController(outputs, 0.9, 0.02)),
+        *(gains, ba.StridePI(npd, 0.7, 0.3, (0.0,) * 4, gains)),
+    ]
+
+
+def disturbances(biped):
+    """One of each kind, and a sum."""
+    pulse, step = pushed(), ba.TorqueStep([1.0] * 5)
+    return [
+        *(pulse, pulse.laws[0], pulse + pulse, step, ba.HipForce(biped, (3.0, 1.0))),
+        ba.TorqueNoise([1.0] * 5, bandwidth=10.0, seed=1),
+        ba.TorqueSine([1.0] * 5, frequency=2.0),
+        *(ba.OnLink(biped, "torso", ba.TorqueStep([1.0] * 3)), ba.StepDown(1, 0.01)),
+        ba.StepUp(1, 0.01),
+    ]
+
+
+def pushed():
+    """The paper's push, in the first single support."""
+    return ba.TorquePulse([30, 30, 30, 30, 0], step=1, start=0.1, stop=0.3)
+
+
+def of_walks(biped, gait, npd, adrc):
+    """Walkers, walks, scenarios, logs and sessions."""
+    q, v = gait.start(biped)
+    walker = ba.Walker(biped, adrc, pushed(), timing=PERIOD, sensors=ba.Sensors())
+    walk = ba.walk(ba.Walker(biped, npd, pushed()), gait, 1)
+    m = ba.Walker(biped, npd).measure(0.0, q, v, ba.Mode())
     asked = ba.walk_scenario(ba.Scenario("NPD", impacts=1, pushes="q1,q2,q3,q4=30@1:0.1-0.3"))
-    found = [
-        *(
-            biped,
-            biped.description,
-            biped.tree,
-            biped.impact(q, v),
-            gait,
-            h,
-            h.curve,
-            h.laws,
-            h(0.0, q, v),
-        ),
-        *(zero, ba.ZeroOrbits.of(zero), outputs, outputs(0.0, q, v), ba.FunctionOutputs(np.sin)),
-        *(
-            npd,
-            npd.laws,
-            npd.gains,
-            adrc,
-            adrc.laws,
-            adrc.observer,
-            adrc.observer.laws,
-            Estimate(q, v, q),
-        ),
-        *(ba.ReferenceReset(adrc), ba.OutputNPDController(outputs), ba.Passive()),
-        *(
-            ba.FiniteTimeController(outputs, 0.9, 0.02),
-            gains,
-            ba.StridePI(npd, 0.7, 0.3, (0.0,) * 4, gains),
-        ),
-        *(
-            pulse,
-            pulse.laws[0],
-            pulse + pulse,
-            ba.TorqueStep([1.0] * 5),
-            ba.HipForce(biped, (3.0, 1.0)),
-        ),
-        *(
-            ba.TorqueNoise([1.0] * 5, bandwidth=10.0, seed=1),
-            ba.TorqueSine([1.0] * 5, frequency=2.0),
-        ),
-        *(ba.OnLink(biped, "torso", ba.TorqueStep([1.0] * 3)), ba.TimeReference(np.sin)),
-        *(
-            walker,
-            m,
-            m.terms,
-            ba.Case(walker, q, v, ba.RK4()),
-            ba.StepDown(1, 0.01),
-            ba.StepUp(1, 0.01),
-        ),
+    return [
+        *(walker, m, m.terms, ba.Case(walker, q, v, ba.RK4()), ba.RunOptions(1.0)),
         *(walk, walk.trajectory, walk.trajectory.arcs[0], walk.signals, walk.certificates[0]),
         *(walk.legality, asked, asked.outcome, asked.scenario, asked.scenario.pushes[0]),
-        *(ba.RK4(), ba.Adaptive(), ba.Exponential(), ba.Stiff(), ba.Mode(), ba.ContinuousTime()),
-        *(
-            ba.SampledTime(1e-3),
-            ba.Motors(),
-            ba.Sensors(counts=4096),
-            *(ba.Told(), ba.ByForce(), ba.ByKinematics()),
-            ba.ModelErrors(),
-            ba.Limits(),
-        ),
-        *(ba.StepLimits(), cycle, cycle.P, ba.cycle_stability(cycle, samples=0), ba.GaitLimits()),
+        ba.Samples(walk.signals.t, walk.signals.q, walk.signals.v),
+        ba.RobotLog(np.arange(3) * 1e-3, np.ones(3), np.zeros((3, 5)), np.zeros((3, 4))),
+        ba.Session(ba.Scenario("NPD", hardware="ideal"), {"controller": "NPID"}),
     ]
-    soft = ba.MuJoCoPlant(biped, ba.SoftGround())
-    period = ba.SampledTime(1e-3)
-    loops = [kind(soft, npd, biped, period) for kind in (ba.SteppingLoop, ba.CompiledLoop)]
-    found += [soft, soft.ground, *loops, ba.RunOptions(1.0)]
-    frozen = ba.FrozenGait.of(biped, gait)
-    found += [frozen, ba.specification(ba.Walker(biped, npd, timing=period), frozen)]
-    record = ba.GaitRecord(
-        "paper", h.curve.coefficients, h.theta_plus, h.theta_minus, phase=h.phase
-    )
-    samples = ba.Samples(walk.signals.t, walk.signals.q, walk.signals.v)
-    exported = ba.Loaded(source_of(Computer(ba.Walker(biped, npd, timing=period))))
-    found += [exported, exported.source, ba.ExportedController(exported)]
-    log = ba.RobotLog(np.arange(3) * 1e-3, np.ones(3), np.zeros((3, 5)), np.zeros((3, 4)))
-    session = ba.Session(ba.Scenario("NPD", hardware="ideal"), {"controller": "NPID"})
-    return [*found, record, samples, log, session]
+
+
+def on_other_plants(biped, gait, npd):
+    """MuJoCo's plant and the loops around it, a frozen gait, and an exported controller."""
+    soft, walker = ba.MuJoCoPlant(biped, ba.SoftGround()), ba.Walker(biped, npd, timing=PERIOD)
+    loops = [kind(soft, npd, biped, PERIOD) for kind in (ba.SteppingLoop, ba.CompiledLoop)]
+    frozen, exported = ba.FrozenGait.of(biped, gait), ba.Loaded(source_of(Computer(walker)))
+    return [
+        *(soft, soft.ground, *loops, frozen, ba.specification(walker, frozen)),
+        *(exported, exported.source, ba.ExportedController(exported)),
+    ]
 
 
 ELSEWHERE = {

@@ -46,7 +46,7 @@ const torso = [...parts].find(([, link]) => link === "torso")[0];
 function pointer(kind) {
   const box = pane.getBoundingClientRect();
   const at = torso.getWorldPosition(new MeshCat.THREE.Vector3()).project(viewer.camera);
-  const clientX = box.left + 0.5 * (at.x + 1) * box.width + 4;
+  const clientX = box.left + 0.5 * (at.x + 1) * box.width;
   const clientY = box.top + 0.5 * (1 - at.y) * box.height;
   const init = { clientX, clientY, ctrlKey: true, button: 0, pointerId: 1, bubbles: true };
   pane.dispatchEvent(new PointerEvent(kind, init));

@@ -92,7 +92,7 @@ def _once_more(lost: UnraisableHookArgs) -> None:
     if not issubclass(lost.exc_type, KeyboardInterrupt):
         sys.__unraisablehook__(lost)
     elif (main := main_thread().ident) is not None:
-        Timer(0.01, signal.pthread_kill, (main, signal.SIGINT)).start()
+        Timer(0.1, signal.pthread_kill, (main, signal.SIGINT)).start()
 
 
 def _say_interrupted() -> None:

@@ -33,7 +33,6 @@ def test_the_page_by_mouse_and_by_keys(tmp_path):
         until(browser, "return page.last.t > arguments[0]", before)
         assert until(browser, "return element('force').textContent").endswith(" N")
         let_go(browser)
-        by_right_button(browser)
         keys(browser, "s")
         saved = until(browser, "return /saved as (.*) and/.exec(element('said').textContent)")
         found["path"] = saved[1]
@@ -60,21 +59,10 @@ def test_the_page_by_mouse_and_by_keys(tmp_path):
     assert again.record.hands[0].hand.force == tuple(found["hand"]["force"])
 
 
-def by_right_button(browser):
-    """Pull the torso with Ctrl and the right button, as in MuJoCo's viewer."""
-    x, y = torso(browser)
-    event = {"y": y, "button": "right", "buttons": 2, "modifiers": CTRL}
-    for kind, at in (("mousePressed", x), ("mouseMoved", x + 20)):
-        event |= {"type": kind, "x": at}
-        browser.execute_cdp_cmd("Input.dispatchMouseEvent", event)
-    assert until(browser, "return page.last.hand")["anchor"] is not None
-    event |= {"type": "mouseReleased", "buttons": 0}
-    browser.execute_cdp_cmd("Input.dispatchMouseEvent", event)
-    until(browser, "return page.last.hand === null")
-
-
-CTRL = 2  # of a pointer's modifiers
-TOUCH = "Input.dispatchTouchEvent"
+def touch(browser, kind, *place):
+    """A finger at (x, y) [px], or none."""
+    points = [dict(zip("xy", place, strict=True))] if place else []
+    browser.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
 
 
 @needs_chromium
@@ -91,16 +79,20 @@ def test_a_finger_pulls_and_the_keys_of_the_tour_lead_through_it():
         keys(browser, "v")
         until(browser, "return view === 'perspective'")
         x, y = torso(browser)
-        for kind, points in (
-            ("touchStart", [{"x": x, "y": y}]),
-            ("touchMove", [{"x": x + 40, "y": y - 10}]),
-        ):
-            browser.execute_cdp_cmd(TOUCH, {"type": kind, "touchPoints": points})
-        hand = until(browser, "return page.last.hand")
-        assert hand["anchor"] is not None
-        assert hand["force"][0] > 0.0
-        browser.execute_cdp_cmd(TOUCH, {"type": "touchEnd", "touchPoints": []})
+        touch(browser, "touchStart", x, y)
+        hand = until(
+            browser, "return page.last.hand"
+        )  # paused: the force is that of the next sample
+        assert abs(hand["anchor"][0] - hand["at"][0]) < 1e-6  # slack
+        touch(browser, "touchMove", x + 40, y - 10)
+        until(browser, "return page.last.hand.anchor[0] > page.last.hand.at[0] + 0.05")
+        touch(browser, "touchEnd")
         until(browser, "return page.last.hand === null")
+
+        touch(browser, "touchStart", x + 90, y)  # beside the robot: the selected point is pulled
+        hand = until(browser, "return page.last.hand")
+        assert abs(hand["anchor"][0] - hand["at"][0]) < 1e-6
+        touch(browser, "touchEnd")
 
     def guided(browser):
         assert browser.find_element(By.ID, "invitation").is_displayed()

@@ -32,6 +32,14 @@ function pointed(event) {
   return Number.isFinite(s) ? [from.x + s * along.x, from.z + s * along.z] : null;
 }
 
+// where a point of a link is in the plane of the walk (x, z) [m]
+function placeOf({ link, at: [x, z] }) {
+  viewer.scene.updateMatrixWorld(true);
+  const [part] = [...parts].find(([, name]) => name === link);
+  const p = roots[0].worldToLocal(part.parent.localToWorld(new MeshCat.THREE.Vector3(x, 0, z)));
+  return [p.x, p.z];
+}
+
 function select(found) {
   selected = found;
   element("link").value = found ? found.link : scene.robot.trunk;
@@ -44,12 +52,13 @@ function select(found) {
   viewer.set_dirty();
 }
 
+// the anchor goes as the pointer goes: wherever the drag began, the spring is slack there
 function sendPull(event) {
-  const now = performance.now(), anchor = pointed(event);
+  const now = performance.now(), at = pointed(event);
   pull.event = { clientX: event.clientX, clientY: event.clientY };
-  if (anchor === null || now - pull.sent < PULLS) return;
+  if (at === null || now - pull.sent < PULLS) return;
   pull.sent = now;
-  send({ do: "pull", link: pull.link, at: pull.at, anchor });
+  send({ do: "pull", link: pull.link, at: pull.at, anchor: [at[0] + pull.away[0], at[1] + pull.away[1]] });
 }
 // the camera goes along with the robot, and the pointer with the camera
 function keepPulling() {
@@ -64,16 +73,18 @@ function release() {
 const pulls = (event) => event.ctrlKey || event.metaKey || element("pull").getAttribute("aria-pressed") === "true";
 pane.addEventListener("dblclick", (event) => select(pick(event)));
 pane.addEventListener("pointerdown", (event) => {
-  if (!pulls(event) || ![0, 2].includes(event.button)) return; // MuJoCo pulls with the right one
-  const found = selected || pick(event);
-  if (!found) return;
+  if (!pulls(event) || ![0, 2].includes(event.button)) return;
+  const found = selected || pick(event), at = pointed(event);
+  if (!found || at === null) return;
   event.stopImmediatePropagation(); // the camera stays
   event.preventDefault();
   select(found);
   pane.setPointerCapture(event.pointerId);
-  pull = { ...found, sent: 0, event: null };
+  const [x, z] = placeOf(found);
+  pull = { ...found, away: [x - at[0], z - at[1]], sent: 0, event: null };
   sendPull(event);
 }, true);
+pane.addEventListener("contextmenu", (event) => event.preventDefault());
 pane.addEventListener("pointermove", (event) => {
   if (pull) sendPull(event);
 });
