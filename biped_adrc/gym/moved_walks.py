@@ -26,7 +26,7 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.live.in_plant import MovingPlant
 from biped_adrc.live.movers import moving_of
 from biped_adrc.robots.limits import KnownLimits
-from biped_adrc.soft.meters import AT_CONE, CARRYING, PRESSED, SLIP_SPEED
+from biped_adrc.soft.meters import PRESSED, slipping
 from biped_adrc.types import Array
 
 
@@ -81,10 +81,9 @@ class MovedWalk:
         if not isinstance(loop.plant, OnFeet) or now.t <= 0.0:
             return self.legality
         feet = loop.plant.footing(state, u, loop.load(now.t, q, v, now.mode))
-        along, out = ground_axes(self.episode.walker.slope)
+        axes = along, out = ground_axes(self.episode.walker.slope)
         F_T, F_N = np.abs(feet.force @ along), feet.force @ out
-        at_cone = AT_CONE * self.limits.friction * F_N <= F_T
-        slips = (F_N > CARRYING) & at_cone & (np.abs(feet.speed @ along) > SLIP_SPEED)
+        slips = slipping(feet.force, feet.speed, self.limits.friction, axes)
         first, friction, normal, peak = self.legality
         broken = np.any(slips) or np.max(np.abs(u)) > self.limits.torque
         self.legality = np.array(

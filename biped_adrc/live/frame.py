@@ -3,10 +3,10 @@
     {"t", "paused", "rate", "reached", "walks": [...], "hand": {...} or null, "felt"}
 
 Each walk has its pose, `rows` of signals of at most ROWS samples, evenly spread, the last of them that of the
-pose, and `worst`: least normal force, largest friction and torque of all samples since the last message; null
-where there is none. `felt` says whether a hand acted in the last sample. Numbers that are not finite are null,
-as JSON has none. Poses are those of the drawn robot (`viz.placement`), whose legs do not change their names at
-a touchdown as those of the model do.
+pose, and `worst` of all samples since the last message, null where there is none: least normal force, largest
+friction and torque, and whether a foot slipped, null on the rigid plant. `felt` says whether a hand acted in
+the last sample. Numbers that are not finite are null, as JSON has none. Poses are those of the drawn robot
+(`viz.placement`), whose legs do not change their names at a touchdown as those of the model do.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from biped_adrc.ground import ground_axes
 from biped_adrc.live.driver import Driver, Sample
 from biped_adrc.live.hand import Hand
 from biped_adrc.live.live_walk import LiveWalk
@@ -36,7 +37,11 @@ def frame(driver: Driver) -> dict[str, object]:
     for live, made in zip(session.walking, driver.made, strict=True):
         seen = [reading(live, *sample) for sample in spread(made, ROWS)]
         last = (seen[-1], made[-1].hand) if seen else (None, None)
-        told = {"rows": [*map(row, seen)], "worst": worst(live, made), "ending": ending(live)}
+        told = {
+            "rows": [row(live, one) for one in seen],
+            "worst": worst(live, made),
+            "ending": ending(live),
+        }
         walks.append(pose(live, *last) | told)
     felt = driver.made[WALK]
     return {
@@ -88,35 +93,44 @@ def spread(made: Sequence[Sample], most: int) -> list[Sample]:
     return [made[round((k + 1) * len(made) / count) - 1] for k in range(count)]
 
 
-def row(seen: Reading) -> dict[str, object]:
+def row(live: LiveWalk, seen: Reading) -> dict[str, object]:
     """What the page plots, of one sample."""
+    along, out = pressing(live, seen.ground)
     return {
         "t": seen.t,
         "error": numbers(seen.error),
         "xi": numbers(seen.xi),
         "xi_estimate": numbers(seen.xi_estimate),
         "u": numbers(seen.u),
-        "friction": numbers((friction(seen.ground),))[0],
+        "friction": numbers((friction(along, out),))[0],
     }
 
 
-def friction(ground: Array) -> float:
-    """|F_T| / F_N of a force (2,) [N] of the ground; infinite where that does not press on the foot."""
-    tangent, normal = ground.tolist()
+def pressing(live: LiveWalk, ground: Array) -> tuple[float, float]:
+    """(F_T, F_N) [N], along and out of the walk's slope, of a force (F_x, F_z) (2,) [N] of the ground."""
+    along, out = ground_axes(live.moving.walker.slope)
+    return float(ground @ along), float(ground @ out)
+
+
+def friction(tangent: float, normal: float) -> float:
+    """|F_T| / F_N of a force of the ground; infinite where that does not press on the foot."""
     return math.inf if normal <= 0.0 else abs(tangent) / normal
 
 
 def worst(live: LiveWalk, made: Sequence[Sample]) -> dict[str, object] | None:
-    """Least F_N [N], largest |F_T| / F_N and largest torque [N m] of all these samples; None without one."""
+    """Least F_N [N], largest |F_T| / F_N and torque [N m], and slip, of all these samples; None without one."""
     if not made:
         return None
     found = [carried(live, *sample) for sample in made]
+    forces = [pressing(live, one.ground) for one in found]
     extremes = (
-        min(float(one.ground[1]) for one in found),
-        max(friction(one.ground) for one in found),
+        min(normal for _, normal in forces),
+        max(friction(*force) for force in forces),
         max(float(np.max(np.abs(one.u))) for one in found),
     )
-    return dict(zip(("normal", "friction", "torque"), numbers(extremes), strict=True))
+    slips = None if found[-1].slips is None else any(one.slips for one in found)
+    normal, used, torque = numbers(extremes)
+    return {"normal": normal, "friction": used, "torque": torque, "slips": slips}
 
 
 def ending(live: LiveWalk) -> str:

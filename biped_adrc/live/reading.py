@@ -18,11 +18,13 @@ from biped_adrc.closed_loop.noticing import estimated
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.closed_loop.stepping_plant import Load, PlantState
+from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.simulator import FlownArc
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.live.hand import Hand
 from biped_adrc.live.live_walk import LiveWalk
 from biped_adrc.live.moving import Moving, Now
+from biped_adrc.soft.meters import slipping
 from biped_adrc.types import Array
 
 
@@ -34,9 +36,11 @@ class Carried(NamedTuple):
     u: Array
     """Torque of the motors (p,) [N m]."""
     ground: Array
-    """Force (F_T, F_N) (2,) [N] on the stance foot."""
+    """Force (F_x, F_z) (2,) [N] of the ground on the stance foot."""
     other: Array
     """Force (2,) [N] on the other foot; zero on the rigid plant, NaN where the plant does not say."""
+    slips: bool | None
+    """Whether a foot slips on soft ground, as `soft.meters` counts it; None where no foot can."""
 
 
 class Reading(NamedTuple):
@@ -61,7 +65,7 @@ class Reading(NamedTuple):
     xi_estimate: Array
     """What the observer says of it (p,) [rad/s^2]; NaN without one."""
     ground: Array
-    """Force (F_T, F_N) (2,) [N] on the stance foot."""
+    """Force (F_x, F_z) (2,) [N] of the ground on the stance foot."""
     other: Array
     """Force (2,) [N] on the other foot; zero on the rigid plant, NaN where the plant does not say."""
 
@@ -72,7 +76,7 @@ def reading(live: LiveWalk, flown: FlownArc, hand: Hand | None) -> Reading:
     loop, mode, t, x = moving.loop, arc.mode, float(arc.t[-1]), arc.x[-1]
     q, v, s, tail = parts(loop, x)
     n, p = len(q), moving.walker.plant.p
-    load, u, ground, other = carried(live, flown, hand)
+    load, u, ground, other, _ = carried(live, flown, hand)
     m = loop.measure(t, q, v, mode)
     found = estimated(loop, s, tail, m, mode)
     return Reading(
@@ -111,8 +115,8 @@ def acting(live: LiveWalk, hand: Hand | None, t: float, q: Array, v: Array, mode
 
 def ground_forces(
     live: LiveWalk, arc: Arc, hand: Hand | None, a: Array, load: Load
-) -> tuple[Array, Array]:
-    """Forces (2,) [N] of the ground on stance foot and other foot at the end of a sample.
+) -> tuple[Array, Array, bool | None]:
+    """Forces (2,) [N] of the ground on stance foot and other foot at the end of a sample, and `Carried.slips`.
 
     a (n,) [rad/s^2], load: q'' and what acts there. A plant that moves by itself is asked, with the load that
     it had over the sample, taken where that began.
@@ -125,11 +129,13 @@ def ground_forces(
         held = acting(live, hand, 0.5 * (t + end), before[:n], before[n : 2 * n], arc.mode)
         now = Now(end, x, arc.mode, arc.mode.start)
         state = PlantState(end, x[:n], x[n : 2 * n], moving.own(now))
-        stance, other = plant.footing(state, asked(moving, x), held).force
-        return stance, other
+        force, _, speed = plant.footing(state, asked(moving, x), held)
+        axes = ground_axes(moving.walker.slope)
+        slips = slipping(force, speed, live.scenario.ground_friction, axes)
+        return force[0], force[1], bool(np.any(slips))
     if plant is not moving.walker.plant:
-        return np.full(2, np.nan), np.full(2, np.nan)
-    return plant.ground_reaction(x[:n], x[n : 2 * n], a) - load.force, np.zeros(2)
+        return np.full(2, np.nan), np.full(2, np.nan), None
+    return plant.ground_reaction(x[:n], x[n : 2 * n], a) - load.force, np.zeros(2), None
 
 
 def asked(moving: Moving, x: Array) -> Array:

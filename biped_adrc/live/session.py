@@ -65,6 +65,10 @@ class Session:
 
     def __init__(self, scenario: Scenario, ghost: Mapping[str, object] | None = None):
         check_part(scenario, "what is to walk live", Scenario)
+        if not isinstance(ghost, Mapping | None):
+            raise InputError(
+                f'the ghost is {ghost!r:.60}, expected values by name, such as {{"controller": "NPD"}}'
+            )
         self._begin(scenario, None if ghost is None else revised(scenario, ghost))
 
     @classmethod

@@ -15,6 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from biped_adrc.closed_loop.feet import NAMES, Readings, readings
 from biped_adrc.closed_loop.stepping import SteppingLoop
@@ -127,8 +128,7 @@ def metered(
     along, out = axes
     w, normal, tangential = weights(r.t), r.force @ out, np.abs(r.force @ along)
     speed, carries = np.abs(r.speed @ along), normal > carrying
-    at_cone = tangential >= AT_CONE * friction * normal
-    slips = carries & at_cone & (speed > slip_speed)
+    slips = slipping(r.force, r.speed, friction, axes, carrying, slip_speed)
     pressed = normal > PRESSED
     used = np.divide(tangential, normal, where=pressed, out=np.zeros_like(normal))
     feet = carries.sum(axis=1)
@@ -146,6 +146,22 @@ def metered(
         impulse=_pair(w @ r.force.sum(axis=1)),
         contact_work=float(w @ np.sum(r.force * r.speed, axis=(1, 2))),
     )
+
+
+def slipping(
+    force: Array,
+    speed: Array,
+    friction: float,
+    axes: tuple[Array, Array],
+    carrying: float = CARRYING,
+    slip_speed: float = SLIP_SPEED,
+) -> NDArray[np.bool_]:
+    """Whether each foot slips (...,), from force [N] and speed [m/s], each (..., 2); the rest as `metered`."""
+    along, out = axes
+    normal, tangential = force @ out, np.abs(force @ along)
+    at_cone = tangential >= AT_CONE * friction * normal
+    slips = (normal > carrying) & at_cone & (np.abs(speed @ along) > slip_speed)
+    return np.asarray(slips, dtype=np.bool_)
 
 
 def weights(t: Array) -> Array:

@@ -39,7 +39,7 @@ from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.robots.symmetry import twins
 from biped_adrc.robots.urdf import Joint, Tree
-from biped_adrc.soft.meters import AT_CONE, CARRYING, SLIP_SPEED
+from biped_adrc.soft import meters
 from biped_adrc.types import Array
 
 MOST_FRAMES = 200_000
@@ -327,11 +327,8 @@ def loads(scene: WalkScene, t: float) -> DrawnLoads:
 def slipping(scene: WalkScene, arc: Arc) -> NDArray[np.bool_]:
     """Whether a foot slips at each node of an arc on soft ground (K,), as `soft.meters` counts it."""
     mu = scene.trajectory.settings["plant"]["ground"]["friction"]
-    axes = np.array(ground_axes(scene.walker.slope))
-    F, v = (arc.read[name].reshape(-1, 2, 2) @ axes.T for name in (FORCE, SPEED))
-    at_cone = np.abs(F[..., 0]) >= AT_CONE * mu * F[..., 1]
-    slips = (F[..., 1] > CARRYING) & at_cone & (np.abs(v[..., 0]) > SLIP_SPEED)
-    return np.asarray(np.any(slips, axis=1))
+    F, v = (arc.read[name].reshape(-1, 2, 2) for name in (FORCE, SPEED))
+    return np.any(meters.slipping(F, v, mu, ground_axes(scene.walker.slope)), axis=1)
 
 
 def contact_changes(scene: WalkScene, arc: Arc) -> Array:

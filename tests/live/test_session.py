@@ -375,6 +375,11 @@ def test_a_scenario_that_cannot_walk_live_is_refused(values, message):
         Session(ba.Scenario(**values))
 
 
+def test_a_ghost_that_is_no_mapping_is_refused():
+    with pytest.raises(InputError, match="the ghost is 'NPD'"):
+        Session(ba.Scenario("ADRC", **IDEAL), "NPD")
+
+
 def test_a_run_that_is_no_session_is_refused(tmp_path):
     path = ba.walk_scenario(ba.Scenario("NPD", impacts=1)).save(tmp_path / "walk.npz")
     with pytest.raises(InputError, match="no session"):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.live.controls import tour
+from biped_adrc.live.controls import controls, tour
 from biped_adrc.live.reading import reading
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -55,6 +55,19 @@ def test_encoders_fell_it_and_a_lower_bandwidth_does_not():
     assert at_limit
     assert status in (ba.Status.FELL, ba.Status.RAN_AWAY)
     assert walked(station("lower bandwidth"))[0] is ba.Status.COMPLETED
+
+
+def test_at_the_end_of_the_slider_order_7_fells_it_and_order_1_does_not():
+    found = tour()[station("lower bandwidth")]
+    assert all(words in found["text"] for words in ("order 1", "order 7", "right end"))
+    (slider,) = (x for x in controls()["sliders"] if x["name"] == "bandwidth")
+    for order, walks in ((1, True), (7, False)):
+        session = ba.Session(ba.Scenario(**found["values"] | {"hardware": "ideal"}))
+        session.advance(0.6)
+        session.change(order=order)
+        session.advance(0.3)
+        session.change(bandwidth=slider["high"])
+        assert session.advance(2.0) is walks
 
 
 def test_holding_the_observer_is_worth_much_on_soft_ground():

@@ -33,6 +33,7 @@ def test_the_page_by_mouse_and_by_keys(tmp_path):
         until(browser, "return page.last.t > arguments[0]", before)
         assert until(browser, "return element('force').textContent").endswith(" N")
         let_go(browser)
+        by_right_button(browser)
         keys(browser, "s")
         saved = until(browser, "return /saved as (.*) and/.exec(element('said').textContent)")
         found["path"] = saved[1]
@@ -43,8 +44,9 @@ def test_the_page_by_mouse_and_by_keys(tmp_path):
         assert browser.find_element(By.ID, "field-bandwidth").get_attribute("value") == ""
         typed(browser, "K_p", "4000")
         until(browser, "return known[0].K_p === 4000")
-        keys(browser, "-")
-        until(browser, "return rate === 0.5")
+        keys(browser, "-", "-")
+        until(browser, "return rate === 0.2")
+        until(browser, "return element('shown').textContent === ', last 1.6 s'")
         assert console(browser) == []
         assert all(
             address.split("//")[1].startswith(url.split("//")[1]) for address in requested(browser)
@@ -56,6 +58,22 @@ def test_the_page_by_mouse_and_by_keys(tmp_path):
     again = ba.replay_session(found["path"])
     assert again.same
     assert again.record.hands[0].hand.force == tuple(found["hand"]["force"])
+
+
+CTRL = 2  # of a pointer's modifiers
+
+
+def by_right_button(browser):
+    """Pull the torso with Ctrl and the right button, as in MuJoCo's viewer."""
+    x, y = torso(browser)
+    event = {"y": y, "button": "right", "buttons": 2, "modifiers": CTRL}
+    for kind, at in (("mousePressed", x), ("mouseMoved", x + 20)):
+        event |= {"type": kind, "x": at}
+        browser.execute_cdp_cmd("Input.dispatchMouseEvent", event)
+    assert until(browser, "return page.last.hand")["anchor"] is not None
+    event |= {"type": "mouseReleased", "buttons": 0}
+    browser.execute_cdp_cmd("Input.dispatchMouseEvent", event)
+    until(browser, "return page.last.hand === null")
 
 
 def touch(browser, kind, *place):

@@ -15,6 +15,7 @@ from tornado.httpclient import AsyncHTTPClient, HTTPClientError
 
 import biped_adrc as ba
 from biped_adrc.errors import InputError
+from biped_adrc.ground import ground_axes
 from biped_adrc.live import stage as staging
 from biped_adrc.live.controls import controls, values
 from biped_adrc.live.driver import Driver
@@ -98,6 +99,34 @@ def test_the_worst_of_a_frame_is_of_all_its_samples_and_its_rows_are_of_some():
     assert frame(driver)["walks"][0] == found  # at rest
     driver.take(Message("step", {}))
     assert len(frame(driver)["walks"][0]["rows"]) == 1
+
+
+def test_friction_on_a_slope_is_that_along_it():
+    s = ba.Scenario("NPD", hardware="ideal", slope=0.2)
+    driver = Driver(ba.Session(s))
+    driver.take(Message("step", {}))
+    seen = frame(driver)["walks"][0]
+    force = driver.session.walk().signals.ground_reaction[-1]
+    along, out = (abs(force @ axis) for axis in ground_axes(s.slope))
+    assert seen["rows"][-1]["friction"] == pytest.approx(along / out, rel=1e-9)
+    assert seen["worst"]["friction"] == pytest.approx(along / out, rel=1e-9)
+    assert seen["worst"]["normal"] == pytest.approx(out, rel=1e-9)
+
+
+@pytest.mark.parametrize("contact", [None, "hold"])
+def test_on_soft_ground_it_slips_where_the_finished_walk_does(contact):
+    pytest.importorskip("mujoco")
+    values = {"plant": "mujoco", "bandwidth": 160.0, "order": 1, "contact": contact}
+    driver, slipped = Driver(ba.Session(ba.Scenario("ADRC", hardware="ideal", **values))), set()
+    while driver.session.t < 0.9:
+        step = driver.session.walking[0].now.mode.step
+        driver.take(Message("step", {}))
+        if frame(driver)["walks"][0]["worst"]["slips"]:
+            slipped.add(step)
+        driver.shown()
+    steps = driver.session.walk().soft_steps
+    assert slipped
+    assert slipped == {k + 1 for k, one in enumerate(steps) if max(one.slip_time) > 0.0}
 
 
 def test_the_force_of_a_hand_is_drawn_where_it_acts_and_as_no_torque():

@@ -75,7 +75,8 @@ const RATES = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10];
 let rate = 1, paused = false;
 function faster(by) {
   const k = RATES.findIndex((x) => x >= rate * (1 - 1e-9)) + by;
-  send({ do: "rate", rate: RATES[Math.min(Math.max(k, 0), RATES.length - 1)] });
+  rate = RATES[Math.min(Math.max(k, 0), RATES.length - 1)]; // for a second press before the next frame
+  send({ do: "rate", rate });
 }
 const number = (id) => Number(element(id).value);
 function pushJoint(sign) {

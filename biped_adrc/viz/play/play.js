@@ -6,9 +6,10 @@ let breach = { words: "", until: 0 };
 // of all samples since the last message
 function breachOf({ worst }) {
   if (!worst) return "";
-  const { friction, torque } = scene.limits;
-  if (worst.normal !== null && worst.normal <= 0) return "the ground would have to pull the foot";
-  if (worst.friction > friction) return "friction " + worst.friction.toFixed(2) + " > " + friction;
+  const { friction, torque } = scene.limits, rigid = worst.slips === null;
+  if (worst.slips) return "a foot slips";
+  if (rigid && worst.normal !== null && worst.normal <= 0) return "the ground would have to pull the foot";
+  if (rigid && worst.friction > friction) return "friction " + worst.friction.toFixed(2) + " > " + friction;
   return worst.torque > torque * (1 + 1e-9) ? "torque " + worst.torque.toFixed(0) + " > " + torque + " N m" : "";
 }
 function describe(message) {

@@ -1,5 +1,6 @@
 // Four plots of the last seconds, each on a canvas of its own.
-const SECONDS = 4;
+const SECONDS = 4; // [s] of the walk; slower than half of its pace fewer, so that time is drawn larger
+const shown = () => SECONDS * Math.min(1, 2 * rate);
 const COLOURS = { walk: "#0072b2", other: "#d55e00", ghost: "#666666", limit: "#000000" };
 const past = { walk: [], ghost: [] }; // rows of signals of either, in order of time
 let joint = 0;
@@ -19,7 +20,7 @@ const PLOTS = [
     lines: [["walk", of("u"), "walk"], ["ghost", of("u"), "ghost"]],
   },
   {
-    canvas: "plot-ground", unit: "F_T / F_N", scale: 1, least: 0.5, most: 2, limits: [scene.limits.friction],
+    canvas: "plot-ground", unit: "F_T / F_N", scale: 1, least: scene.limits.friction, most: 2, limits: [scene.limits.friction],
     lines: [["walk", (s) => s.friction, "walk"], ["ghost", (s) => s.friction, "ghost"]],
   },
 ];
@@ -57,7 +58,7 @@ function draw(plot) {
   const sizes = lines.flat().map(([, y]) => Math.abs(y || 0)).filter(Number.isFinite);
   const top = Math.min(ceiling(sizes.reduce((a, b) => Math.max(a, b), plot.least)), plot.most || Infinity);
   const low = plot.canvas === "plot-ground" ? 0 : -top, end = page.last ? page.last.t : 0;
-  const at = (t, y) => [w * (1 - (end - t) / SECONDS), 4 + (h - 8) * (top - Math.min(y, 9 * top)) / (top - low)];
+  const at = (t, y) => [w * (1 - (end - t) / shown()), 4 + (h - 8) * (top - Math.min(y, 9 * top)) / (top - low)];
   axes(pen, plot, w, top, low, at);
   lines.forEach((line, k) => stroke(pen, line, plot.lines[k][2], at));
   scaleOf(pen, top + " " + plot.unit);
@@ -106,6 +107,7 @@ function drawPlots() {
   asked = true;
   requestAnimationFrame(() => {
     asked = false;
+    element("shown").textContent = ", last " + Number(shown().toPrecision(2)) + " s";
     PLOTS.forEach(draw);
   });
 }
