@@ -83,7 +83,8 @@ class MovedWalk:
         feet = loop.plant.footing(state, u, loop.load(now.t, q, v, now.mode))
         axes = along, out = ground_axes(self.episode.walker.slope)
         F_T, F_N = np.abs(feet.force @ along), feet.force @ out
-        slips = slipping(feet.force, feet.speed, self.limits.friction, axes)
+        mu = self.episode.scenario.ground_friction
+        slips = slipping(feet.force, feet.speed, mu, axes)
         first, friction, normal, peak = self.legality
         broken = np.any(slips) or np.max(np.abs(u)) > self.limits.torque
         self.legality = np.array(

@@ -44,6 +44,13 @@ def test_the_page_by_mouse_and_by_keys(tmp_path):
         assert browser.find_element(By.ID, "field-bandwidth").get_attribute("value") == ""
         typed(browser, "K_p", "4000")
         until(browser, "return known[0].K_p === 4000")
+        browser.execute_script("change({ bandwidth: 300, order: 1 })")
+        until(browser, "return known[0].order === 1")
+        typed(browser, "bandwidth", "")
+        until(browser, "return known[0].bandwidth === null && known[0].order === null")
+        assert not browser.find_element(By.ID, "field-filter_time").is_enabled()
+        browser.execute_script("change({ velocity: 'differences', counts: 8192 })")
+        until(browser, "return !element('field-filter_time').disabled")
         keys(browser, "-", "-")
         until(browser, "return rate === 0.2")
         until(browser, "return element('shown').textContent === ', last 1.6 s'")

@@ -184,8 +184,10 @@ def run(
     is given the address. Raises InputError for a port that is in use, and inside a running event loop, as
     that of a notebook.
     """
-    if not 0 <= port <= 65535:
-        raise InputError(f"port is {port}, expected 1 to 65535, or 0 for a free one")
+    if not (isinstance(port, int) and 0 <= port <= 65535):
+        raise InputError(f"port is {port!r}, expected 1 to 65535, or 0 for a free one")
+    if not wait > 0.0:
+        raise InputError(f"wait is {wait} s, expected a positive time for a browser to come")
     with suppress(RuntimeError):
         asyncio.get_running_loop()
         raise InputError(

@@ -11,32 +11,34 @@ const valueAt = (c, k) => Number((c.factor
 const usual = (c) => (c.usual === undefined ? c.given : c.usual);
 const change = (values) => send({ do: "change", values });
 
+const has = (values) => Object.entries(values).every(([name, x]) => known[0][name] === x);
 function showSlider(c) {
   const x = known[0][c.name], range = element("range-" + c.name), field = element("field-" + c.name);
   if (document.activeElement !== field) field.value = x === null ? "" : x;
   range.value = positionOf(c, x === null ? usual(c) : x);
+  range.disabled = field.disabled = !has(c.needs || {});
   range.setAttribute("aria-valuetext", x === null ? c.words : x + " " + c.unit);
 }
 function wireSlider(c) {
   const range = element("range-" + c.name), field = element("field-" + c.name);
-  const sent = (x) => { complain(c.name, ""); change({ [c.name]: x }); };
+  const sent = (x, along = {}) => { complain(c.name, ""); change({ [c.name]: x, ...along }); };
   element("mark-" + c.name).style.setProperty("--share", positionOf(c, usual(c)) / STEPS);
   range.oninput = () => { field.value = valueAt(c, range.value); };
   range.onchange = () => sent(valueAt(c, range.value));
   field.onchange = () => {
     const x = field.value.trim();
     if (x !== "" && !Number.isFinite(Number(x))) { complain(c.name, "'" + x + "' is no number"); showSlider(c); }
-    else sent(x === "" ? c.given : Number(x));
+    else if (x === "") sent(c.given, c.emptied);
+    else sent(Number(x));
   };
   field.onblur = () => showSlider(c);
 }
 
 // the option whose values are those of the walk; a value of a scenario file may be none of them
 function showChoice(c) {
-  const fits = ({ values }) => Object.entries(values).every(([name, x]) => known[0][name] === x);
   const named = ({ values }) => values[c.name] === known[0][c.name];
   const choice = element("choice-" + c.name);
-  let k = c.options.findIndex(fits);
+  let k = c.options.findIndex(({ values }) => has(values));
   if (k < 0) k = c.options.findIndex(named);
   choice.options[c.options.length].hidden = k >= 0;
   choice.options[c.options.length].textContent = String(known[0][c.name]);
