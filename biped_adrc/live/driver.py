@@ -119,8 +119,8 @@ class Driver:
         self.session.back()
         self._forget()
 
-    def _reset(self) -> None:
-        self.session.reset()
+    def _reset(self, values: dict[str, object] | None = None) -> None:
+        self.session.reset(**(values or {}))
         self._forget()
 
     def _let_go(self) -> None:

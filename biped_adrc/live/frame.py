@@ -58,7 +58,7 @@ def frame(driver: Driver) -> dict[str, object]:
 def pose(live: LiveWalk, seen: Reading | None, hand: Hand | None) -> dict[str, object]:
     """As scene.js takes it, of one robot: angles, forces, points; see `viz.meshcat.frames.Pose`.
 
-    support: number of the single support, stance leg (0 or 1), and its place (x, z) [m].
+    support: number of the single support, stance leg (0 or 1), its place (x, z) [m], and the slope [rad] there.
     """
     plant, step, q = live.moving.walker.plant, live.now.mode.step, live.q
     values = joint_values(plant, q, step, *live.foot.tolist())
@@ -70,12 +70,13 @@ def pose(live: LiveWalk, seen: Reading | None, hand: Hand | None) -> dict[str, o
     other_leg = exchanged(plant, step)
     drawn = plant.R.T @ zeta if other_leg else zeta
     x, z = live.foot.tolist()
+    slope = live.moving.walker.slope
     return {
         "joints": joints,
         "loads": numbers((*ground, *drawn)),
         "points": points.tolist(),
         "contact": numbers((x, z, *other, 0.0)),
-        "support": {"number": step, "stance": int(other_leg), "x": x, "z": z},
+        "support": {"number": step, "stance": int(other_leg), "x": x, "z": z, "slope": slope},
     }
 
 

@@ -5,7 +5,8 @@
     {"do": "change", "walk": 0, "values": {"bandwidth": 300}}
     {"do": "ghost", "values": {"controller": "NPD"}}
     {"do": "rate", "rate": 0.5}
-    {"do": "pause"}, "go", "step", "back", "reset", "let_go", "save"
+    {"do": "reset", "values": {"controller": "NPD"}}
+    {"do": "pause"}, "go", "step", "back", "let_go", "save"
 
 A message is short, has these keys and no others, and holds finite numbers, short texts, and lists and
 mappings of them. The value of a field is no path and no `package.module:Class`: a page opens no file and runs
@@ -93,6 +94,7 @@ OPTIONAL: dict[str, dict[str, Kind]] = {
     "push": {"torque": NUMBERS, "force": PAIR, "link": TEXT, "at": PAIR, "seconds": NUMBER},
     "change": {"walk": NUMBER},
     "ghost": {"values": VALUES},
+    "reset": {"values": VALUES},
 }
 """Keys that it may have besides."""
 

@@ -294,13 +294,14 @@ class Session:
         for k, live in enumerate(now):
             self._put(k, live)
 
-    def reset(self) -> None:
+    def reset(self, **values: object) -> None:
         """To the start, with the scenarios as they are now; the record begins anew.
 
-        Raises InputError where they cannot begin there; then all is as it was.
+        values: other ones of the walk's scenario, by name. Raises InputError for values that are none, and
+        where the walks cannot begin there; then all is as it was.
         """
         scenario, *ghost = [live.scenario for live in self.walking]
-        self._begin(scenario, ghost[0] if ghost else None)
+        self._begin(revised(scenario, values), ghost[0] if ghost else None)
 
     # -- what is kept of it ------------------------------------------------------------------------
     def walk(self, which: int = WALK) -> Walk:

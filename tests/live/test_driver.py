@@ -110,8 +110,9 @@ def test_every_message_reaches_the_session():
     assert session.walking[0].scenario.bandwidth == 300.0
     say(driver, do="back")
     assert session.record.samples == 0
-    say(driver, do="reset")
+    say(driver, do="reset", values={"order": 1})
     assert session.record.changes == ()
+    assert session.record.scenario.order == 1
     assert session.record.scenario.controller == "ADRC"
     assert all(hasattr(driver, f"_{name}") for name in NEEDED if name != "save")  # by the stage
 

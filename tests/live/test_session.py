@@ -384,3 +384,14 @@ def test_a_run_that_is_no_session_is_refused(tmp_path):
     path = ba.walk_scenario(ba.Scenario("NPD", impacts=1)).save(tmp_path / "walk.npz")
     with pytest.raises(InputError, match="no session"):
         ba.replay_session(path)
+
+
+def test_on_another_slope_the_ground_turns_about_the_stance_foot():
+    session = ba.Session(ba.Scenario("ADRC", hardware="ideal"))
+    session.advance(0.6)  # the swing foot is high
+    session.change(slope=-0.03)
+    before = session.walking[0].foot.copy()
+    while session.walking[0].now.mode.step == 2:
+        session.sample()
+    stride = session.walking[0].foot - before
+    assert stride[1] / stride[0] == pytest.approx(np.tan(0.03), rel=1e-9)

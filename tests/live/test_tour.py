@@ -18,8 +18,7 @@ def walked(k, seconds=1.6):
     """Status, largest tracking error after 0.6 s [rad], and whether a torque was at its limit, of a station."""
     station = tour()[k]
     session = ba.Session(ba.Scenario("ADRC", hardware="ideal"))
-    session.change(**station["values"])
-    session.reset()
+    session.reset(**station["values"])
     largest, at_limit, pushed = 0.0, False, "push" not in station
     while session.walks and session.t < seconds:
         if not pushed and session.t >= station["after"]:

@@ -120,6 +120,12 @@ def test_a_finger_pulls_and_the_keys_of_the_tour_lead_through_it():
 
     def guided(browser):
         assert browser.find_element(By.ID, "invitation").is_displayed()
+        browser.execute_script(
+            "change({ slope: -0.05 })"
+        )  # uphill: the foot is above it at any time
+        until(browser, "return page.last.walks[0].support.slope === -0.05")
+        ground = "return node('meshcat/ground').rotation.y"
+        assert abs(browser.execute_script(ground) + 0.05) < 1e-9
         keys(browser, "t")
         for k, station in enumerate(tour()):
             assert until(browser, "return station === arguments[0]", k)

@@ -159,13 +159,13 @@ def test_a_walk_that_has_fallen_says_why():
 def test_controls_are_fields_of_a_scenario_and_lie_in_their_ranges():
     told, start = controls(), ba.Scenario("ADRC", hardware="ideal")
     assert {x["name"] for x in told["sliders"]} == {
-        *("bandwidth", "K_p", "K_d", "filter_time", "noise", "delay")
+        *("bandwidth", "K_p", "K_d", "filter_time", "noise", "delay", "slope", "ground_friction")
     }
     for slider in told["sliders"]:
         assert slider["low"] <= slider.get("usual", slider["given"]) <= slider["high"]
         for end in ("low", "high"):
-            given = {} if slider["name"] != "filter_time" else {"velocity": "differences"}
-            ba.Scenario("ADRC", hardware="ideal", **{slider["name"]: slider[end]}, **given)
+            given = slider.get("needs", {}) | {slider["name"]: slider[end]}
+            ba.Scenario("ADRC", hardware="ideal", torque_limit=150.0, **given)
     assert set(values(start)) <= set(FIELDS)
 
 

@@ -20,8 +20,7 @@ function goTo(k) {
   element("tour-next").textContent = k + 1 < scene.tour.length ? "next (n)" : "end (n)";
   element("tour-title").focus();
   send({ do: "let_go" });
-  send({ do: "change", values: s.values });
-  send({ do: "reset" });
+  send({ do: "reset", values: s.values });
   send({ do: "rate", rate: s.rate });
   send({ do: "go" });
   if (s.push) timers = [setTimeout(pushAgain, 1000 * s.after / s.rate)];

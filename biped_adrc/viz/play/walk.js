@@ -24,6 +24,7 @@ class LiveRobot extends Robot {
       const s = this.prints[k];
       print.visible = s !== undefined;
       if (s) print.position.set(s.x + this.under.x, 0, s.z + this.under.z);
+      if (s) print.rotation.y = s.slope;
     });
   }
   forget() {
@@ -34,10 +35,13 @@ const robots = scene.walks.map((walk) => new LiveRobot(walk));
 const leader = robots[scene.leader];
 const roots = ["walk", "ghost"].map((name) => node("meshcat/robots/" + name));
 
-// the tiles repeat after a metre
-function moveGround({ x, z }) {
-  const whole = Math.round(x);
-  node("meshcat/ground").position.set(whole, 0, z + leader.walk.fall * (x - whole));
+// the tiles repeat after a metre; they are drawn on the slope of the start
+const drawnSlope = Math.atan(leader.walk.fall);
+function moveGround({ x, z, slope }) {
+  const whole = Math.round(x), ground = node("meshcat/ground");
+  leader.walk.fall = Math.tan(slope);
+  ground.position.set(whole, 0, z + leader.walk.fall * (x - whole));
+  ground.rotation.y = slope - drawnSlope;
 }
 
 const hand = {
