@@ -162,10 +162,13 @@ class Processes(Threads):
         """
         processes: dict[int, BaseProcess] = getattr(executor, "_processes", None) or {}
         running = list(processes.values())
+        manager: Thread | None = getattr(executor, "_executor_manager_thread", None)
         if now:
             executor.shutdown(wait=False, cancel_futures=True)
             for process in running:
                 process.terminate()
+            if manager is not None:  # a second shutdown does not wait for it
+                manager.join()
         super().stop(executor, now)
 
 

@@ -376,6 +376,16 @@ def test_ctrl_c_while_workers_start(tmp_path, pause, started):
     assert err.rstrip().endswith("KeyboardInterrupt"), err
 
 
+def test_workers_that_are_stopped_leave_no_thread_that_the_interpreter_would_wait_for():
+    before = {*threading.enumerate()}
+    crew = Processes(2)
+    executor = crew.start()
+    pending = [executor.submit(time.sleep, 60.0) for _ in range(4)]
+    crew.stop(executor, True)
+    assert {*threading.enumerate()} <= before
+    assert all(future.done() for future in pending)
+
+
 def test_killed_no_worker_is_left_behind(running):
     process, _, below = running()
     assert len(below) >= 3
