@@ -91,10 +91,7 @@ class LiveWalk:
 
         Raises InputError for values that are none, or that cannot change while it walks.
         """
-        if fixed := [name for name in values if name in FIXED]:
-            raise InputError(
-                f"{', '.join(fixed)} cannot change while it walks; begin a new session with that"
-            )
+        check_changing(values)
         s, moving = revised(self.scenario, values), self.moving
         if s == self.scenario:
             return self
@@ -105,6 +102,14 @@ class LiveWalk:
         own = moving.own(self.now) if s.plant == self.scenario.plant else None
         now = new.start(self.q, self.v, mode, t, moving.torque(self.now), own)
         return replace(self, scenario=s, moving=new, now=now)
+
+
+def check_changing(values: Mapping[str, object]) -> None:
+    """Raise InputError for values, by name, that say who walks and where it begins."""
+    if fixed := [name for name in values if name in FIXED]:
+        raise InputError(
+            f"{', '.join(fixed)} cannot change while it walks; begin a new session with that"
+        )
 
 
 def moved_by(s: Scenario, scene: RobotAndGait, t_first: float = 0.0) -> Moving:

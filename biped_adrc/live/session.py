@@ -28,7 +28,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.hybrid.simulator import FlownArc
 from biped_adrc.live.hand import Hand, Spring, check_hand, check_point
 from biped_adrc.live.hand_table import HandRow
-from biped_adrc.live.live_walk import OF_CONTROLLER, LiveWalk, revised
+from biped_adrc.live.live_walk import OF_CONTROLLER, LiveWalk, check_changing, revised
 from biped_adrc.live.record import Change, SessionRecord
 from biped_adrc.parts import check_part
 from biped_adrc.robots.symmetry import twins
@@ -294,12 +294,13 @@ class Session:
         for k, live in enumerate(now):
             self._put(k, live)
 
-    def reset(self, **values: object) -> None:
+    def reset(self, /, **values: object) -> None:
         """To the start, with the scenarios as they are now; the record begins anew.
 
-        values: other ones of the walk's scenario, by name. Raises InputError for values that are none, and
-        where the walks cannot begin there; then all is as it was.
+        values: other ones of the walk's scenario, by name. Raises InputError for values that are none, or cannot
+        change, and where the walks cannot begin there; then all is as it was.
         """
+        check_changing(values)
         scenario, *ghost = [live.scenario for live in self.walking]
         self._begin(revised(scenario, values), ghost[0] if ghost else None)
 

@@ -141,6 +141,8 @@ def test_every_message_reaches_the_session():
         ('{"do": "change", "values": {"bandwidth": -1}}', "bandwidth"),
         ('{"do": "change", "values": {"walk": 1}}', "no field"),
         ('{"do": "change", "values": {"self": 1}}', "no field"),
+        ('{"do": "reset", "values": {"self": 1}}', "expected fields"),
+        ('{"do": "reset", "values": {"robot": "compass"}}', "robot cannot change"),
         ('{"do": "change", "values": {"controller": "os:getcwd"}}', "no path and no class"),
         ('{"do": "ghost", "values": {"robot": "/etc/robot.toml"}}', "no path and no class"),
         ('{"do": "push", "link": "\\ud800"}', "a text"),
