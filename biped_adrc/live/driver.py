@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.simulator import FlownArc
@@ -132,18 +132,11 @@ class Driver:
         self.reached *= rate / self.rate  # the same share of what is asked for
         self.rate = float(rate)
 
-    def _push(
-        self,
-        torque: dict[str, float] | None = None,
-        force: tuple[float, float] = (0.0, 0.0),
-        link: str | None = None,
-        at: tuple[float, float] = (0.0, 0.0),
-        seconds: float = 0.2,
-    ) -> None:
-        self.session.push(torque, force, link, at, seconds)
+    def _push(self, **given: Any) -> None:
+        self.session.push(**given)
 
-    def _pull(self, link: str, at: tuple[float, float], anchor: tuple[float, float]) -> None:
-        self.session.pull(link, at, anchor)
+    def _pull(self, **given: Any) -> None:
+        self.session.pull(**given)
 
     def _change(self, values: dict[str, object], walk: int = WALK) -> None:
         if walk != int(walk):

@@ -297,8 +297,8 @@ class Session:
     def reset(self, /, **values: object) -> None:
         """To the start, with the scenarios as they are now; the record begins anew.
 
-        values: other ones of the walk's scenario, by name. Raises InputError for values that are none, or cannot
-        change, and where the walks cannot begin there; then all is as it was.
+        values: other ones of the walk's scenario, by name. Raises InputError for values that are none, or
+        cannot change, and where the walks cannot begin there; then all is as it was.
         """
         check_changing(values)
         scenario, *ghost = [live.scenario for live in self.walking]
