@@ -29,7 +29,7 @@ from typing import NamedTuple
 from filelock import FileLock
 
 from biped_adrc.campaign.chunk import CRASHED, NO_WALK, text_of
-from biped_adrc.campaign.store_check import COLUMNS, damaged
+from biped_adrc.campaign.store_check import COLUMNS, checksum, damaged
 from biped_adrc.campaign.workers import undisturbed
 from biped_adrc.errors import InputError, OutputError
 
@@ -103,8 +103,8 @@ class Store:
     def place(self, points: Iterable[Placed]) -> None:
         """Keep where points lie; one that is there already stays as it is. Raises OutputError."""
         with self._writing() as db:
-            text = "INSERT OR IGNORE INTO points VALUES (?1, ?2, ?3, checksum(?1, ?2, ?3))"
-            new = db.executemany(text, points).rowcount
+            rows = ((*point, checksum(*point)) for point in points)
+            new = db.executemany("INSERT OR IGNORE INTO points VALUES (?, ?, ?, ?)", rows).rowcount
             db.execute("UPDATE tally SET points = points + ?", (max(new, 0),))
 
     def add(self, runs: Iterable[Ran]) -> None:
@@ -118,16 +118,19 @@ class Store:
             known = "SELECT id FROM versions WHERE versions = ?"
             found = db.execute(known, (versions,)).fetchone()
             if found is None:
-                db.execute("INSERT INTO versions (versions) VALUES (?)", (versions,))
-                db.execute("UPDATE versions SET sum = checksum(id, versions) WHERE sum IS NULL")
-                found = db.execute(known, (versions,)).fetchone()
+                made = db.execute(
+                    "INSERT INTO versions (versions) VALUES (?)", (versions,)
+                ).lastrowid
+                db.execute(
+                    "UPDATE versions SET sum = ? WHERE id = ?", (checksum(made, versions), made)
+                )
+                found = (made,)
             rows = [(*run, *found) for run in runs]
             gone = db.executemany("DELETE FROM runs WHERE key = ?", [row[:1] for row in rows])
             new = len({row[0] for row in rows}) - max(gone.rowcount, 0)
             db.executemany(
-                f"INSERT OR REPLACE INTO runs ({COLUMNS['runs']}, sum) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, "
-                "checksum(?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8))",
-                rows,
+                f"INSERT OR REPLACE INTO runs ({COLUMNS['runs']}, sum) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                ((*row, checksum(*row)) for row in rows),
             )
             db.execute("UPDATE tally SET runs = runs + ?", (new,))
 

@@ -1,8 +1,9 @@
 """Whether a results file is whole: pages, a checksum for each row, and the number of rows.
 
 SQLite notices a page that makes no sense, but neither a changed letter inside of a text nor a row that is
-gone. So each row carries a checksum over its other columns (`sum`), made by the SQL function `checksum`, and
-the table `tally` says how many rows there are, changed in the same transaction as they are.
+gone. So each row carries a checksum over its other columns (`sum`), and the table `tally` says how many rows
+there are, changed in the same transaction as they are. Checksums are made outside of SQLite: in a function that
+SQLite calls, Ctrl-C would be lost and look like a damaged file.
 
 Called by `campaign.store_open` for each file that is opened. Files of format 1 have neither; they are read
 with a warning, and get both when they are opened to be written.
@@ -39,7 +40,7 @@ def damaged(path: Path, reason: object) -> InputError:
 
 def checksum(*values: object) -> str:
     """The checksum of a row, of the texts and numbers of its columns; 16 hexadecimal digits."""
-    return hashlib.blake2b(json.dumps(values).encode(), digest_size=8).hexdigest()
+    return hashlib.blake2b(json.dumps(values, default=repr).encode(), digest_size=8).hexdigest()
 
 
 def check_whole(path: Path, db: sqlite3.Connection, sums: bool) -> None:
@@ -68,17 +69,18 @@ def _check_rows(path: Path, db: sqlite3.Connection) -> None:
         if here != noted:
             raise damaged(path, f"it has {here} {name} of {noted}")
     for name, columns in COLUMNS.items():
-        first = columns.partition(",")[0]
-        text = f"SELECT {first} FROM {name} WHERE sum IS NOT checksum({columns}) LIMIT 1"
-        if (row := db.execute(text).fetchone()) is not None:
-            raise damaged(path, f"the row {row[0]} of '{name}' has another checksum")
+        for found, *row in db.execute(f"SELECT sum, {columns} FROM {name}"):
+            if found != checksum(*row):
+                raise damaged(path, f"the row {row[0]} of '{name}' has another checksum")
 
 
 def add_checks(db: sqlite3.Connection) -> None:
     """Give the tables of format 1 their checksums and the tally, within a transaction of the caller's."""
     for name, columns in COLUMNS.items():
         db.execute(f"ALTER TABLE {name} ADD COLUMN sum TEXT")
-        db.execute(f"UPDATE {name} SET sum = checksum({columns})")
+        rows = db.execute(f"SELECT {columns} FROM {name}")
+        sums = [(checksum(*row), row[0]) for row in rows]
+        db.executemany(f"UPDATE {name} SET sum = ? WHERE {columns.partition(',')[0]} = ?", sums)
     counts = ", ".join(f"(SELECT count(*) FROM {name})" for name in COUNTED)
     db.execute(TALLY)
     db.execute(f"INSERT INTO tally VALUES (1, {counts})")

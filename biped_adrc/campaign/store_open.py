@@ -22,7 +22,7 @@ from filelock import FileLock, Timeout
 
 from biped_adrc.campaign.chunk import text_of
 from biped_adrc.campaign.store import About, Store, cannot_write, identity_of
-from biped_adrc.campaign.store_check import add_checks, check_whole, checksum, damaged
+from biped_adrc.campaign.store_check import add_checks, check_whole, damaged
 from biped_adrc.errors import InputError, OutputError
 from biped_adrc.files import check_place, replacing
 from biped_adrc.versions import differences
@@ -104,9 +104,7 @@ def read_store(path: Path) -> Store:
 def _connected(path: Path, mode: str) -> sqlite3.Connection:
     """A connection without implicit transactions; waits for `LOCKED` where another process is writing."""
     uri = f"{path.absolute().as_uri()}?mode={mode}"
-    db = sqlite3.connect(uri, uri=True, isolation_level=None, timeout=LOCKED)
-    db.create_function("checksum", -1, checksum, deterministic=True)
-    return db
+    return sqlite3.connect(uri, uri=True, isolation_level=None, timeout=LOCKED)
 
 
 def _checked(path: Path, db: sqlite3.Connection) -> tuple[About, bool]:

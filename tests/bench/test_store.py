@@ -9,7 +9,6 @@ import struct
 import subprocess
 import sys
 import time
-from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -408,28 +407,3 @@ def test_garbage_in_the_lock_and_in_the_schema_is_a_sentence(tmp_path):
     for attempt in (lambda: open_store(path, about()), lambda: read_store(path)):
         with pytest.raises((InputError, OutputError), match=r"r\.sqlite"):
             attempt()
-
-
-@pytest.mark.parametrize("moment", ["before", "after"])
-def test_ctrl_c_once_more_while_the_file_is_closed(tmp_path, monkeypatch, moment):
-    """The second one comes before it is ignored, or as soon as it is heard again."""
-    came = []
-
-    @contextmanager
-    def disturbed():
-        if moment == "before" and not came:
-            came.append(1)
-            raise KeyboardInterrupt
-        yield
-        if not came:
-            came.append(1)
-            raise KeyboardInterrupt
-
-    monkeypatch.setattr("biped_adrc.campaign.store.undisturbed", disturbed)
-    path = tmp_path / "r.sqlite"
-    with pytest.raises(KeyboardInterrupt), open_store(path, about()) as store:
-        store.add([ran({"x": 1}, {"y": 1.0})])
-    assert [p.name for p in tmp_path.iterdir()] == ["r.sqlite"]
-    assert came
-    with open_store(path, about()) as store:
-        assert len(store) == 1

@@ -289,9 +289,9 @@ def test_the_command_goes_on_with_other_versions(tmp_path):
     arguments = ["sweep", str(path), "--out", str(out), "--threads"]
     assert CliRunner().invoke(app, arguments).exit_code == 0
     with sqlite3.connect(out / "results.sqlite") as db:
-        db.create_function("checksum", -1, checksum)
         db.execute("""UPDATE study SET versions = '{"numpy": "0"}'""")
-        db.execute(f"UPDATE study SET sum = checksum({COLUMNS['study']})")
+        row = db.execute(f"SELECT {COLUMNS['study']} FROM study").fetchone()
+        db.execute("UPDATE study SET sum = ?", (checksum(*row),))
     db.close()
     with pytest.raises(InputError, match="numpy 0 there"):
         CliRunner().invoke(app, arguments, catch_exceptions=False)
