@@ -7,8 +7,8 @@ import subprocess
 import sys
 import textwrap
 import time
-from itertools import pairwise
 from pathlib import Path
+from threading import Event
 
 import pytest
 import standin
@@ -142,12 +142,27 @@ def test_a_cluster_that_has_lost_all_its_workers_ends_a_study(tmp_path, address)
 
 
 def test_a_study_says_for_how_long_nothing_has_ended(tmp_path, monkeypatch):
-    heard = []
+    """Counted anew once a run has ended; each of the three ends when that was asked of it."""
+    ended, fresh, heard = [time.monotonic()], [0], []
+    asked = [Event() for _ in range(3)]
+
+    def slowly(given):
+        assert asked[len(ended) - 1].wait(SOON)
+        ended.append(time.monotonic())
+        return rows(given)
+
+    def check(crew, executor, idle):
+        heard.append((idle, time.monotonic() - ended[fresh[-1]]))
+        asked[fresh[-1]].set()
+
     monkeypatch.setattr(execute, "PATIENCE", 0.05)
-    monkeypatch.setattr(Threads, "check", lambda crew, executor, idle: heard.append(idle))
-    run(tmp_path / "r.sqlite", records(2, 0.2), Threads(1), chunk=1)
-    assert all(idle >= 0.05 for idle in heard)
-    assert any(later < idle for idle, later in pairwise(heard))  # counted anew once a run has ended
+    monkeypatch.setattr(Threads, "check", check)
+    with open_store(tmp_path / "r.sqlite", about()) as store:
+        run_study(
+            slowly, records(3), store, Threads(1), chunk=1, progress=lambda p: fresh.append(p.fresh)
+        )
+    assert len(heard) >= 3
+    assert all(0.05 <= idle <= most for idle, most in heard)
 
 
 def test_a_worker_that_dies_with_a_result_that_nobody_has_fetched(address):
