@@ -22,8 +22,8 @@ from biped_adrc.paper.figures import draw, push_window
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.stored import load_walks
 from biped_adrc.viz.figure_numbers import SHARES, Numbers, as_text, numbers_of, rounded
-from biped_adrc.viz.from_the_side.gif import write_gif
 from biped_adrc.viz.from_the_side.moving_parts import Motion
+from biped_adrc.viz.from_the_side.moving_picture import write_moving_picture
 from biped_adrc.viz.from_the_side.side_view import SideView
 from biped_adrc.viz.placement import WalkScene
 from biped_adrc.viz.plots.zero_dynamics import zero_dynamics_figure
@@ -92,7 +92,7 @@ def main() -> None:
     parser.add_argument("out", type=Path, help="folder of 'biped-adrc reproduce'")
     walks = load(parser.parse_args().out)
     start, stop = part(walks)
-    write_gif(IMAGES / "walk.gif", walks, start=start, stop=stop, motion=MOTION)
+    write_moving_picture(IMAGES / "walk.gif", walks, start=start, stop=stop, motion=MOTION)
     for name, figure in figures(walks).items():
         write_bytes(IMAGES / f"{name}.svg", render(figure, "svg"))
     for name, found in numbers(walks).items():

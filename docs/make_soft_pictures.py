@@ -21,8 +21,8 @@ from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.viz.figure_numbers import Numbers, as_text, numbers_of
-from biped_adrc.viz.from_the_side.gif import write_gif
 from biped_adrc.viz.from_the_side.moving_parts import Motion
+from biped_adrc.viz.from_the_side.moving_picture import write_moving_picture
 from biped_adrc.viz.plots.touchdown import STEP, Walks, touchdown_figure
 from biped_adrc.viz.style import render
 
@@ -97,7 +97,7 @@ def main() -> None:
     drawn, walks = touchdown_figure(touchdown_walks()), pushed_walks()
     start, stop = part(walks)
     write_bytes(FOLDER / "touchdown.svg", render(drawn, "svg"))
-    write_gif(FOLDER / "walk.gif", walks, start=start, stop=stop, motion=MOTION)
+    write_moving_picture(FOLDER / "walk.gif", walks, start=start, stop=stop, motion=MOTION)
     for name, found in numbers().items():
         write_text(FOLDER / f"{name}.json", as_text(found))
 

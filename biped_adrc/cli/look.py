@@ -50,7 +50,7 @@ def animate(
         say_written(out)
     elif clip.moving:
         raise InputError(
-            "--apart, --magnify and --slower are of a .gif; leave them out with --live"
+            "--apart, --magnify and --slower are of a .gif or .mp4; leave them out with --live"
         )
     else:
         _show(_solid_last(load_walks(runs)), clip, port, browser, wait)

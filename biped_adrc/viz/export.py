@@ -1,7 +1,7 @@
 """A walk as a file; the suffix of its name says what kind.
 
     .html          an offline page with the animation in Meshcat's viewer (`meshcat.view`)
-    .gif           a moving picture from the side (`from_the_side.gif`)
+    .gif, .mp4     a moving picture from the side (`from_the_side.moving_picture`); a video needs `video`
     .png, .svg     a strip of stick figures (`from_the_side.stick_figures`)
 
 `biped-adrc animate` and `Walk.animate` call `export` with a `Clip` of what is to be shown; each of
@@ -16,18 +16,23 @@ from pathlib import Path
 
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_text
-from biped_adrc.viz.from_the_side.gif import write_gif
 from biped_adrc.viz.from_the_side.moving_parts import Motion
+from biped_adrc.viz.from_the_side.moving_picture import (
+    ENCODERS,
+    check_moving,
+    write_moving_picture,
+)
 from biped_adrc.viz.from_the_side.stick_figures import write_strip
 from biped_adrc.viz.meshcat.view import Look, animation_html
 from biped_adrc.viz.placement import Recorded
 
-SUFFIXES = (".html", ".gif", ".png", ".svg")
+SUFFIXES = (".html", *ENCODERS, ".png", ".svg")
 """Kinds of files a walk can be drawn to."""
 
 
 def check_suffix(path: Path) -> str:
-    """The suffix of `path` in small letters. Raises InputError for one that is not in `SUFFIXES`.
+    """The suffix of `path` in small letters. Raises InputError for one that is not in `SUFFIXES`, and for one
+    whose library is not installed.
 
     Called before a walk is computed or loaded, so that a wrong name costs no time.
     """
@@ -35,9 +40,9 @@ def check_suffix(path: Path) -> str:
     if suffix not in SUFFIXES:
         raise InputError(
             f"cannot write a walk to '{path}': the name ends in '{suffix}', expected .html (a page with "
-            "the animation), .gif (a moving picture) or .png or .svg (a strip of stick figures)"
+            "the animation), .gif or .mp4 (a moving picture) or .png or .svg (a strip of stick figures)"
         )
-    return suffix
+    return check_moving(path) if suffix in ENCODERS else suffix
 
 
 @dataclass(frozen=True)
@@ -88,13 +93,13 @@ def export(path: Path, walks: Mapping[str, Recorded], clip: Clip | None = None) 
     suffix = check_suffix(path)
     if not walks:
         raise InputError("there is no walk to draw; expected at least one")
-    if suffix != ".gif" and clip.moving:
+    if suffix not in ENCODERS and clip.moving:
         raise InputError(
-            f"'{path}' is no moving picture, and apart, magnify and slower are of one; write a .gif"
+            f"'{path}' is no moving picture, and apart, magnify and slower are of one; write a .gif or .mp4"
         )
     if suffix == ".html":
         write_text(path, animation_html(walks, clip.look()))
-    elif suffix == ".gif":
-        write_gif(path, walks, start=clip.start, stop=clip.stop, motion=clip.motion())
+    elif suffix in ENCODERS:
+        write_moving_picture(path, walks, start=clip.start, stop=clip.stop, motion=clip.motion())
     else:
         write_strip(path, list(walks.values())[-1], clip.start, clip.stop)

@@ -20,8 +20,8 @@ from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.viz.export import Clip, export
-from biped_adrc.viz.from_the_side.gif import write_gif
 from biped_adrc.viz.from_the_side.moving_parts import Motion, arrow, cut, ring
+from biped_adrc.viz.from_the_side.moving_picture import write_moving_picture
 from biped_adrc.viz.from_the_side.side_view import Deviation, SideView
 from biped_adrc.viz.from_the_side.stick_figures import strip, write_strip
 from biped_adrc.viz.placement import WalkScene, ending
@@ -87,7 +87,9 @@ def test_strips_repeat_byte_for_byte(walks: dict[str, Walk], tmp_path: Path, suf
 
 def test_gif(walks: dict[str, Walk], tmp_path: Path) -> None:
     for name in ("a.gif", "b.gif"):
-        write_gif(tmp_path / name, walks, start=0.1, stop=0.5, motion=Motion(fps=20.0, width=300))
+        write_moving_picture(
+            tmp_path / name, walks, start=0.1, stop=0.5, motion=Motion(fps=20.0, width=300)
+        )
     assert (tmp_path / "a.gif").read_bytes() == (tmp_path / "b.gif").read_bytes()
     with Image.open(tmp_path / "a.gif") as image:
         assert image.n_frames == 8
@@ -123,7 +125,7 @@ def test_export_goes_by_the_suffix(walks: dict[str, Walk], tmp_path: Path) -> No
         export(tmp_path / f"walk.{suffix}", walks, clip)
         assert (tmp_path / f"walk.{suffix}").read_bytes().startswith(start)
     with pytest.raises(InputError, match=r"expected \.html"):
-        export(tmp_path / "walk.mp4", walks)
+        export(tmp_path / "walk.avi", walks)
     with pytest.raises(InputError, match="at least one"):
         export(tmp_path / "walk.gif", {})
     with pytest.raises(InputError, match="at most 50"):
@@ -131,7 +133,9 @@ def test_export_goes_by_the_suffix(walks: dict[str, Walk], tmp_path: Path) -> No
     with pytest.raises(InputError, match="walks last"):
         export(tmp_path / "walk.gif", walks, Clip(start=0.5, stop=0.1))
     with pytest.raises(InputError, match="to draw solid"):
-        write_gif(tmp_path / "walk.gif", walks, solid="LQR")
+        write_moving_picture(tmp_path / "walk.gif", walks, solid="LQR")
+    with pytest.raises(InputError, match=r"ends in \.gif or \.mp4"):
+        write_moving_picture(tmp_path / "walk.png", walks)
     with pytest.raises(InputError, match="no moving picture"):
         export(tmp_path / "walk.html", walks, Clip(apart=True))
 
@@ -173,7 +177,7 @@ def test_a_deviation_at_an_impact_is_that_of_the_step_asked_for(walks: dict[str,
 def test_walks_side_by_side(walks: dict[str, Walk], tmp_path: Path) -> None:
     motion = Motion(apart=True, magnify=30.0, slower=2.0, fps=10.0, width=400)
     for name in ("a.gif", "b.gif"):
-        write_gif(tmp_path / name, walks, start=0.2, stop=0.4, motion=motion)
+        write_moving_picture(tmp_path / name, walks, start=0.2, stop=0.4, motion=motion)
     assert (tmp_path / "a.gif").read_bytes() == (tmp_path / "b.gif").read_bytes()
     with Image.open(tmp_path / "a.gif") as image:
         assert image.n_frames == 4  # 0.2 s, 10 frames a second, two times slower
@@ -187,7 +191,7 @@ def test_walks_side_by_side(walks: dict[str, Walk], tmp_path: Path) -> None:
         ({"slower": 0.0}, "positive"),
     ):
         with pytest.raises(InputError, match=text):
-            write_gif(tmp_path / "c.gif", walks, motion=Motion(**options))
+            write_moving_picture(tmp_path / "c.gif", walks, motion=Motion(**options))
 
 
 def fallen(walk: Walk, status: Status, guard: str | None = None) -> Walk:
@@ -223,7 +227,9 @@ def test_the_last_frame_of_a_walk_that_fell_differs_and_stays(
     frames, durations = {}, {}
     for status in (Status.COMPLETED, Status.FELL):
         walk, path = fallen(walks["NPD"], status, "hip_too_low"), tmp_path / f"{status.name}.gif"
-        write_gif(path, {"NPD": walk}, start=end - 0.2, motion=Motion(apart=apart, fps=10.0))
+        write_moving_picture(
+            path, {"NPD": walk}, start=end - 0.2, motion=Motion(apart=apart, fps=10.0)
+        )
         with Image.open(path) as image:
             frames[status] = image.n_frames
             image.seek(image.n_frames - 1)

@@ -23,8 +23,8 @@ from biped_adrc.paper.figures import draw
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import passive_walk
 from biped_adrc.scenario.stored import load_walk
-from biped_adrc.viz.from_the_side.gif import write_gif
 from biped_adrc.viz.from_the_side.moving_parts import Motion
+from biped_adrc.viz.from_the_side.moving_picture import write_moving_picture
 from biped_adrc.viz.from_the_side.side_view import SideView
 from biped_adrc.viz.from_the_side.stick_figures import strip
 from biped_adrc.viz.meshcat.frames import pose
@@ -256,9 +256,11 @@ def test_strip_and_gif(walks: dict[str, Walk], tmp_path: Path) -> None:
     assert wheel.get_xlim()[0] < -1.0
     for name in NAMES:
         motion = Motion(fps=10.0, width=200)
-        write_gif(tmp_path / f"{name}.gif", {name: walks[name]}, stop=0.2, motion=motion)
+        write_moving_picture(tmp_path / f"{name}.gif", {name: walks[name]}, stop=0.2, motion=motion)
     with pytest.raises(InputError, match="without motors has no reference"):
-        write_gif(tmp_path / "x.gif", {"wheel": walks["wheel"]}, motion=Motion(apart=True))
+        write_moving_picture(
+            tmp_path / "x.gif", {"wheel": walks["wheel"]}, motion=Motion(apart=True)
+        )
 
 
 # -- passive walks ---------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 """The parts of a moving picture from the side: ground, robots, trails, footprints, arrows, rings.
 
 Each part is a class that makes its artists on an Axes once and has a method `show`, which moves
-them to what they are at t [s]; `gif` and `side_by_side` put parts together. The robot and forces of
+them to what they are at t [s]; `moving_picture` and `side_by_side` put parts together. The robot and forces of
 walk k are drawn in the layers 10 k to 10 k + 9, so that one walk is in front of another as a whole;
 trails and ground are behind all of them.
 """
