@@ -19,7 +19,8 @@ function describe(message) {
   const slow = !message.paused && message.reached < 0.9 * message.rate;
   element("rate").textContent = message.rate + " x" + (message.paused ? ", paused" : "")
     + (slow ? ", reached " + message.reached.toFixed(2) + " x" : "");
-  element("legal").textContent = now < breach.until ? "not legal now: " + breach.words : "legal now";
+  const words = now < breach.until ? "not legal now: " + breach.words : "legal now";
+  element("legal").textContent = walk.ending ? "" : words;
   element("legal").className = now < breach.until ? "bad" : "good";
   const ends = [["walk", walk], ["ghost", ghost]].filter(([, w]) => w && w.ending);
   tell(ends.map(([name, w]) => name + " " + w.ending).join(". "));
