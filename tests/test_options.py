@@ -410,6 +410,7 @@ PLAY = {
     "port": Row("--port 8123", same("port"), 8123),
     "browser": Row("--no-browser", same("open_browser"), False),
     "wait": Row("--wait 7", same("wait"), 7.0),
+    "page": Row("", same("path"), Path("own.html"), "live.offline:write_play"),
 }
 PLOT = {
     "run": Row("", same("paths"), [Path("run.npz")], "scenario.stored:load_walks"),
@@ -556,7 +557,10 @@ COMMANDS = {
         "animate run.npz", "viz.export:export", ANIMATE, LOAD,
         {LOAD: ("animate run.npz", ""), "viz.meshcat.live:play": ("animate run.npz --live", LOAD)},
     ),
-    "play": Command("play", "live.page:play", PLAY),
+    "play": Command(
+        "play", "live.page:play", PLAY,
+        others={"live.offline:write_play": ("play --page own.html", "")},
+    ),
     "plot": Command(
         "plot run.npz", "paper.figures:draw", PLOT, LOAD,
         {LOAD: ("plot run.npz", ""), "viz.style:write_figure": ("plot run.npz", f"{LOAD} paper.figures:draw")},

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from biped_adrc.cli.app import app, console
+from biped_adrc.cli.app import app, console, say_written
 from biped_adrc.cli.options import of_scenario, texts, values_of
 from biped_adrc.cli.walk import GROUND, LAW, usual
 from biped_adrc.types import PlainRecord
@@ -26,8 +26,10 @@ def play_command(
     port: int = 0,
     browser: bool = True,
     wait: float = 120.0,
+    page: Path | None = None,
 ) -> None:
     """Push a walk yourself: live in the browser, with a guided tour; 'hardware' is ideal if not given."""
+    from biped_adrc.live.offline import OTHERS, write_play
     from biped_adrc.live.page import play
     from biped_adrc.scenario.scenario import Scenario
 
@@ -35,6 +37,10 @@ def play_command(
     if not {"hardware", "period"} & set(values):
         values["hardware"] = "ideal"
     other = None if ghost is None else {"controller": ghost}
+    if page is not None:
+        write_play(page, Scenario(**values), {**({f"{ghost}": other} if other else {}), **OTHERS})
+        say_written(page)
+        return
     said = play(
         Scenario(**values),
         ghost=other,

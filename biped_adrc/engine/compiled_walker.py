@@ -236,9 +236,7 @@ def disturbance_code(law: DisturbanceLaw, n: int) -> LoadedCode:
 
     Raises NotCompiled for a law that cannot be traced, with the reason.
     """
-    given: dict[str, Part] = {"torque": (law.torque, n)}
-    if law.resultant is not None:
-        given["resultant"] = law.resultant, 2
+    given = _given(law, n)
     try:
         texts = [law_text(part[0]) for part in given.values()]
         texts += [law_text(law.active), structure_text(law.parameters), versions_text()]
@@ -246,6 +244,17 @@ def disturbance_code(law: DisturbanceLaw, n: int) -> LoadedCode:
         return remembered(key, list(given), lambda: _text(law, given, n))
     except Untraceable as error:
         raise NotCompiled(f"{error}; the run goes on in Python on the compiled plant") from error
+
+
+def _given(law: DisturbanceLaw, n: int) -> dict[str, Part]:
+    """The functions of a disturbance."""
+    given: dict[str, Part] = {"torque": (law.torque, n)}
+    return given if law.resultant is None else given | {"resultant": (law.resultant, 2)}
+
+
+def disturbance_text(law: DisturbanceLaw, n: int) -> str:
+    """What `disturbance_code` is made from, in LLVM's language. Raises InputError."""
+    return _text(law, _given(law, n), n).text
 
 
 def _text(law: DisturbanceLaw, parts: dict[str, Part], n: int) -> ModuleText:

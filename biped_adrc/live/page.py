@@ -47,6 +47,8 @@ SLOW = 0.9
 """Share of the pace asked for below which a walk is said not to have kept up."""
 PRINTS = 12
 """Footprints that are there at once."""
+GHOSTS = ("NPD", "NPID", "ADRC")
+"""Controllers of a ghost to choose from."""
 NEARER = -0.15
 """Where the arrow of the hand is [m], from the plane of the walk towards the camera."""
 
@@ -97,7 +99,11 @@ def page(session: Session) -> str:
     legend = captions({"walk": scenes["walk"]})[1:]
     title = f"{session.walking[0].scenario.robot}, live"
     return with_viewer(
-        "play", settings(session, scenes), title=title, captions=legend, style="play/play.css"
+        "play",
+        settings(session.walking[0].scenario, scenes),
+        title=title,
+        captions=legend,
+        style="play/play.css",
     )
 
 
@@ -123,16 +129,16 @@ def laid_out(live: LiveWalk) -> WalkScene:
     return WalkScene(walker, run, footholds, -math.tan(walker.slope) * footholds)
 
 
-def settings(session: Session, scenes: Mapping[str, WalkScene]) -> dict[str, object]:
-    """What the scripts of the page are told: as `scene_settings` has it, and what a session has besides.
+def settings(s: Scenario, scenes: Mapping[str, WalkScene]) -> dict[str, object]:
+    """What the scripts of a page are told: as `scene_settings` has it, and what a session has besides.
 
     links       (path, link): the drawn parts of the walk, and the link that each belongs to
     hand        paths of the arrow and of the line of the spring
     robot       coordinates, links and trunk by name, motors p
     limits      friction, torque [N m]; most: force [N] and torque [N m] of a hand
-    controls    sliders and choices; tour: its stations
+    controls    sliders and choices; ghosts: names to choose from; tour: its stations
     """
-    s, biped = session.walking[0].scenario, scenes["walk"].biped
+    biped = scenes["walk"].biped
     d, known = biped.description, limits(s).of(biped.description)
     torque = known.torque if s.torque_limit is None else s.torque_limit
     told = scene_settings(scenes, Look(solid="walk"))
@@ -153,6 +159,7 @@ def settings(session: Session, scenes: Mapping[str, WalkScene]) -> dict[str, obj
         "limits": {"friction": known.friction, "torque": torque},
         "most": {"force": MOST_FORCE, "torque": MOST_TORQUE},
         "controls": controls(),
+        "ghosts": GHOSTS,
         "tour": tour(),
     }
 

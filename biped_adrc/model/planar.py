@@ -262,7 +262,9 @@ def ground_reaction(robot: Joined, K: PlantArrays, q: Numbers, v: Numbers, a: Nu
 
 
 POINT_EXACT = 1e-10
-"""Largest error of the fit of a `LinkPoint`, relative to the point's largest distance from the stance foot."""
+"""Largest error of the fit of a `LinkPoint`, relative to the point's largest distance from the stance foot, or
+to the leg's length where that is larger: the stance foot is a point too.
+"""
 
 
 class LinkPoint(NamedTuple):
@@ -333,6 +335,7 @@ def _fitted(biped: Biped, place: Callable[[Array], Array], turn: Array, name: st
     """
     _, _, A = biped.pinned.bodies()
     (d,), gap, size = fitted(A, place, POINT_EXACT)
+    size = max(size, float(np.linalg.norm(biped.hip(np.zeros(biped.n)))))
     if not gap <= POINT_EXACT * size:
         raise ModelError(
             f"robot '{biped.description.name}': '{name}' is no point of a planar tree; its place is off by "

@@ -51,7 +51,7 @@ function hear(message) {
 
 const page = { frames: 0, last: null, text: "", heard: performance.now() };
 let over = false;
-const socket = new WebSocket("ws://" + location.host + "/poses");
+const socket = scene.offline ? new OfflineSocket() : new WebSocket("ws://" + location.host + "/poses");
 const send = (message) => { if (socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message)); };
 socket.onmessage = ({ data }) => {
   page.frames += 1;

@@ -1,0 +1,110 @@
+"""Walkers as one WebAssembly module, and the numbers of each: what a page needs to walk them without a server.
+
+The functions are those of `engine.program` and `engine.compiled_signals`; in place of an address a plan has a
+function's number in `WebWalkers.functions`, from 1 on. Walkers of the same structure share their functions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.disturbances.base import disturbance_laws
+from biped_adrc.engine.compiled_signals import SignalNumbers, observe
+from biped_adrc.engine.compiled_walker import CompiledWalker, disturbance_text
+from biped_adrc.engine.equations import Equations
+from biped_adrc.engine.ir import module_text
+from biped_adrc.engine.kernels import layout
+from biped_adrc.engine.kernels.call import Ints
+from biped_adrc.engine.kernels.run_plan import LawAddresses
+from biped_adrc.engine.symbols import floats
+from biped_adrc.engine.webassembly import web_module
+from biped_adrc.errors import InputError
+from biped_adrc.gait.reference import Reference, ReferenceLaws, reference_laws
+from biped_adrc.types import Array
+
+
+class WebWalker(NamedTuple):
+    """The numbers of one walker."""
+
+    P: Ints
+    """Its plan, with numbers of functions in place of addresses."""
+    F: Array
+    """As `RunPlan` has it."""
+    K: Array
+    """Numbers of the walker, then those of the reference that errors refer to."""
+    observe: int
+    """Number of the function that says its signals (`closed_loop.instant_signals`)."""
+    width: int
+    """Numbers in a work row."""
+
+
+class WebWalkers(NamedTuple):
+    """Walkers for a page."""
+
+    code: bytes
+    """The module."""
+    functions: tuple[str, ...]
+    """Names in the module of those that are called by their number, from 1 on."""
+    walkers: tuple[WebWalker, ...]
+
+
+def web_walkers(walkers: Sequence[CompiledWalker], reference: Reference) -> WebWalkers:
+    """Walkers on one gait, whose signals refer to the same reference. Raises InputError for the exponential
+    method, whose product with matrices has another form.
+    """
+    h, laws = reference_laws(reference), _Laws({}, {}, [])
+    made = [_walker(one, h, laws) for one in walkers]
+    return WebWalkers(web_module(laws.texts), tuple(laws.functions), tuple(made))
+
+
+class _Laws(NamedTuple):
+    """What the walkers share, filled by one after the other."""
+
+    texts: dict[str, str]
+    """Laws in LLVM's language, by a name for them."""
+    names: dict[int, str]
+    """That name by the address of one of the functions here."""
+    functions: list[str]
+    """Names of those that are called by their number."""
+
+    def of(self, address: int, text: Callable[[], str]) -> str:
+        """The name of the laws to which a function belongs; their text is made where it is not there yet."""
+        if address not in self.names:
+            self.names[address] = f"laws{len(self.names)}"
+            self.texts[self.names[address]] = text()
+        return self.names[address]
+
+    def number(self, name: str) -> int:
+        """Of a function."""
+        if name not in self.functions:
+            self.functions.append(name)
+        return 1 + self.functions.index(name)
+
+
+def _walker(one: CompiledWalker, h: ReferenceLaws, laws: _Laws) -> WebWalker:
+    """One walker. Raises InputError."""
+    program, P = one.program, one.plan.P.copy()
+    if program.make.split is not None:
+        raise InputError("an offline page takes the steps of RK4; leave out the exponential method")
+    watched = SignalNumbers(program.numbers, h.parameters)
+
+    def text() -> str:
+        equations = Equations.of(program.make, program.numbers)
+        made = {name: getattr(equations, name)() for name in Equations.names(program.make)}
+        return module_text(made | {"observe": observe(program.make, watched, h)})
+
+    own = laws.of(program.address("flow"), text)
+    for place, name in enumerate(LawAddresses._fields):
+        P[place] = laws.number(f"{own}.{name}") if P[place] else 0
+    parts = P[P[layout.PARTS_AT] :].reshape(-1, layout.PART_SIZE)
+    given = disturbance_laws(one.walker.disturbance) if one.walker.disturbance else ()
+    for part, law in zip(parts, given, strict=True):
+        push = laws.of(int(part[0]), partial(disturbance_text, law, one.walker.plant.n))
+        part[0] = laws.number(f"{push}.torque")
+        part[2] = laws.number(f"{push}.resultant") if part[2] else 0
+    K = np.array([*floats(watched), 0.0])
+    return WebWalker(P, one.plan.F, K, laws.number(f"{own}.observe"), one.plan.width)
