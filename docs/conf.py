@@ -122,14 +122,6 @@ class IndexedNames(PythonDomain):
             self.data["objects"] = whole
 
 
-def walk_to_push(app, error):
-    """The page of a live walk that needs no server, beside the other pages."""
-    from biped_adrc.live.offline import write_play
-
-    if error is None:
-        write_play(Path(app.outdir) / "_static" / "play.html")
-
-
 def setup(app):
     app.add_domain(IndexedNames, override=True)
     app.config.mathjax_path = (
@@ -140,5 +132,4 @@ def setup(app):
     app.connect("autodoc-process-bases", docstrings.bases)
     app.connect("autodoc-skip-member", docstrings.skip)
     app.connect("source-read", expand.placeholders)
-    app.connect("build-finished", walk_to_push)
     app.connect("html-page-context", light_sidebar, priority=400)  # before the theme asks for it
