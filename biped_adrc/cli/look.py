@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 def animate(
     run: Path,
     ghost: list[Path] | None = None,
-    out: Path = Path("walk.html"),
+    out: Path | None = None,
     view: str = "side",
     start: float | None = None,
     stop: float | None = None,
@@ -44,13 +44,14 @@ def animate(
 
     runs, clip = [run, *(ghost or [])], Clip(start, stop, fps, view, apart, magnify, slower)
     if not live:
+        out = Path("walk.html") if out is None else out
         check_suffix(out)
         keep_inputs((output_path(out, SUFFIXES),), runs)
         export(out, _solid_last(load_walks(runs)), clip)
         say_written(out)
-    elif clip.moving:
+    elif clip.moving or out is not None:
         raise InputError(
-            "--apart, --magnify and --slower are of a .gif or .mp4; leave them out with --live"
+            "--out, --apart, --magnify and --slower are of a file; leave them out with --live"
         )
     else:
         _show(_solid_last(load_walks(runs)), clip, port, browser, wait)

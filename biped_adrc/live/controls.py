@@ -44,9 +44,10 @@ def plain(x: Any) -> Any:
 
 
 def values(s: Scenario) -> dict[str, object]:
-    """What a scenario has of the fields that the page shows, by name."""
+    """What a scenario has of the fields that the page shows, or that the tour changes, by name."""
     told = controls()
     names = {x["name"] for x in told["sliders"]}
     for choice in told["choices"]:
         names |= {name for option in choice["options"] for name in option["values"]}
+    names |= {name for station in tour() for name in station["values"]}
     return {name: getattr(s, name) for name in sorted(names)}

@@ -1,6 +1,6 @@
 """One message to the pages: where the robots are, what acts on them, and the signals since the last message.
 
-    {"t", "paused", "rate", "reached", "walks": [...], "hand": {...} or null, "felt"}
+    {"t", "paused", "rate", "reached", "limits", "walks": [...], "hand": {...} or null, "felt"}
 
 Each walk has its pose, `rows` of signals of at most ROWS samples, evenly spread, the last of them that of the
 pose, and `worst` of all samples since the last message, null where there is none: least normal force, largest
@@ -22,7 +22,10 @@ from biped_adrc.live.hand import Hand
 from biped_adrc.live.live_walk import LiveWalk
 from biped_adrc.live.reading import Reading, carried, reading
 from biped_adrc.live.session import WALK, Session
+from biped_adrc.robots.robot_toml import RobotDescription
 from biped_adrc.robots.symmetry import twins
+from biped_adrc.scenario.build import limits
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.types import Array
 from biped_adrc.viz.placement import exchanged, joint_values
 
@@ -32,8 +35,8 @@ ROWS = 3
 
 def frame(driver: Driver) -> dict[str, object]:
     """What is to be drawn of a session now."""
-    session = driver.session
-    walks = []
+    session, walks = driver.session, []
+    plant = session.walking[WALK].moving.walker.plant
     for live, made in zip(session.walking, driver.made, strict=True):
         seen = [reading(live, *sample) for sample in spread(made, ROWS)]
         last = (seen[-1], made[-1].hand) if seen else (None, None)
@@ -49,9 +52,19 @@ def frame(driver: Driver) -> dict[str, object]:
         "paused": driver.paused,
         "rate": driver.rate,
         "reached": driver.reached,
+        "limits": limits_of(session.walking[WALK].scenario, plant.description),
         "walks": walks,
         "hand": acting(session),
         "felt": bool(felt) and felt[-1].hand is not None,
+    }
+
+
+def limits_of(s: Scenario, description: RobotDescription) -> dict[str, float]:
+    """Friction |F_T| / F_N that the ground gives, of soft ground its own, and torque [N m] of the motors."""
+    known = limits(s).of(description)
+    return {
+        "friction": known.friction if s.plant == "rigid" else s.ground_friction,
+        "torque": known.torque if s.torque_limit is None else s.torque_limit,
     }
 
 

@@ -80,7 +80,8 @@ PAIR = Kind(_pair, "two finite numbers")
 NUMBERS = Kind(_numbers, f"at most {MOST_ENTRIES} finite numbers by name")
 VALUES = Kind(
     _values,
-    f"at most {MOST_ENTRIES} numbers, names or null by name; a page gives no path and no class of your own",
+    f"at most {MOST_ENTRIES} numbers up to {MOST_SIZE:g}, names or null by name; a page gives no path and no "
+    "class of your own",
 )
 NEEDED: dict[str, dict[str, Kind]] = {
     "pull": {"link": TEXT, "at": PAIR, "anchor": PAIR},

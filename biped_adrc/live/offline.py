@@ -28,6 +28,7 @@ from biped_adrc.engine.web_walker import WebWalker, web_walkers
 from biped_adrc.errors import InputError
 from biped_adrc.files import output_path, write_text
 from biped_adrc.live.controls import tour
+from biped_adrc.live.frame import limits_of
 from biped_adrc.live.hand import LinkPoints, Spring
 from biped_adrc.live.in_code import MovingCode
 from biped_adrc.live.live_walk import LiveWalk, revised
@@ -204,6 +205,7 @@ def walk_numbers(live: LiveWalk, walker: WebWalker) -> dict[str, Any]:
         "period": timing.period,
         "restart": timing.restart,
         "slope": moving.walker.slope,
+        "limits": limits_of(live.scenario, moving.walker.plant.description),
         "hand": hand_places(moving),
     }
 

@@ -25,6 +25,7 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.live.controls import controls, tour
 from biped_adrc.live.driver import Driver
+from biped_adrc.live.frame import limits_of
 from biped_adrc.live.hand import MOST_FORCE, MOST_TORQUE
 from biped_adrc.live.live_walk import LiveWalk
 from biped_adrc.live.of_walker import scenario_of
@@ -32,7 +33,6 @@ from biped_adrc.live.session import Session
 from biped_adrc.live.stage import Stage
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part
-from biped_adrc.scenario.build import limits
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.viz.meshcat import objects as draw
 from biped_adrc.viz.meshcat.server import Say, run
@@ -139,8 +139,7 @@ def settings(s: Scenario, scenes: Mapping[str, WalkScene]) -> dict[str, object]:
     controls    sliders and choices; ghosts: names to choose from; tour: its stations
     """
     biped = scenes["walk"].biped
-    d, known = biped.description, limits(s).of(biped.description)
-    torque = known.torque if s.torque_limit is None else s.torque_limit
+    d = biped.description
     told = scene_settings(scenes, Look(solid="walk"))
     commands = told["commands"]
     assert isinstance(commands, list)
@@ -156,7 +155,7 @@ def settings(s: Scenario, scenes: Mapping[str, WalkScene]) -> dict[str, object]:
             "trunk": d.trunk,
             "p": biped.p,
         },
-        "limits": {"friction": known.friction, "torque": torque},
+        "limits": limits_of(s, d),
         "most": {"force": MOST_FORCE, "torque": MOST_TORQUE},
         "controls": controls(),
         "ghosts": GHOSTS,

@@ -158,8 +158,8 @@ class Session:
 
     def _act(self) -> None:
         """The hand for the coming sample: what has run out is let go, and a spring is looked at anew."""
-        hand, first = self.hand, self.walking.index(self.leader)
-        if self.leader.now.mode.step != self.marks[-1].walking[first].now.mode.step:
+        hand = self.hand
+        if self.walking[WALK].now.mode.step != self.marks[-1].walking[WALK].now.mode.step:
             self.marks.append(self._mark())
         if self.samples >= self.ends:
             hand, self.ends = None, math.inf

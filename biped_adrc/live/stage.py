@@ -20,7 +20,6 @@ import asyncio
 import json
 import threading
 import time
-from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from itertools import count
 from pathlib import Path
@@ -30,7 +29,7 @@ from biped_adrc.errors import BipedError
 from biped_adrc.live.controls import values
 from biped_adrc.live.driver import BUSY, Driver
 from biped_adrc.live.frame import frame, named
-from biped_adrc.live.messages import MOST_BYTES, Allowance, Message, message_of
+from biped_adrc.live.messages import MOST_BYTES, MOST_ENTRIES, Allowance, Message, message_of
 from biped_adrc.live.record import SessionRecord
 from biped_adrc.live.repeated import SUFFIXES, save_session
 from biped_adrc.live.session import WALK
@@ -223,11 +222,10 @@ class Stage(Listener):
 def names(text: str | bytes | None) -> list[str]:
     """The fields that a message names, where it can be read."""
     try:
-        given: Mapping[str, object] = message_of(text or "").given
-    except BipedError:
+        found = json.loads(text or "")["values"]
+    except (ValueError, TypeError, LookupError, RecursionError):
         return []
-    found = given.get("values")
-    return [*found] if isinstance(found, dict) else []
+    return [*found][:MOST_ENTRIES] if isinstance(found, dict) else []
 
 
 def free_paths(folder: Path) -> list[Path]:

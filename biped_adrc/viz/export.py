@@ -52,7 +52,7 @@ class Clip:
     start, stop [s]: the part shown in a moving picture or a strip; None: the whole walk, or its
     last two steps for a strip.
     fps [1/s]: frames per second; None: 60 for a page and 25 for a moving picture.
-    view: camera of a page, "side" or "perspective".
+    view: camera of a page, "side" or "perspective"; all else is from the side.
     apart: moving picture with the walks side by side and their errors below, instead of over one
     another.
     magnify [1]: deviations from the reference are drawn so many times as large; it needs `apart`.
@@ -97,6 +97,8 @@ def export(path: Path, walks: Mapping[str, Recorded], clip: Clip | None = None) 
         raise InputError(
             f"'{path}' is no moving picture, and apart, magnify and slower are of one; write a .gif or .mp4"
         )
+    if suffix != ".html" and clip.view != "side":
+        raise InputError(f"'{path}' is seen from the side; view '{clip.view}' is of a page (.html)")
     if suffix == ".html":
         write_text(path, animation_html(walks, clip.look()))
     elif suffix in ENCODERS:

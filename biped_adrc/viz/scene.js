@@ -169,13 +169,15 @@ function level(x) {
   const share = b.x > a.x ? (x - a.x) / (b.x - a.x) : 0;
   return (1 - share) * above(a) + share * above(b) - fall * x;
 }
-const render = viewer.render.bind(viewer);
-viewer.render = () => {
+// the camera goes along with the robot
+function follow() {
   const x = eye.position.x, z = level(x);
   for (const place of [viewer.camera.position, viewer.controls.target]) {
     place.x += x - followed.x;
     place.y += z - followed.z; // the viewer's own world has y up
   }
   followed = { x, z };
-  render();
-};
+  viewer.camera.updateMatrixWorld();
+}
+const render = viewer.render.bind(viewer);
+viewer.render = () => { follow(); render(); };

@@ -2,6 +2,7 @@
 
 import json
 
+import numpy as np
 import pytest
 
 import biped_adrc as ba
@@ -172,3 +173,29 @@ def test_a_page_that_says_too_much_is_not_heard():
     assert at_once == MOST_AT_ONCE
     later = sum(allowance.taken(10.0 + k * 1e-3) for k in range(1, 2001))
     assert later == pytest.approx(2.0 * MOST_RATE, abs=1.0)
+
+
+def test_back_brings_a_walk_that_has_fallen_to_where_its_last_single_support_began():
+    """Also while the ghost walks on, whose steps are none of the walk's."""
+    encoders = {"velocity": "differences", "counts": 8192.0, "torque_limit": 150.0}
+    scenario = ba.Scenario("ADRC", hardware="ideal", **encoders)
+    session = ba.Session(scenario, {"controller": "NPD", "velocity": "measured", "counts": None})
+    session.advance(1.5)
+    walk, ghost = session.walking
+    assert (walk.status, ghost.walks) == (ba.Status.FELL, True)
+    session.back()
+    walk, ghost = session.walking
+    assert walk.walks
+    assert session.t == walk.now.mode.start == 0.0
+    assert ghost.now.t == 0.0
+
+
+def test_a_hand_on_the_stance_foot_changes_nothing_but_the_ground_s_force():
+    """The foot stands: no torque comes of a force there, which the ground takes."""
+    sessions = [ba.Session(ba.Scenario("NPD", hardware="ideal")) for _ in range(2)]
+    foot = sessions[0].walking[0].moving.walker.plant.description.stance_foot
+    sessions[0].push(force=(50.0, -20.0), link=foot, seconds=0.1)
+    for session in sessions:
+        session.advance(0.1)
+    one, other = (session.walking[0].now.x for session in sessions)
+    assert np.max(np.abs(one - other)) < 1e-9

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection
 from PIL import Image
 from typer.testing import CliRunner
@@ -20,8 +21,9 @@ from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.viz.export import Clip, export
-from biped_adrc.viz.from_the_side.moving_parts import Motion, arrow, cut, ring
-from biped_adrc.viz.from_the_side.moving_picture import write_moving_picture
+from biped_adrc.viz.from_the_side import gif
+from biped_adrc.viz.from_the_side.moving_parts import Motion, arrow, cut, ring, wrapped
+from biped_adrc.viz.from_the_side.moving_picture import _times, write_moving_picture
 from biped_adrc.viz.from_the_side.side_view import Deviation, SideView
 from biped_adrc.viz.from_the_side.stick_figures import strip, write_strip
 from biped_adrc.viz.placement import WalkScene, ending
@@ -128,7 +130,7 @@ def test_export_goes_by_the_suffix(walks: dict[str, Walk], tmp_path: Path) -> No
         export(tmp_path / "walk.avi", walks)
     with pytest.raises(InputError, match="at least one"):
         export(tmp_path / "walk.gif", {})
-    with pytest.raises(InputError, match="at most 50"):
+    with pytest.raises(InputError, match=r"expected 0\.1 to 50"):
         export(tmp_path / "walk.gif", walks, Clip(fps=100.0))
     with pytest.raises(InputError, match="walks last"):
         export(tmp_path / "walk.gif", walks, Clip(start=0.5, stop=0.1))
@@ -138,6 +140,48 @@ def test_export_goes_by_the_suffix(walks: dict[str, Walk], tmp_path: Path) -> No
         write_moving_picture(tmp_path / "walk.png", walks)
     with pytest.raises(InputError, match="no moving picture"):
         export(tmp_path / "walk.html", walks, Clip(apart=True))
+    for name in ("walk.gif", "walk.png"):
+        with pytest.raises(InputError, match="'perspective' is of a page"):
+            export(tmp_path / name, walks, Clip(view="perspective"))
+
+
+@pytest.mark.parametrize("fps", [0.1, 3.0, 29.97, 30.0, 35.0, 40.0, 45.0, 50.0])
+def test_a_gif_goes_at_the_pace_that_is_asked_for(fps: float) -> None:
+    """Its frames are shown for whole hundredths of a second, which differ where they have to."""
+    frames = [np.full((20, 60, 3), 255, dtype=np.uint8) for _ in range(40)]
+    for k, frame in enumerate(frames):
+        frame[5:15, k : k + 15] = 0
+    with Image.open(io.BytesIO(gif.encoded(frames, fps, 2.0))) as image:
+        durations = []
+        for k in range(image.n_frames):
+            image.seek(k)
+            durations.append(image.info["duration"])
+    ends = np.cumsum(durations) - [*[0] * 39, 2000]
+    assert np.max(np.abs(ends - 1000.0 * np.arange(1, 41) / fps)) <= 5.0 + 1e-9
+
+
+@pytest.mark.parametrize(
+    ("stop", "count"), [(0.1 + 1e-7, 2), (0.12, 2), (0.2, 2), (0.25, 3), (0.3, 4)]
+)
+def test_no_frame_is_behind_the_part_that_is_shown(
+    walks: dict[str, Walk], stop: float, count: int
+) -> None:
+    times = _times(walks, 0.1, stop, Motion(fps=20.0))
+    assert len(times) == count
+    assert times[0] == 0.1
+    assert times[-1] <= stop
+
+
+def test_words_stay_in_the_picture() -> None:
+    said = (
+        "NPD ran away at 1.16 s: after t = 1.16139 s: torque [-95487.76286198 -30512.1 8.1 9.5] N m"
+    )
+    figure = new_figure(3.0, 2.0)
+    text = figure.text(0.0, 0.5, wrapped(said, 300.0), fontsize=11)
+    canvas = FigureCanvasAgg(figure)
+    figure.set_dpi(100)
+    assert text.get_window_extent(canvas.get_renderer()).width <= 300.0
+    assert wrapped(said, 300.0).replace("\n", " ") == said
 
 
 @pytest.mark.parametrize("factor", [0.0, 1.0, 30.0])
@@ -188,7 +232,10 @@ def test_walks_side_by_side(walks: dict[str, Walk], tmp_path: Path) -> None:
     for options, text in (
         ({"magnify": 30.0}, "add 'apart'"),
         ({"apart": True, "magnify": -1.0}, "not negative"),
-        ({"slower": 0.0}, "positive"),
+        ({"slower": 0.0}, "slower is 0, expected 0.001"),
+        ({"slower": 1e7}, "slower is 1e"),
+        ({"fps": 1e-300}, "fps is 1e-300, expected 0.1"),
+        ({"fps": float("nan")}, "fps is nan"),
     ):
         with pytest.raises(InputError, match=text):
             write_moving_picture(tmp_path / "c.gif", walks, motion=Motion(**options))

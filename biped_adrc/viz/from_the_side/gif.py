@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 from PIL import Image, ImageColor
@@ -38,13 +39,18 @@ def encoded(frames: Sequence[Array], fps: float, rest: float) -> bytes:
     band = [np.full((len(some[0]) // 4, width, 3), rgb, dtype=np.uint8) for rgb in swatches]
     palette = Image.fromarray(np.concatenate([*some, *band])).quantize(64)
     reduced = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
-    buffer, frame = io.BytesIO(), round(1000.0 / fps)
+    buffer = io.BytesIO()
+    ends = [
+        10 * round(100.0 * k / fps) for k in range(len(images) + 1)
+    ]  # [ms], in hundredths of a second
+    durations = [end - begin for begin, end in pairwise(ends)]
+    durations[-1] += round(1000.0 * rest)
     reduced[0].save(
         buffer,
         format="GIF",
         save_all=True,
         append_images=reduced[1:],
-        duration=[frame] * (len(images) - 1) + [frame + round(1000.0 * rest)],
+        duration=durations,
         loop=0,
         optimize=False,
     )

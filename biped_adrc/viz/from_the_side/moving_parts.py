@@ -9,6 +9,7 @@ trails and ground are behind all of them.
 from __future__ import annotations
 
 import math
+import textwrap
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +17,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PolyCollection
 
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.errors import InputError
 from biped_adrc.types import Array
 from biped_adrc.viz.from_the_side.side_view import SideView
 from biped_adrc.viz.placement import TILE, loads
@@ -33,6 +34,11 @@ EDGE = 0.04
 DPI = 100
 """Pixels for each inch of a figure; sizes here are in pixels."""
 
+LETTER = 9.5
+"""Width of a letter of 11 points [px], of the wide ones."""
+FPS, SLOWER = (0.1, 50.0), (1e-3, 1e6)
+"""Ranges of frames per second, and of how many times slower a picture plays."""
+
 
 @dataclass(frozen=True)
 class Motion:
@@ -41,8 +47,8 @@ class Motion:
     apart: side by side instead of over one another, with their errors over time below.
     magnify [1]: factor by which the deviation from the reference is drawn larger, with the
     reference in grey; None for the posture as it is. It needs `apart`.
-    slower [1]: how many times slower than the walk.
-    fps [1/s]: frames per second, at most 50, as a GIF counts time in hundredths of a second.
+    slower [1]: how many times slower than the walk, in SLOWER.
+    fps [1/s]: frames per second, in FPS, as a GIF counts time in hundredths of a second.
     width [px]: of the picture, 100 to 4000.
 
     Raises InputError for values that do not fit.
@@ -55,11 +61,9 @@ class Motion:
     width: int = 600
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.fps) and 0.0 < self.fps <= 50.0):
-            raise InputError(
-                f"fps is {self.fps} frames per second, expected more than 0 and at most 50"
-            )
-        check_positive(self.slower, f"slower is {self.slower}")
+        for name, x, (least, most) in (("fps", self.fps, FPS), ("slower", self.slower, SLOWER)):
+            if not least <= x <= most:
+                raise InputError(f"{name} is {x:g}, expected {least:g} to {most:g}")
         if not 100 <= self.width <= 4000:
             raise InputError(f"width is {self.width} px, expected 100 to 4000")
         if self.magnify is not None and not self.apart:
@@ -70,6 +74,11 @@ class Motion:
         pace of the walk.
         """
         return "" if self.slower == 1.0 else f"{before}{self.slower:g} times slower"
+
+
+def wrapped(words: str, width: float) -> str:
+    """Words of 11 points in lines of at most `width` [px]."""
+    return "\n".join(textwrap.fill(line, int(width / LETTER)) for line in words.split("\n"))
 
 
 def picture(canvas: FigureCanvasAgg) -> Array:
@@ -205,7 +214,10 @@ class Forces:
         amount = f"{size:.3g} N" if math.isfinite(size) else "no finite force"
         said = "slips" if acting.slips else ""
         self.text.set_text(said if np.array_equal(drawn, force) else f"{amount}, arrow cut")
-        self.text.set_position((start[0] + 0.05, max(start[1] + 0.5 * drawn[1], start[1] + 0.05)))
+        right = start[0] > np.mean(limits[0])  # so that the words stay in the picture
+        x = start[0] + (-0.05 if right else 0.05)
+        self.text.set_horizontalalignment("right" if right else "left")
+        self.text.set_position((x, max(start[1] + 0.5 * drawn[1], start[1] + 0.05)))
         self.torques.set_verts(self._rings(t, acting.zeta))
 
     def _rings(self, t: float, zeta: Array) -> list[Array]:

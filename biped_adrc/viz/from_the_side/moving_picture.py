@@ -100,7 +100,8 @@ def _times(
         )
     rate = motion.fps * motion.slower
     check_frames((stop - start) * rate)
-    times = start + np.arange(max(2, math.ceil((stop - start) * rate))) / rate
+    count = math.ceil((stop - start) * rate * (1.0 - 1e-12))
+    times = start + np.arange(count) / rate if count > 1 else np.array([start, stop])
     badly = any(ending(walk.trajectory) for walk in walks.values())
     return np.append(times, stop) if badly else times
 
@@ -142,8 +143,9 @@ def _frames(scenes: Mapping[str, WalkScene], times: Array, motion: draw.Motion) 
             trail.show(k, t)
             robot.show(t)
             forces.show(t)
-        over = [f"\n{n} {ending(s.trajectory)}" for n, s in scenes.items() if _is_over(s, t)]
-        text.set_text(f"{caption}\nt = {t:.2f} s, step {last.step(t)}{pace}{''.join(over)}")
+        over = [f"{n} {ending(s.trajectory)}" for n, s in scenes.items() if _is_over(s, t)]
+        words = "\n".join((caption, f"t = {t:.2f} s, step {last.step(t)}{pace}", *over))
+        text.set_text(draw.wrapped(words, 0.96 * width))
         out.append(draw.picture(canvas))
     return out
 

@@ -108,7 +108,8 @@ class _Panel:
         self.robot.show(t)
         self.forces.show(t)
         if self.ending and t >= self.view.scene.trajectory.t_end:
-            self.text.set_text(self.ending.replace(": ", ":\n"))
+            width = 0.92 * self.axes.bbox.width
+            self.text.set_text(draw.wrapped(self.ending.replace(": ", ":\n"), width))
             return
         found = self.largest(self.start, t)
         unit, factor = angle_unit(np.array([found]))

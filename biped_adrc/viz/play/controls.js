@@ -9,7 +9,8 @@ const valueAt = (c, k) => Number((c.factor
   ? c.low * (c.high / c.low) ** (k / STEPS)
   : c.low + (c.high - c.low) * k / STEPS).toPrecision(3));
 const usual = (c) => (c.usual === undefined ? c.given : c.usual);
-const change = (values) => send({ do: "change", values });
+const act = (message) => { forgive(); send(message); };
+const change = (values) => act({ do: "change", values });
 
 const has = (values) => Object.entries(values).every(([name, x]) => known[0][name] === x);
 function showSlider(c) {
@@ -21,7 +22,7 @@ function showSlider(c) {
 }
 function wireSlider(c) {
   const range = element("range-" + c.name), field = element("field-" + c.name);
-  const sent = (x, along = {}) => { complain(c.name, ""); change({ [c.name]: x, ...along }); };
+  const sent = (x, along = {}) => change({ [c.name]: x, ...along });
   element("mark-" + c.name).style.setProperty("--share", positionOf(c, usual(c)) / STEPS);
   range.oninput = () => { field.value = valueAt(c, range.value); };
   range.onchange = () => sent(valueAt(c, range.value));
@@ -49,18 +50,24 @@ function wireChoice(c) {
     const option = c.options[event.target.selectedIndex];
     if (!option) return;
     const along = Object.entries(option.values[c.name] === null ? {} : c.along || {});
-    complain(c.name, "");
     change({ ...option.values, ...Object.fromEntries(along.filter(([name]) => known[0][name] === null)) });
   };
 }
 
+const OF_GHOST = ["walk", "controller", "observer", "order", "bandwidth"]; // these are told by its name, or usual
 function showValues(values) {
   known = values;
   scene.controls.sliders.forEach(showSlider);
   scene.controls.choices.forEach(showChoice);
   element("ghost").value = values.length > 1 ? values[1].controller : "";
+  const other = ([name, x]) => !OF_GHOST.includes(name) && x !== values[0][name];
+  const differ = values.length > 1 ? Object.entries(values[1]).filter(other) : [];
+  element("ghost-values").textContent = differ.map(([name, x]) => name + " " + x).join(", ");
 }
 
+// what was refused is forgotten with the next thing that is done
+const REFUSALS = [...document.querySelectorAll(".refused")];
+const forgive = () => REFUSALS.forEach((place) => { place.textContent = ""; });
 // a sentence at the field that it is of, or above all; the field goes back to what the session has
 function complain(name, sentence) {
   const place = element("refused-" + name) || element("refused");
@@ -80,28 +87,33 @@ function faster(by) {
   rate = RATES[Math.min(Math.max(k, 0), RATES.length - 1)]; // for a second press before the next frame
   send({ do: "rate", rate });
 }
-const number = (id) => Number(element(id).value);
+// numbers of the hand; what is none is said, and nothing is sent
+function handed(names, message) {
+  const found = names.map((name) => element(name).valueAsNumber);
+  forgive();
+  const wrong = names.filter((_, k) => !Number.isFinite(found[k]));
+  if (wrong.length) complain("", "the hand's " + wrong.join(" and ") + " is no number");
+  else send({ do: "push", ...message(...found) });
+}
 function pushJoint(sign) {
-  send({
-    do: "push", torque: { [element("joint").value]: sign * number("torque") }, seconds: number("seconds"),
-  });
+  handed(["torque", "seconds"], (torque, seconds) => ({ torque: { [element("joint").value]: sign * torque }, seconds }));
 }
 function shove(sign) {
   const link = element("link").value, at = selected && selected.link === link ? selected.at : [0, 0];
-  send({ do: "push", link, at, force: [sign * number("shove"), 0], seconds: number("seconds") });
+  handed(["shove", "seconds"], (force, seconds) => ({ link, at, force: [sign * force, 0], seconds }));
 }
 function ghostOf(controller) {
-  send(controller === "" ? { do: "ghost" } : { do: "ghost", values: { controller } });
+  act(controller === "" ? { do: "ghost" } : { do: "ghost", values: { controller } });
 }
 const toggle = () => send({ do: paused ? "go" : "pause" });
 const ACTIONS = {
   play: toggle,
   step: () => send({ do: "step" }),
-  back: () => send({ do: "back" }),
-  reset: () => send({ do: "reset" }),
+  back: () => act({ do: "back" }),
+  reset: () => act({ do: "reset" }),
   slower: () => faster(-1),
   faster: () => faster(1),
-  save: () => send({ do: "save" }),
+  save: () => act({ do: "save" }),
   view: () => look(view === "side" ? "perspective" : "side"),
   help: () => (element("keys").open ? element("keys").close() : element("keys").showModal()),
   "torque-minus": () => pushJoint(-1),

@@ -64,6 +64,7 @@ function sendPull(event) {
 function keepPulling() {
   if (pull) sendPull(pull.event);
 }
+setInterval(keepPulling, 4 * PULLS); // where the walk rests too
 function release() {
   if (!pull) return;
   pull = null;

@@ -38,8 +38,7 @@ class OfflineSession {
   }
   // the hand for the coming sample
   act() {
-    const first = this.walking.indexOf(this.leader), { walking } = this.marks[this.marks.length - 1];
-    if (this.leader.step !== walking[first].step) this.mark();
+    if (this.walking[0].step !== this.marks[this.marks.length - 1].walking[0].step) this.mark();
     if (this.samples >= this.ends) Object.assign(this, { hand: null, ends: Infinity });
     if (this.spring) this.hand = this.walking[0].walks ? this.pulled().hand : null;
   }
@@ -107,9 +106,9 @@ class OfflineSession {
   frame() {
     const acting = this.acting();
     const walks = this.walking.map((walk, k) => ({ ...pose(walk), ...told(this.made[k]), ending: walk.ending }));
-    const { paused, rate: asked, reached } = this;
+    const { paused, rate: asked, reached } = this, { limits } = this.walking[0].kind;
     this.made = this.walking.map(() => []);
-    return { t: this.leader.t, paused, rate: asked, reached, walks, hand: acting, felt: this.hand !== null };
+    return { t: this.leader.t, paused, rate: asked, reached, limits, walks, hand: acting, felt: this.hand !== null };
   }
   acting() {
     const walk = this.walking[0];

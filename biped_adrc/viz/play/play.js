@@ -39,6 +39,7 @@ function hear(message) {
   else if (message.remark) element("said").textContent = message.remark;
   else if (message.walks) {
     ({ rate, paused } = message);
+    scene.limits = message.limits;
     element("play").textContent = paused ? "go" : "pause";
     drawWalks(message);
     remember(message);

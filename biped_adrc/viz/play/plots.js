@@ -16,11 +16,12 @@ const PLOTS = [
     lines: [["walk", of("xi"), "walk"], ["walk", of("xi_estimate"), "other"]],
   },
   {
-    canvas: "plot-torque", unit: "N m", scale: 1, least: 20, most: 5 * scene.limits.torque, limits: [-scene.limits.torque, scene.limits.torque],
+    canvas: "plot-torque", unit: "N m", scale: 1, least: 20,
+    most: () => 5 * scene.limits.torque, limits: () => [-scene.limits.torque, scene.limits.torque],
     lines: [["walk", of("u"), "walk"], ["ghost", of("u"), "ghost"]],
   },
   {
-    canvas: "plot-ground", unit: "F_T / F_N", scale: 1, least: scene.limits.friction, most: 2, limits: [scene.limits.friction],
+    canvas: "plot-ground", unit: "F_T / F_N", scale: 1, least: 0.1, most: () => 2, limits: () => [scene.limits.friction],
     lines: [["walk", (s) => s.friction, "walk"], ["ghost", (s) => s.friction, "ghost"]],
   },
 ];
@@ -56,15 +57,16 @@ function draw(plot) {
   pen.clearRect(0, 0, w, h);
   const lines = plot.lines.map((line) => valuesOf(plot, line));
   const sizes = lines.flat().map(([, y]) => Math.abs(y || 0)).filter(Number.isFinite);
-  const top = Math.min(ceiling(sizes.reduce((a, b) => Math.max(a, b), plot.least)), plot.most || Infinity);
+  const limits = plot.limits ? plot.limits() : [], least = Math.max(plot.least, plot.most ? limits.at(-1) : 0);
+  const top = Math.min(ceiling(sizes.reduce((a, b) => Math.max(a, b), least)), plot.most ? plot.most() : Infinity);
   const low = plot.canvas === "plot-ground" ? 0 : -top, end = page.last ? page.last.t : 0;
   const at = (t, y) => [w * (1 - (end - t) / shown()), 4 + (h - 8) * (top - Math.min(y, 9 * top)) / (top - low)];
-  axes(pen, plot, w, top, low, at);
+  axes(pen, limits, w, top, low, at);
   lines.forEach((line, k) => stroke(pen, line, plot.lines[k][2], at));
-  scaleOf(pen, top + " " + plot.unit);
+  element(plot.canvas + "-scale").textContent = ", up to " + top + " " + plot.unit;
 }
 
-function axes(pen, plot, w, top, low, at) {
+function axes(pen, limits, w, top, low, at) {
   pen.strokeStyle = "#bbb";
   pen.lineWidth = 1;
   pen.setLineDash([]);
@@ -72,18 +74,9 @@ function axes(pen, plot, w, top, low, at) {
   pen.strokeRect(0, zero, w, 0);
   pen.strokeStyle = COLOURS.limit;
   pen.setLineDash([6, 4]);
-  for (const limit of (plot.limits || []).filter((y) => y >= low && y <= top)) {
+  for (const limit of limits.filter((y) => y >= low && y <= top)) {
     pen.strokeRect(0, at(0, limit)[1], w, 0);
   }
-}
-
-// what the upper end of the plot is, before all lines
-function scaleOf(pen, words) {
-  pen.font = "13px system-ui, sans-serif";
-  pen.fillStyle = "rgb(255 255 255 / 80%)";
-  pen.fillRect(2, 3, pen.measureText(words).width + 4, 17);
-  pen.fillStyle = "#111";
-  pen.fillText(words, 4, 16);
 }
 
 function stroke(pen, line, colour, at) {

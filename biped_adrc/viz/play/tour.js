@@ -1,25 +1,27 @@
 // The guided tour: each station sets the walk, may push it, and says what to look at.
-let station = -1, timers = [];
+let station = -1, timers = [], before = {}; // before: values that the tour changes, as they were
 
 function leaveTour() {
   timers.forEach(clearTimeout);
   timers = [];
   station = -1;
   element("tour").hidden = true;
+  act({ do: "reset", values: before });
 }
 function goTo(k) {
   if (k < 0 || k >= scene.tour.length) { leaveTour(); return; }
   timers.forEach(clearTimeout);
-  station = k;
   decline();
   const s = scene.tour[k];
+  if (station < 0) before = Object.fromEntries(Object.keys(s.values).map((name) => [name, known[0][name]]));
+  station = k;
   element("tour").hidden = false;
   element("tour-title").textContent = k + 1 + " of " + scene.tour.length + ": " + s.title;
   element("tour-text").textContent = s.text;
   element("tour-page").textContent = "Read on in the documentation: " + s.page;
   element("tour-next").textContent = k + 1 < scene.tour.length ? "next (n)" : "end (n)";
   element("tour-title").focus();
-  send({ do: "let_go" });
+  act({ do: "let_go" });
   send({ do: "reset", values: s.values });
   send({ do: "rate", rate: s.rate });
   send({ do: "go" });

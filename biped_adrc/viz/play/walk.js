@@ -78,6 +78,7 @@ function drawWalks(message) {
   roots[1].visible = message.walks.length > 1;
   message.walks.forEach((pose, k) => robots[k].show(pose));
   moveGround(message.walks[0].support);
+  follow(); // the hand aims between two pictures too
   drawHand(message.hand);
   viewer.set_dirty();
 }
