@@ -62,7 +62,7 @@ function showValues(values) {
   element("ghost").value = values.length > 1 ? values[1].controller : "";
   const other = ([name, x]) => !OF_GHOST.includes(name) && x !== values[0][name];
   const differ = values.length > 1 ? Object.entries(values[1]).filter(other) : [];
-  element("ghost-values").textContent = differ.map(([name, x]) => name + " " + x).join(", ");
+  element("ghost-values").textContent = differ.map(([name, x]) => name + " " + (x === null ? "none" : x)).join(", ");
 }
 
 // what was refused is forgotten with the next thing that is done

@@ -85,4 +85,6 @@ document.addEventListener("keydown", (event) => {
   KEYS[event.key]();
 });
 viewer.gui.close();
+// the tour and long sentences take room from the picture
+new ResizeObserver(() => { viewer.set_3d_pane_size(); viewer.set_dirty(); }).observe(pane);
 look(scene.view);

@@ -8,20 +8,20 @@ let joint = 0;
 const of = (name) => (signals) => signals[name][joint];
 const PLOTS = [
   {
-    canvas: "plot-error", unit: "mrad", scale: 1e3, least: 1,
+    canvas: "plot-error", unit: " mrad", scale: 1e3, least: 1,
     lines: [["walk", of("error"), "walk"], ["ghost", of("error"), "ghost"]],
   },
   {
-    canvas: "plot-xi", unit: "rad/s²", scale: 1, least: 10,
+    canvas: "plot-xi", unit: " rad/s²", scale: 1, least: 10,
     lines: [["walk", of("xi"), "walk"], ["walk", of("xi_estimate"), "other"]],
   },
   {
-    canvas: "plot-torque", unit: "N m", scale: 1, least: 20,
+    canvas: "plot-torque", unit: " N m", scale: 1, least: 20,
     most: () => 5 * scene.limits.torque, limits: () => [-scene.limits.torque, scene.limits.torque],
     lines: [["walk", of("u"), "walk"], ["ghost", of("u"), "ghost"]],
   },
   {
-    canvas: "plot-ground", unit: "F_T / F_N", scale: 1, least: 0.1, most: () => 2, limits: () => [scene.limits.friction],
+    canvas: "plot-ground", unit: "", scale: 1, least: 0.1, most: () => 2, limits: () => [scene.limits.friction],
     lines: [["walk", (s) => s.friction, "walk"], ["ghost", (s) => s.friction, "ghost"]],
   },
 ];
@@ -63,7 +63,7 @@ function draw(plot) {
   const at = (t, y) => [w * (1 - (end - t) / shown()), 4 + (h - 8) * (top - Math.min(y, 9 * top)) / (top - low)];
   axes(pen, limits, w, top, low, at);
   lines.forEach((line, k) => stroke(pen, line, plot.lines[k][2], at));
-  element(plot.canvas + "-scale").textContent = ", up to " + top + " " + plot.unit;
+  element(plot.canvas + "-scale").textContent = (low < 0 ? ", ±" : ", to ") + top + plot.unit;
 }
 
 function axes(pen, limits, w, top, low, at) {
