@@ -29,7 +29,6 @@ def play_command(
     page: Path | None = None,
 ) -> None:
     """Push a walk yourself: live in the browser, with a guided tour; 'hardware' is ideal if not given."""
-    from biped_adrc.live.offline import OTHERS, write_play
     from biped_adrc.live.page import play
     from biped_adrc.scenario.scenario import Scenario
 
@@ -38,6 +37,8 @@ def play_command(
         values["hardware"] = "ideal"
     other = None if ghost is None else {"controller": ghost}
     if page is not None:
+        from biped_adrc.live.offline import OTHERS, write_play
+
         write_play(page, Scenario(**values), {**({f"{ghost}": other} if other else {}), **OTHERS})
         say_written(page)
         return

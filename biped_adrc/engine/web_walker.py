@@ -53,8 +53,9 @@ class WebWalkers(NamedTuple):
 
 
 def web_walkers(walkers: Sequence[CompiledWalker], reference: Reference) -> WebWalkers:
-    """Walkers on one gait, whose signals refer to the same reference. Raises InputError for the exponential
-    method, whose product with matrices has another form.
+    """One module for walkers on one gait, whose signals refer to the same reference.
+
+    Raises InputError for the exponential method, whose product with matrices has another form.
     """
     h, laws = reference_laws(reference), _Laws({}, {}, [])
     made = [_walker(one, h, laws) for one in walkers]
@@ -79,14 +80,14 @@ class _Laws(NamedTuple):
         return self.names[address]
 
     def number(self, name: str) -> int:
-        """Of a function."""
+        """The number of a function, a new one where it has none yet."""
         if name not in self.functions:
             self.functions.append(name)
         return 1 + self.functions.index(name)
 
 
 def _walker(one: CompiledWalker, h: ReferenceLaws, laws: _Laws) -> WebWalker:
-    """One walker. Raises InputError."""
+    """The numbers of one walker, whose functions join the laws. Raises InputError."""
     program, P = one.program, one.plan.P.copy()
     if program.make.split is not None:
         raise InputError("an offline page takes the steps of RK4; leave out the exponential method")

@@ -80,29 +80,22 @@ def _loops() -> str:
     """
     from numba import cfunc
 
-    loops = kernels()
     made = {
         symbol: cfunc(signature, error_model="numpy")(function)
-        for symbol, (signature, function) in loops.UNITS.items()
+        for symbol, (signature, function) in kernels().UNITS.items()
     }
     module: Any = None
-    for compiled in made.values():
-        text = compiled.inspect_llvm()
-        for symbol, other in made.items():
-            text = re.sub(rf'@"?{re.escape(other.native_name)}"?\(', f'@"{symbol}"(', text)
-        text = re.sub(r"^target .*$", "", text, flags=re.MULTILINE).replace(
-            " = common ", " = weak "
-        )
-        part = binding.parse_assembly(text)
+    for one in made.values():
+        text = re.sub(r"^target .*$", "", one.inspect_llvm(), flags=re.MULTILINE)
+        for symbol, compiled in made.items():
+            names = "|".join(map(re.escape, (compiled.native_name, symbol)))
+            text = re.sub(rf'@"?(?:{names})"?\(', f"@{symbol.rpartition('.')[2]}(", text)
+        part = binding.parse_assembly(text.replace(" = common ", " = weak "))
         if module is None:
             module = part
         else:
             module.link_in(part)
     text = ERRORS.sub(r"define \1 { call void @llvm.trap() unreachable }", str(module))
-    for symbol in made:
-        text = text.replace(f'@"{symbol}"', f"@{symbol.rpartition('.')[2]}").replace(
-            f"@{symbol}(", f"@{symbol.rpartition('.')[2]}("
-        )
     return f"{text}\ndeclare void @llvm.trap()\n"
 
 

@@ -47,8 +47,8 @@ def write_play(
 ) -> Path:
     """Write the page of a live walk, one file that needs neither server nor network; returns its path.
 
-    scenario: in sampled time on the rigid plant; FIRST if None. others: the
-    walks to choose from, values of a scenario by a name for each; OTHERS if None. The first is the ghost.
+    scenario: in sampled time on the rigid plant; FIRST if None. others: the walks to choose from, values of a
+    scenario by a name for each; OTHERS if None. The first of them is the ghost.
     Raises InputError for what an offline page cannot walk, and OutputError.
     """
     scenario = FIRST if scenario is None else scenario

@@ -31,6 +31,11 @@ from biped_adrc.viz.placement import exchanged, joint_values
 
 SAME = 1e-9
 """Largest distance [m] between two points that are taken for one."""
+PLACES = (
+    *("TIME", "STEP", "START", "END", "FIRED", "EVERY", "ARC", "HEAD", "ROWS"),
+    "FOOT_STRIKE",
+)
+"""Names of `engine.kernels.layout` that the script has."""
 
 
 def numbers(walks: Mapping[str, LiveWalk]) -> dict[str, Any]:
@@ -43,52 +48,25 @@ def numbers(walks: Mapping[str, LiveWalk]) -> dict[str, Any]:
     exchanged   whether the legs are drawn with exchanged names, in odd and even single supports; R
     places, codes, status, signals: numbers of the kernels, by name
     """
-    for name, live in walks.items():
-        if not isinstance(live.moving, MovingCode):
-            raise InputError(
-                f"the walk '{name}' does not run in machine code as a whole (plant '{live.scenario.plant}', "
-                f"controller '{live.scenario.controller}'); an offline page takes the rigid plant and "
-                "controllers with laws"
-            )
-        if live.moving.walker.disturbance is not None or live.moving.walker.ground_steps:
-            raise InputError(
-                f"the walk '{name}' has a push or ground steps of its own; leave them out"
-            )
+    moving = [in_code(name, live) for name, live in walks.items()]
     first = next(iter(walks.values()))
+    made = web_walkers([one.made for one in moving], first.scene.walked.constraint)
+    found = map(walk_numbers, walks.values(), moving, made.walkers)
     plant = first.moving.walker.plant
-    d, n = plant.description, plant.n
-    codes = [live.moving.made for live in walks.values() if isinstance(live.moving, MovingCode)]
-    made = web_walkers(codes, first.scene.walked.constraint)
-    rows = zip(walks.items(), made.walkers, strict=True)
+    feet = plant.description.stance_foot, plant.description.swing_foot
     return {
         "code": packed(made.code),
         "functions": made.functions,
-        "walks": {name: walk_numbers(live, walker) for (name, live), walker in rows},
-        "n": n,
+        "walks": dict(zip(walks, found, strict=True)),
+        "n": plant.n,
         "links": link_numbers(plant, [link for _, link in drawn_links(plant)]),
-        "twins": twins(plant.tree, (d.stance_foot, d.swing_foot)),
+        "twins": twins(plant.tree, feet),
         "trunk": trunk_of(plant),
         "joints": joint_places(plant),
         "exchanged": [exchanged(plant, step) for step in (1, 2)],
         "R": plant.R.tolist(),
         "spring": {name: Spring._field_defaults[name] for name in ("stiffness", "damping", "most")},
-        "places": {
-            name: getattr(layout, name)
-            for name in (
-                "TIME",
-                "STEP",
-                "START",
-                "END",
-                "FIRED",
-                "EVERY",
-                "COUNT",
-                "ARMED",
-                "ARC",
-                "HEAD",
-                "ROWS",
-                "FOOT_STRIKE",
-            )
-        },
+        "places": {name: getattr(layout, name) for name in PLACES},
         "struck": layout.STRUCK,
         "status": [(x.name.lower().replace("_", " "), x.value.split(";")[0]) for x in STATUS],
         "signals": signal_places(first),
@@ -100,17 +78,29 @@ def packed(data: bytes | Array) -> str:
     return base64.b64encode(data if isinstance(data, bytes) else data.tobytes()).decode("ascii")
 
 
-def walk_numbers(live: LiveWalk, walker: WebWalker) -> dict[str, Any]:
+def in_code(name: str, live: LiveWalk) -> MovingCode:
+    """What moves a walk. Raises InputError for one that a page cannot move."""
+    moving = live.moving
+    if not isinstance(moving, MovingCode):
+        raise InputError(
+            f"the walk '{name}' does not run in machine code as a whole (plant '{live.scenario.plant}', "
+            f"controller '{live.scenario.controller}'); an offline page takes the rigid plant and "
+            "controllers with laws"
+        )
+    if moving.walker.disturbance is not None or moving.walker.ground_steps:
+        raise InputError(f"the walk '{name}' has a push or ground steps of its own; leave them out")
+    return moving
+
+
+def walk_numbers(live: LiveWalk, moving: MovingCode, walker: WebWalker) -> dict[str, Any]:
     """Of one walk: vectors, sizes, clock, start, and the places of the hand in F."""
-    moving, timing = live.moving, live.moving.timing
-    assert isinstance(moving, MovingCode)
     return {
         **{name: packed(getattr(walker, name)) for name in ("P", "F", "K")},
         "observe": walker.observe,
         "width": walker.width,
         "s": packed(live.now.s),
-        "period": timing.period,
-        "restart": timing.restart,
+        "period": moving.timing.period,
+        "restart": moving.timing.restart,
         "slope": moving.walker.slope,
         "limits": limits_of(live.scenario, moving.walker.plant.description),
         "hand": hand_places(moving),

@@ -2,7 +2,7 @@
 const off = scene.offline, at = off.places;
 const unpacked = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
 const STACK = 1 << 18; // [bytes] of constants and stack, before the vectors of the walks
-const MOST_SEEN = 512; // numbers that a law may say
+const SEEN = Math.max(...Object.values(off.signals).map(([, end]) => end)); // numbers of all signals
 
 // the next number after x towards y, as in C
 function nextafter(x, y) {
@@ -15,7 +15,9 @@ function nextafter(x, y) {
 const machine = { memory: null, calls: null, free: STACK, table: null };
 async function startMachine() {
   const module = await WebAssembly.compile(unpacked(off.code));
-  machine.memory = new WebAssembly.Memory({ initial: 64 });
+  const room = ({ P, F, K, s, width }) => P.length + F.length + K.length + s.length + 8 * (at.ROWS * width + SEEN);
+  const size = Object.values(off.walks).reduce((sum, told) => sum + room(told), STACK);
+  machine.memory = new WebAssembly.Memory({ initial: Math.ceil(size / 65536) });
   machine.table = new WebAssembly.Table({ initial: off.functions.length + 1, element: "anyfunc" });
   const env = {
     __linear_memory: machine.memory, __indirect_function_table: machine.table,
@@ -62,7 +64,7 @@ class Kind {
     this.s = vector(Float64Array, new Float64Array(unpacked(told.s)));
     this.first = this.s.slice();
     this.W = vector(Float64Array, at.ROWS * told.width);
-    this.seen = vector(Float64Array, MOST_SEEN);
+    this.seen = vector(Float64Array, SEEN);
     this.five = [this.P, this.F, this.K, this.W, this.s].map((x) => x.byteOffset);
   }
   hold(hand) {

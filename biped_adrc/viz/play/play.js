@@ -63,7 +63,7 @@ socket.onmessage = ({ data }) => {
 let silent = false;
 setInterval(() => {
   const since = performance.now() - page.heard, was = silent;
-  silent = since > SILENCE;
+  silent = !scene.offline && since > SILENCE; // a page that nobody sees rests
   if (silent) tell("The server has said nothing for " + (since / 1000).toFixed(0) + " s: it computes, or has stopped.");
   else if (was && page.last) describe(page.last);
 }, 1000);
