@@ -3,7 +3,6 @@
 from biped_adrc.analysis.return_map import ReturnMap as ReturnMap
 from biped_adrc.analysis.stride_gain import stride_response as stride_response
 from biped_adrc.analysis.zero_report import zero_report as zero_report
-from biped_adrc.bench.benchmark_result import read_bench_result as read_bench_result
 from biped_adrc.closed_loop.arm import ArmSystem as ArmSystem
 from biped_adrc.closed_loop.protocols import Mode as Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop as SteppingLoop

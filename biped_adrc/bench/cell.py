@@ -6,7 +6,7 @@ Only legal walks count as success, since the model's foot is pinned and walks wh
 
 A share is (value, low, high) with Wilson's interval, dimensionless: `survived` and `legal` of all walks,
 `reasons` and `impulse` of those walks that made all steps and have a value in the column. Medians have
-bootstrap intervals (`analysis.statistics`). Made by `bench.comparison`, read by `bench.findings` and the
+bootstrap intervals (`analysis.statistics`). Made by `bench.comparison`, read by the
 comparison's page.
 """
 
@@ -63,8 +63,6 @@ class Cell:
     """Its name."""
     walks: tuple[Row, ...]
     """Rows with the columns of `bench.run.COLUMNS`, in the order of the seeds."""
-    bandwidth: float | None = None
-    """All poles of the observer are at minus this [rad/s]; None for the controller's own settings."""
     as_published: bool = False
     """Whether it walks untuned among controllers that are tuned."""
 
@@ -123,7 +121,6 @@ class Cell:
         return {
             "controller": self.controller,
             "condition": self.condition,
-            "bandwidth": self.bandwidth,
             "as_published": self.as_published,
             "walks": len(self.walks),
             "survived": list(self.survived),
