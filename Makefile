@@ -12,7 +12,7 @@ BENCHMARKS := engine/calls engine/paper_run engine/engines engine/sampled engine
   pinocchio_calls
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile --constraint constraints.txt
 
-.PHONY: reproduce test fuzz docs pictures comparison walkbench tuned soft results verification attacks soft-limit dev lint format types imports bench mutants faults clean
+.PHONY: reproduce test fuzz docs pictures verification dev lint format types imports bench mutants faults clean
 
 reproduce: .venv/.core
 	$(BIN)/biped-adrc reproduce --out $(OUT) $(ARGS)
@@ -36,53 +36,9 @@ docs: .venv/.dev
 pictures: .venv/.core
 	$(BIN)/python docs/make_pictures.py $(OUT)
 
-# docs/comparison.md with its figures, and what observer guide and README say of orders, from a comparison in
-# $(OUT)/comparison, which is made or finished first, with the settings of docs/tuned/summary.json
-comparison: .venv/.core
-	$(BIN)/python docs/write_tuned_sets.py
-	$(BIN)/biped-adrc compare --out $(OUT)/comparison
-	$(BIN)/python docs/write_comparison.py $(OUT)/comparison
-
-# the benchmark walkbench-1, frozen from the comparison as it is; a file that is there is never written over
-walkbench: .venv/.core
-	$(BIN)/python benchmarks/walkbench.py walkbench-1 $(OUT)/walkbench
-
-# docs/tuned.md with its figures, from the searches in $(OUT)/tuned, which are made or finished first: hours
-tuned: .venv/.dev
-	$(BIN)/python benchmarks/tuned/alike.py $(OUT)/tuned
-	$(BIN)/python benchmarks/tuned/alike.py $(OUT)/tuned_orders --contest benchmarks/tuned/orders.toml
-	$(BIN)/python benchmarks/tuned/beside.py $(OUT)/tuned
-	$(BIN)/python docs/write_tuned.py $(OUT)/tuned
-
-# docs/soft_walk.md with its pictures, from the two studies of soft ground in $(OUT)/soft and $(OUT)/soft-held-out,
-# which are made or finished first
-soft: .venv/.core
-	$(BIN)/biped-adrc sweep examples/soft_ground.toml --out $(OUT)/soft
-	$(BIN)/biped-adrc sweep examples/soft_ground_held_out.toml --out $(OUT)/soft-held-out
-	$(BIN)/python docs/write_soft_walk.py $(OUT)/soft $(OUT)/soft-held-out
-	$(BIN)/python docs/make_soft_pictures.py
-
-# the reproduction's results in docs/ and README.md, from its summary
-results: .venv/.core
-	$(BIN)/python docs/write_results.py $(OUT)
-
-# published results and closed forms beside those of the package, in docs/verification.md
+# published results and closed forms beside those of the package, in docs/verification.csv
 verification: .venv/.core
-	$(BIN)/python docs/write_verification.py
-
-# random walks against the numerics, one to two hours on two cores; tables in docs/robustness.md. What was found is kept
-# in $(OUT)/attacks, from where an interrupted run goes on
-attacks: .venv/.test
-	mkdir -p $(OUT)/attacks
-	for attack in engines contact steps searches; do \
-	  $(BIN)/python -m tests.robustness $$attack --out $(OUT)/attacks/$$attack.jsonl --page docs/robustness.md; done
-
-# the rigid walk as limit of the soft one, its multipliers, and walks that the rigid model calls legal, in MuJoCo: an
-# hour and a half on one core; tables in docs/soft_limit.md. What was found is kept in $(OUT)/soft-limit, from where
-# an interrupted run goes on
-soft-limit: .venv/.test
-	for study in limit multipliers legality; do \
-	  $(BIN)/python -W ignore benchmarks/soft/$$study.py $(OUT)/soft-limit --page docs/soft_limit.md; done
+	$(BIN)/python -m validation --out docs/verification.csv
 
 dev: .venv/.dev
 

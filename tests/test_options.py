@@ -298,20 +298,15 @@ CREW = {
     ),
     "other_versions": Row("--other-versions", same("other_versions"), True),
 }
-BENCH = "bench.benchmark_run:run_benchmark"
 COMPARE = {
     **CREW,
-    "controller": Row("", same("controller"), "my:Mine", BENCH),
-    "bench": Row("", same("name"), "walkbench-1", BENCH),
     "out": Row("-o own", same("out"), Path("own")),
     "controllers": Row("--controllers NPD,PD", same("controllers"), ("NPD", "PD")),
     "conditions": Row("--conditions nothing", same("conditions"), ("nothing",)),
     "seeds": Row("--seeds 4", same("seeds"), 4),
-    "pushes": Row("--no-pushes", same("pushes"), False),
     "plant": Row("--plant mujoco", same("plant"), "mujoco"),
     "settings": Row("--settings as-published", same("settings.name"), "as-published"),
 }
-BENCHED = {BENCH: ("compare --bench walkbench-1 my:Mine", "")}
 SWEEP_FILE = """
 [study]
 name = "own"
@@ -542,7 +537,7 @@ COMMANDS = {
         },
     ),
     "reproduce": Command("reproduce", "paper.reproduction:reproduce", REPRODUCE),
-    "compare": Command("compare", "bench.compare_study:run_comparison", COMPARE, "", BENCHED),
+    "compare": Command("compare", "bench.compare_study:run_comparison", COMPARE),
     "sweep": Command(
         "sweep own.toml -o folder", "bench.sweep:sweep", SWEEP,
         others=dict.fromkeys(BESIDE_SWEEP, ("sweep own.toml -o folder", "bench.sweep:sweep")),
@@ -652,28 +647,6 @@ def test_walks_that_confirm_have_the_clock_that_was_asked_for(monkeypatch):
     _confirm(biped, gait, GPIObserver.from_poles(TABLE_I), TABLE_II, (0.002, 99.0, 0.001, True))
     shared = {"period": 0.002, "delay": 0.001, "known": True}
     assert called == [{**shared, "counts": None}, {**shared, "counts": 99.0}]
-
-
-def test_a_benchmark_gets_what_is_not_frozen():
-    line = "compare my:Mine --bench walkbench-1 -o own --settings mine.toml --seeds 3 --threads"
-    found = received(line.split(), BENCH, ())
-    assert (found.out, found.settings, found.seeds) == (Path("own"), Path("mine.toml"), 3)
-    assert type(found.workers).__name__ == "Threads"
-
-
-@pytest.mark.parametrize(
-    ("line", "message"),
-    [
-        ("compare --bench walkbench-1", "needs the controller"),
-        ("compare my:Mine", "goes with --bench; without it give --controllers my:Mine"),
-        ("compare my:Mine --bench walkbench-1 --no-pushes --plant mujoco", "--no-pushes, --plant"),
-        ("compare my:Mine --bench walkbench-1 --controllers NPD", "leave out --controllers"),
-        ("compare my:Mine --bench walkbench-1 --conditions delay", "leave out --conditions"),
-    ],
-)
-def test_a_benchmark_has_its_own_conditions_and_controllers(line, message):
-    with pytest.raises(ba.BipedError, match=message):
-        TOP.main(line.split(), standalone_mode=False)
 
 
 def test_a_gait_without_a_name_has_its_own(folder):

@@ -120,7 +120,7 @@ def compared(seeds: int, workers: Workers | Executor) -> list[Record]:
     """A comparison of two controllers with its figures and page; the records of its walks."""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder)
-        run_comparison(out, "", ("NPD", "ADRC"), seeds=seeds, pushes=False, workers=workers)
+        run_comparison(out, "", ("NPD", "ADRC"), seeds=seeds, workers=workers)
         with read_store(out / RESULTS) as store:
             return [json.loads(text) for (text,) in store.connection.execute(RECORDS)]
 

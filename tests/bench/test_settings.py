@@ -1,47 +1,28 @@
 """Sets of settings: what a contestant walks with where, files of one's own, and what is said of tuned ones."""
 
 import json
-import tomllib
-from pathlib import Path
 
 import pytest
 
 from biped_adrc.bench.comparison import compare
 from biped_adrc.bench.conditions import BASE, CONDITIONS, conditions_on
-from biped_adrc.bench.findings import answers, sentences
 from biped_adrc.bench.parameters import trial
 from biped_adrc.bench.settings import AS_PUBLISHED, SETTINGS, TUNED, settings_of
 from biped_adrc.cli.compare import _names
 from biped_adrc.errors import InputError
-from tests.bench.test_findings import row
-
-ROOT = Path(__file__).resolve().parents[2]
-CONTEST = tomllib.loads((ROOT / "benchmarks/tuned/contest.toml").read_text(encoding="utf-8"))
+from tests.bench.test_compare import row
 
 
-def asked(settings, controllers, conditions, pushes=False):
+def asked(settings, controllers, conditions):
     """The trials that a comparison asks for."""
     found = []
 
     def carry(records):
         found.extend(dict(r) for r in records)
-        return [row() for _ in records]
+        return [row(True) for _ in records]
 
-    compare(carry, controllers, conditions, 1, pushes, settings)
+    compare(carry, controllers, conditions, 1, settings)
     return found
-
-
-def said(walk, controllers, conditions, settings=TUNED):
-    """Sentences by family; `walk` makes a row of a record."""
-    found = compare(
-        lambda records: [walk(dict(r)) for r in records],
-        controllers,
-        conditions,
-        20,
-        False,
-        settings,
-    )
-    return sentences(answers(found))
 
 
 def test_a_condition_gives_each_contestant_the_values_of_its_place():
@@ -67,70 +48,11 @@ def test_what_no_search_has_tuned_walks_as_published_and_is_told_so():
     assert not TUNED.as_published("my_law:Mine", "ideal 1 kHz")
     assert not AS_PUBLISHED.as_published("NPD", None)
     text = TUNED.said(["NPD", "m = 1", "CLF-QP"], ["nothing", "delay"])
-    assert "no sentence: NPD (under delay); m = 1 (under delay); CLF-QP." in text
+    assert "As published: NPD (under delay); m = 1 (under delay); CLF-QP." in text
     assert "As published" not in TUNED.said(["NPD"], ["nothing"])
 
 
-def test_pushes_are_searched_with_the_settings_of_their_place():
-    pushed = [r for r in asked(TUNED, ["m = 2"], ["nothing"], pushes=True) if r["impacts"] == 9]
-    chosen = TUNED.places["ideal 1 kHz"]["m = 2"]
-    assert pushed
-    assert all(chosen.items() <= r.items() for r in pushed)
-    assert {(r["controller"], r["gait"], r["order"]) for r in pushed} == {("LESO", "v0.5", 2)}
-
-
-def test_tuned_controllers_are_not_walked_again_at_equal_bandwidth():
-    assert len(asked(TUNED, ["NPD", "m = 1"], ["nothing"])) == 1 + 2
-    assert len(asked(AS_PUBLISHED, ["NPD", "LESO"], ["nothing"])) == 1 + 3
-
-
-def half(r):
-    """A row whose errors are half of NPD's, for whoever has an observer; order 3 doubles them."""
-    known = {"NPD": 1.0, "LESO": 0.5, "ADRC": 0.5, "CLF-QP": 0.5, "my_law:Mine": 0.5}
-    error = known[r["controller"]] * (2.0 if r.get("order") == 3 else 1.0)
-    return row(rms_error=error, peak_error=error)
-
-
-def test_sentences_are_said_of_what_is_tuned_alone():
-    families = said(
-        half, ["NPD", "m = 1", "ADRC, Table I", "CLF-QP"], ["nothing", "RABBIT", "delay"]
-    )
-    assert len(families["rms_error"]) == 2, "under 'delay' nothing is tuned"
-    for line in families["rms_error"]:
-        assert "m = 1 0.5 (0.5 to 0.5) in 20 pairs" in line
-        assert "ADRC" not in line
-        assert "CLF-QP" not in line
-
-
-def test_a_class_of_ones_own_is_held_against_tuned_ones(monkeypatch):
-    monkeypatch.syspath_prepend(str(Path(__file__).parent))
-    mine = "standin_controller:StandinController"
-    families = said(
-        lambda r: half(r | {"controller": r["controller"].replace(mine, "my_law:Mine")}),
-        ["NPD", mine],
-        ["RABBIT"],
-    )
-    assert f"{mine} 0.5 (0.5 to 0.5) in 20 pairs" in families["rms_error"][0]
-
-
-def test_higher_orders_are_held_against_order_1():
-    families = said(half, ["NPD", "m = 1", "m = 2", "m = 3"], ["RABBIT late"])
-    (line,) = families["order"]
-    assert "as a multiple of that of m = 1" in line
-    assert "m = 3 2 (2 to 2) in 20 pairs" in line
-    assert "m = 2" not in line
-    assert "order" not in said(half, ["NPD", "LESO"], ["nothing"], AS_PUBLISHED)
-
-
-def test_the_seeds_of_the_comparison_are_none_of_the_searches():
-    seen = set()
-    for kind in ("training", "selection", "test"):
-        seeds = CONTEST[kind]["seeds"]
-        seen |= set(range(seeds["from"], seeds["from"] + seeds["count"]))
-    assert seen.isdisjoint(range(1000))
-
-
-def test_places_of_conditions_are_places_of_the_contest():
+def test_conditions_name_places_of_the_tuned_sets():
     for settings in (x for x in SETTINGS.values() if x.alike):
         assert {CONDITIONS[c].place for c in conditions_on("rigid", True)} <= set(settings.places)
         assert settings.name == f"tuned-{settings.values['gait']}"
@@ -201,7 +123,6 @@ def test_names_with_commas_are_read_from_a_list():
 def test_every_tuned_value_is_one_that_its_controller_takes():
     for settings in (x for x in SETTINGS.values() if x.alike):
         json.dumps(settings.places)
-        for place, there in settings.places.items():
-            walked = CONTEST["places"][place]["values"]
-            for name in there:
-                trial({**walked, **settings.of(name, place)})
+        for condition in conditions_on("rigid", True):
+            for name in settings.contestants:
+                trial(settings.record(condition, name, 0))
