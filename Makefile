@@ -12,7 +12,7 @@ BENCHMARKS := engine/calls engine/paper_run engine/engines engine/sampled engine
   pinocchio_calls
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile --constraint constraints.txt
 
-.PHONY: reproduce test fuzz docs pictures comparison walkbench tuned soft results verification attacks soft-limit dev lint format types imports bench mutants faults clean
+.PHONY: reproduce test docs pictures comparison walkbench tuned soft results verification soft-limit dev lint format types imports bench clean
 
 reproduce: .venv/.core
 	$(BIN)/biped-adrc reproduce --out $(OUT) $(ARGS)
@@ -21,10 +21,6 @@ reproduce: .venv/.core
 test: export OPENBLAS_NUM_THREADS ?= 1
 test: .venv/.test
 	$(BIN)/python -m pytest -rs --numprocesses auto --dist loadgroup --no-loadscope-reorder
-
-# damaged files and nonsense on the command line, 500 of each kind, and a leak: about 10 minutes
-fuzz: .venv/.test
-	$(BIN)/python -m tests.fuzz
 
 # the pages, in docs/_build/html
 docs: .venv/.dev
@@ -70,13 +66,6 @@ results: .venv/.core
 verification: .venv/.core
 	$(BIN)/python docs/write_verification.py
 
-# random walks against the numerics, one to two hours on two cores; tables in docs/robustness.md. What was found is kept
-# in $(OUT)/attacks, from where an interrupted run goes on
-attacks: .venv/.test
-	mkdir -p $(OUT)/attacks
-	for attack in engines contact steps searches; do \
-	  $(BIN)/python -m tests.robustness $$attack --out $(OUT)/attacks/$$attack.jsonl --page docs/robustness.md; done
-
 # the rigid walk as limit of the soft one, its multipliers, and walks that the rigid model calls legal, in MuJoCo: an
 # hour and a half on one core; tables in docs/soft_limit.md. What was found is kept in $(OUT)/soft-limit, from where
 # an interrupted run goes on
@@ -107,15 +96,6 @@ bench: .venv/.core
 	  $(BIN)/python benchmarks/$$script.py $(OUT)/benchmarks $(ARGS); done
 	$(BIN)/python benchmarks/gait_design.py $(OUT)/benchmarks --limit 10
 
-# faults put in one at a time, and which of them the tests notice: hours, resumable; ARGS="--limit 60" for an hour of
-# it, ARGS=--again for the survivors once more, ARGS=--report for the table alone
-mutants: .venv/.mutants
-	nice -n 19 $(BIN)/python benchmarks/mutants.py $(OUT)/mutants $(ARGS)
-
-# the faults that were chosen by hand, each against the test that has to notice it
-faults: .venv/.test
-	nice -n 19 $(BIN)/python benchmarks/mutants.py $(OUT)/mutants --planted $(ARGS)
-
 .venv/.made:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
 	  { echo "biped_adrc needs Python >= 3.11; found $$($(PYTHON) --version 2>&1). Try: make PYTHON=python3.12 ..."; exit 1; }
@@ -132,10 +112,6 @@ faults: .venv/.test
 
 .venv/.dev: .venv/.made pyproject.toml constraints.txt
 	$(PIP) --editable '.[dev]'
-	@touch $@ .venv/.test .venv/.core
-
-.venv/.mutants: .venv/.made pyproject.toml constraints.txt
-	$(PIP) --editable '.[mutants]'
 	@touch $@ .venv/.test .venv/.core
 
 clean:

@@ -5,8 +5,6 @@ import os
 import signal
 import subprocess
 import sys
-import threading
-import time
 from pathlib import Path
 
 import psutil
@@ -14,7 +12,6 @@ import pytest
 import standin
 
 from biped_adrc.campaign.store_open import read_store
-from biped_adrc.campaign.workers import Processes
 
 SOON = 30.0
 """[s] In which what takes less than a second has ended, on any machine; what would go on takes longer."""
@@ -85,51 +82,6 @@ def test_ctrl_c_ends_all_processes_and_keeps_what_was_finished(running):
     err = ended(process, path, below)
     assert "KeyboardInterrupt" in err
     assert tracebacks(err) == 1, err
-
-
-def test_ctrl_c_while_workers_stop_is_as_once(running):
-    process, path, below = running("asking")
-    os.killpg(process.pid, signal.SIGINT)
-    while process.stdout.readline() != "stopping\n":
-        pass
-    for _ in range(5):
-        os.killpg(process.pid, signal.SIGINT)
-        time.sleep(0.02)
-    err = ended(process, path, below)
-    assert tracebacks(err) == 1, err
-
-
-def test_ctrl_c_again_and_again_leaves_nothing_behind(running):
-    """Also where one of them comes as the interpreter ends, which may print more than one traceback."""
-    process, path, below = running()
-    for _ in range(5):
-        os.killpg(process.pid, signal.SIGINT)
-        time.sleep(0.02)
-    ended(process, path, below)
-    assert process.returncode != 0
-
-
-@pytest.mark.parametrize("pause", [0.3, 0.6, 0.9, 1.2, 1.6])
-def test_ctrl_c_while_workers_start(tmp_path, pause, started):
-    folder = Path(standin.__file__).parent
-    text = SCRIPT.replace("with open_store", "print(0, flush=True); \n    with open_store")
-    process = started(sys.executable, "-c", text, str(folder), str(tmp_path / "r.sqlite"))
-    process.stdout.readline()
-    time.sleep(pause / 2)
-    os.killpg(process.pid, signal.SIGINT)
-    _, err = process.communicate(timeout=SOON)
-    assert tracebacks(err) == 1, err
-    assert err.rstrip().endswith("KeyboardInterrupt"), err
-
-
-def test_workers_that_are_stopped_leave_no_thread_that_the_interpreter_would_wait_for():
-    before = {*threading.enumerate()}
-    crew = Processes(2)
-    executor = crew.start()
-    pending = [executor.submit(time.sleep, 60.0) for _ in range(4)]
-    crew.stop(executor, True)
-    assert {*threading.enumerate()} <= before
-    assert all(future.done() for future in pending)
 
 
 def test_killed_no_worker_is_left_behind(running):
