@@ -122,14 +122,13 @@ def test_about_3_newton_stop_the_gait_and_the_loop_more_than_doubles_that(bare, 
 
 
 # -- directions -----------------------------------------------------------------------------------
-def test_the_static_gain_is_what_a_held_correction_does(any_biped):
-    gait = ba.load_gait("v0.5", any_biped)
-    best = direction_merits(gait, any_biped)[0]
+def test_the_static_gain_is_what_a_held_correction_does(bare, gait):
+    best = direction_merits(gait, bare)[0]
     assert best.direction == STANCE_KNEE
     beta = 1e-3
-    law = HipCase("NPD", stride=True, preset=any_biped.preset).parts().law
+    law = stride()
     gains = ba.StrideGains(0.0, -1.0, limit=beta)  # one step with e > 0 takes beta to its bound
     held = ba.StridePI(law.inner, 5.0, law.step_length, STANCE_KNEE, gains)
-    step = forced_walk(gait, any_biped, 0.0, 60, held)[-1]
+    step = forced_walk(gait, bare, 0.0, 60, held)[-1]
     assert step.beta == -beta
     assert (step.speed - 0.5) / -beta == pytest.approx(best.static_gain, rel=5e-3)

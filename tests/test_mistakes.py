@@ -69,7 +69,7 @@ PYTHON = {
         lambda r: ba.walk_scenario(ba.Scenario("NPD", own={"bias": 0.1})),
         "'pitch sensor'",
     ),
-    "a number of impacts of a return map": (
+    "a gait for a passive cycle": (
         lambda r: ba.find_cycle("compass", gait="v0.8"),
         "no motors",
     ),

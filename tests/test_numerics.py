@@ -30,8 +30,9 @@ def all_finite(run):
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("controller", ["ADRC", "NPD"])
-@pytest.mark.parametrize("push", ["q5=90@1:0.1-", "q1,q2,q3,q4,q5=120@1:0.1-"])
+@pytest.mark.parametrize(
+    ("controller", "push"), [("ADRC", "q5=90@1:0.1-"), ("NPD", "q1,q2,q3,q4,q5=120@1:0.1-")]
+)
 def test_a_walk_that_explodes_has_run_away(tmp_path, engine, controller, push):
     s = ba.Scenario(controller, pushes=push, impacts=1, engine=engine)
     made = ba.walk_scenario(s)
@@ -62,9 +63,8 @@ class Strong(ba.Controller):
 
 
 @pytest.mark.parametrize(
-    "timing", [ba.ContinuousTime(), ba.SampledTime(1e-3)], ids=["continuous", "sampled"]
+    ("timing", "plain"), [(ba.ContinuousTime(), False), (ba.SampledTime(1e-3), True)]
 )
-@pytest.mark.parametrize("plain", [False, True], ids=["laws", "plain Python"])
 def test_the_bounds_are_the_walkers(biped, gait, timing, plain):
     law = ba.NPDController(gait.constraint)
     walker = ba.Walker(biped, Strong(law) if plain else law, timing=timing)

@@ -145,13 +145,13 @@ def test_simplest_walker_against_its_own_equations() -> None:
 
 # -- RABBIT ------------------------------------------------------------------------------------------
 @pytest.mark.parametrize("name", ["published", "recipe"])
-def test_multipliers_of_rabbit(any_biped: ba.Biped, name: str) -> None:
+def test_multipliers_of_rabbit(biped: ba.Biped, name: str) -> None:
     """The stored gaits of all presets, and delta^2 where the impact keeps to the constraint."""
-    cycle = gait_cycle(Scenario("NPD", preset=any_biped.preset, gait=name))
+    cycle = gait_cycle(Scenario("NPD", preset=biped.preset, gait=name))
     P = replace(cycle.P, method=ba.RK4(7e-4), difference=2e-5)
     step = solved(replace(cycle, P=P), 1e-7)
     check(step.multipliers, sorted_eigenvalues(P.jacobian(step.s)))
-    delta2 = ZeroDynamics.of(any_biped, P.walker.controller.reference).delta ** 2
+    delta2 = ZeroDynamics.of(biped, P.walker.controller.reference).delta ** 2
     gap = abs(step.multipliers[0].real / delta2 - 1.0)
     assert gap < 1e-6 if name == "published" else gap > 1e-4
 

@@ -76,8 +76,8 @@ def pre_impact(biped):
 
 # -- derivatives of the model ------------------------------------------------------------------------
 @pytest.mark.parametrize("friction", [False, True])
-def test_derivatives_of_the_acceleration(any_biped, friction):
-    biped = replace(any_biped, friction=friction)
+def test_derivatives_of_the_acceleration(biped, friction):
+    biped = replace(biped, friction=friction)
 
     def check(q, v, force):
         found = acceleration_derivatives(biped, q, v, force)
@@ -89,18 +89,18 @@ def test_derivatives_of_the_acceleration(any_biped, friction):
         check(*state)
 
 
-def test_derivatives_of_the_torque(any_biped):
+def test_derivatives_of_the_torque(biped):
     def check(q, v, a):
-        found = torque_derivatives(any_biped, q, v, a)
-        close(found.dq, difference(lambda x: any_biped.inertia(x) @ a + any_biped.bias(x, v), q))
-        close(found.dv, difference(lambda x: any_biped.bias(q, x), v))
+        found = torque_derivatives(biped, q, v, a)
+        close(found.dq, difference(lambda x: biped.inertia(x) @ a + biped.bias(x, v), q))
+        close(found.dv, difference(lambda x: biped.bias(q, x), v))
 
-    for state in states(any_biped):
+    for state in states(biped):
         check(*state)
 
 
-def test_second_derivative_of_the_feet(any_biped):
-    floating = any_biped.floating
+def test_second_derivative_of_the_feet(biped):
+    floating = biped.floating
 
     def check(x, foot):
         J, H = foot_derivatives(floating, x, foot)
@@ -109,7 +109,7 @@ def test_second_derivative_of_the_feet(any_biped):
         np.testing.assert_array_equal(H, np.swapaxes(H, 1, 2))
         assert J.shape == (2, 7)
 
-    for q, _, _ in states(any_biped):
+    for q, _, _ in states(biped):
         for foot in (floating.stance, floating.swing):
             check(floating.configuration(q), foot)
 
@@ -160,12 +160,12 @@ def loops(biped):
     }
 
 
-def test_derivative_of_the_flow(any_biped):
+def test_derivative_of_the_flow(biped):
     """A against differences of the whole closed loop, for every kind of law."""
     saturated = 0
-    for name, walker in loops(any_biped).items():
+    for name, walker in loops(biped).items():
         walker = replace(walker, runaway_torque=math.inf)
-        for q, v, _ in states(any_biped, 3, size=0.1):
+        for q, v, _ in states(biped, 3, size=0.1):
             x = np.concatenate((q, v))
             A = flow_derivative(walker, walker.instant(0.0, x, FIRST))
             close(A, difference(lambda y, w=walker: w.flow(0.0, y, FIRST), x, 2e-4), 1e-7)
@@ -178,10 +178,10 @@ def test_derivative_of_the_flow(any_biped):
     assert saturated > 0
 
 
-def test_differences_of_a_law_are_of_order_four_and_end_at_round_off(any_biped):
+def test_differences_of_a_law_are_of_order_four_and_end_at_round_off(biped):
     """The quotient for laws that are not known, against the derivative of NPD: 1e-10 at DIFFERENCE."""
-    walker = npd(any_biped)
-    q, v, _ = next(states(any_biped, size=0.1))
+    walker = npd(biped)
+    q, v, _ = next(states(biped, size=0.1))
     i = walker.instant(0.0, np.concatenate((q, v)), FIRST)
     exact = torque_derivative(walker, walker.instant(0.0, np.concatenate((q, v)), FIRST))
     size = np.max(np.abs(exact))
@@ -202,25 +202,25 @@ def test_third_derivative_of_a_constraint(gait):
 
 
 # -- saltation ---------------------------------------------------------------------------------------
-def test_saltation_carries_the_flow_across_the_impact(any_biped):
-    walker, x = npd(any_biped), pre_impact(any_biped)
+def test_saltation_carries_the_flow_across_the_impact(biped):
+    walker, x = npd(biped), pre_impact(biped)
     Xi = saltation(walker, 0.0, x, FIRST)
     before, after = walker.flow(0.0, x, FIRST), walker.flow(0.0, *walker.strike(0.0, x, FIRST))
     close(Xi @ before, after, 1e-12)
     dh = height_derivative(walker, x)
     close(dh, difference(lambda y: np.array([walker.clearance(y[:5])]), x)[0], 1e-10)
-    D = impact_derivatives(any_biped, x[:5], x[5:]).matrix
+    D = impact_derivatives(biped, x[:5], x[5:]).matrix
     along = np.linalg.svd(dh[np.newaxis])[2][1:].T  # the section, where Xi is D Delta itself
     close(Xi @ along, D @ along, 1e-12)
 
 
-def test_fundamental_matrix_across_an_impact(any_biped):
+def test_fundamental_matrix_across_an_impact(biped):
     """From 20 ms before foot strike to 20 ms after it, at fixed times: differences of plain simulations.
 
     Perturbed walks strike earlier or later; without saltation the matrix would miss that by far.
     """
-    walker, method = npd(any_biped), ba.RK4(5e-4)
-    start = walker.strike(0.0, pre_impact(any_biped), FIRST)
+    walker, method = npd(biped), ba.RK4(5e-4)
+    start = walker.strike(0.0, pre_impact(biped), FIRST)
     whole = ba.simulate(walker, *start, method, t_end=2.0, stop_after=("foot_strike", 1))
     t0, t1 = whole.t_end - 0.02, whole.t_end + 0.02
     x0 = whole(t0)
@@ -237,10 +237,10 @@ def test_fundamental_matrix_across_an_impact(any_biped):
 
 
 # -- multipliers -------------------------------------------------------------------------------------
-def test_multipliers_of_the_published_gait(any_biped):
+def test_multipliers_of_the_published_gait(biped):
     """Against one quadrature, which shares no derivative with it; against differences in test_stability.py."""
-    walker, x = npd(any_biped), pre_impact(any_biped)
-    delta2 = ZeroDynamics.of(any_biped, walker.controller.reference).delta ** 2
+    walker, x = npd(biped), pre_impact(biped)
+    delta2 = ZeroDynamics.of(biped, walker.controller.reference).delta ** 2
     P = ba.ReturnMap(walker, EXACT)
     orbit, step = periodic_orbit(P, x)
     assert orbit.x_minus == pytest.approx(x, abs=1e-8)
@@ -253,19 +253,19 @@ def test_multipliers_of_the_published_gait(any_biped):
     np.testing.assert_allclose(step.image, coarse(coarse.project(x)), rtol=0.0, atol=1e-11)
 
 
-def test_monodromy_has_the_multipliers_and_one(any_biped):
+def test_monodromy_has_the_multipliers_and_one(biped):
     """Xi Phi and dP/ds are made by different projections; the flow itself returns with multiplier 1."""
-    P = ba.ReturnMap(npd(any_biped), EXACT)
-    step = periodic_orbit(P, pre_impact(any_biped))[1]
+    P = ba.ReturnMap(npd(biped), EXACT)
+    step = periodic_orbit(P, pre_impact(biped))[1]
     whole = sorted_eigenvalues(step.monodromy)
     assert whole[0] == pytest.approx(1.0, abs=1e-7)
     np.testing.assert_allclose(np.abs(whole[1:]), np.abs(step.multipliers), rtol=0.0, atol=1e-8)
 
 
-def test_order_of_convergence(any_biped):
+def test_order_of_convergence(biped):
     """With RK4 the largest multiplier converges to delta^2, and dP/ds to its limit, with order 4."""
-    walker, x = npd(any_biped), pre_impact(any_biped)
-    delta2 = ZeroDynamics.of(any_biped, walker.controller.reference).delta ** 2
+    walker, x = npd(biped), pre_impact(biped)
+    delta2 = ZeroDynamics.of(biped, walker.controller.reference).delta ** 2
     exact = ba.ReturnMap(walker, ba.Adaptive(1e-12, 1e-12))
     limit = differentiate_step(exact, exact.project(x)).jacobian
     by_value, by_matrix = [], []

@@ -1,15 +1,12 @@
-"""The same study on a real Dask cluster of separate processes, with workers and a scheduler that go away."""
+"""The same study on a real Dask cluster of separate processes, with a worker that dies."""
 
-import gc
 import os
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 import standin
-from distributed import Client
 from standin import about, records, results, rows
 
 from biped_adrc.bench.study_file import read_study
@@ -25,9 +22,6 @@ from biped_adrc.versions import numerical_versions
 pytestmark = pytest.mark.filterwarnings("ignore")
 FOLDER = Path(standin.__file__).parent
 
-SOON = 20.0
-"""[s] In which what is not there is given up; Dask itself would wait for 30 s or more."""
-
 SCHEDULER = """
 import sys, time
 sys.path.insert(0, sys.argv[1])
@@ -42,10 +36,11 @@ if __name__ == "__main__":
 """
 
 
-def started(workers):
-    """A cluster of its own process, and its address."""
+@pytest.fixture(scope="module")
+def address():
+    """Of a cluster in a process of its own, with two workers in theirs."""
     process = subprocess.Popen(
-        [sys.executable, "-c", SCHEDULER, str(FOLDER), str(workers)],
+        [sys.executable, "-c", SCHEDULER, str(FOLDER), "2"],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
@@ -53,13 +48,7 @@ def started(workers):
         start_new_session=True,
         env={**os.environ, "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "1"},
     )
-    return process, process.stdout.readline().strip()
-
-
-@pytest.fixture(scope="module")
-def address():
-    process, address = started(2)
-    yield address
+    yield process.stdout.readline().strip()
     process.communicate("")
 
 
@@ -91,35 +80,15 @@ def test_a_worker_that_is_killed_in_the_middle(tmp_path, address):
     assert [row for *_, row in found] == rows(records(90))
 
 
-@pytest.mark.parametrize(
-    "address",
-    [
-        "nowhere",
-        "",
-        "tcp://",
-        "tcp://localhost",
-        "tcp://host:port",
-        "foo://bar:1",
-        "tcp://host:70000",
-    ],
-)
+@pytest.mark.parametrize("address", ["nowhere", "tcp://host:port", "tcp://host:70000"])
 def test_what_is_no_address(address):
     with pytest.raises(InputError, match=r"is '.*', expected one such as tcp://host:8786"):
         Cluster(address).start()
 
 
-@pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "127.0.0.1:9", "tls://127.0.0.1:9"])
-def test_a_scheduler_that_does_not_answer(address):
-    """And nothing of the attempt is left, which Dask would try to close while the next client starts."""
-    begin = time.monotonic()
-    gc.disable()
-    try:
-        with pytest.raises(InputError, match="no Dask scheduler answers"):
-            Cluster(address, timeout=1.0).start()
-        assert not [x for x in gc.get_objects() if type(x) is Client and x.status != "closed"]
-    finally:
-        gc.enable()
-    assert time.monotonic() - begin < SOON
+def test_a_scheduler_that_does_not_answer():
+    with pytest.raises(InputError, match="no Dask scheduler answers"):
+        Cluster("tcp://127.0.0.1:9", timeout=1.0).start()
 
 
 def test_a_worker_with_other_versions_is_refused(monkeypatch, address):

@@ -107,13 +107,14 @@ def test_walks_of_threads_and_processes_have_the_same_bits(tmp_path):
     assert (made[0].candidates, made[0].held_out) == (made[1].candidates, made[1].held_out)
 
 
-def test_a_search_that_is_killed_goes_on_to_the_same_rows(tmp_path, started):
+@pytest.mark.parametrize("by", [signal.SIGKILL, signal.SIGINT])
+def test_a_search_that_is_stopped_goes_on_to_the_same_rows(tmp_path, started, by):
     script = Path(__file__).parent / "tune_slowly.py"
     process = started(sys.executable, str(script), str(tmp_path / "killed"))
     for line in process.stdout:
         if line.strip() == "7":
-            process.kill()
-    assert process.wait() == -signal.SIGKILL
+            process.send_signal(by)
+    assert process.wait() == -by
     assert 7 <= len(results(tmp_path / "killed")) < 12
     study = study_of(budget=12, generation=4)
     killed = tune(study, tmp_path / "killed", Threads(2), function=plant.rows)
