@@ -42,7 +42,7 @@ PYTHON = {
     ),
     "a list of pushes": (
         lambda r: ba.Walker(r.biped, ba.Passive(), [ba.TorquePulse([1.0] * 5)]),
-        "is a list",
+        "(a list)",
     ),
     "a bandwidth as the observer": (lambda r: ba.ADRCController(r.h, 500.0), "from_bandwidth"),
     "degrees as the start": (

@@ -62,8 +62,8 @@ def test_walks_are_the_same_as_in_threads(tmp_path, address):
     study = read_study(
         {
             "study": {"name": "walks", "seeds": 2},
-            "fixed": {"impacts": 2, "start_rate_spread": 0.05},
-            "grid": {"controller": ["ADRC", "NPD"]},
+            "fixed": {"controller": "NPD", "impacts": 1, "start_rate_spread": 0.05},
+            "grid": {"K_p": [4000.0, 5000.0]},
         }
     )
     here = sweep(study, tmp_path / "here", Threads(2))
