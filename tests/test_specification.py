@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib.util
-import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,7 +14,6 @@ from scipy.optimize import minimize
 
 import biped_adrc as ba
 from biped_adrc.engine.tick_derivative import _differenced, tick_derivative
-from biped_adrc.errors import InputError
 from biped_adrc.hardware.pitch_sensor import PitchSensor
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.observer_design.disk_margin import (
@@ -25,10 +23,7 @@ from biped_adrc.observer_design.disk_margin import (
 )
 from biped_adrc.observer_design.frequency_response import Response
 from biped_adrc.observer_design.tick_matrices import (
-    TickMatrices,
-    _acting,
     linear_twin,
-    tick_matrices,
 )
 from biped_adrc.observer_design.walker_loop import FREQUENCIES, robot_step
 from biped_adrc.scenario.specified import specification_of
@@ -213,13 +208,6 @@ def test_a_hidden_delay_is_as_one_of_the_clock_that_the_controller_does_not_know
     assert loop.delay_margin(0.5 * margin) == 0.5 * margin  # looked for up to there
 
 
-def test_what_nothing_depends_on_is_left_out(walks):
-    walker, gait, loop = loop_of(walks, controller="NPD", velocity="measured")
-    points = ba.FrozenGait.of(walker.plant, gait, spread=0.0).points
-    assert tick_matrices(linear_twin(walker), points).Z.shape == (len(points), 0, 0)
-    assert loop.matrices().M.shape == (10, 10)
-
-
 # -- sensors ---------------------------------------------------------------------------------------
 def test_errors_of_sensors_are_those_of_what_they_show():
     n, p = 5, 4
@@ -298,18 +286,6 @@ def test_the_structured_value_is_reached_by_a_diagonal_matrix(p):
     assert value <= balanced_bound(M[np.newaxis])[0] * (1 + 1e-9)
 
 
-def test_the_response_by_the_triangular_form():
-    """Of two systems at once, at frequencies of their own."""
-    random = np.random.default_rng(5)
-    M, B, C, D = (random.normal(size=(2, *s)) for s in ((6, 6), (6, 2), (3, 6), (3, 2)))
-    angles = np.array([[0.1, 1.0, 3.0], [0.2, 1.5, 2.0]])
-    direct = [
-        [C[i] @ np.linalg.solve(np.exp(1j * a) * np.eye(6) - M[i], B[i]) + D[i] for a in angles[i]]
-        for i in range(2)
-    ]
-    np.testing.assert_allclose(Response.of(M, B, C, D).at(angles), direct, rtol=1e-10)
-
-
 @pytest.mark.parametrize("late", [{"delay": 1.2e-3, "lag": 1e-3}, {"velocity": "measured"}])
 def test_sensitivity_of_a_walker_is_that_of_its_open_loop(walks, late):
     """S = 1 / (1 - G), with G from the torque to the torque that the controller then asks for; controller and
@@ -325,13 +301,6 @@ def test_sensitivity_of_a_walker_is_that_of_its_open_loop(walks, late):
     np.testing.assert_allclose(loop.sensitivity()[: len(w)], S, atol=1e-9 * np.max(np.abs(S)))
 
 
-def test_the_largest_value_is_found_though_not_all_are_computed(walks):
-    walker, gait = walks.candidate({"controller": "LESO", "hardware": "rabbit", "bandwidth": 200.0})
-    S = walks.specified(walker, gait).loops.sensitivity()[0, 0]
-    each = [structured_value(one - 0.5 * np.eye(len(one))) for one in S]
-    assert disk_margin(S) == pytest.approx(1.0 / max(each), rel=1e-12)
-
-
 # -- all loops together ----------------------------------------------------------------------------
 def test_loops_together_are_the_loops_one_by_one():
     """With a filter and old angles in z, and a torque that changes within the period."""
@@ -343,57 +312,3 @@ def test_loops_together_are_the_loops_one_by_one():
     assert loops.delay_margin(0.05) == pytest.approx(min(margins), abs=2e-9)
     assert np.ptp(margins) > 1e-4
     np.testing.assert_allclose(loops[2, 3].sensitivity()[:100], loops.sensitivity()[2, 3, :100])
-
-
-def test_numbers_that_act_in_one_ratio_count_as_one():
-    """z_1 and z_2 act by z_1 + 2 z_2 alone, and on z_3 nothing depends: the same u from the same (q, q')."""
-    Z = np.array([[[0.5, 1.0, 0.0], [0.1, 0.2, 0.0], [1.0, 2.0, 0.0]]])
-    Y, C, E = np.array([[[1.0], [3.0], [1.0]]]), np.array([[[0.5, 1.0, 0.0]]]), np.zeros((1, 1, 1))
-    some = _acting(TickMatrices(Z, Y, C, E))
-    assert some.Z.shape == (1, 1, 1)
-    angles = np.array([[0.3, 2.0]])
-    whole, less = (Response.of(*tick).at(angles) for tick in ((Z, Y, C, E), some))
-    np.testing.assert_allclose(less, whole, rtol=1e-12)
-
-
-# -- words and numbers -----------------------------------------------------------------------------
-def test_an_unstable_loop_is_the_word(walks):
-    s = ba.Scenario("LESO", hardware="rabbit", bandwidth=800.0, delay=4e-3)
-    columns = ba.specified(s)
-    assert columns["stable"] == columns["delay_margin"] == columns["disk_margin"] == 0.0
-    assert columns["ripple"] == math.inf
-    assert not any(math.isnan(x) for x in columns.values())
-    text = str(walks.specified(*walks.candidate({"hardware": "rabbit", **s.record()})))
-    assert text.startswith("unstable: ")
-
-
-def test_other_inertias_can_only_take_from_a_margin():
-    s = ba.Scenario("LESO", hardware="rabbit", bandwidth=160.0, order=2)
-    spec = specification_of(s)
-    alone = replace(spec, loops=spec.loops[:, :1])
-    assert spec.delay_margin < alone.delay_margin
-    assert spec.disk_margin <= alone.disk_margin
-    assert "ms of hidden delay" in str(spec)
-
-
-@pytest.mark.parametrize(
-    ("values", "words"),
-    [
-        ({"controller": "NPD"}, "give timing=SampledTime"),
-        ({"controller": "NPD", "period": 1e-3, "plant": "mujoco"}, "on plant 'mujoco'"),
-        ({"controller": "NPD", "period": 1e-3, "touchdown": "told"}, "notice touchdowns"),
-        ({"controller": "passive", "robot": "compass"}, "walks no gait"),
-    ],
-)
-def test_what_has_no_specification_is_refused(values, words):
-    with pytest.raises(InputError, match=words):
-        ba.specified(ba.Scenario(**values))
-
-
-def test_bad_numbers_are_refused(biped, gait):
-    with pytest.raises(InputError, match="spread"):
-        ba.FrozenGait.of(biped, gait, spread=1.0)
-    with pytest.raises(InputError, match="sensitivity has shape"):
-        disk_margin(np.zeros((3, 2)))
-    with pytest.raises(InputError, match="continuous time"):
-        tick_derivative(ba.Walker(biped, ba.NPDController(gait.constraint)), 10)
