@@ -10,7 +10,6 @@ the ticks and z_2 is the held torque.
 from __future__ import annotations
 
 import math
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -34,10 +33,8 @@ from biped_adrc.engine.kernels.run_plan import (
 from biped_adrc.errors import InputError, NotFiniteError, SingularError
 from biped_adrc.hybrid import integrators, simulator
 from biped_adrc.hybrid import system as hybrid
-from biped_adrc.hybrid.exponential import Exponential, phi_table
+from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.watch import RESOLUTION
-from biped_adrc.observers.gpi import GPIObserver
 
 GRAVITY, ALPHA, A0, A1, ZERO_PIVOT_AT, NAN_AT, BLOW, GAIN, LOWEST_HIP, LONGEST, HOLE = range(11)
 NUMBERS = np.array([9.81, 0.3, 400.0, 50.0, math.inf, math.inf, 0.0, 0.5, 0.5, 3.0, math.inf])
@@ -66,12 +63,6 @@ class Walked(NamedTuple):
 def walk_plan(made, K, x, t, step, t_start, t_end, impacts, x_minus, x_plus, times):
     """A walk of a plan; strike i goes into row i of x_minus, x_plus and times."""
     m, nx = len(times), made.nx
-    if x_minus.shape != (m, nx) or x_plus.shape != (m, nx):
-        raise InputError(
-            f"x- and x+ have shapes {x_minus.shape} and {x_plus.shape}, expected ({m}, {nx}) for {m} times"
-        )
-    if not (math.isfinite(t) and math.isfinite(t_end) and t_end > t):
-        raise InputError(f"the run would go from {t} s to {t_end} s; expected a positive duration")
     s, strikes = made.start(x, t, step, t_start, t_end), np.zeros((m, 1 + 2 * nx))
     status, count = kernels().stride(made.P, made.F, K, made.work(), s, impacts, strikes)
     times[:count] = strikes[:count, 0]
@@ -325,7 +316,6 @@ SAMPLED = Case(clock=ClockTable(7e-3, 1, 0.0))
 FREE = Case(clock=ClockTable(7e-3, 0, 0.0))
 PAIRS = {
     "rk4": (Case(), methods.rk4(1e-3), integrators.RK4(1e-3), 2e-13),
-    "rk4 with long steps": (Case(), methods.rk4(7e-3), integrators.RK4(7e-3), 2e-13),
     "dop853": (
         Case(),
         methods.dop853(1e-10, 1e-10, 0.02),
@@ -338,8 +328,6 @@ PAIRS = {
     "sampled, a free clock": (FREE, methods.rk4(2e-3), integrators.RK4(2e-3), 2e-13),
 }
 """Case, method, the same in Python, and by how much they may differ."""
-SLOPES = {"rk4 with long steps": 5e-3}
-"""Inside a long step x' is the flow there; the Python loop takes differences of the step's own states."""
 
 
 @pytest.mark.parametrize("name", PAIRS)
@@ -354,11 +342,10 @@ def test_a_walk_is_the_python_engine_s(address, name):
     np.testing.assert_array_equal(end.x, strikes[2][-1])
 
 
-@pytest.mark.parametrize("every", [1, 3])
 @pytest.mark.parametrize("name", PAIRS)
-def test_the_nodes_of_an_arc_are_the_python_engine_s(address, name, every):
-    """Whatever the size of the buffer, and the run's vector is left as it was."""
-    case, ours, theirs, tolerance = PAIRS[name]
+def test_the_nodes_of_an_arc_are_the_python_engine_s(address, name):
+    """Every third one, whatever the size of the buffer; the run's vector is left as it was."""
+    (case, ours, theirs, tolerance), every = PAIRS[name], 3
     made = case.plan(address, ours)
     s = made.start(START, 0.0, 1, 0.0, FAR)
     before = s.copy()
@@ -370,19 +357,8 @@ def test_the_nodes_of_an_arc_are_the_python_engine_s(address, name, every):
     python = case.python(theirs, impacts=1, every=every).arcs[0]
     np.testing.assert_allclose(run.t, python.t, rtol=0, atol=tolerance)
     np.testing.assert_allclose(run.x, python.x, rtol=0, atol=tolerance)
-    np.testing.assert_allclose(run.dx, python.dx, rtol=0, atol=SLOPES.get(name, 1e-6))
+    np.testing.assert_allclose(run.dx, python.dx, rtol=0, atol=1e-6)
     assert run.code == layout.STRUCK
-
-
-def test_a_strike_does_not_fire_again(address):
-    """theta+ = -alpha is on the surface, to within round-off on either side, and so are x+ of later arcs."""
-    for method in (methods.rk4(1e-3), methods.dop853(1e-9, 1e-9, 0.02)):
-        _, (times, before, after) = Case(drops=()).walk(address, method, impacts=10)
-        clearance = NUMBERS[ALPHA] ** 2 - after[:, 0] ** 2
-        assert np.max(np.abs(clearance)) < 1e-14
-        assert len(times) == 10
-        assert np.min(np.diff(times)) > 0.2
-        assert np.all(before[:, 0] > 0.29)
 
 
 def test_a_swing_foot_behind_is_no_strike(address):
@@ -414,50 +390,6 @@ def test_there_and_back_inside_one_step(address, ours, theirs, tolerance):
     assert STATUS[end.code] is Status.COMPLETED
     assert 0.0 < end.t < 4e-3
     same_strikes(trajectory, strikes, tolerance)
-
-
-def test_threads_do_not_meet(address):
-    """Runs beside each other, without the GIL, are bit for bit those one after the other."""
-    case, method = Case(), methods.etd(1e-3, linear(NUMBERS), [1])
-    starts = [START * (1.0 + 1e-3 * i) for i in range(8)]
-
-    def run(x):
-        return case.walk(address, method, impacts=8, x=x)[1]
-
-    with ThreadPoolExecutor(4) as pool:
-        beside = list(pool.map(run, starts))
-    for one, other in zip(beside, map(run, starts), strict=True):
-        for a, b in zip(one, other, strict=True):
-            np.testing.assert_array_equal(a, b)
-
-
-@pytest.mark.parametrize("restart", [1, 0])
-def test_ticks_are_counted_from_their_start(address, restart):
-    """z_1 counts them: from the last strike, or from the start of the run, each at t0 + k T."""
-    T, t0 = 7e-3, 0.013
-    case = Case(clock=ClockTable(T, restart, t0), pulses=())
-    _, (times, before, _) = case.walk(address, methods.rk4(2e-3), impacts=4, t0=t0)
-    starts = [t0, *times[:-1]]
-    if restart:
-        counts = np.cumsum([math.ceil((t - s) / T) for s, t in zip(starts, times, strict=True)])
-    else:
-        counts = np.array([math.ceil((t - t0) / T) for t in times])
-    np.testing.assert_allclose(before[:, 2] - START[2], counts, rtol=0, atol=1e-10)
-
-
-def test_an_arc_in_stretches_is_the_arc(address):
-    """As a controller in Python goes on from tick to tick: the same nodes but for those at the ticks."""
-    case, every = Case(pulses=()), 4e-3
-    made, R = case.plan(address, methods.rk4(1e-3)), np.empty((64, 9))
-    whole = arc(made, case.K, made.start(START, 0.0, 1, 0.0, FAR))
-    s, W, k, code = made.start(START, 0.0, 1, 0.0, every), made.work(), 1, layout.COMPLETED
-    while code == layout.COMPLETED:
-        s[layout.END] = k * every
-        code = kernels().arc(made.P, made.F, case.K, W, s, R)
-        k += 1
-    assert code == whole.code == layout.STRUCK
-    np.testing.assert_allclose(s[layout.TIME], whole.s[layout.TIME], rtol=0, atol=1e-13)
-    np.testing.assert_allclose(s[layout.HEAD :], whole.s[layout.HEAD :], rtol=0, atol=1e-13)
 
 
 # -- order ---------------------------------------------------------------------------------------
@@ -560,19 +492,6 @@ def test_more_strikes_than_room(address):
 
 
 # -- tables --------------------------------------------------------------------------------------
-@pytest.mark.parametrize("h", [2e-3, 5e-4, 1e-4])
-def test_the_matrices_are_scipy_s(h):
-    """At Table I, each against the largest of its entries, for the step and its halvings."""
-    A = GPIObserver.from_poles().error_system().A
-    table = methods.etd(h, A, [1]).phi
-    for level in (0, 1, 5, 12):
-        for ours, theirs in zip(table[level], phi_table(A, h * 0.5**level), strict=True):
-            assert np.max(np.abs(ours - theirs)) < 1e-12 * np.max(np.abs(theirs))
-
-
-def test_the_constants_are_those_of_the_python_loop():
-    assert layout.RESOLUTION == RESOLUTION
-    assert layout.LANDING == integrators.LANDING
 
 
 def fitted(tick, period, method):
