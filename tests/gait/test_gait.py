@@ -5,10 +5,11 @@ from math import comb
 
 import numpy as np
 import pytest
+from scipy import interpolate
 
 import biped_adrc as ba
 from biped_adrc.errors import GaitError, OutputError
-from biped_adrc.gait.bspline import BSpline
+from biped_adrc.gait.bspline import BSpline, knots
 from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.curves import Bezier, Polynomial
 from biped_adrc.gait.published import X_STAR, design_published_gait
@@ -39,6 +40,20 @@ def test_a_curve_at_many_phases_at_once(kind):
     curve = kind(np.random.default_rng(1).normal(size=(3, 8)))
     s = np.concatenate((np.linspace(-0.2, 1.2, 29), curve.pieces[0]))
     np.testing.assert_allclose(curve.over(s), [curve(x)[0] for x in s], rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("kind", [Bezier, BSpline])
+@pytest.mark.parametrize("degree", [3, 4, 9])
+def test_coefficients_at_the_abscissae_are_the_straight_line(kind, degree):
+    """Linear precision: sum_k s_k N_k(s) = s, by SciPy's splines for those of pieces."""
+    line = kind(kind.abscissae(degree)[np.newaxis])
+    for s in (0.0, 0.137, 0.5, 0.9, 1.0):
+        assert np.ravel(line(s)) == pytest.approx([s, 1.0, 0.0], abs=1e-12)
+    if kind is BSpline:
+        a = np.random.default_rng(degree).normal(size=degree + 1)
+        s = np.linspace(0.0, 1.0, 41)
+        theirs = interpolate.BSpline(knots(degree), a, 3)(s)
+        np.testing.assert_allclose(kind(a[np.newaxis]).over(s)[:, 0], theirs, atol=1e-12)
 
 
 def test_a_constraint_at_many_phases_at_once(gait):

@@ -14,10 +14,8 @@ from biped_adrc.engine.symbols import Scalar
 from biped_adrc.engine.tracer import Tracer
 from biped_adrc.hardware.loads import Loads, Outside
 from biped_adrc.hardware.meter import (
-    READINGS,
     Hit,
     Meter,
-    Reading,
     greater,
     metered,
     metered_impact,
@@ -143,7 +141,7 @@ def test_no_window_reaches_over_an_impact(biped, gait):
 
 
 @pytest.mark.parametrize("since", [0.3, 0.7])
-@pytest.mark.parametrize("ticks", [3, 5, 6, 9])
+@pytest.mark.parametrize("ticks", [3, 9])
 def test_the_last_window_ends_at_the_impact(biped, gait, ticks, since):
     """300 N up to the last tick, none after it: over five periods, or all there are."""
     ground = Ground(biped, gait)
@@ -196,10 +194,6 @@ def test_scuffing_and_torque_are_seen(biped, gait):
     assert downhill.reading.scuffing == pytest.approx(0.002)
 
 
-def test_readings_are_what_they_say():
-    assert len(Reading._fields) == READINGS
-
-
 def walker_of(biped, gait, disturbance, **more):
     heavier = biped.with_errors(mass={"torso": 1.1})
     return ba.Walker(
@@ -224,11 +218,10 @@ def pushes(biped):
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("slope", [0.0, 0.01])
-def test_the_meter_reads_what_the_stored_nodes_show(biped, gait, engine, slope):
+def test_the_meter_reads_what_the_stored_nodes_show(biped, gait, engine):
     """Of the same sampled walk: at the ticks and over windows between them exactly, and against certificates,
     which look at every instant, within what the force changes in a period."""
-    walker = walker_of(biped, gait, pushes(biped), slope=slope)
+    walker = walker_of(biped, gait, pushes(biped), slope=0.01)
     walk = ba.walk(walker, gait, impacts=3, method=ba.RK4(0.25 * T), engine=engine)
     g = reading(walker.held_at(walk.trajectory.final_state).g)
     least, friction, instants, ratios, outside = [], [], [], [], 0
@@ -275,14 +268,6 @@ def last_mean(walker, step, t, ticks, F):
     held = since * push.resultant(ticks[-1], step, t[0])
     given = push.impulse(ticks[-1], t[-1], step, t[0])
     return (whole[1] - whole[0] + given - held) / length
-
-
-def test_both_engines_read_alike_under_forces(biped, gait):
-    for more in ({}, {"slope": 0.01, "ground_steps": (ba.StepDown(2, 0.004),)}):
-        walker = walker_of(biped, gait, pushes(biped), **more)
-        runs = [ba.walk(walker, gait, impacts=3, engine=e).trajectory for e in ENGINES]
-        one, other = (reading(walker.held_at(run.final_state).g) for run in runs)
-        assert one == pytest.approx(other, rel=1e-7, abs=1e-9)
 
 
 def test_the_plant_is_judged_and_not_the_model(biped, gait):
@@ -350,14 +335,8 @@ def test_a_trial_says_whether_it_was_legal_and_why_not():
         }
     )
     assert (fell["outcome"], fell["legal"], fell["legal_impacts"]) == ("fell", 0, 2)
-    stalled = run_trial({**common, "start_speed": -0.9, "max_step_time": 0.3})
-    assert (stalled["status"], stalled["outcome"]) == ("STALLED", "ended")
     bare = run_trial({**common, "preset": "identified-bare"})
     assert (bare["outcome"], bare["bad_impulse"]) == ("legal", 1)
-    for bad, unit in ((0.0, "friction_limit"), (1.5, "friction_limit"), (-1.0, "force_window")):
-        refused = run_trial({**common, unit: bad})
-        assert refused["status"] == "REFUSED"
-        assert unit in refused["detail"]
 
 
 def test_steps_shorter_than_the_window_are_judged_as_a_whole(biped, gait):
@@ -379,25 +358,6 @@ def test_steps_shorter_than_the_window_are_judged_as_a_whole(biped, gait):
         assert (g.windows, g.illegal_step) == (3.0, step)
         assert g.mean_normal_force == pytest.approx(F[1], rel=1e-3)
         assert g.mean_friction == pytest.approx(needed, rel=1e-2)
-
-
-class Tied(ba.OnLink):
-    """A force on a link whose law says nothing of its resultant."""
-
-    @property
-    def laws(self):
-        return tuple(law._replace(resultant=None) for law in super().laws)
-
-    def resultant(self, t, step, t_start):
-        return np.array([1.0, 2.0])
-
-
-def test_a_resultant_without_a_law_does_not_compile(biped, gait):
-    wave = ba.TorquePulse([-80.0, 40.0, 5.0], step=1, start=0.1, stop=0.2)
-    walker = walker_of(biped, gait, Tied(biped, biped.description.trunk, wave))
-    run = ba.walk(walker, gait, impacts=1, engine="compiled").trajectory
-    assert run.settings["engine"] != "compiled"
-    assert "Tied has a resultant and no law of it" in run.settings["why"]
 
 
 def test_a_foot_that_comes_from_lower_ground_does_not_scuff(biped, gait):

@@ -278,7 +278,8 @@ def test_what_cannot_be_guessed_is_asked_for(urdf, text, hints, word):
 
 def test_one_motor_between_the_legs_is_refused():
     """A compass with a motor at the hip: the angle changes its sign at impact, no motor takes its place."""
-    path, hip = data_folder("urdf") / "compass" / "floating.urdf", ba.Biped.load("compass").description.joints[0]
+    path = data_folder("urdf") / "compass" / "floating.urdf"
+    hip = ba.Biped.load("compass").description.joints[0]
     with pytest.raises(ba.BipedError, match="exchanged"):
         derive(path, Hints(actuated=(hip,), torque=100.0))
 
