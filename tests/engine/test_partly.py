@@ -126,28 +126,10 @@ def test_tick_by_tick(gait, ticked, restart):
 def test_tick_by_tick_with_other_methods_pushes_and_ground(biped, gait, ticked):
     push = ba.TorquePulse((30.0, 0.0, -10.0, 5.0, 3.0), 1, 0.1003, 0.1007)
     walker = replace(ticked, disturbance=push, ground_steps=(ba.StepDown(1, 0.002),))
+    heavy = biped.with_errors(mass={"torso": 1.05})
+    walker = replace(walker, plant=heavy, model=biped, slope=0.02)
     same(*runs(walker, gait, ba.RK4(1e-3)), TICKS, "InPython")
     same(*runs(walker, gait, ba.Adaptive(1e-9, 1e-9), impacts=1), TICKS, "InPython")
-    heavy = biped.with_errors(mass={"torso": 1.05})
-    walker = replace(ticked, plant=heavy, model=biped, slope=0.02)
-    same(*runs(walker, gait, ba.RK4(1e-3), impacts=1), TICKS, "InPython")
-
-
-def test_tick_by_tick_within_a_single_support(gait, ticked):
-    late = {"mode": Mode(2, 0.1), "t0": 0.2, "t_end": 0.71237, "impacts": None}
-    same(*runs(ticked, gait, ba.RK4(3e-4), **late), TICKS, "InPython")
-
-
-def test_tick_by_tick_to_every_end(gait, ticked):
-    push = ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 1, 0.1)
-    for status, (walker, t_end) in {
-        ba.Status.FELL: (replace(ticked, disturbance=push), 4.0),
-        ba.Status.STALLED: (replace(ticked, max_step_time=0.3), 4.0),
-        ba.Status.TIME_OUT: (ticked, 0.7),
-    }.items():
-        python, partly = runs(walker, gait, ba.RK4(1e-3), t_end=t_end)
-        assert python.status is status
-        same(python, partly, 1e-9, "InPython")
 
 
 @pytest.mark.parametrize("method", [ba.RK4(2e-3), ba.Stiff(1e-6, 1e-6)], ids=["RK4", "stiff"])
@@ -168,31 +150,12 @@ def test_disturbances_without_laws(biped, gait, sampled):
     tolerance = TICKS if sampled else SHARP
     npd = ba.NPDController(gait.constraint)
     hip = ba.HipForce(biped, (-2.0, 0.0))
-    for push in (Falling(), Falling() + hip):
-        walker = ba.Walker(biped, npd, push, time)
-        why = "disturbance Falling has no laws"
-        same(*runs(walker, gait, ba.RK4(2e-3), impacts=1), tolerance, why)
-
-
-@pytest.mark.parametrize("loop", ["stride", "reset"])
-def test_outer_loops(biped, gait, loop):
-    adrc = ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(300.0))
-    controller, name = {
-        "stride": (
-            ba.StridePI.on_gait(adrc, gait, biped, ba.StrideGains(-0.1, -0.02)),
-            "StridePI",
-        ),
-        "reset": (ba.ReferenceReset(adrc), "ReferenceReset"),
-    }[loop]
-    walker = ba.Walker(biped, controller)
-    why = f"controller {name} has no laws"
-    same(*runs(walker, gait, ba.Exponential(2e-3)), SHARP, why)
-    ticked = replace(walker, timing=ba.SampledTime(1e-3), torque_limit=150.0)
-    same(*runs(ticked, gait, ba.RK4(1e-3)), TICKS, why)
+    walker = ba.Walker(biped, npd, Falling() + hip, time)
+    same(*runs(walker, gait, ba.RK4(2e-3), impacts=1), tolerance, "disturbance Falling has no laws")
 
 
 # -- what goes wrong in Python ---------------------------------------------------------------------
-@pytest.mark.parametrize("factor", [np.nan, np.inf, 1e300])
+@pytest.mark.parametrize("factor", [np.nan, 1e300])
 @pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
 def test_torques_without_numbers(biped, gait, python, sampled, factor):
     broken = replace(python, after=0.1, factor=factor)
@@ -214,16 +177,6 @@ class Stateless(Controller):
 
     def output(self, s, m):
         return self.inner.output(s, m)
-
-
-def test_an_overflow_in_a_controller_is_no_warning(gait, ticked, python):
-    """As in the Python engine, it ends the run with its status."""
-    broken = replace(python, after=0.1, factor=np.float64(1e308))
-    walker = replace(ticked, controller=broken, torque_limit=None)
-    python, partly = runs(walker, gait, ba.RK4(1e-3))
-    assert python.status is ba.Status.NOT_FINITE
-    assert partly.status is ba.Status.NOT_FINITE
-    assert python.t_end == partly.t_end
 
 
 @dataclass(frozen=True)

@@ -62,7 +62,7 @@ def test_the_end_of_a_step_counts_unless_the_foot_comes_down_there(walker):
 
 def test_a_walk_is_cut_at_the_node_of_its_first_violation(walker, gait):
     """A push in the second step asks for more than any torque of the first."""
-    push = ba.TorquePulse([40.0, 40.0, 40.0, 40.0, 0.0], step=2, start=0.1, stop=0.2)
+    push = ba.TorquePulse([120.0, 0.0, 0.0, 0.0, 0.0], step=2, start=0.1, stop=0.2)
     walk = ba.walk(replace(walker, disturbance=push), gait, 2)
     s, most = walk.signals, np.max(np.abs(walk.signals.u), axis=1)
     limit = 0.5 * (np.max(most[s.step == 1]) + np.max(most[s.step == 2]))

@@ -101,17 +101,12 @@ def test_noticed_at_once_a_controller_without_memory_walks_as_with_ideal_knowled
 
 SENSORS = ba.Sensors(counts=2**18)
 BOTH = {
-    "told": (Told(late=4e-3), ba.NPDController, {}),
-    "told by a seed": (Told(missed=0.5, seed=1), ba.NPDController, {}),
     "false": (Told(false_at=(1, 0.395)), low_order, {}),
-    "kinematics": (ByKinematics(height=2e-3), low_order, {}),
     "force": (ByForce(debounce=1e-3, delay=2e-3), low_order, {}),
-    "differences": (ByKinematics(), ba.NPDController, {"sensors": SENSORS}),
-    "lag": (Told(2e-3), ba.NPDController, {"motors": ba.Motors(lag=1e-3, rate_limit=1e5)}),
     "delay": (
-        Told(2e-3),
+        ByKinematics(),
         ba.NPDController,
-        {"timing": ba.SampledTime(T, restart=False, delay=1.5e-3)},
+        {"sensors": SENSORS, "timing": ba.SampledTime(T, restart=False, delay=1.5e-3)},
     ),
 }
 
@@ -142,20 +137,6 @@ def test_the_meter_sees_the_plant_whatever_its_controller_believes(biped, gait):
     runs = [run(late, gait, 0.43, each) for each in (run_compiled, simulator.run)]
     g = [late.held_at(each.final_state).g for each in runs]
     np.testing.assert_allclose(g[0], g[1], rtol=1e-6, atol=1e-8)
-
-
-def test_a_controller_in_plain_python_is_told_as_well(biped, gait):
-    class Plain(ba.NPDController):
-        """The same law, hidden from the engine."""
-
-        def output(self, s, m):
-            return super().output(s, m)
-
-    runs = [
-        run(walker(biped, gait, Told(4e-3), kind), gait, 0.43) for kind in (Plain, ba.NPDController)
-    ]
-    assert runs[0].settings["engine"] == "compiled plant"
-    np.testing.assert_allclose(runs[0].final_state, runs[1].final_state, atol=1e-8)
 
 
 def test_two_touchdowns_of_which_none_is_noticed_leave_the_labels_right(biped, gait):
@@ -232,8 +213,8 @@ def test_missed_ones_come_with_their_probability():
     assert laws.struck(laws.parameters, d, 0.0, 0.0)[0] == 0.0
 
 
-@pytest.mark.parametrize("height", [1e-3, 4e-3])
-def test_by_kinematics_a_height_is_early_by_height_over_speed(biped, gait, height):
+def test_by_kinematics_a_height_is_early_by_height_over_speed(biped, gait):
+    height = 4e-3
     system = walker(biped, gait, ByKinematics(height=height))
     walked = run(system, gait, 0.43)
     found = touchdowns(system, walked)
@@ -249,12 +230,8 @@ def test_by_kinematics_a_height_is_early_by_height_over_speed(biped, gait, heigh
     assert z[at[0]] < height <= z[np.flatnonzero(arc.t < arc.t[at[0]] - 0.9 * T)[-1]]
 
 
-@pytest.mark.parametrize(
-    ("given", "later"),
-    [({}, 0.0), ({"debounce": 3e-3}, 3e-3), ({"delay": 2e-3, "debounce": 3e-3}, 5e-3)],
-)
-def test_by_force_debounce_and_delay_add_up_after_the_first_tick(biped, gait, given, later):
-    system = walker(biped, gait, ByForce(**given))
+def test_by_force_debounce_and_delay_add_up_after_the_first_tick(biped, gait):
+    system, later = walker(biped, gait, ByForce(delay=2e-3, debounce=3e-3)), 5e-3
     found = touchdowns(system, run(system, gait, 0.43))
     first = np.ceil(found.t[0] / T) * T - found.t[0]
     assert found.late[0] == pytest.approx(first + later, abs=1e-9)
@@ -322,33 +299,18 @@ def test_encoders_go_through_a_late_notice_without_a_jump(biped, gait):
     np.testing.assert_array_equal(seen[k + 1, 5:10], seen[k, 5:10])
 
 
-def test_signals_give_the_estimate_in_the_labels_of_the_plant(biped, gait):
-    system = walker(biped, gait, Told(late=5e-3), low_order)
-    walked = run(system, gait, 0.43)
-    (event,) = walked.events("foot_strike")
-    x = event.x_minus, event.x_plus
-    xi = [
-        ba.closed_loop.instant_signals.signals_at(
-            system, event.t, each, mode, lambda s, m: gait.constraint(m.t, m.q, m.v)
-        ).xi_estimate
-        for each, mode in zip(x, (Mode(1, 0.0), Mode(2, event.t)), strict=True)
-    ]
-    np.testing.assert_allclose(xi[1], xi[0][system.swap], rtol=1e-12)
-
-
 def test_what_does_not_fit_is_refused(biped, gait):
     for timing in (ba.SampledTime(T), ba.ContinuousTime()):
         with pytest.raises(InputError, match="restart=False"):
             walker(biped, gait, Told(), timing=timing)
-    for given in ({"late": -1e-3}, {"missed": 1.5}, {"false_at": (0, 0.1)}, {"seed": -1}):
+    for make in (
+        lambda: Told(late=-1e-3),
+        lambda: Told(missed=1.5),
+        lambda: Told(false_at=(0, 0.1)),
+        lambda: Told(false_at="ab"),
+        lambda: ByForce(on=10.0),
+        lambda: ByForce(delay=np.nan),
+        lambda: ByKinematics(height=np.nan),
+    ):
         with pytest.raises(InputError):
-            Told(**given)
-    for wrong in (3, "ab", (1, "a"), (1, None), (1, np.nan), (1, 0.1, 0.2)):
-        with pytest.raises(InputError, match="false_at"):
-            Told(false_at=wrong)
-    for given in ({"on": 10.0}, {"off": -1.0}, {"debounce": -1e-3}, {"delay": np.nan}):
-        with pytest.raises(InputError):
-            ByForce(**given)
-    for given in ({"height": np.nan}, {"after": -0.1}, {"ahead": np.inf}):
-        with pytest.raises(InputError):
-            ByKinematics(**given)
+            make()
