@@ -48,7 +48,7 @@ def test_the_lyapunov_function_falls_as_it_says(biped, gait):
     assert seen > 0
 
 
-@pytest.mark.parametrize("spread", [1e-6, 1e-5, 1e-3, 0.02])
+@pytest.mark.parametrize("spread", [1e-6, 0.02])
 def test_the_relaxation_leaves_a_dead_zone_of_the_size_said(biped, gait, spread):
     """V' + c V / eps = psi_0 / (1 + p |psi_1|^2) along the plant's motion, by differences, default p."""
     law, h, growth, dead = CLFQPController(gait.constraint, **FREE), 1e-6, [], []

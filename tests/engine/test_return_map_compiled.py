@@ -8,7 +8,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.closed_loop.walker import Mode
-from biped_adrc.errors import InputError, SimulationError
+from biped_adrc.errors import SimulationError
 from biped_adrc.gait.published import passive_cycle
 
 
@@ -129,29 +129,11 @@ def test_parts_without_compiled_form_are_mapped_by_pinocchio(biped, gait, npd):
     assert compiled.ran == "pinocchio"
     s = compiled.project(section(gait, walker))
     assert np.array_equal(compiled(s), python(s))
-    called = []
-
-    def mapper(function, points):
-        called.append(len(points))
-        return map(function, points)
-
-    compiled.images([s], mapper)
-    assert called == [1]
 
 
 def test_no_return_is_said_by_either_engine(gait, npd):
     push = ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 2, 0.1)
     walker = replace(npd, disturbance=push, torque_limit=150.0)
     for P in maps(walker, ba.RK4(5e-3)):
-        with pytest.raises(
-            SimulationError, match=r"no return to the section: FELL, the robot fell"
-        ):
+        with pytest.raises(SimulationError, match="no return to the section: FELL"):
             P(P.project(section(gait, walker)))
-    with pytest.raises(InputError, match="engine 'jax' is unknown"):
-        ReturnMap(npd, ba.RK4(), engine="jax")
-
-
-def test_a_method_that_does_not_fit_is_refused(npd):
-    P = ReturnMap(npd, ba.Exponential())
-    with pytest.raises(InputError, match="exponential method needs"):
-        P.ran  # noqa: B018

@@ -7,7 +7,6 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import biped_adrc as ba
-from biped_adrc.errors import InputError
 from biped_adrc.soft.mujoco_engine import leapfrog
 from biped_adrc.soft.mujoco_robot import mujoco
 
@@ -137,8 +136,3 @@ def test_through_a_touchdown(biped, gait):
         swing = feet(2e-4, integrator)
         assert np.max(np.abs(swing - exact)) < place
         assert np.min(swing[:, 2]) == pytest.approx(np.min(exact[:, 2]), rel=depth)
-
-
-def test_another_integrator_is_refused(biped):
-    with pytest.raises(InputError, match=r"integrator of the plant is 'euler', expected one of"):
-        ba.MuJoCoPlant(biped, integrator="euler")

@@ -33,8 +33,8 @@ def moving_square(count: int, height: int, width: int) -> list[Array]:
     return list(frames)
 
 
-@pytest.mark.parametrize("fps", [25.0, 50.0, 30000 / 1001, 0.5, 7.3])
-@pytest.mark.parametrize("size", [(80, 120), (81, 121)])
+@pytest.mark.parametrize("fps", [25.0, 30000 / 1001])
+@pytest.mark.parametrize("size", [(81, 121)])
 def test_frames_come_back_for_as_long_as_they_are_shown(fps: float, size: tuple[int, int]) -> None:
     frames = moving_square(12, *size)
     data = mp4.encoded(frames, fps, 2.0)

@@ -46,20 +46,6 @@ def test_extremes_ends_jumps_and_gaps_survive() -> None:
         assert np.nanmin(drawn) == np.nanmin(whole)
 
 
-def test_sparse_lines_are_left_alone() -> None:
-    t, y = spiked(400)
-    np.testing.assert_array_equal(thinned(t, y, WIDTH), np.arange(len(t)))
-
-
-def test_a_curve_keeps_its_turning_points() -> None:
-    angle = np.linspace(0.0, 2.0 * np.pi, 50_001)
-    x, y = np.cos(angle), np.sin(angle)
-    kept = thinned(x, y, 2.0 / 600)
-    assert len(kept) < 10_000
-    for whole, drawn in ((x, x[kept]), (y, y[kept])):
-        assert (drawn.min(), drawn.max()) == (whole.min(), whole.max())
-
-
 def drawn(count: int, zoom: bool = False) -> Figure:
     figure = Figure()
     axes = figure.subplots()
@@ -69,33 +55,6 @@ def drawn(count: int, zoom: bool = False) -> Figure:
         xlabel="t [s]", ylabel="e [rad]", xlim=(SPIKE - 1e-4, SPIKE + 1e-4) if zoom else (0.0, 1.0)
     )
     return figure
-
-
-def test_limits_stay_and_a_zoom_keeps_what_it_shows() -> None:
-    figure = drawn(100_000)
-    limits = drawn(100_000).axes[0].get_ylim()
-    assert thin(figure).axes[0].get_ylim() == limits
-    t, y = thin(drawn(100_000, zoom=True)).axes[0].get_lines()[0].get_data()
-    assert len(t) <= 23  # 21 nodes are in the window, and one before and after it
-    assert t[0] < SPIKE - 1e-4
-    assert y.max() == pytest.approx(5.0 + np.sin(6 * np.pi * SPIKE))
-
-
-def test_lines_outside_and_values_that_are_not_finite() -> None:
-    figure = Figure()
-    axes = figure.subplots()
-    t = np.linspace(0.0, 1.0, 5000)
-    axes.plot(t, t, label="outside")
-    axes.plot(t, np.full(len(t), np.nan), label="none")
-    axes.plot(t, np.where(t > 1.5, np.inf, t), label="inside")
-    axes.set_xlim(2.0, 3.0)
-    thin(figure)
-    assert len(axes.get_lines()[0].get_xdata()) == 0
-    assert numbers_of(figure)["panels"][0]["lines"] == {"outside": {}, "none": {}, "inside": {}}
-    y = np.where(t < 0.5, t, np.inf)
-    kept = thinned(t, y, WIDTH)
-    assert y[kept][-1] == np.inf
-    assert len(kept) < 3000
 
 
 @pytest.mark.parametrize("zoom", [False, True])
@@ -128,12 +87,3 @@ def test_differences_name_what_differs() -> None:
     del new["panels"][0]["bars"]
     assert "panels 1, bars: is no longer drawn" in differences(old, new)
     assert differences({"a": "x [s]"}, {"a": "x [ms]"}) == ["a: 'x [s]' in the file, 'x [ms]' now"]
-
-
-def test_small_numbers_are_told_apart_by_the_size_of_their_line() -> None:
-    old = {"panels": [{"lines": {"e": {"y": [-1.0, 1.0], "samples": [1e-4, 0.5]}}}]}
-    new = json.loads(json.dumps(old))
-    new["panels"][0]["lines"]["e"]["samples"][0] = 5e-3
-    assert differences(old, new) == []
-    new["panels"][0]["lines"]["e"]["samples"][0] = 2e-2
-    assert len(differences(old, new)) == 1
