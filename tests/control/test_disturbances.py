@@ -46,11 +46,6 @@ def placement(biped, q, link):
     return f.data.oMf[frame_index(f.model, link)].copy()
 
 
-def turned(before, after):
-    """Angle from one placement to the next, counter-clockwise with x to the right and z up [rad]."""
-    return -pin.log3(after.rotation @ before.rotation.T)[1]
-
-
 # -- windows ---------------------------------------------------------------------------------------
 def test_windows_close_where_they_say():
     pulse = ba.TorquePulse([1.0, 2.0, 3.0, 4.0, 5.0], step=2, start=0.1, stop=0.2)
@@ -129,19 +124,6 @@ def test_the_torque_is_that_of_pinocchios_frame_jacobian(robot):
             angular = np.array([0.0, -F[2], 0.0]) + np.cross(arm, [F[0], 0.0, F[1]])
             expected = (J @ Z).T @ np.array([F[0], 0.0, F[1], *angular])
             assert push.torque(0.0, 1, 0.0, q, v) == pytest.approx(expected, rel=1e-11, abs=1e-11)
-
-
-def test_its_power_is_force_times_velocity_and_moment_times_rate(biped):
-    random, d = np.random.default_rng(4), 1e-6
-    for link in links(biped):
-        at = random.uniform(-0.5, 0.5, 2)
-        push = OnLink(biped, link, ba.TorquePulse(F), tuple(at))
-        q, v = random.uniform(-1.0, 1.0, (2, biped.n))
-        one, two = (placement(biped, q + s * d * v, link) for s in (-1.0, 1.0))
-        point = np.array([at[0], 0.0, at[1]])
-        velocity = (two.act(point) - one.act(point))[[0, 2]] / (2.0 * d)
-        power = F[:2] @ velocity + F[2] * turned(one, two) / (2.0 * d)
-        assert push.torque(0.0, 1, 0.0, q, v) @ v == pytest.approx(power, rel=1e-7, abs=1e-7)
 
 
 def test_a_force_at_the_hip_is_a_hip_force(biped):

@@ -195,17 +195,6 @@ def test_corrections_of_nested_loops_add_up(bare, published):
         np.testing.assert_allclose(loop.output(s, m), inside.output(np.zeros(0), m), rtol=1e-12)
 
 
-def test_sampled(bare, recipe):
-    inner = ba.ADRCController(recipe.constraint)
-    law = ReferenceReset(StridePI.on_gait(inner, recipe, bare, StrideGains(-0.5, -0.2)))
-    walker = ba.Walker(bare, law, timing=ba.SampledTime(1e-3))
-    run = ba.walk(walker, recipe, 2).trajectory
-    assert run.status.ok
-    for arc in run.arcs:
-        tau = walker.split_state(arc.x[-1])[2][36]
-        assert 0.0 <= arc.t[-1] - arc.t[0] - tau <= 1e-3
-
-
 def test_what_cannot_be_corrected_is_refused(bare, published):
     h, gains = published.constraint, StrideGains(-1.0, -0.4)
     inner = ba.NPDController(h)

@@ -4,7 +4,7 @@ import gc
 import threading
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import count, islice
+from itertools import islice
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ import biped_adrc as ba
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
 from biped_adrc.control.base import Controller, ControllerLaws
 from biped_adrc.control.npd import npd_torque
-from biped_adrc.engine.batch import AHEAD, Case, simulate_many
+from biped_adrc.engine.batch import Case, simulate_many
 from biped_adrc.engine.run import simulate_by
 from biped_adrc.errors import InputError, NotFiniteError
 from biped_adrc.gait.constraint import virtual_constraint
@@ -199,23 +199,6 @@ def test_a_case_that_does_not_fit_is_an_error(plain):
     assert list(simulate_many([])) == []
 
 
-def test_cases_are_taken_as_they_are_needed(plain):
-    taken = []
-
-    def endless():
-        for k in count():
-            taken.append(k)
-            yield replace(plain, impacts=1)
-
-    walks = simulate_many(endless(), threads=2)
-    assert taken == []
-    for k in range(1, 6):
-        next(walks)
-        assert k <= len(taken) <= k + 2 * AHEAD
-    walks.close()
-    assert len(taken) <= 5 + 2 * AHEAD
-
-
 def test_an_abandoned_batch_leaves_no_thread(plain):
     before = {*threading.enumerate()}
     walks = simulate_many((replace(plain, impacts=3) for _ in range(100)), threads=3)
@@ -223,12 +206,4 @@ def test_an_abandoned_batch_leaves_no_thread(plain):
     assert {*threading.enumerate()} - before
     del walks
     gc.collect()
-    assert not {*threading.enumerate()} - before
-
-    def failing():
-        yield plain
-        raise KeyError("the cases")
-
-    with pytest.raises(KeyError, match="the cases"):
-        list(simulate_many(failing(), threads=2))
     assert not {*threading.enumerate()} - before

@@ -11,7 +11,6 @@ from biped_adrc.analysis.signals import signals, signals_of
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.engine.compiled_signals import compiled_readings
 from biped_adrc.engine.run import simulate_by
-from biped_adrc.gait.published import passive_cycle
 
 simulate = partial(simulate_by, "compiled")
 
@@ -92,16 +91,6 @@ def test_what_has_no_compiled_form_is_left_to_python(biped, gait):
     flat = ba.TimeReference(lambda t: (np.zeros(4), np.zeros(4), np.zeros(4)))
     assert see(walker, run, flat) is None
     assert np.array_equal(signals(walker, run, flat).error, signals(walker, run, flat).q[:, :4])
-    compass = ba.Biped.load("compass")
-    known = passive_cycle(compass)
-    passive = ba.Walker(compass, ba.Passive(), slope=known.slope)
-    x0 = passive.initial_state(known.q_plus, known.v_plus)
-    run = simulate(passive, x0, Mode(), ba.RK4(5e-3), t_end=2.0, impacts=1)
-    nothing = ba.TimeReference(lambda t: (np.zeros(0), np.zeros(0), np.zeros(0)))
-    s = signals(passive, run, nothing)
-    energy = s.kinetic + s.potential
-    assert s.u.shape == (len(s.t), 0)
-    assert np.ptp(energy) < 1e-6 * np.max(np.abs(energy))
 
 
 def test_the_power_of_the_motors_is_the_energy_s_rate(biped, gait):

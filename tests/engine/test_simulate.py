@@ -125,19 +125,6 @@ def test_a_run_that_begins_within_a_single_support(biped, gait):
     same(*runs(ticks, gait, ba.RK4(1e-3), **late), TICKS)
 
 
-@pytest.mark.parametrize(("h", "every"), [(2e-3, 3), (5e-3, 1)])
-def test_nodes_that_are_kept(biped, gait, h, every):
-    """Of steps longer than the resolution also points inside, with the slope there."""
-    walker = ba.Walker(biped, npd(gait), ba.TorquePulse(PULSE, 1, 0.1003, 0.1007))
-    python, compiled = runs(walker, gait, ba.RK4(h), impacts=1, every=every)
-    if h <= 2e-3:
-        same(python, compiled, SHARP)
-    else:
-        same_events(python, compiled, SHARP)
-        near(compiled.arcs[0].x, python.arcs[0].x, SHARP)
-        near(compiled.arcs[0].dx, python.arcs[0].dx, 1e-2)  # differences over 1e-6 s there
-
-
 # -- disturbances, plants, ground ------------------------------------------------------------------
 SINE = ba.TorqueSine((5.0, 0.0, -3.0, 2.0, 1.0), 1, 0.05, 0.3, frequency=7.0)
 
@@ -212,16 +199,6 @@ def test_falls_stalls_and_time_outs(biped, gait, sampled):
         same(python, compiled, 1e-9 if status in FALLS else TICKS)
 
 
-def test_an_observer_too_fast_for_the_step_ends_without_numbers(biped, gait):
-    walker = ba.Walker(biped, adrc(gait, 1e5), torque_limit=150.0)
-    python, compiled = runs(walker, gait, ba.RK4(2e-3))
-    assert python.status is ba.Status.NOT_FINITE
-    assert compiled.status is ba.Status.NOT_FINITE
-    assert compiled.t_end == pytest.approx(python.t_end, abs=1e-12)
-    assert np.all(np.isfinite(compiled.final_state))
-    assert "after t = " in compiled.detail
-
-
 @dataclass(frozen=True)
 class Written(Controller):
     """A law with NPD's parameters."""
@@ -266,71 +243,7 @@ def test_torques_without_numbers_and_singular_laws_under_a_limit(biped, gait, sa
         near(compiled.final_state, python.final_state, TICKS)
 
 
-@dataclass(frozen=True)
-class Jumping(Written):
-    """With a state that its jump makes from `jumped`."""
-
-    jumped: object
-
-    def initial_state(self, m):
-        return np.zeros(1)
-
-    def flow(self, s, m, u):
-        return np.zeros(1)
-
-    def jump(self, s, after, swap):
-        return self.jumped(self.k, s, after, swap)
-
-    @property
-    def laws(self):
-        return ControllerLaws(self.k, self.law, flow=still, jump=self.jumped)
-
-
-def still(k, s, m, u):
-    return 0.0 * s
-
-
-def jump_to_nan(k, s, after, swap):
-    return s + np.sqrt(-1.0 - after.t)
-
-
-def jump_through_zero(k, s, after, swap):
-    A = np.eye(1) * np.maximum(-after.t, 0.0)
-    return solve(A, np.ones(1), "the jump")
-
-
-@pytest.mark.filterwarnings("ignore:invalid value")
-def test_jumps_without_numbers(biped, gait):
-    """Python's run goes on from a NaN and stops at the next flow; a singular jump ends it at the impact."""
-    k = npd(gait).laws.parameters
-    for jump, status in (
-        (jump_to_nan, ba.Status.NOT_FINITE),
-        (jump_through_zero, ba.Status.SINGULAR),
-    ):
-        walker = ba.Walker(biped, Jumping(npd_output, k, jump))
-        x0 = walker.initial_state(*gait.start(biped))
-        run = simulate(walker, x0, Mode(), ba.RK4(2e-3), t_end=2.0, impacts=2)
-        assert run.status is status
-        assert run.events(FOOT_STRIKE) == ()
-        assert np.all(np.isfinite(run.final_state))
-
-
 # -- laws that look at numbers ---------------------------------------------------------------------
-def at_step_two(k, s, m):
-    u = npd_output(k, s, m)
-    return 0.9 * u if m.step == 2 else u
-
-
-def test_a_law_that_asks_whether_numbers_are_equal(biped, gait):
-    """It is no expression: taken for one it would never be equal. It runs at the ticks, and is named."""
-    time = ba.SampledTime(1e-3)
-    walker = ba.Walker(biped, written(gait, at_step_two), timing=time)
-    python, compiled = runs(walker, gait, ba.RK4(2e-3))
-    assert compiled.settings["engine"] == "compiled plant"
-    assert compiled.settings["why"].startswith(
-        "law 'test_simulate.at_step_two' cannot be compiled: the law branches on the value of a number; it runs"
-    )
-    same(python, compiled, TICKS, "compiled plant")
 
 
 def test_a_symbol_is_neither_equal_nor_unequal():

@@ -188,15 +188,3 @@ def test_a_robot_in_another_gravity(tmp_path):
     made = run("robot", "new", urdf, "-o", tmp_path / "moon", "--gravity", "1.62")
     assert made.exit_code == 0, made.exception
     assert ba.Biped.load(tmp_path / "moon" / "robot.toml").description.gravity == 1.62
-
-
-def test_a_passive_robot_of_ones_own_has_its_cycle_beside_it(tmp_path):
-    _, record = copy_of("compass", tmp_path / "legs")
-    with pytest.raises(ba.BipedError, match="goswami1998"):
-        ba.find_cycle(str(record))
-    known = data_folder("gaits") / "compass" / "goswami1998.toml"
-    shutil.copy(known, tmp_path / "legs" / "goswami1998.toml")
-    found = ba.cycle_stability(ba.find_cycle(str(record)), samples=0)
-    theirs = ba.cycle_stability(ba.find_cycle("compass"), samples=0)
-    assert np.array_equal(found.orbit.x_minus, theirs.orbit.x_minus)
-    assert ba.passive_walk(record, 2).trajectory.status.ok

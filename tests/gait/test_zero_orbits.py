@@ -19,7 +19,6 @@ from biped_adrc.gait.zero_domain import DomainLimits, domain
 from biped_adrc.gait.zero_orbits import ZeroOrbits
 from biped_adrc.robots.limits import KnownLimits
 from biped_adrc.robots.limits import Limits as WithinLimits
-from biped_adrc.viz.plots.zero_dynamics import zero_dynamics_figure
 
 ALPHA, GRAVITY = math.pi / 8, 9.81
 METHOD = ba.RK4(1e-3)
@@ -106,16 +105,6 @@ def test_friction_of_a_step_decides_whether_it_is_in_the_domain(any_biped, share
     needed = float(np.max(np.abs(F_T) / F_N))
     assert domain(orbits, DomainLimits(friction=1.02 * needed)).holds(zeta)
     assert not domain(orbits, DomainLimits(friction=0.98 * needed)).holds(zeta)
-
-
-def test_feet_leave_the_ground_beyond_the_upper_end(orbits, published):
-    upper = domain(orbits).upper
-    assert upper.cause == "lift-off"
-    forces = [
-        walk_from(orbits, published, share * upper.zeta, 1).certificates[0].least_normal_force
-        for share in (0.995, 1.005)
-    ]
-    assert forces[0] > 0.0 > forces[1]
 
 
 def test_the_fixed_point_is_the_published_state(any_biped):
@@ -248,24 +237,6 @@ def test_report_says_what_does_not_hold(bare, published):
     assert "the impact leaves the constraint" in zero_report(bare, recipe.constraint).text()
     with pytest.raises(GaitError, match=r"above the ground of slope 0\.1 rad"):
         zero_report(bare, published.constraint, DomainLimits(slope=0.1))
-
-
-def test_inertia_and_potential_are_those_of_the_gait_in_another_colour_than_its_orbit(
-    bare, published
-):
-    report = zero_report(bare, published.constraint)
-    first, second, portrait, _ = zero_dynamics_figure(report).axes
-    (inertia, zero), (V, orbit, _) = first.get_lines(), second.get_lines()
-    sigma = bare.angular_momentum(published.q_minus, published.v_minus)
-    assert inertia.get_ydata()[-1] == pytest.approx(
-        sigma / (bare.phase @ published.v_minus), rel=1e-6
-    )
-    assert set(zero.get_ydata()) == {0.0}
-    begin = set(orbit.get_ydata()).pop()
-    np.testing.assert_allclose(V.get_ydata()[[0, -1]], [0.0, begin - sigma**2 / 2], atol=1e-4)
-    orbits = {line.get_color() for line in (orbit, *portrait.get_lines()[:2])}
-    assert len(orbits) == 1
-    assert {inertia.get_color(), V.get_color()}.isdisjoint(orbits)
 
 
 def test_command(tmp_path):

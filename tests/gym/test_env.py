@@ -129,16 +129,6 @@ def test_observation_and_reward_are_those_of_the_walks_signals():
         assert reward == pytest.approx(1.0 - 3.0 * e @ e - 2e-4 * u @ u, rel=1e-9)
 
 
-def test_behind_encoders_the_observation_is_what_they_show():
-    env = made(condition="encoders")
-    walked(env, 0, 20)
-    seen, x = env.unwrapped.stage.observations()[0], state(env)
-    count = 2.0 * np.pi / 8192.0
-    assert not np.array_equal(seen[:4], x[:4])
-    assert np.all(np.abs(seen[:4] - x[:4]) <= count)
-    assert np.allclose(seen[:4] / count, np.round(seen[:4] / count), atol=1e-9)
-
-
 def test_a_fall_terminates_and_time_truncates():
     *_, infos = rows = walked(made(), 1, 2000)
     assert (rows[2][-1], rows[3][-1]) == (True, False)

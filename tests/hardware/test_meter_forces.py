@@ -2,16 +2,12 @@
 
 from dataclasses import replace
 
-import casadi as ca
 import numpy as np
 import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.certificate import depths, forces
 from biped_adrc.analysis.quadrature import integral
-from biped_adrc.bench.run import run_trial
-from biped_adrc.engine.symbols import Scalar
-from biped_adrc.engine.tracer import Tracer
 from biped_adrc.hardware.loads import Loads, Outside
 from biped_adrc.hardware.meter import (
     Hit,
@@ -303,42 +299,6 @@ def test_a_controller_in_plain_python_is_metered_too(biped, gait):
     assert one.windows > 0
 
 
-def test_a_window_of_too_many_ticks_is_refused(biped, gait):
-    meter = Meter(gait.constraint, ba.Limits(window=0.1))
-    with pytest.raises(ba.BipedError, match="has 10000 ticks"):
-        _ = ba.Walker(
-            biped, ba.NPDController(gait.constraint), timing=ba.SampledTime(1e-5), meter=meter
-        ).held
-    assert meter.window(T) == 100
-    assert Meter(gait.constraint).window(1.5e-3) == 3
-    assert Meter(gait.constraint).window(0.02) == 1
-
-
-def test_a_trial_says_whether_it_was_legal_and_why_not():
-    common = {"controller": "NPD", "impacts": 4}
-    legal = run_trial(common)
-    assert (legal["outcome"], legal["legal"], legal["legal_impacts"]) == ("legal", 1, 4)
-    strict = run_trial({**common, "friction_limit": 0.3})
-    assert (strict["outcome"], strict["legal"], strict["legal_impacts"]) == ("made", 0, 0)
-    assert (strict["bad_friction"], strict["bad_impulse"], strict["bad_torque"]) == (1, 1, 0)
-    assert strict["mean_friction"] == legal["mean_friction"]
-    assert strict["share_outside"] > 0.0 == legal["share_outside"]
-    fell = run_trial(
-        {
-            **common,
-            "push": "pulse",
-            "on": "q5",
-            "amplitude": 300.0,
-            "pushed_step": 3,
-            "onset": 0.1,
-            "torque_limit": 150.0,
-        }
-    )
-    assert (fell["outcome"], fell["legal"], fell["legal_impacts"]) == ("fell", 0, 2)
-    bare = run_trial({**common, "preset": "identified-bare"})
-    assert (bare["outcome"], bare["bad_impulse"]) == ("legal", 1)
-
-
 def test_steps_shorter_than_the_window_are_judged_as_a_whole(biped, gait):
     """By the change of momentum over a step of the gait, T F = m (v-) - m (v+) + T m g e_z."""
     q, v = gait.start(biped)
@@ -385,8 +345,3 @@ def test_a_foot_that_comes_from_lower_ground_does_not_scuff(biped, gait):
 def test_a_peak_that_is_no_number_stays_none(a, b):
     assert np.isnan(greater(a, b))
     assert np.isnan(greater(greater(1.0, a), greater(b, 2.0)))
-    one, other = ca.SX.sym("a"), ca.SX.sym("b")
-    traced = Tracer()(greater)(Scalar(one), Scalar(other)).e
-    compiled = ca.Function("greater", [one, other], [traced])
-    assert np.isnan(float(compiled(a, b)))
-    assert (float(compiled(1.0, 2.0)), float(compiled(2.0, 1.0))) == (2.0, 2.0)

@@ -91,14 +91,6 @@ def test_noticed_at_the_first_tick_the_controller_jumps_and_acts_there(biped, ga
     assert beliefs(system, arc.x[after])[:3] == (0.0, 2.0, t)
 
 
-def test_noticed_at_once_a_controller_without_memory_walks_as_with_ideal_knowledge(biped, gait):
-    ideal, told = (run(walker(biped, gait, leaf), gait, 1.0) for leaf in (None, Told()))
-    times = [[event.t for event in walked.events("foot_strike")] for walked in (ideal, told)]
-    assert len(times[0]) == 2
-    np.testing.assert_allclose(times[1], times[0], rtol=0.0, atol=1e-12)
-    np.testing.assert_allclose(told.final_state[:10], ideal.final_state[:10], atol=1e-10)
-
-
 SENSORS = ba.Sensors(counts=2**18)
 BOTH = {
     "false": (Told(false_at=(1, 0.395)), low_order, {}),

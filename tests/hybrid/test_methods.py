@@ -53,19 +53,6 @@ def test_pendulum_period_by_elliptic_integral(method):
     assert times[1] - times[0] == pytest.approx(period, abs=1e-7)
 
 
-@pytest.mark.parametrize("method", [Adaptive(), Stiff()])
-def test_step_control_keeps_its_tolerance_where_the_longest_step_does_not(method):
-    """x'' = -w^2 x over half a period, of which the longest step is twice as long."""
-
-    class Fast(HybridSystem):
-        def flow(self, t, x, mode):
-            return w * np.array([x[1], -x[0]])
-
-    w = 100.0 * math.pi
-    run = simulate(Fast(), np.array([1.0, 0.0]), 0, method, t_end=math.pi / w)
-    assert run.final_state == pytest.approx([-1.0, 0.0], abs=1e-7)
-
-
 class Driven(HybridSystem):
     """x'' = -w^2 x + y, y' = -(y - u) / tau: state (x, x', y, u); its closed form is `exact`."""
 

@@ -12,7 +12,6 @@ from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.storage import load, save
 from biped_adrc.hybrid.system import Clock, Direction, Guard, HybridSystem
-from biped_adrc.hybrid.trajectory import Arc
 
 G = 9.81
 
@@ -58,13 +57,6 @@ def test_dense_output_gives_both_sides_of_an_event():
         run(5.0)
     with pytest.raises(InputError, match="middle"):
         run(0.1, "middle")
-
-
-def test_thinned_nodes_are_as_far_apart_as_was_asked_for():
-    t = np.linspace(0.0, 1.0, 11)
-    thin = Arc(0, t, t[:, np.newaxis], np.ones((11, 1)), read={"u": 2.0 * t}).thinned(0.3)
-    for kept in (thin.t, thin.x[:, 0], 0.5 * thin.read["u"]):
-        assert kept == pytest.approx([0.0, 0.3, 0.6, 0.9, 1.0])
 
 
 @dataclass(frozen=True)

@@ -142,18 +142,6 @@ def test_a_walk_of_a_scenario_has_u_m_as_on_the_rigid_plant(biped, gait):
     np.testing.assert_allclose(walks[0].signals.u, walks[1].signals.u, rtol=1e-5, atol=1e-4)
 
 
-def test_torque_of_the_motors_is_relabelled_at_a_touchdown(biped, gait):
-    plant = ba.MuJoCoPlant(biped, lag=TAU)
-    loop = SteppingLoop(plant, ba.NPDController(gait.constraint), biped, TICK, torque_limit=150.0)
-    run = loop.run(
-        loop.initial_state(*gait.start(biped)), ba.RunOptions(0.8, stop_after=("foot_strike", 1))
-    )
-    event = run.events("foot_strike")[0]
-    before, after = (loop.motor_torque(x) for x in (event.x_minus, event.x_plus))
-    np.testing.assert_array_equal(after, before[plant.swap])
-    assert np.max(np.abs(after - before)) > 1.0
-
-
 def test_a_rate_limit_stays_and_what_does_not_fit_is_said(biped, gait):
     law = ba.NPDController(gait.constraint)
     walker = ba.Walker(biped, law, timing=TICK, motors=Motors(1e4, TAU))

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from matplotlib.collections import LineCollection
 from PIL import Image
 
 from biped_adrc.errors import InputError
@@ -19,7 +18,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.viz.export import Clip, export
 from biped_adrc.viz.from_the_side import gif
-from biped_adrc.viz.from_the_side.moving_parts import Motion, cut
+from biped_adrc.viz.from_the_side.moving_parts import Motion
 from biped_adrc.viz.from_the_side.moving_picture import write_moving_picture
 from biped_adrc.viz.from_the_side.side_view import Deviation, SideView
 from biped_adrc.viz.from_the_side.stick_figures import strip
@@ -39,25 +38,6 @@ def test_lines_are_the_limbs(biped: Biped, walks: dict[str, Walk]) -> None:
         for point in (hip, foot, [view.scene.footholds[view.scene.arc_at(float(t))], 0.0]):
             assert np.min(np.hypot(*(ends - point).T)) < 1e-9
         assert sorted(view.roles(float(t))) == ["", "stance", "stance", "swing", "swing"]
-
-
-def test_strip(walks: dict[str, Walk]) -> None:
-    with style():
-        axes = new_figure(6.0, 4.0).subplots()
-        assert strip(axes, walks["NPD"], poses=9) is axes
-    drawn = [c for c in axes.collections if isinstance(c, LineCollection)]
-    assert len(drawn) == 9 * 3
-    names = axes.get_legend_handles_labels()[1]
-    assert sorted(names) == ["footprint", "stance leg", "swing leg", "torso"]
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("x [m]", "z [m]")
-    assert axes.get_aspect() == 1.0
-    footholds = WalkScene.of(walks["NPD"]).footholds
-    prints = next(line for line in axes.get_lines() if line.get_marker() == "^")
-    np.testing.assert_array_equal(prints.get_xdata(), footholds[-2:])
-    with pytest.raises(InputError, match="at least 2"):
-        strip(axes, walks["NPD"], poses=1)
-    with pytest.raises(InputError, match="lasts from"):
-        strip(axes, walks["NPD"], 0.0, 99.0)
 
 
 def test_gif(walks: dict[str, Walk], tmp_path: Path) -> None:
@@ -192,16 +172,3 @@ def test_a_strip_says_how_a_walk_ended(walks: dict[str, Walk]) -> None:
         axes = new_figure(6.0, 4.0).subplots()
         strip(axes, fallen(walks["NPD"], Status.STALLED, "step_too_long"), 0.1, 0.4)
     assert "stalled" not in axes.get_title(loc="left")
-
-
-def test_an_arrow_never_leaves_the_picture() -> None:
-    start, x, z = np.array([0.2, 0.0]), (-1.0, 1.0), (-0.12, 1.6)
-    short = np.array([0.1, 0.4])
-    assert cut(start, short, x, z) is short
-    for force in ([3e9, 1e9], [-50.0, 1.0], [0.0, -3.0], [1e-3, 1e150]):
-        tip = start + cut(start, np.array(force), x, z)
-        assert x[0] < tip[0] < x[1]
-        assert z[0] < tip[1] < z[1]
-        cosine = np.dot(tip - start, force) / np.linalg.norm(tip - start) / np.linalg.norm(force)
-        assert cosine == pytest.approx(1.0)
-    np.testing.assert_array_equal(cut(start, np.array([np.nan, np.inf]), x, z), [0.0, 0.0])

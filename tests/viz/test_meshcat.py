@@ -21,7 +21,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.walk import walk as walk_of
 from biped_adrc.viz.meshcat.view import Look, animation_html
-from biped_adrc.viz.placement import WalkScene, slipping
+from biped_adrc.viz.placement import WalkScene
 
 from .pinocchio_view import floating
 
@@ -107,28 +107,6 @@ def test_arrows_are_the_loads(walks: dict[str, Walk], page: str) -> None:
             expected = np.interp(d["t"][mine], s.t[theirs], s.ground_reaction[theirs][:, column])
             np.testing.assert_allclose(d["loads"][mine][:, column], expected, rtol=0.02, atol=2.0)
     assert not d["loads"][:, 2:].any()  # nobody pushed
-
-
-def test_slips_and_the_force_on_the_other_foot_are_those_of_the_ground(slippery: Walk) -> None:
-    """At every node, which are also where either begins or ends."""
-    d = data(scene(animation_html({"soft": slippery}, Look(fps=FPS)))[0]["walks"][0])
-    laid_out, slips = WalkScene.of(slippery), 0
-    for i, arc in enumerate(slippery.trajectory.arcs):
-        mine = d["arc"][:, 0] == i
-        ends = np.searchsorted(arc.t, d["t"][mine], side="right") - 1
-        rows = np.minimum(ends, len(arc.t) - 2)
-        force, place = arc.read["foot_force"][rows, 2:], arc.read["foot_place"]
-        np.testing.assert_allclose(d["contact"][mine][:, 2:4], force, rtol=1e-6)
-        x = np.interp(d["t"][mine], arc.t, place[:, 0])
-        np.testing.assert_allclose(d["contact"][mine][:, 0], x, atol=1e-6)
-        told = slipping(laid_out, arc)
-        assert np.array_equal(d["contact"][mine][:, 4] > 0.0, told[rows])
-        lasting = np.flatnonzero(np.diff(arc.t) > 0.0)
-        drawn = np.searchsorted(d["t"][mine], arc.t[lasting], side="right") - 1
-        assert np.array_equal(d["contact"][mine][drawn, 4] > 0.0, told[lasting])
-        slips += np.count_nonzero(told)
-    assert slips > 10
-    assert np.any(d["contact"][:, 3] > 0.0)
 
 
 def test_a_push_is_drawn_on_the_joint_that_is_pushed(biped: Biped) -> None:
