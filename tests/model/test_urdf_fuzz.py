@@ -1,4 +1,4 @@
-"""URDFs mutated at random: each is a physical robot, or is refused by one message that names something of it."""
+"""URDFs mutated at random: each is a physical robot, or is refused by a message that names something of it."""
 
 import copy
 import re
