@@ -64,22 +64,6 @@ def test_windows_close_where_they_say():
     assert np.array_equal(total.torque(1.15, 2, 1.0, q, q), expected)
 
 
-def test_a_torque_of_ones_own_is_amplitude_times_profile_in_its_window():
-    class Parabola(ba.WindowedTorque):
-        """A torque that grows with the square of time."""
-
-        def profile(self, s):
-            return s * s
-
-    q, inside, outside = np.zeros(3), ((1.5, 0.04), (1.5 + 0.3, 0.25)), (1.0, 1.29, 1.9, 2.5)
-    made = Parabola(F, step=2, start=0.3, stop=0.9)
-    for t, share in inside:
-        assert made.torque(t, 2, 1.0, q, q) == pytest.approx(share * np.array(F), rel=1e-12)
-    assert not any(np.any(made.torque(t, 2, 1.0, q, q)) for t in outside)
-    assert not np.any(made.torque(1.5, 1, 1.0, q, q))
-    assert made.switching_times(2, 1.0) == (1.3, 1.9)
-
-
 # -- a pulse with sloping edges ---------------------------------------------------------------------
 @pytest.mark.parametrize("rise", [0.0, 0.04])
 def test_the_area_of_a_pulse_is_amplitude_times_width_whatever_its_rise(rise):

@@ -14,7 +14,6 @@ from biped_adrc.control.npd import NPDController
 from biped_adrc.control.npid import NPIDController
 from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.pd_gravity import PDGravityController
-from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.control.super_twisting import SuperTwistingController
 from biped_adrc.errors import InputError
 from biped_adrc.observers.gpi import GPIObserver
@@ -161,19 +160,6 @@ def test_estimates_of_outputs_in_words_of_the_joints(biped, gait):
     assert found.position == pytest.approx(i.measurement.q_b, rel=1e-12)
     assert found.velocity == pytest.approx(i.measurement.v_b, rel=1e-12)
     assert found.disturbance == pytest.approx(i.a[:4] - i.measurement.terms.kappa @ i.u, rel=1e-8)
-
-
-def test_inside_an_outer_loop_the_outputs_are_those_in_force(biped, gait):
-    """Off the constraint the corrected error is zero at the start and after an impact, and so is y^."""
-    loop = ReferenceReset(OutputADRCController(gait.constraint, SLOW))
-    walker = Walker(biped, loop, timing=SampledTime(1e-3))
-    q, v = off_orbit(gait, biped)
-    m = walker.measure(0.0, q, v, Mode())
-    law, swap = walker.law, biped.relabelling[:4]
-    s = law.initial_state(m)
-    for state in (s, law.jump(s + 1.0, m, swap)):
-        assert np.max(np.abs(law.inner.observer.estimate(state[:12]).disturbance)) > 1.0
-        assert np.max(np.abs(state[:8])) < 1e-9
 
 
 # -- super-twisting and filtered PID ------------------------------------------------------------

@@ -170,29 +170,6 @@ def test_a_force_that_stops_the_walk_does_not_with_the_stride_controlled(bare, p
 
 
 # -- both, in every setting ------------------------------------------------------------------------
-def test_corrections_of_nested_loops_add_up(bare, published):
-    one, two = (
-        ReferenceReset(stride(ba.NPDController, published, bare)),
-        StridePI.on_gait(
-            ReferenceReset(ba.NPDController(published.constraint)),
-            published,
-            bare,
-            StrideGains(-1.0, -0.4),
-        ),
-    )
-    a, w = np.linspace(-0.1, 0.1, 8), np.array([0.2, 0.0, 0.15])
-    q = 0.3 * published.q_minus + 0.7 * published.start(bare)[0]
-    v = published.v_minus
-    first = reference_in_force(one, np.concatenate((w, a)))(0.0, q, v)
-    second = reference_in_force(two, np.concatenate((a, w)))(0.0, q, v)
-    h = published.constraint(0.0, q, v)
-    for x, y, z in zip(first, second, h, strict=True):
-        np.testing.assert_allclose(x, y, atol=1e-12)
-        assert np.max(np.abs(x - z)) > 1e-4
-    m = ba.Walker(bare, one).measure(0.0, q, v, ba.Mode())
-    for loop, s in ((one, np.concatenate((w, a))), (two, np.concatenate((a, w)))):
-        inside = ba.NPDController(reference_in_force(loop, s))
-        np.testing.assert_allclose(loop.output(s, m), inside.output(np.zeros(0), m), rtol=1e-12)
 
 
 def test_what_cannot_be_corrected_is_refused(bare, published):

@@ -84,28 +84,6 @@ def test_joint_outputs_are_npd(biped, gait, state):
     assert u == pytest.approx(npd, rel=1e-9)
 
 
-def test_with_one_gain_for_all_the_choice_of_linear_outputs_does_not_matter(biped, gait, state):
-    """Outputs of the same constraint are T (q_b - h) with T constant: T drops out, unless the gains differ."""
-    y = absolute_outputs(gait.constraint)
-    u, npd = torques(biped, (OutputNPDController(y), ba.NPDController(gait.constraint)), *state)
-    assert u == pytest.approx(npd, rel=1e-9)
-    uneven = ba.Gains([5000.0, 4000.0, 3000.0, 2000.0], 50.0)
-    pair = (OutputNPDController(y, uneven), ba.NPDController(gait.constraint, uneven))
-    u, npd = torques(biped, pair, *state)
-    assert np.max(np.abs(u - npd)) > 1.0
-
-
-def test_absolute_angles_give_back_the_joint_constraint(gait):
-    found = absolute_outputs(gait.constraint).as_virtual_constraint()
-    assert type(found.curve) is type(gait.constraint.curve)
-    assert found.curve.coefficients == pytest.approx(gait.constraint.curve.coefficients, abs=1e-12)
-    assert np.array_equal(found.phase, gait.constraint.phase)
-    assert (found.theta_plus, found.theta_minus) == (
-        gait.constraint.theta_plus,
-        gait.constraint.theta_minus,
-    )
-
-
 def hip_height(biped, q, v):
     """-(l cos(thigh) + l cos(shank)), its row of J and its drift, by hand."""
     rows = np.array([[1, 0, 0, 0, 1], [1, 0, 1, 0, 1.0]])

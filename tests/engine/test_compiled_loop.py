@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pickle
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -109,13 +108,3 @@ def test_the_same_ends(plant, gait, name):
     python, compiled = both(plant, gait, controller, t_end, change, **more)
     assert python.status is status
     same(python, compiled, 1e-6)
-
-
-def test_the_same_bits_again_and_elsewhere(plant, gait):
-    system = loop(ba.CompiledLoop, plant, ba.ADRCController(gait.constraint), disturbance=PUSH)
-    x0 = system.initial_state(*gait.start(plant.biped))
-    first = system.run(x0, ba.RunOptions(0.05)).arcs[0]
-    for again in (system, pickle.loads(pickle.dumps(system))):
-        arc = again.run(x0, ba.RunOptions(0.05)).arcs[0]
-        np.testing.assert_array_equal(arc.x, first.x)
-        np.testing.assert_array_equal(arc.read["xi_estimate"], first.read["xi_estimate"])

@@ -116,21 +116,6 @@ def test_bits_do_not_depend_on_how_many_points_there_are(gait, npd):
         assert np.array_equal(P(s), image)
 
 
-class Leaning(ba.Disturbance):
-    """Without laws."""
-
-    def torque(self, t, step, t_start, q, v):
-        return np.array([0.0, 0.0, 0.0, 0.0, -0.5])
-
-
-def test_parts_without_compiled_form_are_mapped_by_pinocchio(biped, gait, npd):
-    walker = replace(npd, disturbance=Leaning())
-    compiled, python = maps(walker, ba.RK4(5e-3))
-    assert compiled.ran == "pinocchio"
-    s = compiled.project(section(gait, walker))
-    assert np.array_equal(compiled(s), python(s))
-
-
 def test_no_return_is_said_by_either_engine(gait, npd):
     push = ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 2, 0.1)
     walker = replace(npd, disturbance=push, torque_limit=150.0)

@@ -121,45 +121,6 @@ def test_walker_without_knees(name):
     )
 
 
-def energies(pose_of, q, v, bodies):
-    """Kinetic and potential energy [J] of five links, rates by complex steps."""
-
-    def links(angles):
-        p = pose_of(angles)
-        return [
-            ("torso", p.hip, p.torso),
-            ("thigh", p.hip, (p.stance_knee - p.hip) / L),
-            ("thigh", p.hip, (p.swing_knee - p.hip) / L),
-            ("shin", p.stance_knee, -p.stance_knee / L),
-            ("shin", p.swing_knee, (p.swing_foot - p.swing_knee) / L),
-        ]
-
-    h = 1e-30
-    kinetic = potential = 0.0
-    moving = links(q + 1j * h * v)
-    for (body, joint, direction), (_, joint_h, direction_h) in zip(links(q), moving, strict=True):
-        b = bodies[body]
-        velocity = np.imag(joint_h + b.com * direction_h) / h
-        turning = np.imag(direction_h) / h  # its length is the rate of the link
-        kinetic += 0.5 * b.mass * velocity @ velocity + 0.5 * b.inertia * turning @ turning
-        potential += b.mass * 9.81 * (joint + b.com * direction)[1]
-    return kinetic, potential
-
-
-@pytest.mark.parametrize("name", CONVENTIONS)
-def test_energy_is_the_same(name):
-    biped = ba.Biped.load("rabbit", "identified-bare")  # no rotors
-    bodies = biped.description.preset("identified-bare").bodies
-    to_paper = convention(name).to_paper
-    for q_own, v_own in zip(*random_states(5), strict=True):
-        q, v = to_paper.angles(q_own), to_paper.rates(v_own)
-        kinetic, potential = energies(POSES[name], q_own, v_own, bodies)
-        assert biped.kinetic_energy(q, v) == pytest.approx(kinetic, rel=1e-12)
-        assert biped.potential_energy(q) == pytest.approx(potential, abs=1e-11)
-        M = to_paper.A.T @ biped.inertia(q) @ to_paper.A  # the inertia matrix in these coordinates
-        assert 0.5 * v_own @ M @ v_own == pytest.approx(kinetic, rel=1e-12)
-
-
 @pytest.mark.parametrize("name", CONVENTIONS)
 def test_phase_and_relabelling(name, biped):
     c = convention(name)

@@ -14,7 +14,7 @@ from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.curves import Bezier, Polynomial
 from biped_adrc.gait.published import X_STAR, design_published_gait
 from biped_adrc.gait.through_state import GaitLimits, constraint_through, onto_section
-from biped_adrc.gait.zero_dynamics import ZeroDynamics, gauss_nodes
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
 
 
 @pytest.mark.parametrize("kind", [Bezier, Polynomial])
@@ -82,13 +82,6 @@ def test_reference_is_the_derivative_of_the_constraint(biped, gait):
     r = at(0.0)
     assert r.dq_d == pytest.approx((at(d).q_d - at(-d).q_d) / (2 * d), abs=1e-7)
     assert r.drift + r.H @ a == pytest.approx((at(d).dq_d - at(-d).dq_d) / (2 * d), abs=1e-5)
-
-
-def test_gauss_nodes_integrate_polynomials_exactly():
-    s, w, C = gauss_nodes(12)
-    for k in range(11):
-        assert w @ s**k == pytest.approx(1 / (k + 1), abs=1e-14)
-        assert C @ s**k == pytest.approx(s ** (k + 1) / (k + 1), abs=1e-13)
 
 
 def test_quadrature_predicts_the_simulated_step(any_biped):

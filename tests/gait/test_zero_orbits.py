@@ -119,15 +119,6 @@ def test_the_fixed_point_is_the_published_state(any_biped):
     )
 
 
-@pytest.mark.parametrize("start", [0.4, 3.0])
-def test_steps_to_settle(orbits, start):
-    zeta = start * orbits.zeta_star
-    count = orbits.steps_to(zeta, 1e-3)
-    away = np.abs(orbits.iterate(zeta, count + 1) / orbits.zeta_star - 1.0)
-    assert away[count] <= 1e-3
-    assert np.all(away[:count] > 1e-3)
-
-
 # -- the rimless wheel: everything in closed form ----------------------------------------------------
 def wheel(slope):
     curve = Polynomial(np.zeros((0, 2)))

@@ -167,24 +167,6 @@ def test_seeds():
     assert [env.reset()[1]["seed"] for _ in range(3)] == drawn
 
 
-def test_pictures():
-    env = made(render_mode="rgb_array", action="added", **SLOW)
-    env.reset(seed=0)
-    begin = env.render()
-    assert begin.dtype == np.uint8
-    for _ in range(430):
-        env.step(np.zeros(4))
-    drawn = env.unwrapped.drawn
-    assert drawn.step == 2
-    later = env.render()
-    assert begin.shape == later.shape
-    assert np.count_nonzero(np.any(begin != later, axis=2)) > 1000
-    s = replace(env.unwrapped.stage.task.scenario, seed=0, impacts=1)
-    x_minus = ba.walk_scenario(s).trajectory.before("foot_strike")[0]
-    stride = env.unwrapped.stage.plant.swing_foot(x_minus[:5])
-    assert np.allclose(drawn.foot, stride, atol=1e-9)
-
-
 WRONG = (
     {"condition": "windy"},
     {"condition": "wrong impact", "plant": "mujoco"},

@@ -291,19 +291,6 @@ def work_of(signals):
     return np.sum(0.5 * steps * (power[:-1] + power[1:]))
 
 
-@pytest.mark.parametrize("part", [{}, {"delay": 0.4e-3}])
-def test_the_work_counted_is_that_of_the_torques(biped, gait, part):
-    """Encoder counts make the torque chatter; T sum u' q' at the ticks is a quarter off there."""
-    given = dict(part)
-    timing = ba.SampledTime(T, delay=given.pop("delay", 0.0))
-    parts = {"sensors": Sensors(8192.0), "meter": Meter(gait.constraint), "torque_limit": 150.0}
-    walker = ba.Walker(biped, adrc(gait), timing=timing, **parts, **given)
-    walk = ba.walk(walker, gait, impacts=4, method=ba.RK4(0.25e-3), engine="compiled")
-    g = reading(walker.held_at(walk.trajectory.final_state).g)
-    exact = work_of(walk.signals)
-    assert abs(g.net_work - exact) < (0.02 if part else 0.005) * g.work
-
-
 def test_bad_hardware_is_refused(biped, gait):
     for make in (
         lambda: Sensors(counts=0.5),

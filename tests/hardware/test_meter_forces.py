@@ -278,27 +278,6 @@ def test_the_plant_is_judged_and_not_the_model(biped, gait):
     assert found[0].mean_normal_force - found[1].mean_normal_force > 0.5 * lighter
 
 
-class Plain(ba.Controller):
-    """In Python alone."""
-
-    def __init__(self, h):
-        self.h = h
-
-    def output(self, s, m):
-        r = self.h(m.t, m.q, m.v)
-        wanted = 2500.0 * (r.q_d - m.q_b) + 120.0 * (r.dq_d - m.v_b)
-        return m.terms.kappa_inverse @ wanted + m.terms.Omega[:4]
-
-
-def test_a_controller_in_plain_python_is_metered_too(biped, gait):
-    walker = replace(walker_of(biped, gait, pushes(biped)), controller=Plain(gait.constraint))
-    runs = [ba.walk(walker, gait, impacts=1, engine=e).trajectory for e in ENGINES]
-    assert runs[1].settings["engine"] == "compiled plant"
-    one, other = (reading(walker.held_at(run.final_state).g) for run in runs)
-    assert one == pytest.approx(other, rel=1e-6, abs=1e-9)
-    assert one.windows > 0
-
-
 def test_steps_shorter_than_the_window_are_judged_as_a_whole(biped, gait):
     """By the change of momentum over a step of the gait, T F = m (v-) - m (v+) + T m g e_z."""
     q, v = gait.start(biped)

@@ -117,20 +117,6 @@ def test_both_engines_agree(biped, gait, name):
     np.testing.assert_allclose(found.false, expected.false, atol=1e-12)
 
 
-def test_the_meter_sees_the_plant_whatever_its_controller_believes(biped, gait):
-    """It says the same of a walk of a controller without memory, told at once or by a part of its own."""
-    meter = ba.hardware.meter.Meter(gait.constraint)
-    systems = [walker(biped, gait, leaf, meter=meter) for leaf in (None, Told())]
-    ideal, told = (run(system, gait, 0.9) for system in systems)
-    assert len(ideal.events("foot_strike")) == 2
-    g = [s.held_at(x.final_state).g for s, x in zip(systems, (ideal, told), strict=True)]
-    np.testing.assert_allclose(g[1], g[0], rtol=1e-7, atol=1e-9)
-    late = walker(biped, gait, Told(5e-3), low_order, meter=meter)
-    runs = [run(late, gait, 0.43, each) for each in (run_compiled, simulator.run)]
-    g = [late.held_at(each.final_state).g for each in runs]
-    np.testing.assert_allclose(g[0], g[1], rtol=1e-6, atol=1e-8)
-
-
 def test_two_touchdowns_of_which_none_is_noticed_leave_the_labels_right(biped, gait):
     system = walker(biped, gait, Told(missed=1.0))
     walked = run(system, gait, 0.42)
@@ -169,17 +155,6 @@ def test_late_early_missed_and_false_by_what_comes_first(struck, notices, late, 
     assert found.rates.missed_share == (found.missed if decided else None)
     assert found.rates.early_share == (found.early if decided else None)
     assert found.rates.false_notices == len(false)
-
-
-def test_lateness_is_reported_and_is_what_was_asked_for(biped, gait):
-    system = walker(biped, gait, Told(late=5e-3))
-    walked = run(system, gait, 1.3)
-    found = touchdowns(system, walked)
-    assert len(found.t) == 3
-    assert np.all((found.late >= 5e-3 - 1e-9) & (found.late < 5e-3 + T))
-    assert (found.missed, found.early, len(found.false), found.waits) == (0.0, 0.0, 0, False)
-    with pytest.raises(InputError, match="told of touchdowns at once"):
-        touchdowns(walker(biped, gait, None), walked)
 
 
 def test_a_false_notice_comes_once_and_an_early_one_is_counted_as_early(biped, gait):

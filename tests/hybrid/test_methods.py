@@ -177,14 +177,6 @@ def test_order_of_the_exponential_method_on_a_smooth_closed_loop(biped, gait):
     )
 
 
-def test_exponential_agrees_with_a_stiff_method_on_table_one(biped, gait):
-    walker = ba.Walker(biped, ba.ADRCController(gait.constraint))
-    x0 = walker.initial_state(*gait.start(biped))
-    stiff = simulate(walker, x0, ba.Mode(), Stiff(1e-8, 1e-10), t_end=0.02).final_state[:10]
-    ours = simulate(walker, x0, ba.Mode(), Exponential(2e-4), t_end=0.02).final_state[:10]
-    assert np.max(np.abs(ours - stiff)) < 2e-5
-
-
 @pytest.mark.parametrize("length", [0.4, 1.96])
 def test_a_step_of_another_length_has_its_own_phi_functions(length):
     """On E' = a E + c, p' = 1 the method is exact whatever the step."""

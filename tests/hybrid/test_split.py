@@ -111,16 +111,6 @@ def test_eigenvalues_are_those_of_feedback_and_observer():
     assert np.allclose(found, expected, rtol=1e-7)
 
 
-def test_on_the_constraint_the_second_coordinate_is_the_angular_momentum(biped, gait):
-    """sigma of the plant, to the accuracy of the fit, at the start of a step and at its end."""
-    walker = WALKERS["disturbed"](biped, gait.constraint)
-    split = split_of(walker, True)
-    for q, v in (gait.start(biped), (gait.q_minus, gait.v_minus)):
-        w, _ = split.to(walker.initial_state(q, v))
-        assert w[0] == pytest.approx(gait.constraint.phase @ q, rel=1e-14)
-        assert w[1] == pytest.approx(walker.plant.angular_momentum(q, v), rel=1e-4)
-
-
 def errors_after(walker, gait, dv, steps, feedback):
     """Largest error of (q, q') after 0.08 s, against an explicit method of order 8 on x itself."""
     q, v = gait.start(walker.plant)
@@ -175,20 +165,6 @@ def test_one_step_of_walking_at_table_one(biped, gait, plant, push, limit, bound
         assert np.array_equal(found.x_plus, x_plus)
     coarse = impact(walker, gait, 5e-4, False)
     assert np.max(np.abs(coarse.x_minus - exact.x_minus)[:10]) < 1e-4
-
-
-def test_at_the_torque_limit_the_walk_is_the_same(biped, gait):
-    """There the linear part is wrong and the remainder undoes it."""
-    walker = WALKERS["disturbed"](biped, gait.constraint)
-    x0 = walker.initial_state(*gait.start(biped))
-    ends = []
-    for method in (Exponential(1e-4), Exponential(1e-4, feedback=True)):
-        run = simulate(walker, x0, ba.Mode(), method, t_end=0.1)
-        assert run.status.ok
-        ends.append(run.final_state[:10])
-    torques = [walker.instant(t, run(t), ba.Mode()).u for t in np.linspace(0.0, 0.1, 50)]
-    assert np.max(np.abs(torques)) == 40.0
-    assert np.max(np.abs(ends[1] - ends[0])) < 1e-3
 
 
 REFUSED = {

@@ -10,8 +10,7 @@ from biped_adrc.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.model.pinned import frame_index, reroot
 from biped_adrc.resources import data_folder
 from biped_adrc.robots import symmetry
-from biped_adrc.robots.robot_toml import load_description, robot_names
-from biped_adrc.robots.urdf import to_xml
+from biped_adrc.robots.robot_toml import robot_names
 from biped_adrc.robots.urdf_reader import load_tree
 from biped_adrc.robots.urdf_xml import parse
 
@@ -49,38 +48,11 @@ def test_bad_urdf_is_refused(tmp_path, old, new, message):
     assert "bad.urdf" in str(caught.value)
 
 
-def test_xml_round_trip():
-    tree = load_tree(FLOATING)
-    assert to_xml(tree).count("<link") == len(tree.links)
-    again = load_tree_text(to_xml(tree))
-    assert again.links == tree.links
-    assert again.joints == tree.joints
-
-
-def load_tree_text(text):
-    import tempfile
-    from pathlib import Path
-
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "robot.urdf"
-        path.write_text(text)
-        return load_tree(path)
-
-
 def test_stored_pinned_urdf_is_the_floating_one_rerooted():
     stored = load_tree(FLOATING.with_name("pinned.urdf"))
     derived = reroot(load_tree(FLOATING), "left_foot", "torso")
     assert stored.links == derived.links
     assert stored.joints == derived.joints
-
-
-def test_default_preset_is_what_the_urdf_says():
-    tree, preset = load_tree(FLOATING), load_description("rabbit").tree()
-    for name, link in tree.links.items():
-        if link.inertial is not None:
-            other = preset.links[name].inertial
-            assert (link.inertial.mass, link.inertial.com) == (other.mass, other.com)
-            assert link.inertial.inertia[3] == other.inertia[3]
 
 
 def test_unknown_names_are_answered_with_the_known_ones(biped):

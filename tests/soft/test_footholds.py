@@ -104,23 +104,6 @@ def test_each_foot_touches_its_own_level_along_the_vertical(biped, gait, slope):
             np.testing.assert_allclose(depths, expected, rtol=0.0, atol=2e-6)
 
 
-@pytest.mark.parametrize("height", [-0.7, 0.7])
-def test_the_same_motion_on_ground_at_another_height(biped, gait, height):
-    """Nothing that ends a single support is counted from the level of the start."""
-    plant = MuJoCoPlant(biped, ground_steps=(ba.StepDown(1, 5e-3),))
-    row = np.concatenate(plant.start(0.0, *gait.start(biped))[1:])
-    moved = []
-    for raised in (0.0, height):
-        x, found = row.copy(), ()
-        x[[12, 16, 17]] += raised
-        for k in range(50):
-            x, contacts = plant.stride(k * 1e-3, x, np.zeros(4), None, (k + 1) * 1e-3)
-            found += contacts
-        moved.append(x - raised * np.isin(np.arange(len(x)), (12, 16, 17)))
-        assert found == ()
-    np.testing.assert_allclose(moved[0], moved[1], rtol=0.0, atol=1e-6)
-
-
 def test_uneven_ground_of_a_scenario_is_that_of_the_rigid_plant():
     walk = ba.walk_scenario(ba.Scenario("NPD", **SOFT, impacts=3, ground_rms=2e-3, seed=4))
     assert walk.trajectory.status is ba.Status.COMPLETED

@@ -7,7 +7,6 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.recorded_signals import accelerations
-from biped_adrc.bench.run import run_trial
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.trajectory import Arc
@@ -83,32 +82,6 @@ def test_what_a_finished_walk_offers(made, tmp_path):
     assert np.array_equal(again.signals.ground_reaction, made.signals.ground_reaction)
     assert again.legality.record() == made.legality.record()
     made.animate(tmp_path / "soft.png")
-
-
-def test_a_row_of_a_study_says_what_the_walk_says(made):
-    row = run_trial({**SOFT, "controller": "NPD"})
-    x, ticks = made.signals, np.diff(made.signals.t) > 0.0
-    assert row["status"] == "COMPLETED"
-    assert row["impacts"] == 2
-    assert row["legal"] == 1
-    assert row["peak_error"] == pytest.approx(np.max(np.abs(x.error)))
-    assert row["rms_error"] == pytest.approx(np.sqrt(np.mean(x.error[:-1][ticks] ** 2)))
-    moved = np.diff(x.q[:, :4], axis=0)[ticks]
-    assert row["net_work"] == pytest.approx(np.sum(x.u[:-1][ticks] * moved))
-    assert row["distance"] == pytest.approx(0.62, abs=0.03)
-    assert run_trial({**SOFT, "controller": "NPD"}) == row
-
-
-def test_pushes_and_seeds_are_those_of_any_scenario():
-    push = {"push": "pulse", "on": "random joints", "amplitude": 40.0, "pushed_step": 2}
-    one, other = ({**SOFT, **push, "controller": "NPD", "seed": k} for k in (1, 2))
-    assert run_trial(one) == run_trial(one)
-    assert run_trial(one)["peak_error"] != run_trial(other)["peak_error"]
-    s = ba.Scenario("NPD", **SOFT, pushes="q1=30@2:0.1-0.2")
-    x = ba.walk_scenario(s).signals
-    inside = (x.step == 2) & (x.t - x.t[x.step == 2][0] > 0.11)
-    inside &= x.t - x.t[x.step == 2][0] < 0.19
-    assert np.all(x.zeta[inside, 0] == 30.0)
 
 
 @pytest.mark.parametrize(

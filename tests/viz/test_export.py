@@ -20,7 +20,7 @@ from biped_adrc.viz.export import Clip, export
 from biped_adrc.viz.from_the_side import gif
 from biped_adrc.viz.from_the_side.moving_parts import Motion
 from biped_adrc.viz.from_the_side.moving_picture import write_moving_picture
-from biped_adrc.viz.from_the_side.side_view import Deviation, SideView
+from biped_adrc.viz.from_the_side.side_view import SideView
 from biped_adrc.viz.from_the_side.stick_figures import strip
 from biped_adrc.viz.placement import WalkScene, ending
 from biped_adrc.viz.style import new_figure, style
@@ -92,30 +92,6 @@ def test_a_gif_goes_at_the_pace_that_is_asked_for(fps: float) -> None:
             durations.append(image.info["duration"])
     ends = np.cumsum(durations) - [*[0] * 39, 2000]
     assert np.max(np.abs(ends - 1000.0 * np.arange(1, 41) / fps)) <= 5.0 + 1e-9
-
-
-@pytest.mark.parametrize("factor", [1.0, 30.0])
-def test_a_magnified_posture_is_the_reference_and_so_many_times_the_error(
-    biped: Biped, walks: dict[str, Walk], factor: float
-) -> None:
-    walk, names = walks["ADRC"], biped.description.joints
-    bent = SideView(WalkScene.of(walk), Deviation.of(walk, factor))
-    for arc in walk.trajectory.arcs[:2]:
-        k = len(arc.t) // 3
-        t, q = float(arc.t[k]), arc.x[k, :5]
-        m = walk.walker.measure(t, q, arc.x[k, 5:10], arc.mode)
-        q_d = walk.reference(m.t, m.q, m.v).q_d
-        drawn = np.append(q_d + factor * (q[:4] - q_d), q[4])
-        if arc.mode.step == 2:
-            drawn = biped.relabel(drawn)
-        values = bent.scene.joints(t, bent.deviation.change(t, arc.mode.step))
-        np.testing.assert_allclose([values[name] for name in names], drawn, atol=1e-9)
-        if factor == 1.0:
-            plain = SideView(WalkScene.of(walk))
-            np.testing.assert_allclose(bent.segments(t), plain.segments(t), atol=1e-12)
-        # the stance foot stays on the ground
-        foot = np.array(bent.scene.foothold(arc.mode.step - 1))
-        assert np.min(np.hypot(*(bent.segments(t).reshape(-1, 2) - foot).T)) < 1e-9
 
 
 def fallen(walk: Walk, status: Status, guard: str | None = None) -> Walk:

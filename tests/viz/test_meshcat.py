@@ -16,7 +16,6 @@ from biped_adrc.disturbances.pulse import TorquePulse
 from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.hybrid.integrators import RK4
-from biped_adrc.hybrid.trajectory import hermite
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.walk import walk as walk_of
@@ -80,20 +79,6 @@ def test_the_animation_plays_the_walk(biped: Biped, walks: dict[str, Walk], page
         np.testing.assert_allclose(d["points"][k][:2], at["torso"][[0, 2], 3], atol=1e-5)
         swing = ("right", "left")[i % 2]
         np.testing.assert_allclose(d["points"][k][2:], at[f"{swing}_foot"][[0, 2], 3], atol=1e-5)
-
-
-def test_between_nodes_the_walk_is_within_tolerance(walks: dict[str, Walk], page: str) -> None:
-    for name, walk in walks.items():
-        d, laid_out = data(robot_of(scene(page)[0], name)), WalkScene.of(walk)
-        names = [joint["path"].split("/")[-1] for joint in robot_of(scene(page)[0], name)["joints"]]
-        rng = np.random.default_rng(3)
-        for t in rng.uniform(d["t"][0], d["t"][-1], 200):
-            i = int(np.searchsorted(d["t"], t, side="right")) - 1
-            ends = [(d["t"][k], d["joints"][k], d["rates"][k]) for k in (i, i + 1)]
-            (t0, x0, dx0), (t1, x1, dx1) = ends
-            drawn = hermite(t0, t1, x0, x1, dx0, dx1, t)
-            true = laid_out.joints(float(t))
-            np.testing.assert_allclose(drawn, [true[n] for n in names], atol=3e-6)
 
 
 def test_arrows_are_the_loads(walks: dict[str, Walk], page: str) -> None:

@@ -17,7 +17,6 @@ from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import passive_walk
 from biped_adrc.scenario.stored import load_walk
 from biped_adrc.viz.from_the_side.side_view import SideView
-from biped_adrc.viz.meshcat.frames import pose
 from biped_adrc.viz.placement import WalkScene, link_placements
 from biped_adrc.viz.plots import friction_cone
 from biped_adrc.viz.style import new_figure
@@ -110,26 +109,6 @@ def test_the_ground_passes_through_all_footholds(walks: dict[str, Walk], name: s
     ends = np.array([tile.ends for tile in scene.surface.tiles(-2, 10)])
     np.testing.assert_array_equal(ends[1:, 0, 0], ends[:-1, 1, 0])
     assert (ends[0, 0, 0], ends[-1, 1, 0]) == (-1.0, 5.0)
-
-
-def test_a_torque_is_drawn_with_the_power_it_has() -> None:
-    """zeta' q' in drawn coordinates, in a step in which the hip counts from the other leg."""
-    walk = passive_walk("compass", 2)
-    zeta = np.array([3.0, -2.0])
-    pushed = ba.Walker(
-        walk.walker.plant,
-        ba.Passive(),
-        ba.TorquePulse(zeta, step=2, start=0.1, stop=0.3),
-        slope=walk.walker.slope,
-    )
-    scene = WalkScene.of(type(walk)(pushed, None, walk.trajectory))
-    arc = walk.trajectory.arcs[1]
-    t = float(arc.t[0]) + 0.2
-    shown, v = pose(scene, 1, t), arc(t)[2:]
-    moving = [j.name for j in walk.walker.plant.tree.joints if j.type != "fixed"]
-    rates = [shown.rates[moving.index(j)] for j in walk.walker.plant.description.joints]
-    assert shown.loads[2:] @ rates == pytest.approx(zeta @ v, rel=1e-6)
-    assert abs(zeta @ v) > 0.5
 
 
 # -- passive walks ---------------------------------------------------------------------------------
