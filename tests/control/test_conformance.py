@@ -49,10 +49,7 @@ ROWS = {
         ],
         "ADRC output": lambda make, h: [make(h, SLOW, reset=ba.ResetPolicy.MEASURED)],
         "LESO": lambda make, h: [make(h, ba.GPIObserver.from_bandwidth(500.0))],
-        "ADRC assisted": lambda make, h: [
-            make(h),
-            make(h, ba.GPIObserver.from_bandwidth(300.0, 0)),
-        ],
+        "ADRC assisted": lambda make, h: [make(h)],
         "DOB": lambda make, h: [
             make(h),
             make(h, MomentumObserver.from_poles(THREE), solve_theta=False),
@@ -81,14 +78,8 @@ ROWS = {
         "damping": lambda make, h: [make(MomentumDOBController(h), 0.2, damping=5.0)],
     },
     "around": {
-        "prediction": lambda make, h: [
-            make(ba.ADRCController(h, SLOW), 2.3e-3),
-            make(MomentumDOBController(h), 1e-3),
-        ],
-        "feedforward": lambda make, h: [
-            make(ba.ADRCController(h, SLOW), h, robot(), 0.8),
-            make(ba.NPDController(h), h, robot(), 1.0),
-        ],
+        "prediction": lambda make, h: [make(ba.ADRCController(h, SLOW), 2.3e-3)],
+        "feedforward": lambda make, h: [make(ba.ADRCController(h, SLOW), h, robot(), 0.8)],
     },
     "observer": {
         "GPI": lambda make: [make.from_poles(), make.from_bandwidth(300.0, 0)],
@@ -156,7 +147,7 @@ UNNAMED = {
     "adaptive": lambda h: [ba.Adaptive(1e-9, 1e-9)],
     "stiff": lambda h: [ba.Stiff(1e-8, 1e-8)],
     "exponential": lambda h: [ba.Exponential(1e-3), ba.Exponential(1e-3, True)],
-    "motors": lambda h: [Motors(), Motors(2e4), Motors(lag=1e-3), Motors(2e4, 1e-3)],
+    "motors": lambda h: [Motors(), Motors(2e4, 1e-3)],
 }
 """Rows of what no scenario names."""
 ABSOLUTE = np.array([[1, 0, 0, 0, 1], [0, 1, 0, 0, 1], [1, 0, 1, 0, 1], [0, 1, 0, 1, 1.0]])
