@@ -231,13 +231,12 @@ def _(outputs: Outputs):
 def _(method: OneStepMethod):
     """The same walk in both engines and both time bases, node by node where no step is chosen."""
     linear = isinstance(method, ba.Exponential)
-    observing = ba.ADRCController(gait().constraint, ba.GPIObserver.from_bandwidth(300.0))
-    table = ba.ADRCController(gait().constraint)
-    for controller in (table,) if linear else (ba.NPDController(gait().constraint), observing):
-        for timing in (ba.ContinuousTime(), ba.SampledTime(2 * PERIOD)):
-            walker = ba.Walker(robot(), controller, timing=timing, runaway_torque=np.inf)
-            if not (walker.sampled and linear):
-                walked_alike(walker, method)
+    observer = ba.GPIObserver.from_poles() if linear else ba.GPIObserver.from_bandwidth(300.0)
+    controller = ba.ADRCController(gait().constraint, observer)
+    for timing in (ba.ContinuousTime(), ba.SampledTime(2 * PERIOD)):
+        walker = ba.Walker(robot(), controller, timing=timing, runaway_torque=np.inf)
+        if not (walker.sampled and linear):
+            walked_alike(walker, method)
     assert pickle.loads(pickle.dumps(method)) == method
     assert method.label
 
@@ -246,7 +245,7 @@ def _(method: OneStepMethod):
 def _(motors: Motors):
     """The line of torques as laws, with every delay, and in the loop behind a controller."""
     random = np.random.default_rng(7)
-    for delay in (0.0, 0.4 * PERIOD, 2.0 * PERIOD, 1.3 * PERIOD):
+    for delay in (0.0, 1.3 * PERIOD):
         j, f = whole_and_part(delay, PERIOD)
         k = motors.parameters(PERIOD, f)
         sizes = (4 * j, 4 * (motors.lag > 0.0), 4 * (f > 0.0), 4)
@@ -389,7 +388,7 @@ def laws_compile(law):
             agree(laws.correct_blind, k, s, m, 0.1 * random.normal(size=(5, 2)))
 
 
-def loop_compiles(walker, states=60, ticks=0):
+def loop_compiles(walker, states=20, ticks=0):
     """The closed loop of a wrong model, pushed and limited: flow, tick, strike and watch in machine code.
 
     ticks: taken before each state is compared, so that a line of torques has something in it.
