@@ -1,4 +1,4 @@
-"""Files: names of outputs, JSON that is read, values made plain for JSON, and writing whole or not at all.
+"""Files: names of outputs, JSON that is read, text for other languages, and writing whole or not at all.
 
 Used by every module that touches the file system, so that all of them refuse the same things with
 the same sentences. Three rules stand behind it:
@@ -168,6 +168,41 @@ def plain(value: object) -> Any:
     if isinstance(value, list | tuple):
         return [plain(v) for v in value]
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def one_line(text: str) -> str:
+    """The text on one line: line breaks and what is not printable are written out, such as \\n."""
+    return "".join(x if x.isprintable() else x.encode("unicode_escape").decode() for x in text)
+
+
+def c_comment(text: str) -> str:
+    """The text inside a comment of C: one line of ASCII that cannot end it, continue it or hold a trigraph."""
+    plain = one_line(text.replace("\\", "\\x5c")).encode("ascii", "backslashreplace").decode()
+    return re.sub(r"(?<=\*)(?=/)|(?<=/)(?=\*)|(?<=\?)(?=\?)", " ", plain)
+
+
+def xml_comment(text: str) -> str:
+    """The text inside a comment of XML: one line without two hyphens in a row, which XML forbids there."""
+    return re.sub("(?<=-)(?=-)", " ", one_line(text))
+
+
+def toml_key(name: str) -> str:
+    """A key of TOML, in quotes where it has other characters than letters, digits, _ and -."""
+    return name if re.fullmatch("[A-Za-z0-9_-]+", name) else toml_value(name)
+
+
+def toml_value(x: object) -> str:
+    """A plain value in TOML: floats are read back to the same bits; None is the text "none"."""
+    if x is None:
+        return toml_value("none")
+    if isinstance(x, Mapping):
+        inside = (f"{toml_key(key)} = {toml_value(value)}" for key, value in x.items())
+        return "{ " + ", ".join(inside) + " }"
+    if isinstance(x, list | tuple):
+        return "[" + ", ".join(map(toml_value, x)) + "]"
+    if isinstance(x, str | bool | int):  # TOML is stricter than JSON in one character
+        return json.dumps(x, ensure_ascii=False).replace("\x7f", "\\u007f")
+    return repr(float(x)) if isinstance(x, float) else repr(x)
 
 
 def write_text(path: Path, text: str) -> None:

@@ -9,8 +9,10 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
 
 from biped_adrc.deploy.computer import Computer
 from biped_adrc.deploy.datagram import VERSION
@@ -18,6 +20,7 @@ from biped_adrc.deploy.layout import Field, Functions, functions
 from biped_adrc.engine.c_text import Written, c_text, decimal, used_numbers
 from biped_adrc.engine.symbols import floats, paths
 from biped_adrc.errors import InputError
+from biped_adrc.files import c_comment, one_line
 from biped_adrc.versions import packages
 
 REALS = {"float64": "double", "float32": "float"}
@@ -175,14 +178,18 @@ def _rates(rates: tuple[int, ...], n: int) -> str:
 
 def rendered(template: str, given: Mapping[str, object]) -> str:
     """The text of a file from its template."""
-    return _environment().get_template(f"{template}.j2").render(given)
+    return _environment(Path(template).suffix).get_template(f"{template}.j2").render(given)
 
 
 @cache
-def _environment() -> Environment:
-    """Jinja's environment, made once; nothing is escaped, since the pages are no HTML."""
+def _environment(suffix: str) -> Environment:
+    """Jinja's environment for a language, made once, which writes every value as text of that language."""
+    markup = suffix in (".xml", ".html")
+    safe = c_comment if suffix in (".c", ".h") else one_line
     return Environment(
         loader=PackageLoader("biped_adrc.deploy"),
+        autoescape=markup,
+        finalize=lambda x: x if isinstance(x, Markup) and markup else safe(str(x)),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,

@@ -36,9 +36,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from biped_adrc.bench.parameters import TABLES, nested
-from biped_adrc.bench.scenario_file import read_values, scenario_lines, toml
+from biped_adrc.bench.scenario_file import read_values, scenario_lines
 from biped_adrc.errors import InputError
-from biped_adrc.files import reading, write_text
+from biped_adrc.files import reading, toml_value, write_text
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.live.hand_table import from_table, to_table
 from biped_adrc.live.record import VERSION, Change, SessionRecord, check_version, whole
@@ -103,11 +103,15 @@ def to_text(record: SessionRecord, ended: Sequence[Ended]) -> str:
         lines += ["", "[ghost]", *scenario_lines(record.ghost)]
     lines += ["", "[session]", f"version = {VERSION}", f"samples = {record.samples}"]
     if record.changes:
-        lines += ["changes = [", *(f"    {toml(x._asdict())}," for x in record.changes), "]"]
+        lines += ["changes = [", *(f"    {toml_value(x._asdict())}," for x in record.changes), "]"]
     if table := to_table(record.hands):
-        lines.append(f"hand = {toml(table)}" if "'''" in table else f"hand = '''\n{table}'''")
+        lines.append(f"hand = {toml_value(table)}" if "'''" in table else f"hand = '''\n{table}'''")
     for end in ended:
-        lines += ["", "[[ended]]", *(f"{name} = {toml(x)}" for name, x in end._asdict().items())]
+        lines += [
+            "",
+            "[[ended]]",
+            *(f"{name} = {toml_value(x)}" for name, x in end._asdict().items()),
+        ]
     return "\n".join(lines) + "\n"
 
 
