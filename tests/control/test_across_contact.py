@@ -6,22 +6,20 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.control.across_contact import Fade, Hold, filled
+from biped_adrc.control.across_contact import Hold, filled
 from biped_adrc.control.base import ControllerLaws
-from biped_adrc.control.frozen_disturbance import Freeze
+from biped_adrc.control.fade import Fade
 from biped_adrc.control.impact_invariant import ImpactInvariant, rates_struck
-from biped_adrc.control.kept_torque import KeepTorque
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.pd_gravity import PDGravityController
 from biped_adrc.errors import InputError
-from biped_adrc.observers.momentum import MomentumObserver
 from biped_adrc.scenario.build import build
 
 PERIOD, SWAP = 1e-3, np.array([1, 0, 3, 2])
 PUSH = ba.TorquePulse([30.0, 20.0, -10.0, 15.0, 0.0], step=2, start=0.1, stop=0.8)
 FAST = ba.GPIObserver.from_bandwidth(500.0)
-WINDOWS = (Hold, Fade, Freeze, ImpactInvariant)
+POLICIES = (Hold, Fade, ImpactInvariant)
 
 
 @pytest.fixture(scope="module")
@@ -100,72 +98,6 @@ def test_faded_the_observer_counts_by_the_ramp(h, seen, x, w):
         assert np.array_equal(law.correct(s, m), inner.correct(s, m))
         late = seen(0.041)
         assert np.array_equal(law.output(s, late), inner.output(s, late))
-
-
-def test_frozen_a_chain_goes_on_as_an_observer_of_two_states(h, seen):
-    """x1^, x2^ by hand: x'' = kappa u + xi_0, and the innovation with the first two gains."""
-    controller = ba.ADRCController(h, FAST)
-    law, T = Freeze(controller, 0.01).sampled(PERIOD), PERIOD
-    L = controller.observer.sampled(T).parameters.L
-    m = seen(0.0)
-    s = law.initial_state(m)
-    x1, x2, xi = m.q_b, m.v_b, m.terms.xi
-    for tick in range(10):
-        m = seen(tick * T)
-        u = np.random.default_rng(tick).normal(size=4)
-        s = law.correct(s, m)
-        gap = m.q_b - x1
-        x1, x2 = x1 + L[0] * gap, x2 + L[1] / T * gap
-        for found, expected in zip(law.estimate(s, m), (x1, x2, xi), strict=True):
-            np.testing.assert_allclose(found, expected, rtol=1e-10)
-        s = law.predict(s, m, u)
-        a = m.terms.kappa @ u + xi
-        x1, x2 = x1 + T * x2 + 0.5 * T**2 * a, x2 + T * a
-    late = seen(0.01)
-    assert np.array_equal(law.correct(s, late), controller.sampled(T).correct(s, late))
-
-
-def test_frozen_a_momentum_observer_keeps_its_force(h, seen):
-    observer = MomentumObserver.from_bandwidth(200.0, 3)
-    law = Freeze(MomentumDOBController(h, observer), 0.01).sampled(PERIOD)
-    inner, m = law.inner, seen(0.005)
-    s = off(inner, m)
-    told = inner.observer.estimate
-    for new, run in (
-        (law.correct(s, m), inner.correct(s, m)),
-        (law.predict(s, m, m.v_b), inner.predict(s, m, m.v_b)),
-    ):
-        assert np.array_equal(told(new).disturbance, told(s).disturbance)
-        assert np.array_equal(told(new).position, told(run).position)
-        assert not np.array_equal(told(run).disturbance, told(s).disturbance)
-
-
-def test_what_is_not_the_models_goes_on_as_a_torque_on_the_same_leg(h, seen):
-    w = np.array([10.0, -20.0, 30.0, -5.0])
-    for controller in inside(h):
-        law = KeepTorque(controller).sampled(PERIOD)
-        before, after = seen(0.4), seen(0.0)
-        z = law.inner.laws.begin(law.inner.laws.parameters, before, w)
-        s = law.correct(np.concatenate((z, np.zeros(4))), before)
-        np.testing.assert_allclose(s[-4:], w, rtol=1e-7)
-        started = law.jump(s, after, SWAP)
-        assert np.array_equal(started[-4:], s[-4:][[1, 0, 3, 2]])
-        x = law.estimate(started, after)
-        expected = after.terms.xi + after.terms.kappa @ w[[1, 0, 3, 2]]
-        np.testing.assert_allclose(x.disturbance, expected, rtol=1e-7)
-        np.testing.assert_allclose(x.position, after.q_b, atol=1e-12)
-        np.testing.assert_allclose(x.velocity, after.v_b, atol=1e-9)
-        np.testing.assert_allclose(law.initial_state(after)[:-4], law.inner.initial_state(after))
-        assert not np.any(law.initial_state(after)[-4:])
-
-
-def test_a_torque_from_outside_is_cancelled_by_an_observer_that_begins_under_it(h, seen):
-    """u(w) = u(0) - w: no part of the policy's own formula. Its wrong sign would double the push."""
-    w, m = np.array([10.0, -20.0, 30.0, -5.0]), seen(0.0)
-    for controller in inside(h):
-        laws = controller.sampled(PERIOD).laws
-        u = [laws.output(laws.parameters, laws.begin(laws.parameters, m, x), m) for x in (0 * w, w)]
-        np.testing.assert_allclose(u[0] - u[1], w, rtol=1e-7)
 
 
 # -- what no impulse changes -------------------------------------------------------------------------
@@ -307,11 +239,10 @@ def test_to_begin_anew_on_detection_is_the_reset_of_the_model_and_no_other(h, se
 # -- walks -------------------------------------------------------------------------------------------
 CASES = [
     (policy, name)
-    for policy in (*WINDOWS, KeepTorque)
+    for policy in POLICIES
     for name in ("m = 1", "Table I", "output", "DOB")
-    if (name == "m = 1") or (policy, name) in ((Hold, "Table I"), (KeepTorque, "DOB"))
-    or (policy, name) == (Freeze, "output")
-]  # fmt: skip
+    if name == "m = 1" or (policy, name) in ((Hold, "Table I"), (Fade, "output"), (Fade, "DOB"))
+]
 
 
 @pytest.mark.parametrize(("policy", "name"), CASES)
@@ -325,7 +256,7 @@ def test_both_engines_walk_alike(biped, gait, h, policy, name):
         assert a.t[-1] == pytest.approx(b.t[-1], abs=1e-10)
 
 
-@pytest.mark.parametrize("policy", WINDOWS)
+@pytest.mark.parametrize("policy", POLICIES)
 def test_a_window_of_no_time_is_the_controller_itself_bit_for_bit(biped, gait, h, policy):
     inner = ba.ADRCController(h, FAST)
     one, other = (walked(biped, gait, law) for law in (inner, policy(inner, 0.0)))
@@ -348,20 +279,9 @@ def test_held_for_longer_than_a_step_it_is_the_law_of_the_model(biped, gait, h):
     assert np.max(np.abs(adrc - npd)) > 1e-4
 
 
-def test_a_push_that_stays_is_known_after_the_touchdown(biped, gait, h):
-    """The peak error of the 0.1 s after it, beside an observer that begins with the model's xi."""
-    push, peaks = ba.TorqueStep([20.0, 20.0, 10.0, 10.0, 0.0], step=1, start=0.1), []
-    inner = ba.ADRCController(h, ba.GPIObserver.from_bandwidth(200.0))
-    for law in (inner, KeepTorque(inner)):
-        arc = walked(biped, gait, law, push=push).arcs[1]
-        early = arc.x[arc.t < arc.t[0] + 0.1]
-        peaks.append(max(np.max(np.abs(x[:4] - h(0.0, x[:5], x[5:10]).q_d)) for x in early))
-    assert peaks[1] < 0.1 * peaks[0]
-
-
 # -- what is refused ---------------------------------------------------------------------------------
 def test_continuous_time_is_refused_by_both_engines(biped, gait, h):
-    for policy in (*WINDOWS, KeepTorque):
+    for policy in POLICIES:
         walker = ba.Walker(biped, policy(ba.ADRCController(h)))
         for engine in ("pinocchio", "compiled"):
             with pytest.raises(InputError, match="sampled time only; give timing=SampledTime"):
@@ -379,11 +299,8 @@ def test_bad_windows_and_controllers_are_named(h, seen):
     for wrong in (-0.01, np.nan, np.inf):
         with pytest.raises(InputError, match=f"window after touchdown is {wrong} s"):
             Hold(ba.NPDController(h), wrong)
-    for policy, words in ((Freeze, "could be frozen"), (KeepTorque, "under a torque")):
-        with pytest.raises(InputError, match=f"NPDController has no .*{words}"):
-            policy(ba.NPDController(h))
-        with pytest.raises(InputError, match="expected a Controller"):
-            policy(h)
+    with pytest.raises(InputError, match="expected a Controller"):
+        Hold(h)
     m = seen(0.1)
     with pytest.raises(InputError, match=r"call sampled\(period\)"):
         Hold(ba.ADRCController(h)).correct(np.zeros(36), m)
@@ -408,9 +325,7 @@ def test_a_scenario_names_the_policy(h):
     for name, policy in (
         ("hold", Hold),
         ("Fade", Fade),
-        ("freeze", Freeze),
-        ("keep-torque", KeepTorque),
-        ("impact invariant", ImpactInvariant),
+        ("impact-invariant", ImpactInvariant),
     ):
         s = ba.Scenario("LESO", contact=name, period=PERIOD)
         made = build(s).controller
@@ -442,9 +357,7 @@ def test_an_outer_loop_goes_around_the_policy(h):
         ({"contact_window": 0.01, "period": PERIOD}, "contact_window without contact"),
         ({"contact": "hold", "contact_window": 2.0, "period": PERIOD}, "less than or equal to 1"),
         ({"contact": "hodl", "period": PERIOD}, "did you mean 'hold'"),
-        ({"contact": "keep torque", "contact_window": 0.01, "period": PERIOD}, "contact_window"),
         ({"contact": "hold", "period": PERIOD, "own": {"window": 0.1}}, "from contact_window"),
-        ({"contact": "freeze", "controller": "NPD", "period": PERIOD}, "could be frozen"),
     ],
 )
 def test_a_scenario_that_does_not_fit_is_refused(values, words):
