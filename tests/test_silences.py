@@ -38,8 +38,6 @@ def walker(biped, gait):
 def test_a_number_is_no_timing(timing, meant, walker):
     with pytest.raises(InputError, match=re.escape(f"{timing!r}, expected {meant}")):
         replace(walker, timing=timing)
-    with pytest.raises(InputError, match=re.escape(f"expected {meant}")):
-        ba.ArmSystem(None, None, timing, limited=False)
 
 
 def test_a_clock_slower_than_a_fall_is_none():
