@@ -18,7 +18,6 @@ from dataclasses import dataclass
 
 from biped_adrc.analysis.statistics import Interval, median, share
 from biped_adrc.campaign.chunk import Row
-from biped_adrc.errors import InputError
 from biped_adrc.viz.comparison_text import MEASURES, NEEDS, REASONS
 
 IMPULSE = "bad_impulse"
@@ -34,16 +33,7 @@ def is_made(row: Row) -> bool:
 
 
 def is_legal(row: Row) -> bool:
-    """Whether the walk made all steps, each of them legally.
-
-    Raises InputError for a walk that made all steps without a value in the column `legal`, as older versions
-    wrote.
-    """
-    if is_made(row) and row.get("legal") is None:
-        raise InputError(
-            "a walk made all steps and does not say whether legally (column 'legal'); expected 0 or 1. It was "
-            "walked by an older version: begin anew in another folder"
-        )
+    """Whether the walk made all steps, each of them legally."""
     return is_made(row) and row["legal"] == 1
 
 

@@ -263,13 +263,6 @@ def test_cells_without_survivors_legal_walks_or_numbers(rows, made, legal):
         assert all(isinstance(x, str) and "nan" not in x for x in texts)
 
 
-def test_a_walk_that_does_not_say_whether_it_was_legal_is_refused():
-    with pytest.raises(InputError, match="whether legally"):
-        compare(
-            lambda records: [row(True) | {"legal": None} for _ in records], ["NPD"], ["delay"], 2
-        )
-
-
 def test_the_trial_of_the_gait_itself_is_disturbed_by_nothing():
     for settings in SETTINGS.values():
         made = trial(nominal_trial(settings))

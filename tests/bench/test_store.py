@@ -169,7 +169,7 @@ def of_format(number):
     [
         (lambda path: path.write_text("a,b\n1,2\n" * 200), "no results file"),
         (foreign, "another program"),
-        *[(of_format(k), f"format {k}, expected 1 or 2") for k in (-1, 0, 3, 9)],
+        *[(of_format(k), f"format {k}, expected 2") for k in (-1, 0, 1, 3)],
         (
             lambda path: filled(path).write_bytes(path.read_bytes()[:3000]),
             "damaged|malformed|no results",
@@ -324,27 +324,6 @@ def test_damaged_pages_are_refused_or_of_no_matter(tmp_path):
         except InputError:
             refused += 1
     assert refused > 40
-
-
-def test_a_file_of_format_1_is_read_with_a_warning_and_brought_along(tmp_path):
-    path = filled(tmp_path / "r.sqlite")
-    with sqlite3.connect(path) as db:
-        for table in ("study", "versions", "runs", "points"):
-            db.execute(f"ALTER TABLE {table} DROP COLUMN sum")
-        db.execute("DROP TABLE tally")
-        db.execute("PRAGMA user_version = 1")
-    db.close()
-    with pytest.warns(RuntimeWarning, match="format 1, without checksums"):
-        store = read_store(path)
-    with store:
-        old = results(store)
-    with open_store(path, about()) as store:
-        run_study(rows, records(25), store, Threads(1))
-    with read_store(path) as store:
-        found = results(store)
-    assert len(old) == 20
-    assert found[:20] == old
-    assert len(found) == 25
 
 
 def test_a_file_that_is_removed_while_it_is_written_ends_the_study(tmp_path):
