@@ -17,14 +17,13 @@ from biped_adrc.bench.benchmark_result import check_settings, result_of, source_
 from biped_adrc.bench.compare_study import Stored
 from biped_adrc.bench.comparison import walked_rows
 from biped_adrc.bench.settings import read_settings
-from biped_adrc.bench.sweep import check_folder
 from biped_adrc.campaign.chunk import Record, key_of, text_of
 from biped_adrc.campaign.execute import Progress
 from biped_adrc.campaign.store import About
 from biped_adrc.campaign.store_open import open_store
 from biped_adrc.campaign.workers import Kept, Workers, workers_of
 from biped_adrc.errors import InputError
-from biped_adrc.files import write_text
+from biped_adrc.files import check_folder, write_text
 from biped_adrc.scenario.registry import find
 from biped_adrc.types import PlainRecord
 from biped_adrc.versions import numerical_versions

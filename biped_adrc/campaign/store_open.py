@@ -54,8 +54,7 @@ def open_store(path: Path, about: About, other_versions: bool = False) -> Store:
     and OutputError, also where the file or one that SQLite keeps beside it is a link to elsewhere.
     """
     for beside in ("", ".lock", "-wal", "-shm", "-journal"):
-        if (kept := path.with_name(path.name + beside)).is_symlink():
-            check_place(kept)
+        check_place(path.with_name(path.name + beside))
     try:
         with ExitStack() as undo:
             lock = _locked(path)
@@ -79,7 +78,7 @@ def read_store(path: Path) -> Store:
 
     Raises InputError for a file that does not exist, is empty, or is not one of results.
     """
-    if not path.is_file():
+    if not os.path.isfile(path):
         raise InputError(f"there is no results file '{path}'; expected one of a sweep")
     try:
         with ExitStack() as undo:

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from biped_adrc.errors import BipedError, InputError, OutputError
-from biped_adrc.files import output_path, write_bytes, write_text
+from biped_adrc.files import check_place, check_regular, output_path, write_bytes, write_text
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 
@@ -51,6 +51,7 @@ def run_files(path: Path | str) -> tuple[Path, Path]:
 
 def check_beside(path: Path) -> None:
     """Raise OutputError where the .json of a run would take the place of something else, such as a gait."""
+    check_place(path)
     try:
         record = json.loads(path.read_text(encoding="utf-8"))
         ours = isinstance(record, dict) and record.get("format") == FORMAT
@@ -134,7 +135,8 @@ def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: number
     Raises InputError for a file that is missing, damaged or of another format.
     """
     with reading_run(path):
-        if not Path(path).is_file():
+        check_regular(path, "it", InputError)
+        if not os.path.isfile(path):
             raise InputError("not found")
         return unpacked(_zipped(Path(path)), mode)
 

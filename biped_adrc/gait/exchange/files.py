@@ -24,6 +24,7 @@ from __future__ import annotations
 
 import io
 import json
+import os
 from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
@@ -33,7 +34,7 @@ import numpy as np
 from scipy.io import loadmat, savemat
 
 from biped_adrc.errors import GaitError, InputError
-from biped_adrc.files import output_path, read_json, reading, write_bytes, write_text
+from biped_adrc.files import check_regular, output_path, read_json, reading, write_bytes, write_text
 from biped_adrc.gait.conventions import OWN, Convention
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.exchange.samples import Samples, read_csv
@@ -74,7 +75,8 @@ def read_mat(path: Path | str) -> dict[str, Any]:
     Raises InputError for a file that is missing, damaged or of version 7.3.
     """
     path = Path(path)
-    if not path.is_file():
+    check_regular(path, f"MATLAB file '{path}'", InputError)
+    if not os.path.isfile(path):
         raise InputError(f"MATLAB file '{path}' not found")
     try:
         found = loadmat(io.BytesIO(path.read_bytes()), simplify_cells=True)
