@@ -312,19 +312,3 @@ def export_run(
         raise InputError(f"columns {unknown} have no unit; give units={{name: unit}} for them")
     about = {"format": RUN_FORMAT, "convention": "paper", "note": note}
     write_mat(path, {**about, **arrays}, {name: known[name] for name in arrays})
-
-
-def read_run(path: Path | str) -> dict[str, Array]:
-    """The columns of a file that `export_run` wrote, each (K,) or (K, ...), in the units stored with them.
-
-    Raises InputError for another file.
-    """
-    found = read_mat(path)
-    if found.get("format") != RUN_FORMAT:
-        raise InputError(
-            f"run '{path}' has format '{found.get('format')}', expected '{RUN_FORMAT}'; "
-            "write it with export_run"
-        )
-    if "units" not in found:
-        raise InputError(f"run '{path}' ends before its units: it is cut off; copy it again")
-    return {name: np.asarray(found[name], dtype=float) for name in found["units"]}
