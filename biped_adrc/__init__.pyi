@@ -3,7 +3,6 @@
 from biped_adrc.analysis.return_map import ReturnMap as ReturnMap
 from biped_adrc.analysis.stride_gain import stride_response as stride_response
 from biped_adrc.analysis.zero_report import zero_report as zero_report
-from biped_adrc.closed_loop.arm import ArmSystem as ArmSystem
 from biped_adrc.closed_loop.protocols import Mode as Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop as SteppingLoop
 from biped_adrc.closed_loop.walker import Walker as Walker
@@ -92,7 +91,6 @@ from biped_adrc.logs.log_file import write_log as write_log
 from biped_adrc.logs.log_of_walk import logged as logged
 from biped_adrc.logs.replay import replay as replay
 from biped_adrc.logs.robot_log import RobotLog as RobotLog
-from biped_adrc.model.arm import Arm as Arm
 from biped_adrc.model.biped import Biped as Biped
 from biped_adrc.model.model_errors import ModelErrors as ModelErrors
 from biped_adrc.model.pinned import reroot as reroot

@@ -37,7 +37,7 @@ PAGES = sorted(
     path for path in (ROOT / "docs").rglob("*.md") if not BUILT & set(path.relative_to(ROOT).parts)
 )
 DOCUMENTS = [ROOT / "README.md", *PAGES]
-EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
+EXAMPLES = sorted((ROOT / "examples").rglob("*.py"))
 
 RUN_BY_CI = {  # documented command: what has to stand in .ci/run
     "make reproduce": "make reproduce",

@@ -34,7 +34,7 @@ def is_made(row: Row) -> bool:
 
 def is_legal(row: Row) -> bool:
     """Whether the walk made all steps, each of them legally."""
-    return is_made(row) and row.get("legal") == 1
+    return is_made(row) and row["legal"] == 1
 
 
 def number(row: Row, name: str) -> float | None:

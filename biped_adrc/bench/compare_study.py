@@ -27,13 +27,12 @@ from biped_adrc.bench.conditions import BASE, CONDITIONS, conditions_on
 from biped_adrc.bench.parameters import trial
 from biped_adrc.bench.run import run_trials
 from biped_adrc.bench.settings import TUNED, Settings
-from biped_adrc.bench.sweep import check_folder
 from biped_adrc.campaign.chunk import Point, Record, Row, key_of, text_of
 from biped_adrc.campaign.execute import LARGEST_CHUNK, Progress, run_study
 from biped_adrc.campaign.store import About, Store
 from biped_adrc.campaign.store_open import open_store
 from biped_adrc.campaign.workers import Kept, Workers, workers_of
-from biped_adrc.files import plain, write_text
+from biped_adrc.files import check_folder, plain, write_text
 from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.build import RIGID
 from biped_adrc.scenario.registry import find, is_own, source_hash

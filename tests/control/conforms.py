@@ -376,12 +376,6 @@ def laws_compile(law):
                 assert np.array_equal(expected, getattr(law, name)(*rest))
         if laws.estimate is not None:
             agree(laws.estimate, k, s, m)
-        if laws.begin is not None:
-            none, w = np.zeros(4), 20.0 * random.normal(size=4)
-            assert agree(laws.begin, k, m, w).shape == s.shape
-            assert np.array_equal(laws.begin(k, m, none), law.initial_state(m))
-        if laws.freeze is not None:
-            agree(laws.freeze, k, s, random.normal(size=len(s)))
         if laws.blind is not None:
             agree(laws.output, laws.blind(k, m, 0.1 * random.normal(size=(5, 2))), s, m)
         if laws.correct_blind is not None:
@@ -450,11 +444,6 @@ def estimator(observer, steps):
     assert np.array_equal(agree(laws.state, k, Estimate(y, dy, xi)).ravel(), z)
     for one, other in zip(agree(laws.estimate, k, Z), observer.estimate(Z.ravel()), strict=True):
         assert np.array_equal(one, other)
-    if laws.freeze is not None:
-        new = np.random.default_rng(5).normal(size=Z.shape)
-        mixed = laws.estimate(k, agree(laws.freeze, k, Z, new))
-        assert np.array_equal(mixed.disturbance, laws.estimate(k, Z).disturbance)
-        assert all(map(np.array_equal, mixed[:2], laws.estimate(k, new)[:2]))
     for policy in ba.ResetPolicy:
         expected = agree(laws.reset, k, policy.code, Z, SWAP, Estimate(y, dy, xi))
         assert np.array_equal(expected.ravel(), observer.reset(Z.ravel(), policy, SWAP, y, dy, xi))

@@ -67,15 +67,11 @@ ROWS = {
     "contact": {
         "hold": lambda make, h: [make(ba.ADRCController(h, SLOW), 0.2), make(ba.NPDController(h))],
         "fade": lambda make, h: [make(MomentumDOBController(h), 0.2)],
-        "freeze": lambda make, h: [make(OutputADRCController(h, SLOW), 0.07)],
-        "keep torque": lambda make, h: [make(ba.ADRCController(h, SLOW))],
         "impact invariant": lambda make, h: [
             make(ba.NPDController(h), 0.07),
             make(MomentumDOBController(h), 0.2, innovation=True),
         ],
-        "last torque": lambda make, h: [make(ba.NPDController(h), 0.07)],
         "ramp torque": lambda make, h: [make(ba.ADRCController(h, SLOW), 0.2)],
-        "damping": lambda make, h: [make(MomentumDOBController(h), 0.2, damping=5.0)],
     },
     "around": {
         "prediction": lambda make, h: [make(ba.ADRCController(h, SLOW), 2.3e-3)],
