@@ -12,7 +12,7 @@ from biped_adrc.bench import compare_study
 from biped_adrc.bench.cell import IMPULSE, MEASURES, NEEDS, REASONS
 from biped_adrc.bench.compare_study import RESULTS, run_comparison
 from biped_adrc.bench.comparison import compare
-from biped_adrc.bench.conditions import BANDWIDTH, OWN, conditions_on
+from biped_adrc.bench.conditions import conditions_on
 from biped_adrc.bench.parameters import trial
 from biped_adrc.bench.run import COLUMNS, run_trial
 from biped_adrc.bench.settings import AS_PUBLISHED, SETTINGS
@@ -100,16 +100,6 @@ def test_the_table_is_that_of_the_rows():
     assert texts["legal [%]"].startswith("50 (")
     assert texts["made all steps [%]"].startswith("75 (")
     json.dumps(plain, allow_nan=False)
-
-
-def test_equal_bandwidth_is_that_of_table_i():
-    """The ninth root of the product of the poles; m = 7 where the trial has to say it."""
-    poles = [180.0 * 1.8**k for k in range(9)]
-    assert pytest.approx(np.prod(poles) ** (1 / 9)) == BANDWIDTH
-    for name in OWN:
-        made = trial(AS_PUBLISHED.equal_record("delay", name, 2))
-        assert (made.bandwidth, made.delay) == (BANDWIDTH, 2e-3)
-        assert made.order == (7 if name.startswith("ADRC") else None)
 
 
 @pytest.mark.parametrize("status", ["REFUSED", "RAISED", "CRASHED"])

@@ -17,7 +17,6 @@ from biped_adrc.gait.exchange.files import (
     export_run,
     read_mat,
     read_record,
-    read_mat,
 )
 from biped_adrc.gait.exchange.importing import export_gait, import_gait
 from biped_adrc.gait.exchange.record import GaitRecord
