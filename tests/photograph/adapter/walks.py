@@ -24,7 +24,6 @@ from biped_adrc.scenario import build as scenario
 from biped_adrc.scenario.controllers import OF_OBSERVER
 from biped_adrc.scenario.push import parse_push
 from biped_adrc.scenario.run import FREE, parts_of
-from biped_adrc.scenario.scenario import FREE
 from biped_adrc.scenario.walk import Part, default_parts, walk_in_parts
 from tests.photograph.adapter import walkers
 
