@@ -17,9 +17,8 @@ from biped_adrc.gait.exchange.files import (
     export_run,
     read_mat,
     read_record,
-    read_run,
 )
-from biped_adrc.gait.exchange.importing import export_gait, import_constraint, import_gait
+from biped_adrc.gait.exchange.importing import export_gait, import_gait
 from biped_adrc.gait.exchange.record import GaitRecord
 
 
@@ -102,7 +101,7 @@ def test_state_and_period_come_from_the_zero_dynamics(biped, gait, record):
         "method": "imported from convention 'paper'",
         "source": "arrays",
     }
-    assert np.array_equal(import_constraint(record).phase, biped.phase)
+    assert np.array_equal(check(record).constraint.phase, biped.phase)
 
 
 @pytest.mark.parametrize("factor", [-1.0, 2.0, -0.25])
@@ -114,7 +113,7 @@ def test_phase_that_runs_the_other_way_or_in_other_units(factor, biped, gait, re
         theta_minus=factor * record.theta_minus,
     )
     assert_same(gait, import_gait(other, biped), abs=1e-9)
-    assert np.array_equal(import_constraint(other).phase, biped.phase)
+    assert np.array_equal(check(other).constraint.phase, biped.phase)
 
 
 def test_curves_given_from_the_end_of_the_step(biped, gait, record):
@@ -297,7 +296,7 @@ def test_run_as_mat_comes_back_equal(biped, gait, tmp_path):
     assert set(columns) == set(RUN_UNITS)
     path = tmp_path / "run.mat"
     export_run(columns, path, note="one step")
-    back = read_run(path)
+    back = read_mat(path)
     for name, column in columns.items():
         assert np.array_equal(back[name], column, equal_nan=True), name
     raw = loadmat(path, simplify_cells=True)
@@ -316,7 +315,7 @@ def test_runs_that_cannot_be_exported(tmp_path):
         with pytest.raises(InputError):
             export_run(columns, target)
     export_run({"t": t, "temperature": t}, path, {"temperature": "K"})
-    assert np.array_equal(read_run(path)["temperature"], t)
+    assert np.array_equal(read_mat(path)["temperature"], t)
 
 
 def test_a_file_says_its_convention_once(gait, tmp_path):

@@ -1,14 +1,11 @@
-"""Thinned lines keep what can be seen; the numbers of a figure do not depend on thinning."""
+"""Thinned lines keep what can be seen."""
 
 from __future__ import annotations
-
-import json
 
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from biped_adrc.viz.figure_numbers import as_text, differences, numbers_of
 from biped_adrc.viz.thin import thin, thinned
 
 WIDTH = 1.0 / 600
@@ -46,6 +43,20 @@ def test_extremes_ends_jumps_and_gaps_survive() -> None:
         assert np.nanmin(drawn) == np.nanmin(whole)
 
 
+def test_sparse_lines_are_left_alone() -> None:
+    t, y = spiked(400)
+    np.testing.assert_array_equal(thinned(t, y, WIDTH), np.arange(len(t)))
+
+
+def test_a_curve_keeps_its_turning_points() -> None:
+    angle = np.linspace(0.0, 2.0 * np.pi, 50_001)
+    x, y = np.cos(angle), np.sin(angle)
+    kept = thinned(x, y, 2.0 / 600)
+    assert len(kept) < 10_000
+    for whole, drawn in ((x, x[kept]), (y, y[kept])):
+        assert (drawn.min(), drawn.max()) == (whole.min(), whole.max())
+
+
 def drawn(count: int, zoom: bool = False) -> Figure:
     figure = Figure()
     axes = figure.subplots()
@@ -57,29 +68,27 @@ def drawn(count: int, zoom: bool = False) -> Figure:
     return figure
 
 
-@pytest.mark.parametrize("zoom", [False, True])
-def test_numbers_depend_neither_on_thinning_nor_on_nodes(zoom: bool) -> None:
-    numbers = numbers_of(drawn(200_000, zoom))
-    assert differences(numbers, numbers_of(thin(drawn(200_000, zoom))), 1e-4) == []
-    assert differences(numbers, numbers_of(thin(drawn(100_000, zoom)))) == []
-    panel = numbers["panels"][0]
-    assert panel["bars"] == {"torque": [3.0, 4.0]}
-    assert panel["lines"]["error"]["y"][1] == pytest.approx(
-        5.0 + np.sin(6 * np.pi * SPIKE), rel=1e-4
-    )
-    assert json.loads(as_text(numbers)) == numbers
+def test_limits_stay_and_a_zoom_keeps_what_it_shows() -> None:
+    figure = drawn(100_000)
+    limits = drawn(100_000).axes[0].get_ylim()
+    assert thin(figure).axes[0].get_ylim() == limits
+    t, y = thin(drawn(100_000, zoom=True)).axes[0].get_lines()[0].get_data()
+    assert len(t) <= 23  # 21 nodes are in the window, and one before and after it
+    assert t[0] < SPIKE - 1e-4
+    assert y.max() == pytest.approx(5.0 + np.sin(6 * np.pi * SPIKE))
 
 
-def test_differences_name_what_differs() -> None:
-    old = numbers_of(drawn(1000))
-    new = json.loads(as_text(old))
-    assert differences(old, new) == []
-    line = new["panels"][0]["lines"]["error"]
-    top = line["y"][1]
-    line["y"][1] = 1.009 * top
-    assert differences(old, new) == []
-    line["y"][1] = 1.02 * top
-    (found,) = differences(old, new)
-    assert found.startswith("panels 1, lines, error, y 2: ")
-    assert f"{top:g} in the file, {1.02 * top:g} now" in found
-    assert differences({"a": "x [s]"}, {"a": "x [ms]"}) == ["a: 'x [s]' in the file, 'x [ms]' now"]
+def test_lines_outside_and_values_that_are_not_finite() -> None:
+    figure = Figure()
+    axes = figure.subplots()
+    t = np.linspace(0.0, 1.0, 5000)
+    axes.plot(t, t, label="outside")
+    axes.plot(t, np.full(len(t), np.nan), label="none")
+    axes.plot(t, np.where(t > 1.5, np.inf, t), label="inside")
+    axes.set_xlim(2.0, 3.0)
+    thin(figure)
+    assert len(axes.get_lines()[0].get_xdata()) == 0
+    y = np.where(t < 0.5, t, np.inf)
+    kept = thinned(t, y, WIDTH)
+    assert y[kept][-1] == np.inf
+    assert len(kept) < 3000
