@@ -14,10 +14,12 @@ from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.pd_gravity import PDGravityController
 from biped_adrc.errors import InputError
 from biped_adrc.scenario.build import build
+from biped_adrc.scenario.registry import find
 
 PERIOD, SWAP = 1e-3, np.array([1, 0, 3, 2])
 PUSH = ba.TorquePulse([30.0, 20.0, -10.0, 15.0, 0.0], step=2, start=0.1, stop=0.8)
 FAST = ba.GPIObserver.from_bandwidth(500.0)
+Fade = find("contact", "fade").load()
 WINDOWS = (Hold, Fade, ImpactInvariant)
 
 
