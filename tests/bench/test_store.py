@@ -244,7 +244,7 @@ def test_a_file_that_cannot_be_written(tmp_path):
         with pytest.raises(OutputError, match="cannot write"):
             open_store(path, about())
     (tmp_path / "folder").mkdir()
-    with pytest.raises(OutputError, match="cannot write"):
+    with pytest.raises(OutputError, match="is a folder"):
         open_store(tmp_path / "folder", about())
     with open_store(tmp_path / "r.sqlite", about()) as store:
         store.connection.execute("PRAGMA query_only = ON")

@@ -409,17 +409,16 @@ def robot(*arguments):
     return CliRunner().invoke(app, ["robot", *map(str, arguments)])
 
 
-def test_check_explains_and_exits_with_0_or_1(urdf, tmp_path):
+def test_check_explains_and_says_by_its_exit_code_what_is_wrong(urdf, tmp_path):
     good = robot("check", urdf(rabbit()), "--feet", "left_toe,right_toe", "--armature", "0.1")
     assert good.exit_code == 0
     for part in ("q1 = q1_left (motor)", "Theta = -1 q1 -0.5 q3 -1 q5", "holds", "32 kg"):
         assert part in good.stdout
     bad = robot("check", tmp_path / "nowhere.urdf")
-    assert bad.exit_code == 1
-    assert "not found" in bad.stderr
+    assert isinstance(bad.exception, ba.BipedError)
+    assert "not found" in str(bad.exception)
     worse = robot("check", urdf(rabbit()), "--feet", "left_shin,right_shin", "--tip", "0,0")
-    assert worse.exit_code == 1
-    assert "three numbers x,y,z" in worse.stderr
+    assert "three numbers x,y,z" in str(worse.exception)
 
 
 def test_new_robot_is_listed_shown_and_not_overwritten(urdf, tmp_path):
