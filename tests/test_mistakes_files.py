@@ -27,7 +27,7 @@ MISTAKES = [
     ("sweep study.toml -o afile/below", 3, "is a file"),
     ("sweep /dev/full -o out", 3, "not a regular file"),
     ("sweep pipe.toml -o out", 3, "not a regular file"),
-    (f"tune study.toml -o {LONG}", 5, "too long"),
+    (f"tune search.toml -o {LONG}", 5, "too long"),
     (f"compare --seeds 2 -o {LONG}", 5, "too long"),
     ("reproduce --out afile", 3, "is a file"),
     (f"gait library --out {LONG}", 5, "too long"),
