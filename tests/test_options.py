@@ -341,16 +341,6 @@ TO_C = {
     "real": Row("--real float32", same("real"), "float32"),
     "fmu": Row("--fmu", same("fmu"), True),
 }
-LOOP = {
-    "scenario": Row("", same("scenario.K_d"), 33.0),
-    "plant": Row("--plant mujoco", same("scenario.plant"), "mujoco"),
-    "impacts": Row("--impacts 3", same("scenario.impacts"), 3),
-    "sets": Row("--set K_p=3", same("scenario.K_p"), 3.0),
-    "real_time": Row("--real-time", same("real_time"), True),
-    "deadline": Row("--deadline 0.0002", same("deadline"), 2e-4),
-    "real": Row("--real float32", same("real"), "float32"),
-    "port": Row("--port 5005", same("port"), 5005),
-}
 SWEEP = {
     **CREW,
     "study": Row("", same("study.name"), "own"),
@@ -552,7 +542,6 @@ COMMANDS = {
         others={"tuning.tune:rehearse": ("tune tuned.toml -o folder", "tuning.tune:tune")},
     ),
     "export": Command("export best.toml -o folder", "deploy.export:export_c", TO_C),
-    "loop": Command("loop best.toml", "deploy.in_the_loop:in_the_loop", LOOP),
     "animate": Command(
         "animate run.npz", "viz.export:export", ANIMATE, LOAD,
         {LOAD: ("animate run.npz", ""), "viz.meshcat.live:play": ("animate run.npz --live", LOAD)},

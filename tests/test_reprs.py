@@ -101,10 +101,10 @@ def on_other_plants(biped, gait, npd):
     """MuJoCo's plant and the loops around it, a frozen gait, and an exported controller."""
     soft, walker = ba.MuJoCoPlant(biped, ba.SoftGround()), ba.Walker(biped, npd, timing=PERIOD)
     loops = [kind(soft, npd, biped, PERIOD) for kind in (ba.SteppingLoop, ba.CompiledLoop)]
-    frozen, exported = ba.FrozenGait.of(biped, gait), ba.Loaded(source_of(Computer(walker)))
+    frozen, exported = ba.FrozenGait.of(biped, gait), source_of(Computer(walker))
     return [
         *(soft, soft.ground, *loops, frozen, ba.specification(walker, frozen)),
-        *(exported, exported.source, ba.ExportedController(exported)),
+        *(exported, ba.ExportedController(exported), ba.ExportedController(exported).loaded),
     ]
 
 
