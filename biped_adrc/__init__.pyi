@@ -24,9 +24,7 @@ from biped_adrc.control.tracking import feedback as feedback
 from biped_adrc.control.tracking import solved_acceleration as solved_acceleration
 from biped_adrc.control.tracking import tracked_laws as tracked_laws
 from biped_adrc.deploy.export import export_c as export_c
-from biped_adrc.deploy.in_the_loop import in_the_loop as in_the_loop
 from biped_adrc.deploy.loaded import ExportedController as ExportedController
-from biped_adrc.deploy.loaded import Loaded as Loaded
 from biped_adrc.disturbances.base import Disturbance as Disturbance
 from biped_adrc.disturbances.base import DisturbanceLaw as DisturbanceLaw
 from biped_adrc.disturbances.base import WindowedTorque as WindowedTorque
