@@ -7,9 +7,7 @@ PYTHON ?= python3
 OUT ?= out
 ARGS ?=
 BIN := .venv/bin
-BENCHMARKS := engine/calls engine/paper_run engine/engines engine/sampled engine/batches engine/growth \
-  engine/compiling engine/continued engine/soft peers/plant peers/closed_loop bench/studies bench/tuning bench/metering bench/live \
-  pinocchio_calls
+BENCHMARKS := plant closed_loop sampled_walks batches compiling studies gait_design
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile --constraint constraints.txt
 
 .PHONY: reproduce test fuzz docs pictures verification dev lint format types imports bench mutants faults clean
@@ -56,12 +54,15 @@ types: .venv/.dev
 imports: .venv/.dev
 	$(BIN)/lint-imports
 
-# tables on the screen and JSON in $(OUT)/benchmarks, in about 10 minutes; ARGS=--quick for a look. Peers that are
-# not installed (pip install '.[bench]') are rows that say so
+# tables on the screen, JSON in $(OUT)/benchmarks and their ratios in $(CSV), in about 10 minutes; ARGS=--quick for a
+# look, CSV=docs/benchmarks.csv for the documentation. Peers that are not installed (pip install '.[bench]') are rows
+# that say so
+bench: CSV ?= $(OUT)/benchmarks.csv
 bench: .venv/.core
+	rm -rf $(OUT)/benchmarks
 	set -e; for script in $(BENCHMARKS); do \
 	  $(BIN)/python benchmarks/$$script.py $(OUT)/benchmarks $(ARGS); done
-	$(BIN)/python benchmarks/gait_design.py $(OUT)/benchmarks --limit 10
+	$(BIN)/python benchmarks/report.py $(OUT)/benchmarks $(CSV)
 
 # faults put in one at a time, and which of them the tests notice: hours, resumable; ARGS="--limit 60" for an hour of
 # it, ARGS=--again for the survivors once more, ARGS=--report for the table alone
