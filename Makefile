@@ -1,7 +1,7 @@
 # make reproduce   the paper: figures, tables, report.html and a verdict in out/
 # make test        the tests
-# each of the many processes would compile all that it imports
-unexport PYTHONDONTWRITEBYTECODE
+# make check       all that has to pass before a change is merged
+unexport PYTHONDONTWRITEBYTECODE # each of the many processes would compile all that it imports
 
 PYTHON ?= python3
 OUT ?= out
@@ -10,7 +10,7 @@ BIN := .venv/bin
 BENCHMARKS := plant closed_loop sampled_walks batches compiling studies gait_design
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile --constraint constraints.txt
 
-.PHONY: reproduce test fuzz docs pictures verification dev lint format types imports bench mutants faults clean
+.PHONY: reproduce test check docs pictures verification bench format dev clean
 
 reproduce: .venv/.core
 	$(BIN)/biped-adrc reproduce --out $(OUT) $(ARGS)
@@ -20,9 +20,9 @@ test: export OPENBLAS_NUM_THREADS ?= 1
 test: .venv/.test
 	$(BIN)/python -m pytest -rs --numprocesses auto --dist loadgroup --no-loadscope-reorder
 
-# damaged files and nonsense on the command line, 500 of each kind, and a leak: about 10 minutes
-fuzz: .venv/.test
-	$(BIN)/python -m tests.fuzz
+# tests, lint, types, import rules, pages, wheel, and reproduction and benchmarks in short
+check: .venv/.dev
+	$(MAKE) --no-print-directory --jobs=3 --output-sync=target test docs .static .short
 
 # the pages, in docs/_build/html
 docs: .venv/.dev
@@ -38,22 +38,6 @@ pictures: .venv/.core
 verification: .venv/.core
 	$(BIN)/python -m validation --out docs/verification.csv
 
-dev: .venv/.dev
-
-lint: .venv/.dev
-	$(BIN)/ruff check .
-	$(BIN)/ruff format --check .
-
-format: .venv/.dev
-	$(BIN)/ruff check --fix .
-	$(BIN)/ruff format .
-
-types: .venv/.dev
-	$(BIN)/mypy
-
-imports: .venv/.dev
-	$(BIN)/lint-imports
-
 # tables on the screen, JSON in $(OUT)/benchmarks and their ratios in $(CSV), in about 10 minutes; ARGS=--quick for a
 # look, CSV=docs/benchmarks.csv for the documentation. Peers that are not installed (pip install '.[bench]') are rows
 # that say so
@@ -64,14 +48,27 @@ bench: .venv/.core
 	  $(BIN)/python benchmarks/$$script.py $(OUT)/benchmarks $(ARGS); done
 	$(BIN)/python benchmarks/report.py $(OUT)/benchmarks $(CSV)
 
-# faults put in one at a time, and which of them the tests notice: hours, resumable; ARGS="--limit 60" for an hour of
-# it, ARGS=--again for the survivors once more, ARGS=--report for the table alone
-mutants: .venv/.mutants
-	nice -n 19 $(BIN)/python benchmarks/mutants.py $(OUT)/mutants $(ARGS)
+format: .venv/.dev
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
 
-# the faults that were chosen by hand, each against the test that has to notice it
-faults: .venv/.test
-	nice -n 19 $(BIN)/python benchmarks/mutants.py $(OUT)/mutants --planted $(ARGS)
+dev: .venv/.dev
+
+clean:
+	rm -rf .venv out build dist
+
+.PHONY: .static .short
+
+.static: .venv/.dev
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+	$(BIN)/python tests/wheel.py
+
+.short: .venv/.core
+	$(MAKE) --no-print-directory reproduce OUT=build/short ARGS=--quick
+	$(MAKE) --no-print-directory bench OUT=build/short ARGS=--quick
 
 .venv/.made:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
@@ -90,10 +87,3 @@ faults: .venv/.test
 .venv/.dev: .venv/.made pyproject.toml constraints.txt
 	$(PIP) --editable '.[dev]'
 	@touch $@ .venv/.test .venv/.core
-
-.venv/.mutants: .venv/.made pyproject.toml constraints.txt
-	$(PIP) --editable '.[mutants]'
-	@touch $@ .venv/.test .venv/.core
-
-clean:
-	rm -rf .venv out build dist
