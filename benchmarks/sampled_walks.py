@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
+from importlib.util import find_spec
 
 import numpy as np
 from report import Run, Table, arguments, rounds
@@ -111,16 +112,14 @@ def on_soft_ground(table: Table, quick: bool) -> None:
         "MuJoCo with contact, leapfrog 0.2 ms": (ba.CompiledLoop, "leapfrog"),
         "MuJoCo with contact, RK4 0.2 ms, loop in Python": (ba.SteppingLoop, "rk4"),
     }
-    try:
-        plants = {name: ba.MuJoCoPlant(biped, integrator=way) for name, (_, way) in names.items()}
-    except ba.InputError:  # without MuJoCo
-        for name in names:
-            table.missing(name)
+    if not find_spec("mujoco"):
+        table.missing("MuJoCo with contact")
         return
     runs = {}
-    for name, (kind, _) in names.items():
+    for name, (kind, integrator) in names.items():
+        plant = ba.MuJoCoPlant(biped, integrator=integrator)
         law = ba.ADRCController(gait.constraint)
-        loop = kind(plants[name], law, biped, ba.SampledTime(TICK), None, 150.0)
+        loop = kind(plant, law, biped, ba.SampledTime(TICK), None, 150.0)
         options = ba.RunOptions(0.8 * impacts, stop_after=(FOOT_STRIKE, impacts))
         runs[name] = partial(loop.run, loop.initial_state(*gait.start(biped)), options)
     walks = {name: run() for name, run in runs.items()}
@@ -131,11 +130,11 @@ def on_soft_ground(table: Table, quick: bool) -> None:
 
 def learners(table: Table, quick: bool) -> None:
     """One environment of Gymnasium, and a vector of many."""
-    try:
-        import gymnasium
-    except ModuleNotFoundError:
+    if not find_spec("gymnasium"):
         table.missing("Gymnasium")
         return
+    import gymnasium
+
     values = {"action": "added", "bandwidth": 160.0, "order": 1}
     env = gymnasium.make(ENVIRONMENT, **values)
     envs = gymnasium.make_vec(ENVIRONMENT, num_envs=MANY, **values)
