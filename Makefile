@@ -8,7 +8,7 @@ OUT ?= out
 ARGS ?=
 BIN := .venv/bin
 BENCHMARKS := engine/calls engine/paper_run engine/engines engine/sampled engine/batches engine/growth \
-  engine/compiling engine/continued engine/soft peers/plant peers/closed_loop bench/studies bench/tuning bench/metering bench/live \
+  engine/compiling engine/continued engine/soft peers/plant peers/closed_loop bench/studies bench/tuning bench/metering \
   pinocchio_calls
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile --constraint constraints.txt
 
@@ -29,7 +29,7 @@ fuzz: .venv/.test
 # the pages, in docs/_build/html
 docs: .venv/.dev
 	$(BIN)/sphinx-build -W --keep-going -n -E -q -b html docs docs/_build/html
-	$(BIN)/biped-adrc play --torque-limit 150 --page docs/_build/html/_static/play.html
+	$(BIN)/biped-adrc play --torque-limit 150 -o docs/_build/html/_static/play.html
 	$(BIN)/python docs/check_pages.py docs/_build/html
 
 # what the README shows, from the runs of 'make reproduce'

@@ -150,7 +150,6 @@ HINTS = {
     "tip": Row("--tip 0,0,0.5", same("hints.tip"), (0.0, 0.0, 0.5)),
 }
 SIMULATE = {
-    "session": Row("me.npz", same("path"), Path("me.npz"), "live.repeated:replay_session"),
     "scenario": Row("--scenario best.toml", scenario_field("K_d"), 33.0),
     "controller": Row("--controller npd", scenario_field("controller"), "NPD"),
     "gait": Row("--gait recipe", scenario_field("gait"), "recipe"),
@@ -381,10 +380,6 @@ ANIMATE = {
     "apart": Row("--apart", same("clip.apart"), True),
     "magnify": Row("--magnify 50", same("clip.magnify"), 50.0),
     "slower": Row("--slower 4", same("clip.slower"), 4.0),
-    "live": Row("", lambda a: list(a.walks), ["walk"], "viz.meshcat.live:play"),
-    "port": Row("--port 8123", same("port"), 8123, "viz.meshcat.live:play"),
-    "browser": Row("--no-browser", same("open_browser"), False, "viz.meshcat.live:play"),
-    "wait": Row("--wait 7", same("wait"), 7.0, "viz.meshcat.live:play"),
 }
 PLAY = {
     **{
@@ -396,21 +391,14 @@ PLAY = {
         for name in (
             *("controller", "gait", "preset", "seed", "hardware", "period", "torque_limit"),
             *("K_p", "K_d", "observer", "poles", "bandwidth", "order", "reset", "friction"),
-            *("slope", "plant", "ground_friction", "time_constant"),
+            "slope",
         )
     },
     "robot": Row("--robot three_link", same("scenario.robot"), "three_link"),
     "scenario": Row("best.toml", same("scenario.K_d"), 33.0),
-    "push": Row(
-        "--push q1=5@3:0.1-0.2", lambda a: [p.text() for p in a.scenario.pushes], ["q1=5@3:0.1-0.2"]
-    ),
     "sets": Row(["--set", "max_step_time=900 ms"], same("scenario.max_step_time"), 0.9),
-    "ghost": Row("--ghost npd", same("ghost"), {"controller": "npd"}),
-    "out": Row("-o there", same("out"), Path("there")),
-    "port": Row("--port 8123", same("port"), 8123),
-    "browser": Row("--no-browser", same("open_browser"), False),
-    "wait": Row("--wait 7", same("wait"), 7.0),
-    "page": Row("", same("path"), Path("own.html"), "live.offline:write_play"),
+    "ghost": Row("--ghost npd", lambda a: next(iter(a.others)), "npd"),
+    "out": Row("", same("path"), Path("own.html")),
 }
 PLOT = {
     "run": Row("", same("paths"), [Path("run.npz")], "scenario.stored:load_walks"),
@@ -497,10 +485,7 @@ MJCF = {
     "gait": Row("--gait v0.7", lambda a: a.gait and a.gait.name, "v0.7", "soft.mjcf:mjcf"),
 }  # fmt: skip
 COMMANDS = {
-    "simulate": Command(
-        "simulate", "cli.walk:_walk", SIMULATE,
-        others={"live.repeated:replay_session": ("simulate", "cli.walk:_walk")},
-    ),
+    "simulate": Command("simulate", "cli.walk:_walk", SIMULATE),
     "replay": Command(
         "replay own.csv", "logs.replay:replay", REPLAY,
         others={"viz.style:write_figure": ("replay own.csv", "logs.replay:replay cli.replay:write_text")},
@@ -555,12 +540,9 @@ COMMANDS = {
     "loop": Command("loop best.toml", "deploy.in_the_loop:in_the_loop", LOOP),
     "animate": Command(
         "animate run.npz", "viz.export:export", ANIMATE, LOAD,
-        {LOAD: ("animate run.npz", ""), "viz.meshcat.live:play": ("animate run.npz --live", LOAD)},
+        {LOAD: ("animate run.npz", "")},
     ),
-    "play": Command(
-        "play", "live.page:play", PLAY,
-        others={"live.offline:write_play": ("play --page own.html", "")},
-    ),
+    "play": Command("play -o own.html", "live.page:play", PLAY),
     "plot": Command(
         "plot run.npz", "paper.figures:draw", PLOT, LOAD,
         {LOAD: ("plot run.npz", ""), "viz.style:write_figure": ("plot run.npz", f"{LOAD} paper.figures:draw")},

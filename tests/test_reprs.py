@@ -81,7 +81,7 @@ def pushed():
 
 
 def of_walks(biped, gait, npd, adrc):
-    """Walkers, walks, scenarios, logs and sessions."""
+    """Walkers, walks, scenarios and logs."""
     q, v = gait.start(biped)
     walker = ba.Walker(biped, adrc, pushed(), timing=PERIOD, sensors=ba.Sensors())
     walk = ba.walk(ba.Walker(biped, npd, pushed()), gait, 1)
@@ -93,7 +93,6 @@ def of_walks(biped, gait, npd, adrc):
         *(walk.legality, asked, asked.outcome, asked.scenario, asked.scenario.pushes[0]),
         ba.Samples(walk.signals.t, walk.signals.q, walk.signals.v),
         ba.RobotLog(np.arange(3) * 1e-3, np.ones(3), np.zeros((3, 5)), np.zeros((3, 4))),
-        ba.Session(ba.Scenario("NPD", hardware="ideal"), {"controller": "NPID"}),
     ]
 
 

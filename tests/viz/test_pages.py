@@ -11,7 +11,7 @@ from types import ModuleType
 import pytest
 from selenium.webdriver.support.ui import WebDriverWait
 
-from .browser import chromium, console, needs_chromium, requested
+from .browser import chromium, console, requested
 
 ROOT = Path(__file__).resolve().parents[2]
 MATHEMATICS = "# Page\n\nInline $x^2$ and\n\n$$\\dot\\theta = \\frac{a}{b} \\tag{1}$$\n"
@@ -37,7 +37,6 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return pages
 
 
-@needs_chromium
 def test_mathematics_is_typeset_without_a_network(built: Path) -> None:
     with chromium() as browser:
         browser.set_network_conditions(offline=True, latency=0, throughput=0)

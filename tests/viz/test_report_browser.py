@@ -19,10 +19,8 @@ from biped_adrc.scenario.recording import Walk
 from biped_adrc.viz.meshcat.view import animation_html
 from biped_adrc.viz.pages import write_report
 
-from .browser import chromium, console, needs_chromium, requested
+from .browser import chromium, console, requested
 from .test_report import SUMMARY
-
-pytestmark = needs_chromium
 
 
 @pytest.fixture(scope="module")

@@ -34,7 +34,7 @@ from biped_adrc.viz.placement import WalkScene, link_placements
 from biped_adrc.viz.plots import friction_cone
 from biped_adrc.viz.style import new_figure
 
-from .browser import chromium, console, needs_chromium, seek, world
+from .browser import chromium, console, seek, world
 from .pinocchio_view import floating
 
 METHOD = ba.RK4(2e-3)
@@ -221,7 +221,6 @@ def test_walks_on_different_grounds_have_a_ground_each(walks: dict[str, Walk]) -
     assert widths(("slope", "down")) == {0.7}
 
 
-@needs_chromium
 def test_the_page_in_the_browser(walks: dict[str, Walk], tmp_path: Path) -> None:
     """Links against Pinocchio; the camera goes down with the ground below the hip, as steep as it is."""
     walk = walks["compass"]
