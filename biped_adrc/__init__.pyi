@@ -80,10 +80,7 @@ from biped_adrc.hybrid.simulator import simulate as simulate
 from biped_adrc.hybrid.status import Status as Status
 from biped_adrc.hybrid.trajectory import Trajectory as Trajectory
 from biped_adrc.linear import solve as solve
-from biped_adrc.live.offline import write_play as write_play
 from biped_adrc.live.page import play as play
-from biped_adrc.live.repeated import replay_session as replay_session
-from biped_adrc.live.session import Session as Session
 from biped_adrc.logs.log_file import read_log as read_log
 from biped_adrc.logs.log_file import write_log as write_log
 from biped_adrc.logs.log_of_walk import logged as logged

@@ -27,7 +27,7 @@ exclude_patterns = ["_build", "**/.ipynb_checkpoints", "jupyter_execute"]
 nitpicky = True
 nitpick_ignore_regex = [
     # no network, hence no inventories of these projects
-    (r"py:.*", r"(numpy|np|scipy|matplotlib|pin|pinocchio|meshcat|tornado|typer|rich|xml|ET)\b.*"),
+    (r"py:.*", r"(numpy|np|scipy|matplotlib|pin|pinocchio|meshcat|typer|rich|xml|ET)\b.*"),
     (r"py:.*", r"_?(asyncio|collections|pathlib|enum|abc|concurrent|functools|types|typing)\b.*"),
     (r"py:.*", r"(socket|subprocess)\b.*"),
     (r"py:.*", r"(Figure|Axes|ArrayLike|NDArray|Path|Callable|Mapping|Sequence|Iterator|Iterable)"),

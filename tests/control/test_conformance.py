@@ -157,7 +157,7 @@ BASES = {
     ba.Observer: ("observers", {"ChainObserver", "InjectedChain", "MomentumChain"}),
     ba.Disturbance: (
         "disturbances",
-        {"Windowed", "WindowedTorque", "AbsentDisturbance", "RecordedHand"},
+        {"Windowed", "WindowedTorque", "AbsentDisturbance"},
     ),
     ba.Reference: ("gait", set()),
     Outputs: ("gait", set()),

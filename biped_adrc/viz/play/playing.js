@@ -1,18 +1,19 @@
-// What a session, its clock and its server do, on a page without them: messages in, frames out.
+// The walk, its ghost, their clock and the hand: messages in, frames out.
 const ROWS = 3, LONGEST = 0.1, BUSY = 50; // rows of a frame; [s] made good at once; [ms] of computing at once
 const RANGE = [0.01, 10]; // rates
 const refusal = (words) => { throw new Error(words); };
 
-class OfflineSession {
+class Play {
   constructor(name, ghost) {
     this.begin(name, ghost);
     Object.assign(this, { paused: false, rate: 1, reached: 1, owed: 0, last: performance.now() });
   }
   begin(name, ghost) {
-    this.walking = [name, ghost].filter((x) => x !== null && x !== undefined).map((x) => OfflineWalk.begun(x));
+    this.walking = [name, ghost].filter((x) => x !== null && x !== undefined).map((x) => Walk.begun(x));
     Object.assign(this, { samples: 0, hand: null, ends: Infinity, spring: null, marks: [] });
     this.made = this.walking.map(() => []);
     this.mark();
+    showNames(this.walking.map((walk) => walk.name));
   }
   get leader() { return this.walking.find((walk) => walk.walks) || this.walking[0]; }
   get walks() { return this.walking.some((walk) => walk.walks); }
@@ -34,7 +35,7 @@ class OfflineSession {
     this.walking[k] = after;
     this.made[k].push(...after.rows);
     // the links have changed their names: the spring stays at the same metal
-    if (k === 0 && this.spring && after.step !== before.step) this.spring.link = off.twins[this.spring.link] || this.spring.link;
+    if (k === 0 && this.spring && after.step !== before.step) this.spring.link = numbers.twins[this.spring.link] || this.spring.link;
   }
   // the hand for the coming sample
   act() {
@@ -43,11 +44,11 @@ class OfflineSession {
     if (this.spring) this.hand = this.walking[0].walks ? this.pulled().hand : null;
   }
   pulled() {
-    const walk = this.walking[0], { link, at: point, anchor } = this.spring, { stiffness, damping, most } = off.spring;
+    const walk = this.walking[0], { link, at: point, anchor } = this.spring, { stiffness, damping } = numbers.spring, most = scene.most.force;
     const { p, J } = placed(linkPoint(link, point), walk.q), [x, z] = p.map((y, k) => y + walk.foot[k]);
     const pull = [x, z].map((y, k) => stiffness * (anchor[k] - y) - damping * dot(J[k], walk.v));
     const size = Math.hypot(...pull), force = size > most ? pull.map((y) => y * (most / size)) : pull;
-    return { place: [x, z], hand: { torque: new Array(off.n).fill(0), link, at: point, force } };
+    return { place: [x, z], hand: { torque: new Array(numbers.n).fill(0), link, at: point, force } };
   }
 
   // -- messages ------------------------------------------------------------------------------------
@@ -60,16 +61,17 @@ class OfflineSession {
     Object.assign(this, { samples: mark.samples, walking: [...mark.walking], made: mark.walking.map(() => []) });
     this.let_go();
   }
-  reset({ values = {} }) {
-    const [walk, ghost] = this.walking;
-    this.begin(known_walk(values.walk || walk.name), ghost ? ghost.name : null);
+  // from the start, `walk` in place of the walk
+  reset({ walk }) {
+    const [before, ghost] = this.walking;
+    this.begin(walk || before.name, ghost ? ghost.name : null);
   }
-  change(given) { this.reset(given); }
-  set_rate({ rate }) {
+  ghost({ walk }) { this.begin(this.walking[0].name, walk); }
+  go_at({ rate }) {
     this.reached *= rate / this.rate;
     this.rate = Math.min(Math.max(rate, RANGE[0]), RANGE[1]);
   }
-  push({ torque = {}, force = [0, 0], link = off.trunk, at: point = [0, 0], seconds = 0.2 }) {
+  push({ torque = {}, force = [0, 0], link = numbers.trunk, at: point = [0, 0], seconds = 0.2 }) {
     const { most } = scene, torques = scene.robot.coordinates.map((name) => torque[name] || 0);
     const largest = Math.max(...torques.map(Math.abs)), size = Math.hypot(...force);
     if (!(seconds > 0)) refusal("the push lasts " + seconds + " s, expected a positive time");
@@ -83,10 +85,8 @@ class OfflineSession {
   pull({ link, at: point, anchor }) {
     Object.assign(this, { spring: { link: this.named(link), at: point, anchor }, ends: Infinity });
   }
-  named(link) { return this.walking[0].exchanged ? off.twins[link] || link : link; }
+  named(link) { return this.walking[0].exchanged ? numbers.twins[link] || link : link; }
   let_go() { Object.assign(this, { spring: null, ends: Infinity, hand: null }); }
-  ghost({ values }) { this.begin(this.walking[0].name, values ? known_walk(values.controller) : null); }
-  save() { return { remark: "this page keeps nothing; 'biped-adrc play' saves what was done, to be walked again" }; }
 
   // -- frames --------------------------------------------------------------------------------------
   advance(now) {
@@ -108,7 +108,7 @@ class OfflineSession {
     const walks = this.walking.map((walk, k) => ({ ...pose(walk), ...told(this.made[k]), ending: walk.ending }));
     const { paused, rate: asked, reached } = this, { limits } = this.walking[0].kind;
     this.made = this.walking.map(() => []);
-    return { t: this.leader.t, paused, rate: asked, reached, limits, walks, hand: acting, felt: this.hand !== null };
+    return { t: this.leader.t, paused, rate: asked, reached, limits, walks, hand: acting };
   }
   acting() {
     const walk = this.walking[0];
@@ -122,17 +122,15 @@ class OfflineSession {
     return { at: p.map((y, k) => y + walk.foot[k]), force: this.hand.force, anchor: null };
   }
 }
-const known_walk = (name) => (name in kinds ? name : refusal("'" + name + "' does not walk on this page"));
-
 // as scene.js takes it, of one robot
 function pose(walk) {
-  const { q, foot: [x, z], exchanged, step } = walk, turned = (y) => off.R.map((line) => dot(line, y));
+  const { q, foot: [x, z], exchanged, step } = walk, turned = (y) => numbers.R.map((line) => dot(line, y));
   const drawn = exchanged ? turned(q) : Array.from(q);
-  const [base_x, base_z] = placed(linkPoint(off.trunk, [0, 0]), q).p;
-  const torque = walk.hand ? walk.hand.torque : new Array(off.n).fill(0);
-  const across = exchanged ? torque.map((_, j) => off.R.reduce((sum, line, i) => sum + line[j] * torque[i], 0)) : torque;
+  const [base_x, base_z] = placed(linkPoint(numbers.trunk, [0, 0]), q).p;
+  const torque = walk.hand ? walk.hand.torque : new Array(numbers.n).fill(0);
+  const across = exchanged ? torque.map((_, j) => numbers.R.reduce((sum, line, i) => sum + line[j] * torque[i], 0)) : torque;
   return {
-    joints: off.joints.map((k) => (k >= 0 ? drawn[k] : [x + base_x, z + base_z][-1 - k])),
+    joints: numbers.joints.map((k) => (k >= 0 ? drawn[k] : [x + base_x, z + base_z][-1 - k])),
     loads: [...groundOf(walk), ...across].map(finite),
     points: walk.points.map((y, k) => y + walk.foot[k % 2]),
     contact: [x, z, 0, 0, 0],
@@ -145,41 +143,6 @@ function told(made) {
   const count = Math.min(ROWS, made.length);
   const rows = Array.from({ length: count }, (_, k) => made[Math.round((k + 1) * made.length / count) - 1]);
   const friction = made.some((x) => x.friction === null) ? null : Math.max(...made.map((x) => x.friction));
-  const worst = {
-    normal: Math.min(...made.map((x) => x.normal)), friction, torque: Math.max(...made.map((x) => x.torque)), slips: null,
-  };
-  return { rows, worst };
-}
-
-// in place of the socket to a server
-class OfflineSocket {
-  constructor() {
-    this.readyState = WebSocket.CONNECTING;
-    startMachine().then(() => {
-      Object.keys(off.walks).forEach((name) => { kinds[name] = new Kind(name); });
-      this.session = new OfflineSession(off.first, off.ghost);
-      this.readyState = WebSocket.OPEN;
-      this.say(this.values());
-      this.turn(performance.now());
-    }).catch((error) => tell("This page cannot walk here: " + error.message));
-  }
-  say(message) { this.onmessage({ data: JSON.stringify(message) }); }
-  values() {
-    return { values: this.session.walking.map(({ name }) => ({ walk: name, controller: name })) };
-  }
-  send(text) {
-    const { do: word, ...given } = JSON.parse(text);
-    try {
-      const answer = this.session[word === "rate" ? "set_rate" : word](given);
-      if (answer) this.say(answer);
-      if (["change", "ghost", "reset", "back"].includes(word)) this.say(this.values());
-    } catch (error) {
-      this.say({ refused: error.message, names: Object.keys(given.values || {}) });
-    }
-  }
-  turn(now) {
-    this.session.advance(now);
-    this.say(this.session.frame());
-    requestAnimationFrame((next) => this.turn(next));
-  }
+  const normal = Math.min(...made.map((x) => x.normal)), torque = Math.max(...made.map((x) => x.torque));
+  return { rows, worst: { normal, friction, torque } };
 }

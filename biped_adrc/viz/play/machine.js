@@ -1,8 +1,8 @@
-// A walk moved on by WebAssembly, on a page without a server: one sample after the other, and what is seen at its end.
-const off = scene.offline, at = off.places;
+// A walk moved on by WebAssembly: one sample after the other, and what is seen at its end.
+const { numbers } = scene, at = numbers.places;
 const unpacked = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
 const STACK = 1 << 18; // [bytes] of constants and stack, before the vectors of the walks
-const SEEN = Math.max(...Object.values(off.signals).map(([, end]) => end)); // numbers of all signals
+const SEEN = Math.max(...Object.values(numbers.signals).map(([, end]) => end)); // numbers of all signals
 
 // the next number after x towards y, as in C
 function nextafter(x, y) {
@@ -14,11 +14,11 @@ function nextafter(x, y) {
 }
 const machine = { memory: null, calls: null, free: STACK, table: null };
 async function startMachine() {
-  const module = await WebAssembly.compile(unpacked(off.code));
+  const module = await WebAssembly.compile(unpacked(numbers.code));
   const room = ({ P, F, K, s, width }) => P.length + F.length + K.length + s.length + 8 * (at.ROWS * width + SEEN);
-  const size = Object.values(off.walks).reduce((sum, told) => sum + room(told), STACK);
+  const size = Object.values(numbers.walks).reduce((sum, told) => sum + room(told), STACK);
   machine.memory = new WebAssembly.Memory({ initial: Math.ceil(size / 65536) });
-  machine.table = new WebAssembly.Table({ initial: off.functions.length + 1, element: "anyfunc" });
+  machine.table = new WebAssembly.Table({ initial: numbers.functions.length + 1, element: "anyfunc" });
   const env = {
     __linear_memory: machine.memory, __indirect_function_table: machine.table,
     __stack_pointer: new WebAssembly.Global({ value: "i32", mutable: true }, STACK),
@@ -26,7 +26,7 @@ async function startMachine() {
   };
   for (const { name } of WebAssembly.Module.imports(module)) if (!(name in env)) env[name] = Math[name];
   machine.calls = (await WebAssembly.instantiate(module, { env })).exports;
-  off.functions.forEach((name, k) => machine.table.set(k + 1, machine.calls[name]));
+  numbers.functions.forEach((name, k) => machine.table.set(k + 1, machine.calls[name]));
 }
 // a vector in the module's memory
 function vector(Kind, given) {
@@ -39,24 +39,24 @@ const dot = (a, b) => a.reduce((sum, x, k) => sum + x * b[k], 0);
 
 // the closed form of a point (x, z) [m] of a link
 function linkPoint(link, [x, z]) {
-  const { re, im, turn } = off.links.of[link];
+  const { re, im, turn } = numbers.links.of[link];
   const at = ([zero, alongX, alongZ]) => zero.map((d, k) => d + x * alongX[k] + z * alongZ[k]);
   return { re: at(re), im: at(im), turn };
 }
 // its place from the stance foot [m], and the rows of its Jacobian
 function placed({ re, im }, q) {
-  const a = off.links.A.map((row) => dot(row, q)), c = a.map(Math.cos), s = a.map(Math.sin);
-  const columns = (d) => off.links.A[0].map((_, j) => off.links.A.reduce((sum, row, i) => sum + row[j] * d[i], 0));
+  const a = numbers.links.A.map((row) => dot(row, q)), c = a.map(Math.cos), s = a.map(Math.sin);
+  const columns = (d) => numbers.links.A[0].map((_, j) => numbers.links.A.reduce((sum, row, i) => sum + row[j] * d[i], 0));
   return {
     p: [dot(re, c) - dot(im, s), dot(im, c) + dot(re, s)],
     J: [columns(re.map((d, k) => -d * s[k] - im[k] * c[k])), columns(re.map((d, k) => d * c[k] - im[k] * s[k]))],
   };
 }
 
-// the vectors of each kind of walk, in the module's memory, used by one walk at a time: `OfflineWalk` keeps its own s
+// the vectors of each kind of walk, in the module's memory, used by one walk at a time: `Walk` keeps its own s
 class Kind {
   constructor(name) {
-    const told = off.walks[name];
+    const told = numbers.walks[name];
     Object.assign(this, told, { name });
     this.P = vector(BigInt64Array, new BigInt64Array(unpacked(told.P)));
     this.F = vector(Float64Array, new Float64Array(unpacked(told.F)));
@@ -79,12 +79,12 @@ class Kind {
 const kinds = {};
 
 // where a walk is; another one of each is made, so that an earlier one can be gone back to
-class OfflineWalk {
+class Walk {
   constructor(name, s, foot) {
     Object.assign(this, { name, s, foot, status: 0, rows: [] });
   }
   static begun(name) {
-    const walk = new OfflineWalk(name, kinds[name].first.slice(), [0, 0]);
+    const walk = new Walk(name, kinds[name].first.slice(), [0, 0]);
     walk.look(walk.kind);
     return walk;
   }
@@ -92,14 +92,14 @@ class OfflineWalk {
   get t() { return this.s[at.TIME]; }
   get step() { return this.s[at.STEP]; }
   get x() { return this.s.subarray(at.HEAD); }
-  get q() { return this.x.subarray(0, off.n); }
-  get v() { return this.x.subarray(off.n, 2 * off.n); }
+  get q() { return this.x.subarray(0, numbers.n); }
+  get v() { return this.x.subarray(numbers.n, 2 * numbers.n); }
   get walks() { return this.status === 0; }
   get ending() {
-    const [word, reason] = off.status[this.status];
+    const [word, reason] = numbers.status[this.status];
     return this.walks ? "" : word + " at " + this.t.toFixed(2) + " s: " + reason;
   }
-  get exchanged() { return off.exchanged[(this.step + 1) % 2]; }
+  get exchanged() { return numbers.exchanged[(this.step + 1) % 2]; }
 
   // the first sample instant after now [s], by the expression that the engines have
   until() {
@@ -116,11 +116,11 @@ class OfflineWalk {
     kind.s[at.END] = this.until();
     kind.s[at.EVERY] = 0;
     let code = Number(go_on(...kind.five, kind.s.byteOffset));
-    const after = new OfflineWalk(this.name, kind.s.slice(), this.foot);
+    const after = new Walk(this.name, kind.s.slice(), this.foot);
     after.hand = hand;
     after.look(kind);
     after.rows = [row(after)];
-    if (code === off.struck) {
+    if (code === numbers.struck) {
       const [P, , K, W, s] = kind.five;
       code = Number(land(P, K, W, s));
       if (code === 0) after.landed(kind.s.subarray(at.HEAD));
@@ -150,7 +150,7 @@ function headed(t, step, start, fired, x) {
   return s;
 }
 
-const signal = (walk, name) => Array.from(walk.seen.subarray(...off.signals[name]));
+const signal = (walk, name) => Array.from(walk.seen.subarray(...numbers.signals[name]));
 const finite = (x) => (Number.isFinite(x) ? x : null);
 
 // the ground's force on the foot (F_x, F_z) [N], without what the hand carries; along and out of the slope
