@@ -57,14 +57,15 @@ def write_folder(folder: Path, source: Source) -> None:
     Raises OutputError for any other, so that a `main.c` that was changed by hand stays as it is.
     """
     files = {name: text.encode() for name, text in source.files.items()}
+    built = ("main", f"{source.prefix}.fmu")
     try:
-        if folder.exists() and not folder.is_dir():
-            raise OutputError(f"'{folder}' is a file, expected the name of a folder")
         found = sorted(folder.iterdir()) if folder.exists() else []
-        built = ("main", f"{source.prefix}.fmu")
         others = [x.name for x in found if x.name not in built and not _same(x, files)]
+    except NotADirectoryError:
+        raise OutputError(f"'{folder}' is a file, expected the name of a folder") from None
     except OSError as error:
-        raise OutputError(f"cannot write to the folder '{folder}': {error}") from error
+        said = f"cannot write to '{folder}': {error.strerror}; choose another name"
+        raise OutputError(said) from error
     if others:
         raise OutputError(
             f"folder '{folder}' holds '{others[0]}', other than it would be written; choose a new or an "
