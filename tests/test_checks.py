@@ -43,7 +43,6 @@ CHANGING = {
     "scenario/controllers.py": {"ControllerMaker"},
     "scenario/walker_record.py": {"Reader", "Writer"},
     "tuning/walks.py": {"StoredWalks"},
-    "viz/meshcat/server.py": {"ServerState"},
 }
 """Dataclasses that change on purpose, by file: what a run counts, and what is filled while it goes on."""
 

@@ -325,6 +325,7 @@ def test_every_option_of_the_command_reaches_the_picture(
     assert done.exit_code == 0, done.output
     clip = Clip(0.1, 0.3, 20.0, "perspective", True, 30.0, 5.0)
     assert asked == [(tmp_path / "w.gif", walks, clip)]
+    assert list(asked[0][1]) == [*list(walks)[1:], next(iter(walks))], "the first one is solid"
     assert clip.motion() == Motion(True, 30.0, 5.0, 20.0, 800)
 
 
