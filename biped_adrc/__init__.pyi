@@ -3,8 +3,6 @@
 from biped_adrc.analysis.return_map import ReturnMap as ReturnMap
 from biped_adrc.analysis.stride_gain import stride_response as stride_response
 from biped_adrc.analysis.zero_report import zero_report as zero_report
-from biped_adrc.bench.benchmark_result import read_bench_result as read_bench_result
-from biped_adrc.closed_loop.arm import ArmSystem as ArmSystem
 from biped_adrc.closed_loop.protocols import Mode as Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop as SteppingLoop
 from biped_adrc.closed_loop.walker import Walker as Walker
@@ -26,9 +24,7 @@ from biped_adrc.control.tracking import feedback as feedback
 from biped_adrc.control.tracking import solved_acceleration as solved_acceleration
 from biped_adrc.control.tracking import tracked_laws as tracked_laws
 from biped_adrc.deploy.export import export_c as export_c
-from biped_adrc.deploy.in_the_loop import in_the_loop as in_the_loop
 from biped_adrc.deploy.loaded import ExportedController as ExportedController
-from biped_adrc.deploy.loaded import Loaded as Loaded
 from biped_adrc.disturbances.base import Disturbance as Disturbance
 from biped_adrc.disturbances.base import DisturbanceLaw as DisturbanceLaw
 from biped_adrc.disturbances.base import WindowedTorque as WindowedTorque
@@ -90,7 +86,6 @@ from biped_adrc.logs.log_file import write_log as write_log
 from biped_adrc.logs.log_of_walk import logged as logged
 from biped_adrc.logs.replay import replay as replay
 from biped_adrc.logs.robot_log import RobotLog as RobotLog
-from biped_adrc.model.arm import Arm as Arm
 from biped_adrc.model.biped import Biped as Biped
 from biped_adrc.model.model_errors import ModelErrors as ModelErrors
 from biped_adrc.model.pinned import reroot as reroot

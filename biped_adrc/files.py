@@ -1,11 +1,12 @@
-"""Files: names of outputs, JSON that is read, values made plain for JSON, and writing whole or not at all.
+"""Files: names of outputs, JSON that is read, text for other languages, and writing whole or not at all.
 
 Used by every module that touches the file system, so that all of them refuse the same things with
 the same sentences. Three rules stand behind it:
 
-    A name is checked before anything is computed (`output_path`, `keep_inputs`): an hour of
-    walking is not lost to a typing error.
-    An error while a file is read names the file and what it should be (`reading`).
+    A name is checked before anything is computed (`output_path`, `check_folder`, `keep_inputs`): an
+    hour of walking is not lost to a typing error.
+    An error while a file is read names the file and what it should be (`reading`); a device or a
+    pipe, whose reading may never end, is refused before it is opened (`check_regular`).
     A file is replaced in one step (`replacing`): after a kill or a full disk the old file is
     still there.
 """
@@ -16,6 +17,7 @@ import json
 import math
 import os
 import re
+import stat
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -31,6 +33,10 @@ from biped_adrc.errors import BipedError, InputError, OutputError
 
 _KIND = re.compile(r"\.[A-Za-z]\w*")
 """The end of a name that says what is in a file; '.1' of 'push_0.1' does not."""
+CONTROL = re.compile(r"[\x00-\x1f\x7f]")
+"""What is in no name of a file that is written, such as a line break."""
+LONGEST = 240
+"""Bytes of a part of a path; file systems take 255, and the temporary file beside has some more."""
 
 
 def output_path(path: Path | str, suffixes: Sequence[str], default: bool = False) -> Path:
@@ -55,6 +61,7 @@ def check_place(path: Path) -> None:
     """Raise OutputError where a file would take the place of a folder, a device, a pipe or a link."""
     try:
         taken = path.exists() and not path.is_file()
+        kind = "a folder" if path.is_dir() else "not a regular file"
         link = path.readlink() if path.is_symlink() else None
     except OSError as error:
         raise OutputError(
@@ -63,13 +70,43 @@ def check_place(path: Path) -> None:
     if link is not None:
         raise OutputError(f"'{path}' is a link to '{link}', expected the name of a file to write")
     if taken:
-        raise OutputError(f"'{path}' is a folder or a device, expected the name of a file to write")
+        raise OutputError(f"'{path}' is {kind}, expected the name of a file to write")
+
+
+def check_folder(path: Path | str) -> None:
+    """Raise InputError where a folder for results is a file, or would be below one."""
+    whole = _named(path).absolute()
+    there = next(each for each in (whole, *whole.parents) if os.path.lexists(each))
+    if not there.is_dir():
+        kind = "a file" if there.is_file() else "not a regular file"
+        raise InputError(
+            f"the results are to go to '{path}', and '{there}' is {kind}; expected a folder"
+        )
+
+
+def check_regular(path: Path | str, where: str, error: type[BipedError]) -> None:
+    """Raise `error` for a device or a pipe; what is not there at all is left to who opens it."""
+    try:
+        mode = os.stat(path).st_mode
+    except (OSError, ValueError):
+        return
+    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+        raise error(f"{where} is not a regular file")
 
 
 def _named(path: object) -> Path:
-    """The path that is given. Raises InputError for what no file may be called."""
-    if not isinstance(path, str | os.PathLike) or "\0" in str(path):
-        raise InputError(f"cannot write {path!r}, expected the name of a file, text without '\\0'")
+    """The path that is given. Raises InputError for what no file may be called, OutputError for too long a
+    name.
+    """
+    if not isinstance(path, str | os.PathLike) or CONTROL.search(str(path)):
+        raise InputError(
+            f"cannot write {path!r}, expected the name of a file, text without control characters"
+        )
+    for part in Path(path).parts:
+        if (size := len(os.fsencode(part))) > LONGEST:
+            raise OutputError(
+                f"cannot write '{path}': a name of {size} bytes is too long, expected at most {LONGEST}"
+            )
     if Path(path).parts[:1] == ("~",):
         raise InputError(
             f"cannot write '{path}': '~' would be a folder of that name; give Path('{path}').expanduser()"
@@ -108,6 +145,7 @@ def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[No
     keeps its text behind the name of the file.
     """
     where, kind = f"{what} '{path}'", Path(path).suffix[1:].upper()
+    check_regular(path, where, error)
     try:
         yield
     except FileNotFoundError:
@@ -168,6 +206,41 @@ def plain(value: object) -> Any:
     if isinstance(value, list | tuple):
         return [plain(v) for v in value]
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def one_line(text: str) -> str:
+    """The text on one line: line breaks and what is not printable are written out, such as \\n."""
+    return "".join(x if x.isprintable() else x.encode("unicode_escape").decode() for x in text)
+
+
+def c_comment(text: str) -> str:
+    """The text inside a comment of C: one line of ASCII that cannot end it, continue it or hold a trigraph."""
+    plain = one_line(text.replace("\\", "\\x5c")).encode("ascii", "backslashreplace").decode()
+    return re.sub(r"(?<=\*)(?=/)|(?<=/)(?=\*)|(?<=\?)(?=\?)", " ", plain)
+
+
+def xml_comment(text: str) -> str:
+    """The text inside a comment of XML: one line without two hyphens in a row, which XML forbids there."""
+    return re.sub("(?<=-)(?=-)", " ", one_line(text))
+
+
+def toml_key(name: str) -> str:
+    """A key of TOML, in quotes where it has other characters than letters, digits, _ and -."""
+    return name if re.fullmatch("[A-Za-z0-9_-]+", name) else toml_value(name)
+
+
+def toml_value(x: object) -> str:
+    """A plain value in TOML: floats are read back to the same bits; None is the text "none"."""
+    if x is None:
+        return toml_value("none")
+    if isinstance(x, Mapping):
+        inside = (f"{toml_key(key)} = {toml_value(value)}" for key, value in x.items())
+        return "{ " + ", ".join(inside) + " }"
+    if isinstance(x, list | tuple):
+        return "[" + ", ".join(map(toml_value, x)) + "]"
+    if isinstance(x, str | bool | int):  # TOML is stricter than JSON in one character
+        return json.dumps(x, ensure_ascii=False).replace("\x7f", "\\u007f")
+    return repr(float(x)) if isinstance(x, float) else repr(x)
 
 
 def write_text(path: Path, text: str) -> None:

@@ -1,7 +1,6 @@
 """The words for claims, on made-up outcomes; and the set on which they rest."""
 
 import itertools
-import json
 import math
 from dataclasses import replace
 from importlib.resources import files
@@ -9,15 +8,14 @@ from importlib.resources import files
 import numpy as np
 import pytest
 
-from biped_adrc.files import plain
 from biped_adrc.observer_design.observer_loop import observer_loop
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.paper.claims import evidence, rows_control, rows_gait, rows_push
+from biped_adrc.paper.claims import evidence, rows_gait, rows_push
 from biped_adrc.paper.claims.admissible import Member, convergence, declared, members
 from biped_adrc.paper.claims.evidence import GaitCycle, Jumps, Needs, Pair, Start
 from biped_adrc.paper.claims.orders import Order, bandwidth_with
 from biped_adrc.paper.claims.table import rows
-from biped_adrc.paper.claims.tally import AtTwoSteps, ClaimCase, Tally, below_limit, changes
+from biped_adrc.paper.claims.tally import AtTwoSteps, ClaimCase, Tally, below_limit
 from biped_adrc.paper.claims.tasks import Evidence
 from biped_adrc.paper.claims.walks import (
     MemberOutcome,
@@ -30,9 +28,8 @@ from biped_adrc.paper.claims.walks import (
     prepared,
     tried,
 )
-from biped_adrc.paper.claims.words import MEANINGS, Claim, claim_checks, span
+from biped_adrc.paper.claims.words import MEANINGS, claim_checks
 from biped_adrc.paper.push_map import Fate, PushCell
-from biped_adrc.paper.results import Results
 from biped_adrc.viz.pages import CLAIM_COLUMNS
 
 NUMERICS = {
@@ -76,19 +73,6 @@ def test_the_set_is_in_the_package_and_is_balanced():
             count[pair] = count.get(pair, 0) + 1
         assert len(count) == len(factors[one]) * len(factors[other])
         assert len(set(count.values())) == 1, (one, other)
-
-
-def test_the_limits_are_those_of_the_paper_s_words():
-    limits = declared()["limits"]
-    assert (limits["ratio"], limits["deviation"], limits["speed"]) == (0.01, 1e-3, 0.05)
-    assert limits["friction"] == 0.6
-    assert convergence() == (0.01, 1e-9)
-
-
-def test_pushes_end_before_the_step_does():
-    shortest = 0.39  # [s], of the three presets
-    assert all(m.push.stop + m.rise < shortest for m in members())
-    assert {m.push.step for m in members()} == {19}
 
 
 def test_a_member_carried_out_is_what_it_says():
@@ -185,23 +169,6 @@ def test_a_tally_counts_what_is_firm():
     assert Tally(()).word == "not testable"
 
 
-def test_a_run_with_fewer_cases_than_declared_says_so():
-    good = ClaimCase("g", figure(1.0), True)
-    assert "4 of the 36 cases declared were run" in Tally((good,) * 4, 36).share
-    assert "declared" not in Tally((good,) * 4, 4).share
-    assert "where a run tried fewer" in MEANINGS["replicated"]
-
-
-def test_every_row_of_a_run_in_one_preset_says_how_many_were_declared():
-    one = rows(EVIDENCE, NUMERICS, MADE, 1e-5)
-    told = {c.claim for c in one if "cases declared were run" in c.share}
-    counted = {c.claim for c in one if " with 95 %" in c.share}
-    untold = counted - told
-    others = {"Under ADRC 'the stability", "The total disturbances", "'Global stability"}
-    assert all(any(claim.startswith(start) for claim in told) for start in others)
-    assert {text.split()[0] for text in untold} == {"Each", "More"}  # headline runs; closed forms
-
-
 def test_the_interval_is_wilson_s():
     z, n, k = 1.959963984540054, 36, 18
     p = k / n
@@ -210,26 +177,6 @@ def test_the_interval_is_wilson_s():
     tally = Tally(tuple(ClaimCase("c", figure(1.0), i < k) for i in range(n)))
     assert f"between {middle - half:.2f} and {middle + half:.2f}" in tally.share
     assert tally.share.startswith("18 of 36")
-
-
-def test_what_is_said_of_convergence():
-    assert changes([AtTwoSteps(1.001, 1.0), AtTwoSteps(2.0, 2.0)]) == "half the step: at most 0.1 %"
-    assert changes([AtTwoSteps(25.0, 25.0)]) == ""  # a count
-    assert changes([AtTwoSteps(3e-9, 1e-9)]) == "half the step: round-off, at most 2e-09, in 1"
-    assert changes([AtTwoSteps(math.nan, math.nan)]) == "no finite number"
-
-
-def test_spans():
-    assert span([2.0, 1.0]) == "1 to 2"
-    assert span([1.0001, 1.0], ".2f") == "1.00"
-    assert span([1.0, math.nan]) == "1 (1 are no numbers)"
-    assert span([]) == "none"
-
-
-def test_a_word_is_one_of_five():
-    assert len(MEANINGS) == 5
-    with pytest.raises(ValueError, match="'reproduced' is none of"):
-        Claim("c", "I", "reproduced", "", "")
 
 
 # -- the push --------------------------------------------------------------------------------------
@@ -257,75 +204,10 @@ def test_rejection(odd, word):
     assert of(rows_push.rejection, outcome(adrc=walk(1.0)), usual=0).word == "contradicted"
 
 
-def test_a_marginal_member_is_named_and_counts_for_nothing():
-    odd = outcome(adrc=walk(1e-6, change=0.02))
-    claim = of(rows_push.rejection, odd)
-    assert claim.share.startswith("5 of 5, ")
-    assert odd.member.name in claim.share
-    assert claim.asserted == 5 / 6
-
-
-@pytest.mark.parametrize("controller", ["NPD", "ADRC"])
-def test_a_fall(controller):
-    fallen = walk(math.nan, made=1, period=math.nan)
-    odd = outcome(**{controller.lower(): fallen})
-    claim = of(rows_push.walks_on, odd)
-    assert claim.word == "depends"
-    assert claim.share.startswith("5 of 6")
-    assert not claim_checks([claim])[1].holds
-    assert of(rows_push.walks_on, outcome()).word == "replicated"
-
-
-def test_a_walk_that_ends_otherwise_has_not_made_its_steps():
-    assert not walk(1e-3)._replace(status="STALLED").made
-    assert not walk(1e-3)._replace(impacts=3).made
-    assert walk(1e-3).made
-
-
-def test_an_ending_that_the_step_decides_is_marginal():
-    odd = outcome(adrc=walk(1e-6)._replace(same=False))
-    for rule in (rows_push.walks_on, rows_push.legal):
-        claim = of(rule, odd)
-        assert claim.word == "depends"
-        assert claim.marginal == 1
-        assert not claim_checks([claim])[0].holds
-
-
 def test_the_cycle_after_the_push():
     assert of(rows_push.unaffected, outcome()).word == "replicated"
     assert of(rows_push.unaffected, outcome(adrc=walk(1e-6, rate=1.1e-5))).word == "depends"
     assert of(rows_push.unaffected, outcome(adrc=walk(1e-6, rate=-1.1e-5))).word == "depends"
-
-
-def test_a_cycle_that_ends_is_affected_whatever_the_step():
-    claim = of(rows_push.unaffected, outcome(adrc=walk(math.nan, made=1, rate=math.nan)))
-    assert (claim.word, claim.marginal) == ("depends", 0)
-
-
-def test_npd_has_to_deviate():
-    assert of(rows_push.deviates, outcome(npd=walk(0.9e-3))).word == "depends"
-    assert of(rows_push.deviates, outcome(npd=walk(1.1e-3))).word == "replicated"
-
-
-def test_what_the_ground_could_not_give():
-    claim = of(rows_push.legal, outcome(adrc=walk(1e-6, illegal=("step 19: F_N = -3 N",))))
-    assert claim.word == "depends"
-    assert "F_N = -3 N" in claim.number
-    assert [check.holds for check in claim_checks([claim])] == [True]  # none but convergence
-
-
-def test_a_critical_phase_needs_a_member_that_throws_npd():
-    assert of(rows_push.critical_phase, outcome()).word == "not testable"
-    fallen = walk(math.nan, made=0, period=math.nan)
-    assert of(rows_push.critical_phase, outcome(npd=fallen)).word == "replicated"
-    assert of(rows_push.critical_phase, outcome(npd=fallen, adrc=fallen)).word == "contradicted"
-
-
-def test_a_critical_phase_that_the_step_decides_says_nothing():
-    fallen = walk(math.nan, made=0, period=math.nan)
-    odd = outcome(npd=fallen._replace(same=False))
-    claim = rows_push.critical_phase([odd])
-    assert (claim.word, claim.marginal) == ("not testable", 1)
 
 
 def cell(npd, adrc, doubtful=False):
@@ -352,104 +234,14 @@ def test_a_critical_phase_is_judged_over_the_map(cells, word, number):
     assert [c.word for c in table if "critical phase" in c.claim] == [word]
 
 
-def test_marginal_cells_of_the_map_carry_nothing():
-    cells = [cell("fell", "legal"), cell("fell", "fell", doubtful=True)]
-    claim = rows_push.critical_phase([], cells)
-    assert claim.word == "replicated"
-    assert "half the step, 1, are left out" in claim.reason
-    found = Results.of({"map a": cells, "nominal": None, "map b": cells[:1]})
-    assert len(found.cells) == 3
-
-
-def test_the_long_walks():
-    assert rows_push.long_walk({"NPD": (25, 25), "ADRC": (25, 25)}).word == "replicated"
-    short = rows_push.long_walk({"NPD": (25, 25), "ADRC": (24, 25)})
-    assert short.word == "depends"
-    assert not claim_checks([short])[1].holds
-
-
 # -- the controller --------------------------------------------------------------------------------
 def pair(ratio=1.0, *, made=True, name="identified, 20 N m on the torso", same=True):
     peaks = {"NPD": figure(1e-2), "ADRC": figure(1e-2 * ratio)}
     return Pair(name, peaks, peaks, {"NPD": made, "ADRC": made}, same)
 
 
-@pytest.mark.parametrize(
-    ("ratio", "word"), [(1.0, "contradicted"), (0.0099, "replicated"), (math.nan, "not testable")]
-)
-def test_unmatched_torques_model_errors_and_gait_b(ratio, word):
-    pairs = [pair(ratio)] * 3
-    assert rows_control.unmatched_rejection(pairs).word == word
-    on_gait_b = outcome(adrc=walk(1e-2 * ratio))
-    assert rows_control.independent_of_the_gait([on_gait_b] * 3).word == word
-    assert rows_control.model_uncertainty(pairs)[0].word == word
-
-
-def test_less_error_of_a_heavier_plant():
-    less = rows_control.model_uncertainty([pair(0.7), pair(0.99)])[1]
-    more = rows_control.model_uncertainty([pair(0.7), pair(1.02)])[1]
-    assert (less.word, more.word) == ("replicated", "depends")
-    assert [c.holds for c in claim_checks([less, more])] == [True, True, False]
-
-
-def test_less_of_an_error_is_nothing_where_a_walk_ends():
-    for rule in (rows_control.model_uncertainty, lambda p: [rows_control.unmatched_rejection(p)]):
-        for claim in rule([pair(1e-3, made=False)] * 3):
-            assert claim.word == "contradicted"
-            assert claim.asserted in (None, 0.0)
-        (claim, *_) = rule([pair(1e-3, made=False, same=False)] * 3)
-        assert (claim.word, claim.marginal) == ("not testable", 3)
-
-
-def test_risk_needs_a_counterexample_in_every_preset():
-    assert rows_control.not_at_risk([pair(), pair()]).word == "not testable"
-    assert rows_control.not_at_risk([pair(), pair(made=False)]).word == "depends"
-    both = rows_control.not_at_risk([pair(made=False)] * 2)
-    assert both.word == "contradicted"
-    assert "chosen" in both.reason
-    doubtful = rows_control.not_at_risk([pair(made=False), pair(made=False, same=False)])
-    assert (doubtful.word, doubtful.marginal) == ("depends", 1)
-
-
-@pytest.mark.parametrize(
-    ("sizes", "word"),
-    [
-        ((20.0, 50.0), "contradicted"),
-        ((20.0, 0.9), "depends"),
-        ((1e-15, 0.0), "not testable"),
-        ((20.0, math.nan), "depends"),
-    ],
-)
-def test_a_jump_of_the_disturbance_has_a_size(sizes, word):
-    found = [Jumps("p", size, 30.0) for size in sizes]
-    assert rows_control.smooth_disturbance(found).word == word
-
-
 def order(name, gain, noise, m=1):
     return Order(name, m, 500.0, gain, noise, 1e-3, 1e-6, 1e-5, figure(1e-4))
-
-
-@pytest.mark.parametrize(
-    ("gain", "noise", "word"),
-    [(2.0, 2.0, "contradicted"), (2.0, 0.5, "depends"), (0.5, 0.5, "replicated")],
-)
-def test_gains_are_compared_both_ways(gain, noise, word):
-    found = [
-        order("Table I", gain, noise, 7),
-        order("m = 1, equal bandwidth", 1.0, 1.0),
-        order("m = 1, equal delay margin", 1.0, 1.0),
-    ]
-    assert rows_control.high_gains(found).word == word
-
-
-def test_an_error_that_stays():
-    assert rows_control.tends_to_zero(NUMERICS).word == "contradicted"
-    assert rows_control.tends_to_zero({}).word == "not testable"
-    other = {**NUMERICS, "the same by (23) corrected [s^2]": 3e-5}
-    assert rows_control.tends_to_zero(other).word == "not testable"
-    for half in (1.9e-5, math.nan):
-        claim = rows_control.tends_to_zero({**NUMERICS, "the same at half the step [s^2]": half})
-        assert (claim.word, claim.marginal) == ("not testable", 1)
 
 
 # -- the gait --------------------------------------------------------------------------------------
@@ -470,40 +262,6 @@ def test_stability(multiplier, word):
         assert claim_checks([claim])[1].holds == (word == "replicated")
 
 
-def test_multipliers_agree_to_a_share_or_the_round_off_of_their_differences():
-    for found, marginal in (
-        (AtTwoSteps(0.706, 0.7), 0),
-        (AtTwoSteps(0.708, 0.7), 1),
-        (AtTwoSteps(1e-4, 2e-5), 0),
-        (AtTwoSteps(1.3e-4, 2e-5), 1),
-    ):
-        odd = cycle()._replace(multiplier=found)
-        assert rows_gait.stable([odd]).marginal == marginal
-
-
-def test_a_cycle_that_was_not_found_says_nothing():
-    lost = cycle()._replace(
-        multiplier=AtTwoSteps(math.nan, math.nan), rate=AtTwoSteps(math.nan, math.nan)
-    )
-    for rule in (rows_gait.stable, rows_gait.recipe_speed):
-        claim = rule([lost])
-        assert (claim.word, claim.marginal) == ("not testable", 1)
-
-
-def test_the_speed_says_on_which_limit_it_hangs():
-    text = rows_gait.recipe_speed([cycle(rate=-1.257 * 1.046), cycle(rate=-1.257 * 1.03)]).reason
-    assert "largest deviation is 4.6 %: a limit of 4 % would make it 'depends'" in text
-    text = rows_gait.recipe_speed([cycle(rate=-1.257 * 0.968)] * 2).reason
-    assert "largest deviation is 3.2 %: a limit of 3 % would make it 'contradicted'" in text
-
-
-def test_the_speed_of_the_recipe():
-    assert pytest.approx(-1.257, abs=1e-12) == rows_gait.PRINTED_SPEED
-    assert rows_gait.recipe_speed([cycle(rate=-1.257 * 1.049)]).word == "replicated"
-    assert rows_gait.recipe_speed([cycle(rate=-1.257 * 1.051)]).word == "contradicted"
-    assert rows_gait.recipe_speed([cycle(rate=-1.257 * 0.949)]).word == "contradicted"
-
-
 def need(gait="recipe", *, impulse=0.5, cost=1.0, jump=1.0, illegal=()):
     return Needs(
         f"{gait}",
@@ -519,57 +277,6 @@ def need(gait="recipe", *, impulse=0.5, cost=1.0, jump=1.0, illegal=()):
         illegal,
         figure(100.0),
     )
-
-
-def test_what_gaits_need():
-    assert rows_gait.recipe_needs([need(), need(illegal=("friction",))]).word == "depends"
-    assert rows_gait.pinned_at_impact([need(impulse=0.61)]).word == "contradicted"
-    assert rows_gait.pinned_at_impact([need(impulse=0.59)]).word == "replicated"
-    assert rows_gait.not_smooth([need(jump=1e-4)]).word == "contradicted"
-    assert rows_gait.not_smooth([need(jump=0.1)]).word == "replicated"
-    for cost, word in ((1.01, "replicated"), (0.99, "contradicted")):
-        assert rows_gait.not_optimal([need(cost=cost), need("published")]).word == word
-
-
-@pytest.mark.parametrize(
-    "odd",
-    [
-        {"same": False},
-        {"friction": AtTwoSteps(0.6, 0.61)},
-        {"normal": AtTwoSteps(100.0, 102.0)},
-        {"torque": AtTwoSteps(149.0, 151.0)},
-        {"friction": AtTwoSteps(math.nan, math.nan)},
-    ],
-)
-def test_needs_that_the_step_decides(odd):
-    claim = rows_gait.recipe_needs([need()._replace(**odd)])
-    assert (claim.word, claim.marginal) == ("not testable", 1)
-
-
-def test_a_need_that_is_not_converged_is_said_to_be():
-    odd = need()._replace(friction_at_an_instant=AtTwoSteps(9.6, 10.1))
-    assert "not converged" in rows_gait.recipe_needs([odd]).number
-
-
-def test_a_basin_that_ends():
-    below = Start("b", 0.58, 0.97, {"NPD": 0, "ADRC": 0}, 3)
-    above = Start("a", 0.58, 1.03, {"NPD": 3, "ADRC": 3}, 3)
-    assert rows_gait.global_stability([below, above]).word == "contradicted"
-    walks = below._replace(impacts={"NPD": 3, "ADRC": 3})
-    assert rows_gait.global_stability([walks, above]).word == "not testable"
-    assert rows_gait.global_stability([walks, below, above]).word == "depends"
-    stops = above._replace(impacts={"NPD": 3, "ADRC": 0})
-    assert rows_gait.global_stability([below, stops]).word == "not testable"
-    assert rows_gait.global_stability([below, above, stops]).word == "depends"
-    doubtful = rows_gait.global_stability([below, above, above._replace(same=False)])
-    assert (doubtful.word, doubtful.marginal) == ("depends", 1)
-    assert rows_gait.global_stability([]).word == "not testable"
-
-
-def test_printed_multipliers_would_need_short_steps():
-    assert rows_gait.printed_multipliers([0.4]).word == "contradicted"
-    assert rows_gait.printed_multipliers([0.07]).word == "not testable"
-    assert "79 ms" in rows_gait.printed_multipliers([0.4]).number
 
 
 # -- the table -------------------------------------------------------------------------------------
@@ -606,15 +313,6 @@ def test_every_claim_has_a_row_with_every_column():
         assert claim.reason
     assert all(check.holds for check in claim_checks(table))
     assert {check.kind for check in claim_checks(table)[1:]} == {"reproduced"}
-
-
-def test_every_number_is_recorded_at_both_steps():
-    record = json.loads(json.dumps(plain(EVIDENCE)))
-    peak = record["members"][0]["walked"]["ADRC"]["peak"]
-    assert peak == pytest.approx({"value": 1e-6 * 1.001, "at_half": 1e-6})
-    assert record["members"][0]["member"]["preset"] == "identified"
-    assert record["cycles"][0]["multiplier"]["at_half"] == 0.7
-    assert record["orders"][2]["pushed"]["at_half"] == 1e-4
 
 
 def test_one_bad_member_breaks_one_claim_and_its_check():

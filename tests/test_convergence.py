@@ -12,7 +12,6 @@ import biped_adrc as ba
 from biped_adrc.analysis.legality import Legality
 from biped_adrc.analysis.quadrature import integrate, largest
 from biped_adrc.engine.run import COMPILED
-from biped_adrc.errors import InputError
 from biped_adrc.paper.convergence import (
     convergence_check,
     error_text,
@@ -26,7 +25,6 @@ from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.run import execute_twice, walk_scenario
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import FINE_STEP, Part, refined, walk_in_parts
-from biped_adrc.timing import SampledTime
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -91,27 +89,6 @@ def test_two_steps_have_to_agree(half, holds):
     assert convergence_check("x", o).holds is holds
 
 
-def test_a_difference_below_the_resolution_is_none():
-    o = made_up(peak_error=1.9e-9, half=made_up(peak_error=1e-9))
-    assert convergence_check("x", o).holds
-    assert not convergence_check("x", replace(o, peak_error=2.1e-9)).holds
-
-
-def test_a_tenth_of_adrc_s_mean_error_under_the_push_is_above_the_resolution():
-    pushed = made_up(peak_error=6e-8, rms_error=2.6e-8)
-    assert convergence_check("x", replace(pushed, half=pushed)).holds
-    for name in ("peak_error", "rms_error"):
-        off = replace(pushed, **{name: 1.1 * getattr(pushed, name)})
-        assert not convergence_check("x", replace(pushed, half=off)).holds
-        near = replace(pushed, **{name: 1.015 * getattr(pushed, name)})
-        assert convergence_check("x", replace(pushed, half=near)).holds == (name == "peak_error")
-
-
-def test_all_figures_of_merit_are_compared():
-    o = made_up(half=made_up())
-    assert {h.name for h in halved(o)} > {"peak error", "peak torque", "longest step"}
-
-
 @pytest.mark.parametrize(
     ("half", "word"),
     [
@@ -124,12 +101,6 @@ def test_an_error_is_printed_with_what_the_step_does_to_it(half, word):
     text = error_text(made_up(half=made_up(**half)))
     assert text.startswith("1.000e-03 rad (")
     assert word in text
-
-
-def test_a_walk_that_ends_early_has_to_end_alike():
-    fell = made_up(status="FELL", impacts=1, peak_error=7.0)
-    assert convergence_check("x", replace(fell, half=replace(fell, peak_error=9.0))).holds
-    assert not convergence_check("x", replace(fell, half=made_up())).holds
 
 
 @pytest.mark.parametrize("limit", [1.0, 0.0, -0.1])
@@ -162,13 +133,6 @@ def test_a_walk_in_parts_is_the_walk(biped, gait):
         assert np.array_equal(one.x, other.x)
         assert np.array_equal(one.t, other.t)
     assert "(steps 2 to 3)" in joined.settings["method"]
-
-
-def test_a_clock_that_runs_on_is_not_cut(biped, gait):
-    free = SampledTime(1e-3, restart=False)
-    walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=free)
-    with pytest.raises(InputError, match="does not restart"):
-        walk_in_parts(walker, gait, (Part(1, ba.RK4()), Part(1, ba.RK4())))
 
 
 def test_the_default_of_adrc_resolves_the_spike_after_a_push(biped, gait):

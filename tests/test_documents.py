@@ -37,7 +37,7 @@ PAGES = sorted(
     path for path in (ROOT / "docs").rglob("*.md") if not BUILT & set(path.relative_to(ROOT).parts)
 )
 DOCUMENTS = [ROOT / "README.md", *PAGES]
-EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
+EXAMPLES = sorted((ROOT / "examples").rglob("*.py"))
 
 RUN_BY_CI = {  # documented command: what has to stand in .ci/run
     "make reproduce": "make reproduce",
@@ -48,7 +48,7 @@ RUN_BY_CI = {  # documented command: what has to stand in .ci/run
 """Commands too large for a test."""
 
 SHELLS = ("console", "bash", "sh", "shell")
-DIRECTIVES = {"{toctree}", "{figure}", "{eval-rst}", "{math}", "{image}", "{raw}"}
+DIRECTIVES = {"{toctree}", "{figure}", "{eval-rst}", "{math}", "{image}", "{raw}", "{csv-table}"}
 WRITTEN = re.compile(r"^(?:#|<!--) ([\w./-]+\.\w+)(?: -->)?$")
 TEST_NAME = re.compile(r"tests/[\w/]+\.py(?:::\w+)?")
 
@@ -281,37 +281,6 @@ def test_tests_that_a_page_names_exist(page):
         if function:
             tree = ast.parse((ROOT / path).read_text())
             assert function in {n.name for n in tree.body if isinstance(n, ast.FunctionDef)}, name
-
-
-LINES = re.compile(r"\b(\w+) lines\b")
-NUMBERS = {
-    "ten": 10,
-    "twelve": 12,
-    "twenty": 20,
-    "thirty": 30,
-    "forty": 40,
-    "fifty": 50,
-    "sixty": 60,
-}
-
-
-def sentences(document):
-    """Of a document's text, without its blocks."""
-    text = re.sub(r"^```.*?^```", "", document.read_text(), flags=re.DOTALL | re.MULTILINE)
-    return [" ".join(part.split()) for part in re.split(r"\.\s|\n\n", text)]
-
-
-@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
-def test_what_is_said_of_an_example_is_so(document):
-    """How many lines it has, within 10 %, and the order of its observer."""
-    for sentence in sentences(document):
-        for name in re.findall(r"`(examples/\w+\.py)`", sentence):
-            count = len((ROOT / name).read_text().splitlines())
-            for word in LINES.findall(sentence):
-                said = NUMBERS.get(word) or int(word)
-                assert abs(said - count) <= 0.1 * count, f"{name} has {count} lines: {sentence}"
-        for m, name in re.findall(r"m = (\d+) \(`(examples/\w+\.toml)`\)", sentence):
-            assert tomllib.loads((ROOT / name).read_text())["fixed"]["order"] == int(m), sentence
 
 
 @pytest.mark.parametrize(

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import html
 import math
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import biped_adrc as ba
-from biped_adrc.cli import app
 from biped_adrc.disturbances.link import OnLink
 
 TORQUE = [20.0, 20.0, 20.0, 20.0, 0.0]
@@ -36,19 +33,12 @@ def pulse(step, start, stop, amplitude=TORQUE):
     "push",
     [
         pulse(1, 0.1, 0.3),
-        pulse(2, 0.0, 0.2),
         pulse(1, 0.1, math.inf),
-        pulse(None, 0.3, 0.6),
-        ba.TorqueStep(TORQUE, step=1, start=0.2),
         ba.TorqueSine(TORQUE, frequency=5.0),
     ],
 )
 def test_a_push_that_acts_as_asked_for_is_passed_over(push, walked):
     assert walked(push).remarks == ()
-
-
-def test_nothing_is_said_of_no_push(walked):
-    assert walked().remarks == ()
 
 
 def test_a_push_that_is_cut_off_acts_as_one_without_an_end(walked, biped):
@@ -85,20 +75,6 @@ def test_an_edge_at_an_impact_is_named(off, step, walked):
     assert walked(pulse(step, 0.1, end - 5e-3, small)).remarks == ()
 
 
-@pytest.mark.parametrize("start", [1e-6, 0.9e-3])
-def test_an_edge_just_after_the_impact_that_begins_its_step_is_named_and_one_at_0_is_not(
-    start, walked
-):
-    end = walked().trajectory.events("foot_strike")[0].t
-    (remark,) = walked(pulse(2, start, 0.2)).remarks
-    assert f"edge at {start:g} s within 1 ms of the impact before it, at {end:.4f} s" in remark
-    assert walked(pulse(2, 0.0, 0.2)).remarks == ()
-    assert walked(pulse(2, 1.1e-3, 0.2)).remarks == ()
-    assert walked(pulse(1, start, 0.2)).remarks == (), (
-        "no impact of this walk begins its first step"
-    )
-
-
 @pytest.fixture(scope="module")
 def observed(biped, gait):
     """The largest error and the remarks of a pushed ADRC walk with a step h [s]."""
@@ -127,32 +103,8 @@ def test_a_step_too_long_for_the_observer_is_named_where_it_spoils_the_errors(ob
     assert right == pytest.approx(observed(500.0, 5e-5)[0], rel=1e-2)
 
 
-def test_only_the_steps_beside_an_edge_have_to_be_short(observed):
-    assert observed(5000.0, None)[1] == (), "0.5 ms in the first step, 0.05 ms in the pushed one"
-    assert len(observed(5000.0, 5e-4, (1, 0.1, 0.3))[1]) == 1
-    assert "did not act" in observed(5000.0, 5e-4, (9, 0.1, 0.3))[1][0]
-    assert len(observed(5000.0, 5e-4, (9, 0.1, 0.3))[1]) == 1
-
-
-def test_the_default_step_of_python_is_named_where_the_walk_is_shown(biped, gait):
-    law = ba.ADRCController(gait.constraint)
-    walk = ba.walk(ba.Walker(biped, law, pulse(1, 0.1, 0.15)), gait, 1, engine="pinocchio")
-    (remark,) = walk.remarks
-    assert "0.5 ms" in remark
-    assert "0.05 ms" in remark
-    assert remark in html.unescape(walk._repr_html_())
-
-
 def test_a_fall_cuts_nothing_off(walked):
     fallen = walked(pulse(1, 0.05, 0.9, [0.0, 0.0, 0.0, 0.0, 300.0]), pulse(7, 0.1, 0.3))
     assert not fallen.trajectory.status.ok
     assert not fallen.trajectory.events("foot_strike")
     assert fallen.remarks == ()
-
-
-def test_the_command_says_it():
-    line = "simulate --engine compiled --controller NPD --impacts 1 --push q1,q2=10@1:0.1-0.5"
-    done = CliRunner().invoke(app, line.split(), catch_exceptions=False)
-    assert (
-        "note: the push from 0.1 to 0.5 s in single support 1 was cut by the impact" in done.output
-    )

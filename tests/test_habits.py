@@ -6,7 +6,6 @@ import datetime
 import re
 import subprocess
 import sys
-import tomllib
 from pathlib import Path
 
 import pytest
@@ -16,7 +15,6 @@ from typer.testing import CliRunner
 
 import biped_adrc as ba
 from biped_adrc.cli import app
-from biped_adrc.versions import versions
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -49,14 +47,6 @@ def test_the_version_is_said_by_the_module():
         timeout=60,
     )
     assert done.stdout == f"biped-adrc {ba.__version__}\n"
-
-
-def test_the_version_is_written_once():
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text())
-    assert "version" not in project["project"]
-    assert project["project"]["dynamic"] == ["version"]
-    assert project["tool"]["hatch"]["version"]["path"] == "biped_adrc/__init__.py"
-    assert versions()["biped-adrc"] == ba.__version__
 
 
 def test_releases_are_dated_and_the_newest_is_this_one():
@@ -92,28 +82,3 @@ def test_the_citation_is_of_this_version_and_of_the_paper():
         "Cortes-Romero",
         "Tovar",
     ]
-
-
-def test_hooks_are_the_checks_of_the_makefile():
-    config = yaml.safe_load((ROOT / ".pre-commit-config.yaml").read_text())
-    hooks = [hook for repo in config["repos"] for hook in repo["hooks"]]
-    assert {repo["repo"] for repo in config["repos"]} == {"local"}
-    entries = [hook["entry"] for hook in hooks]
-    makefile = (ROOT / "Makefile").read_text()
-    rules = re.findall(r"^(?:lint|types|imports):.*\n((?:\t.*\n)+)", makefile, re.M)
-    checks = [line.strip() for rule in rules for line in rule.splitlines()]
-    assert len(checks) == len(entries) == 4
-    for check, entry in zip(checks, entries, strict=True):
-        tool = check.replace("$(BIN)", ".venv/bin").removesuffix(" .").removesuffix(" --check")
-        assert entry.startswith(tool)
-
-
-@pytest.mark.parametrize(
-    "page", sorted((ROOT / "docs" / "extend").glob("*.md")), ids=lambda p: p.stem
-)
-def test_what_a_page_of_extensions_names_is_public(page):
-    text = page.read_text(encoding="utf-8")
-    assert re.findall(r"^from biped_adrc.*", text, re.M) == []
-    named = set(re.findall(r"\bba\.([A-Za-z_]\w*)", text))
-    assert named
-    assert named <= {*ba.__all__}

@@ -1,23 +1,16 @@
 """What ground and motors could have carried: mean force against momentum, hand-made steps, walks cut short."""
 
-import json
 from dataclasses import fields, replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.certificate import Support, outside, support
-from biped_adrc.analysis.legality import Legality, first_violation, outcome_of
+from biped_adrc.analysis.certificate import outside, support
+from biped_adrc.analysis.legality import first_violation, outcome_of
 from biped_adrc.analysis.quadrature import window_means
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.paper.plan import Plan
-from biped_adrc.paper.results import Results
-from biped_adrc.paper.tables import _push
 from biped_adrc.robots.limits import KnownLimits
-from biped_adrc.scenario.run import execute
-from biped_adrc.scenario.scenario import Scenario
 
 KNOWN = KnownLimits(0.6, 150.0, 5e-3)
 WEIGHT = 300.0
@@ -53,21 +46,6 @@ def dip(length, depth=-100.0):
     first, last = np.flatnonzero(t == edges[0]), np.flatnonzero(t == edges[1])
     inside[first[1]] = inside[last[0]] = True
     return t, np.where(inside, depth, WEIGHT)
-
-
-def test_a_number_that_is_none_is_printed_as_none(walker):
-    """Not the largest of the others, wherever it stands."""
-    t = grid()
-    good = support(walker, handmade(t, np.full(len(t), WEIGHT)), KNOWN)
-    names = [f.name for f in fields(Support) if isinstance(getattr(good, f.name), float)]
-    odd = replace(good, **dict.fromkeys(names, np.nan))
-    for parts in ((good, odd), (odd, good)):
-        found = Legality(ba.Status.COMPLETED, parts, 0.0, KNOWN)
-        for name in ("least_normal_force", "friction", "mean_normal_force", "mean_friction"):
-            assert np.isnan(getattr(found, name))
-        for name in ("scuffing", "peak_torque", "share_outside"):
-            assert np.isnan(getattr(found, name))
-        assert found.outcome == "made"
 
 
 def test_a_force_that_dips_for_2_ms_is_carried_and_one_for_6_ms_is_not(walker):
@@ -155,19 +133,6 @@ def test_scuffing_counts_all_along_the_step_but_for_three_per_cent(walker, share
     assert s.scuffing == pytest.approx(2e-3 if counts else 0.0)
 
 
-@pytest.mark.parametrize("name", ["F_N", "F_T", "u", "height"])
-def test_what_is_no_number_is_never_legal(walker, name):
-    t = grid()
-    values = {
-        "F_N": np.full(len(t), WEIGHT),
-        "F_T": np.zeros(len(t)),
-        "height": np.full(len(t), 0.05),
-    }
-    values["u"] = np.zeros((len(t), 4))
-    values[name][2000] = np.nan
-    assert support(walker, handmade(t, **values), KNOWN).illegal(), name
-
-
 @pytest.mark.parametrize(
     ("number", "reason"),
     [
@@ -182,21 +147,6 @@ def test_each_number_that_is_none_is_a_reason_of_its_own(walker, number, reason)
     good = support(walker, handmade(t, np.full(len(t), WEIGHT)), KNOWN)
     assert good.illegal() == {}
     assert list(replace(good, **{number: np.nan}).illegal()) == [reason]
-
-
-def test_the_record_has_no_number_that_is_not_finite(walker):
-    t = grid()
-    carried = support(walker, handmade(t, np.full(len(t), 100.0), np.full(len(t), 50.0)), KNOWN)
-    lifted = support(walker, handmade(t, np.full(len(t), -5.0), np.full(len(t), 50.0)), KNOWN)
-    r = Legality(ba.Status.TIME_OUT, (carried, lifted), np.inf, KNOWN).record()
-    assert {name for name, x in r.items() if x is None} == {
-        "friction",
-        "mean_friction",
-        "impulse_ratio",
-    }
-    assert (r["share_outside"], r["least_normal_force"], r["outcome"]) == (0.5, -5.0, "ended")
-    assert (r["legal_impacts"], list(r["reasons"])) == (0, ["normal_force"])
-    assert json.loads(json.dumps(r, allow_nan=False)) == r
 
 
 def test_torque_at_its_limit_is_legal_and_above_is_not(walker):
@@ -303,23 +253,6 @@ def test_a_legal_walk_is_left_as_it_is_and_limits_decide(biped, gait):
         walk.certificates[0].violations(ba.Limits(window=0.01))
 
 
-def test_limits_that_are_none_are_refused():
-    for made, message in (
-        ({"friction": 0.0}, "friction limit is 0.0"),
-        ({"friction": -0.1}, "friction limit is -0.1"),
-        ({"friction": 1.1}, "friction limit is 1.1"),
-        ({"friction": float("nan")}, "friction limit is nan"),
-        ({"torque": 0.0}, "torque limit is 0.0 N m"),
-        ({"torque": float("nan")}, "torque limit is nan"),
-        ({"window": 0.0}, "force window is 0.0 s"),
-        ({"window": float("inf")}, "force window is inf s"),
-    ):
-        with pytest.raises(ba.BipedError, match=message):
-            ba.Limits(**made)
-    known = ba.Limits().of(ba.Biped.load("rabbit").description)
-    assert known == (0.6, 150.0, 5e-3)
-
-
 def test_what_the_model_does_not_know_is_matched_and_unmatched(biped, gait):
     """xi~ from the plant's own equation: D q'' + Omega = B u + zeta + friction with the plant's D and Omega."""
     rubbing = ba.Biped.load("rabbit", friction=True)
@@ -338,35 +271,3 @@ def test_what_the_model_does_not_know_is_matched_and_unmatched(biped, gait):
                 rest = terms.kappa @ (terms.A_N.T @ unknown[4:])
                 assert np.allclose(s.xi_unmatched[i], rest, atol=1e-8)
     assert np.max(np.abs(s.xi_unmatched)) > 0.5
-
-
-def test_a_model_without_error_leaves_the_push_as_it_is(biped, gait):
-    walker = ba.Walker(biped, ba.NPDController(gait.constraint), PUSH)
-    s = ba.walk(walker, gait, 1, ba.RK4(1e-3)).signals
-    outside_push = ~np.any(s.zeta, axis=1)
-    assert np.all(s.xi_external[outside_push] == 0.0)
-    assert np.all(s.xi_unmatched == 0.0)
-
-
-def test_the_finding_of_the_push_says_of_both_walks_whether_they_were_legal():
-    """The walks of figures 4 and 5: whatever a walk needed, the sentence does not leave it out."""
-    plan = Plan(quick=True)
-
-    def found(friction):
-        walks = {}
-        for c in ("NPD", "ADRC"):
-            o = execute(
-                Scenario(c, impacts=1, pushes=plan.pushes, first_step=19, engine="compiled")
-            )
-            known = o.legality.limits._replace(friction=friction if c == "NPD" else 0.6)
-            supports = tuple(replace(s, friction_limit=known.friction) for s in o.legality.supports)
-            walks[c] = replace(o, legality=replace(o.legality, supports=supports, limits=known))
-        full = {f"headline {c}": (SimpleNamespace(outcome=o), []) for c, o in walks.items()}
-        rising = {f"rising push {c}": o for c, o in walks.items()}
-        return _push(plan, Results.of({**full, **rising}))
-
-    assert "of either walk: it made all steps legally" in found(0.6)
-    assert (
-        "of NPD's walk: it made all steps, not all of them legally; of ADRC's: it made all steps legally"
-        in found(0.3)
-    )

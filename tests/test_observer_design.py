@@ -3,22 +3,17 @@
 from __future__ import annotations
 
 import math
-import re
-from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import biped_adrc as ba
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.delayed import Delayed, line_flow, line_output, line_state, pade
-from biped_adrc.errors import InputError
 from biped_adrc.hardware.motors import IDEAL, Line, acting, sent, whole_and_part
-from biped_adrc.observer_design.observer_choice import Hardware, OnHardware, count_error, recommend
+from biped_adrc.observer_design.observer_choice import count_error, recommend
 from biped_adrc.observer_design.observer_impact import ImpactStates, impact_peak, orbit_impact
-from biped_adrc.observer_design.observer_loop import _squared, conditioning, observer_loop
+from biped_adrc.observer_design.observer_loop import conditioning, observer_loop
 from biped_adrc.observer_design.observer_report import observer_report
 from biped_adrc.observer_design.observer_sampled import (
     FORMS,
@@ -30,12 +25,7 @@ from biped_adrc.observer_design.observer_sampled import (
 from biped_adrc.observer_design.observer_tables import of_stable
 from biped_adrc.observer_design.to_ss import error_to_ss, loop_to_ss
 from biped_adrc.observers.gpi import gpi_correct, gpi_flow, gpi_predict
-from biped_adrc.observers.high_gain import HighGainObserver
-from biped_adrc.observers.kalman import KalmanObserver
-from biped_adrc.observers.momentum import MomentumObserver
-from biped_adrc.studies import observer_check
 from biped_adrc.studies.observer_check import DelayCase, check_encoders, step_errors
-from biped_adrc.viz.plots.observer_figure import observer_figure
 
 TABLE_I = ba.GPIObserver.from_poles()
 FIRST = ba.GPIObserver.from_bandwidth(500.0, 1)
@@ -89,12 +79,6 @@ def test_margins_of_the_paper_and_of_the_linear_observer():
     assert observer_loop(FIRST).delay_margin().delay == pytest.approx(4.6e-3, rel=0.05)
 
 
-@pytest.mark.parametrize("order", range(6))
-def test_the_square_of_a_polynomial_on_the_axis_is_one_of_the_squared_frequency(order):
-    p, w = np.arange(1.0, order + 2.0), np.linspace(0.1, 3.0, 7)
-    np.testing.assert_allclose(np.polyval(_squared(p), w**2), np.abs(np.polyval(p, 1j * w)) ** 2)
-
-
 def test_known_delay_leaves_the_textbook_margin_of_the_gains(observer):
     """s^2 + (K_d s + K_p) exp(-s d): |L| = 1 at w^4 = K_d^2 w^2 + K_p^2, d = atan(K_d w / K_p) / w."""
     w = math.sqrt(0.5 * (K_D**2 + math.sqrt(K_D**4 + 4.0 * K_P**2)))
@@ -109,66 +93,6 @@ def test_a_loop_that_is_unstable_without_delay_has_no_margin():
     assert np.max(np.linalg.eigvals(delayed_loop(loop.observer, 1e-6, False, g=3.0)).real) > 0.0
     assert all(map(math.isnan, loop.delay_margin()))
     assert of_stable(loop.delay_margin().delay, "s") == "unstable"
-
-
-def test_what_an_unstable_loop_has_is_the_word_and_no_number(biped, gait):
-    """Gains too high for 100 Hz: no margin, no ripple; what is stable beside it keeps its numbers."""
-    report = observer_report(TABLE_I, ba.Gains(1e7, 50.0), 1e-2, robot=biped, gait=gait)
-    assert report.spectral_radius > 1.0
-    assert math.isnan(report.ripple)
-    assert all(map(math.isnan, report.sampled_margins))
-    rows = {row[0]: row[1:] for section in report.sections for row in section.rows}
-    assert rows["delay margin, period 1e+04 us"] == ("unstable", "unstable")
-    assert rows["delay margin, continuous"][0].endswith(" us")
-    assert "nan" not in report.text()
-    assert "unstable" in report.verdict
-    known = replace(sampled_loop(TABLE_I, 1e-3), K_p=1e12)
-    assert math.isnan(largest_period(known))
-    assert math.isnan(largest_delay(known))
-    assert math.isnan(known.rms(1e-3))
-
-
-@pytest.mark.parametrize(
-    ("made", "said"),
-    [
-        (
-            lambda: ba.GPIObserver.from_poles([-100.0 - k for k in range(40)]),
-            "40 poles, expected at most 20",
-        ),
-        (lambda: ba.GPIObserver.from_bandwidth(300.0, 10**9), "at most 18"),
-        (
-            lambda: ba.GPIObserver.from_bandwidth(300.0, 19),
-            "m = 19, expected a whole number m >= 0, at most 18",
-        ),
-        (
-            lambda: ba.GPIObserver.from_bandwidth(300.0, -1),
-            "m = -1, expected a whole number m >= 0",
-        ),
-        (
-            lambda: MomentumObserver.from_bandwidth(300.0, 21),
-            "k = 21, expected a whole number k >= 2, at most 20",
-        ),
-        (
-            lambda: ba.GPIObserver.from_bandwidth(1e300),
-            "1e+300 rad/s, expected 1e-06 to 1e+09 rad/s",
-        ),
-        (
-            lambda: ba.GPIObserver.from_poles([-1e-300, -1.0]),
-            "1e-300 rad/s, expected 1e-06 to 1e+09 rad/s",
-        ),
-        (lambda: KalmanObserver.from_noise(1e300, 1e-9), "expected 1e-06 to 1e+09 rad/s"),
-        (lambda: MomentumObserver.from_bandwidth(1e300), "expected 1e-06 to 1e+09 rad/s"),
-        (lambda: HighGainObserver.from_epsilon(1e-300), "expected 1e-06 to 1e+09 rad/s"),
-    ],
-)
-def test_limits_of_observers_are_said_with_the_number(made, said):
-    with pytest.raises(InputError, match=f"{re.escape(said)}$"):
-        made()
-
-
-def test_as_many_poles_as_are_allowed_make_an_observer():
-    assert ba.GPIObserver.from_bandwidth(300.0, 18).order == 20
-    assert MomentumObserver.from_bandwidth(300.0, 20).order == 20
 
 
 def test_transfer_functions_are_those_of_the_state_space(observer):
@@ -371,22 +295,6 @@ def test_impact_swaps_the_legs_in_the_line(bare, published):
                                controller.inner.output(np.zeros(0), m), rtol=1e-12)  # fmt: skip
 
 
-def test_delayed_controller_names_bad_input(published):
-    inner = ba.NPDController(published.constraint)
-    for arguments, word in (
-        ((0.0,), "delay is 0"),
-        ((math.nan,), "delay is nan"),
-        ((1e-3, 0), "order is 0"),
-        ((1e-3, 11), "order is 11"),
-        ((1e-3, 4.0), "order is 4.0"),
-        ((1e-3, 4, False, -1.0), "torque limit is -1"),
-    ):
-        with pytest.raises(InputError, match=word):
-            Delayed(inner, *arguments)
-    with pytest.raises(InputError, match="SampledTime"):
-        Delayed(inner, 1e-3).sampled(1e-3)
-
-
 # -- the robot's word --------------------------------------------------------------------------------
 @pytest.mark.parametrize("observer_", [FIRST, TABLE_I], ids=["m = 1", "table 1"])
 def test_robot_tracks_below_the_margin_and_diverges_above(biped, gait, observer_):
@@ -468,25 +376,6 @@ def test_exact_reset_leaves_only_what_was_not_known(bare, published):
     assert relabel.velocity == pytest.approx(np.max(np.abs(jump)), rel=1e-3)
 
 
-# -- the report --------------------------------------------------------------------------------------
-def test_verdicts(biped, gait):
-    table, first, slow = (
-        observer_report(o, robot=biped, gait=gait)
-        for o in (TABLE_I, FIRST, ba.GPIObserver.from_bandwidth(100.0, 1))
-    )
-    assert table.verdict.startswith("Table I cannot run on rabbit (identified) at 667 Hz")
-    assert table.ripple > 100.0 * 150.0
-    assert "can run" in first.verdict
-    assert "not well" in first.verdict
-    assert slow.runs
-    late = observer_report(TABLE_I, robot=biped, gait=gait, delay=1.5e-3)
-    assert "unstable" in late.verdict
-    assert f"{late.spectral_radius:.4g}" in late.verdict
-    assert table.text().startswith(table.verdict)
-    for section in table.sections:
-        assert all(len(row) == len(section.header) for row in section.rows)
-
-
 @pytest.mark.parametrize(
     ("observer_", "counts", "ratio"),
     [
@@ -536,146 +425,11 @@ def test_verdict_and_recommendation_agree(biped, gait, m):
         assert ("cannot run" in report.verdict or "not well" in report.verdict) is not allowed
 
 
-def test_verdict_says_when_no_observer_is_better(biped, gait):
-    """e'' = xi where estimates do not move: |e / xi| = 1 / w^2, against 1 / |s^2 + K_d s + K_p|."""
-    reports = {
-        (m, w): observer_report(ba.GPIObserver.from_bandwidth(w, m), robot=biped, gait=gait)
-        for m, w in ((1, 0.1), (1, 160.0), (0, 491.0))
-    }
-    s = 10.0j * math.pi
-    alone = 1.0 / abs(s**2 + K_D * s + K_P)
-    assert reports[1, 0.1].against_none == pytest.approx(1.0 / abs(s) ** 2 / alone, rel=0.05)
-    assert ["worse than no observer" in r.verdict for r in reports.values()] == [True, False, True]
-    assert ["no disturbance is estimated" in r.verdict for r in reports.values()] == [
-        False, False, True,
-    ]  # fmt: skip
-    assert not any("nan" in report.text() for report in reports.values())
-
-
-def test_recommended_bandwidth_is_the_last_that_is_allowed():
-    hardware = Hardware(1.5e-3, 0.0, False, 8192.0, 150.0, 4.7)
-    for m in (1, 5):
-        found = recommend(hardware, ba.Gains(), m)
-        at = (ba.GPIObserver.from_bandwidth(f * found.bandwidth, m) for f in (0.999, 1.002))
-        assert [OnHardware(hardware, o, ba.Gains()).obstacle for o in at] == ["", found.because]
-    none = recommend(hardware._replace(counts=10.0), ba.Gains(), 1)
-    assert math.isnan(none.bandwidth)
-
-
-def test_finer_encoders_allow_more():
-    hardware = Hardware(1.5e-3, 0.0, False, 8192.0, 150.0, 4.7)
-    found = [recommend(hardware._replace(counts=n), ba.Gains(), 1) for n in (8192.0, 65536.0)]
-    assert found[1].bandwidth > 1.5 * found[0].bandwidth
-
-
-def test_report_names_bad_input(biped, gait):
-    for arguments, word in (
-        ({"period": 0.0}, "sampling period is 0"),
-        ({"counts": 0.5}, "0.5 counts"),
-        ({"delay": -1e-3}, "delay is -0.001"),
-        ({"torque_limit": math.nan}, "torque limit"),
-        (
-            {"gains": ba.Gains(np.array([1.0, 2.0]), np.array([1.0, 2.0])), "joint": 2},
-            "gain K_p has 2",
-        ),
-        ({"joint": 7}, "joint 7 of 'rabbit' was asked for, expected 0 to 3"),
-    ):
-        with pytest.raises(InputError, match=word):
-            observer_report(FIRST, robot=biped, gait=gait, **arguments)
-    with pytest.raises(InputError, match="not stable"):
-        observer_report([-1.0, 2.0, -3.0], robot=biped, gait=gait)
-    high = HighGainObserver.from_epsilon(2e-3)
-    with pytest.raises(InputError, match="report on a HighGainObserver"):
-        observer_report(high, robot=biped, gait=gait)
-    for m in (15, 18):
-        with pytest.raises(InputError, match=f"m = {m} was asked for, expected m <= 14"):
-            observer_report(ba.GPIObserver.from_bandwidth(50.0, m), robot=biped, gait=gait)
-    with pytest.raises(InputError, match="joint 2 was asked for, found gains of joints 0 to 1"):
-        observer_loop(FIRST, ba.Gains(np.array([1.0, 2.0]), np.array([1.0, 2.0])), 2)
-    with pytest.raises(InputError, match="SampledGPIObserver"):
-        observer_loop(FIRST.sampled(1e-3))
-    with pytest.raises(InputError, match="kappa_ratio"):
-        observer_loop(FIRST, kappa_ratio=0.0)
-    with pytest.raises(InputError, match="form"):
-        sampled_loop(FIRST, 1e-3, form="new")
-
-
-def test_figure_shows_every_report(biped, gait):
-    reports = [observer_report(o, robot=biped, gait=gait) for o in (TABLE_I, FIRST)]
-    for axes in observer_figure(reports).axes:
-        assert [line.get_label() for line in axes.lines[:2]] == ["Table I", "m = 1 at 500 rad/s"]
-        assert axes.lines[2].get_xdata()[0] == pytest.approx(math.pi / 1.5e-3)
-    none = observer_report(OBSERVERS["m = 0"], robot=biped, gait=gait)
-    alone, beside = observer_figure([none]), observer_figure([reports[0], none])
-    assert [len(axes.lines) for axes in alone.axes] == [2, 0, 2]
-    assert [len(axes.lines) for axes in beside.axes] == [3, 2, 3]
-    with pytest.raises(InputError, match="no report"):
-        observer_figure([])
-
-
-def test_command(tmp_path):
-    from biped_adrc.cli import app
-    from biped_adrc.cli import observer as _  # noqa: F401
-
-    out = tmp_path / "loop.svg"
-    done = CliRunner().invoke(app, ["observer", "--bandwidth", "100", "-o", str(out)])
-    assert done.exit_code == 0, done.output
-    assert "can run on rabbit" in done.output
-    assert "[s^2]" in done.output.replace("\n", "")
-    assert out.read_text().startswith("<?xml")
-    for arguments, word in (
-        (["--poles", "-3,-4,-5", "--order", "4"], "6 poles"),
-        (["--poles", "a"], "separated by commas"),
-        (["--poles", "-3,-4", "--bandwidth", "3"], "both"),
-        (["-o", "x.pdf"], ".svg"),
-    ):
-        failed = CliRunner().invoke(app, ["observer", *arguments])
-        assert isinstance(failed.exception, InputError)
-        assert word in str(failed.exception)
-
-
 def test_errors_of_a_perfect_walk_are_small(bare, published):
     run = ba.walk(
         ba.Walker(bare, ba.NPDController(published.constraint)), published, 2, engine="compiled"
     )
     assert np.max(step_errors(published, run.trajectory)) < 1e-7
-
-
-@pytest.mark.parametrize(
-    ("errors", "status", "tracks"),
-    [
-        ([9.0, 1.0, 1.0, 1.01], ba.Status.COMPLETED, True),
-        ([9.0, 1.0, 1.0, 1e3], ba.Status.COMPLETED, False),
-        ([9.0, 1.0, 1e3, 1.0], ba.Status.COMPLETED, False),
-        ([9.0, 1.0, 1.0, 1.0], ba.Status.FELL, False),
-        ([9.0, 1.0], ba.Status.COMPLETED, False),
-    ],
-)
-def test_a_walk_tracks_that_ends_and_whose_errors_do_not_grow(errors, status, tracks):
-    assert observer_check.CheckedWalk("o", "c", status, np.array(errors)).tracks is tracks
-
-
-@pytest.mark.parametrize(
-    ("at", "found"), [(0.97, 0.97), (1.13, 1.13), (0.7, math.nan), (1.3, math.nan)]
-)
-def test_the_margin_of_the_robot_is_found_by_bisection(at, found):
-    margin = 3e-4
-    case = SimpleNamespace(
-        margin=margin, walked=lambda delay: SimpleNamespace(tracks=delay < at * margin)
-    )
-    assert observer_check.robot_margin(case) == pytest.approx(found * margin, rel=2e-3, nan_ok=True)
-
-
-def test_the_step_of_a_delayed_walk_is_that_of_its_fastest_pole():
-    slow = ba.GPIObserver.from_poles([-1.0, -2.0, -3.0])
-    D = pade(4)[1]
-    line = SimpleNamespace(line=SimpleNamespace(denominator=D, rate=1e6))
-    fastest = 1e6 * np.max(np.abs(np.roots(D[::-1])))
-    step = observer_check._step(slow, line)
-    assert step == pytest.approx(observer_check.REACH / fastest, rel=1e-12)
-    assert step < observer_check.LONGEST_STEP
-    line.line.rate = 1e-6
-    assert observer_check._step(slow, line) == observer_check.LONGEST_STEP
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,6 @@ import os
 import re
 import shutil
 from contextlib import suppress
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -17,16 +16,11 @@ from typer.testing import CliRunner
 import biped_adrc as ba
 from biped_adrc.cli import app, main
 from biped_adrc.cli.terminal import Terminal, printable
-from biped_adrc.errors import GaitError, InputError, OutputError
-from biped_adrc.files import keep_inputs, output_path, write_text
+from biped_adrc.errors import InputError, OutputError
+from biped_adrc.files import output_path, write_text
 from biped_adrc.hybrid.storage import load, save
-from biped_adrc.paper.figures import draw
 from biped_adrc.resources import data_folder
-from biped_adrc.scenario.stored import load_walk
-from biped_adrc.viz.export import Clip, export
-from biped_adrc.viz.style import render
 
-RUNS = (".npz", ".mat")
 WALK = ("simulate", "--engine", "compiled", "--controller", "NPD", "--impacts", "1")
 
 
@@ -64,28 +58,13 @@ def contents(folder: Path) -> dict[Path, bytes]:
     ("line", "names"),
     [
         ("simulate --gait keep.json -o keep.npz", ["keep.npz", "keep.json"]),
-        ("simulate --gait ./keep.json -o keep", ["keep.npz", "keep.json"]),
-        ("simulate --gait link.json -o keep.npz", ["keep.npz", "keep.json", "link.json"]),
         ("simulate --gait keep.json -o link.npz", ["link.json", "keep.json"]),
-        ("simulate --gait keep.json -o keep.json", ["keep.json", ".npz or .mat"]),
         ("simulate -o keep.npz", ["keep.json", "not of a run"]),
-        ("simulate --robot compass -o keep.npz", ["keep.json", "not of a run"]),
         ("gait export keep.json -o keep.json", ["keep.json"]),
-        ("gait export keep.json -o keep", ["keep.json"]),
         ("gait import keep.json -o link.json", ["link.json", "keep.json"]),
-        ("gait import published-identified.json", ["published-identified.json"]),
-        ("gait design --speed 0.5 -o own/robot.toml", ["robot.toml", ".json"]),
-        ("animate run.npz -o run.npz", ["run.npz", ".html"]),
         ("animate run.html -o run.html", ["run.html"]),
-        ("animate run.npz --ghost run.html -o run.html", ["run.html"]),
-        ("plot run.npz -o run.npz", ["run.npz", ".png or .svg"]),
         ("gait zero keep.json --plot keep.json", ["keep.json", ".png or .svg"]),
-        ("observer -o keep.json", ["keep.json", ".png or .svg"]),
-        ("robot export own/robot.toml --mjcf own/robot.toml", ["robot.toml", ".xml"]),
-        ("robot export own/own.xml --mjcf own/own.xml", ["own/own.xml"]),
         ("robot new own/floating.urdf -o own", ["own/floating.urdf", "exists already"]),
-        ("sweep keep.json --out keep.json", ["keep.json"]),
-        ("compare --out keep.json", ["keep.json"]),
     ],
 )
 def test_nothing_that_is_read_is_overwritten(line, names, folder, monkeypatch):
@@ -104,11 +83,7 @@ def test_nothing_that_is_read_is_overwritten(line, names, folder, monkeypatch):
     ("out", "written"),
     [
         ("push_0.1", "push_0.1.npz"),
-        ("push_0.3", "push_0.3.npz"),
-        ("push", "push.npz"),
-        ("push.npz", "push.npz"),
         ("a.b/push 2", "a.b/push 2.npz"),
-        ("push[/b].npz", "push[/b].npz"),
         ("push.mat", "push.mat"),
     ],
 )
@@ -118,66 +93,6 @@ def test_a_run_goes_where_it_is_said_to_be(out, written, folder):
     new = {str(path.relative_to(folder)) for path in contents(folder)}
     old = {"keep.json", "link.json", "run.npz", "run.json", "run.html"}
     assert {name for name in new if not name.startswith("own/")} - old == {written} | beside
-
-
-def test_a_finished_run_is_written_before_it_is_printed(folder, monkeypatch):
-    def closed(*_: object) -> None:
-        raise BrokenPipeError
-
-    monkeypatch.setattr("biped_adrc.cli.walk._print_steps", closed)
-    with pytest.raises(BrokenPipeError):
-        command(*WALK, "-o", "kept.npz")
-    assert load("kept.npz").status.ok
-
-
-@pytest.mark.parametrize("out", ["o.txt", "o.parquet", "o.json", "o.npz.gz", ".", "", "own"])
-def test_a_name_that_is_no_runs_is_refused_before_the_walk(out, folder, monkeypatch):
-    before = contents(folder)
-    walk = "biped_adrc.scenario.run.walk_in_parts"
-    monkeypatch.setattr(walk, lambda *_, **__: pytest.fail("walked before the name was looked at"))
-    with pytest.raises((InputError, OutputError), match=r"expected (\.npz or \.mat|the name)"):
-        command("simulate", "-o", out)
-    assert contents(folder) == before
-
-
-def test_the_same_rule_holds_in_python(folder, walked, gait):
-    save(walked, "push_0.1")
-    save(walked, "push_0.3.npz")
-    assert load("push_0.1.npz").status is load("push_0.3.npz").status
-    save(walked, "push_0.3.npz")  # once more
-    with pytest.raises(InputError, match=r"'o\.csv'.*expected \.npz"):
-        save(walked, "o.csv")
-    with pytest.raises(OutputError, match=r"'keep\.json' is there and is not of a run"):
-        save(walked, "keep.npz")
-    ba.load_gait("keep.json", ba.Biped.load("rabbit"))
-    with pytest.raises(InputError, match=r"expected \.json"):
-        gait.save("v0.5")
-    with pytest.raises(GaitError, match="a name that is a path"):
-        _ = replace(gait, name="../up").file_name
-
-
-def test_gaits_keep_their_whole_name(folder):
-    assert "written to v0.85.json\n" in command("gait", "export", "keep.json", "-o", "v0.85")
-    assert "written to v0.86.json\n" in command("gait", "import", "keep.json", "-o", "v0.86")
-    with pytest.raises(InputError, match=r"'v\.npz'.*expected \.json"):
-        command("gait", "import", "keep.json", "-o", "v.npz")
-
-
-def test_names(tmp_path):
-    assert output_path("x.NPZ", RUNS) == Path("x.NPZ")
-    assert output_path("x.1e-3", RUNS, default=True) == Path("x.1e-3.npz")
-    with pytest.raises(InputError, match=r"'x': .*expected \.npz or \.mat"):
-        output_path("x", RUNS)
-    with pytest.raises(OutputError, match="a folder or a device"):
-        output_path("/dev/null", RUNS, default=True)
-    (tmp_path / "x.npz").mkdir()
-    with pytest.raises(OutputError, match="a folder or a device"):
-        output_path(tmp_path / "x", RUNS, default=True)
-    (tmp_path / "a").write_text("")
-    (tmp_path / "b").hardlink_to(tmp_path / "a")
-    with pytest.raises(InputError, match="/a' is what it reads"):
-        keep_inputs([tmp_path / "c", tmp_path / "b"], [tmp_path / "a"])
-    keep_inputs([tmp_path / "c"], [tmp_path / "a"])
 
 
 def test_a_reader_of_the_old_file_is_not_disturbed(tmp_path):
@@ -196,9 +111,13 @@ def test_a_link_a_pipe_and_a_device_stay_what_they_are(folder):
     os.mkfifo("pipe.npz")
     Path("dangling.npz").symlink_to("nowhere.npz")
     Path("full.npz").symlink_to("/dev/full")
-    for name, found in (("link.json", "link"), ("dangling.npz", "link"), ("pipe.npz", "device")):
+    for name, found in (
+        ("link.json", "a link"),
+        ("dangling.npz", "a link"),
+        ("pipe.npz", "not a regular"),
+    ):
         kind = Path(name).lstat().st_mode
-        with pytest.raises(OutputError, match=f"'{name}' is a .*{found}"):
+        with pytest.raises(OutputError, match=f"'{name}' is {found}"):
             write_text(Path(name), "taken")
         assert Path(name).lstat().st_mode == kind
     with pytest.raises(OutputError, match=r"'link\.json' is a link to 'keep\.json', expected"):
@@ -245,13 +164,3 @@ def test_text_of_files_is_no_command_to_the_terminal(monkeypatch):
     assert not re.search("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202e\ud800-\udfff]", found)
     assert "\\x1b]0;title" in found
     assert printable("a\tb\nc é ≥") == "a\tb\nc é ≥"
-
-
-def test_a_dollar_in_the_name_of_a_file_is_no_formula_in_a_figure(folder):
-    command(*WALK, "-o", "walk.npz")
-    walk = load_walk("walk.npz")
-    walks = {"a$x_{$": walk, r"b$\frac$": walk}
-    for name in ("tracking", "comparison"):
-        render(draw(name, walks), "svg")
-    export(Path("w.gif"), walks, Clip(stop=0.05, fps=20))
-    export(Path("apart.gif"), walks, Clip(stop=0.05, fps=20, apart=True))

@@ -8,9 +8,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.errors import InputError
 from biped_adrc.paper.push_map import (
-    PATTERNS,
     Fate,
     PushCell,
     Tried,
@@ -18,32 +16,18 @@ from biped_adrc.paper.push_map import (
     certain,
     counts,
     push_map,
-    pushes,
 )
 from biped_adrc.scenario.run import execute
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.viz.plots.push_map import FATES, push_map_figure
 
 LEGAL = Fate("legal", "COMPLETED", 200.0, 0.4, 0.5)
 MADE = Fate("made", "COMPLETED", 50.0, 0.8, 0.5)
-PULLED = Fate("made", "COMPLETED", -20.0, 0.5, 0.5)
 FELL = Fate("fell", "FELL", 10.0, 0.9, None)
-ENDED = Fate("ended", "SINGULAR", 10.0, 0.9, None)
 
 
 def cell(npd: Fate, adrc: Fate, **place: object) -> PushCell:
     where = {"preset": "p", "onset": 0.1, "amplitude": 30.0, "pattern": "all +"}
     return PushCell(**{**where, "torque_limit": None, **place}, npd=npd, adrc=adrc)  # type: ignore[arg-type]
-
-
-@pytest.mark.parametrize(
-    ("fate", "word"),
-    [(LEGAL, "legal"), (MADE, "made"), (PULLED, "pulled"), (FELL, "fell"), (ENDED, "ended")],
-)
-def test_the_word_of_a_walk(fate, word):
-    assert fate.word == word
-    assert replace(fate, marginal=True).word == "marginal"
-    assert word in FATES
 
 
 def test_marginal_cells_carry_no_claim():
@@ -60,11 +44,6 @@ def test_marginal_cells_carry_no_claim():
         "ended": 0,
         "marginal": 0,
     }
-
-
-def test_settings_are_kept_apart():
-    cells = [cell(LEGAL, LEGAL), cell(FELL, LEGAL, torque_limit=150.0)]
-    assert list(counts(cells)) == ["p, unlimited", "p, 150 N m"]
 
 
 def test_a_fall_of_the_polynomial_is_none_of_the_robot():
@@ -103,45 +82,6 @@ def test_a_walk_whose_foot_slips_is_not_legal(slip, word, why):
     assert (fate.word, fate.reasons) == (word, why)
     marginal = Fate.of(replace(made, half=replace(made, slip=1.0))).marginal
     assert marginal == (word == "legal")
-
-
-def test_the_map_is_drawn_of_every_word():
-    fates = [LEGAL, MADE, PULLED, FELL, ENDED, replace(LEGAL, marginal=True)]
-    rows = [cell(f, LEGAL, onset=0.05 * k).row() for k, f in enumerate(fates)]
-    figure = push_map_figure(rows)
-    texts = {text.get_text() for text in figure.legends[0].get_texts()}
-    assert texts == {text for text, _, _ in FATES.values()}
-    (axes,) = figure.axes
-    assert [patch.get_hatch() for patch in axes.patches[::2]] == [h for _, _, h in FATES.values()]
-    assert {patch.get_hatch() for patch in axes.patches[1::2]} == {""}
-    assert "NPD 1, ADRC 6 of 6" in axes.get_title(loc="left")
-    assert (axes.get_xlabel()[-4:], axes.get_ylabel()[-5:]) == ("[ms]", "[N m]")
-    assert "unlimited" in axes.get_title(loc="left")
-    with pytest.raises(InputError, match="at least one"):
-        push_map_figure([])
-
-
-@pytest.mark.parametrize(
-    ("name", "joints"),
-    [("all", "1234"), ("hips", "12"), ("stance knee", "3"), ("swing knee", "4")],
-)
-def test_the_joints_of_a_pattern_are_those_of_its_name(name, joints):
-    for sign in "+-":
-        assert PATTERNS[f"{name} {sign}"] == {f"q{k}": float(f"{sign}1") for k in joints}
-
-
-def test_hips_pushed_apart_and_together_are_opposite():
-    apart, together = PATTERNS["hips apart"], PATTERNS["hips together"]
-    assert apart == {"q1": 1.0, "q2": -1.0}
-    assert together == {joint: -factor for joint, factor in apart.items()}
-
-
-def test_pushes_are_all_combinations():
-    found = pushes((0.0, 0.1), (30.0,), ("all +", "hips +"), (None, 150.0))
-    assert len(found) == len(set(found)) == 8
-    run = found[0].run(Scenario(), "NPD")
-    assert run.pushes[0].stop - run.pushes[0].start == pytest.approx(0.2)
-    assert run.continued
 
 
 def test_a_continued_constraint_is_the_same_inside(biped, gait):

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import importlib.util
-import math
 from dataclasses import replace
-from pathlib import Path
 
 import control
 import numpy as np
@@ -15,7 +12,6 @@ from scipy.optimize import minimize
 
 import biped_adrc as ba
 from biped_adrc.engine.tick_derivative import _differenced, tick_derivative
-from biped_adrc.errors import InputError
 from biped_adrc.hardware.pitch_sensor import PitchSensor
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.observer_design.disk_margin import (
@@ -25,64 +21,57 @@ from biped_adrc.observer_design.disk_margin import (
 )
 from biped_adrc.observer_design.frequency_response import Response
 from biped_adrc.observer_design.tick_matrices import (
-    TickMatrices,
-    _acting,
     linear_twin,
-    tick_matrices,
 )
 from biped_adrc.observer_design.walker_loop import FREQUENCIES, robot_step
 from biped_adrc.scenario.specified import specification_of
-
-BENCHMARK = Path(__file__).parents[1] / "benchmarks/specification.py"
-
-
-@pytest.fixture(scope="module")
-def walks():
-    """The benchmark's functions: candidates, multipliers, ripple in a walk."""
-    spec = importlib.util.spec_from_file_location("specification_of_walks", BENCHMARK)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+from tests.specified_walks import candidate, multiplier, rippled, specified
 
 
-def loop_of(walks, **values):
+def loop_of(**values):
     """The walker of some values, its gait, and the loop at the first phase."""
-    walker, gait = walks.candidate({"impacts": 2, "period": 1.5e-3, **values})
-    return walker, gait, walks.specified(walker, gait).loops[0, 0]
+    walker, gait = candidate({"impacts": 2, "period": 1.5e-3, **values})
+    return walker, gait, specified(walker, gait).loops[0, 0]
 
 
 # -- against walks ---------------------------------------------------------------------------------
 LOOP = {"controller": "LESO", "period": 1e-3, "velocity": "differences", "filter_time": 2e-3}
-"""One structure, which is compiled once; the benchmark draws 200 candidates of all kinds."""
+"""One structure, which is compiled once."""
 
 
 @pytest.mark.parametrize("bandwidth", [120.0, 300.0])
-def test_a_walk_bears_nine_tenths_of_the_delay_margin_and_not_eleven(walks, bandwidth):
-    walker, gait = walks.candidate({"impacts": 2, "bandwidth": bandwidth, **LOOP})
-    spec = walks.specified(walker, gait)
+def test_a_walk_bears_nine_tenths_of_the_delay_margin_and_not_eleven(bandwidth):
+    walker, gait = candidate({"impacts": 2, "bandwidth": bandwidth, **LOOP})
+    spec = specified(walker, gait)
     found = []
     for share in (0.9, 1.1):
         late = replace(walker.timing, delay=share * spec.delay_margin)
         late = replace(walker, timing=late)
-        found.append(walks.multiplier(late, gait))
-        assert walks.specified(late, gait).stable == (share < 1.0)
+        found.append(multiplier(late, gait))
+        assert specified(late, gait).stable == (share < 1.0)
     assert found[0] < 1.0 < found[1]
 
 
-@pytest.mark.parametrize("k", [0, 3])
-def test_ripple_is_that_of_a_walk_with_counts(walks, k):
-    by_specification, by_walk = walks.rippled(walks.RIPPLED[k])
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"controller": "NPD"},
+        {"controller": "LESO", "bandwidth": 160.0, "order": 2, "filter_time": 5e-3},
+    ],
+)
+def test_ripple_is_that_of_a_walk_with_counts(values):
+    by_specification, by_walk = rippled(values)
     assert by_walk / 1.25 < by_specification < 1.25 * by_walk
 
 
-def missed(walks, T, **values):
+def missed(T, **values):
     """By how much the matrices miss two walks that begin a little apart, over ten periods T [s], relatively.
 
     The walks are those of the walker itself; what lasts a while in `values` is given in periods.
     """
     times = ("delay", "lag", "filter_time", "prediction")
     lasting = {name: x * T for name, x in values.items() if name in times}
-    walker, gait, loop = loop_of(walks, **{**values, **lasting, "period": T})
+    walker, gait, loop = loop_of(**{**values, **lasting, "period": T})
     n, p = walker.plant.n, walker.plant.p
     point = ba.FrozenGait.of(walker.plant, gait, spread=0.0).points[0]
     deviation = 1e-6 * np.array(
@@ -115,18 +104,18 @@ def missed(walks, T, **values):
         {"controller": "NPD", "friction": True, "feedforward": 0.8, "delay": 0.5},
     ],
 )
-def test_a_small_deviation_goes_as_the_matrices_say(walks, values):
+def test_a_small_deviation_goes_as_the_matrices_say(values):
     """What is missed is the motion of the gait in ten periods, and goes to zero with the period."""
-    coarse, fine = (missed(walks, T, **values) for T in (1e-3, 2.5e-4))
+    coarse, fine = (missed(T, **values) for T in (1e-3, 2.5e-4))
     assert fine < 0.15 * coarse < 1e-3
 
 
 @pytest.mark.parametrize("controller", ["NPD", "LESO"])
-def test_a_delay_that_is_predicted_leaves_the_modes_of_the_loop_without_it(walks, controller):
+def test_a_delay_that_is_predicted_leaves_the_modes_of_the_loop_without_it(controller):
     """But for the change of q'' in that time, which goes with it."""
 
     def modes(**more):
-        loop = loop_of(walks, controller=controller, period=1e-3, **more)[2]
+        loop = loop_of(controller=controller, period=1e-3, **more)[2]
         return np.sort(np.abs(np.linalg.eigvals(loop.matrices().M)))[::-1]
 
     free, hidden, predicted = (
@@ -139,8 +128,8 @@ def test_a_delay_that_is_predicted_leaves_the_modes_of_the_loop_without_it(walks
 
 
 # -- the matrices ----------------------------------------------------------------------------------
-def test_the_derivative_of_a_tick_is_that_of_differences(walks):
-    walker, gait, _ = loop_of(walks, controller="LESO", delay=1e-3, velocity="differences")
+def test_the_derivative_of_a_tick_is_that_of_differences():
+    walker, gait, _ = loop_of(controller="LESO", delay=1e-3, velocity="differences")
     twin = linear_twin(walker)
     q, v = gait.start(walker.plant)
     x = twin.tick(0.0, twin.initial_state(q, v), ba.Mode())
@@ -150,7 +139,7 @@ def test_the_derivative_of_a_tick_is_that_of_differences(walks):
     np.testing.assert_allclose(J, K, rtol=1e-5, atol=1e-5 * np.max(np.abs(K)))
 
 
-def test_a_controller_in_plain_python_has_a_specification(walks):
+def test_a_controller_in_plain_python_has_a_specification():
     class Spring(ba.Controller):
         """K_p and K_d about the gait, through the model."""
 
@@ -162,9 +151,9 @@ def test_a_controller_in_plain_python_has_a_specification(walks):
             a = -5000.0 * (m.q_b - r.q_d) - 50.0 * (m.v_b - r.dq_d)
             return m.terms.kappa_inverse @ (a - m.terms.xi)
 
-    walker, gait, _ = loop_of(walks, controller="NPD", solve_theta=False)
+    walker, gait, _ = loop_of(controller="NPD", solve_theta=False)
     one = replace(walker, controller=Spring(gait.constraint))
-    by_differences, by_laws = (walks.specified(w, gait) for w in (one, walker))
+    by_differences, by_laws = (specified(w, gait) for w in (one, walker))
     assert by_differences.worst.growth == pytest.approx(by_laws.worst.growth, rel=0.3)
     assert by_differences.stable
 
@@ -204,20 +193,13 @@ def test_a_torque_that_changes_within_the_period():
     np.testing.assert_allclose(Phi @ x + G_1[:, 0] * 5.0 - G_2[:, 0] * 7.0, end, rtol=1e-9)
 
 
-def test_a_hidden_delay_is_as_one_of_the_clock_that_the_controller_does_not_know(walks):
-    _, _, loop = loop_of(walks, controller="LESO", delay=1e-3)
-    _, _, later = loop_of(walks, controller="LESO", delay=2.7e-3)
+def test_a_hidden_delay_is_as_one_of_the_clock_that_the_controller_does_not_know():
+    _, _, loop = loop_of(controller="LESO", delay=1e-3)
+    _, _, later = loop_of(controller="LESO", delay=2.7e-3)
     assert loop.growth(1.7e-3) == pytest.approx(later.growth(), rel=1e-6)
     margin = loop.delay_margin(0.05)
     assert loop.growth(0.999 * margin) < 0.0 < loop.growth(1.001 * margin)
     assert loop.delay_margin(0.5 * margin) == 0.5 * margin  # looked for up to there
-
-
-def test_what_nothing_depends_on_is_left_out(walks):
-    walker, gait, loop = loop_of(walks, controller="NPD", velocity="measured")
-    points = ba.FrozenGait.of(walker.plant, gait, spread=0.0).points
-    assert tick_matrices(linear_twin(walker), points).Z.shape == (len(points), 0, 0)
-    assert loop.matrices().M.shape == (10, 10)
 
 
 # -- sensors ---------------------------------------------------------------------------------------
@@ -242,10 +224,10 @@ def test_errors_of_sensors_are_those_of_what_they_show():
     assert not both.smooth().noisy
 
 
-def test_an_error_of_the_pitch_alone_reaches_the_torque(walks):
+def test_an_error_of_the_pitch_alone_reaches_the_torque():
     """No joint turns by it: it enters through Theta and Theta' only."""
-    walker, gait = walks.candidate({"controller": "NPD", "hardware": "rabbit", "impacts": 2})
-    spec = walks.specified(walker, gait)
+    walker, gait = candidate({"controller": "NPD", "hardware": "rabbit", "impacts": 2})
+    spec = specified(walker, gait)
     pitch = spec.errors * (np.arange(10) == 4)
     assert 0.2 * spec.ripple < replace(spec, errors=pitch).ripple < spec.ripple
 
@@ -298,24 +280,12 @@ def test_the_structured_value_is_reached_by_a_diagonal_matrix(p):
     assert value <= balanced_bound(M[np.newaxis])[0] * (1 + 1e-9)
 
 
-def test_the_response_by_the_triangular_form():
-    """Of two systems at once, at frequencies of their own."""
-    random = np.random.default_rng(5)
-    M, B, C, D = (random.normal(size=(2, *s)) for s in ((6, 6), (6, 2), (3, 6), (3, 2)))
-    angles = np.array([[0.1, 1.0, 3.0], [0.2, 1.5, 2.0]])
-    direct = [
-        [C[i] @ np.linalg.solve(np.exp(1j * a) * np.eye(6) - M[i], B[i]) + D[i] for a in angles[i]]
-        for i in range(2)
-    ]
-    np.testing.assert_allclose(Response.of(M, B, C, D).at(angles), direct, rtol=1e-10)
-
-
 @pytest.mark.parametrize("late", [{"delay": 1.2e-3, "lag": 1e-3}, {"velocity": "measured"}])
-def test_sensitivity_of_a_walker_is_that_of_its_open_loop(walks, late):
+def test_sensitivity_of_a_walker_is_that_of_its_open_loop(late):
     """S = 1 / (1 - G), with G from the torque to the torque that the controller then asks for; controller and
     robot one after the other, as `sensitivity` takes them, are the whole loop.
     """
-    _, _, loop = loop_of(walks, controller="LESO", **late)
+    _, _, loop = loop_of(controller="LESO", **late)
     M, B, C, D = loop.matrices()
     p, nyquist = len(C), np.pi / loop.period
     w = np.geomspace(loop.slow, nyquist, FREQUENCIES)
@@ -323,13 +293,6 @@ def test_sensitivity_of_a_walker_is_that_of_its_open_loop(walks, late):
     G = Response.of(M - B[:, -p:] @ C, B[:, -p:], C, np.zeros((p, p))).at(w * loop.period)
     np.testing.assert_allclose(S @ (np.eye(p) - G), [np.eye(p)] * len(w), atol=1e-9)
     np.testing.assert_allclose(loop.sensitivity()[: len(w)], S, atol=1e-9 * np.max(np.abs(S)))
-
-
-def test_the_largest_value_is_found_though_not_all_are_computed(walks):
-    walker, gait = walks.candidate({"controller": "LESO", "hardware": "rabbit", "bandwidth": 200.0})
-    S = walks.specified(walker, gait).loops.sensitivity()[0, 0]
-    each = [structured_value(one - 0.5 * np.eye(len(one))) for one in S]
-    assert disk_margin(S) == pytest.approx(1.0 / max(each), rel=1e-12)
 
 
 # -- all loops together ----------------------------------------------------------------------------
@@ -343,57 +306,3 @@ def test_loops_together_are_the_loops_one_by_one():
     assert loops.delay_margin(0.05) == pytest.approx(min(margins), abs=2e-9)
     assert np.ptp(margins) > 1e-4
     np.testing.assert_allclose(loops[2, 3].sensitivity()[:100], loops.sensitivity()[2, 3, :100])
-
-
-def test_numbers_that_act_in_one_ratio_count_as_one():
-    """z_1 and z_2 act by z_1 + 2 z_2 alone, and on z_3 nothing depends: the same u from the same (q, q')."""
-    Z = np.array([[[0.5, 1.0, 0.0], [0.1, 0.2, 0.0], [1.0, 2.0, 0.0]]])
-    Y, C, E = np.array([[[1.0], [3.0], [1.0]]]), np.array([[[0.5, 1.0, 0.0]]]), np.zeros((1, 1, 1))
-    some = _acting(TickMatrices(Z, Y, C, E))
-    assert some.Z.shape == (1, 1, 1)
-    angles = np.array([[0.3, 2.0]])
-    whole, less = (Response.of(*tick).at(angles) for tick in ((Z, Y, C, E), some))
-    np.testing.assert_allclose(less, whole, rtol=1e-12)
-
-
-# -- words and numbers -----------------------------------------------------------------------------
-def test_an_unstable_loop_is_the_word(walks):
-    s = ba.Scenario("LESO", hardware="rabbit", bandwidth=800.0, delay=4e-3)
-    columns = ba.specified(s)
-    assert columns["stable"] == columns["delay_margin"] == columns["disk_margin"] == 0.0
-    assert columns["ripple"] == math.inf
-    assert not any(math.isnan(x) for x in columns.values())
-    text = str(walks.specified(*walks.candidate({"hardware": "rabbit", **s.record()})))
-    assert text.startswith("unstable: ")
-
-
-def test_other_inertias_can_only_take_from_a_margin():
-    s = ba.Scenario("LESO", hardware="rabbit", bandwidth=160.0, order=2)
-    spec = specification_of(s)
-    alone = replace(spec, loops=spec.loops[:, :1])
-    assert spec.delay_margin < alone.delay_margin
-    assert spec.disk_margin <= alone.disk_margin
-    assert "ms of hidden delay" in str(spec)
-
-
-@pytest.mark.parametrize(
-    ("values", "words"),
-    [
-        ({"controller": "NPD"}, "give timing=SampledTime"),
-        ({"controller": "NPD", "period": 1e-3, "plant": "mujoco"}, "on plant 'mujoco'"),
-        ({"controller": "NPD", "period": 1e-3, "touchdown": "told"}, "notice touchdowns"),
-        ({"controller": "passive", "robot": "compass"}, "walks no gait"),
-    ],
-)
-def test_what_has_no_specification_is_refused(values, words):
-    with pytest.raises(InputError, match=words):
-        ba.specified(ba.Scenario(**values))
-
-
-def test_bad_numbers_are_refused(biped, gait):
-    with pytest.raises(InputError, match="spread"):
-        ba.FrozenGait.of(biped, gait, spread=1.0)
-    with pytest.raises(InputError, match="sensitivity has shape"):
-        disk_margin(np.zeros((3, 2)))
-    with pytest.raises(InputError, match="continuous time"):
-        tick_derivative(ba.Walker(biped, ba.NPDController(gait.constraint)), 10)

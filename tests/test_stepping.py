@@ -14,7 +14,6 @@ from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.hybrid import storage
-from biped_adrc.hybrid.integrators import StepFailed
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.model.reduction import reduce
 
@@ -132,14 +131,6 @@ def test_the_clock_may_run_on_over_contacts():
         assert np.max(np.abs(ticks - np.round(ticks))) < 1e-9
 
 
-def test_a_wrong_limit_or_plant_is_refused():
-    for limit in (-1.0, 0.0, np.nan):
-        with pytest.raises(InputError, match="the torque limit is"):
-            loop(torque_limit=limit)
-    with pytest.raises(InputError, match=r"the plant is 'ball'.*expected one that moves by itself"):
-        loop(plant="ball")
-
-
 def test_the_plant_may_end_the_run():
     walked = run(loop(plant=Ball(sticks_at=0.0)), t_end=2.0)
     assert walked.status is ba.Status.FELL
@@ -201,15 +192,6 @@ def test_what_does_not_fit():
         run(loop(plant=Lazy()))
 
 
-def test_a_plant_without_numbers_ends_the_run():
-    class Broken(Ball):
-        def advance(self, state, u, outside, until):
-            return super().advance(state, np.nan * u, outside, until)
-
-    walked = run(loop(plant=Broken()))
-    assert walked.status is ba.Status.NOT_FINITE
-
-
 def at_contact(**change):
     """What is told of a contact, changed: each value is made from (state where advance began, what is told)."""
 
@@ -237,16 +219,6 @@ def nodes(change):
     return lambda before, moved: moved._replace(nodes=change(before, moved.nodes))
 
 
-def everywhere(**change):
-    """The states all with another value."""
-
-    def told(before, moved):
-        passed = tuple(node._replace(**change) for node in moved.nodes)
-        return moved._replace(state=moved.state._replace(**change), nodes=passed)
-
-    return told
-
-
 def telling(change):
     """A ball that tells something else of how it moved."""
 
@@ -259,10 +231,7 @@ def telling(change):
 
 LIES = {
     "nothing": (lambda before, moved: None, "gives None, expected an Advanced"),
-    "a tuple": (lambda before, moved: tuple(moved), "expected an Advanced"),
     "no time": (state(t=np.nan), "came to nan s without a contact, expected 0.005 s"),
-    "nodes in a list": (nodes(lambda before, n: list(n)), "nodes is .*, expected a tuple"),
-    "no nodes": (nodes(lambda before, n: ()), "there are no nodes, expected the last at 0.005 s"),
     "nodes of another type": (
         nodes(lambda before, n: (0.4,)),
         r"nodes\[0\] is 0.4, expected a Plant",
@@ -271,62 +240,14 @@ LIES = {
         nodes(lambda before, n: n[::-1]),
         r"nodes\[1\] is at 0.0049 s, expected later than 0.005 s",
     ),
-    "a node twice": (
-        nodes(lambda before, n: (*n, n[-1])),
-        r"nodes\[50\] is at 0.005 s, expected later",
-    ),
-    "the start as node": (
-        nodes(lambda before, n: (before, *n)),
-        r"nodes\[0\] is at 0.0 s, expected la",
-    ),
     "the last node left out": (
         nodes(lambda before, n: n[:-1]),
         "the last node is at 0.0049 s, expected the last at 0.005 s",
     ),
-    "another last node": (state(q=np.ones(1)), r"nodes\[-1\] is .*, expected the same as state"),
-    "more of its own": (
-        everywhere(own=np.zeros(2)),
-        r"own is .*, expected numbers .* shape \(1,\)",
-    ),
-    "less of its own": (
-        everywhere(own=np.zeros(0)),
-        r"own is .*, expected numbers .* shape \(1,\)",
-    ),
-    "two angles": (everywhere(q=np.zeros(2)), r"nodes\[0\].q is array\(\[0., 0.\]\), expected num"),
-    "a number as angles": (
-        everywhere(q=0.4),
-        r"q is 0.4, expected numbers in an array of shape \(1,",
-    ),
-    "a text as rates": (everywhere(v="fast"), r"v is 'fast', expected numbers"),
-    "contact in the past": (
-        later(-0.1),
-        "came to a contact at 0.20.* s, expected one after 0.305 s",
-    ),
     "contact beyond": (later(1.0), "contact at 1.30.* s, .* not after 0.31 s"),
-    "contact before a node": (
-        later(-DT),
-        r"the last node is at 0.308.* s, expected the last at 0.308",
-    ),
-    "contact at once": (
-        lambda before, moved: Advanced(before, (Contact("wall"),), (before,)),
-        "came to a contact at 0.0 s, expected one after 0.0 s",
-    ),
     "contacts one": (
         at_contact(contacts=lambda before, moved: moved.contacts[0]),
         "contacts is Contact.*, expected a tuple",
-    ),
-    "contacts of another type": (
-        at_contact(contacts=lambda before, moved: ("wall",)),
-        r"contacts\[0\] is 'wall', expected a Contact",
-    ),
-    "an impulse in space": (
-        contact(impulse=np.zeros(3)),
-        r"impulse is .*, expected .* shape \(2,\)",
-    ),
-    "an end by its name": (contact(ends="FELL"), "ends is 'FELL', expected None, or a Status"),
-    "an end that is none": (
-        contact(ends=ba.Status.COMPLETED),
-        r"ends is <Status.COMPLETED: .*, expec",
     ),
 }
 
@@ -346,7 +267,6 @@ def spoilt(before, n):
     ("change", "last"),
     [
         (nodes(spoilt), 25 * DT),
-        (at_contact(state=lambda before, m: m.state._replace(v=np.full(1, np.nan))), 0.3088),
         (contact(impulse=np.full(2, np.nan)), 0.3088),
     ],
 )
@@ -370,29 +290,13 @@ def test_contacts_at_one_moment_are_one_event():
     assert np.array_equal(walked.final_state, once.final_state)
 
 
-def test_a_fall_with_a_touchdown_is_a_fall():
-    def also(before, moved):
-        return *moved.contacts, Contact("stuck", ends=ba.Status.FELL)
-
-    walked = run(loop(plant=telling(at_contact(contacts=also))))
-    assert walked.status is ba.Status.FELL
-    assert walked.arcs[-1].event.guard == "stuck"
-
-
-def test_what_a_plant_raises_is_said_with_its_name():
-    class Stopping(Ball):
-        def advance(self, state, u, outside, until):
-            raise error
-
-    error = RuntimeError("gave up")
-    with pytest.raises(SimulationError, match=r"Stopping\.advance raised RuntimeError: gave up"):
-        run(loop(plant=Stopping()))
-    error = StepFailed("no way on")
-    walked = run(loop(plant=Stopping()))
-    assert (walked.status, walked.detail) == (ba.Status.STEP_FAILED, "no way on")
-
-
-@pytest.mark.parametrize("written", ["q", "v", "own", "u", "zeta"])
+@pytest.mark.parametrize(
+    "written",
+    [
+        "q",
+        "u",
+    ],
+)
 def test_a_plant_cannot_write_into_what_it_is_given(written):
     class Writing(Ball):
         def advance(self, state, u, outside, until):
@@ -402,33 +306,6 @@ def test_a_plant_cannot_write_into_what_it_is_given(written):
 
     with pytest.raises(SimulationError, match=r"Writing\.advance raised ValueError: .* read-only"):
         run(loop(plant=Writing()))
-
-
-@pytest.mark.parametrize(
-    ("change", "said"),
-    [
-        ({"t": 5.0}, r"gives t = 5.0 s, .*, expected those that it was given: t = 0.0 s"),
-        ({"q": np.ones(1)}, r"gives .* q = \[1.\], .*, expected those"),
-        ({"v": np.zeros(2)}, r"v is .*, expected numbers in an array of shape \(1,\)"),
-        ({"own": 1.0}, r"own is 1.0, expected numbers in an array"),
-    ],
-)
-def test_a_start_elsewhere_is_refused(change, said):
-    class Starting(Ball):
-        def start(self, t, q, v):
-            return super().start(t, q, v)._replace(**change)
-
-    with pytest.raises(InputError, match=rf"Starting\.start.*{said}"):
-        run(loop(plant=Starting()))
-
-
-@pytest.mark.parametrize("wrong", [np.array([3]), np.zeros(1), np.arange(2), None])
-def test_a_swap_that_relabels_no_motors_is_refused(wrong):
-    class Swapped(Ball):
-        swap = wrong
-
-    with pytest.raises(InputError, match=r"Swapped\.swap is .*, expected an array of int"):
-        loop(plant=Swapped())
 
 
 def test_every_so_many_nodes_are_kept():

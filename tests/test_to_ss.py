@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import sys
-
 import numpy as np
 import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.linear_loop import estimation_error, tracking_error
-from biped_adrc.errors import InputError
 from biped_adrc.observer_design.to_ss import error_to_ss, loop_to_ss, to_ss
 
 OBSERVERS = {
@@ -19,7 +16,6 @@ OBSERVERS = {
     "complex": ba.GPIObserver.from_poles((-10 + 5j, -10 - 5j, -40.0, -8.0)),
 }
 FREQUENCIES = 1j * np.array([30.0, 100.0, 300.0, 1e3, 3e3, 1e4, 1e5])
-GAINS = ba.Gains(np.array([5000.0, 900.0]), np.array([50.0, 70.0]))
 
 
 @pytest.fixture(params=OBSERVERS.values(), ids=list(OBSERVERS))
@@ -105,28 +101,6 @@ def test_coupled_joints_flow_as_the_observer_does():
     np.testing.assert_allclose(system.C @ z, np.concatenate(estimate), rtol=1e-12)
     assert system.input_labels == ["y_1", "y_2", "u_1", "u_2"]
     assert system.state_labels[:3] == ["z_1_1", "z_1_2", "z_2_1"]
-
-
-def test_every_joint_has_its_own_gains():
-    controller = ba.ADRCController(reference(), OBSERVERS["complex"], GAINS)
-    same_poles(
-        loop_to_ss(controller, 1).poles(), [*OBSERVERS["complex"].poles, *np.roots([1, 70, 900])]
-    )
-    with pytest.raises(InputError, match="joint 2 was asked for"):
-        loop_to_ss(controller, 2)
-
-
-def test_what_cannot_be_exported(monkeypatch):
-    observer = OBSERVERS["m = 1"]
-    for kappa in (np.ones((2, 3)), np.ones(2), float("nan"), np.ones((1, 1, 1))):
-        with pytest.raises(InputError, match="kappa"):
-            to_ss(observer, kappa)
-    sampled = ba.ADRCController(reference(), observer).sampled(1e-3)
-    with pytest.raises(InputError, match="SampledGPIObserver"):
-        loop_to_ss(sampled)
-    monkeypatch.setitem(sys.modules, "control", None)
-    with pytest.raises(InputError, match=r"pip install 'biped-adrc\[control\]'"):
-        to_ss(observer)
 
 
 def reference():

@@ -7,17 +7,13 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.regression import Regression, regress_multipliers
+from biped_adrc.analysis.regression import regress_multipliers
 from biped_adrc.analysis.stability import (
-    MethodRow,
     StabilityMethod,
-    StabilityTable,
     Tolerances,
     central_row,
     invariance_gap,
-    regression_row,
     stability_table,
-    variational_row,
     zero_dynamics_row,
 )
 from biped_adrc.analysis.variational import (
@@ -33,7 +29,6 @@ from biped_adrc.analysis.variational import (
     third_derivative,
     torque_derivative,
 )
-from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.derivatives import (
     acceleration_derivatives,
@@ -81,8 +76,8 @@ def pre_impact(biped):
 
 # -- derivatives of the model ------------------------------------------------------------------------
 @pytest.mark.parametrize("friction", [False, True])
-def test_derivatives_of_the_acceleration(any_biped, friction):
-    biped = replace(any_biped, friction=friction)
+def test_derivatives_of_the_acceleration(biped, friction):
+    biped = replace(biped, friction=friction)
 
     def check(q, v, force):
         found = acceleration_derivatives(biped, q, v, force)
@@ -94,18 +89,18 @@ def test_derivatives_of_the_acceleration(any_biped, friction):
         check(*state)
 
 
-def test_derivatives_of_the_torque(any_biped):
+def test_derivatives_of_the_torque(biped):
     def check(q, v, a):
-        found = torque_derivatives(any_biped, q, v, a)
-        close(found.dq, difference(lambda x: any_biped.inertia(x) @ a + any_biped.bias(x, v), q))
-        close(found.dv, difference(lambda x: any_biped.bias(q, x), v))
+        found = torque_derivatives(biped, q, v, a)
+        close(found.dq, difference(lambda x: biped.inertia(x) @ a + biped.bias(x, v), q))
+        close(found.dv, difference(lambda x: biped.bias(q, x), v))
 
-    for state in states(any_biped):
+    for state in states(biped):
         check(*state)
 
 
-def test_second_derivative_of_the_feet(any_biped):
-    floating = any_biped.floating
+def test_second_derivative_of_the_feet(biped):
+    floating = biped.floating
 
     def check(x, foot):
         J, H = foot_derivatives(floating, x, foot)
@@ -114,7 +109,7 @@ def test_second_derivative_of_the_feet(any_biped):
         np.testing.assert_array_equal(H, np.swapaxes(H, 1, 2))
         assert J.shape == (2, 7)
 
-    for q, _, _ in states(any_biped):
+    for q, _, _ in states(biped):
         for foot in (floating.stance, floating.swing):
             check(floating.configuration(q), foot)
 
@@ -165,12 +160,12 @@ def loops(biped):
     }
 
 
-def test_derivative_of_the_flow(any_biped):
+def test_derivative_of_the_flow(biped):
     """A against differences of the whole closed loop, for every kind of law."""
     saturated = 0
-    for name, walker in loops(any_biped).items():
+    for name, walker in loops(biped).items():
         walker = replace(walker, runaway_torque=math.inf)
-        for q, v, _ in states(any_biped, 3, size=0.1):
+        for q, v, _ in states(biped, 3, size=0.1):
             x = np.concatenate((q, v))
             A = flow_derivative(walker, walker.instant(0.0, x, FIRST))
             close(A, difference(lambda y, w=walker: w.flow(0.0, y, FIRST), x, 2e-4), 1e-7)
@@ -183,10 +178,10 @@ def test_derivative_of_the_flow(any_biped):
     assert saturated > 0
 
 
-def test_differences_of_a_law_are_of_order_four_and_end_at_round_off(any_biped):
+def test_differences_of_a_law_are_of_order_four_and_end_at_round_off(biped):
     """The quotient for laws that are not known, against the derivative of NPD: 1e-10 at DIFFERENCE."""
-    walker = npd(any_biped)
-    q, v, _ = next(states(any_biped, size=0.1))
+    walker = npd(biped)
+    q, v, _ = next(states(biped, size=0.1))
     i = walker.instant(0.0, np.concatenate((q, v)), FIRST)
     exact = torque_derivative(walker, walker.instant(0.0, np.concatenate((q, v)), FIRST))
     size = np.max(np.abs(exact))
@@ -207,25 +202,25 @@ def test_third_derivative_of_a_constraint(gait):
 
 
 # -- saltation ---------------------------------------------------------------------------------------
-def test_saltation_carries_the_flow_across_the_impact(any_biped):
-    walker, x = npd(any_biped), pre_impact(any_biped)
+def test_saltation_carries_the_flow_across_the_impact(biped):
+    walker, x = npd(biped), pre_impact(biped)
     Xi = saltation(walker, 0.0, x, FIRST)
     before, after = walker.flow(0.0, x, FIRST), walker.flow(0.0, *walker.strike(0.0, x, FIRST))
     close(Xi @ before, after, 1e-12)
     dh = height_derivative(walker, x)
     close(dh, difference(lambda y: np.array([walker.clearance(y[:5])]), x)[0], 1e-10)
-    D = impact_derivatives(any_biped, x[:5], x[5:]).matrix
+    D = impact_derivatives(biped, x[:5], x[5:]).matrix
     along = np.linalg.svd(dh[np.newaxis])[2][1:].T  # the section, where Xi is D Delta itself
     close(Xi @ along, D @ along, 1e-12)
 
 
-def test_fundamental_matrix_across_an_impact(any_biped):
+def test_fundamental_matrix_across_an_impact(biped):
     """From 20 ms before foot strike to 20 ms after it, at fixed times: differences of plain simulations.
 
     Perturbed walks strike earlier or later; without saltation the matrix would miss that by far.
     """
-    walker, method = npd(any_biped), ba.RK4(5e-4)
-    start = walker.strike(0.0, pre_impact(any_biped), FIRST)
+    walker, method = npd(biped), ba.RK4(5e-4)
+    start = walker.strike(0.0, pre_impact(biped), FIRST)
     whole = ba.simulate(walker, *start, method, t_end=2.0, stop_after=("foot_strike", 1))
     t0, t1 = whole.t_end - 0.02, whole.t_end + 0.02
     x0 = whole(t0)
@@ -242,10 +237,10 @@ def test_fundamental_matrix_across_an_impact(any_biped):
 
 
 # -- multipliers -------------------------------------------------------------------------------------
-def test_multipliers_of_the_published_gait(any_biped):
+def test_multipliers_of_the_published_gait(biped):
     """Against one quadrature, which shares no derivative with it; against differences in test_stability.py."""
-    walker, x = npd(any_biped), pre_impact(any_biped)
-    delta2 = ZeroDynamics.of(any_biped, walker.controller.reference).delta ** 2
+    walker, x = npd(biped), pre_impact(biped)
+    delta2 = ZeroDynamics.of(biped, walker.controller.reference).delta ** 2
     P = ba.ReturnMap(walker, EXACT)
     orbit, step = periodic_orbit(P, x)
     assert orbit.x_minus == pytest.approx(x, abs=1e-8)
@@ -258,19 +253,19 @@ def test_multipliers_of_the_published_gait(any_biped):
     np.testing.assert_allclose(step.image, coarse(coarse.project(x)), rtol=0.0, atol=1e-11)
 
 
-def test_monodromy_has_the_multipliers_and_one(any_biped):
+def test_monodromy_has_the_multipliers_and_one(biped):
     """Xi Phi and dP/ds are made by different projections; the flow itself returns with multiplier 1."""
-    P = ba.ReturnMap(npd(any_biped), EXACT)
-    step = periodic_orbit(P, pre_impact(any_biped))[1]
+    P = ba.ReturnMap(npd(biped), EXACT)
+    step = periodic_orbit(P, pre_impact(biped))[1]
     whole = sorted_eigenvalues(step.monodromy)
     assert whole[0] == pytest.approx(1.0, abs=1e-7)
     np.testing.assert_allclose(np.abs(whole[1:]), np.abs(step.multipliers), rtol=0.0, atol=1e-8)
 
 
-def test_order_of_convergence(any_biped):
+def test_order_of_convergence(biped):
     """With RK4 the largest multiplier converges to delta^2, and dP/ds to its limit, with order 4."""
-    walker, x = npd(any_biped), pre_impact(any_biped)
-    delta2 = ZeroDynamics.of(any_biped, walker.controller.reference).delta ** 2
+    walker, x = npd(biped), pre_impact(biped)
+    delta2 = ZeroDynamics.of(biped, walker.controller.reference).delta ** 2
     exact = ba.ReturnMap(walker, ba.Adaptive(1e-12, 1e-12))
     limit = differentiate_step(exact, exact.project(x)).jacobian
     by_value, by_matrix = [], []
@@ -321,63 +316,6 @@ def test_torque_limit(biped):
     assert np.max(np.abs(free - expected)) > 1e-4 * np.max(np.abs(expected))
 
 
-def test_rolling_wheel_in_closed_form():
-    """McGeer 1990: cos^2 2 alpha; one coordinate, no motor, a slope."""
-    wheel, alpha, slope = ba.Biped.load("rimless_wheel"), math.pi / 8, 0.12
-    walker = ba.Walker(wheel, ba.Passive(), slope=slope, max_step_time=10.0)
-    rate = math.sqrt(4.0 * 9.81 * math.sin(alpha) * math.sin(slope)) / math.tan(2.0 * alpha)
-    guess = np.array([math.pi - slope - alpha, -1.05 * rate / math.cos(2.0 * alpha)])
-    orbit, _ = periodic_orbit(ba.ReturnMap(walker, EXACT, pitch=math.pi), guess)
-    assert orbit.multipliers[0].real == pytest.approx(math.cos(2.0 * alpha) ** 2, rel=1e-9)
-
-
-def test_compass_gait_of_the_literature():
-    """Goswami et al. 1998, 3 degrees: all three multipliers."""
-    biped, slope = ba.Biped.load("compass"), math.radians(3.0)
-    walker = ba.Walker(biped, ba.Passive(), slope=slope)
-    q = np.array([-2.0 * slope - 2.0 * 0.2186688, math.pi + 0.2186688])
-    v = np.array([1.0923836 - 0.3773740, -1.0923836])
-    run = ba.simulate(
-        walker, walker.initial_state(q, v), FIRST, EXACT, t_end=60.0, stop_after=("foot_strike", 3)
-    )
-    P = ba.ReturnMap(walker, EXACT, pitch=math.pi)
-    found = periodic_orbit(P, run.events("foot_strike")[-1].x_minus)[0].multipliers
-    np.testing.assert_allclose(found[:2].real, -0.1997261, atol=1e-6)
-    np.testing.assert_allclose(np.abs(found[:2].imag), 0.5444761, atol=1e-6)
-    assert found[2] == pytest.approx(0.1315726, abs=1e-6)
-
-
-# -- what is refused ---------------------------------------------------------------------------------
-def test_walkers_that_the_equation_is_not_written_for(biped, gait):
-    x = pre_impact(biped)
-    adrc = ba.ReturnMap(npd(biped, controller=ba.ADRCController(gait.constraint)), ba.RK4())
-    start = adrc.walker.initial_state(x[:5], x[5:])
-    with pytest.raises(InputError, match=r"ADRCController has 36 states.*ReturnMap\.jacobian"):
-        differentiate_step(adrc, adrc.project(start))
-    with pytest.raises(InputError, match="continuous time"):
-        VariationalSystem(npd(biped, timing=ba.SampledTime(1e-3)))
-    push = ba.TorquePulse([30, 0, 0, 0, 0], step=2, start=0.1, stop=0.2)
-    with pytest.raises(InputError, match="no cycle"):
-        VariationalSystem(npd(biped, disturbance=push))
-
-
-def test_steps_that_are_no_returns(biped):
-    P = ba.ReturnMap(npd(biped), ba.RK4(1e-3))
-    x = pre_impact(biped)
-    slow = np.concatenate((x[:5], 0.05 * x[5:]))
-    with pytest.raises(SimulationError, match=r"no return to the section: (FELL|STALLED|SINGULAR)"):
-        differentiate_step(P, P.project(slow))
-    behind = np.concatenate((biped.relabel(x[:5]), x[5:]))
-    with pytest.raises(SimulationError, match="behind"):
-        differentiate_step(P, P.project(behind))
-    with pytest.raises(SimulationError, match="behind"):
-        saltation(P.walker, 0.0, behind, FIRST)
-    with pytest.raises(SimulationError, match="grazes"):
-        saltation(P.walker, 0.0, np.concatenate((x[:5], -x[5:])), FIRST)
-    with pytest.raises(SimulationError, match="did not converge in 1 iterations"):
-        periodic_orbit(P, 1.01 * x, max_iterations=1)
-
-
 # -- the table of methods ----------------------------------------------------------------------------
 @pytest.fixture(scope="module")
 def published(biped):
@@ -405,97 +343,6 @@ def test_table_of_the_published_gait(published, biped, gait):
     lines = table.text(3).splitlines()
     assert len(lines) == 5
     assert lines[0].split()[2] == f"{step.multipliers[0].real:.6e}"
-
-
-def rows_of(*sizes, method=StabilityMethod.CENTRAL, **more):
-    return MethodRow(method, np.array(sizes, dtype=complex), **more)
-
-
-EQUATION = rows_of(0.7, 1e-3, method=StabilityMethod.VARIATIONAL)
-
-
-def table_of(*rows, **tolerances):
-    return StabilityTable(rows, Tolerances(**tolerances))
-
-
-def test_verdict_on_differences():
-    same = table_of(EQUATION, rows_of(0.7 + 6e-7, 1e-3 - 9e-8))
-    assert same.agree
-    assert same.verdict.startswith(
-        "Central differences: agrees within 1e-06 relative or 1e-07 absolute."
-    )
-    assert not table_of(EQUATION, rows_of(0.7 + 6e-7, 1e-3), relative=1e-7).agree
-    assert not table_of(EQUATION, rows_of(0.7, 1e-3 + 2e-7)).agree
-
-    limit = table_of(EQUATION, rows_of(0.7 + 1e-5, 1e-3, uncertainty=8e-6))
-    assert not limit.agree
-    assert "disagrees, 14.3 times" in limit.verdict
-    assert "the differences are the limit" in limit.verdict
-
-    wrong = table_of(EQUATION, rows_of(0.7 + 1e-3, 1e-3, uncertainty=8e-6))
-    assert "one of the two is wrong" in wrong.verdict
-    assert "the largest |lambda| is 0.700000" in wrong.verdict
-
-    alone = table_of(EQUATION, rows_of(0.7, 1e-3, 1e-4))
-    assert not alone.agree
-    assert (
-        "3 multipliers, the variational equation 2; they are not of the same map" in alone.verdict
-    )
-
-
-def test_complex_pairs_are_compared_as_pairs_in_any_order():
-    pair = MethodRow(StabilityMethod.VARIATIONAL, np.array([0.5 + 0.1j, 0.5 - 0.1j]))
-    assert table_of(
-        pair, replace(pair, method=StabilityMethod.CENTRAL, multipliers=pair.multipliers[::-1])
-    ).agree
-    turned = MethodRow(
-        StabilityMethod.CENTRAL, abs(pair.multipliers[0]) * np.array([1.0, 1.0], dtype=complex)
-    )
-    assert turned.magnitudes == pytest.approx(pair.magnitudes)
-    assert not table_of(pair, turned).agree
-
-
-def test_verdict_on_the_zero_dynamics_and_the_regression():
-    """delta^2 is one of the multipliers, whichever it is."""
-    near = table_of(EQUATION, rows_of(1e-3, method=StabilityMethod.ZERO_DYNAMICS))
-    assert near.agree
-    far = table_of(EQUATION, rows_of(0.71, method=StabilityMethod.ZERO_DYNAMICS))
-    assert not far.agree
-    assert "does not keep to the zero dynamics" in far.verdict
-    Phi = np.diag([0.7, 1e-3])
-    good = regression_row(Regression(Phi, np.array([0.7, 1e-3]), 2, 10.0, 9))
-    assert table_of(EQUATION, good).agree
-    poor = regression_row(Regression(5.0 * Phi, np.array([3.5, 5e-3]), 1, 1e12, 9))
-    doubted = table_of(EQUATION, poor)
-    assert doubted.agree
-    assert doubted.stable
-    assert "Regression (27): not to be trusted, the 9 sampled states span 1 of 2" in doubted.verdict
-    assert not table_of(EQUATION, replace(poor, doubt="")).agree
-
-
-def test_a_wrong_equation_hands_the_trust_over(published):
-    _, step = published
-    row = variational_row(replace(step, flow_residual=1e-2), Tolerances())
-    assert "carries the flow along to 1.0e-02 only, expected 1e-05" in row.doubt
-    assert "expected" in variational_row(replace(step, flow_residual=math.nan), Tolerances()).doubt
-    assert variational_row(step, Tolerances()).doubt == ""
-    table = table_of(row, rows_of(1.2, 1e-3))
-    assert table.trusted.method is StabilityMethod.CENTRAL
-    assert "Trust the central differences: the cycle is not stable" in table.verdict
-    with pytest.raises(InputError, match="no method of this table"):
-        _ = table_of(row, rows_of(0.7, method=StabilityMethod.ZERO_DYNAMICS)).verdict
-
-
-def test_tables_that_cannot_be(published):
-    P, step = published
-    with pytest.raises(InputError, match="one per method"):
-        table_of(EQUATION, EQUATION)
-    with pytest.raises(InputError, match="finite"):
-        table_of(rows_of(math.nan))
-    with pytest.raises(InputError, match="'relative' is 0"):
-        Tolerances(relative=0.0)
-    with pytest.raises(InputError, match=r"periodic_orbit"):
-        stability_table(P, replace(step, image=step.image + 1e-3))
 
 
 def test_delta_squared_only_where_it_is_a_multiplier(biped, gait):
@@ -554,23 +401,3 @@ def test_differences_are_within_their_noise_and_it_is_no_blank_cheque():
     wrong, bound = bounds[5e-4, 1e-7]
     assert wrong > 1e-7
     assert bound < 200.0 * wrong
-
-
-def test_a_difference_within_the_noise_agrees_and_one_beyond_does_not():
-    noise = np.array([1e-9, 5e-7])
-    assert not table_of(EQUATION, rows_of(0.7, 1e-3 + 1.5e-7)).agree
-    within = table_of(EQUATION, rows_of(0.7, 1e-3 + 1.5e-7, noise=noise))
-    assert within.agree
-    assert (
-        "1e-07 absolute or what root finder and step leave open, at most 5.0e-07." in within.verdict
-    )
-    assert not table_of(EQUATION, rows_of(0.7, 1e-3 + 6e-7, noise=noise)).agree
-    assert not table_of(
-        EQUATION, rows_of(0.7 + 1e-6, 1e-3, noise=noise)
-    ).agree  # its own noise is small
-
-
-def test_poincare_of_a_gait_with_small_multipliers_agrees():
-    found = ba.cycle_stability(ba.find_cycle("rabbit", gait="v0.8"), samples=0)
-    assert "Central differences: agrees within" in found.table.verdict
-    assert found.table.agree

@@ -17,15 +17,11 @@ from biped_adrc.checks import at_most
 from biped_adrc.cli.app import EXIT_CHECK_FAILED, app
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.hybrid.status import Status
-from biped_adrc.model.biped import Biped
 from biped_adrc.paper import reproduction, verdicts
 from biped_adrc.paper.claims.tally import AtTwoSteps, ClaimCase, Tally
-from biped_adrc.paper.claims.words import Claim, judged
-from biped_adrc.paper.convergence import convergence_check
-from biped_adrc.paper.physical_laws import walk_laws, work_identity
+from biped_adrc.paper.claims.words import judged
 from biped_adrc.paper.plan import Plan, RecipeResult
 from biped_adrc.paper.results import Results
-from biped_adrc.paper.tables import _runs, _torso
 from biped_adrc.robots.limits import KnownLimits
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.scenario import Scenario
@@ -53,11 +49,6 @@ CERTIFICATE = Certificate(
     cost_of_transport=0.3,
 )
 LEGALITY = Legality(Status.COMPLETED, (CERTIFICATE,), 0.5, KnownLimits(0.6, 150.0, 5e-3))
-
-
-def needing(**odd):
-    """The legality of a walk whose second step needs something else."""
-    return replace(LEGALITY, supports=(CERTIFICATE, replace(CERTIFICATE, **odd)))
 
 
 def outcome(controller, peak=1e-2, impacts=9, asked=9, **more):
@@ -102,17 +93,6 @@ def results(**odd):
 
 
 PLAN = Plan(quick=True)
-RABBIT = Biped.load("rabbit")
-STANDING = SimpleNamespace(
-    t=np.array([0.0, 0.1]),
-    step=np.array([19, 19]),
-    u=np.zeros((2, 4)),
-    v=np.zeros((2, 5)),
-    zeta=np.zeros((2, 5)),
-    kinetic=np.zeros(2),
-    potential=np.zeros(2),
-)
-"""Signals of a robot that does nothing."""
 
 
 def orbit_with(multiplier):
@@ -192,35 +172,6 @@ def test_engines_that_disagree():
     assert len(broken(engines_NPD=replace(none, half=none))) == 1
 
 
-@pytest.mark.parametrize(
-    ("half", "holds"),
-    [
-        (outcome("ADRC", 1.009e-2), True),
-        (outcome("ADRC", 1.02e-2), False),
-        (outcome("ADRC", math.nan), False),
-        (outcome("ADRC", 1e-2, 8), False),
-        (outcome("ADRC", 1e-2, status="STALLED"), False),
-        (outcome("ADRC", 1e-2, legality=needing(peak_torque=151.0)), False),
-        (outcome("ADRC", 1e-2, legality=needing(mean_friction=0.405)), False),
-        (outcome("ADRC", 1e-2, legality=needing(mean_normal_force=197.0)), False),
-        (outcome("ADRC", 1e-2, legality=replace(LEGALITY, impulse_ratio=0.506)), False),
-        (outcome("ADRC", 1e-2, legality=replace(LEGALITY, impulse_ratio=0.504)), True),
-    ],
-)
-def test_a_figure_that_the_step_decides(half, holds):
-    check = convergence_check("a walk", outcome("ADRC", 1e-2, half=half))
-    assert check.holds == holds
-
-
-def test_a_pole_of_the_friction_is_no_figure_of_merit():
-    """Where F_N passes through zero the ratio is as large as one likes: the force itself is compared."""
-    pulled, other = (needing(mean_normal_force=-5.0, mean_friction=f) for f in (90.0, 4.0))
-    o = outcome("ADRC", legality=pulled, half=outcome("ADRC", legality=other))
-    assert convergence_check("a walk", o).holds
-    less = needing(mean_normal_force=-6.0, mean_friction=90.0)
-    assert not convergence_check("a walk", replace(o, half=outcome("ADRC", legality=less))).holds
-
-
 @pytest.mark.parametrize(("gap", "holds"), [(0.9e-4, True), (1.1e-4, False), (math.nan, False)])
 def test_a_multiplier_that_the_step_decides(gap, holds):
     half = PoincareResult("NPD", "identified", "model", True, orbit_with(0.694 + gap), 0.694)
@@ -239,71 +190,11 @@ def test_a_multiplier_that_the_step_decides(gap, holds):
     assert "not told from zero" in checks[0].name
 
 
-def test_multipliers():
-    def found(values, delta=0.694):
-        return SimpleNamespace(
-            orbit=SimpleNamespace(multipliers=np.array(values)), delta_squared=delta
-        )
-
-    assert len(broken(multipliers_NPD=found([0.695, 1e-5]))) == 1
-    assert len(broken(multipliers_NPD=found([0.694, 2e-3]))) == 1
-    assert len(broken(multipliers_ADRC=found([1.0]))) == 1
-
-
 def test_a_recipe_that_does_not_close():
     bad = RecipeResult("identified", "NPD", False, "no cycle", {})
     assert len(broken(recipe_identified_NPD=bad)) == 1
     unstable = RecipeResult("identified", "NPD", True, "", {"multipliers": [1.01]})
     assert len(broken(recipe_identified_NPD=unstable)) == 1
-
-
-@pytest.mark.parametrize(
-    ("kind", "count"), [("torso", 3), ("heavier, masses", 2), ("heavier, masses and inertias", 2)]
-)
-def test_a_fall_of_both(kind, count):
-    """Alike for both controllers, but not a walk; the torso also has no step left to be compared."""
-    for made in (0, 2):
-        fallen = {
-            f"{kind} {c}".replace(" ", "_"): outcome(c, peak, made)
-            for c, peak in (("NPD", 1e-2), ("ADRC", 1e-5))
-        }
-        found = broken(**fallen)
-        assert len(found) == (count if made == 0 else 2)
-        assert sum("impacts made of 9" in name for name in found) == 2
-
-
-def test_a_step_that_only_one_makes_cannot_be_compared():
-    fewer = outcome("ADRC", impacts=8)
-    assert len(broken(torso_ADRC=fewer)) == 2
-    no_number = outcome("ADRC", durations=np.append(np.full(8, 0.4), math.nan))
-    assert len(broken(torso_ADRC=no_number)) == 1
-
-
-@pytest.mark.parametrize("controller", ["NPD", "ADRC"])
-def test_a_fall_before_the_first_impact_breaks_checks_and_nothing_else(controller):
-    fallen = outcome(
-        controller, impacts=0, x_minus=np.zeros((0, 10)), durations=np.zeros(0), certificates=()
-    )
-    found = broken(**{f"nominal_identified_{controller}": fallen})
-    assert len(found) == 4
-    check = work_identity(fallen)
-    assert (check.value, check.holds) == (math.inf, False)
-    full = SimpleNamespace(
-        walker=SimpleNamespace(plant=RABBIT),
-        outcome=fallen,
-        signals=SimpleNamespace(step=np.array([19]), of_step=lambda _: STANDING),
-    )
-    foot, balance = walk_laws("x", full)
-    assert (foot.value, foot.holds) == (math.inf, False)
-    assert balance.holds
-    r = results(**{f"torso_{controller}": fallen})
-    assert f"{controller} makes no step" in _torso(r)
-    assert _runs(r)["rows"]
-
-
-def test_torso_pushes_that_the_controllers_answer_differently():
-    slow = outcome("ADRC", durations=np.array([0.4, 0.405, 0.4]))
-    assert len(broken(torso_ADRC=slow)) == 1
 
 
 # -- the summary and the exit code -------------------------------------------------------------------
@@ -370,13 +261,6 @@ def test_one_broken_check_reaches_summary_and_exit_code(
     assert report.index("no reproduction of their numbers") < report.index("ADRC rejects")
     if not holds:
         assert "does not hold" in done.output
-
-
-def test_a_claim_with_markup_is_printed_as_it_is(stubbed, tmp_path):
-    stubbed([], [Claim("[/b] of |x|", "I", "not testable", "1", "made up")])
-    done = CliRunner().invoke(app, ["reproduce", "--quick", "--out", str(tmp_path)])
-    assert done.exit_code == 0, done.output
-    assert "[/b]" in done.output
 
 
 @pytest.mark.parametrize("kind", ["masses", "masses and inertias"])

@@ -1,12 +1,11 @@
-"""The rows of docs/verification.md hold; of the slow groups some of them."""
+"""The rows of docs/verification.csv hold; of the slow groups some of them."""
 
 from __future__ import annotations
 
-import importlib
+import csv
 import math
-import re
 import sys
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
 import pytest
@@ -14,6 +13,7 @@ import pytest
 from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import gait_names
 from biped_adrc.robots.robot_toml import robot_names
+from validation import __main__ as command
 from validation import (
     frost_urdf,
     gaits,
@@ -45,26 +45,21 @@ PARTS: dict[str, Maker] = {
 }
 
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "verification.md"
-CELL = re.compile(r"(?<!\\)\|")
+STORED = Path(__file__).resolve().parents[1] / "docs" / "verification.csv"
 
 
-def printed() -> dict[tuple[str, str], list[dict[str, str]]]:
-    """The rows of docs/verification.md by system and quantity, cells by column."""
+@cache
+def stored() -> dict[tuple[str, str], list[dict[str, str]]]:
+    """The rows of docs/verification.csv by system and quantity, cells by column."""
     found: dict[tuple[str, str], list[dict[str, str]]] = {}
-    columns: list[str] = []
-    for line in PAGE.read_text(encoding="utf-8").splitlines():
-        cells = [cell.strip().replace("\\", "") for cell in CELL.split(line)[1:-1]]
-        if cells[:2] == list(COLUMNS[:2]):
-            columns = cells
-        elif columns and len(cells) == len(columns):
-            row = dict(zip(columns, cells, strict=True))
-            found.setdefault((cells[0], cells[1]), []).append(row)
+    with STORED.open(encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            found.setdefault((row["system"], row["quantity"]), []).append(row)
     return found
 
 
-def is_printed(row: Row, shown: dict[str, str]) -> bool:
-    """Whether the page has this row's numbers: within 1 %, or within what the row allows."""
+def is_stored(row: Row, shown: dict[str, str]) -> bool:
+    """Whether a stored row has this row's numbers: within 1 %, or within what the row allows."""
     allowed = {Measure.ABSOLUTE: row.tolerance or 0.0, Measure.AT_MOST: row.expected}
     limit = max(0.01 * abs(row.found), allowed.get(row.measure, 0.0))
     expected = float(shown["expected"].removeprefix("at most "))
@@ -73,22 +68,21 @@ def is_printed(row: Row, shown: dict[str, str]) -> bool:
 
 
 def check(rows: tuple[Row, ...]) -> None:
-    """They hold, and docs/verification.md prints these numbers."""
+    """They hold, and docs/verification.csv has these numbers."""
     targets = [row for row in rows if row.has_target]
     assert targets
-    page = printed()
     for row in targets:
         assert row.holds, (row.system, row.quantity, row.expected, row.found)
-        lines = page[row.system, row.quantity]
-        assert any(is_printed(row, shown) for shown in lines), (row.expected, row.found, lines)
+        lines = stored()[row.system, row.quantity]
+        assert any(is_stored(row, shown) for shown in lines), (row.expected, row.found, lines)
 
 
-def test_a_number_changed_in_the_page_is_noticed() -> None:
+def test_a_number_changed_in_the_table_is_noticed() -> None:
     row = passive.ball_rows()[0]
-    shown = printed()[row.system, row.quantity][0]
-    assert is_printed(row, shown)
-    assert not is_printed(row, {**shown, "found": f"{1.02 * row.found}"})
-    assert not is_printed(row, {**shown, "expected": f"{1.001 * row.expected}"})
+    shown = stored()[row.system, row.quantity][0]
+    assert is_stored(row, shown)
+    assert not is_stored(row, {**shown, "found": f"{1.02 * row.found}"})
+    assert not is_stored(row, {**shown, "expected": f"{1.001 * row.expected}"})
 
 
 @pytest.mark.parametrize("name", PARTS)
@@ -156,34 +150,38 @@ def test_rows_that_make_no_sense() -> None:
         Row("s", "q", 0.0, 1.0, 0.1, "source")
 
 
-# -- the page --------------------------------------------------------------------------------------
-def test_script_prints_a_group_and_names_those_there_are(
+# -- the command -----------------------------------------------------------------------------------
+def test_the_command_prints_a_group_and_names_those_there_are(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.syspath_prepend(str(Path(__file__).resolve().parents[1] / "docs"))
-    script = importlib.import_module("write_verification")
-    monkeypatch.setattr(sys, "argv", ["write_verification.py", "--only", "senses"])
-    assert script.main() == 0
-    head, _, *lines = capsys.readouterr().out.splitlines()
-    assert (
-        head
-        == "| system | quantity | expected | found | difference | tolerance | source | verdict |"
-    )
-    assert len(lines) == len(frost_urdf.sense_rows())
-    monkeypatch.setattr(sys, "argv", ["write_verification.py", "--only", "coffee"])
-    assert script.main() == InputError.exit_code
+    monkeypatch.setattr(sys, "argv", ["validation", "--only", "senses"])
+    assert command.main() == 0
+    out = capsys.readouterr()
+    rows = list(csv.DictReader(out.out.splitlines()))
+    assert [row["verdict"] for row in rows] == ["holds"] * len(frost_urdf.sense_rows())
+    assert "9 of 9 rows hold, 0 without a target" in out.err
+    monkeypatch.setattr(sys, "argv", ["validation", "--only", "coffee"])
+    assert command.main() == InputError.exit_code
     assert "no group 'coffee'" in capsys.readouterr().err
 
 
-def test_a_row_that_does_not_hold_fails_the_script(
+def test_a_row_that_does_not_hold_fails_the_command(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    monkeypatch.syspath_prepend(str(Path(__file__).resolve().parents[1] / "docs"))
-    script = importlib.import_module("write_verification")
-    group = Group("g", "Title", "Text.", (lambda: (row(3.0), row(2.0), row(7.0, None)),))
-    monkeypatch.setattr(script, "groups", lambda: (group,))
-    monkeypatch.setattr(script, "PAGE", tmp_path / "verification.md")
-    monkeypatch.setattr(sys, "argv", ["write_verification.py"])
-    assert script.main() == 1
-    assert "does not hold: s, q" in capsys.readouterr().err
-    assert "**1 of 2 rows hold, 1 without a target.**" in (tmp_path / "verification.md").read_text()
+    group = Group("g", (lambda: (row(3.0), row(2.0), row(7.0, None)),))
+    monkeypatch.setattr(command, "groups", lambda: (group,))
+    monkeypatch.setattr(sys, "argv", ["validation", "--out", str(tmp_path / "rows.csv")])
+    assert command.main() == 1
+    said = capsys.readouterr().err
+    assert "does not hold: s, q" in said
+    assert "1 of 2 rows hold, 1 without a target" in said
+    assert (tmp_path / "rows.csv").read_text().splitlines()[1].startswith("g,s,q,2,3,")
+
+
+def test_every_row_of_the_groups_is_stored() -> None:
+    count = sum(len(rows) for rows in stored().values())
+    held = [row["verdict"] for rows in stored().values() for row in rows]
+    assert (count, held.count("holds"), held.count("no target")) == (242, 229, 13)
+    assert {row["group"] for rows in stored().values() for row in rows} == {
+        g.name for g in groups()
+    }

@@ -12,9 +12,8 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.variational import periodic_orbit
-from biped_adrc.errors import InputError, ModelError, SimulationError
+from biped_adrc.errors import ModelError, SimulationError
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.viz.placement import WalkScene
 
 METHOD = ba.Adaptive()
 
@@ -141,22 +140,3 @@ def test_simplest_walking_model() -> None:
     P = ba.ReturnMap(walker, METHOD, pitch=math.pi)
     multipliers = periodic_orbit(P, found.x_minus, 1e-8)[0].multipliers
     assert abs(multipliers[0]) == pytest.approx(0.589113, rel=2e-6)
-
-
-def test_a_slope_that_is_a_wall_is_refused() -> None:
-    with pytest.raises(InputError, match="right angle"):
-        ba.Walker(ba.Biped.load("compass"), ba.Passive(), slope=1.6)
-
-
-def test_a_wheel_is_drawn_on_its_slope() -> None:
-    """Its footholds are a chord 2 l sin(alpha) apart, along the slope."""
-    biped, slope = ba.Biped.load("rimless_wheel"), 0.1
-    walker = ba.Walker(biped, ba.Passive(), slope=slope, max_step_time=10.0)
-    start = np.array([math.pi - slope + math.pi / 8])
-    rolled = walk(walker, start, np.array([-2.0]), 3)
-    scene = WalkScene.of(
-        type("Recorded", (), {"walker": walker, "trajectory": rolled, "recorded": None})
-    )
-    along = 2.0 * math.sin(math.pi / 8) * np.arange(3.0)
-    np.testing.assert_allclose(scene.footholds, along * math.cos(slope), atol=1e-9)
-    np.testing.assert_allclose(scene.heights, -along * math.sin(slope), atol=1e-9)

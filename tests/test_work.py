@@ -58,9 +58,9 @@ def work_and_loss(walker: Walker, x: Array) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("name", ["published", "recipe"])
-def test_joint_work_is_the_energy_lost_at_impact(any_biped: ba.Biped, name: str) -> None:
-    gait = ba.load_gait(name, any_biped)
-    walker = Walker(any_biped, ba.NPDController(gait.constraint))
+def test_joint_work_is_the_energy_lost_at_impact(biped: ba.Biped, name: str) -> None:
+    gait = ba.load_gait(name, biped)
+    walker = Walker(biped, ba.NPDController(gait.constraint))
     x = np.concatenate((gait.q_minus, gait.v_minus))
     x = periodic_orbit(ReturnMap(walker, TIGHT), x, 1e-10)[0].x_minus
     work, lost = work_and_loss(walker, x)

@@ -1,7 +1,7 @@
-"""The groups of the verification page: a title, a text, and the functions that make the rows.
+"""The groups of the verification, and the functions that make their rows.
 
-Texts are in groups.toml, in the order of the page. Each maker takes seconds to minutes and is independent of
-the others, so that tests and `docs/write_verification.py` can distribute them.
+Each maker takes seconds to minutes and is independent of the others, so that tests can distribute them. What
+each group asks is on the page docs/verification.md.
 
 Groups: passive walkers, the three-link walker, the example of 2003, the paper, laws of work and of multipliers
 on stored gaits, all robots, gait design, the force on the hip, and RABBIT in other coordinates ("senses").
@@ -15,7 +15,6 @@ from functools import partial
 
 from biped_adrc.errors import InputError
 from biped_adrc.paper.pair import CONTROLLERS
-from biped_adrc.resources import packaged
 from validation import frost_urdf, gaits, passive, rabbit, three_link
 from validation.row import PRESETS, Row
 
@@ -27,20 +26,16 @@ Maker = Callable[[], tuple[Row, ...]]
 
 @dataclass(frozen=True)
 class Group:
-    """One group of the page."""
+    """One group of rows."""
 
     name: str
     """By which it is asked for."""
-    title: str
-    """Heading."""
-    text: str
-    """Markdown."""
     makers: tuple[Maker, ...]
     """They give the rows, part by part."""
 
 
 def groups() -> tuple[Group, ...]:
-    """All of them, in the order of the page."""
+    """All of them, in the order of the table."""
     speeds = [(preset, speed) for preset in DESIGNED for speed in rabbit.SPEEDS]
     stored = [(preset, gait) for preset in PRESETS for gait in gaits.invariant_gaits(preset)]
     walkers = ("ball", "wheel", "simplest", "short_step", "heavy_feet", "compass")
@@ -65,8 +60,7 @@ def groups() -> tuple[Group, ...]:
         ),
         "senses": (frost_urdf.sense_rows,),
     }
-    texts = packaged("validation", "groups.toml")
-    return tuple(Group(n, **said, makers=makers[n]) for n, said in texts.items())
+    return tuple(Group(name, parts) for name, parts in makers.items())
 
 
 def group_named(name: str) -> Group:

@@ -5,7 +5,7 @@
     at most     found <= expected
 
 A row without a tolerance shows the two numbers beside each other and asserts nothing. NaN never holds. Made by
-all modules of `validation`; tests assert `holds`, and the page shows `cells`.
+all modules of `validation`; tests assert `holds`, and docs/verification.csv has `cells`.
 """
 
 from __future__ import annotations

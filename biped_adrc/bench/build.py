@@ -12,6 +12,7 @@ Called by `bench.run` (walks), `bench.study.rehearse` (checks) and `bench.sweep`
 from __future__ import annotations
 
 import hashlib
+import os
 import tomllib
 from collections.abc import Iterable
 from functools import lru_cache
@@ -66,7 +67,7 @@ def files_of(name: str, value: object) -> tuple[Path, ...]:
     if not isinstance(value, str) or Path(value).suffix != SUFFIXES.get(name):
         return ()
     path = Path(value)
-    if name != "robot":
+    if name != "robot" or not os.path.isfile(path):
         return (path,)
     try:
         return path, path.parent / tomllib.loads(path.read_text(encoding="utf-8"))["urdf"]
@@ -76,7 +77,7 @@ def files_of(name: str, value: object) -> tuple[Path, ...]:
 
 def hashes(paths: Iterable[Path]) -> dict[str, str]:
     """Twelve digits of the SHA-256 of each file, by "file path"; "none" for a file that is not there."""
-    there = {path: path.read_bytes() if path.is_file() else None for path in paths}
+    there = {path: path.read_bytes() if os.path.isfile(path) else None for path in paths}
     return {
         f"file {path}": "none" if text is None else hashlib.sha256(text).hexdigest()[:12]
         for path, text in there.items()
@@ -93,7 +94,7 @@ def scene_of(s: Scenario) -> RobotAndGait:
     Raises InputError where there is none.
     """
     paths = (*files_of("robot", s.robot), *files_of("gait", s.gait))
-    there = [(str(path), path.stat()) for path in paths if path.is_file()]
+    there = [(str(path), path.stat()) for path in paths if os.path.isfile(path)]
     stamp = tuple((path, found.st_mtime_ns, found.st_size) for path, found in there)
     return _scene(s.robot, s.preset, s.gait, s.friction, s.continued, stamp)
 

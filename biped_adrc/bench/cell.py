@@ -6,7 +6,7 @@ Only legal walks count as success, since the model's foot is pinned and walks wh
 
 A share is (value, low, high) with Wilson's interval, dimensionless: `survived` and `legal` of all walks,
 `reasons` and `impulse` of those walks that made all steps and have a value in the column. Medians have
-bootstrap intervals (`analysis.statistics`). Made by `bench.comparison`, read by `bench.findings` and the
+bootstrap intervals (`analysis.statistics`). Made by `bench.comparison`, read by the
 comparison's page.
 """
 
@@ -18,7 +18,6 @@ from dataclasses import dataclass
 
 from biped_adrc.analysis.statistics import Interval, median, share
 from biped_adrc.campaign.chunk import Row
-from biped_adrc.errors import InputError
 from biped_adrc.viz.comparison_text import MEASURES, NEEDS, REASONS
 
 IMPULSE = "bad_impulse"
@@ -34,16 +33,7 @@ def is_made(row: Row) -> bool:
 
 
 def is_legal(row: Row) -> bool:
-    """Whether the walk made all steps, each of them legally.
-
-    Raises InputError for a walk that made all steps without a value in the column `legal`, as older versions
-    wrote.
-    """
-    if is_made(row) and row.get("legal") is None:
-        raise InputError(
-            "a walk made all steps and does not say whether legally (column 'legal'); expected 0 or 1. It was "
-            "walked by an older version: begin anew in another folder"
-        )
+    """Whether the walk made all steps, each of them legally."""
     return is_made(row) and row["legal"] == 1
 
 
@@ -63,8 +53,6 @@ class Cell:
     """Its name."""
     walks: tuple[Row, ...]
     """Rows with the columns of `bench.run.COLUMNS`, in the order of the seeds."""
-    bandwidth: float | None = None
-    """All poles of the observer are at minus this [rad/s]; None for the controller's own settings."""
     as_published: bool = False
     """Whether it walks untuned among controllers that are tuned."""
 
@@ -123,7 +111,6 @@ class Cell:
         return {
             "controller": self.controller,
             "condition": self.condition,
-            "bandwidth": self.bandwidth,
             "as_published": self.as_published,
             "walks": len(self.walks),
             "survived": list(self.survived),

@@ -1,8 +1,8 @@
 """The comparison of controllers as a command: walked, stored run by run, and written as figures, page, summary.
 
 `bench.comparison` decides what is walked and what follows from it; this module provides how: `Stored` walks
-trials through the same store as a sweep, so that a comparison that is killed goes on where it was, the walks
-of the bisections for the largest push included. Rows are looked up by the hash of the trial's record.
+trials through the same store as a sweep, so that a comparison that is killed goes on where it was. Rows are
+looked up by the hash of the trial's record.
 
 Written to the folder `out`: comparison.sqlite (all runs), comparison.html, summary.json, one SVG per figure.
 Called by the command `compare`; the pages come from `viz.pages`.
@@ -14,7 +14,7 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import closing
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -23,25 +23,23 @@ from matplotlib.figure import Figure
 from biped_adrc.bench.build import engines_of, scene_of
 from biped_adrc.bench.cell import IMPULSE, is_legal, number
 from biped_adrc.bench.comparison import Comparison, check, compare, nominal_trial
-from biped_adrc.bench.conditions import BASE, CONDITIONS, OWN, conditions_on
-from biped_adrc.bench.findings import answers, sentences
+from biped_adrc.bench.conditions import BASE, CONDITIONS, conditions_on
 from biped_adrc.bench.parameters import trial
 from biped_adrc.bench.run import run_trials
 from biped_adrc.bench.settings import TUNED, Settings
-from biped_adrc.bench.sweep import check_folder
 from biped_adrc.campaign.chunk import Point, Record, Row, key_of, text_of
 from biped_adrc.campaign.execute import LARGEST_CHUNK, Progress, run_study
 from biped_adrc.campaign.store import About, Store
 from biped_adrc.campaign.store_open import open_store
 from biped_adrc.campaign.workers import Kept, Workers, workers_of
-from biped_adrc.files import plain, write_text
+from biped_adrc.files import check_folder, plain, write_text
 from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.build import RIGID
 from biped_adrc.scenario.registry import find, is_own, source_hash
 from biped_adrc.versions import numerical_versions
 from biped_adrc.viz.comparison_text import NEEDS, REASONS
 from biped_adrc.viz.pages import captions, comparison_html
-from biped_adrc.viz.plots.comparison_figure import legal_figure, measure_figure, push_figure
+from biped_adrc.viz.plots.comparison_figure import legal_figure, measure_figure
 from biped_adrc.viz.style import render
 
 RESULTS = "comparison.sqlite"
@@ -103,7 +101,6 @@ def run_comparison(
     controllers: Sequence[str] | None = None,
     conditions: Sequence[str] | None = None,
     seeds: int = 20,
-    pushes: bool = True,
     workers: Workers | Executor | int | None = None,
     progress: Callable[[Progress], None] | None = None,
     other_versions: bool = False,
@@ -113,9 +110,9 @@ def run_comparison(
     """Walk everything that is not in `out` yet and write figures, page and summary; returns the summary.
 
     command: as typed, for the page. controllers, conditions: all of the settings where None. seeds: per
-    controller and condition. pushes: search the largest pushes too. plant: of the registry, on which all walk;
-    "wrong impact" is a condition of the rigid one alone. Raises InputError for unknown names or a file of
-    another comparison, OutputError.
+    controller and condition. plant: of the registry, on which all walk; "wrong impact"
+    is a condition of the rigid one alone. Raises InputError for unknown names or a file of another comparison,
+    OutputError.
     """
     controllers = list(settings.contestants if controllers is None else controllers)
     every = conditions_on(plant, settings.alike)
@@ -128,7 +125,6 @@ def run_comparison(
         "conditions": {name: dict(CONDITIONS[name].values) for name in conditions},
         "base": {**BASE, **settings.values, **shared},
         "seeds": seeds,
-        "pushes": pushes,
     }
     about = About(
         "comparison", key_of(text_of(asked)), asked, _versions(settings, controllers, plant)
@@ -138,7 +134,7 @@ def run_comparison(
     crew.prepare()
     with open_store(out / RESULTS, about, other_versions) as store, closing(Kept(crew)) as kept:
         carry = Stored(store, kept, progress, shared)
-        found = compare(carry, controllers, conditions, seeds, pushes, settings)
+        found = compare(carry, controllers, conditions, seeds, settings)
     return write(found, out, command, carry.walks, shared)
 
 
@@ -156,7 +152,7 @@ def write(
 
     walks: how many trials it took, for the page. shared: values of all trials besides `BASE`.
     """
-    found_out, settings = answers(found), found.settings
+    settings = found.settings
     summary = {
         "command": command,
         "walks": walks,
@@ -164,18 +160,10 @@ def write(
         "set": plain(settings),
         "settings": settings.said(found.controllers, found.conditions),
         "nominal": nominal(found.nominal, settings),
-        "findings": sentences(found_out),
         "controllers": {name: settings.described(name) for name in found.controllers},
         "conditions": {name: CONDITIONS[name].words for name in found.conditions},
         "places": {name: CONDITIONS[name].place for name in found.conditions},
         "cells": [cell.row() for cell in found.cells],
-        "equal_bandwidth": [
-            {"own": replace(own, bandwidth=OWN[x.controller]).row(), "equal": x.row()}
-            for x in found.equal
-            for own in [found.cell(x.controller, x.condition)]
-        ],
-        "pushes": [push.row() for push in found.pushes],
-        "tests": [answer.row() for answer in found_out],
         "base": {**BASE, **settings.values, **(shared or {})},
         "versions": dict(numerical_versions()),
     }
@@ -214,9 +202,7 @@ def draw(summary: Mapping[str, Any]) -> dict[str, bytes]:
 
 def figures(summary: Mapping[str, Any]) -> dict[str, Figure]:
     """The figures by name, in the order of the page; drawn from the summary alone, which a reader has too."""
-    cells, pushes = summary["cells"], summary["pushes"]
+    cells = summary["cells"]
     drawn = {"legal": legal_figure(cells)}
     drawn |= {name: measure_figure(cells, name, title) for name, title in TITLES.items()}
-    if pushes:
-        drawn["pushes"] = push_figure([p for p in pushes if p["bandwidth"] is None])
-    return {name: drawn[name] for name in captions("comparison") if name in drawn}
+    return {name: drawn[name] for name in captions("comparison")}

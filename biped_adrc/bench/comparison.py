@@ -2,41 +2,28 @@
 
 Under a seed every controller meets the same disturbance, model error and start, so that walks are paired by
 seed. Shares of walks have Wilson's intervals; medians are taken over the walks that make all their steps
-legally and have bootstrap intervals (`analysis.statistics`). Beside that table stands how large a push may be
-(`bench.largest_push`). Settings (`bench.settings`) are tuned alike, or as published; then one more question is
-asked, what is left of the differences between observers when all have the same bandwidth.
+legally and have bootstrap intervals (`analysis.statistics`). Settings (`bench.settings`) are tuned alike, or as
+published.
 
 `compare` is given a function `carry` that turns trials into rows and knows nothing of files or processes:
-`bench.compare_study` hands in one with a store, tests hand in one without walks. `bench.findings` draws
-conclusions from what is returned.
-
-Walks of the table: controllers x conditions x seeds, here 10 x 13 x 20 = 2600; those of the searches for the
-largest pushes are some three times as many.
+`bench.compare_study` hands in one with a store, tests hand in one without walks.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from biped_adrc.bench.cell import Cell
-from biped_adrc.bench.conditions import (
-    BANDWIDTH,
-    BASE,
-    CONDITIONS,
-    conditions_on,
-    equal_values,
-    walked_again,
-)
-from biped_adrc.bench.largest_push import Carry, Largest, gathered, largest_pushes, searches
+from biped_adrc.bench.conditions import BASE, CONDITIONS, conditions_on
 from biped_adrc.bench.settings import AS_PUBLISHED, TUNED, Settings
 from biped_adrc.campaign.chunk import NO_WALK, Record, Row
 from biped_adrc.errors import InputError
 from biped_adrc.scenario.build import RIGID
 from biped_adrc.scenario.registry import find, is_own, names
 
-PUSH_SEEDS = 5
-"""Most seeds for which largest pushes are searched: each search takes some ten walks."""
+Carry = Callable[[Sequence[Record]], Sequence[Row]]
+"""Walks trials: values of scenarios -> their rows, in order."""
 
 
 def nominal_trial(settings: Settings) -> Record:
@@ -58,10 +45,6 @@ class Comparison(NamedTuple):
     """The row of `nominal_trial`."""
     cells: tuple[Cell, ...]
     """One for each controller and condition, the conditions varying fastest."""
-    equal: tuple[Cell, ...]
-    """The cells of controllers with an observer once more, all with their poles at `BANDWIDTH`; none tuned."""
-    pushes: tuple[Largest, ...]
-    """The largest pushes, at the controllers' own settings, then at equal bandwidth."""
     settings: Settings = AS_PUBLISHED
     """Those with which controllers walked."""
 
@@ -69,11 +52,6 @@ class Comparison(NamedTuple):
         """The cell of a controller and a condition at the controller's own settings."""
         at = self.controllers.index(controller) * len(self.conditions)
         return self.cells[at + self.conditions.index(condition)]
-
-    def at_equal(self, controller: str, condition: str) -> Cell | None:
-        """The cell at equal bandwidth; None for a controller without an observer."""
-        at = controller, condition
-        return next((c for c in self.equal if (c.controller, c.condition) == at), None)
 
 
 def check(
@@ -104,39 +82,29 @@ def compare(
     controllers: Sequence[str] | None = None,
     conditions: Sequence[str] | None = None,
     seeds: int = 20,
-    pushes: bool = True,
     settings: Settings = TUNED,
 ) -> Comparison:
     """The whole comparison. carry: the row of each trial, in order; it may walk them here or anywhere.
 
-    controllers, conditions: all of the settings where None. All fixed trials go to `carry` at once; the
-    bisections follow in rounds. Raises InputError as `check`.
+    controllers, conditions: all of the settings where None. Raises InputError as `check`.
     """
     controllers = tuple(settings.contestants) if controllers is None else tuple(controllers)
     every = conditions_on(RIGID, settings.alike)
     conditions = every if conditions is None else tuple(conditions)
     check(controllers, conditions, seeds, settings)
-    again = [] if settings.alike else walked_again(controllers)
-    cells = [(c, d, None) for c in controllers for d in conditions]
-    equal = [(c, d, BANDWIDTH) for c in again for d in conditions]
-    records = [
-        nominal_trial(settings),
-        *(settings.record(d, c, seed) for c, d, _ in cells for seed in range(seeds)),
-        *(settings.equal_record(d, c, seed) for c, d, _ in equal for seed in range(seeds)),
+    pairs = [(c, d) for c in controllers for d in conditions]
+    records = [settings.record(d, c, seed) for c, d in pairs for seed in range(seeds)]
+    nominal, *rows = walked_rows(carry([nominal_trial(settings), *records]))
+    cells = [
+        Cell(
+            c,
+            d,
+            tuple(rows[k * seeds : (k + 1) * seeds]),
+            settings.as_published(c, CONDITIONS[d].place),
+        )
+        for k, (c, d) in enumerate(pairs)
     ]
-    nominal, *rows = walked_rows(carry(records))
-    parts = (tuple(rows[i : i + seeds]) for i in range(0, len(rows), seeds))
-    found = [
-        Cell(c, d, part, w, settings.as_published(c, CONDITIONS[d].place))
-        for (c, d, w), part in zip([*cells, *equal], parts, strict=True)
-    ]
-    few = min(seeds, PUSH_SEEDS) if pushes else 0
-    begun = searches(controllers, few, settings.pushed)
-    begun += searches(again, few, equal_values, BANDWIDTH)
-    done = largest_pushes(begun, lambda records: walked_rows(carry(records)))
-    split, largest = len(cells), tuple(gathered(done))
-    told = controllers, conditions, seeds, nominal
-    return Comparison(*told, tuple(found[:split]), tuple(found[split:]), largest, settings)
+    return Comparison(controllers, conditions, seeds, nominal, tuple(cells), settings)
 
 
 def walked_rows(rows: Sequence[Row]) -> Sequence[Row]:

@@ -9,8 +9,8 @@ filter, a policy) is a value by name here, and nothing else is known about it.
     "ADRC, Table I"      controller = "ADRC"                 nothing: it walks as published
     "my_law:Mine"        controller = "my_law:Mine"          nothing, or what a file of one's own says
 
-The tuned sets are in tuned.toml, which docs/write_tuned_sets.py writes from the searches of the contest. A set
-of one's own is a file of the same tables `contestants`, `places` and `words`, on top of the first of them.
+The tuned sets are in tuned.toml, from the searches whose rows are in docs/findings/tuned.csv. A set of one's
+own is a file of the same tables `contestants`, `places` and `words`, on top of the first of them.
 """
 
 from __future__ import annotations
@@ -20,14 +20,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from biped_adrc.bench.conditions import (
-    BASE,
-    CONDITIONS,
-    OWN,
-    PUSH_PLACE,
-    SAID,
-    equal_values,
-)
+from biped_adrc.bench.conditions import BASE, CONDITIONS, SAID
 from biped_adrc.bench.parameters import Refused, flat, read
 from biped_adrc.campaign.chunk import Record
 from biped_adrc.errors import InputError
@@ -77,14 +70,6 @@ class Settings(NamedTuple):
         """The values of one trial of the table."""
         given = CONDITIONS[condition]
         return {**BASE, **given.values, **self.of(contestant, given.place), "seed": seed}
-
-    def equal_record(self, condition: str, contestant: str, seed: int) -> dict[str, object]:
-        """The values of one trial of the table at equal bandwidth."""
-        return self.record(condition, contestant, seed) | equal_values(contestant)
-
-    def pushed(self, contestant: str) -> Record:
-        """Its values in the search for the largest push."""
-        return self.of(contestant, PUSH_PLACE)
 
     def described(self, contestant: str) -> str:
         """A contestant in words: those of its controller, or its controller with the values that it has."""
@@ -144,7 +129,7 @@ COMPARED = ("PD", "NPD", "ADRC", "ADRC output", "LESO", "DOB", "CLF-QP")
 """Controllers compared as published, in the order of the tables."""
 AS_PUBLISHED = Settings(
     "as-published",
-    SAID["texts"]["as_published"].format(**OWN),
+    SAID["texts"]["as_published"],
     {},
     {name: {"controller": name} for name in COMPARED},
     {},

@@ -37,6 +37,7 @@ from biped_adrc.campaign.store import About, Result
 from biped_adrc.campaign.store_open import open_store, read_store
 from biped_adrc.campaign.workers import Workers, workers_of
 from biped_adrc.errors import InputError
+from biped_adrc.files import check_folder
 from biped_adrc.scenario.registry import read_from_a_file
 from biped_adrc.scenario.values import reason
 from biped_adrc.shown import Shown
@@ -208,12 +209,6 @@ def about_study(study: Study, crew: Workers) -> About:
     of_parts = own_of_study(study) | plants_of_study(study)
     versions = {**numerical_versions(), **hashes(files), **of_parts}
     return About(study.name, study.hash, study.configuration(), versions, study.count)
-
-
-def check_folder(out: Path | str) -> None:
-    """Raises InputError where the folder for results is a file."""
-    if Path(out).is_file():
-        raise InputError(f"the results are to go to '{out}', which is a file; expected a folder")
 
 
 def load_sweep(out: Path | str) -> Sweep:

@@ -27,6 +27,7 @@ from biped_adrc.bench.parameters import (
 from biped_adrc.bench.scenario_file import read_scenario
 from biped_adrc.bench.study import Named, Range
 from biped_adrc.errors import InputError
+from biped_adrc.files import check_regular
 from biped_adrc.scenario.scenario import MOST_SEED
 from biped_adrc.scenario.values import reason
 
@@ -39,6 +40,7 @@ MOST = 1_000_000
 
 def read_toml(path: Path) -> dict[str, object]:
     """The tables of a study's TOML file. Raises InputError where it cannot be read."""
+    check_regular(path, f"study file '{path}'", InputError)
     try:
         return tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:

@@ -5,8 +5,7 @@ gone. So each row carries a checksum over its other columns (`sum`), and the tab
 there are, changed in the same transaction as they are. Checksums are made outside of SQLite: in a function that
 SQLite calls, Ctrl-C would be lost and look like a damaged file.
 
-Called by `campaign.store_open` for each file that is opened. Files of format 1 have neither; they are read
-with a warning, and get both when they are opened to be written.
+Called by `campaign.store_open` for each file that is opened.
 """
 
 from __future__ import annotations
@@ -27,7 +26,6 @@ COLUMNS = {
 """What the checksum of a row covers, by table."""
 COUNTED = ("runs", "points")
 """Tables whose rows are counted."""
-TALLY = "CREATE TABLE tally (id INTEGER PRIMARY KEY CHECK (id = 1), runs INTEGER, points INTEGER)"
 
 
 def damaged(path: Path, reason: object) -> InputError:
@@ -43,24 +41,23 @@ def checksum(*values: object) -> str:
     return hashlib.blake2b(json.dumps(values, default=repr).encode(), digest_size=8).hexdigest()
 
 
-def check_whole(path: Path, db: sqlite3.Connection, sums: bool) -> None:
+def check_whole(path: Path, db: sqlite3.Connection) -> None:
     """Raise InputError for a results file with damaged pages, changed rows, or another number of rows.
 
-    sums: whether the file has checksums, from format 2 on. One transaction, as another process may write.
+    One transaction, as another process may write.
     """
     db.execute("BEGIN")
     try:
         (found,) = db.execute("PRAGMA quick_check(1)").fetchone()
         if found != "ok":
             raise damaged(path, found)
-        if sums:
-            _check_rows(path, db)
+        _check_rows(path, db)
     finally:
         db.execute("ROLLBACK")
 
 
 def _check_rows(path: Path, db: sqlite3.Connection) -> None:
-    """The rows of a file with checksums. Raises InputError."""
+    """The checksums of all rows, and their number. Raises InputError."""
     counts = ", ".join(f"(SELECT count(*) FROM {name}), {name}" for name in COUNTED)
     numbers = db.execute(f"SELECT {counts} FROM tally").fetchone()
     if numbers is None:
@@ -72,15 +69,3 @@ def _check_rows(path: Path, db: sqlite3.Connection) -> None:
         for found, *row in db.execute(f"SELECT sum, {columns} FROM {name}"):
             if found != checksum(*row):
                 raise damaged(path, f"the row {row[0]} of '{name}' has another checksum")
-
-
-def add_checks(db: sqlite3.Connection) -> None:
-    """Give the tables of format 1 their checksums and the tally, within a transaction of the caller's."""
-    for name, columns in COLUMNS.items():
-        db.execute(f"ALTER TABLE {name} ADD COLUMN sum TEXT")
-        rows = db.execute(f"SELECT {columns} FROM {name}")
-        sums = [(checksum(*row), row[0]) for row in rows]
-        db.executemany(f"UPDATE {name} SET sum = ? WHERE {columns.partition(',')[0]} = ?", sums)
-    counts = ", ".join(f"(SELECT count(*) FROM {name})" for name in COUNTED)
-    db.execute(TALLY)
-    db.execute(f"INSERT INTO tally VALUES (1, {counts})")

@@ -13,7 +13,6 @@ from __future__ import annotations
 import os
 import sqlite3
 import time
-import warnings
 from contextlib import ExitStack, closing
 from json import loads
 from pathlib import Path
@@ -22,7 +21,7 @@ from filelock import FileLock, Timeout
 
 from biped_adrc.campaign.chunk import text_of
 from biped_adrc.campaign.store import About, Store, cannot_write, identity_of
-from biped_adrc.campaign.store_check import add_checks, check_whole, damaged
+from biped_adrc.campaign.store_check import check_whole, checksum, damaged
 from biped_adrc.errors import InputError, OutputError
 from biped_adrc.files import check_place, replacing
 from biped_adrc.versions import differences
@@ -33,11 +32,14 @@ FORMAT = 2
 """SQLite's user_version: the version of the schema below."""
 SCHEMA = """
 CREATE TABLE study (id INTEGER PRIMARY KEY CHECK (id = 1), name TEXT NOT NULL, hash TEXT NOT NULL,
-  configuration TEXT NOT NULL, versions TEXT NOT NULL, points INTEGER, created TEXT NOT NULL);
-CREATE TABLE versions (id INTEGER PRIMARY KEY, versions TEXT NOT NULL UNIQUE);
+  configuration TEXT NOT NULL, versions TEXT NOT NULL, points INTEGER, created TEXT NOT NULL,
+  sum TEXT);
+CREATE TABLE versions (id INTEGER PRIMARY KEY, versions TEXT NOT NULL UNIQUE, sum TEXT);
 CREATE TABLE runs (key TEXT PRIMARY KEY, record TEXT NOT NULL, seed INTEGER, engine TEXT, status TEXT,
-  row TEXT NOT NULL, seconds REAL NOT NULL, versions INTEGER NOT NULL REFERENCES versions) WITHOUT ROWID;
-CREATE TABLE points (position INTEGER PRIMARY KEY, key TEXT NOT NULL, at TEXT NOT NULL);
+  row TEXT NOT NULL, seconds REAL NOT NULL, versions INTEGER NOT NULL REFERENCES versions,
+  sum TEXT) WITHOUT ROWID;
+CREATE TABLE points (position INTEGER PRIMARY KEY, key TEXT NOT NULL, at TEXT NOT NULL, sum TEXT);
+CREATE TABLE tally (id INTEGER PRIMARY KEY CHECK (id = 1), runs INTEGER, points INTEGER);
 """
 """The tables, as described in `campaign.store`."""
 LOCKED = 5.0
@@ -52,8 +54,7 @@ def open_store(path: Path, about: About, other_versions: bool = False) -> Store:
     and OutputError, also where the file or one that SQLite keeps beside it is a link to elsewhere.
     """
     for beside in ("", ".lock", "-wal", "-shm", "-journal"):
-        if (kept := path.with_name(path.name + beside)).is_symlink():
-            check_place(kept)
+        check_place(path.with_name(path.name + beside))
     try:
         with ExitStack() as undo:
             lock = _locked(path)
@@ -61,10 +62,7 @@ def open_store(path: Path, about: About, other_versions: bool = False) -> Store:
             if not path.exists():
                 _create(path, about)
             connection = undo.enter_context(closing(_connected(path, "rw")))
-            found, old = _checked(path, connection)
-            _check_study(path, found, about, other_versions)
-            if old:
-                _bring_along(connection)
+            _check_study(path, _checked(path, connection), about, other_versions)
             connection.execute("PRAGMA journal_mode = WAL")
             connection.execute("PRAGMA synchronous = FULL")
             undo.pop_all()  # it stays open
@@ -80,22 +78,15 @@ def read_store(path: Path) -> Store:
 
     Raises InputError for a file that does not exist, is empty, or is not one of results.
     """
-    if not path.is_file():
+    if not os.path.isfile(path):
         raise InputError(f"there is no results file '{path}'; expected one of a sweep")
     try:
         with ExitStack() as undo:
             mode = "rw" if os.access(path, os.W_OK) else "ro"
             connection = undo.enter_context(closing(_connected(path, mode)))
             connection.execute("PRAGMA query_only = ON")
-            about, old = _checked(path, connection)
+            about = _checked(path, connection)
             undo.pop_all()  # it stays open
-            if old:
-                warnings.warn(
-                    f"results file '{path}' is of format 1, without checksums: a changed or missing row is not "
-                    "noticed. Going on with its study adds them to what is there",
-                    RuntimeWarning,
-                    stacklevel=2,
-                )
             return Store(path, connection, about)
     except (sqlite3.Error, UnicodeError) as error:
         raise InputError(f"the results file '{path}' cannot be read: {error}") from error
@@ -107,15 +98,15 @@ def _connected(path: Path, mode: str) -> sqlite3.Connection:
     return sqlite3.connect(uri, uri=True, isolation_level=None, timeout=LOCKED)
 
 
-def _checked(path: Path, db: sqlite3.Connection) -> tuple[About, bool]:
-    """The study of a file that is whole, and whether it is of format 1. Raises InputError."""
-    old = _format(path, db) < FORMAT
-    check_whole(path, db, not old)
-    return _about(path, db), old
+def _checked(path: Path, db: sqlite3.Connection) -> About:
+    """The study of a file that is whole. Raises InputError."""
+    _check_format(path, db)
+    check_whole(path, db)
+    return _about(path, db)
 
 
-def _format(path: Path, db: sqlite3.Connection) -> int:
-    """The format of the file. Raises InputError where nothing, or something other than results, is in it."""
+def _check_format(path: Path, db: sqlite3.Connection) -> None:
+    """Raise InputError for a file in which nothing is, or something other than results of this format."""
     try:
         application = db.execute("PRAGMA application_id").fetchone()[0]
         tables = db.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]
@@ -136,12 +127,11 @@ def _format(path: Path, db: sqlite3.Connection) -> int:
             f"{APPLICATION:#x}); it is left as it is, choose another folder"
         )
     found: int = db.execute("PRAGMA user_version").fetchone()[0]
-    if not 1 <= found <= FORMAT:
+    if found != FORMAT:
         raise InputError(
-            f"results file '{path}' has the format {found}, expected 1 or {FORMAT}; it is left as it is. "
-            "Use the version of biped-adrc that wrote it, or another folder"
+            f"results file '{path}' has the format {found}, expected {FORMAT}; it is left as it is, choose "
+            "another folder"
         )
-    return found
 
 
 def _create(path: Path, about: About) -> None:
@@ -156,28 +146,16 @@ def _create(path: Path, about: About) -> None:
         )
     created = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
     texts = text_of(about.configuration), text_of(about.versions)
-    told = (about.name, about.hash, *texts, about.points, created)
+    told = (1, about.name, about.hash, *texts, about.points, created)
     with replacing(path) as temporary, closing(_connected(temporary, "rw")) as db:
         db.execute("BEGIN IMMEDIATE")
         db.execute(f"PRAGMA application_id = {APPLICATION}")
         for statement in SCHEMA.split(";")[:-1]:
             db.execute(statement)
-        db.execute("INSERT INTO study VALUES (1, ?, ?, ?, ?, ?, ?)", told)
-        _add_checks(db)
+        db.execute("INSERT INTO study VALUES (?, ?, ?, ?, ?, ?, ?, ?)", (*told, checksum(*told)))
+        db.execute("INSERT INTO tally VALUES (1, 0, 0)")
+        db.execute(f"PRAGMA user_version = {FORMAT}")
         db.execute("COMMIT")
-
-
-def _bring_along(db: sqlite3.Connection) -> None:
-    """Make a file of format 1 one of this format, in one transaction."""
-    db.execute("BEGIN IMMEDIATE")
-    _add_checks(db)
-    db.execute("COMMIT")
-
-
-def _add_checks(db: sqlite3.Connection) -> None:
-    """Checksums and tally, and the format that says so."""
-    add_checks(db)
-    db.execute(f"PRAGMA user_version = {FORMAT}")
 
 
 def _about(path: Path, db: sqlite3.Connection) -> About:

@@ -8,6 +8,7 @@ once.
 
 from __future__ import annotations
 
+import os
 import shlex
 import sys
 from collections.abc import Iterable
@@ -94,7 +95,7 @@ def inputs(robot: str, *others: str) -> tuple[Path, ...]:
     """
     from biped_adrc.robots.robot_toml import load_description
 
-    files = tuple(path for path in map(Path, (robot, *others)) if path.is_file())
+    files = tuple(path for path in map(Path, (robot, *others)) if os.path.isfile(path))
     return (*files, load_description(robot).urdf)
 
 

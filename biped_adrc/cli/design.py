@@ -16,7 +16,7 @@ from rich.table import Table
 from biped_adrc.cli.app import GAITS, console, gait_app, inputs, say_written
 from biped_adrc.cli.options import texts
 from biped_adrc.errors import GaitError, InputError
-from biped_adrc.files import keep_inputs, output_path
+from biped_adrc.files import check_folder, keep_inputs, output_path
 
 if TYPE_CHECKING:
     from biped_adrc.gait.design.ipopt import IpoptProgress
@@ -84,6 +84,7 @@ def gait_library(
     from biped_adrc.model.biped import Biped
     from biped_adrc.studies.gait_design import design_gait, speeds_named
 
+    check_folder(out)
     biped = Biped.load(robot, preset)
     table = Table("m/s", "step [m]", "torque [N m]", "friction", "delta^2", "transport", "s")
     missed = []

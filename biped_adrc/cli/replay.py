@@ -11,7 +11,7 @@ from rich.table import Table
 
 from biped_adrc.cli.app import app, console, inputs, say, say_written
 from biped_adrc.cli.options import of_scenario, texts, values_of
-from biped_adrc.files import keep_inputs, output_path, write_text
+from biped_adrc.files import check_folder, keep_inputs, output_path, write_text
 from biped_adrc.types import PlainRecord
 
 WHO = ("controller", "gait", "robot", "preset", "period", "torque_limit")
@@ -62,6 +62,7 @@ def _paths(out: Path | None, read: tuple[Path, ...]) -> tuple[Path, Path, Path] 
     """
     if out is None:
         return None
+    check_folder(out)
     names = ("replay.csv", "steps.txt", "replay.svg")
     table, text, figure = (output_path(out / name, (Path(name).suffix,)) for name in names)
     keep_inputs((table, text, figure), read)

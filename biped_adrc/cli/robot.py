@@ -24,7 +24,7 @@ from biped_adrc.cli.app import (
 )
 from biped_adrc.cli.options import texts
 from biped_adrc.errors import InputError, ModelError
-from biped_adrc.files import keep_inputs, output_path
+from biped_adrc.files import check_folder, keep_inputs, output_path
 from biped_adrc.robots.robot_toml import GRAVITY
 
 if TYPE_CHECKING:
@@ -54,17 +54,11 @@ def robot_check(
 ) -> None:
     """Read a URDF as a biped: say what was guessed, and check it against the laws of mechanics.
 
-    Exit code 0 when every law holds, 1 when one does not or the URDF is refused.
+    Exit code 0 when every law holds, 1 when one does not, 3 when the URDF is refused.
     """
     from biped_adrc.robot_import.import_robot import derive
 
-    try:
-        derived = derive(
-            file, _hints(feet, actuated, hip, torque, friction, armature, gravity, tip)
-        )
-    except InputError as error:
-        complain(f"error: {error}")
-        raise typer.Exit(EXIT_CHECK_FAILED) from error
+    derived = derive(file, _hints(feet, actuated, hip, torque, friction, armature, gravity, tip))
     _explain(derived)
     if derived.broken:
         for check in derived.broken:
@@ -89,6 +83,7 @@ def robot_new(
     """Write floating.urdf and robot.toml of a URDF, for Biped.load("FOLDER/robot.toml")."""
     from biped_adrc.robot_import.import_robot import derive
 
+    check_folder(out)
     derived = derive(file, _hints(feet, actuated, hip, torque, friction, armature, gravity, tip))
     if derived.broken:
         raise ModelError(f"URDF '{file}': {'; '.join(map(str, derived.broken))}")

@@ -7,6 +7,7 @@ as it comes. The options of workers, the progress bar and the way Ctrl-C is met 
 
 from __future__ import annotations
 
+import os
 import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -97,7 +98,7 @@ def _print_statuses(done: Sweep) -> None:
 def interrupted(results: Path) -> typer.Exit:
     """Say what to do after Ctrl-C, and give the exit to raise; a second Ctrl-C meanwhile is ignored."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    if results.exists():
+    if os.path.exists(results):
         say(f"what is finished is in {results.parent}; the same command goes on from there")
     else:
         say(f"nothing was begun in {results.parent}")

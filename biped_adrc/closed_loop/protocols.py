@@ -1,6 +1,6 @@
 """What a closed loop, its plant and its controller must offer to the functions of `closed_loop.semantics`.
 
-Plants are `model.biped.Biped`, `model.arm.Arm`, `engine.mechanics.PlanarRobot` and any of the user's own; loops
+Plants are `model.biped.Biped`, `engine.mechanics.PlanarRobot` and any of the user's own; loops
 are `closed_loop.system.ClosedLoop` on arrays of NumPy and `engine.symbolic_loop.SymbolicLoop` on symbols.
 """
 
@@ -28,7 +28,7 @@ class Plant(Protocol):
     """What moves: n coordinates, of which the first p have motors. q [rad], v [rad/s] and forces
     [N m] are (n,).
 
-    Enough for a plant without ground, such as an arm; a walker needs a `WalkingPlant`.
+    Enough for the model of a plant that moves by itself; a walker needs a `WalkingPlant`.
     """
 
     @property

@@ -9,7 +9,7 @@ sensors, meter, torques on their way to the motors. The controller's terms come 
 model, the motion from the plant, and the two may differ.
 
 These pure functions are the only place where the closed loop is defined. On NumPy arrays
-`closed_loop.system.ClosedLoop` calls them (`Walker`, `ArmSystem`, `SteppingLoop`); on symbols
+`closed_loop.system.ClosedLoop` calls them (`Walker`, `SteppingLoop`); on symbols
 `engine.equations` calls the same lines to generate code. For that reason nothing here branches on a
 real number: only integers of the structure (sizes, whether a part exists) decide, because a branch
 on a symbol cannot be traced.

@@ -111,11 +111,6 @@ class SteppingLoop(ClosedLoop[Any]):
         """Never: the model is not the plant."""
         return False
 
-    @property
-    def limit(self) -> float | None:
-        """Largest torque of every motor [N m]; None for none."""
-        return self.torque_limit
-
     @cached_property
     def bounds(self) -> Bounds:
         """Rates and torque beyond which the run ends as run away."""

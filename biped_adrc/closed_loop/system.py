@@ -1,6 +1,6 @@
 """A closed loop on NumPy arrays, as a hybrid system that a simulator can run.
 
-`ClosedLoop` has what `Walker`, `ArmSystem` and `SteppingLoop` share: a plant, a controller in its
+`ClosedLoop` has what `Walker` and `SteppingLoop` share: a plant, a controller in its
 time base (continuous or sampled), the model that the controller knows, and the methods of
 `hybrid.system.HybridSystem`, each of which calls the function of `closed_loop.semantics` with the
 same name. It adds what pure functions cannot do: checks of what a user's controller returns, with
@@ -45,7 +45,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
     """`semantics` on arrays, with a plant, a controller, its timing, and the model that it knows.
 
     Subclasses are frozen dataclasses that name these fields; what they do not override here is: no
-    torque limit, no disturbance, no meter, no relabelling.
+    disturbance, no meter, no relabelling.
     """
 
     plant: P
@@ -62,6 +62,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
     """Between controller and plant, in sampled time; None for ideal ones."""
     touchdown: Touchdown | None = None
     """How the controller is told of one, in sampled time; None for at once."""
+    torque_limit: float | None = None
+    """Saturates every motor [N m]; None for no limit."""
     disturbance: Disturbance | None = None
     """What acts from outside; None for nothing."""
 
@@ -151,9 +153,9 @@ class ClosedLoop(HybridSystem, Generic[P]):
         return None
 
     @property
-    def limit(self) -> float | Array | None:
-        """Largest torque of the motors, one number or (p,) [N m]; None for none."""
-        return None
+    def limit(self) -> float | None:
+        """Largest torque of every motor [N m]; None for none."""
+        return self.torque_limit
 
     @cached_property
     def torques(self) -> tuple[int]:

@@ -110,11 +110,6 @@ class Walker(ClosedLoop[Biped]):
         """Whether the controller knows the plant: no other model is given and the plant has no friction."""
         return self.model is None and not self.plant.friction
 
-    @property
-    def limit(self) -> float | None:
-        """Largest torque of every motor [N m]; None for none."""
-        return self.torque_limit
-
     @cached_property
     def bounds(self) -> Bounds:
         """Rates and torque beyond which the run ends as run away."""

@@ -1,21 +1,18 @@
 """Controllers across a touchdown: a policy around any controller, for the time in which contact settles.
 
     hold    s <- initial_state(m)                      at each tick with t_step < T, then s <- correct(s, m)
-    fade    u = u_0 + w(t_step / T) (u - u_0)          u_0 = output(initial_state(m), m)
-            w(x) = x^2 (3 - 2 x)
 
 t_step is the time since the touchdown that the controller was told of; the start of a run counts as one. A
 contact that takes time moves the joints by forces that no observer is told of, and an observer takes them for
 a disturbance. While it is held the torque is that of the model on measured rates, as NPD's for ADRC; it is told
-the torque of the last such tick, so that from there on it runs as from a start. Faded, it runs all the time,
-and what it says counts little by little.
+the torque of the last such tick, so that from there on it runs as from a start.
 
 Policies act at ticks, so they work in sampled time alone. T = 0 is the controller itself, bit for bit. Around
 an outer loop they would begin that loop anew; put the outer loop around the policy.
 
-`AcrossContact` is the base of all policies; `ContactWindow` of those with a T. Others: `frozen_disturbance`,
-`kept_torque`, `impact_invariant`, `double_support`. What an observer does at the instant of the touchdown
-itself is its `ResetPolicy`.
+`AcrossContact` is the base of all policies; `ContactWindow` of those with a T. Others: `fade`, `ramp_torque`,
+`impact_invariant`; more as files that run are in `examples/policies`. What an observer does at the instant of
+the touchdown itself is its `ResetPolicy`.
 """
 
 from __future__ import annotations
@@ -67,6 +64,11 @@ class ContactWindow(AcrossContact):
         return SettlingParameters(float(self.window - SAME_INSTANT), rate)
 
 
+def ramp(x: float) -> float:
+    """w (1,) = x^2 (3 - 2 x): from 0 at x = 0 to 1 at x = 1, both without slope."""
+    return x * x * (3.0 - 2.0 * x)
+
+
 @lru_cache(maxsize=64)
 def holding(inner: ControllerLaws) -> ControllerLaws:
     """The laws of `Hold` around these."""
@@ -87,31 +89,3 @@ class Hold(ContactWindow):
 
     def around(self, inner: ControllerLaws) -> ControllerLaws:
         return holding(inner)
-
-
-def ramp(x: float) -> float:
-    """w (1,) of the module: from 0 at x = 0 to 1 at x = 1, both without slope."""
-    return x * x * (3.0 - 2.0 * x)
-
-
-@lru_cache(maxsize=64)
-def fading(inner: ControllerLaws) -> ControllerLaws:
-    """The laws of `Fade` around these."""
-    passed = passed_on(inner)
-
-    def output(k: AroundParameters, s: Array, m: Measurement) -> Array:
-        assert inner.initial_state is not None
-        u = inner.output(k.inner, s, m)
-        fresh = inner.output(k.inner, inner.initial_state(k.inner, m), m)
-        part = ramp(k.own.rate * m.t_step)
-        return np.where(m.t_step < k.own.until, fresh + part * (u - fresh), u)
-
-    return passed._replace(output=output)
-
-
-@dataclass(frozen=True)
-class Fade(ContactWindow):
-    """The observer of `inner` runs, and its part of the torque grows from none for `window` seconds."""
-
-    def around(self, inner: ControllerLaws) -> ControllerLaws:
-        return fading(inner)

@@ -96,14 +96,10 @@ class ControllerLaws(NamedTuple):
     """estimate(k, s, m) -> what an observer inside says."""
     obstacle: str = ""
     """The part that has no laws, so that these run in Python only; empty where all of them compile."""
-    freeze: Callable[..., Array] | None = None
-    """freeze(k, s, new) -> `new` with the disturbance, and its derivatives, that an observer has in s."""
     blind: Callable[..., Any] | None = None
     """blind(k, m, a) -> k with which no rates a (n, 2) change the rate error that `output` sees at m."""
     correct_blind: Callable[..., Array] | None = None
     """correct_blind(k, s, m, a) -> s as `correct` gives it, from the part of the innovation orthogonal to a."""
-    begin: Callable[..., Array] | None = None
-    """begin(k, m, w) -> s of an observer that starts at m, under a torque w (p,) [N m] from outside."""
 
     @property
     def functions(self) -> ControllerLaws:

@@ -71,7 +71,7 @@ def feeding(inner: ControllerLaws, point: Callable[..., ReferencePoint]) -> Cont
             return None
         return x._replace(disturbance=x.disturbance - m.terms.kappa @ fed(k, m))
 
-    laws: dict[str, Any] = {"output": output, "begin": None}
+    laws: dict[str, Any] = {"output": output}
     for name, law in (("flow", inner.flow), ("predict", inner.predict)):
         if law is not None:
             laws[name] = less(law)

@@ -130,7 +130,7 @@ class ImpactInvariant(ContactWindow):
                 f"{name} has no rate error that could be projected; expected a controller whose laws "
                 "have `blind`, such as NPDController or ADRCController"
             )
-        if self.innovation and laws.freeze is None:
+        if self.innovation and laws.estimate is None:
             raise InputError(f"{name} has no observer; expected innovation = False, or one with it")
 
     @property

@@ -119,31 +119,17 @@ def observing_laws(
         laws = laws._replace(flow=flow)
     if o.correct is not None and o.predict is not None:
         laws = laws._replace(correct=correct, predict=predict)
-    return with_policies(laws, sight, point, o)
+    return with_projections(laws, sight, point, o)
 
 
-def with_policies(
+def with_projections(
     laws: ControllerLaws, sight: Sight, point: Callable[..., ReferencePoint], o: ObserverLaws
 ) -> ControllerLaws:
-    """The laws of `observing_laws` with those that the policies across contact ask for.
-
-    A torque from outside enters as one of the motors does, so an observer that expects it begins with what its
-    input would be.
-    """
-    seen, fed, _, _, struck, of_reference = sight
+    """The laws of `observing_laws` with those that `impact_invariant` asks for."""
+    seen, struck, of_reference = sight.seen, sight.struck, sight.of_reference
 
     def at(k: ObservingParameters, m: Measurement) -> Any:
         return point(k.h, m.t, m.q, m.v) if of_reference else None
-
-    def begin(k: ObservingParameters, m: Measurement, w: Array) -> Array:
-        r = at(k, m)
-        x, none = seen(r, m), np.zeros(len(w))
-        felt = fed(r, m, w) - fed(r, m, none)
-        return np.ravel(o.state(k.observer, x._replace(disturbance=x.disturbance + felt)))
-
-    def freeze(k: ObservingParameters, s: Array, new: Array) -> Array:
-        assert o.freeze is not None
-        return np.ravel(o.freeze(k.observer, rows(k.observer, s), rows(k.observer, new)))
 
     def blind(k: ObservingParameters, m: Measurement, a: Array) -> ObservingParameters:
         r = point(k.h, m.t, m.q, m.v)
@@ -156,9 +142,7 @@ def with_policies(
         P = orthogonal_to(struck(r, m, a))
         return np.ravel(o.correct(k.observer, Z, told + P @ (y - told)))
 
-    laws = laws._replace(begin=begin, blind=blind)
-    if o.freeze is not None:
-        laws = laws._replace(freeze=freeze)
+    laws = laws._replace(blind=blind)
     if o.correct is not None and o.predict is not None:
         laws = laws._replace(correct_blind=correct_blind)
     return laws

@@ -9,8 +9,8 @@ each time.
 Modules (the loops of `engine.kernels`, compiled by numba): one folder per hash of the source and of
 what compiles it. Files are written beside and moved into place, so several processes may make the
 same one. What cannot be written is kept in a temporary folder; what is damaged is written again.
-numba keeps its machine code beside the source and does not check it; `seal` adds a checksum to each
-of its files, and those without the right one are removed before they are read.
+numba keeps its machine code beside the source and does not check it; `note_checksums` adds one to
+each of its files, and those without the right one are removed before they are read.
 """
 
 from __future__ import annotations
@@ -23,7 +23,6 @@ import shutil
 import sys
 import tempfile
 import threading
-import warnings
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -154,8 +153,7 @@ def stored(key: str) -> bytes | None:
     The checksum covers the key too, so a file under a wrong name is noticed.
     """
     try:
-        path = _path(key)
-        data = path.read_bytes() if _ours(path) else b""
+        data = _path(key).read_bytes()
     except OSError:
         return None
     check, code = data[:CHECK], data[CHECK:]
@@ -164,10 +162,8 @@ def stored(key: str) -> bytes | None:
 
 def keep(key: str, code: bytes) -> None:
     """Write object code with its checksum, where that is possible."""
-    try:
+    with suppress(OSError, OutputError):
         write_bytes(_path(key), hashlib.sha256(key.encode() + code).digest() + code)
-    except (OSError, OutputError):
-        return
 
 
 VARIABLE = "BIPED_ADRC_CACHE"
@@ -180,49 +176,11 @@ MARK = ".sha256"
 def cache_folder() -> Path:
     """Where generated code is kept; an empty variable counts as none.
 
-    What lies there is executed: a folder that belongs to somebody else, or that others may write,
-    is not used, with a warning, nor one that is relative, which may have come with other files.
+    What lies there is executed: a folder that is relative, and may have come with other files, is not used.
     """
     named = os.environ.get(VARIABLE, "").strip()
-    try:
-        folder = Path(named or user_cache_path("biped_adrc", appauthor=False))
-    except RuntimeError:  # neither HOME nor an entry in passwd
-        return _temporary()
-    with suppress(OSError):
-        if folder.is_absolute():
-            folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-    reason = _open_to_others(folder)
-    if reason is None:
-        return folder
-    warnings.warn(
-        f"compiled code is not kept in '{folder}', {reason}: whoever writes there decides what runs. Make it "
-        f"yours alone (remove it, or chmod 700), or name another folder in {VARIABLE}",
-        RuntimeWarning,
-        stacklevel=2,
-    )
-    return _temporary()
-
-
-def _open_to_others(folder: Path) -> str | None:
-    """Why code in a folder may be somebody else's, in words; None for one that is the user's alone."""
-    if not folder.is_absolute():
-        return "which is no absolute path"
-    try:
-        found = folder.stat()
-    except OSError:
-        return None  # nothing can be read there
-    if found.st_uid != os.geteuid():
-        return f"which belongs to user {found.st_uid}"
-    return (
-        f"which others may write (mode {found.st_mode & 0o777:o})"
-        if found.st_mode & 0o022
-        else None
-    )
-
-
-def _ours(path: Path) -> bool:
-    """Whether this user has made the file."""
-    return path.stat().st_uid == os.geteuid()
+    folder = Path(named or user_cache_path("biped_adrc", appauthor=False))
+    return folder if folder.is_absolute() else _temporary()
 
 
 def key_of(source: str) -> str:
@@ -245,32 +203,29 @@ def load_source(source: str) -> ModuleType:
         path = _written(cache_folder() / key / "kernels.py", source)
     except (OSError, OutputError):
         path = _written(_temporary() / key / "kernels.py", source)
-    _remove_unsealed(path.parent)
+    _remove_damaged(path.parent)
     module = ModuleType(f"biped_adrc_kernels_{key}")
     module.__file__ = str(path)
     sys.modules[module.__name__] = module  # numba finds the module of its machine code by name
-    exec(compile(source, path, "exec"), vars(module))  # not from a .pyc, which nobody checks
+    exec(compile(source, path, "exec"), vars(module))
     return module
 
 
-def seal(module: ModuleType) -> None:
-    """Note the checksums of what numba has written for a module, once it is compiled; where that is
-    possible.
-    """
+def note_checksums(module: ModuleType) -> None:
+    """Write the checksums of what numba keeps of a module, once it is compiled, where that is possible."""
     for path in _machine_code(Path(str(module.__file__)).parent):
-        check = _checksum(path)
-        mark = path.with_name(path.name + MARK)
-        if not (mark.is_file() and mark.read_text() == check):
-            with suppress(OSError, OutputError):
-                write_text(mark, check)
+        with suppress(OSError, OutputError):  # another process may remove it
+            check, mark = _checksum(path), path.with_name(path.name + MARK)
+            if not (mark.is_file() and mark.read_bytes() == check):
+                write_bytes(mark, check)
 
 
-def _remove_unsealed(folder: Path) -> None:
+def _remove_damaged(folder: Path) -> None:
     """Remove numba's files without the right checksum."""
     for path in _machine_code(folder):
         mark = path.with_name(path.name + MARK)
         with suppress(OSError):
-            if not (_ours(path) and mark.is_file() and mark.read_text() == _checksum(path)):
+            if not (mark.is_file() and mark.read_bytes() == _checksum(path)):
                 path.unlink()
 
 
@@ -279,9 +234,9 @@ def _machine_code(folder: Path) -> list[Path]:
     return [path for path in (folder / "__pycache__").glob("*.nb[ic]") if path.is_file()]
 
 
-def _checksum(path: Path) -> str:
+def _checksum(path: Path) -> bytes:
     """Of name and content, so that exchanged files are noticed too."""
-    return hashlib.sha256(path.name.encode() + path.read_bytes()).hexdigest()
+    return hashlib.sha256(path.name.encode() + path.read_bytes()).hexdigest().encode()
 
 
 def forget(module: ModuleType) -> None:

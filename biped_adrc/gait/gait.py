@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,7 +21,7 @@ from typing import TypedDict
 import numpy as np
 
 from biped_adrc.errors import GaitError, check_positive
-from biped_adrc.files import output_path, reading, write_text
+from biped_adrc.files import CONTROL, output_path, reading, write_text
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import curve_kind
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
@@ -185,8 +186,10 @@ class Gait(Shown):
 
     @property
     def file_name(self) -> str:
-        """What its file is called. Raises GaitError for a name that would lead into another folder."""
+        """What its file is called. Raises GaitError for a name that no file may have, or that is a path."""
         name = f"{self.name}-{self.preset}.json"
+        if CONTROL.search(name):
+            raise GaitError(f"{name!r} is no name of a file; say where to write the gait")
         if name != Path(name).name:
             raise GaitError(
                 f"gait '{self.name}', preset '{self.preset}', has a name that is a path; say where to write it"
@@ -256,7 +259,7 @@ def load_gait(gait: str | Path, biped: Biped) -> Gait:
     if path.suffix.lower() != ".json":
         robot, preset = biped.description.name, biped.preset
         path = data_folder("gaits") / robot / f"{gait}-{preset}.json"
-        if not path.is_file():
+        if not os.path.isfile(path):
             known = list(gait_names(robot, preset))
             choose = f"choose one of {known}" if known else "none is stored: design one"
             raise GaitError(

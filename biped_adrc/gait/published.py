@@ -15,6 +15,7 @@ that file.
 
 from __future__ import annotations
 
+import os
 import tomllib
 from dataclasses import dataclass
 
@@ -55,7 +56,7 @@ def passive_cycle(biped: Biped) -> PassiveCycle:
     """
     robot, preset = biped.description.name, biped.preset
     own = biped.description.urdf.parent / f"{preset}.toml"
-    path = own if own.is_file() else data_folder("gaits") / robot / f"{preset}.toml"
+    path = own if os.path.isfile(own) else data_folder("gaits") / robot / f"{preset}.toml"
     if not path.is_file():
         raise GaitError(
             f"no walking cycle without motors is stored for robot '{robot}', preset '{preset}': there is no "

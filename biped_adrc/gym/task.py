@@ -66,9 +66,7 @@ class LearnerTask(Shown):
             )
         if s.fine is not None:
             raise InputError(f"steps of a sample have one length; leave out fine = {s.fine:g} s")
-        mine = [
-            x for x in ("controller", *OF_CONTROLLER, "contact", "double_support") if s.given(x)
-        ]
+        mine = [x for x in ("controller", *OF_CONTROLLER, "contact") if s.given(x)]
         if self.action == TORQUES and mine:
             raise InputError(
                 f"{', '.join(mine)} would do nothing where the action is all of the torque; leave it out, or "

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from biped_adrc.errors import BipedError, InputError, OutputError
-from biped_adrc.files import output_path, write_bytes, write_text
+from biped_adrc.files import check_place, check_regular, output_path, write_bytes, write_text
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 
@@ -51,6 +51,7 @@ def run_files(path: Path | str) -> tuple[Path, Path]:
 
 def check_beside(path: Path) -> None:
     """Raise OutputError where the .json of a run would take the place of something else, such as a gait."""
+    check_place(path)
     try:
         record = json.loads(path.read_text(encoding="utf-8"))
         ours = isinstance(record, dict) and record.get("format") == FORMAT
@@ -121,16 +122,14 @@ def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: number
     Raises InputError for a file that is missing, damaged or of another format.
     """
     with reading_run(path):
-        if not Path(path).is_file():
+        check_regular(path, "it", InputError)
+        if not os.path.isfile(path):
             raise InputError("not found")
         with np.load(io.BytesIO(_zipped(Path(path))), allow_pickle=False) as data:
             meta = json.loads(str(data["meta"]))
             if meta["format"] != FORMAT:
                 raise InputError(f"it has format '{meta['format']}', expected '{FORMAT}'")
-            whole = meta["status"] != Status.NOT_FINITE.name
-            arcs = tuple(
-                _arc(data, i, event, mode, whole) for i, event in enumerate(meta["events"])
-            )
+            arcs = tuple(_arc(data, i, event, mode) for i, event in enumerate(meta["events"]))
             _check_order(arcs)
             if not arcs or f"t{len(arcs)}" in data:
                 raise ValueError(f"there are events of {len(arcs)} arcs")
@@ -186,12 +185,9 @@ def _arc(
     i: int,
     event: Mapping[str, Any] | None,
     mode: Callable[..., object],
-    whole: bool,
 ) -> Arc:
     """Arc i of the arrays in a file, with its event as noted in the JSON. Raises ValueError for
     what does not fit.
-
-    whole: every state is finite; older versions kept the last one of a run that was NOT_FINITE.
     """
     found = None
     if event is not None:
@@ -201,7 +197,7 @@ def _arc(
     mark = f"read{i}_"
     read = {name.removeprefix(mark): data[name] for name in data if name.startswith(mark)}
     arc = Arc(mode(*numbers), data[f"t{i}"], data[f"x{i}"], data[f"dx{i}"], found, read)
-    _check_arc(arc, f"arc {i}", whole)
+    _check_arc(arc, f"arc {i}")
     return arc
 
 
@@ -215,7 +211,7 @@ def _check_order(arcs: Sequence[Arc]) -> None:
             raise ValueError(f"arc {i} ends at {arc.t[-1]} s, its event is at {arc.event.t} s")
 
 
-def _check_arc(arc: Arc, name: str, whole: bool) -> None:
+def _check_arc(arc: Arc, name: str) -> None:
     """Raise ValueError for times (K,) that go back, rows and states that do not fit, and what is no number."""
     t, x, event = arc.t, arc.x, arc.event
     parts: dict[str, Stored | None] = {"t": t, "x": x, "x'": arc.dx, **arc.read}
@@ -223,7 +219,7 @@ def _check_arc(arc: Arc, name: str, whole: bool) -> None:
     for key, values in parts.items():
         if values is not None and values.dtype.kind != "f":
             raise ValueError(f"{name} has {key} of type {values.dtype}, expected floating point")
-        if values is not None and whole and key not in arc.read and not np.isfinite(values).all():
+        if values is not None and key not in arc.read and not np.isfinite(values).all():
             raise ValueError(f"{name} has {key} with NaN or infinity")
     if t.ndim != 1 or len(t) == 0 or not np.all(np.isfinite(t)) or np.any(np.diff(t) < 0.0):
         raise ValueError(f"{name} has no times t (K,) that ascend")

@@ -8,7 +8,6 @@
 - `derivatives` of accelerations and of the impact with respect to the state
 - `physical`    checks that a robot read from a file can be computed with
 - `model_errors` relative errors of masses, COMs, inertias and friction
-- `arm`         a fully actuated arm on a fixed base, for the same controllers
 
 Nothing here knows of time, controllers or simulation; `closed_loop` and `engine` build on it.
 """

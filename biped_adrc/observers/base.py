@@ -133,8 +133,6 @@ class ObserverLaws(NamedTuple):
     """predict(k, Z, input) -> Z one period later."""
     obstacle: str = ""
     """Why these run in Python only; empty where they compile."""
-    freeze: Callable[..., Array] | None = None
-    """freeze(k, Z, new) -> `new` with the disturbance and its derivatives of Z."""
 
     @property
     def functions(self) -> ObserverLaws:

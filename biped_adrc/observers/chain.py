@@ -71,11 +71,6 @@ def chain_reset(k: Chain, policy: int, Z: Array, swap: Array, x: Estimate) -> Ar
     return swapped
 
 
-def chain_freeze(k: Chain, Z: Array, new: Array) -> Array:
-    """`new` (m + 2, p) with the rows of xi^ and its derivatives from Z."""
-    return np.concatenate((new[:2], Z[2:]))
-
-
 def chain_laws(
     k: Chain,
     flow: Callable[..., Array] | None = None,
@@ -86,8 +81,7 @@ def chain_laws(
 
     They take and give Z (m + 2, p), as `ObserverLaws` says.
     """
-    given = chain_state, chain_estimate, chain_reset, flow, correct, predict
-    return ObserverLaws(k, *given, freeze=chain_freeze)
+    return ObserverLaws(k, chain_state, chain_estimate, chain_reset, flow, correct, predict)
 
 
 # -- what is asked of poles ----------------------------------------------------------------------

@@ -104,11 +104,6 @@ def momentum_reset(k: Chain, policy: int, Z: Array, swap: Array, x: Estimate) ->
     return swapped
 
 
-def momentum_freeze(k: Chain, Z: Array, new: Array) -> Array:
-    """`new` (k, n) with the rows of r and its derivatives from Z."""
-    return np.concatenate((new[:1], Z[1:]))
-
-
 @dataclass(frozen=True)
 class MomentumChain(Observer):
     """What both forms of the observer share: poles (k,) [rad/s] of the continuous form, scale [rad/s].
@@ -163,7 +158,6 @@ class MomentumObserver(MomentumChain):
             momentum_estimate,
             momentum_reset,
             flow=momentum_flow,
-            freeze=momentum_freeze,
         )
 
     def sampled(self, period: float) -> SampledMomentumObserver:
@@ -207,7 +201,6 @@ class SampledMomentumObserver(MomentumChain):
             momentum_reset,
             correct=gpi_correct,
             predict=gpi_predict,
-            freeze=momentum_freeze,
         )
 
 

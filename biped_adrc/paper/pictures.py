@@ -1,8 +1,7 @@
-"""The figures of the reproduction, drawn in several processes and written as PNG, SVG and numbers.
+"""The figures of the reproduction, drawn in several processes and written as PNG and SVG.
 
-Drawing takes longer than some of the runs, so each figure is a task of `campaign.pool`. Each figure is written
-with the numbers that it shows as JSON, by which tests and readers can check it without reading pixels. What is
-drawn comes from `viz`; this module only chooses the data. Called by `paper.reproduction`.
+Drawing takes longer than some of the runs, so each figure is a task of `campaign.pool`. What is drawn comes
+from `viz`; this module only chooses the data. Called by `paper.reproduction`.
 """
 
 from __future__ import annotations
@@ -12,14 +11,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from biped_adrc.campaign.pool import Task, run_tasks
-from biped_adrc.files import write_bytes, write_text
+from biped_adrc.files import write_bytes
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.model.biped import Biped
 from biped_adrc.paper.figures import push_window
 from biped_adrc.paper.pair import CONTROLLERS
 from biped_adrc.paper.plan import Plan
 from biped_adrc.paper.results import Results
-from biped_adrc.viz.figure_numbers import as_text, numbers_of
 from biped_adrc.viz.from_the_side.robot_figure import robot_figure
 from biped_adrc.viz.plots import figures
 from biped_adrc.viz.plots.push_map import push_map_figure
@@ -30,20 +28,19 @@ if TYPE_CHECKING:
 
 
 def draw_all(plan: Plan, r: Results, out: Path, workers: int | None = None) -> dict[str, str]:
-    """Write every figure to `out` as .png, .svg and .json; returns the SVG text by name, for the report."""
+    """Write every figure to `out` as .png and .svg; returns the SVG text by name, for the report."""
     named = pictures(plan, r)
     drawn = run_tasks(list(named.values()), workers)
     found = {}
     for name, picture in zip(named, drawn, strict=True):
-        png, svg, numbers = picture.value
+        png, svg = picture.value
         write_bytes(out / f"{name}.png", png)
         write_bytes(out / f"{name}.svg", svg)
-        write_text(out / f"{name}.json", numbers)
         found[name] = svg.decode("utf-8")
     return found
 
 
-def pictures(plan: Plan, r: Results) -> dict[str, Task[tuple[bytes, bytes, str]]]:
+def pictures(plan: Plan, r: Results) -> dict[str, Task[tuple[bytes, bytes]]]:
     """The figures of the paper and beyond, by file name, each as a task that draws it.
 
     figure1 (the robot), figure4 to figure6 (the pushed walks) are those of the paper; the others show what it
@@ -82,9 +79,9 @@ def draw_robot(preset: str) -> Figure:
     return robot_figure(Biped.load("rabbit", preset))
 
 
-def rendered(draw: Callable[..., Figure], *arguments: object) -> tuple[bytes, bytes, str]:
-    """A figure as PNG and as SVG, laid out once so that both are alike, and the numbers it shows as JSON."""
+def rendered(draw: Callable[..., Figure], *arguments: object) -> tuple[bytes, bytes]:
+    """A figure as PNG and as SVG, laid out once so that both are alike."""
     figure = draw(*arguments)
     figure.draw_without_rendering()
     figure.set_layout_engine("none")
-    return render(figure, "png"), render(figure, "svg"), as_text(numbers_of(figure))
+    return render(figure, "png"), render(figure, "svg")

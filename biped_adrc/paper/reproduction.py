@@ -23,8 +23,7 @@ from biped_adrc.analysis.regression import Regression
 from biped_adrc.campaign.pool import TaskProgress, run_tasks
 from biped_adrc.checks import Check
 from biped_adrc.control.tracking import TABLE_II
-from biped_adrc.errors import OutputError
-from biped_adrc.files import check_place, plain, write_text
+from biped_adrc.files import check_folder, check_place, plain, write_text
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper import verdicts
@@ -146,13 +145,13 @@ def _checks(plan: Plan, r: Results) -> list[Check]:
 def probe(out: Path) -> None:
     """Make the folder and try to write in it, since the runs take minutes.
 
-    Raises OutputError, also where a file there that may be written over is a link or a device.
+    Raises InputError for what is no folder, and OutputError, also where a file there that may be written over
+    is a link or a device.
     """
+    check_folder(out)
     marker = out / ".writable"
     write_text(marker, "")
     marker.unlink()
-    if not out.is_dir():
-        raise OutputError(f"'{out}' is not a folder; choose another with --out")
     for path in out.iterdir():
         if path.suffix in WRITTEN:
             check_place(path)

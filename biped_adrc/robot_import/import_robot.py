@@ -33,7 +33,6 @@ every COM lies a ball of steel with the mass of the body, r = (3 m / (4 pi rho))
 
 from __future__ import annotations
 
-import json
 import math
 import re
 from collections.abc import Iterator, Mapping
@@ -42,7 +41,7 @@ from pathlib import Path
 
 from biped_adrc.checks import Check
 from biped_adrc.errors import ModelError, OutputError
-from biped_adrc.files import write_text
+from biped_adrc.files import toml_key, toml_value, write_text
 from biped_adrc.model.biped import Biped
 from biped_adrc.robot_import.anatomy import Anatomy, anatomy
 from biped_adrc.robot_import.import_checks import checks
@@ -203,23 +202,10 @@ def _lines(table: Mapping[str, object], path: tuple[str, ...]) -> Iterator[str]:
     values = {key: value for key, value in table.items() if not isinstance(value, Mapping)}
     tables = {key: value for key, value in table.items() if isinstance(value, Mapping)}
     if path and values:
-        yield f"\n[{'.'.join(_key(part) for part in path)}]"
-    yield from (f"{_key(key)} = {_value(value)}" for key, value in values.items())
+        yield f"\n[{'.'.join(map(toml_key, path))}]"
+    yield from (f"{toml_key(key)} = {toml_value(value)}" for key, value in values.items())
     for key, value in tables.items():
         yield from _lines(value, (*path, key))
-
-
-def _key(key: str) -> str:
-    """A key as TOML writes it, in quotes unless it is bare."""
-    bare = key.isascii() and key.replace("_", "").replace("-", "").isalnum()
-    return key if bare else json.dumps(key, ensure_ascii=False)
-
-
-def _value(value: object) -> str:
-    """A string, number or list as TOML writes it."""
-    if isinstance(value, list):
-        return f"[{', '.join(_value(item) for item in value)}]"
-    return json.dumps(value, ensure_ascii=False)
 
 
 @dataclass(frozen=True)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
 from biped_adrc.errors import ModelError
+from biped_adrc.files import check_regular
 
 DEEPEST, MOST_LINKS = 50, 200
 """Of elements inside one another, and links of a robot."""
@@ -14,7 +16,8 @@ DEEPEST, MOST_LINKS = 50, 200
 def parse(path: Path | str) -> ET.Element:
     """The element <robot> of a URDF file, as it stands. Raises ModelError."""
     path = Path(path)
-    if not path.is_file():
+    check_regular(path, f"URDF '{path}'", ModelError)
+    if not os.path.isfile(path):
         raise ModelError(f"URDF '{path}' not found; give the path of an existing .urdf file")
     try:
         root = ET.fromstring(path.read_bytes(), ET.XMLParser(target=_Shallow()))
@@ -52,7 +55,7 @@ def expanded(path: Path) -> ET.Element:
         robot = parse(path)
         macros = path.suffix == ".xacro" or any("xacro}" in element.tag for element in robot.iter())
     except ModelError:
-        if not path.is_file() or b"<xacro:" not in path.read_bytes():
+        if not os.path.isfile(path) or b"<xacro:" not in path.read_bytes():
             raise
         macros = True
     if macros:

@@ -7,7 +7,6 @@ Where each argument comes from, by its name:
     observer                                        from the observer's name, poles, bandwidth and order
     reset, solve_theta, torque_limit                the scenario's values of these names
     inner, window                                   of a policy across contact: the controller, contact_window
-                                                    or double_support_window
     inner, and the entry's name                     of an entry `[around]` of the registry: the controller, and
                                                     the scenario's number of that name
     everything else                                 from `Scenario.own`
@@ -45,8 +44,6 @@ OF_OBSERVER = ("observer", "poles", "bandwidth", "order")
 """Fields of a scenario from which `observer` is made."""
 OF_CONTROLLER = (*GAINS, *OF_OBSERVER, "reset", "solve_theta")
 """Fields of a scenario that are for the controller alone; a value that it does not take is an error."""
-POLICIES = ("contact", "double_support")
-"""Fields that name a policy across contact, the inner one first."""
 OF_CONTACT = ("inner", "window")
 """Arguments of a policy across contact that are the controller, and `contact_window`."""
 CONTEXT = ("reference", "gait", "biped", "outputs")
@@ -100,8 +97,7 @@ class ControllerMaker:
         if (
             not outer
         ):  # an outer loop goes around the policies: its state does not begin anew at a touchdown
-            for chosen_by in POLICIES:
-                made = self._across_contact(chosen_by, made)
+            made = self._across_contact(made)
             for name in REGISTRY["around"]:
                 made = self._around(name, made)
         return made
@@ -116,18 +112,18 @@ class ControllerMaker:
         given = {**self._context(), **own, "inner": inner, name: number}
         return construct(f"{name} = {number:g}", make, given, Controller)
 
-    def _across_contact(self, chosen_by: str, inner: Controller) -> Controller:
-        """The policy across contact that this field names, around a controller; itself where there is none."""
-        name, window = getattr(self.s, chosen_by), getattr(self.s, f"{chosen_by}_window")
+    def _across_contact(self, inner: Controller) -> Controller:
+        """The policy across contact of the scenario, around a controller; itself where there is none."""
+        name, window = self.s.contact, self.s.contact_window
         if name is None:
             return inner
         make, own = find("contact", name).load(), self._own((*CONTEXT, *OF_CONTACT))
         given = {**self._context(), "inner": inner, **own}
         if window is not None:
             given["window"] = window
-            self.used |= {f"{chosen_by}_window"} if "window" in takes(make) else set()
+            self.used |= {"contact_window"} if "window" in takes(make) else set()
         self._seen(make, (), own)
-        what = f"{chosen_by} '{name}'"
+        what = f"contact '{name}'"
         return construct(what, make, given, AcrossContact)  # type: ignore[type-abstract]
 
     def _own(self, given: Container[str]) -> dict[str, object]:
@@ -270,7 +266,7 @@ def controller(s: Scenario, gait: Gait, biped: Biped, others: set[str] | None = 
             raise InputError(f"own value '{name}' of controller '{s.controller}': {found}")
     idle = [
         name
-        for name in (*OF_CONTROLLER, *(f"{policy}_window" for policy in POLICIES))
+        for name in (*OF_CONTROLLER, "contact_window")
         if getattr(s, name) != DEFAULTS[name] and name not in maker.used
     ]
     if idle:

@@ -56,7 +56,7 @@ class Outcome(Shown):
     method: str
     """Integration method, with its step."""
     engine: str
-    """The engine that ran, "compiled" or "pinocchio"; "unknown" in runs of version 0.1."""
+    """The engine that ran, "compiled" or "pinocchio"; "unknown" for a run that does not say."""
     half: Outcome | None = None
     """The same run with every step half as long; its own half is None."""
     slip: float | None = None

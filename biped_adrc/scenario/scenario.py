@@ -65,7 +65,6 @@ NAMED = {
     "controller": "controller",
     "observer": "observer",
     "contact": "contact",
-    "double_support": "contact",
     "sensor": "sensor",
     "touchdown": "touchdown",
     "push": "disturbance",
@@ -81,7 +80,7 @@ OF_RIGID = ("method", "h", "fine", "impact_error")
 OF_SAMPLING = (
     *("delay", "delay_known", "counts", "noise", "pitch_noise", "rate_noise"),
     *("velocity", "filter_time", "sensor", "rate_limit", "lag", "contact"),
-    *("double_support", "touchdown", "prediction"),
+    *("touchdown", "prediction"),
 )
 """Fields that have an effect in sampled time only."""
 FREE = ("adaptive", "stiff")
@@ -127,8 +126,6 @@ class Scenario(Shown):
     reset: str = "model"
     contact: str | None = None
     contact_window: float | None = None
-    double_support: str | None = None
-    double_support_window: float | None = None
     prediction: float = 0.0
     feedforward: float = 0.0
     solve_theta: bool = True
@@ -294,8 +291,6 @@ class Scenario(Shown):
             "fine with a touchdown": self.touchdown is not None and self.fine is not None,
             "a contact_window without contact": self.contact is None
             and self.contact_window is not None,
-            "a double_support_window without double_support": self.double_support is None
-            and self.double_support_window is not None,
             "delay_known with a prediction, which tells the observer of the delay": self.delay_known
             and self.prediction > 0.0,
             "poles and an order": self.poles is not None and self.order is not None,

@@ -3,8 +3,7 @@
 Robot and gait are in the file as they were, so that neither the working directory nor later changes of their
 files matter. Reading a file imports no code of the user's: for a controller that is not at hand a stand-in
 takes its place, and the signals, which are then in the file, are used as they are. A stored walk is checked
-before it is handed over (`_check`), so that a damaged file is noticed on reading. Files of version 0.1 are read
-too.
+before it is handed over (`_check`), so that a damaged file is noticed on reading.
 
 Entries of the file, beside the trajectory that `hybrid.storage` writes:
 
@@ -19,7 +18,7 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -31,20 +30,15 @@ from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import Gait
-from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid import storage
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.build import RobotAndGait, build
-from biped_adrc.scenario.controllers import OF_OBSERVER
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.scenario.registry import read_from_a_file
-from biped_adrc.scenario.scenario import FREE, Scenario
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walker_record import MissingPart, PartRecord, Reader, Writer, home_of
 from biped_adrc.types import Array
 from biped_adrc.versions import versions
-
-_V = TypeVar("_V")
 
 
 class AbsentController(MissingPart, Controller):
@@ -104,9 +98,12 @@ def load_walk(path: Path | str, controller: object = None) -> Walk:
     trajectory = storage.load(path, _mode)
     beside = storage.load_beside(path)
     with storage.reading_run(path), read_from_a_file():
-        found = (
-            _stored(trajectory, beside, controller) if "walker" in beside else _of_0_1(trajectory)
-        )
+        if "walker" not in beside:
+            raise InputError(
+                "it does not say which robot, gait and controller it is of; runs written by Walk.save, "
+                "'biped-adrc simulate' and 'reproduce' do"
+            )
+        found = _stored(trajectory, beside, controller)
         _check(found)
     return found
 
@@ -214,40 +211,6 @@ def replay(s: Scenario, trajectory: Trajectory) -> Walk:
     """The walk of a trajectory that another process simulated: its walker is built again from the scenario."""
     scene = RobotAndGait.of(s)
     return watched(build(s, scene), scene.gait, trajectory, s)
-
-
-def _of_0_1(trajectory: Trajectory) -> Walk:
-    """The walk of a file of version 0.1, which only names its robot and gait: they are loaded as they are now.
-
-    Raises InputError for a file that names neither.
-    """
-    settings = trajectory.settings
-    try:
-        if "passive" in settings:
-            record = settings["passive"]
-            known = passive_cycle(Biped.load(record["robot"], record["preset"]))
-            beside = {"robot": record["robot"], "preset": record["preset"]}
-            slope = float(record["slope"]) - known.slope
-            return replay(Scenario("passive", slope=slope, **beside), trajectory)
-        if "run" in settings:
-            return replay(Scenario(**values_of_0_1(settings["run"])), trajectory)
-    except (KeyError, TypeError, ValueError) as error:
-        raise InputError(
-            f"it is of version 0.1 and cannot be read: {error}; walk it again with "
-            "'biped-adrc simulate'"
-        ) from error
-    raise InputError(
-        "it does not say which robot, gait and controller it is of; runs written by Walk.save, "
-        "'biped-adrc simulate' and 'reproduce' do"
-    )
-
-
-def values_of_0_1(record: Mapping[str, _V]) -> dict[str, _V]:
-    """Values of a run of version 0.1 without those that had no effect then, which a scenario refuses now."""
-    idle = {"store_every", "poles" if record.get("bandwidth") else "order"}
-    idle |= {*OF_OBSERVER, "reset"} if record.get("controller") == "NPD" else set()
-    idle |= set() if record.get("method") in FREE else {"tolerance"}
-    return {name: x for name, x in record.items() if name not in idle}
 
 
 def load_walks(paths: Sequence[Path]) -> dict[str, Walk]:

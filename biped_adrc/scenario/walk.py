@@ -60,7 +60,7 @@ this step gives its peak within 0.2 %, one of 1 ms is wrong by a factor of five.
 
 
 HARDWARE_STEP = 2.5e-4
-"""[s] of RK4 behind sensors, motors or a torque limit. Of 200 random walks (docs/robustness.md) 191 have the
+"""[s] of RK4 behind sensors, motors or a torque limit. Of 200 random walks 191 have the
 same results at a quarter of it; of those at 1 ms, 176."""
 STABLE = 2.5
 """Largest |lambda| h of RK4 [1], which is stable up to 2.78 on the real axis."""

@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from biped_adrc.errors import InputError
-from biped_adrc.files import output_path, write_text
+from biped_adrc.files import one_line, output_path, write_text, xml_comment
 from biped_adrc.gait.gait import Gait
 from biped_adrc.parts import check_part
 from biped_adrc.robots.urdf import Visual
@@ -63,7 +63,7 @@ def mjcf(plant: MuJoCoPlant, gait: Gait | None = None) -> str:
             "expected a plant without them"
         )
     spec = floating_spec(plant.biped, plant.ground, plant.slope, plant.h)
-    spec.modelname = plant.biped.description.name
+    spec.modelname = one_line(plant.biped.description.name)
     root = ET.fromstring(spec.to_xml())
     _with_all_digits(root, plant.model)
     for body in root.iter("body"):
@@ -141,7 +141,7 @@ def _comment(plant: MuJoCoPlant) -> str:
         f"under a foot at rest: {surface:.3g} N/m at the surface, {deep:.3g} N/m from 1 mm on",
         f"written by {made}; BSD-3-Clause, without any warranty",
     )
-    return "\n".join(lines).replace("--", "- -")
+    return "\n".join(map(xml_comment, lines))
 
 
 def _text(numbers: float | Iterable[float]) -> str:

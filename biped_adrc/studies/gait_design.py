@@ -10,7 +10,6 @@ walks (`design_recipe_orbit`): the fixed point of the closed loop, since its imp
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -24,6 +23,7 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.columns import columns
 from biped_adrc.control.npd import NPDController
 from biped_adrc.errors import GaitError, InputError, SimulationError
+from biped_adrc.files import read_json
 from biped_adrc.gait.design.ipopt import IpoptProgress
 from biped_adrc.gait.design.optimise import Optimum, optimise
 from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits
@@ -238,8 +238,8 @@ class GaitLibrary(Shown):
 def _robot_of(path: Path) -> str:
     """Name of the robot in a gait file; empty where the file has none or cannot be read."""
     try:
-        return str(json.loads(path.read_text(encoding="utf-8")).get("robot", ""))
-    except (OSError, ValueError, AttributeError):
+        return str(read_json(path, "gait file").get("robot", ""))
+    except (InputError, AttributeError):
         return ""
 
 

@@ -26,14 +26,14 @@ from pathlib import Path
 from biped_adrc.bench.build import case, files_of, hashes, own_of_study, plants_of_study
 from biped_adrc.bench.parameters import trial
 from biped_adrc.bench.study import SEED, Named, Study
-from biped_adrc.bench.sweep import RESULTS, check_folder
+from biped_adrc.bench.sweep import RESULTS
 from biped_adrc.campaign.chunk import Function
 from biped_adrc.campaign.execute import Progress
 from biped_adrc.campaign.store import About
 from biped_adrc.campaign.store_open import open_store
 from biped_adrc.campaign.workers import Kept, Workers, workers_of
 from biped_adrc.errors import BipedError, InputError
-from biped_adrc.files import write_text
+from biped_adrc.files import check_folder, write_text
 from biped_adrc.tuning.candidate import (
     Candidate,
     NoneKeepsLimits,

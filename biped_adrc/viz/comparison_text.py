@@ -1,8 +1,7 @@
-"""The tables and sentences of a comparison of controllers as plain text.
+"""The tables of a comparison of controllers as plain text.
 
 `biped-adrc compare` writes a summary (plain values, summary.json); this module turns its entries
-into rows of text. `viz.pages` puts them on the HTML page and `docs/write_comparison.py` into the
-documentation, so that both say the same.
+into rows of text, which `viz.pages` puts on the HTML page.
 
 Shares of walks and medians come as [value, low, high] with a confidence interval of 95 %, and are
 None where no walk is left to take them of. Headings and words are in comparison.toml.
@@ -35,27 +34,10 @@ SHARES: tuple[str, ...] = (*TEXTS["columns"]["shares"], *NEEDS.values())
 """Headings of the first table, by `share_texts`; the needs are its last columns."""
 MEDIANS: tuple[str, ...] = (*TEXTS["columns"]["medians"], *MEASURES.values())
 """Headings of the second table, by `median_texts`."""
-PUSHES: tuple[str, ...] = tuple(TEXTS["columns"]["pushes"])
-"""Headings of the table of largest pushes [N m], by `push_texts`."""
 SETTINGS: tuple[str, ...] = tuple(TEXTS["columns"]["settings"])
 """Headings of the table of tuned settings, by `setting_texts`."""
 UNDER: tuple[str, ...] = tuple(TEXTS["columns"]["conditions"])
 """Headings of the table of conditions, by `condition_texts`."""
-EQUAL: tuple[str, ...] = tuple(TEXTS["columns"]["equal"])
-"""Headings of the table of observers at equal bandwidth, by `equal_texts`."""
-EQUAL_FAMILY = "equal_bandwidth"
-"""Name of the findings about observers at equal bandwidth; the others are about controllers at their
-own settings.
-"""
-
-
-def said(summary: PlainRecord, equal: bool) -> list[str]:
-    """The sentences of the findings: those about observers at equal bandwidth, or all others.
-
-    summary: of a comparison, with "findings", a list of sentences for each family of questions.
-    """
-    families = summary["findings"].items()
-    return [line for name, lines in families if (name == EQUAL_FAMILY) == equal for line in lines]
 
 
 def interval(found: Sequence[float] | None, digits: int = 2, factor: float = 1.0) -> str:
@@ -118,24 +100,6 @@ def median_texts(cell: PlainRecord) -> list[str]:
     return [cell["condition"], who(cell), count, *(interval(cell[n]) for n in MEASURES)]
 
 
-def push_texts(push: PlainRecord) -> list[str]:
-    """A row of the largest pushes: joints, phase of the step, controller, and four ranges [N m].
-
-    The ranges are of the median and of single seeds, of walks that are legal and of those that make
-    all steps.
-    """
-    spans = [span(push[kind][of]) for kind in ("legal", "survived") for of in ("median", "seeds")]
-    at = "" if push["bandwidth"] is None else f", {push['bandwidth']:.0f} rad/s"
-    return [push["direction"], push["phase"], push["controller"] + at, *spans]
-
-
-def by_direction(pushes: Sequence[PlainRecord]) -> list[PlainRecord]:
-    """The pushes sorted by joints and phase of the step, so that controllers under the same push are
-    together.
-    """
-    return sorted(pushes, key=lambda p: (p["direction"], p["phase"]))
-
-
 def setting_texts(told: PlainRecord, places: PlainRecord) -> list[list[str]]:
     """The rows of the tuned settings: place, contestant, and its values there [SI].
 
@@ -156,37 +120,6 @@ def condition_texts(summary: PlainRecord) -> list[list[str]]:
     return [
         [name, words, places.get(name) or "as published"]
         for name, words in summary["conditions"].items()
-    ]
-
-
-def span(found: Sequence[float | None]) -> str:
-    """A range [low, high] found by bisection, as text; `high` is None where even the largest push
-    tried was passed.
-    """
-    low, high = found
-    if high is None:
-        return f"at least {low:.3g}"
-    return f"{low:.3g}" if low == high else f"{low:.3g} to {high:.3g}"
-
-
-def equal_texts(equal: Sequence[PlainRecord]) -> list[list[str]]:
-    """The rows of the observers, each at its own settings and below at equal bandwidth [rad/s].
-
-    equal: pairs of cells {"own": ..., "equal": ...} for each observer and condition.
-    """
-    order = list(dict.fromkeys(x["own"]["condition"] for x in equal))
-    ordered = sorted(equal, key=lambda x: order.index(x["own"]["condition"]))
-    return [
-        [
-            cell["condition"],
-            cell["controller"] + ("" if kind == "equal" else ", own settings"),
-            f"{cell['bandwidth']:.0f}",
-            percent(cell["survived"]),
-            percent(cell["legal"]),
-            interval(cell["peak_error"]),
-        ]
-        for x in ordered
-        for kind, cell in x.items()
     ]
 
 

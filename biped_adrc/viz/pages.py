@@ -178,7 +178,6 @@ def comparison_html(summary: PlainRecord, figures: Mapping[str, str]) -> str:
         t=t,
         shares=[t.share_texts(cell) for cell in cells],
         medians=[t.median_texts(cell) for cell in cells],
-        pushed=[t.push_texts(push) for push in t.by_direction(summary["pushes"])],
     )
 
 

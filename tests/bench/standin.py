@@ -18,7 +18,7 @@ from biped_adrc.versions import numerical_versions
 
 
 def rows(records):
-    """A row of each record; `raise` raises, `kill` ends the process, `once` does so the first time."""
+    """A row of each record; `raise` raises, `kill` ends the process, `once` and `twice` do so at first."""
     return [_row(record) for record in records]
 
 
@@ -26,7 +26,8 @@ def _row(record):
     time.sleep(record.get("pause", 0.0))
     if "raise" in record:
         raise ValueError(f"no row for {record['x']}")
-    if "kill" in record or _first_time(record.get("once")):
+    twice = record.get("twice", ())
+    if "kill" in record or _first_time(record.get("once")) or any(map(_first_time, twice)):
         os.kill(os.getpid(), signal.SIGKILL)
     x = record["x"]
     return {
@@ -36,10 +37,6 @@ def _row(record):
         "none": None,
         "text": f"µ{x}",
     }
-
-
-def die():
-    os._exit(1)
 
 
 def _first_time(path):

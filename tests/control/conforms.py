@@ -231,13 +231,12 @@ def _(outputs: Outputs):
 def _(method: OneStepMethod):
     """The same walk in both engines and both time bases, node by node where no step is chosen."""
     linear = isinstance(method, ba.Exponential)
-    observing = ba.ADRCController(gait().constraint, ba.GPIObserver.from_bandwidth(300.0))
-    table = ba.ADRCController(gait().constraint)
-    for controller in (table,) if linear else (ba.NPDController(gait().constraint), observing):
-        for timing in (ba.ContinuousTime(), ba.SampledTime(2 * PERIOD)):
-            walker = ba.Walker(robot(), controller, timing=timing, runaway_torque=np.inf)
-            if not (walker.sampled and linear):
-                walked_alike(walker, method)
+    observer = ba.GPIObserver.from_poles() if linear else ba.GPIObserver.from_bandwidth(300.0)
+    controller = ba.ADRCController(gait().constraint, observer)
+    for timing in (ba.ContinuousTime(), ba.SampledTime(2 * PERIOD)):
+        walker = ba.Walker(robot(), controller, timing=timing, runaway_torque=np.inf)
+        if not (walker.sampled and linear):
+            walked_alike(walker, method)
     assert pickle.loads(pickle.dumps(method)) == method
     assert method.label
 
@@ -246,7 +245,7 @@ def _(method: OneStepMethod):
 def _(motors: Motors):
     """The line of torques as laws, with every delay, and in the loop behind a controller."""
     random = np.random.default_rng(7)
-    for delay in (0.0, 0.4 * PERIOD, 2.0 * PERIOD, 1.3 * PERIOD):
+    for delay in (0.0, 1.3 * PERIOD):
         j, f = whole_and_part(delay, PERIOD)
         k = motors.parameters(PERIOD, f)
         sizes = (4 * j, 4 * (motors.lag > 0.0), 4 * (f > 0.0), 4)
@@ -377,27 +376,22 @@ def laws_compile(law):
                 assert np.array_equal(expected, getattr(law, name)(*rest))
         if laws.estimate is not None:
             agree(laws.estimate, k, s, m)
-        if laws.begin is not None:
-            none, w = np.zeros(4), 20.0 * random.normal(size=4)
-            assert agree(laws.begin, k, m, w).shape == s.shape
-            assert np.array_equal(laws.begin(k, m, none), law.initial_state(m))
-        if laws.freeze is not None:
-            agree(laws.freeze, k, s, random.normal(size=len(s)))
         if laws.blind is not None:
             agree(laws.output, laws.blind(k, m, 0.1 * random.normal(size=(5, 2))), s, m)
         if laws.correct_blind is not None:
             agree(laws.correct_blind, k, s, m, 0.1 * random.normal(size=(5, 2)))
 
 
-def loop_compiles(walker, states=60, ticks=0):
+def loop_compiles(walker, states=20, ticks=0):
     """The closed loop of a wrong model, pushed and limited: flow, tick, strike and watch in machine code.
 
     ticks: taken before each state is compared, so that a line of torques has something in it.
     """
     random, n, mode = np.random.default_rng(11), walker.plant.n, ba.Mode(3, 0.05)
-    q, v = gait().start(robot())
+    ends = gait().start(robot()), (gait().q_minus, gait().v_minus)
     program = struck = None
-    for _ in range(states):
+    for i in range(states):
+        q, v = ends[i % 2]
         x = walker.initial_state(*(a + 0.3 * random.normal(size=n) for a in (q, v)))
         x[2 * n :] *= 1.0 + 0.1 * random.normal(size=len(x) - 2 * n)
         for _ in range(ticks):
@@ -451,11 +445,6 @@ def estimator(observer, steps):
     assert np.array_equal(agree(laws.state, k, Estimate(y, dy, xi)).ravel(), z)
     for one, other in zip(agree(laws.estimate, k, Z), observer.estimate(Z.ravel()), strict=True):
         assert np.array_equal(one, other)
-    if laws.freeze is not None:
-        new = np.random.default_rng(5).normal(size=Z.shape)
-        mixed = laws.estimate(k, agree(laws.freeze, k, Z, new))
-        assert np.array_equal(mixed.disturbance, laws.estimate(k, Z).disturbance)
-        assert all(map(np.array_equal, mixed[:2], laws.estimate(k, new)[:2]))
     for policy in ba.ResetPolicy:
         expected = agree(laws.reset, k, policy.code, Z, SWAP, Estimate(y, dy, xi))
         assert np.array_equal(expected.ravel(), observer.reset(Z.ravel(), policy, SWAP, y, dy, xi))

@@ -6,22 +6,20 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.control.across_contact import Fade, Hold, filled
-from biped_adrc.control.base import ControllerLaws
-from biped_adrc.control.frozen_disturbance import Freeze
-from biped_adrc.control.impact_invariant import ImpactInvariant, rates_struck
-from biped_adrc.control.kept_torque import KeepTorque
+from biped_adrc.control.across_contact import Hold
+from biped_adrc.control.impact_invariant import ImpactInvariant
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.pd_gravity import PDGravityController
 from biped_adrc.errors import InputError
-from biped_adrc.observers.momentum import MomentumObserver
 from biped_adrc.scenario.build import build
+from biped_adrc.scenario.registry import find
 
 PERIOD, SWAP = 1e-3, np.array([1, 0, 3, 2])
 PUSH = ba.TorquePulse([30.0, 20.0, -10.0, 15.0, 0.0], step=2, start=0.1, stop=0.8)
 FAST = ba.GPIObserver.from_bandwidth(500.0)
-WINDOWS = (Hold, Fade, Freeze, ImpactInvariant)
+Fade = find("contact", "fade").load()
+WINDOWS = (Hold, Fade, ImpactInvariant)
 
 
 @pytest.fixture(scope="module")
@@ -80,15 +78,6 @@ def test_held_the_observer_begins_anew_at_each_tick_of_the_window(h, seen):
             assert np.array_equal(law.jump(s, m, SWAP), inner.jump(s, m, SWAP))
 
 
-def test_the_last_bit_of_a_time_does_not_lengthen_the_window(h, seen):
-    law = Hold(ba.ADRCController(h, FAST), 0.015).sampled(PERIOD)
-    m = seen(0.015)
-    assert m.t_step != 0.015
-    s = off(law, m)
-    for t_step in (0.015 - 1e-12, 0.015, 0.015 + 1e-12):
-        assert not np.array_equal(law.correct(s, m._replace(t_step=t_step)), law.initial_state(m))
-
-
 @pytest.mark.parametrize(("x", "w"), [(0.0, 0.0), (0.25, 0.15625), (0.5, 0.5), (0.75, 0.84375)])
 def test_faded_the_observer_counts_by_the_ramp(h, seen, x, w):
     for controller in inside(h):
@@ -102,72 +91,6 @@ def test_faded_the_observer_counts_by_the_ramp(h, seen, x, w):
         assert np.array_equal(law.output(s, late), inner.output(s, late))
 
 
-def test_frozen_a_chain_goes_on_as_an_observer_of_two_states(h, seen):
-    """x1^, x2^ by hand: x'' = kappa u + xi_0, and the innovation with the first two gains."""
-    controller = ba.ADRCController(h, FAST)
-    law, T = Freeze(controller, 0.01).sampled(PERIOD), PERIOD
-    L = controller.observer.sampled(T).parameters.L
-    m = seen(0.0)
-    s = law.initial_state(m)
-    x1, x2, xi = m.q_b, m.v_b, m.terms.xi
-    for tick in range(10):
-        m = seen(tick * T)
-        u = np.random.default_rng(tick).normal(size=4)
-        s = law.correct(s, m)
-        gap = m.q_b - x1
-        x1, x2 = x1 + L[0] * gap, x2 + L[1] / T * gap
-        for found, expected in zip(law.estimate(s, m), (x1, x2, xi), strict=True):
-            np.testing.assert_allclose(found, expected, rtol=1e-10)
-        s = law.predict(s, m, u)
-        a = m.terms.kappa @ u + xi
-        x1, x2 = x1 + T * x2 + 0.5 * T**2 * a, x2 + T * a
-    late = seen(0.01)
-    assert np.array_equal(law.correct(s, late), controller.sampled(T).correct(s, late))
-
-
-def test_frozen_a_momentum_observer_keeps_its_force(h, seen):
-    observer = MomentumObserver.from_bandwidth(200.0, 3)
-    law = Freeze(MomentumDOBController(h, observer), 0.01).sampled(PERIOD)
-    inner, m = law.inner, seen(0.005)
-    s = off(inner, m)
-    told = inner.observer.estimate
-    for new, run in (
-        (law.correct(s, m), inner.correct(s, m)),
-        (law.predict(s, m, m.v_b), inner.predict(s, m, m.v_b)),
-    ):
-        assert np.array_equal(told(new).disturbance, told(s).disturbance)
-        assert np.array_equal(told(new).position, told(run).position)
-        assert not np.array_equal(told(run).disturbance, told(s).disturbance)
-
-
-def test_what_is_not_the_models_goes_on_as_a_torque_on_the_same_leg(h, seen):
-    w = np.array([10.0, -20.0, 30.0, -5.0])
-    for controller in inside(h):
-        law = KeepTorque(controller).sampled(PERIOD)
-        before, after = seen(0.4), seen(0.0)
-        z = law.inner.laws.begin(law.inner.laws.parameters, before, w)
-        s = law.correct(np.concatenate((z, np.zeros(4))), before)
-        np.testing.assert_allclose(s[-4:], w, rtol=1e-7)
-        started = law.jump(s, after, SWAP)
-        assert np.array_equal(started[-4:], s[-4:][[1, 0, 3, 2]])
-        x = law.estimate(started, after)
-        expected = after.terms.xi + after.terms.kappa @ w[[1, 0, 3, 2]]
-        np.testing.assert_allclose(x.disturbance, expected, rtol=1e-7)
-        np.testing.assert_allclose(x.position, after.q_b, atol=1e-12)
-        np.testing.assert_allclose(x.velocity, after.v_b, atol=1e-9)
-        np.testing.assert_allclose(law.initial_state(after)[:-4], law.inner.initial_state(after))
-        assert not np.any(law.initial_state(after)[-4:])
-
-
-def test_a_torque_from_outside_is_cancelled_by_an_observer_that_begins_under_it(h, seen):
-    """u(w) = u(0) - w: no part of the policy's own formula. Its wrong sign would double the push."""
-    w, m = np.array([10.0, -20.0, 30.0, -5.0]), seen(0.0)
-    for controller in inside(h):
-        laws = controller.sampled(PERIOD).laws
-        u = [laws.output(laws.parameters, laws.begin(laws.parameters, m, x), m) for x in (0 * w, w)]
-        np.testing.assert_allclose(u[0] - u[1], w, rtol=1e-7)
-
-
 # -- what no impulse changes -------------------------------------------------------------------------
 def struck(m, F, landed):
     """The rates (n,) after an impulse F (2,) of the ground on the swing foot, or on the stance foot, the
@@ -177,15 +100,6 @@ def struck(m, F, landed):
     E = np.hstack((0.0 * body.J_2 if landed else body.J_2, np.eye(2)))
     jump = np.linalg.solve(D_e, E.T @ F)[:5]
     return m.v.reshape(5, *([1] * (F.ndim - 1))) + jump
-
-
-def test_rates_struck_are_those_of_the_impact_law(biped, gait):
-    random = np.random.default_rng(2)
-    for _ in range(5):
-        q, v = gait.q_minus + 0.05 * random.normal(size=5), random.normal(size=5)
-        hit, body = biped.impact(q, v), biped.body_terms(q, v)
-        after = v + rates_struck(biped.inertia(q), body, body.J_2) @ hit.impulse
-        np.testing.assert_allclose(biped.R @ after, hit.v, atol=1e-12)
 
 
 @pytest.mark.parametrize("t_step", [0.01, 0.4])
@@ -248,18 +162,6 @@ def test_the_innovation_is_blind_to_what_impulses_move(gait, h, seen):
         assert np.array_equal(law.output(s, away), law.inner.output(s, away))
 
 
-def test_the_innovation_that_no_impulse_makes_is_taken_in_whole(gait, h, seen):
-    law = ImpactInvariant(ba.ADRCController(h, FAST), rates=False, innovation=True).sampled(PERIOD)
-    m = at_the_end(seen, gait, 0.4)
-    s, a = law.initial_state(m), struck(m, np.eye(2), landed=False) - m.v[:, np.newaxis]
-    e = np.append(np.linalg.svd(a[:4])[0][:, -1], 0.0)
-    x = m._replace(q=m.q + 1e-4 * e)
-    for given in (m, x):
-        gap = np.abs(law.correct(s, given) - law.inner.correct(s, given))
-        assert np.max(gap) < 1e-9 * np.max(np.abs(s))
-    assert np.max(np.abs(law.inner.correct(s, x) - s)) > 1e-6
-
-
 def test_the_window_is_that_of_the_phase_and_of_the_touchdown(h, seen):
     law = ImpactInvariant(ba.NPDController(h), 0.02)
     s, m = np.zeros(0), seen(0.3)
@@ -273,56 +175,7 @@ def test_the_window_is_that_of_the_phase_and_of_the_touchdown(h, seen):
         assert np.array_equal(law.output(s, x), law.inner.output(s, x)) != blind
 
 
-def test_policies_go_around_policies(biped, gait, h):
-    """Held after touchdown, and blind to impulses before it: what the one leaves out the other does."""
-    law = ImpactInvariant(Hold(ba.ADRCController(h, FAST), 0.01), 0.01)
-    one, other = (walked(biped, gait, law, engine=name) for name in ("pinocchio", "compiled"))
-    assert np.max(np.abs(one.arcs[-1].x[-1][:10] - other.arcs[-1].x[-1][:10])) < 1e-9
-
-
-def test_what_cannot_be_projected_is_refused(h):
-    with pytest.raises(InputError, match="by the phase of a virtual constraint, but Passive"):
-        ImpactInvariant(ba.Passive())
-    with pytest.raises(InputError, match="has no observer"):
-        ImpactInvariant(ba.NPDController(h), innovation=True)
-    for given in ({"innovation": "no"}, {"rates": np.nan}, {"rates": 1}):
-        with pytest.raises(InputError, match=r"of ImpactInvariant is .*, expected a bool"):
-            ImpactInvariant(ba.ADRCController(h), **given)
-    with pytest.raises(InputError, match="has no rate error"):
-        ImpactInvariant(PDGravityController(h))
-
-
-def test_to_begin_anew_on_detection_is_the_reset_of_the_model_and_no_other(h, seen):
-    """For every chain; a momentum observer keeps its force, in N m, under the same name."""
-    for controller in inside(h)[:3]:
-        for policy in ba.ResetPolicy:
-            law = replace(controller, reset=policy).sampled(PERIOD)
-            after = seen(0.0)
-            same = np.array_equal(law.jump(off(law, after), after, SWAP), law.initial_state(after))
-            assert same == (policy is ba.ResetPolicy.MODEL)
-    law, after = MomentumDOBController(h).sampled(PERIOD), seen(0.0)
-    assert not np.array_equal(law.jump(off(law, after), after, SWAP), law.initial_state(after))
-
-
 # -- walks -------------------------------------------------------------------------------------------
-CASES = [
-    (policy, name)
-    for policy in (*WINDOWS, KeepTorque)
-    for name in ("m = 1", "Table I", "output", "DOB")
-    if (name == "m = 1") or (policy, name) in ((Hold, "Table I"), (KeepTorque, "DOB"))
-    or (policy, name) == (Freeze, "output")
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(("policy", "name"), CASES)
-def test_both_engines_walk_alike(biped, gait, h, policy, name):
-    inner = dict(zip(("m = 1", "Table I", "output", "DOB"), inside(h), strict=True))[name]
-    one, other = (
-        walked(biped, gait, policy(inner), engine=engine) for engine in ("pinocchio", "compiled")
-    )
-    for a, b in zip(one.arcs, other.arcs, strict=True):
-        assert np.max(np.abs(a.x[-1][:10] - b.x[-1][:10])) < 1e-9
-        assert a.t[-1] == pytest.approx(b.t[-1], abs=1e-10)
 
 
 @pytest.mark.parametrize("policy", WINDOWS)
@@ -348,105 +201,31 @@ def test_held_for_longer_than_a_step_it_is_the_law_of_the_model(biped, gait, h):
     assert np.max(np.abs(adrc - npd)) > 1e-4
 
 
-def test_a_push_that_stays_is_known_after_the_touchdown(biped, gait, h):
-    """The peak error of the 0.1 s after it, beside an observer that begins with the model's xi."""
-    push, peaks = ba.TorqueStep([20.0, 20.0, 10.0, 10.0, 0.0], step=1, start=0.1), []
-    inner = ba.ADRCController(h, ba.GPIObserver.from_bandwidth(200.0))
-    for law in (inner, KeepTorque(inner)):
-        arc = walked(biped, gait, law, push=push).arcs[1]
-        early = arc.x[arc.t < arc.t[0] + 0.1]
-        peaks.append(max(np.max(np.abs(x[:4] - h(0.0, x[:5], x[5:10]).q_d)) for x in early))
-    assert peaks[1] < 0.1 * peaks[0]
-
-
-# -- what is refused ---------------------------------------------------------------------------------
-def test_continuous_time_is_refused_by_both_engines(biped, gait, h):
-    for policy in (*WINDOWS, KeepTorque):
-        walker = ba.Walker(biped, policy(ba.ADRCController(h)))
-        for engine in ("pinocchio", "compiled"):
-            with pytest.raises(InputError, match="sampled time only; give timing=SampledTime"):
-                ba.walk(walker, gait, 1, engine=engine)
-
-
-def test_a_controller_that_was_sampled_is_refused_in_continuous_time(biped, gait, h):
-    walker = ba.Walker(biped, ba.ADRCController(h).sampled(PERIOD))
-    for engine in ("pinocchio", "compiled"):
-        with pytest.raises(InputError, match="ADRCController works in sampled time only"):
-            ba.walk(walker, gait, 1, engine=engine)
-
-
-def test_bad_windows_and_controllers_are_named(h, seen):
-    for wrong in (-0.01, np.nan, np.inf):
-        with pytest.raises(InputError, match=f"window after touchdown is {wrong} s"):
-            Hold(ba.NPDController(h), wrong)
-    for policy, words in ((Freeze, "could be frozen"), (KeepTorque, "under a torque")):
-        with pytest.raises(InputError, match=f"NPDController has no .*{words}"):
-            policy(ba.NPDController(h))
-        with pytest.raises(InputError, match="expected a Controller"):
-            policy(h)
-    m = seen(0.1)
-    with pytest.raises(InputError, match=r"call sampled\(period\)"):
-        Hold(ba.ADRCController(h)).correct(np.zeros(36), m)
-
-
-def test_what_a_controller_lacks_changes_nothing(seen):
-    laws = filled(ControllerLaws((), lambda k, s, m: s))
-    s, m = np.arange(3.0), seen(0.0)
-    assert laws.initial_state((), m).shape == (0,)
-    assert all(
-        law((), s, *rest) is s
-        for law, rest in (
-            (laws.correct, (m,)),
-            (laws.predict, (m, s)),
-            (laws.jump, (m, SWAP)),
-        )
-    )
-
-
-# -- by name -----------------------------------------------------------------------------------------
-def test_a_scenario_names_the_policy(h):
-    for name, policy in (
-        ("hold", Hold),
-        ("Fade", Fade),
-        ("freeze", Freeze),
-        ("keep-torque", KeepTorque),
-        ("impact invariant", ImpactInvariant),
+# -- what is refused, and by name ----------------------------------------------------------------------
+def test_what_does_not_fit_is_refused(biped, gait, h):
+    for make in (
+        lambda: ImpactInvariant(ba.Passive()),
+        lambda: ImpactInvariant(ba.NPDController(h), innovation=True),
+        lambda: ImpactInvariant(PDGravityController(h)),
+        lambda: Hold(ba.NPDController(h), -0.01),
+        lambda: Hold(h),
+        lambda: build(ba.Scenario("LESO", contact="hold")),
+        lambda: build(ba.Scenario("LESO", contact_window=0.01, period=PERIOD)),
+        lambda: build(ba.Scenario("LESO", contact="hodl", period=PERIOD)),
     ):
-        s = ba.Scenario("LESO", contact=name, period=PERIOD)
+        with pytest.raises(InputError):
+            make()
+    for law in (Hold(ba.ADRCController(h)), ba.ADRCController(h).sampled(PERIOD)):
+        for engine in ("pinocchio", "compiled"):
+            with pytest.raises(InputError, match="sampled time only"):
+                ba.walk(ba.Walker(biped, law), gait, 1, engine=engine)
+
+
+def test_a_scenario_names_the_policy():
+    for name, policy in (("hold", Hold), ("Fade", Fade), ("impact invariant", ImpactInvariant)):
+        s = ba.Scenario("LESO", contact=name, contact_window=0.02, period=PERIOD)
         made = build(s).controller
-        assert type(made) is policy
-        assert type(made.inner) is ba.ADRCController
+        assert (type(made), type(made.inner)) == (policy, ba.ADRCController)
+        assert made.window == 0.02
+        assert build(replace(s, contact_window=None)).controller.window == 0.015
         assert ba.Scenario(**s.record()) == s
-    s = ba.Scenario("LESO", contact="hold", contact_window=0.02, period=PERIOD)
-    assert build(s).controller.window == 0.02
-    assert build(replace(s, contact_window=None)).controller.window == 0.015
-
-
-def test_an_outer_loop_goes_around_the_policy(h):
-    s = ba.Scenario("stride PI", contact="hold", period=PERIOD, own={"inner": "LESO"}, impacts=2)
-    made = build(s).controller
-    assert type(made) is ba.StridePI
-    assert type(made.inner) is Hold
-    walks = [
-        ba.walk_scenario(x).trajectory.arcs[-1].x[-1]
-        for x in (replace(s, contact_window=0.0), replace(s, contact=None), s)
-    ]
-    assert np.array_equal(walks[0], walks[1])
-    assert not np.array_equal(walks[0], walks[2])
-
-
-@pytest.mark.parametrize(
-    ("values", "words"),
-    [
-        ({"contact": "hold"}, "contact without a period"),
-        ({"contact_window": 0.01, "period": PERIOD}, "contact_window without contact"),
-        ({"contact": "hold", "contact_window": 2.0, "period": PERIOD}, "less than or equal to 1"),
-        ({"contact": "hodl", "period": PERIOD}, "did you mean 'hold'"),
-        ({"contact": "keep torque", "contact_window": 0.01, "period": PERIOD}, "contact_window"),
-        ({"contact": "hold", "period": PERIOD, "own": {"window": 0.1}}, "from contact_window"),
-        ({"contact": "freeze", "controller": "NPD", "period": PERIOD}, "could be frozen"),
-    ],
-)
-def test_a_scenario_that_does_not_fit_is_refused(values, words):
-    with pytest.raises(InputError, match=words):
-        build(ba.Scenario(**{"controller": "LESO"} | values))

@@ -6,7 +6,7 @@ from scipy.optimize import linprog, nnls
 
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.clf_qp import CLFQPController, affine, decrease, least_norm
-from biped_adrc.errors import InputError, NotFiniteError
+from biped_adrc.errors import NotFiniteError
 
 LIMIT = 150.0
 NO_STATE = np.zeros(0)
@@ -27,28 +27,7 @@ def parts(law, m):
     return decrease(m.q_b - r.q_d, m.v_b - r.dq_d, law.epsilon), affine(r, m)
 
 
-def test_the_lyapunov_function_falls_as_it_says(biped, gait):
-    """dV/dt by differences along the plant's motion: V' <= -c V / eps, with equality for the least norm."""
-    law, h = CLFQPController(gait.constraint, **FREE, relaxation=1e9), 1e-6
-    walker, seen = Walker(biped, law), 0
-    for m in clf_states(biped, gait, 20, 0.02):
-        a = walker.instant(0.0, np.concatenate((m.q, m.v)), Mode()).a
-
-        def V(t, m=m, a=a):
-            q, v = m.q + m.v * t + 0.5 * a * t**2, m.v + a * t
-            r = gait.constraint(0.0, q, v)
-            return decrease(q[:4] - r.q_d, v[:4] - r.dq_d, law.epsilon).V
-
-        rate, bound = (V(h) - V(-h)) / (2 * h), -V(0.0) / (law.epsilon * (1 + np.sqrt(3)))
-        d, _ = parts(law, m)
-        assert rate <= bound + 1e-5 * abs(bound)
-        if d.psi_0 > 0.0:
-            seen += 1
-            assert rate == pytest.approx(bound, rel=1e-4)
-    assert seen > 0
-
-
-@pytest.mark.parametrize("spread", [1e-6, 1e-5, 1e-3, 0.02])
+@pytest.mark.parametrize("spread", [1e-6, 0.02])
 def test_the_relaxation_leaves_a_dead_zone_of_the_size_said(biped, gait, spread):
     """V' + c V / eps = psi_0 / (1 + p |psi_1|^2) along the plant's motion, by differences, default p."""
     law, h, growth, dead = CLFQPController(gait.constraint, **FREE), 1e-6, [], []
@@ -151,19 +130,3 @@ def feasible(program):
     """Whether there is a z at all, by linear programming."""
     found = linprog(np.zeros(5), program.G, program.h, bounds=(None, None), method="highs")
     return found.status == 0
-
-
-def test_bad_numbers_of_the_clf_qp_are_refused(gait):
-    for bad in ({"epsilon": 0.0}, {"friction": -1.0}, {"relaxation": np.nan}, {"epsilon": None}):
-        with pytest.raises(InputError, match=r"expected a (positive )?number"):
-            CLFQPController(gait.constraint, **bad)
-
-
-def test_a_solver_that_fails_leaves_the_torque_cut_off(biped, gait, monkeypatch):
-    monkeypatch.setattr("biped_adrc.control.clf_qp._least", lambda G, h: None)
-    law, most = CLFQPController(gait.constraint), 0.0
-    for m in clf_states(biped, gait, 40, 0.03):
-        u = law.output(NO_STATE, m)
-        assert np.all(np.isfinite(u))
-        most = max(most, np.max(np.abs(u)))
-    assert most == LIMIT

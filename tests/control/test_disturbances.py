@@ -1,7 +1,6 @@
 """Forces on links and band-limited noise: by Pinocchio's frames, by virtual work, by spectra, and compiled."""
 
 import itertools
-from dataclasses import replace
 
 import numpy as np
 import pinocchio as pin
@@ -16,7 +15,6 @@ from biped_adrc.disturbances.noise import TorqueNoise
 from biped_adrc.errors import InputError
 from biped_adrc.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.model.pinned import frame_index
-from biped_adrc.robots.robot_toml import robot_names
 from biped_adrc.scenario.build import RobotAndGait, disturbances
 from biped_adrc.scenario.disturbances import window
 from biped_adrc.scenario.push import Push
@@ -25,13 +23,6 @@ from biped_adrc.scenario.scenario import Scenario
 
 F = (12.0, -7.0, 3.0)  # [N, N, N m]
 PULSE = ba.TorquePulse(F, step=1, start=0.1, stop=0.2)
-WAVES = {
-    "pulse": PULSE,
-    "pulse with sloping edges": ba.TorquePulse(F, step=1, start=0.1, stop=0.2, rise=0.03),
-    "step": ba.TorqueStep(F, step=1, start=0.1),
-    "sine": ba.TorqueSine(F, start=0.05, stop=0.3, frequency=4.0),
-    "noise": TorqueNoise(F, bandwidth=8.0, seed=2),
-}
 
 
 def single_push(s):
@@ -55,11 +46,6 @@ def placement(biped, q, link):
     return f.data.oMf[frame_index(f.model, link)].copy()
 
 
-def turned(before, after):
-    """Angle from one placement to the next, counter-clockwise with x to the right and z up [rad]."""
-    return -pin.log3(after.rotation @ before.rotation.T)[1]
-
-
 # -- windows ---------------------------------------------------------------------------------------
 def test_windows_close_where_they_say():
     pulse = ba.TorquePulse([1.0, 2.0, 3.0, 4.0, 5.0], step=2, start=0.1, stop=0.2)
@@ -78,39 +64,8 @@ def test_windows_close_where_they_say():
     assert np.array_equal(total.torque(1.15, 2, 1.0, q, q), expected)
 
 
-def test_a_torque_of_ones_own_is_amplitude_times_profile_in_its_window():
-    class Parabola(ba.WindowedTorque):
-        """A torque that grows with the square of time."""
-
-        def profile(self, s):
-            return s * s
-
-    q, inside, outside = np.zeros(3), ((1.5, 0.04), (1.5 + 0.3, 0.25)), (1.0, 1.29, 1.9, 2.5)
-    made = Parabola(F, step=2, start=0.3, stop=0.9)
-    for t, share in inside:
-        assert made.torque(t, 2, 1.0, q, q) == pytest.approx(share * np.array(F), rel=1e-12)
-    assert not any(np.any(made.torque(t, 2, 1.0, q, q)) for t in outside)
-    assert not np.any(made.torque(1.5, 1, 1.0, q, q))
-    assert made.switching_times(2, 1.0) == (1.3, 1.9)
-
-
-@pytest.mark.parametrize("kind", [ba.TorquePulse, ba.TorqueSine])
-def test_bad_windows(kind):
-    for arguments, message in (
-        ({"amplitude": [np.nan] * 5}, "nan"),
-        ({"amplitude": [1.0] * 5, "start": 0.3, "stop": 0.1}, "start < stop"),
-        ({"amplitude": [1.0] * 5, "step": 0}, "counted from 1"),
-    ):
-        with pytest.raises(ba.BipedError, match=message):
-            kind(**arguments)
-    with pytest.raises(ba.BipedError, match="frequency is -1"):
-        ba.TorqueSine([1.0] * 5, frequency=-1.0)
-    with pytest.raises(ba.BipedError, match="use TorquePulse"):
-        ba.TorqueStep([1.0] * 5, stop=1.0)
-
-
 # -- a pulse with sloping edges ---------------------------------------------------------------------
-@pytest.mark.parametrize("rise", [0.0, 0.01, 0.04, 0.25])
+@pytest.mark.parametrize("rise", [0.0, 0.04])
 def test_the_area_of_a_pulse_is_amplitude_times_width_whatever_its_rise(rise):
     pulse = ba.TorquePulse(F, step=2, start=0.1, stop=0.2, rise=rise)
     corners = sorted({1.0, *pulse.switching_times(2, 1.0), 1.6})
@@ -135,17 +90,8 @@ def test_the_edges_of_a_pulse_are_straight_and_its_corners_are_told():
     assert not np.any(pulse.torque(1.15, 3, 1.0, still, still))
 
 
-def test_a_pulse_that_never_ends_may_rise():
-    pulse, still = ba.TorquePulse(F, start=0.1, rise=0.2), np.zeros(3)
-    assert pulse.torque(0.2, 1, 0.0, still, still) == pytest.approx(0.5 * np.array(F))
-    assert pulse.torque(9.0, 1, 0.0, still, still) == pytest.approx(F)
-    for rise in (-0.01, np.nan, np.inf):
-        with pytest.raises(ba.BipedError, match="pulse rise"):
-            ba.TorquePulse(F, rise=rise)
-
-
 # -- a force and a moment on a link ----------------------------------------------------------------
-@pytest.mark.parametrize("robot", robot_names())
+@pytest.mark.parametrize("robot", ["rabbit", "compass"])
 def test_the_torque_is_that_of_pinocchios_frame_jacobian(robot):
     biped = ba.Biped.load(robot)
     f, random, n = biped.floating, np.random.default_rng(3), biped.n
@@ -162,20 +108,6 @@ def test_the_torque_is_that_of_pinocchios_frame_jacobian(robot):
             angular = np.array([0.0, -F[2], 0.0]) + np.cross(arm, [F[0], 0.0, F[1]])
             expected = (J @ Z).T @ np.array([F[0], 0.0, F[1], *angular])
             assert push.torque(0.0, 1, 0.0, q, v) == pytest.approx(expected, rel=1e-11, abs=1e-11)
-
-
-@pytest.mark.parametrize("robot", ["rabbit", "three_link"])
-def test_its_power_is_force_times_velocity_and_moment_times_rate(robot):
-    biped, random, d = ba.Biped.load(robot), np.random.default_rng(4), 1e-6
-    for link in links(biped):
-        at = random.uniform(-0.5, 0.5, 2)
-        push = OnLink(biped, link, ba.TorquePulse(F), tuple(at))
-        q, v = random.uniform(-1.0, 1.0, (2, biped.n))
-        one, two = (placement(biped, q + s * d * v, link) for s in (-1.0, 1.0))
-        point = np.array([at[0], 0.0, at[1]])
-        velocity = (two.act(point) - one.act(point))[[0, 2]] / (2.0 * d)
-        power = F[:2] @ velocity + F[2] * turned(one, two) / (2.0 * d)
-        assert push.torque(0.0, 1, 0.0, q, v) @ v == pytest.approx(power, rel=1e-7, abs=1e-7)
 
 
 def test_a_force_at_the_hip_is_a_hip_force(biped):
@@ -207,53 +139,6 @@ def test_pure_moments_leave_the_ground_alone_and_forces_do_not(robot):
         assert found == pytest.approx(expected, rel=1e-5, abs=1e-4 * biped.weight)
 
 
-@pytest.mark.parametrize("name", list(WAVES))
-def test_compiled_walks_under_forces_are_the_python_engines(biped, gait, name):
-    push = OnLink(biped, "right_shin", WAVES[name], (0.02, 0.3))
-    walker = ba.Walker(biped, ba.NPDController(gait.constraint), push)
-    slow, fast = (
-        ba.walk(walker, gait, 1, ba.RK4(5e-3), engine=engine).trajectory
-        for engine in ("pinocchio", "compiled")
-    )
-    free = replace(walker, disturbance=None)
-    free = ba.walk(free, gait, 1, ba.RK4(5e-3), engine="compiled").trajectory
-    assert fast.settings["engine"] == "compiled"
-    a, b, c = (x.before("foot_strike")[:, :10] for x in (slow, fast, free))
-    assert np.max(np.abs(a - b)) < 1e-9
-    assert np.max(np.abs(b - c)) > 1e-4
-
-
-def test_a_wave_of_ones_own_has_no_law_and_acts_all_the_same(biped):
-    class Ramp(ba.TorquePulse):
-        """A torque that grows."""
-
-        def torque(self, t, step, t_start, q, v):
-            return t * super().torque(t, step, t_start, q, v)
-
-    push, q = OnLink(biped, "torso", Ramp(F)), np.full(5, 0.2)
-    assert push.laws[0].obstacle == "disturbance Ramp writes torque over the laws that it inherits"
-    one, two = (push.torque(t, 1, 0.0, q, q) for t in (1.0, 2.0))
-    assert np.array_equal(2.0 * one, two)
-    assert np.any(one)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (("arm", PULSE), r"no link 'arm'; it has \['torso', 'left_thigh'"),
-        (("base_x_carriage", PULSE), "above the trunk 'torso'"),
-        (("torso", ba.TorquePulse([1.0] * 5)), "expected three numbers"),
-        (("torso", ba.TorquePulse([1.0] * 2)), "expected three numbers"),
-        (("torso", PULSE + PULSE), "is a Sum"),
-        (("torso", PULSE, (np.nan, 0.0)), "two finite numbers"),
-        (("torso", PULSE, (1.0,)), "two finite numbers"),
-    ],
-)
-def test_bad_places(biped, arguments, message):
-    with pytest.raises(ba.BipedError, match=message):
-        OnLink(biped, *arguments)
-
-
 # -- noise -----------------------------------------------------------------------------------------
 def sampled(noise, T, h):
     q = np.zeros(len(noise.amplitude))
@@ -282,21 +167,6 @@ def test_noise_repeats_by_its_seed_only():
     ]
     assert np.array_equal(kept[0], kept[1])
     assert not np.any(kept[0] == kept[2])
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ({"bandwidth": 0.0, "seed": 1}, "bandwidth is 0.0 Hz"),
-        ({"bandwidth": np.nan, "seed": 1}, "bandwidth is nan Hz"),
-        ({"bandwidth": 1.0, "seed": -1}, "seed is -1"),
-        ({"bandwidth": 1.0, "seed": 1.5}, "seed is 1.5"),
-        ({"bandwidth": 1.0, "seed": 1, "sines": 0}, "sines is 0"),
-    ],
-)
-def test_bad_noise(arguments, message):
-    with pytest.raises(ba.BipedError, match=message):
-        TorqueNoise([1.0, 2.0], **arguments)
 
 
 # -- uneven ground ---------------------------------------------------------------------------------
@@ -333,19 +203,6 @@ def test_uneven_ground_has_heights_of_mean_zero_and_the_rms():
     assert abs(np.corrcoef(heights[:, :-1].ravel(), heights[:, 1:].ravel())[0, 1]) < 0.05
     assert uneven_ground(1, 0.0, 30) == ()
     assert uneven_ground(3, 0.01, 8) == uneven_ground(3, 0.01, 8)
-
-
-def test_bad_ground():
-    for make, message in (
-        (lambda: StepUp(0, 0.01), "step up is in single support 0"),
-        (lambda: StepUp(1, -0.01), "step up is -0.01 m high.*StepDown"),
-        (lambda: StepDown(1, -0.01), "step down is -0.01 m high.*StepUp"),
-        (lambda: uneven_ground(1, -1.0, 3), "rms of uneven ground is -1"),
-        (lambda: uneven_ground(-1, 0.1, 3), "seed of uneven ground is -1"),
-        (lambda: uneven_ground(1, 0.1, -3), "number of steps of uneven ground is -3"),
-    ):
-        with pytest.raises(ba.BipedError, match=message):
-            make()
 
 
 def test_a_sine_is_its_amplitude_after_a_quarter_of_its_period(biped):
@@ -386,3 +243,26 @@ def test_a_torque_for_another_robot_is_refused_before_it_acts(biped, gait):
     for disturbance in (late, ba.TorqueStep(np.ones(5)) + late):
         with pytest.raises(InputError, match="2 numbers, expected 5"):
             ba.Walker(biped, ba.NPDController(gait.constraint), disturbance)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda biped: ba.TorquePulse([np.nan] * 5),
+        lambda biped: ba.TorquePulse([1.0] * 5, start=0.3, stop=0.1),
+        lambda biped: ba.TorquePulse([1.0] * 5, step=0),
+        lambda biped: ba.TorquePulse(F, rise=-0.01),
+        lambda biped: ba.TorqueSine([1.0] * 5, frequency=-1.0),
+        lambda biped: OnLink(biped, "arm", PULSE),
+        lambda biped: OnLink(biped, "torso", ba.TorquePulse([1.0] * 5)),
+        lambda biped: OnLink(biped, "torso", PULSE, (np.nan, 0.0)),
+        lambda biped: TorqueNoise([1.0, 2.0], bandwidth=0.0, seed=1),
+        lambda biped: TorqueNoise([1.0, 2.0], bandwidth=1.0, seed=1.5),
+        lambda biped: StepUp(1, -0.01),
+        lambda biped: StepDown(0, 0.01),
+        lambda biped: uneven_ground(1, -1.0, 3),
+    ],
+)
+def test_what_does_not_fit_is_refused(biped, make):
+    with pytest.raises(ba.BipedError):
+        make(biped)

@@ -16,7 +16,6 @@ from biped_adrc.control.npd import NPDController
 from biped_adrc.control.npid import NPIDController
 from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.pd_gravity import PDGravityController
-from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.control.super_twisting import SuperTwistingController
 from biped_adrc.errors import InputError
 from biped_adrc.observers.gpi import GPIObserver
@@ -45,33 +44,22 @@ PEAK = {
     "CLF-QP": (3e-4, 1.2e-2),
 }
 """Largest tracking error [rad] before and from the push on; NPD's is 1.3e-4 and 7.6e-3."""
-PUSH = ba.TorquePulse([30.0] * 4 + [0.0], step=19, start=0.1, stop=0.3)
+PUSH = ba.TorquePulse([30.0] * 4 + [0.0], step=3, start=0.1, stop=0.3)
 
 
 # -- walking -----------------------------------------------------------------------------------
 @pytest.mark.parametrize("name", FIELD)
 def test_the_published_gait_is_kept(biped, gait, name):
-    """25 impacts at 1 kHz within 150 N m, pushed in the 19th step; 6 and the third for a QP in Python."""
-    controller, time = FIELD[name](gait.constraint), SampledTime(1e-3)
-    impacts, step = (6, 3) if name == "CLF-QP" else (25, 19)
-    push = replace(PUSH, step=step)
-    walker = Walker(biped, controller, push, time, torque_limit=LIMIT)
-    walk = ba.walk(walker, gait, impacts, ba.RK4(1e-3), engine="compiled")
+    """6 impacts at 1 kHz within 150 N m, pushed in the third step."""
+    walker = Walker(
+        biped, FIELD[name](gait.constraint), PUSH, SampledTime(1e-3), torque_limit=LIMIT
+    )
+    walk = ba.walk(walker, gait, 6, ba.RK4(1e-3), engine="compiled")
     assert walk.trajectory.status.ok
-    assert len(walk.trajectory.events("foot_strike")) == impacts
+    assert len(walk.trajectory.events("foot_strike")) == 6
     s = walk.signals
-    for rows, most in zip((s.step < step, s.step >= step), PEAK[name], strict=True):
+    for rows, most in zip((s.step < 3, s.step >= 3), PEAK[name], strict=True):
         assert np.max(np.abs(s.error[rows])) < most
-
-
-@pytest.mark.parametrize("name", FIELD)
-def test_in_continuous_time(biped, gait, name):
-    push = replace(PUSH, step=1)
-    walker = Walker(biped, FIELD[name](gait.constraint), push, torque_limit=LIMIT)
-    h = 1e-3 if name == "CLF-QP" else 5e-5  # Table I has a pole at -19836 rad/s
-    walk = ba.walk(walker, gait, 3, ba.RK4(h), engine="compiled")
-    assert walk.trajectory.status.ok
-    assert np.max(np.abs(walk.signals.error)) < PEAK[name][True]
 
 
 # -- PD with gravity compensation --------------------------------------------------------------
@@ -102,18 +90,6 @@ def test_a_balanced_posture_is_held(biped, gait):
 def at_rest(q):
     zero = np.zeros(4)
     return ba.TimeReference(lambda t: (q[:4], zero, zero))
-
-
-def test_without_body_terms_it_says_what_is_missing(biped, gait):
-    m = Walker(biped, ba.Passive()).measure(0.0, *gait.start(biped), Mode())
-    with pytest.raises(InputError, match="no body terms"):
-        PDGravityController(gait.constraint).output(NO_STATE, m)
-
-
-def test_an_outer_loop_asks_for_what_its_controller_needs(biped, gait):
-    loop = ReferenceReset(PDGravityController(gait.constraint))
-    walker = Walker(biped, loop, timing=SampledTime(1e-3), torque_limit=LIMIT)
-    assert ba.walk(walker, gait, 2).trajectory.status.ok
 
 
 # -- ADRC in output form -----------------------------------------------------------------------
@@ -150,7 +126,7 @@ def test_with_exact_estimates_the_loop_is_npd_s(biped, gait, kind):
     assert u == pytest.approx(expected, rel=1e-9)
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(2))
 def test_a_known_force_is_rejected_whatever_it_acts_on(biped, gait, seed):
     """Matched and unmatched: xi_y is y'' of the plant at u = 0, r is the force itself."""
     random = np.random.default_rng(seed)
@@ -186,19 +162,6 @@ def test_estimates_of_outputs_in_words_of_the_joints(biped, gait):
     assert found.position == pytest.approx(i.measurement.q_b, rel=1e-12)
     assert found.velocity == pytest.approx(i.measurement.v_b, rel=1e-12)
     assert found.disturbance == pytest.approx(i.a[:4] - i.measurement.terms.kappa @ i.u, rel=1e-8)
-
-
-def test_inside_an_outer_loop_the_outputs_are_those_in_force(biped, gait):
-    """Off the constraint the corrected error is zero at the start and after an impact, and so is y^."""
-    loop = ReferenceReset(OutputADRCController(gait.constraint, SLOW))
-    walker = Walker(biped, loop, timing=SampledTime(1e-3))
-    q, v = off_orbit(gait, biped)
-    m = walker.measure(0.0, q, v, Mode())
-    law, swap = walker.law, biped.relabelling[:4]
-    s = law.initial_state(m)
-    for state in (s, law.jump(s + 1.0, m, swap)):
-        assert np.max(np.abs(law.inner.observer.estimate(state[:12]).disturbance)) > 1.0
-        assert np.max(np.abs(state[:8])) < 1e-9
 
 
 # -- super-twisting and filtered PID ------------------------------------------------------------
@@ -289,7 +252,7 @@ def test_bandwidths_are_the_poles(gait):
         bandwidth_gains(-1.0)
 
 
-@pytest.mark.parametrize("alpha", [None, (6.0, 11.0, 6.0), (4.0, 6.0, 4.0)])
+@pytest.mark.parametrize("alpha", [None, (4.0, 6.0, 4.0)])
 def test_the_high_gain_observer_is_gpi_with_the_same_poles(alpha):
     epsilon, random = 0.004, np.random.default_rng(1)
     observer = HighGainObserver.from_epsilon(epsilon, alpha)
@@ -310,22 +273,6 @@ def test_the_high_gain_observer_is_gpi_with_the_same_poles(alpha):
 def clean(poles):
     """Poles without the imaginary parts that round-off gives equal ones."""
     return [pole.real if abs(pole.imag) < 1e-3 * abs(pole) else pole for pole in poles]
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ({"epsilon": 0.0}, "epsilon is 0"),
-        ({"epsilon": 0.1, "m": 0}, "m = 0"),
-        ({"epsilon": 0.1, "m": 1.5}, "m = 1.5"),
-        ({"epsilon": 0.1, "alpha": ("a",)}, r"alpha is \('a',\), expected 3 numbers"),
-        ({"epsilon": 0.1, "alpha": (1.0, 1.0)}, "has 3 numbers alpha, found 2"),
-        ({"epsilon": 0.1, "alpha": (1.0, 1.0, 2.0)}, "negative real parts"),
-    ],
-)
-def test_bad_high_gain_observers(arguments, message):
-    with pytest.raises(InputError, match=message):
-        HighGainObserver.from_epsilon(**arguments)
 
 
 # -- anti-windup -------------------------------------------------------------------------------
@@ -361,20 +308,14 @@ class Unlimited(ba.Controller):
         return self.inner.estimate(s, m)
 
 
-OBSERVING = {
-    "ADRC, Table I": ADRCController,
-    **{name: made for name, made in FIELD.items() if name not in ("PD with gravity", "CLF-QP")},
-}
-
-
-@pytest.mark.parametrize("name", OBSERVING)
+@pytest.mark.parametrize("name", ["ADRC, outputs, m = 1", "momentum observer"])
 def test_the_observer_is_told_the_torque_applied(biped, gait, name):
     """A push that the motors cannot answer: the estimate stays near q_b'' - kappa u, and the walk goes on."""
     push = ba.TorquePulse([110.0, -110.0, 110.0, -110.0, 0.0], step=2, start=0.1, stop=0.2)
-    law, errors = OBSERVING[name](gait.constraint), []
+    law, errors = FIELD[name](gait.constraint), []
     for told in (law, Unlimited(law)):
         walker = Walker(biped, told, push, SampledTime(1e-3), torque_limit=100.0)
-        walk = ba.walk(walker, gait, 8, ba.RK4(1e-3), engine="compiled")
+        walk = ba.walk(walker, gait, 4, ba.RK4(1e-3), engine="compiled")
         s = walk.signals.of_step(2)
         during = (s.t - s.t[0] > 0.12) & (s.t - s.t[0] < 0.2)
         assert np.max(np.abs(s.u[during])) == 100.0
@@ -382,7 +323,7 @@ def test_the_observer_is_told_the_torque_applied(biped, gait, name):
         errors.append(np.median(wrong) / np.median(np.linalg.norm(s.xi[during], axis=1)))
         if told is law:
             assert walk.trajectory.status.ok
-            late = walk.signals.of_step(8)
+            late = walk.signals.of_step(4)
             assert np.max(np.abs(late.error)) < 5e-3
         else:
             assert not walk.trajectory.status.ok

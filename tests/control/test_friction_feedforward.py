@@ -9,7 +9,6 @@ import biped_adrc as ba
 from biped_adrc.control.friction_feedforward import FrictionFeedforward, friction_feedforward
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.errors import InputError
-from biped_adrc.scenario.build import build
 
 T = 1e-3
 FAST = ba.GPIObserver.from_bandwidth(500.0)
@@ -56,19 +55,6 @@ def test_the_controller_inside_is_told_the_torque_beyond_the_feedforward(biped, 
             getattr(x, step)(s, m, u) for x, u in ((walker.law, acts), (inner, acts - F))
         )
         np.testing.assert_allclose(found, told, rtol=1e-7, atol=1e-9)
-
-
-def test_no_share_is_the_controller_inside_bit_for_bit(biped, gait):
-    q, v = gait.start(biped)
-    for controller in inside(gait.constraint):
-        law = friction_feedforward(controller, gait.constraint, biped, 0.0).sampled(T)
-        inner = controller.sampled(T)
-        walker = ba.Walker(biped, controller, timing=ba.SampledTime(T))
-        m = walker.measure(0.0, q, v, ba.Mode())
-        s, u = 1.1 * inner.initial_state(m), np.ones(4)
-        assert np.array_equal(law.output(s, m), inner.output(s, m))
-        assert np.array_equal(law.predict(s, m, u), inner.predict(s, m, u))
-    assert type(build(ba.Scenario("NPD", feedforward=0.0)).controller) is ba.NPDController
 
 
 def test_with_the_right_friction_a_walk_is_that_without_to_the_order_of_the_error(

@@ -4,19 +4,16 @@ import gc
 import threading
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import count, islice
-from typing import NamedTuple
+from itertools import islice
 
 import numpy as np
-import psutil
 import pytest
 
 import biped_adrc as ba
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
 from biped_adrc.control.base import Controller, ControllerLaws
 from biped_adrc.control.npd import npd_torque
-from biped_adrc.engine.batch import AHEAD, Case, simulate_many
-from biped_adrc.engine.compiled_walker import CompiledWalker
+from biped_adrc.engine.batch import Case, simulate_many
 from biped_adrc.engine.run import simulate_by
 from biped_adrc.errors import InputError, NotFiniteError
 from biped_adrc.gait.constraint import virtual_constraint
@@ -114,9 +111,8 @@ def test_the_number_of_threads_changes_no_bit(mixed):
     cases = [*mixed.values(), *mixed.values()]
     alone = list(simulate_many(cases, threads=1))
     assert len(alone) == len(cases)
-    for threads in (2, 3):
-        for one, other in zip(alone, simulate_many(cases, threads=threads), strict=True):
-            same(one, other)
+    for one, other in zip(alone, simulate_many(cases, threads=3), strict=True):
+        same(one, other)
     for first, again in zip(alone, alone[len(mixed) :], strict=False):
         same(first, again)
 
@@ -154,41 +150,6 @@ def test_a_start_without_numbers_ends_its_own_run(plain):
     assert walked[1].impacts == 0
 
 
-class Gap(NamedTuple):
-    """npd: parameters of NPD. middle: of 0.06 ms in which the torque is NaN [s]."""
-
-    npd: object
-    middle: float
-
-
-def gapped(k, s, m):
-    return npd_output(k.npd, s, m) + 1e-12 * np.sqrt((m.t - k.middle) ** 2 - 1e-9)
-
-
-@dataclass(frozen=True)
-class Gapped(Controller):
-    npd: ba.NPDController
-    middle: float
-
-    @property
-    def laws(self):
-        return ControllerLaws(Gap(self.npd.laws.parameters, self.middle), gapped)
-
-
-def test_an_impact_that_cannot_be_located_ends_its_own_run(plain, npd):
-    """NaN half way between the last node and the impact, where the whole step does not look."""
-    one = replace(plain, impacts=1)
-    (made,) = simulate_many([one])
-    node = made.times[0] - made.times[0] % plain.method.h
-    walker = replace(plain.walker, controller=Gapped(npd, 0.5 * (node + made.times[0])))
-    before, lost, after = simulate_many([one, replace(one, walker=walker), one])
-    assert lost.status is ba.Status.NOT_FINITE
-    assert lost.t_end == pytest.approx(node, abs=1e-12)
-    assert np.all(np.isfinite(lost.final_state))
-    same(before, made)
-    same(after, made)
-
-
 def test_what_each_run_leaves(mixed):
     walked = dict(zip(mixed, simulate_many(mixed.values()), strict=True))
     completed = {name for name, w in walked.items() if w.status is ba.Status.COMPLETED}
@@ -207,9 +168,7 @@ def test_what_each_run_leaves(mixed):
 
 
 @pytest.mark.parametrize("at_once", [False, True])
-@pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
-def test_a_controller_that_raises_ends_its_own_run(plain, npd, sampled, at_once):
-    time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
+def test_a_controller_that_raises_ends_its_own_run(plain, npd, at_once):
     ends = {
         NotFiniteError: ba.Status.NOT_FINITE,
         ba.errors.SingularError: ba.Status.SINGULAR,
@@ -219,7 +178,7 @@ def test_a_controller_that_raises_ends_its_own_run(plain, npd, sampled, at_once)
     cases = [plain]
     for error in ends:
         controller = Raising(npd, error, at_once)
-        walker = replace(plain.walker, controller=controller, timing=time)
+        walker = replace(plain.walker, controller=controller, timing=ba.SampledTime(1e-3))
         cases += [replace(plain, walker=walker), plain]
     walked = list(simulate_many(cases, threads=2))
     assert [w.status for w in walked[1::2]] == [*ends.values()]
@@ -232,35 +191,12 @@ def test_a_case_that_does_not_fit_is_an_error(plain):
     wrong = replace(plain, method=ba.Exponential())
     with pytest.raises(InputError, match="exponential method needs"):
         list(simulate_many([plain, wrong, plain]))
-    with pytest.raises(InputError, match="0 impacts"):
-        list(simulate_many([replace(plain, impacts=0)]))
+    for impacts in (0, 10**9):
+        with pytest.raises(InputError, match="impacts"):
+            list(simulate_many([replace(plain, impacts=impacts)]))
     with pytest.raises(InputError, match="0 threads"):
         simulate_many([plain], threads=0)
     assert list(simulate_many([])) == []
-
-
-def test_cases_are_taken_as_they_are_needed(plain):
-    taken = []
-
-    def endless():
-        for k in count():
-            taken.append(k)
-            yield replace(plain, impacts=1)
-
-    walks = simulate_many(endless(), threads=2)
-    assert taken == []
-    for k in range(1, 6):
-        next(walks)
-        assert k <= len(taken) <= k + 2 * AHEAD
-    walks.close()
-    assert len(taken) <= 5 + 2 * AHEAD
-
-
-def test_progress_counts_what_is_handed_over(plain):
-    told = []
-    for k, _ in enumerate(simulate_many([plain] * 7, threads=2, progress=told.append), start=1):
-        assert told == [*range(1, k + 1)]
-    assert told == [*range(1, 8)]
 
 
 def test_an_abandoned_batch_leaves_no_thread(plain):
@@ -271,58 +207,3 @@ def test_an_abandoned_batch_leaves_no_thread(plain):
     del walks
     gc.collect()
     assert not {*threading.enumerate()} - before
-
-    def failing():
-        yield plain
-        raise KeyError("the cases")
-
-    with pytest.raises(KeyError, match="the cases"):
-        list(simulate_many(failing(), threads=2))
-    assert not {*threading.enumerate()} - before
-
-
-def test_memory_stays_flat(plain):
-    """Work rows kept of 2000 runs would be four times the bound."""
-    walker = replace(plain.walker, max_step_time=0.004)
-    tiny = replace(plain, walker=walker, impacts=1)
-    x0 = walker.initial_state(plain.q, plain.v)
-    work = CompiledWalker.of(walker, plain.method, len(x0) - 10).plan.work()
-    process = psutil.Process()
-
-    def walk(number):
-        ends = {w.status for w in simulate_many((tiny for _ in range(number)), threads=2)}
-        assert ends == {ba.Status.STALLED}
-
-    walk(200)
-    gc.collect()
-    before = process.memory_info().rss
-    walk(2000)
-    gc.collect()
-    assert process.memory_info().rss - before < 500 * work.nbytes
-
-
-def test_memory_stays_flat_over_robots_and_gains(biped, gait, plain):
-    """Every case has numbers of its own; what is remembered of them is bounded."""
-    process = psutil.Process()
-
-    def cases(number):
-        for k in range(number):
-            torso = biped.with_errors(mass={"torso": 1.0 + 1e-4 * (k % 7)})
-            npd = ba.NPDController(gait.constraint, ba.Gains(4000.0 + k, 50.0))
-            push = ba.TorquePulse((0.1 * k, 0.0, 0.0, 0.0, 0.0), 1, 1e-4 * (1 + k % 30), 0.1)
-            walker = ba.Walker(torso, npd, push, model=biped, max_step_time=0.004)
-            yield replace(plain, walker=walker, impacts=1)
-
-    assert len(list(simulate_many(cases(100), threads=2))) == 100
-    gc.collect()
-    before = process.memory_info().rss
-    for _ in simulate_many(cases(200), threads=2):
-        pass
-    gc.collect()
-    assert process.memory_info().rss - before < 10e6
-
-
-def test_more_impacts_than_the_memory_holds_are_refused(biped, gait):
-    walker = ba.Walker(biped, ba.NPDController(gait.constraint))
-    with pytest.raises(InputError, match="impacts is 1000000000, expected at most 1000000"):
-        Case(walker, gait.q_minus, gait.v_minus, ba.RK4(1e-3), impacts=10**9)

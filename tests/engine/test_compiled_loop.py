@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import pickle
 from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.engine.compiled_tick import CompiledTick
 
 PUSH = ba.TorquePulse([30.0, 0.0, 10.0, 0.0, 5.0], start=0.0303, stop=0.0507)
 PERIOD = ba.SampledTime(1e-3)
@@ -50,22 +48,19 @@ def same(python, compiled, rtol):
 
 
 HARDWARE = {
-    "bare": {},
     "pushed": {},
     "sensors": {"sensors": ba.Sensors(counts=8192), "torque_limit": 40.0},
-    "delays": {"timing": ba.SampledTime(1e-3, delay=2e-3, delay_known=True)},
-    "a fraction of a period": {"timing": ba.SampledTime(1e-3, delay=0.4e-3)},
+    "delay": {"timing": ba.SampledTime(1e-3, delay=2.4e-3, delay_known=True)},
     "motors": {"motors": ba.Motors(rate_limit=2e4), "timing": replace(PERIOD, restart=False)},
 }
 
 
-@pytest.mark.parametrize("controller", [ba.NPDController, ba.ADRCController])
 @pytest.mark.parametrize("name", HARDWARE)
-def test_the_same_walk_whatever_is_between(plant, gait, controller, name):
+def test_the_same_walk_whatever_is_between(plant, gait, name):
     more = dict(HARDWARE[name])
     if name == "pushed":
         more["disturbance"] = PUSH + ba.HipForce(plant.biped, (20.0, -10.0))
-    python, compiled = both(plant, gait, controller(gait.constraint), **more)
+    python, compiled = both(plant, gait, ba.ADRCController(gait.constraint), **more)
     assert compiled.settings["engine"] == "compiled"
     assert python.status is ba.Status.COMPLETED
     same(python, compiled, 1e-6)
@@ -75,19 +70,6 @@ def test_over_a_touchdown(plant, gait):
     python, compiled = both(plant, gait, ba.NPDController(gait.constraint), 0.45)
     assert [event.guard for event in compiled.events()] == ["foot_strike"]
     same(python, compiled, 1e-6)
-
-
-def test_one_sample_instant_to_round_off(plant, gait):
-    system = loop(ba.SteppingLoop, plant, ba.ADRCController(gait.constraint))
-    x0 = system.initial_state(*gait.start(plant.biped))
-    tick = CompiledTick(system, system.controller_size(x0))
-    arc = system.run(x0, ba.RunOptions(0.02)).arcs[0]
-    for t, x in zip(arc.t[1::2], arc.x[1::2], strict=True):
-        x = x.copy()
-        found, expected = tick(t, x, arc.mode), system.tick(t, x, arc.mode)
-        np.testing.assert_allclose(found[: len(x)], expected, rtol=1e-10, atol=1e-10)
-        xi = system.estimated(t, expected, arc.mode)
-        np.testing.assert_allclose(found[len(x) :], xi, rtol=1e-10, atol=1e-7)
 
 
 @dataclass(frozen=True)
@@ -105,22 +87,6 @@ def test_a_controller_without_laws_runs_in_python_on_a_compiled_model(plant, gai
     assert compiled.settings["engine"] == "compiled model"
     assert "Written" in compiled.settings["why"]
     same(python, compiled, 1e-9)
-
-
-@dataclass(frozen=True)
-class Own(ba.WindowedTorque):
-    """A disturbance without laws."""
-
-    def profile(self, s):
-        return np.sin(50.0 * s)
-
-
-def test_a_disturbance_without_laws_is_asked_in_python(plant, gait):
-    push = Own([10.0] * 5, start=0.0101)
-    python, compiled = both(plant, gait, ba.NPDController(gait.constraint), 0.05, disturbance=push)
-    assert compiled.settings["engine"] == "compiled"
-    same(python, compiled, 1e-6)
-    assert np.max(np.abs(compiled.arcs[0].read["zeta"])) > 5.0
 
 
 def rushing(x0):
@@ -142,13 +108,3 @@ def test_the_same_ends(plant, gait, name):
     python, compiled = both(plant, gait, controller, t_end, change, **more)
     assert python.status is status
     same(python, compiled, 1e-6)
-
-
-def test_the_same_bits_again_and_elsewhere(plant, gait):
-    system = loop(ba.CompiledLoop, plant, ba.ADRCController(gait.constraint), disturbance=PUSH)
-    x0 = system.initial_state(*gait.start(plant.biped))
-    first = system.run(x0, ba.RunOptions(0.05)).arcs[0]
-    for again in (system, pickle.loads(pickle.dumps(system))):
-        arc = again.run(x0, ba.RunOptions(0.05)).arcs[0]
-        np.testing.assert_array_equal(arc.x, first.x)
-        np.testing.assert_array_equal(arc.read["xi_estimate"], first.read["xi_estimate"])

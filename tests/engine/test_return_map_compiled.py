@@ -8,7 +8,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.closed_loop.walker import Mode
-from biped_adrc.errors import InputError, SimulationError
+from biped_adrc.errors import SimulationError
 from biped_adrc.gait.published import passive_cycle
 
 
@@ -116,42 +116,9 @@ def test_bits_do_not_depend_on_how_many_points_there_are(gait, npd):
         assert np.array_equal(P(s), image)
 
 
-class Leaning(ba.Disturbance):
-    """Without laws."""
-
-    def torque(self, t, step, t_start, q, v):
-        return np.array([0.0, 0.0, 0.0, 0.0, -0.5])
-
-
-def test_parts_without_compiled_form_are_mapped_by_pinocchio(biped, gait, npd):
-    walker = replace(npd, disturbance=Leaning())
-    compiled, python = maps(walker, ba.RK4(5e-3))
-    assert compiled.ran == "pinocchio"
-    s = compiled.project(section(gait, walker))
-    assert np.array_equal(compiled(s), python(s))
-    called = []
-
-    def mapper(function, points):
-        called.append(len(points))
-        return map(function, points)
-
-    compiled.images([s], mapper)
-    assert called == [1]
-
-
 def test_no_return_is_said_by_either_engine(gait, npd):
     push = ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 2, 0.1)
     walker = replace(npd, disturbance=push, torque_limit=150.0)
     for P in maps(walker, ba.RK4(5e-3)):
-        with pytest.raises(
-            SimulationError, match=r"no return to the section: FELL, the robot fell"
-        ):
+        with pytest.raises(SimulationError, match="no return to the section: FELL"):
             P(P.project(section(gait, walker)))
-    with pytest.raises(InputError, match="engine 'jax' is unknown"):
-        ReturnMap(npd, ba.RK4(), engine="jax")
-
-
-def test_a_method_that_does_not_fit_is_refused(npd):
-    P = ReturnMap(npd, ba.Exponential())
-    with pytest.raises(InputError, match="exponential method needs"):
-        P.ran  # noqa: B018

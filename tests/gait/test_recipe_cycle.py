@@ -21,7 +21,6 @@ from biped_adrc.gait.recipe import (
     inverse_kinematics,
     joint_trajectories,
     recipe_constraint,
-    regress,
 )
 from biped_adrc.gait.through_state import onto_section
 from biped_adrc.gait.zero_dynamics import configuration
@@ -79,24 +78,6 @@ def test_the_path_leaves_in_the_direction_of_the_rates_of_x_star(biped):
     np.testing.assert_allclose(slope, X_STAR[5:] / (biped.phase @ X_STAR[5:]), atol=1e-4)
 
 
-def test_the_regression_keeps_both_ends_and_reports_its_largest_residual(biped):
-    theta = np.linspace(3.0, 2.0, 101)
-    joints = np.column_stack((np.sin(3.0 * theta), theta**3))
-    curve, residual = regress(theta, joints, 9)
-    s = (theta - theta[0]) / (theta[-1] - theta[0])
-    values = np.array([curve(x)[0] for x in s])
-    np.testing.assert_allclose(values[[0, -1]], joints[[0, -1]], atol=1e-12)
-    assert residual == pytest.approx(np.max(np.abs(values - joints)), abs=1e-12)
-    assert residual < 1e-7
-
-
-def test_a_higher_degree_leaves_a_smaller_residual(biped):
-    p = fit_to_x_star(biped)
-    residuals = [recipe_constraint(biped, replace(p, degree=d))[1] for d in (6, 8, 10, 12)]
-    assert np.all(np.diff(residuals) < 0)
-    assert residuals[1] < 5e-4, "degree 8, the one used [rad]"
-
-
 def test_parameters_that_make_no_step_are_refused(biped):
     """Theta follows the hip alone, so only a hip that goes backwards turns it."""
     p = fit_to_x_star(biped)
@@ -113,8 +94,8 @@ def test_the_impact_is_smooth_on_the_published_gait_and_not_on_the_recipe(any_bi
     assert np.max(np.abs(recipe)) > 0.5, "[rad/s]"
 
 
-def test_the_design_reproduces_the_stored_file(any_biped):
-    stored, designed = load_gait("recipe", any_biped), design_recipe_gait(any_biped)
+def test_the_design_reproduces_the_stored_file(biped):
+    stored, designed = load_gait("recipe", biped), design_recipe_gait(biped)
     a, b = stored.constraint, designed.constraint
     np.testing.assert_allclose(a.curve.coefficients, b.curve.coefficients, atol=1e-8)
     np.testing.assert_allclose(

@@ -61,12 +61,6 @@ def test_how_many_they_are_changes_no_bit():
     assert np.array_equal(*rows)
 
 
-def test_pictures_of_all():
-    envs = made(2, render_mode="rgb_array")
-    envs.reset(seed=0)
-    assert [picture.shape for picture in envs.render()] == [(360, 480, 3)] * 2
-
-
 def test_what_is_no_vector_is_refused():
     with pytest.raises(InputError, match="no window"):
         made(2, render_mode="human")

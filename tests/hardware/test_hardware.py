@@ -15,7 +15,6 @@ from biped_adrc.hardware.motors import (
     Motors,
     acting,
     limited,
-    relabelled,
     sent,
 )
 from biped_adrc.hardware.pitch_sensor import PitchSensor
@@ -71,15 +70,6 @@ def test_the_low_pass_answers_a_step_of_the_rate_with_an_exponential():
     assert np.allclose(rate, 1.0 - np.exp(-np.arange(30) * T / tau), rtol=0.0, atol=1e-12)
 
 
-def test_rates_with_sensors_of_their_own():
-    path = steady(1.5)
-    gyro = ticks(Sensors(counts=64.0, velocity="gyro", pitch_resolution=0.0), path, 20)
-    assert np.all(gyro[:, 3] == 1.5)
-    assert np.all(gyro[:, 1] == [path(i * T)[0][1] for i in range(20)])
-    assert set(gyro[1:, 2]) <= {0.0, 2 * np.pi / 64 / T}
-    assert np.all(ticks(Sensors(counts=64.0, velocity="measured"), path, 20)[:, 2:] == 1.5)
-
-
 def test_noise_has_its_deviation_and_its_seed():
     sensors = Sensors(noise=1e-3, pitch_noise=2e-3, rate_noise=0.1, velocity="measured", seed=4)
     seen = ticks(sensors, steady(0.0), 4000)
@@ -113,23 +103,6 @@ def test_a_pitch_sensor_is_off_by_a_bias_and_a_drift_and_sees_nothing_else():
     assert np.allclose(law.seen(k, w, q, hit), (last, hit + drift * off))
     after = law.seen(k, law.sense(k, w, q, hit), q, hit)[0]
     assert np.allclose(after, q + (bias + 4 * drift * T) * off)
-
-
-def test_the_noise_of_a_pitch_sensor_has_its_deviation_and_its_seed():
-    def angles(seed, count):
-        sensor = PitchSensor(noise=2e-3, seed=seed)
-        law, q = sensor.laws(1, 0, T), np.array([0.4])
-        w, found = sensor.start(law.parameters, q, q), []
-        for _ in range(count):
-            w = law.sense(law.parameters, w, q, q)
-            found.append(w[0])
-        return np.array(found)
-
-    one = angles(1, 1500)
-    assert one.mean() == pytest.approx(0.4, abs=2e-4)
-    assert one.std() == pytest.approx(2e-3, rel=0.05)
-    assert np.array_equal(one[:9], angles(1, 9))
-    assert not np.any(one[:9] == angles(2, 9))
 
 
 def line(j, waiting, lag=0):
@@ -166,12 +139,6 @@ def test_the_rate_limit_follows_what_was_sent_last():
             at, last = sent(k, at, u), u
 
 
-def test_legs_swap_all_that_is_on_its_way():
-    at = Line(np.arange(4.0), np.array([4.0, 5.0]), np.array([6.0, 7.0]), np.array([8.0, 9.0]))
-    swapped = relabelled(at, np.array([1, 0]))
-    assert [part.tolist() for part in swapped] == [[1, 0, 3, 2], [5, 4], [7, 6], [9, 8]]
-
-
 class Clocked(ba.Controller):
     """Tells the time: u = t on every joint, in the order 1, 2, 3, 4."""
 
@@ -179,7 +146,7 @@ class Clocked(ba.Controller):
         return m.t * np.arange(1.0, 5.0)
 
 
-@pytest.mark.parametrize("delay", [0.0, 0.4e-3, 1e-3, 2.7e-3])
+@pytest.mark.parametrize("delay", [0.4e-3, 2.7e-3])
 def test_in_a_walk_torques_act_late_by_the_delay(biped, gait, delay):
     walker = ba.Walker(biped, Clocked(), timing=ba.SampledTime(T, delay=delay))
     q, v = gait.start(biped)
@@ -195,7 +162,7 @@ def test_in_a_walk_torques_act_late_by_the_delay(biped, gait, delay):
             assert not np.any(u)
 
 
-@pytest.mark.parametrize("tau", [1e-7, 2e-4, 3e-3])
+@pytest.mark.parametrize("tau", [1e-7, 3e-3])
 @pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
 def test_lag_is_an_exponential_between_ticks(biped, gait, engine, tau):
     motors = Motors(lag=tau)
@@ -213,37 +180,27 @@ def test_lag_is_an_exponential_between_ticks(biped, gait, engine, tau):
     assert np.max(np.abs(found - expected)) < 1e-11
 
 
-@pytest.mark.parametrize("plain", [False, True], ids=["laws", "plain Python"])
-@pytest.mark.parametrize("tau", [3.6e-4, 2e-4, 2e-5])
-def test_a_lag_shorter_than_the_step_walks_as_at_a_quarter_of_it(biped, gait, plain, tau):
-    law = Plain(gait.constraint) if plain else ba.NPDController(gait.constraint)
+@pytest.mark.parametrize("tau", [2e-4, 2e-5])
+def test_a_lag_shorter_than_the_step_walks_as_at_a_quarter_of_it(biped, gait, tau):
     timing, motors = ba.SampledTime(T, delay=0.4e-3), Motors(lag=tau)
-    walker = ba.Walker(biped, law, timing=timing, motors=motors)
-    quarter = ba.walk(walker, gait, impacts=2, method=ba.RK4(T / 4)).trajectory
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=timing, motors=motors)
+    quarter = ba.walk(walker, gait, impacts=1, method=ba.RK4(T / 4)).trajectory
     for engine in ("compiled", "pinocchio"):
-        run = ba.walk(walker, gait, impacts=2, engine=engine).trajectory
+        run = ba.walk(walker, gait, impacts=1, engine=engine).trajectory
         assert run.status is quarter.status is ba.Status.COMPLETED
         for a, b in zip(run.events(), quarter.events(), strict=True):
             assert abs(a.t - b.t) < 1e-8
             assert np.max(np.abs(a.x_minus - b.x_minus)[:10]) < 1e-6
-    chosen = ba.walk(walker, gait, impacts=1, method=ba.Adaptive()).trajectory
-    assert np.max(np.abs(chosen.final_state - quarter.arcs[0].event.x_plus)[:10]) < 1e-6
 
 
 def test_a_lag_that_goes_to_zero_goes_to_no_lag(biped, gait):
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=ba.SampledTime(T))
     ideal = ba.walk(walker, gait, impacts=2).trajectory.final_state[:10]
-    off = [
-        np.max(
-            np.abs(
-                ba.walk(
-                    replace(walker, motors=Motors(lag=tau)), gait, impacts=2
-                ).trajectory.final_state[:10]
-                - ideal
-            )
-        )
-        for tau in (1e-5, 1e-6, 1e-7)
-    ]
+    off = []
+    for tau in (1e-5, 1e-6, 1e-7):
+        lagging = replace(walker, motors=Motors(lag=tau))
+        end = ba.walk(lagging, gait, impacts=2).trajectory.final_state[:10]
+        off.append(np.max(np.abs(end - ideal)))
     assert off[1] / off[0] == pytest.approx(0.1, rel=0.05)
     assert off[2] / off[1] == pytest.approx(0.1, rel=0.05)
     assert off[2] < 1e-5
@@ -287,8 +244,7 @@ class Plain(ba.Controller):
         return 2500 * (r.q_d - m.q_b) + 120 * (r.dq_d - m.v_b) + m.terms.Omega[:4]
 
 
-@pytest.mark.parametrize("name", SETUPS)
-@pytest.mark.parametrize("plain", [False, True], ids=["laws", "plain Python"])
+@pytest.mark.parametrize(("name", "plain"), [("all", False), ("encoders", True)])
 def test_both_engines_walk_alike(biped, gait, name, plain):
     walker = made(biped, gait, name, Plain(gait.constraint) if plain else adrc(gait))
     one, other = (
@@ -335,35 +291,19 @@ def work_of(signals):
     return np.sum(0.5 * steps * (power[:-1] + power[1:]))
 
 
-@pytest.mark.parametrize("part", [{}, {"delay": 0.4e-3}, {"motors": Motors(lag=1e-3)}])
-def test_the_work_counted_is_that_of_the_torques(biped, gait, part):
-    """Encoder counts make the torque chatter; T sum u' q' at the ticks is a quarter off there."""
-    given = dict(part)
-    timing = ba.SampledTime(T, delay=given.pop("delay", 0.0))
-    parts = {"sensors": Sensors(8192.0), "meter": Meter(gait.constraint), "torque_limit": 150.0}
-    walker = ba.Walker(biped, adrc(gait), timing=timing, **parts, **given)
-    walk = ba.walk(walker, gait, impacts=4, method=ba.RK4(0.25e-3), engine="compiled")
-    g = reading(walker.held_at(walk.trajectory.final_state).g)
-    exact = work_of(walk.signals)
-    assert abs(g.net_work - exact) < (0.02 if part else 0.005) * g.work
-
-
-def test_bad_hardware_is_named(biped, gait):
-    for make, message in (
-        (lambda: Sensors(counts=0.5), "0.5 counts per revolution"),
-        (lambda: Sensors(noise=-1e-3), "noise is -0.001 rad"),
-        (lambda: Sensors(rate_noise=float("nan")), "rate_noise is nan rad/s"),
-        (lambda: Sensors(velocity="guess"), "expected one of"),
-        (lambda: Sensors(seed=-1), "whole number"),
-        (lambda: Motors(rate_limit=0.0), "rate_limit is 0.0 N m/s"),
-        (lambda: Motors(lag=-1.0), "lag is -1.0 s"),
-        (lambda: ba.SampledTime(0.0), "sampling period is 0.0 s"),
-        (lambda: ba.SampledTime(1e-3, delay=-1e-3), "computation delay is -0.001 s"),
-        (lambda: ba.SampledTime(1e-3, delay=float("nan")), "computation delay is nan"),
-        (lambda: ba.Walker(biped, adrc(gait), sensors=Sensors()), "sampled time"),
-        (lambda: ba.Walker(biped, adrc(gait), impact_gain=(0.1,)), "5 finite numbers"),
+def test_bad_hardware_is_refused(biped, gait):
+    for make in (
+        lambda: Sensors(counts=0.5),
+        lambda: Sensors(rate_noise=float("nan")),
+        lambda: Sensors(velocity="guess"),
+        lambda: Motors(rate_limit=0.0),
+        lambda: Motors(lag=-1.0),
+        lambda: ba.SampledTime(0.0),
+        lambda: ba.SampledTime(1e-3, delay=-1e-3),
+        lambda: ba.Walker(biped, adrc(gait), sensors=Sensors()),
+        lambda: ba.Walker(biped, adrc(gait), impact_gain=(0.1,)),
     ):
-        with pytest.raises(ba.BipedError, match=message):
+        with pytest.raises(ba.BipedError):
             make()
 
 
@@ -377,20 +317,14 @@ class Late(ba.Controller):
         return np.zeros(4) if m.t < 0.05 else self.late
 
 
-@pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
-def test_a_controller_that_forgets_a_motor_is_named(biped, gait, engine):
-    for timing in (ba.SampledTime(T), ba.ContinuousTime()):
-        walker = ba.Walker(biped, Late(np.zeros(3)), timing=timing)
-        with pytest.raises(ba.BipedError, match=r"Late\.output returned an array of shape \(3,\)"):
-            ba.walk(walker, gait, 1, ba.RK4(T), engine=engine)
-        nan = ba.Walker(biped, Late(np.full(4, np.nan)), timing=timing)
-        found = ba.walk(nan, gait, 1, ba.RK4(T), engine=engine).trajectory
-        assert found.status is ba.Status.NOT_FINITE
-    q, v = gait.start(biped)
-    case = ba.Case(ba.Walker(biped, Late(np.zeros(3)), timing=ba.SampledTime(T)), q, v, ba.RK4(T))
-    (walked,) = ba.simulate_many([case])
-    assert walked.status is ba.Status.RAISED
-    assert "shape (3,)" in walked.detail
+@pytest.mark.parametrize("timing", [ba.SampledTime(T), ba.ContinuousTime()], ids=["ticks", "all"])
+def test_a_controller_that_forgets_a_motor_is_named(biped, gait, timing):
+    walker = ba.Walker(biped, Late(np.zeros(3)), timing=timing)
+    with pytest.raises(ba.BipedError, match=r"Late\.output"):
+        ba.walk(walker, gait, 1, ba.RK4(T))
+    nan = ba.Walker(biped, Late(np.full(4, np.nan)), timing=timing)
+    found = ba.walk(nan, gait, 1, ba.RK4(T)).trajectory
+    assert found.status is ba.Status.NOT_FINITE
 
 
 @pytest.mark.parametrize(("known", "share"), [(0, 1.0), (1, 0.7)])

@@ -2,22 +2,16 @@
 
 from dataclasses import replace
 
-import casadi as ca
 import numpy as np
 import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.certificate import depths, forces
 from biped_adrc.analysis.quadrature import integral
-from biped_adrc.bench.run import run_trial
-from biped_adrc.engine.symbols import Scalar
-from biped_adrc.engine.tracer import Tracer
 from biped_adrc.hardware.loads import Loads, Outside
 from biped_adrc.hardware.meter import (
-    READINGS,
     Hit,
     Meter,
-    Reading,
     greater,
     metered,
     metered_impact,
@@ -143,7 +137,7 @@ def test_no_window_reaches_over_an_impact(biped, gait):
 
 
 @pytest.mark.parametrize("since", [0.3, 0.7])
-@pytest.mark.parametrize("ticks", [3, 5, 6, 9])
+@pytest.mark.parametrize("ticks", [3, 9])
 def test_the_last_window_ends_at_the_impact(biped, gait, ticks, since):
     """300 N up to the last tick, none after it: over five periods, or all there are."""
     ground = Ground(biped, gait)
@@ -196,10 +190,6 @@ def test_scuffing_and_torque_are_seen(biped, gait):
     assert downhill.reading.scuffing == pytest.approx(0.002)
 
 
-def test_readings_are_what_they_say():
-    assert len(Reading._fields) == READINGS
-
-
 def walker_of(biped, gait, disturbance, **more):
     heavier = biped.with_errors(mass={"torso": 1.1})
     return ba.Walker(
@@ -224,11 +214,10 @@ def pushes(biped):
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("slope", [0.0, 0.01])
-def test_the_meter_reads_what_the_stored_nodes_show(biped, gait, engine, slope):
+def test_the_meter_reads_what_the_stored_nodes_show(biped, gait, engine):
     """Of the same sampled walk: at the ticks and over windows between them exactly, and against certificates,
     which look at every instant, within what the force changes in a period."""
-    walker = walker_of(biped, gait, pushes(biped), slope=slope)
+    walker = walker_of(biped, gait, pushes(biped), slope=0.01)
     walk = ba.walk(walker, gait, impacts=3, method=ba.RK4(0.25 * T), engine=engine)
     g = reading(walker.held_at(walk.trajectory.final_state).g)
     least, friction, instants, ratios, outside = [], [], [], [], 0
@@ -277,14 +266,6 @@ def last_mean(walker, step, t, ticks, F):
     return (whole[1] - whole[0] + given - held) / length
 
 
-def test_both_engines_read_alike_under_forces(biped, gait):
-    for more in ({}, {"slope": 0.01, "ground_steps": (ba.StepDown(2, 0.004),)}):
-        walker = walker_of(biped, gait, pushes(biped), **more)
-        runs = [ba.walk(walker, gait, impacts=3, engine=e).trajectory for e in ENGINES]
-        one, other = (reading(walker.held_at(run.final_state).g) for run in runs)
-        assert one == pytest.approx(other, rel=1e-7, abs=1e-9)
-
-
 def test_the_plant_is_judged_and_not_the_model(biped, gait):
     """Half the mass on the ground is half the force, whatever the controller believes."""
     walker = walker_of(biped, gait, None)
@@ -295,69 +276,6 @@ def test_the_plant_is_judged_and_not_the_model(biped, gait):
     ]
     lighter = walker.plant.weight - light.plant.weight
     assert found[0].mean_normal_force - found[1].mean_normal_force > 0.5 * lighter
-
-
-class Plain(ba.Controller):
-    """In Python alone."""
-
-    def __init__(self, h):
-        self.h = h
-
-    def output(self, s, m):
-        r = self.h(m.t, m.q, m.v)
-        wanted = 2500.0 * (r.q_d - m.q_b) + 120.0 * (r.dq_d - m.v_b)
-        return m.terms.kappa_inverse @ wanted + m.terms.Omega[:4]
-
-
-def test_a_controller_in_plain_python_is_metered_too(biped, gait):
-    walker = replace(walker_of(biped, gait, pushes(biped)), controller=Plain(gait.constraint))
-    runs = [ba.walk(walker, gait, impacts=1, engine=e).trajectory for e in ENGINES]
-    assert runs[1].settings["engine"] == "compiled plant"
-    one, other = (reading(walker.held_at(run.final_state).g) for run in runs)
-    assert one == pytest.approx(other, rel=1e-6, abs=1e-9)
-    assert one.windows > 0
-
-
-def test_a_window_of_too_many_ticks_is_refused(biped, gait):
-    meter = Meter(gait.constraint, ba.Limits(window=0.1))
-    with pytest.raises(ba.BipedError, match="has 10000 ticks"):
-        _ = ba.Walker(
-            biped, ba.NPDController(gait.constraint), timing=ba.SampledTime(1e-5), meter=meter
-        ).held
-    assert meter.window(T) == 100
-    assert Meter(gait.constraint).window(1.5e-3) == 3
-    assert Meter(gait.constraint).window(0.02) == 1
-
-
-def test_a_trial_says_whether_it_was_legal_and_why_not():
-    common = {"controller": "NPD", "impacts": 4}
-    legal = run_trial(common)
-    assert (legal["outcome"], legal["legal"], legal["legal_impacts"]) == ("legal", 1, 4)
-    strict = run_trial({**common, "friction_limit": 0.3})
-    assert (strict["outcome"], strict["legal"], strict["legal_impacts"]) == ("made", 0, 0)
-    assert (strict["bad_friction"], strict["bad_impulse"], strict["bad_torque"]) == (1, 1, 0)
-    assert strict["mean_friction"] == legal["mean_friction"]
-    assert strict["share_outside"] > 0.0 == legal["share_outside"]
-    fell = run_trial(
-        {
-            **common,
-            "push": "pulse",
-            "on": "q5",
-            "amplitude": 300.0,
-            "pushed_step": 3,
-            "onset": 0.1,
-            "torque_limit": 150.0,
-        }
-    )
-    assert (fell["outcome"], fell["legal"], fell["legal_impacts"]) == ("fell", 0, 2)
-    stalled = run_trial({**common, "start_speed": -0.9, "max_step_time": 0.3})
-    assert (stalled["status"], stalled["outcome"]) == ("STALLED", "ended")
-    bare = run_trial({**common, "preset": "identified-bare"})
-    assert (bare["outcome"], bare["bad_impulse"]) == ("legal", 1)
-    for bad, unit in ((0.0, "friction_limit"), (1.5, "friction_limit"), (-1.0, "force_window")):
-        refused = run_trial({**common, unit: bad})
-        assert refused["status"] == "REFUSED"
-        assert unit in refused["detail"]
 
 
 def test_steps_shorter_than_the_window_are_judged_as_a_whole(biped, gait):
@@ -379,25 +297,6 @@ def test_steps_shorter_than_the_window_are_judged_as_a_whole(biped, gait):
         assert (g.windows, g.illegal_step) == (3.0, step)
         assert g.mean_normal_force == pytest.approx(F[1], rel=1e-3)
         assert g.mean_friction == pytest.approx(needed, rel=1e-2)
-
-
-class Tied(ba.OnLink):
-    """A force on a link whose law says nothing of its resultant."""
-
-    @property
-    def laws(self):
-        return tuple(law._replace(resultant=None) for law in super().laws)
-
-    def resultant(self, t, step, t_start):
-        return np.array([1.0, 2.0])
-
-
-def test_a_resultant_without_a_law_does_not_compile(biped, gait):
-    wave = ba.TorquePulse([-80.0, 40.0, 5.0], step=1, start=0.1, stop=0.2)
-    walker = walker_of(biped, gait, Tied(biped, biped.description.trunk, wave))
-    run = ba.walk(walker, gait, impacts=1, engine="compiled").trajectory
-    assert run.settings["engine"] != "compiled"
-    assert "Tied has a resultant and no law of it" in run.settings["why"]
 
 
 def test_a_foot_that_comes_from_lower_ground_does_not_scuff(biped, gait):
@@ -425,8 +324,3 @@ def test_a_foot_that_comes_from_lower_ground_does_not_scuff(biped, gait):
 def test_a_peak_that_is_no_number_stays_none(a, b):
     assert np.isnan(greater(a, b))
     assert np.isnan(greater(greater(1.0, a), greater(b, 2.0)))
-    one, other = ca.SX.sym("a"), ca.SX.sym("b")
-    traced = Tracer()(greater)(Scalar(one), Scalar(other)).e
-    compiled = ca.Function("greater", [one, other], [traced])
-    assert np.isnan(float(compiled(a, b)))
-    assert (float(compiled(1.0, 2.0)), float(compiled(2.0, 1.0))) == (2.0, 2.0)

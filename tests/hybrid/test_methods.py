@@ -1,23 +1,17 @@
 """One-step methods: order of convergence, energy, and the exponential method's own functions."""
 
 import math
-from pathlib import Path
 
 import numpy as np
-import pinocchio as pin
 import pytest
 from scipy.special import ellipk
 
 import biped_adrc as ba
 from biped_adrc.hybrid.exponential import Exponential, phi_functions
 from biped_adrc.hybrid.integrators import RK4, Adaptive, Stiff
-from biped_adrc.hybrid.relaxation import relaxation
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import Guard, HybridSystem, Relaxing, Split
 from biped_adrc.observers.gpi import TABLE_I
-
-DATA = Path(pin.__file__).parents[4] / "share" / "example-robot-data" / "robots"
-DOUBLE_PENDULUM = DATA / "double_pendulum_description" / "urdf" / "double_pendulum.urdf"
 
 
 class Pendulum(HybridSystem):
@@ -28,24 +22,6 @@ class Pendulum(HybridSystem):
 
     def guards(self, mode):
         return (Guard("bottom", lambda t, x: x[0], lambda t, x: (x, mode)),)
-
-
-class Chain(HybridSystem):
-    """Any Pinocchio model swinging freely."""
-
-    def __init__(self, model):
-        self.model, self.data = model, model.createData()
-
-    def flow(self, t, x, mode):
-        n = self.model.nv
-        a = pin.aba(self.model, self.data, x[:n], x[n:], np.zeros(n))
-        return np.concatenate((x[n:], a))
-
-    def energy(self, x):
-        n = self.model.nv
-        return pin.computeKineticEnergy(
-            self.model, self.data, x[:n], x[n:]
-        ) + pin.computePotentialEnergy(self.model, self.data, x[:n])
 
 
 class Swing(HybridSystem):
@@ -77,19 +53,6 @@ def test_pendulum_period_by_elliptic_integral(method):
     assert times[1] - times[0] == pytest.approx(period, abs=1e-7)
 
 
-@pytest.mark.parametrize("method", [Adaptive(), Stiff()])
-def test_step_control_keeps_its_tolerance_where_the_longest_step_does_not(method):
-    """x'' = -w^2 x over half a period, of which the longest step is twice as long."""
-
-    class Fast(HybridSystem):
-        def flow(self, t, x, mode):
-            return w * np.array([x[1], -x[0]])
-
-    w = 100.0 * math.pi
-    run = simulate(Fast(), np.array([1.0, 0.0]), 0, method, t_end=math.pi / w)
-    assert run.final_state == pytest.approx([-1.0, 0.0], abs=1e-7)
-
-
 class Driven(HybridSystem):
     """x'' = -w^2 x + y, y' = -(y - u) / tau: state (x, x', y, u); its closed form is `exact`."""
 
@@ -118,7 +81,7 @@ class Driven(HybridSystem):
         )
 
 
-@pytest.mark.parametrize("tau", [1e-9, 1e-5, 3e-4, 2e-3, 1e-2, 0.1, 3.0])
+@pytest.mark.parametrize("tau", [1e-9, 1e-5, 2e-3, 0.1])
 def test_what_relaxes_in_a_step_is_exact_and_the_motion_of_order_four(tau):
     system, steps = Driven(tau), np.array([4e-2, 2e-2, 1e-2])
     x0, end = np.array([0.3, -0.5, system.Y, system.U]), 0.4
@@ -134,46 +97,9 @@ def test_what_relaxes_in_a_step_is_exact_and_the_motion_of_order_four(tau):
     assert system.Y - 0.4 <= between <= system.U + 0.4  # dense output hardly overshoots
 
 
-@pytest.mark.parametrize("theta", [0.0, 1e-8, 0.3, 1.0 - 1e-12, 1.0, 4.0, 700.0, 1e9])
-def test_the_quadratic_of_what_relaxes_has_its_moments(theta):
-    first, middle, last, end = relaxation(theta)
-    c, weight = np.polynomial.legendre.leggauss(3)
-    c, weight = 0.5 + 0.5 * c, 0.5 * weight
-    P = np.polynomial.Polynomial.fit([0.0, 0.5, 1.0], [first, middle, last], 2)
-    by_parts = -math.expm1(-theta) / theta if theta > 1e-4 else 1.0 - theta / 2.0
-    moments = [by_parts]
-    for j in (1, 2):
-        moments.append(
-            (j * moments[-1] - end) / theta
-            if theta > 0.1
-            else 1.0 / (j + 1) - theta / (j + 2) + theta**2 / (2 * j + 6)
-        )
-    tolerance = 1e-13 if theta > 0.1 or theta < 1e-4 else 1e-4
-    for j, m in enumerate(moments):
-        assert np.sum(weight * c**j * P(c)) == pytest.approx(m, abs=tolerance)
-    assert end == math.exp(-theta)
-
-
-def test_order_of_rk4_on_the_passive_swing(biped):
-    x0 = np.array([0.2, 0.5, -0.3, -0.4, 3.3, 0.5, -1.0, 0.3, 0.2, -0.4])
-    system, steps = Swing(biped), np.array([4e-3, 2e-3, 1e-3])
-
-    def end(h):
-        return simulate(system, x0, 0, RK4(h), t_end=0.32).final_state
-
-    exact = end(6.25e-5)
-    errors = [np.max(np.abs(end(h) - exact)) for h in steps]
-    assert order(errors, steps) == pytest.approx(4.0, abs=0.1)
-
-
-@pytest.mark.parametrize("name", ["double pendulum", "biped"])
-def test_energy_of_a_free_swing(biped, name):
+def test_energy_of_a_free_swing(biped):
     """Drift per simulated second falls with the tolerance, and is small in absolute terms."""
-    if name == "biped":
-        system, x0 = Swing(biped), np.concatenate(([0.2, 0.5, -0.3, -0.4, 3.3], np.zeros(5)))
-    else:
-        system = Chain(pin.buildModelFromUrdf(str(DOUBLE_PENDULUM)))
-        x0 = np.concatenate(([2.0, -1.0], np.zeros(2)))
+    system, x0 = Swing(biped), np.concatenate(([0.2, 0.5, -0.3, -0.4, 3.3], np.zeros(5)))
     drifts = {}
     scale = abs(system.energy(x0)) + 1.0
     for method in (
@@ -251,21 +177,7 @@ def test_order_of_the_exponential_method_on_a_smooth_closed_loop(biped, gait):
     )
 
 
-def test_exponential_agrees_with_a_stiff_method_on_table_one(biped, gait):
-    walker = ba.Walker(biped, ba.ADRCController(gait.constraint))
-    x0 = walker.initial_state(*gait.start(biped))
-    stiff = simulate(walker, x0, ba.Mode(), Stiff(1e-8, 1e-10), t_end=0.02).final_state[:10]
-    ours = simulate(walker, x0, ba.Mode(), Exponential(2e-4), t_end=0.02).final_state[:10]
-    assert np.max(np.abs(ours - stiff)) < 2e-5
-
-
-def test_exponential_method_refuses_a_system_without_a_split(biped, gait):
-    walker = ba.Walker(biped, ba.NPDController(gait.constraint))
-    with pytest.raises(ba.BipedError, match="use RK4, Adaptive or Stiff"):
-        ba.walk(walker, gait, 1, Exponential())
-
-
-@pytest.mark.parametrize("length", [0.4, 1.05, 1.96, 2.5])
+@pytest.mark.parametrize("length", [0.4, 1.96])
 def test_a_step_of_another_length_has_its_own_phi_functions(length):
     """On E' = a E + c, p' = 1 the method is exact whatever the step."""
     h, a, c = 1e-3, -700.0, 3.0

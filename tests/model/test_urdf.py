@@ -7,11 +7,10 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.errors import InputError, ModelError, NotFiniteError
-from biped_adrc.model.pinned import frame_index, reroot, velocity_index
+from biped_adrc.model.pinned import frame_index, reroot
 from biped_adrc.resources import data_folder
 from biped_adrc.robots import symmetry
-from biped_adrc.robots.robot_toml import load_description, robot_names
-from biped_adrc.robots.urdf import to_xml
+from biped_adrc.robots.robot_toml import robot_names
 from biped_adrc.robots.urdf_reader import load_tree
 from biped_adrc.robots.urdf_xml import parse
 
@@ -26,27 +25,16 @@ THIGH_INERTIA = 'ixx="0.47" ixy="0" ixz="0" iyy="0.47"'
     ("old", "new", "message"),
     [
         (TORSO_MASS, '<mass value="-12"/>', "mass -12 kg"),
-        (TORSO_MASS, '<mass value="0"/>', "mass 0 kg"),
         (TORSO_MASS, '<mass value="nan"/>', "nan"),
-        (TORSO_MASS, '<mass value="1.5kg"/>', "1.5kg"),
-        (TORSO_MASS, "", "<mass> is missing"),
         (THIGH_INERTIA, 'ixx="0.47" ixy="0" ixz="0" iyy="4.7"', "triangle inequality"),
         (THIGH_INERTIA, 'ixx="-0.47" ixy="0" ixz="0" iyy="0.47"', "positive definite"),
-        *[
-            (THIGH_INERTIA, THIGH_INERTIA.replace(*moment), "positive definite")
-            for moment in (('ixy="0"', 'ixy="-0.48"'), ('ixz="0"', 'ixz="-0.48"'))
-        ],
-        ('iyz="0"', 'iyz="-0.48"', "positive definite"),
-        (FIRST_AXIS, '<axis xyz="0 0 0"/>', "length 0"),
+        (THIGH_INERTIA, THIGH_INERTIA.replace('ixy="0"', 'ixy="-0.48"'), "positive definite"),
         (FIRST_AXIS, '<axis xyz="0 -2 0"/>', "length 2"),
         ('name="left_hip" type="revolute"', 'name="left_hip" type="continuous"', "'continuous'"),
         ('name="left_hip"', 'name="right_hip"', "two joints are named 'right_hip'"),
-        ('<link name="left_thigh">', '<link name="right_thigh">', "two links are named"),
         (HIP, HIP.replace("torso", "pelvis"), "no link 'pelvis'"),
         ('<child link="left_thigh"/>', '<child link="right_thigh"/>', "two parent joints"),
-        ('<link name="world"/>', '<link name="world"/><link name="moon"/>', "root links"),
         ("</robot>", "", "not well-formed"),
-        ("<robot ", "<machine ", "not well-formed"),
     ],
 )
 def test_bad_urdf_is_refused(tmp_path, old, new, message):
@@ -60,29 +48,6 @@ def test_bad_urdf_is_refused(tmp_path, old, new, message):
     assert "bad.urdf" in str(caught.value)
 
 
-def test_missing_file_is_named():
-    with pytest.raises(ModelError, match=r"nowhere\.urdf"):
-        load_tree("nowhere.urdf")
-
-
-def test_xml_round_trip():
-    tree = load_tree(FLOATING)
-    assert to_xml(tree).count("<link") == len(tree.links)
-    again = load_tree_text(to_xml(tree))
-    assert again.links == tree.links
-    assert again.joints == tree.joints
-
-
-def load_tree_text(text):
-    import tempfile
-    from pathlib import Path
-
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "robot.urdf"
-        path.write_text(text)
-        return load_tree(path)
-
-
 def test_stored_pinned_urdf_is_the_floating_one_rerooted():
     stored = load_tree(FLOATING.with_name("pinned.urdf"))
     derived = reroot(load_tree(FLOATING), "left_foot", "torso")
@@ -90,30 +55,17 @@ def test_stored_pinned_urdf_is_the_floating_one_rerooted():
     assert stored.joints == derived.joints
 
 
-def test_default_preset_is_what_the_urdf_says():
-    tree, preset = load_tree(FLOATING), load_description("rabbit").tree()
-    for name, link in tree.links.items():
-        if link.inertial is not None:
-            other = preset.links[name].inertial
-            assert (link.inertial.mass, link.inertial.com) == (other.mass, other.com)
-            assert link.inertial.inertia[3] == other.inertia[3]
-
-
 def test_unknown_names_are_answered_with_the_known_ones(biped):
-    with pytest.raises(ModelError, match=r"no robot 'atlas'.*rabbit"):
-        ba.Biped.load("atlas")
-    with pytest.raises(ModelError, match=r"no preset 'heavy'.*tac2003"):
-        ba.Biped.load("rabbit", "heavy")
-    with pytest.raises(ModelError, match=r"no joint 'q9'.*torso_pitch"):
-        biped.description.joint_index("q9")
-    with pytest.raises(ModelError, match=r"no frame 'hand'"):
-        frame_index(biped.pinned.model, "hand")
-    with pytest.raises(ModelError, match=r"no joint 'elbow'"):
-        velocity_index(biped.pinned.model, "elbow")
-    with pytest.raises(ModelError, match=r"no body 'arm'"):
-        biped.with_errors(mass={"arm": 2.0})
-    with pytest.raises(ModelError, match=r"factor of 'torso' is -1"):
-        biped.with_errors(mass={"torso": -1})
+    for make, known in (
+        (lambda: ba.Biped.load("atlas"), "rabbit"),
+        (lambda: ba.Biped.load("rabbit", "heavy"), "tac2003"),
+        (lambda: biped.description.joint_index("q9"), "torso_pitch"),
+        (lambda: frame_index(biped.pinned.model, "hand"), "hand"),
+        (lambda: biped.with_errors(mass={"arm": 2.0}), "arm"),
+        (lambda: biped.with_errors(mass={"torso": -1}), "torso"),
+    ):
+        with pytest.raises(ModelError, match=known):
+            make()
     assert robot_names() == ("compass", "rabbit", "rimless_wheel", "simplest", "three_link")
 
 
@@ -141,8 +93,6 @@ def test_legs_that_differ_are_refused(tmp_path):
     [
         ("phase = [1.0, 0.0, 0.5, 0.0, 1.0]", "phase = [1.0]", "expected 5 finite numbers"),
         ("mass = 12.0", "mass = -12.0", "mass is -12"),
-        ('stance_foot = "left_foot"', 'stance_foot = "left_toe"', "left_toe"),
-        ('name = "rabbit"', "name = rabbit", "not valid TOML"),
         ('unactuated = "torso_pitch"\n', "", "'unactuated' is missing"),
     ],
 )
@@ -186,10 +136,8 @@ def test_twins_turn_in_the_same_sense(change, message):
             "1501 links, expected at most 200",
         ),
         ("<?xml version='1.0' encoding='utf-7'?><robot name='a'/>", "multi-byte encodings"),
-        ("<?xml version='1.0' encoding='zz'?><robot name='a'/>", "unknown encoding: zz"),
-        ("<?xml version='1.0' encoding='idna'?><robot name='a'/>", "'idna' codec"),
     ],
-    ids=["nested", "links", "utf-7", "zz", "idna"],
+    ids=["nested", "links", "utf-7"],
 )
 def test_files_that_crashed_a_parser_are_refused(text, said, tmp_path):
     path = tmp_path / "a.urdf"

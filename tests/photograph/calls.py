@@ -85,7 +85,7 @@ CHAINS: dict[str, tuple[Call, ...]] = {
         Call("sweep dry", "sweep study.toml -o sweep --dry-run"),
         Call("sweep", "sweep study.toml -o sweep --workers 1 --export csv --plot start.q5,case"),
         Call("sweep again", "sweep study.toml -o sweep --no-run --threads"),
-        Call("compare", f"{COMPARE} --no-pushes --workers 1 -o comparison"),
+        Call("compare", f"{COMPARE} --workers 1 -o comparison"),
     ),
     "wrong": (
         Call("no command", ""),

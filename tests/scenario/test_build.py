@@ -10,7 +10,7 @@ from biped_adrc.bench.run import run_trial
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.scenario.build import RobotAndGait, build, plant_of, start
 from biped_adrc.scenario.run import walk_scenario
-from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.scenario import Scenario, drawn
 
 
 def drawn_start(seed: int, **values: object) -> np.ndarray:
@@ -24,6 +24,14 @@ def test_every_seed_has_its_own_start_which_all_controllers_share(name: str) -> 
     starts = np.array([drawn_start(seed, **values) for seed in range(6)])
     assert len(np.unique(starts.round(12), axis=0)) == 6
     np.testing.assert_array_equal(drawn_start(3, controller="NPD", **values), starts[3])
+
+
+def test_the_speed_of_the_start_is_the_last_number_drawn() -> None:
+    s = Scenario(seed=3, start_speed=0.1, start_speed_spread=0.02)
+    scene = RobotAndGait.of(s)
+    q, v = scene.on_orbit
+    *_, last = np.random.default_rng(drawn(s, "start")).standard_normal(len(q) + len(v) + 1)
+    np.testing.assert_allclose(start(s, scene)[1], v * (1.1 + 0.02 * last), rtol=1e-15)
 
 
 def test_the_load_of_the_trunk_is_a_share_of_its_mass() -> None:
@@ -69,20 +77,8 @@ def test_the_columns_of_a_walk_are_means_over_ticks_and_joints() -> None:
             {"period": 1e-3, "rate_noise": 1e-3, "velocity": "differences"},
             {"velocity": "measured"},
         ),
-        (
-            "filter_time with rates that are measured",
-            {"period": 1e-3, "filter_time": 1e-3, "velocity": "measured"},
-            {"velocity": "differences"},
-        ),
-        ("friction_error without friction", {"friction_error": 0.1}, {"friction": True}),
         ("amplitude or force without a push", {"amplitude": 9.0}, {"push": "pulse"}),
-        (
-            "pushed_step = 11 of 10 steps",
-            {"push": "pulse", "amplitude": 9.0, "impacts": 10, "pushed_step": 11},
-            {"pushed_step": 10},
-        ),
         ("a tolerance without the method adaptive", {"tolerance": 1e-8}, {"method": "adaptive"}),
-        ("poles and a bandwidth", {"poles": "-9,-9,-9", "bandwidth": 3.0}, {"poles": None}),
     ],
 )
 def test_a_value_that_would_do_nothing_is_refused(

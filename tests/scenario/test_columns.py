@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import sys
 
 import numpy as np
 import pytest
@@ -65,13 +64,6 @@ def test_a_fall_has_its_event(biped, gait):
     assert fallen.to_pandas()["event"].iloc[-1] == fallen.trajectory.arcs[-1].event.guard
 
 
-def test_a_walk_without_motors(tmp_path):
-    found = read(ba.passive_walk("compass", 2).to_csv(tmp_path / "walk"))
-    assert {"q1 [rad]", "q2 [rad]", "v2 [rad/s]", "F_N [N]"} < set(found)
-    assert not any(name.startswith(("u", "q_d", "error")) for name in found)
-    assert (tmp_path / "walk.csv").is_file()
-
-
 def test_the_command_writes_it_and_reads_a_step_of_it(biped, gait, tmp_path):
     path, out = tmp_path / "step.csv", tmp_path / "gait.json"
     done = CliRunner().invoke(
@@ -83,15 +75,3 @@ def test_the_command_writes_it_and_reads_a_step_of_it(biped, gait, tmp_path):
     assert done.exit_code == 0, done.exception
     fitted = ba.load_gait(out, biped).constraint.curve.coefficients
     assert np.allclose(fitted, gait.constraint.curve.coefficients, atol=1e-6)
-
-
-def test_without_pandas_the_extra_is_named(walk, monkeypatch):
-    monkeypatch.setitem(sys.modules, "pandas", None)
-    with pytest.raises(ba.BipedError, match=r"pip install 'biped-adrc\[tables\]'.*walk.to_csv"):
-        walk.to_pandas()
-
-
-@pytest.mark.parametrize("path", ["walk.parquet", "walk.npz"])
-def test_other_names_are_refused(walk, path, tmp_path):
-    with pytest.raises(ba.BipedError, match=r"expected \.csv"):
-        walk.to_csv(tmp_path / path)

@@ -12,7 +12,6 @@ from biped_adrc.analysis.touchdowns import TouchdownRates
 from biped_adrc.bench.build import case
 from biped_adrc.bench.run import measured, run_trial
 from biped_adrc.engine.batch import run_case
-from biped_adrc.errors import InputError
 from biped_adrc.hardware.touchdown_by_foot import ByForce, ByKinematics
 from biped_adrc.hardware.touchdown_told import Told
 from biped_adrc.scenario.build import build
@@ -29,25 +28,6 @@ def test_values_come_by_name_with_or_without_the_prefix():
     assert made("Force", touchdown_delay=2e-3, on=40.0) == ByForce(on=40.0, delay=2e-3)
     assert made("kinematics", height=1e-3) == ByKinematics(height=1e-3)
     assert build(ba.Scenario(**USUAL)).touchdown is None
-
-
-def test_the_clock_does_not_know_of_touchdowns():
-    clocks = [build(ba.Scenario(**USUAL, touchdown=name)).timing for name in (None, "told")]
-    assert [clock.restart for clock in clocks] == [True, False]
-
-
-def test_the_seed_decides_which_are_missed():
-    seeds = [
-        build(ba.Scenario(**USUAL, touchdown="told", seed=k, own={"missed": 0.5})).touchdown.seed
-        for k in (1, 1, 2)
-    ]
-    assert seeds[0] == seeds[1] != seeds[2]
-
-
-def test_the_slope_that_the_controller_takes_is_the_gait_s():
-    scenario = ba.Scenario(**USUAL, touchdown="kinematics", slope=0.01)
-    assert build(scenario).touchdown.slope == 0.0
-    assert made("kinematics", touchdown_slope=0.02).slope == 0.02
 
 
 @pytest.mark.parametrize("plant", ["rigid", "mujoco"])
@@ -103,16 +83,3 @@ def test_one_of_the_user_s_is_found_by_its_module():
     scenario = ba.Scenario(**USUAL, touchdown=f"{__name__}:Mine")
     assert build(scenario).touchdown == Mine()
     assert scenario.record()["touchdown"] == f"{__name__}:Mine"
-
-
-def test_what_does_nothing_is_refused():
-    with pytest.raises(InputError, match="touchdown without a period"):
-        ba.Scenario("NPD", touchdown="told")
-    with pytest.raises(InputError, match="touchdown = 'told'"):
-        build(ba.Scenario(**USUAL, own={"late": 1e-3}))
-    with pytest.raises(InputError, match="fine with a touchdown"):
-        ba.Scenario(**USUAL, touchdown="told", fine=1e-4)
-    with pytest.raises(InputError, match="did you mean 'told'"):
-        build(ba.Scenario(**USUAL, touchdown="tolld"))
-    with pytest.raises(InputError, match="told of touchdowns at once"):
-        _ = ba.walk_scenario(ba.Scenario(**USUAL)).touchdowns

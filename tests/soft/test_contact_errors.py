@@ -9,15 +9,11 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.contact_errors import contact_errors
-from biped_adrc.bench.run import run_trial
 from biped_adrc.closed_loop.feet import with_readings
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.soft.meters import recorded_steps, soft_steps
-
-SOFT = {"plant": "mujoco", "period": 1e-3, "torque_limit": 150.0, "impacts": 2}
-PUSH = {"push": "pulse", "amplitude": 30.0, "pushed_step": 2, "onset": 0.1, "duration": 0.2}
 
 
 def walk(*humps, pushed=(2.0, 3.0)):
@@ -59,26 +55,6 @@ def test_contact_settles_for_60_ms(at, settling):
 
 def test_nothing_pushed_is_no_number():
     assert contact_errors(walk()).pushed_error is None
-    assert run_trial({**SOFT, "controller": "NPD", "impacts": 1})["pushed_error"] is None
-    rigid = run_trial({"controller": "NPD", "period": 1e-3, "impacts": 2, **PUSH})
-    assert rigid["pushed_error"] is None
-    assert rigid["slip"] is None
-
-
-def test_a_row_has_what_signals_and_feet_say():
-    row = run_trial({**SOFT, **PUSH, "controller": "NPD"})
-    made = ba.walk_scenario(ba.Scenario("NPD", **SOFT, **PUSH))
-    x = made.signals
-    begin = x.t[x.step == 2][0]
-    window = (x.t >= begin + 0.0999) & (x.t <= begin + 0.3501) & (x.step == 2)
-    assert row["pushed_error"] == pytest.approx(np.max(np.abs(x.error[window])))
-    assert row["pushed_error"] == pytest.approx(7.6e-3, rel=0.05)
-    early = (x.step == 2) & (x.t <= begin + 0.0601)
-    assert row["touchdown_error"] == pytest.approx(np.max(np.abs(x.error[early])))
-    steps = recorded_steps(made.trajectory, 0.6, ground_axes(0.0))
-    assert row["slip"] == max(max(s.slip) for s in steps)
-    assert row["penetration"] == pytest.approx(4e-4, rel=0.3)
-    assert row["flight"] == row["double_support"] == 0.0
 
 
 def test_meters_of_recorded_nodes_are_those_of_readings_at_the_nodes(biped, gait):

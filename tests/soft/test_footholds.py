@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.errors import InputError
 from biped_adrc.ground import ground_axes
 from biped_adrc.soft.mujoco_plant import MuJoCoPlant
 from biped_adrc.soft.mujoco_robot import mujoco
@@ -105,23 +104,6 @@ def test_each_foot_touches_its_own_level_along_the_vertical(biped, gait, slope):
             np.testing.assert_allclose(depths, expected, rtol=0.0, atol=2e-6)
 
 
-@pytest.mark.parametrize("height", [-0.7, 0.7])
-def test_the_same_motion_on_ground_at_another_height(biped, gait, height):
-    """Nothing that ends a single support is counted from the level of the start."""
-    plant = MuJoCoPlant(biped, ground_steps=(ba.StepDown(1, 5e-3),))
-    row = np.concatenate(plant.start(0.0, *gait.start(biped))[1:])
-    moved = []
-    for raised in (0.0, height):
-        x, found = row.copy(), ()
-        x[[12, 16, 17]] += raised
-        for k in range(50):
-            x, contacts = plant.stride(k * 1e-3, x, np.zeros(4), None, (k + 1) * 1e-3)
-            found += contacts
-        moved.append(x - raised * np.isin(np.arange(len(x)), (12, 16, 17)))
-        assert found == ()
-    np.testing.assert_allclose(moved[0], moved[1], rtol=0.0, atol=1e-6)
-
-
 def test_uneven_ground_of_a_scenario_is_that_of_the_rigid_plant():
     walk = ba.walk_scenario(ba.Scenario("NPD", **SOFT, impacts=3, ground_rms=2e-3, seed=4))
     assert walk.trajectory.status is ba.Status.COMPLETED
@@ -131,25 +113,3 @@ def test_uneven_ground_of_a_scenario_is_that_of_the_rigid_plant():
     assert np.ptp(falls) > 2e-3
     kept = walk.trajectory.settings["plant"]["ground_steps"]
     assert kept[0]["height"] == walk.walker.ground_steps[0].height
-
-
-def test_steps_are_counted_from_the_first_step_of_the_walk():
-    one, other = (
-        ba.walk_scenario(
-            ba.Scenario("NPD", **SOFT, impacts=2, ground_step=5e-3, first_step=k, pushed_step=k + 1)
-        ).trajectory
-        for k in (1, 3)
-    )
-    assert [arc.mode.step for arc in other.arcs] == [3, 4]
-    np.testing.assert_array_equal(one.final_state, other.final_state)
-
-
-def test_what_does_not_fit_is_said(biped, gait):
-    steps = (ba.StepDown(2, 5e-3),)
-    plant = MuJoCoPlant(biped, ground_steps=steps)
-    with pytest.raises(InputError, match="give them to the walker alone"):
-        stepping_loop(walker_on(biped, gait), plant)
-    with pytest.raises(InputError, match="1 steps of the ground, and such a file has level ground"):
-        ba.write_mjcf(plant, "steps.xml")
-    with pytest.raises(InputError, match="begins in single support 0"):
-        MuJoCoPlant(biped, first_step=0)

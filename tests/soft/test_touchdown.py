@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.touchdowns import touchdowns
-from biped_adrc.errors import InputError
 from biped_adrc.hardware.touchdown_by_foot import ByForce, ByKinematics
 from biped_adrc.hardware.touchdown_told import Told
 
@@ -83,22 +80,3 @@ def test_in_the_window_the_recorded_torque_is_the_old_law_s(plant, gait):
             m = loop.measure(arc.t[k], q, v, ba.closed_loop.protocols.Mode())
             u = loop.saturate(loop.law.output(np.zeros(0), m))
             np.testing.assert_allclose(arc.read["u"][k], u[loop.swap], rtol=1e-8, atol=1e-8)
-
-
-def test_a_plant_that_does_not_say_what_its_feet_carry(plant, gait):
-    @dataclass(frozen=True)
-    class Mute:
-        inner: object
-        n, p, swap = plant.n, plant.p, plant.swap
-
-        def start(self, t, q, v):
-            return self.inner.start(t, q, v)
-
-        def advance(self, *given):
-            return self.inner.advance(*given)
-
-    clock = ba.SampledTime(T, restart=False)
-    npd = ba.NPDController(gait.constraint)
-    with pytest.raises(InputError, match="Mute does not say what its feet carry"):
-        ba.SteppingLoop(Mute(plant), npd, plant.biped, clock, touchdown=ByForce())
-    assert ba.SteppingLoop(Mute(plant), npd, plant.biped, clock, touchdown=ByKinematics()).held

@@ -13,17 +13,14 @@ import umsgpack
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.npd import NPDController
 from biped_adrc.disturbances.pulse import TorquePulse
-from biped_adrc.errors import InputError, OutputError
+from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.hybrid.integrators import RK4
-from biped_adrc.hybrid.trajectory import hermite
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.walk import walk as walk_of
-from biped_adrc.viz.export import Clip, export
-from biped_adrc.viz.meshcat.objects import ring_mesh, visual_transform
-from biped_adrc.viz.meshcat.view import Look, animation_html, node_names
-from biped_adrc.viz.placement import WalkScene, slipping
+from biped_adrc.viz.meshcat.view import Look, animation_html
+from biped_adrc.viz.placement import WalkScene
 
 from .pinocchio_view import floating
 
@@ -63,15 +60,12 @@ def placed(biped: Biped, walk: dict, values: np.ndarray) -> dict[str, np.ndarray
     return floating(biped, dict(zip(names, map(float, values), strict=True)))
 
 
-@pytest.mark.parametrize("robot", ["NPD", "ADRC"])
-def test_the_animation_plays_the_walk(
-    biped: Biped, walks: dict[str, Walk], page: str, robot: str
-) -> None:
-    found = robot_of(scene(page)[0], robot)
-    d, walk = data(found), WalkScene.of(walks[robot])
+def test_the_animation_plays_the_walk(biped: Biped, walks: dict[str, Walk], page: str) -> None:
+    found = robot_of(scene(page)[0], "ADRC")
+    d, walk = data(found), WalkScene.of(walks["ADRC"])
     moving = {j.name for j in biped.tree.joints if j.type != "fixed"}
     assert {joint["path"].split("/")[-1] for joint in found["joints"]} == moving
-    arcs = walks[robot].trajectory.arcs
+    arcs = walks["ADRC"].trajectory.arcs
     assert d["t"][0] == arcs[0].t[0]
     assert d["t"][-1] == arcs[-1].t[-1]
     assert np.max(np.diff(d["t"])) <= 1.0 / FPS + 1e-12
@@ -87,20 +81,6 @@ def test_the_animation_plays_the_walk(
         np.testing.assert_allclose(d["points"][k][2:], at[f"{swing}_foot"][[0, 2], 3], atol=1e-5)
 
 
-def test_between_nodes_the_walk_is_within_tolerance(walks: dict[str, Walk], page: str) -> None:
-    for name, walk in walks.items():
-        d, laid_out = data(robot_of(scene(page)[0], name)), WalkScene.of(walk)
-        names = [joint["path"].split("/")[-1] for joint in robot_of(scene(page)[0], name)["joints"]]
-        rng = np.random.default_rng(3)
-        for t in rng.uniform(d["t"][0], d["t"][-1], 200):
-            i = int(np.searchsorted(d["t"], t, side="right")) - 1
-            ends = [(d["t"][k], d["joints"][k], d["rates"][k]) for k in (i, i + 1)]
-            (t0, x0, dx0), (t1, x1, dx1) = ends
-            drawn = hermite(t0, t1, x0, x1, dx0, dx1, t)
-            true = laid_out.joints(float(t))
-            np.testing.assert_allclose(drawn, [true[n] for n in names], atol=3e-6)
-
-
 def test_arrows_are_the_loads(walks: dict[str, Walk], page: str) -> None:
     """The ground reaction against Newton's law for the centre of mass, from the nodes themselves."""
     walk = walks["NPD"]
@@ -112,33 +92,6 @@ def test_arrows_are_the_loads(walks: dict[str, Walk], page: str) -> None:
             expected = np.interp(d["t"][mine], s.t[theirs], s.ground_reaction[theirs][:, column])
             np.testing.assert_allclose(d["loads"][mine][:, column], expected, rtol=0.02, atol=2.0)
     assert not d["loads"][:, 2:].any()  # nobody pushed
-
-
-def test_slips_and_the_force_on_the_other_foot_are_those_of_the_ground(slippery: Walk) -> None:
-    """At every node, which are also where either begins or ends."""
-    d = data(scene(animation_html({"soft": slippery}, Look(fps=FPS)))[0]["walks"][0])
-    laid_out, slips = WalkScene.of(slippery), 0
-    for i, arc in enumerate(slippery.trajectory.arcs):
-        mine = d["arc"][:, 0] == i
-        ends = np.searchsorted(arc.t, d["t"][mine], side="right") - 1
-        rows = np.minimum(ends, len(arc.t) - 2)
-        force, place = arc.read["foot_force"][rows, 2:], arc.read["foot_place"]
-        np.testing.assert_allclose(d["contact"][mine][:, 2:4], force, rtol=1e-6)
-        x = np.interp(d["t"][mine], arc.t, place[:, 0])
-        np.testing.assert_allclose(d["contact"][mine][:, 0], x, atol=1e-6)
-        told = slipping(laid_out, arc)
-        assert np.array_equal(d["contact"][mine][:, 4] > 0.0, told[rows])
-        lasting = np.flatnonzero(np.diff(arc.t) > 0.0)
-        drawn = np.searchsorted(d["t"][mine], arc.t[lasting], side="right") - 1
-        assert np.array_equal(d["contact"][mine][drawn, 4] > 0.0, told[lasting])
-        slips += np.count_nonzero(told)
-    assert slips > 10
-    assert np.any(d["contact"][:, 3] > 0.0)
-
-
-def test_on_the_rigid_plant_no_foot_slips_and_one_carries(page: str) -> None:
-    contact = data(robot_of(scene(page)[0], "NPD"))["contact"]
-    assert not contact[:, 2:].any()
 
 
 def test_a_push_is_drawn_on_the_joint_that_is_pushed(biped: Biped) -> None:
@@ -155,70 +108,14 @@ def test_a_push_is_drawn_on_the_joint_that_is_pushed(biped: Biped) -> None:
     assert not zeta[~inside].any()
 
 
-def test_the_ring_turns_counter_clockwise_and_ends_in_its_head() -> None:
-    vertices, faces = ring_mesh()
-    assert faces.max() == len(vertices) - 1
-    angle = np.unwrap(np.arctan2(vertices[:40, 2], vertices[:40, 0]))
-    assert np.all(np.diff(angle) > 0)
-    tip = np.arctan2(vertices[-1, 2], vertices[-1, 0])
-    assert np.hypot(*vertices[-1, [0, 2]]) == pytest.approx(1.0)
-    assert (tip - angle[-1]) % (2 * np.pi) == pytest.approx(np.radians(40.0))
-
-
-def test_names_that_look_alike_stay_apart() -> None:
-    names = node_names({"a b": 0, "a/b": 0, "a_b": 0, "": 0})
-    assert len(set(names.values())) == 4
-    assert all("/" not in name and name for name in names.values())
-
-
-def test_primitives_are_those_of_the_urdf(biped: Biped, page: str) -> None:
-    commands = scene(page)[1]
-    objects = {c["path"]: c["object"] for c in commands if c["type"] == "set_object"}
-    matrices = {c["path"]: c["matrix"] for c in commands if c["type"] == "set_transform"}
-    visuals = [v for link in biped.tree.links.values() for v in link.visuals]
-    drawn = [path for path in objects if "/robots/ADRC/" in path and "visual" in path]
-    assert len(drawn) == len(visuals)
-    assert len([p for p in objects if "/robots/NPD/" in p and "visual" in p]) == len(visuals)
-    thigh = next(p for p in drawn if p.endswith("left_hip/visual_0"))
-    cylinder = objects[thigh]["geometries"][0]
-    assert (cylinder["type"], cylinder["height"]) == ("CylinderGeometry", 0.4)
-    placement = np.array(matrices[thigh]).reshape(4, 4).T
-    np.testing.assert_allclose(placement[:3, 1], [0.0, 0.0, 1.0])  # meshcat's axis on the URDF's z
-    assert np.linalg.det(placement) == pytest.approx(1.0)
-    np.testing.assert_allclose(
-        placement, visual_transform(biped.tree.links["left_thigh"].visuals[0])
-    )
-    assert objects[thigh]["materials"][0]["opacity"] == 1.0
-    ghost = thigh.replace("ADRC", "NPD")
-    assert 0.0 < objects[ghost]["materials"][0]["opacity"] < 1.0
-    assert objects[thigh]["materials"][0]["color"] == 0x0073B2  # rgb 0.00 0.45 0.70 of the URDF
-
-
 def test_the_page_stands_alone(page: str) -> None:
     assert len(page.encode()) < 4_000_000
     assert "default-src 'none'" in page
     assert not re.search(r"""(src|href)\s*=\s*["']?\s*(https?:)?//""", page)
     outside = set(re.findall(r"https?://[\w./-]+", page))
     assert outside <= {"http://www.w3.org/1999/xhtml"}  # a namespace, never loaded
-    settings, commands = scene(page)
-    assert {command["type"] for command in commands} == {
-        "set_object",
-        "set_property",
-        "set_transform",
-    }
+    settings, _ = scene(page)
     assert settings["follow"].startswith("meshcat/robots/ADRC/")
-
-
-def test_the_stage_is_white_and_empty(page: str) -> None:
-    told = [c for c in scene(page)[1] if c["type"] == "set_property"]
-    found = {(c["path"].rsplit("/", 1)[-1], c["property"]): c["value"] for c in told}
-    for end in ("top", "bottom"):
-        assert found["Background", f"{end}_color"] == [1.0, 1.0, 1.0]
-    assert [found[name, "visible"] for name in ("Axes", "Grid")] == [False, False]
-
-
-def test_the_page_repeats_byte_for_byte(biped: Biped, walks: dict[str, Walk], page: str) -> None:
-    assert animation_html(walks, Look(fps=FPS)) == page
 
 
 def test_names_and_marks_are_escaped(biped: Biped, walks: dict[str, Walk]) -> None:
@@ -228,17 +125,12 @@ def test_names_and_marks_are_escaped(biped: Biped, walks: dict[str, Walk]) -> No
     assert scene(text)[0]["marks"] == [[0.1, 0.3, bad]]
 
 
-def test_animation_refuses_bad_input(biped: Biped, walks: dict[str, Walk], tmp_path) -> None:
-    with pytest.raises(InputError, match="at least one"):
-        animation_html({})
-    with pytest.raises(InputError, match="choose one of"):
-        animation_html(walks, Look(solid="LQR"))
-    with pytest.raises(InputError, match="fps"):
-        animation_html(walks, Look(fps=0.0))
-    with pytest.raises(InputError, match="perspective"):
-        animation_html(walks, Look(view="top"))
-    (tmp_path / "file").write_text("")
-    with pytest.raises(OutputError):
-        export(tmp_path / "file" / "walk.html", walks, Clip(fps=10.0))
-    export(tmp_path / "walk.html", walks, Clip(fps=10.0))
-    assert [f.name for f in tmp_path.glob("*.html")] == ["walk.html"]
+def test_animation_refuses_bad_input(walks: dict[str, Walk]) -> None:
+    for shown, look in (
+        ({}, Look()),
+        (walks, Look(solid="LQR")),
+        (walks, Look(fps=0.0)),
+        (walks, Look(view="top")),
+    ):
+        with pytest.raises(InputError):
+            animation_html(shown, look)

@@ -26,28 +26,6 @@ def decoded(data: bytes) -> tuple[Array, Fraction]:
         return np.array(frames), video.duration * video.time_base
 
 
-def moving_square(count: int, height: int, width: int) -> list[Array]:
-    frames = np.full((count, height, width, 3), 255, dtype=np.uint8)
-    for k, frame in enumerate(frames):
-        frame[20:40, 4 * k : 4 * k + 20] = (0, 114, 178)
-    return list(frames)
-
-
-@pytest.mark.parametrize("fps", [25.0, 50.0, 30000 / 1001, 0.5, 7.3])
-@pytest.mark.parametrize("size", [(80, 120), (81, 121)])
-def test_frames_come_back_for_as_long_as_they_are_shown(fps: float, size: tuple[int, int]) -> None:
-    frames = moving_square(12, *size)
-    data = mp4.encoded(frames, fps, 2.0)
-    found, seconds = decoded(data)
-    rest = round(2.0 * fps)
-    assert found.shape == (12 + rest, size[0] + size[0] % 2, size[1] + size[1] % 2, 3)
-    assert float(seconds) == pytest.approx((12 + rest) / fps, rel=1e-3)
-    height, width = size
-    for shown, frame in zip(found, [*frames, *[frames[-1]] * rest], strict=True):
-        assert np.mean(np.abs(shown[:height, :width].astype(int) - frame)) < 4.0
-    assert data == mp4.encoded(frames, fps, 2.0)
-
-
 def test_a_walk_is_the_same_picture_as_video_and_as_gif(
     walks: dict[str, Walk], tmp_path: Path
 ) -> None:

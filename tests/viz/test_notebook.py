@@ -25,17 +25,6 @@ def test_a_walk_shows_its_animation_and_its_figures(walks: dict[str, Walk]) -> N
     assert shown.startswith("<p>ADRC: 3 impacts. COMPLETED")
 
 
-def test_a_trajectory_draws_itself(walks: dict[str, Walk], tmp_path) -> None:
-    walk = walks["NPD"]
-    assert walk.trajectory._repr_html_() == walk._repr_html_()
-    walk.trajectory.animate(tmp_path / "walk.html")
-    text = (tmp_path / "walk.html").read_text(encoding="utf-8")
-    assert text == animation_html({"NPD": walk})
-    assert len(walk.trajectory.plot().axes) == len(walk.plot().axes)
-    with pytest.raises(InputError, match=r"ends in '\.mov'"):
-        walk.trajectory.animate(tmp_path / "walk.mov")
-
-
 def test_a_trajectory_without_a_robot_says_what_to_do(walks: dict[str, Walk], tmp_path) -> None:
     bare = replace(walks["NPD"].trajectory, viewer=None)
     assert bare._repr_html_() is None

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from biped_adrc.model.biped import Biped
-from biped_adrc.scenario.recording import Walk
 from biped_adrc.viz.from_the_side.robot_figure import direction
-from biped_adrc.viz.placement import WalkScene, joint_values, link_placements
+from biped_adrc.viz.placement import joint_values, link_placements
 
 from .pinocchio_view import floating
 
@@ -30,18 +29,3 @@ def test_links_are_where_pinocchio_puts_them(biped: Biped, step: int) -> None:
         np.testing.assert_allclose(ours["torso"][[0, 2], 3], origin + hip, atol=1e-12)
         thigh = ours[f"{stance}_thigh"][[0, 2], 2]
         np.testing.assert_allclose(thigh, direction(q[4] + q[0]), atol=1e-12)
-
-
-def test_no_drawn_joint_jumps_at_impact(biped: Biped, walks: dict[str, Walk]) -> None:
-    walk = WalkScene.of(walks["NPD"])
-    assert len(walk.footholds) == 3
-    assert np.all(np.diff(walk.footholds) > 0.2)
-    for event in walks["NPD"].trajectory.events("foot_strike")[:-1]:
-        before, after = walk.joints(event.t - 1e-9), walk.joints(event.t + 1e-9)
-        assert max(abs(before[name] - after[name]) for name in before) < 1e-6
-
-
-def test_a_pose_is_held_outside_the_run(biped: Biped, walks: dict[str, Walk]) -> None:
-    walk = WalkScene.of(walks["ADRC"])
-    assert walk.joints(99.0) == walk.joints(walks["ADRC"].trajectory.t_end)
-    assert walk.joints(-1.0) == walk.joints(0.0)

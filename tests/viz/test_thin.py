@@ -1,14 +1,11 @@
-"""Thinned lines keep what can be seen; the numbers of a figure do not depend on thinning."""
+"""Thinned lines keep what can be seen."""
 
 from __future__ import annotations
-
-import json
 
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from biped_adrc.viz.figure_numbers import as_text, differences, numbers_of
 from biped_adrc.viz.thin import thin, thinned
 
 WIDTH = 1.0 / 600
@@ -91,49 +88,7 @@ def test_lines_outside_and_values_that_are_not_finite() -> None:
     axes.set_xlim(2.0, 3.0)
     thin(figure)
     assert len(axes.get_lines()[0].get_xdata()) == 0
-    assert numbers_of(figure)["panels"][0]["lines"] == {"outside": {}, "none": {}, "inside": {}}
     y = np.where(t < 0.5, t, np.inf)
     kept = thinned(t, y, WIDTH)
     assert y[kept][-1] == np.inf
     assert len(kept) < 3000
-
-
-@pytest.mark.parametrize("zoom", [False, True])
-def test_numbers_depend_neither_on_thinning_nor_on_nodes(zoom: bool) -> None:
-    numbers = numbers_of(drawn(200_000, zoom))
-    assert differences(numbers, numbers_of(thin(drawn(200_000, zoom))), 1e-4) == []
-    assert differences(numbers, numbers_of(thin(drawn(100_000, zoom)))) == []
-    panel = numbers["panels"][0]
-    assert panel["bars"] == {"torque": [3.0, 4.0]}
-    assert panel["lines"]["error"]["y"][1] == pytest.approx(
-        5.0 + np.sin(6 * np.pi * SPIKE), rel=1e-4
-    )
-    assert json.loads(as_text(numbers)) == numbers
-
-
-def test_differences_name_what_differs() -> None:
-    old = numbers_of(drawn(1000))
-    new = json.loads(as_text(old))
-    assert differences(old, new) == []
-    line = new["panels"][0]["lines"]["error"]
-    top = line["y"][1]
-    line["y"][1] = 1.009 * top
-    assert differences(old, new) == []
-    line["y"][1] = 1.02 * top
-    (found,) = differences(old, new)
-    assert found.startswith("panels 1, lines, error, y 2: ")
-    assert f"{top:g} in the file, {1.02 * top:g} now" in found
-    line["y"][1] = None
-    assert len(differences(old, new)) == 1
-    del new["panels"][0]["bars"]
-    assert "panels 1, bars: is no longer drawn" in differences(old, new)
-    assert differences({"a": "x [s]"}, {"a": "x [ms]"}) == ["a: 'x [s]' in the file, 'x [ms]' now"]
-
-
-def test_small_numbers_are_told_apart_by_the_size_of_their_line() -> None:
-    old = {"panels": [{"lines": {"e": {"y": [-1.0, 1.0], "samples": [1e-4, 0.5]}}}]}
-    new = json.loads(json.dumps(old))
-    new["panels"][0]["lines"]["e"]["samples"][0] = 5e-3
-    assert differences(old, new) == []
-    new["panels"][0]["lines"]["e"]["samples"][0] = 2e-2
-    assert len(differences(old, new)) == 1

@@ -9,8 +9,6 @@ module; in the editor and for type checks they are ordinary ones.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
 from threading import Lock
@@ -18,7 +16,7 @@ from types import ModuleType
 
 from numba.core import config
 
-from biped_adrc.engine.machine import forget, load_source, seal
+from biped_adrc.engine.machine import forget, load_source, note_checksums
 from biped_adrc.errors import ModelError
 from biped_adrc.hybrid import relaxation
 
@@ -43,32 +41,15 @@ def _kernels() -> ModuleType:
     if getattr(config, "DISABLE_JIT", 0):
         raise ModelError("NUMBA_DISABLE_JIT is set, so nothing can be compiled; unset it")
     text = source()
-    with _beside_the_source():
-        module = load_source(text)
-        try:
-            module.compile_all()
-        except Exception:  # numba does not say what it raises for machine code that is damaged
-            forget(module)
-            module = load_source(text)
-            module.compile_all()
-    seal(module)
-    return module
-
-
-@contextmanager
-def _beside_the_source() -> Iterator[None]:
-    """While numba keeps its code beside the module, whatever NUMBA_CACHE_DIR and the like say.
-
-    What it reads there it unpickles, and only what lies beside the module is checked.
-    """
-    said = {name: getattr(config, name, "") for name in ("CACHE_DIR", "CACHE_LOCATOR_CLASSES")}
+    module = load_source(text)
     try:
-        for name in said:
-            setattr(config, name, "")
-        yield
-    finally:
-        for name, value in said.items():
-            setattr(config, name, value)
+        module.compile_all()
+    except Exception:  # numba does not say what it raises for machine code that is damaged
+        forget(module)
+        module = load_source(text)
+        module.compile_all()
+    note_checksums(module)
+    return module
 
 
 def source() -> str:

@@ -24,6 +24,7 @@ from __future__ import annotations
 
 import io
 import json
+import os
 from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
@@ -33,7 +34,7 @@ import numpy as np
 from scipy.io import loadmat, savemat
 
 from biped_adrc.errors import GaitError, InputError
-from biped_adrc.files import output_path, read_json, reading, write_bytes, write_text
+from biped_adrc.files import check_regular, output_path, read_json, reading, write_bytes, write_text
 from biped_adrc.gait.conventions import OWN, Convention
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.exchange.samples import Samples, read_csv
@@ -74,7 +75,8 @@ def read_mat(path: Path | str) -> dict[str, Any]:
     Raises InputError for a file that is missing, damaged or of version 7.3.
     """
     path = Path(path)
-    if not path.is_file():
+    check_regular(path, f"MATLAB file '{path}'", InputError)
+    if not os.path.isfile(path):
         raise InputError(f"MATLAB file '{path}' not found")
     try:
         found = loadmat(io.BytesIO(path.read_bytes()), simplify_cells=True)
@@ -310,19 +312,3 @@ def export_run(
         raise InputError(f"columns {unknown} have no unit; give units={{name: unit}} for them")
     about = {"format": RUN_FORMAT, "convention": "paper", "note": note}
     write_mat(path, {**about, **arrays}, {name: known[name] for name in arrays})
-
-
-def read_run(path: Path | str) -> dict[str, Array]:
-    """The columns of a file that `export_run` wrote, each (K,) or (K, ...), in the units stored with them.
-
-    Raises InputError for another file.
-    """
-    found = read_mat(path)
-    if found.get("format") != RUN_FORMAT:
-        raise InputError(
-            f"run '{path}' has format '{found.get('format')}', expected '{RUN_FORMAT}'; "
-            "write it with export_run"
-        )
-    if "units" not in found:
-        raise InputError(f"run '{path}' ends before its units: it is cut off; copy it again")
-    return {name: np.asarray(found[name], dtype=float) for name in found["units"]}

@@ -13,7 +13,6 @@ from dataclasses import replace
 from pathlib import Path
 
 from biped_adrc.errors import GaitError
-from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.conventions import CONVENTIONS, OWN, of_the_paper, own_convention
 from biped_adrc.gait.conventions import convention as known_convention
 from biped_adrc.gait.exchange.closure import check
@@ -26,11 +25,6 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part
 from biped_adrc.robots.robot_toml import robot_names
-
-
-def import_constraint(record: GaitRecord) -> VirtualConstraint:
-    """The virtual constraint of a record, without a robot. Raises GaitError where it does not close."""
-    return check(record).constraint
 
 
 def import_gait(

@@ -1,32 +1,28 @@
-"""Figures of `biped-adrc compare`: who walks legally under what, at what error, and the largest pushes.
+"""Figures of `biped-adrc compare`: who walks legally under what, and at what error.
 
-They are drawn from the summary's plain values (the rows of `bench.cell.Cell` and
-`bench.largest_push`), so the documentation can draw them anew from summary.json. Shares and medians
+They are drawn from the summary's plain values, the rows of `bench.cell.Cell`, so they can be drawn anew
+from summary.json. Shares and medians
 come as [value, low, high] with an interval of 95 %.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import cycle
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.container import ErrorbarContainer
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from biped_adrc.errors import InputError
-from biped_adrc.types import Array, PlainRecord
+from biped_adrc.types import PlainRecord
 from biped_adrc.viz.style import PALETTE, label, named_cells, new_figure, style
 
 MARKERS = ("o", "s", "D", "^", "v", "P", "X", "*")
 """Marks by controller."""
 GREYS = LinearSegmentedColormap.from_list("legal", ["0.62", "1.0"])
 """White where all walks are legal, grey where none is."""
-KINDS = {"survived": "all steps", "legal": "legal"}
-"""The two answers about a largest push and their words: with all steps made, and walked legally."""
 
 
 def legal_figure(cells: Sequence[PlainRecord]) -> Figure:
@@ -129,79 +125,6 @@ def _marks(
         color=PALETTE[i % len(PALETTE)],
         label=name,
     )
-
-
-def push_figure(pushes: Sequence[PlainRecord]) -> Figure:
-    """The largest push [N m] walked legally (filled) and with all steps made (hollow), a panel for each phase.
-
-    pushes: "controller", "direction" (joints), "phase", and in "legal" and "survived" the "median"
-    and the "seeds", each [low, high] [N m] with None for "at least". Thin lines span the seeds of
-    legal walks, an arrow means that even the largest push tried was passed. Raises InputError
-    without pushes.
-    """
-    directions, columns = _names(pushes, "direction"), _names(pushes, "controller")
-    phases = list(dict.fromkeys(p["phase"] for p in pushes))
-    with style():
-        figure = new_figure(2.6 * len(phases) + 0.8, 1.3 + 0.16 * len(directions) * len(columns))
-        panels = figure.subplots(1, len(phases), sharey=True, sharex=True, squeeze=False)[0]
-        for axes, phase in zip(panels, phases, strict=True):
-            for i, name in enumerate(columns):
-                here = [p for p in pushes if (p["phase"], p["controller"]) == (phase, name)]
-                own = -0.4 + 0.8 * (i + 0.5) / len(columns)
-                _pushes(axes, here, [directions.index(p["direction"]) + own for p in here], i)
-            for k in range(1, len(directions)):
-                axes.axhline(k - 0.5, color="#bbbbbb", lw=0.6)
-            axes.set_yticks(range(len(directions)), directions)
-            axes.set_ylim(len(directions) - 0.5, -0.5)
-            axes.set_xlim(0.0, 1.12 * _farthest(pushes))
-            label(axes, "largest push [N m]", "", f"{phase} in the step")
-        handles = [
-            Line2D([], [], ls="", marker=marker, color=colour, label=name)
-            for name, marker, colour in zip(columns, cycle(MARKERS), cycle(PALETTE), strict=False)
-        ]
-        figure.legend(handles=handles, loc="outside lower center", ncols=min(len(columns), 5))
-        return figure
-
-
-def _farthest(pushes: Sequence[PlainRecord]) -> float:
-    """The largest push that is drawn [N m], at least 1."""
-    ends = [
-        x for p in pushes for k in ("legal", "survived") for x in p[k]["median"] + p[k]["seeds"]
-    ]
-    return max(1.0, *(float(x) for x in ends if x is not None))
-
-
-def _pushes(axes: Axes, pushes: Sequence[PlainRecord], heights: list[float], i: int) -> None:
-    """Draw the pushes of controller i at these heights: a mark at what is reached at least, with an
-    arrow to the right where the largest push tried was passed, so that no more is known.
-    """
-    colour, marker = PALETTE[i % len(PALETTE)], MARKERS[i % len(MARKERS)]
-    for kind, face in (("survived", "white"), ("legal", colour)):
-        least = np.array([p[kind]["median"][0] for p in pushes], dtype=float)
-        axes.errorbar(
-            least,
-            heights,
-            xerr=_over_seeds(pushes, least) if kind == "legal" and pushes else None,
-            fmt=marker,
-            ms=3.5,
-            mfc=face,
-            mec=colour,
-            mew=0.8,
-            ecolor=colour,
-            elinewidth=1.2,
-            label=f"{pushes[0]['controller']}, {KINDS[kind]}" if pushes else "_",
-        )
-        for p, x, y in zip(pushes, least, heights, strict=True):
-            if p[kind]["median"][1] is None:
-                arrow = {"arrowstyle": "->", "color": colour, "lw": 0.8}
-                axes.annotate("", (x * 1.09, y), (x, y), arrowprops=arrow)
-
-
-def _over_seeds(pushes: Sequence[PlainRecord], least: Array) -> Array:
-    """How far the seeds of legal walks go below and above the marks (N,): (2, N) [N m]; open above: 0."""
-    low, high = zip(*(p["legal"]["seeds"] for p in pushes), strict=True)
-    known = np.array([x if h is None else h for x, h in zip(least, high, strict=True)], dtype=float)
-    return np.maximum([least - np.array(low, dtype=float), known - least], 0.0)
 
 
 def _names(rows: Sequence[PlainRecord], key: str) -> list[str]:

@@ -175,36 +175,6 @@ def observer(period: float, **how: Any) -> Plain:
     return {"verdict": r.verdict, "sections": {s.title: s.lines() for s in r.sections}}
 
 
-def arm() -> Plain:
-    """ADRC on an arm that carries what it does not know; a sentence where no arm is installed."""
-    try:
-        robot = ba.Arm.ur5()
-    except ba.BipedError as error:
-        return {"missing": type(error).__name__}
-    q = np.array([0.0, -1.2, 1.5, -0.5, 0.8, 0.2])
-
-    def swing(t: float) -> Any:
-        return (
-            q + 0.3 * (1.0 - np.cos(3.0 * t)),
-            0.9 * np.sin(3.0 * t) * np.ones(6),
-            2.7 * np.cos(3.0 * t) * np.ones(6),
-        )
-
-    law = ba.ADRCController(
-        ba.TimeReference(swing), ba.GPIObserver.from_bandwidth(200.0, 2), ba.Gains(400.0, 40.0)
-    )
-    heavy, found = robot.with_payload(3.0, com=(0.0, 0.0, 0.1)), {}
-    for name, clock in {"sampled": ba.SampledTime(1e-3), "continuous": ba.ContinuousTime()}.items():
-        system = ba.ArmSystem(heavy, law, clock, model=robot)
-        run = system.run(q, np.zeros(6), duration=0.3, method=ba.RK4(1e-3))
-        found[name] = {
-            "status": run.status.name,
-            "x": [float(v) for v in run.final_state],
-            "error": files.array(system.error(run, law.reference)),
-        }
-    return found
-
-
 def verification(group: str) -> Plain:
     """Rows of one group of the verification by system and quantity."""
     found: Plain = {}
@@ -239,7 +209,6 @@ def reports() -> dict[str, Callable[[], Plain]]:
         "zero/v0.5": lambda: zero("v0.5"),
         "observer/Table I": lambda: observer(5e-4),
         "observer/bandwidth": lambda: observer(1.5e-3, bandwidth=500.0, m=1),
-        "arm": arm,
     }
     for group in groups():
         found[f"verification/{group.name}"] = lambda name=group.name: verification(name)

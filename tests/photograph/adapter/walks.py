@@ -23,7 +23,7 @@ from biped_adrc.gait.published import passive_cycle
 from biped_adrc.scenario import build as scenario
 from biped_adrc.scenario.push import parse_push
 from biped_adrc.scenario.run import parts_of
-from biped_adrc.scenario.stored import values_of_0_1
+from biped_adrc.scenario.scenario import FREE
 from biped_adrc.scenario.walk import Part, default_parts, walk_in_parts
 from tests.photograph.adapter import walkers
 
@@ -48,6 +48,15 @@ class Ready(NamedTuple):
 
 
 # -- scenarios by kind -----------------------------------------------------------------------------
+def effective(fields: Plain) -> Plain:
+    """Fields of a drawn run without those that have no effect, which a scenario refuses."""
+    idle = {"store_every", "poles" if fields.get("bandwidth") else "order"}
+    if fields.get("controller") == "NPD":
+        idle |= {"observer", "poles", "bandwidth", "order", "reset"}
+    idle |= set() if fields.get("method") in FREE else {"tolerance"}
+    return {name: x for name, x in fields.items() if name not in idle}
+
+
 def as_before() -> AbstractContextManager[object]:
     """While it lasts the default step behind hardware is the 1 ms with which `before` was taken."""
     return patch("biped_adrc.scenario.walk.HARDWARE_STEP", 1e-3)
@@ -81,7 +90,7 @@ def _trial(s: Plain) -> Ready:
 
 def _run(s: Plain) -> Ready:
     pushes = tuple(parse_push(text) for text in s["pushes"])
-    run = ba.Scenario(pushes=pushes, **values_of_0_1(s["fields"]))
+    run = ba.Scenario(pushes=pushes, **effective(s["fields"]))
     scene = scenario.RobotAndGait.of(run)
     g, w = scene.walked, scenario.build(run, scene)
     q, v = g.start(w.nominal)

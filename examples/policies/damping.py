@@ -1,0 +1,50 @@
+"""A policy across contact as a law: for some ms after a touchdown the joints are damped, and nothing else.
+
+Run: python examples/policies/damping.py
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+import biped_adrc as ba
+from biped_adrc.control.across_contact import ContactWindow
+from biped_adrc.control.around import passed_on
+
+
+class DampingParameters(NamedTuple):
+    until: float  # [s]
+    damping: float  # [N m s/rad]
+
+
+@dataclass(frozen=True)
+class Damping(ContactWindow):
+    """u = -damping q_b' for t_step < window [s]; the controller inside runs, and is told this torque."""
+
+    damping: float = 5.0
+
+    @property
+    def own(self):
+        return DampingParameters(super().own.until, self.damping)
+
+    def around(self, inner):
+        def output(k, s, m):
+            u = inner.output(k.inner, s, m)
+            return np.where(m.t_step < k.own.until, -k.own.damping * m.v[: len(u)], u)
+
+        return passed_on(inner)._replace(output=output)
+
+
+ba.register("contact", "damping", Damping, "the joints are damped while contact settles")
+
+walks = {"period": 1e-3, "torque_limit": 150.0, "impacts": 3}
+for name, policy in (
+    ("NPD", {}),
+    ("5 N m s/rad", {"contact": "damping", "contact_window": 5e-3}),
+    ("no torque", {"contact": "damping", "contact_window": 5e-3, "own": {"damping": 0.0}}),
+):
+    walk = ba.walk_scenario(ba.Scenario("NPD", **walks, **policy))
+    print(f"{name:12s} largest error {1e3 * walk.signals.peak_error:.2f} mrad")
+
+# It does not pay. To try: plant="mujoco", time_constant=0.01, and controller LESO.

@@ -1,0 +1,51 @@
+"""A policy across contact in plain Python: for some ms after a touchdown every motor keeps its last torque.
+
+Run: python examples/policies/last_torque.py
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+import biped_adrc as ba
+
+
+@dataclass(frozen=True)
+class LastTorque(ba.Controller):
+    """u = u_0 for t_step < window [s]; u_0 (p,), the last torque with its legs swapped, ends the state."""
+
+    inner: ba.Controller
+    window: float = 0.005
+
+    def sampled(self, period):
+        return replace(self, inner=self.inner.sampled(period))
+
+    def initial_state(self, m):
+        z = self.inner.initial_state(m)
+        return np.concatenate((z, self.inner.output(z, m)))
+
+    def jump(self, s, after, swap):
+        return np.concatenate((self.inner.jump(s[:-4], after, swap), s[-4:][swap]))
+
+    def correct(self, s, m):
+        return np.concatenate((self.inner.correct(s[:-4], m), s[-4:]))
+
+    def output(self, s, m):
+        return s[-4:] if m.t_step < self.window - 1e-9 else self.inner.output(s[:-4], m)
+
+    def predict(self, s, m, u):
+        last = s[-4:] if m.t_step < self.window - 1e-9 else u
+        return np.concatenate((self.inner.predict(s[:-4], m, u), last))
+
+
+biped = ba.Biped.load("rabbit")
+gait = ba.load_gait("published", biped)
+npd = ba.NPDController(gait.constraint)
+
+for controller in (npd, LastTorque(npd), LastTorque(npd, 0.015)):
+    walker = ba.Walker(biped, controller, timing=ba.SampledTime(1e-3), torque_limit=150.0)
+    walk = ba.walk(walker, gait, impacts=3)
+    name = f"{type(controller).__name__} {1e3 * getattr(controller, 'window', 0.0):g} ms"
+    print(f"{name:20s} largest error {1e3 * walk.signals.peak_error:.2f} mrad")
+
+# It does not pay: the longer the window, the larger the error. To try: on soft ground (docs/guide/mujoco.md).

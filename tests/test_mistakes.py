@@ -1,0 +1,149 @@
+"""Mistakes that users make: each is one sentence that names it, with the exit code of its kind."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import biped_adrc as ba
+from biped_adrc.cli import app
+from biped_adrc.disturbances.recorded import RecordedTorque
+from biped_adrc.gait.exchange.samples import read_csv
+
+
+class Silent(ba.Controller):
+    """Its output forgets to return."""
+
+    def output(self, s, m):
+        pass
+
+
+PYTHON = {
+    "a torque too few": (lambda r: r.walk(push=ba.TorquePulse([30.0] * 4)), "expected 5"),
+    "gains of five joints": (
+        lambda r: r.walk(ba.NPDController(r.h, ba.Gains([1.0] * 5, [1.0] * 5))),
+        "K_p has 5 numbers",
+    ),
+    "a gait of another robot": (
+        lambda r: ba.walk(ba.Walker(ba.Biped.load("three_link"), ba.NPDController(r.h)), r.gait, 1),
+        "'three_link'",
+    ),
+    "a gait in place of its constraint": (lambda r: ba.NPDController(r.gait), "gait.constraint"),
+    "a class in place of a controller": (
+        lambda r: ba.Walker(r.biped, ba.NPDController),
+        "is the class NPDController",
+    ),
+    "arguments in another order": (
+        lambda r: ba.walk(r.gait, ba.Walker(r.biped, ba.NPDController(r.h))),
+        "expected a Walker",
+    ),
+    "a list of pushes": (
+        lambda r: ba.Walker(r.biped, ba.Passive(), [ba.TorquePulse([1.0] * 5)]),
+        "(a list)",
+    ),
+    "a bandwidth as the observer": (lambda r: ba.ADRCController(r.h, 500.0), "from_bandwidth"),
+    "degrees as the start": (
+        lambda r: r.walk(start=tuple(map(np.degrees, r.gait.start(r.biped)))),
+        "np.radians",
+    ),
+    "a start of another length": (
+        lambda r: r.walk(start=(np.zeros(5), np.zeros(4))),
+        "expected 5 finite numbers",
+    ),
+    "a URDF as the robot": (lambda r: ba.Biped.load("x.urdf"), "biped_from_urdf"),
+    "an output without return": (lambda r: r.walk(Silent()), "Silent.output returned None"),
+    "a period in words": (lambda r: ba.SampledTime("1ms"), "'1ms'"),
+    "a number as the timing": (
+        lambda r: ba.Walker(r.biped, ba.NPDController(r.h), timing=1e-3),
+        "SampledTime(0.001)",
+    ),
+    "a clock slower than a fall": (lambda r: ba.SampledTime(1000.0), "at most"),
+    "half an impact": (lambda r: r.walk(impacts=2.5), "whole number"),
+    "a method in words": (lambda r: r.walk(method="RK4"), "RK4(1e-3)"),
+    "one number for errors of masses": (lambda r: r.biped.with_errors(mass=1.2), "{'torso': 1.2}"),
+    "a scenario as a walker": (lambda r: ba.walk(ba.Scenario("NPD")), "expected a Walker"),
+    "a value of a sensor that is not chosen": (
+        lambda r: ba.walk_scenario(ba.Scenario("NPD", own={"bias": 0.1})),
+        "'pitch sensor'",
+    ),
+    "a gait for a passive cycle": (
+        lambda r: ba.find_cycle("compass", gait="v0.8"),
+        "no motors",
+    ),
+}
+COMMANDS = {
+    "simulate --preset foo": (3, "no preset 'foo'"),
+    "simulate --gait foo": (3, "no gait 'foo'"),
+    "simulate --poles=-1,2": (3, "pole 2 rad/s is not stable"),
+    "simulate --push q1=5": (3, "JOINTS=TORQUE@STEP"),
+    "simulate --push q7=5@1:0-1": (3, "no joint 'q7'"),
+    "simulate --period -1": (3, "period"),
+    "simulate --impacts 0": (3, "impacts"),
+    "simulate --colour red": (2, "No such option"),
+    "simulate -o out.txt": (3, ".npz"),
+    "simulate --torque-limit 5 --impacts 4": (4, ""),
+    "animate nowhere.npz": (3, "not found"),
+    "poincare --controller pid": (3, "'pid' is unknown"),
+    "poincare --robot compass --slope 0.6": (4, "no return to the section"),
+    "reproduce --out file/out": (5, "cannot write"),
+}
+TABLES = {
+    "t,q1\n0,1\n\n1,x\n": "line 4, column 'q1'",
+    "t,q1\n0,1\n\n1,nan\n": "line 4, column 'q1'",
+    "t,q1\n0,1\n1\n": "line 3",
+}
+
+
+@pytest.fixture(scope="module")
+def right(biped, gait):
+    """A robot, its gait, and a walk of one step of which a part is replaced."""
+
+    def walk(controller=None, push=None, impacts=1, **more):
+        controller = controller or ba.NPDController(gait.constraint)
+        return ba.walk(ba.Walker(biped, controller, push), gait, impacts, **more)
+
+    return SimpleNamespace(biped=biped, gait=gait, h=gait.constraint, walk=walk)
+
+
+@pytest.mark.parametrize("mistake", PYTHON)
+def test_a_mistake_in_python_is_one_sentence(mistake, right):
+    do, word = PYTHON[mistake]
+    with pytest.raises(ba.BipedError) as caught:
+        do(right)
+    assert word in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("line", COMMANDS)
+def test_a_mistake_on_the_command_line_has_its_exit_code(line, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "file").write_text("")
+    code, word = COMMANDS[line]
+    done = CliRunner().invoke(app, line.split())
+    error = done.exception
+    assert (error.exit_code if isinstance(error, ba.BipedError) else done.exit_code) == code
+    assert word in (str(error) if isinstance(error, ba.BipedError) else done.output)
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+@pytest.mark.parametrize("text", TABLES)
+def test_a_mistake_in_a_table_names_its_line(text, biped, tmp_path):
+    file = tmp_path / "table.csv"
+    file.write_text(text)
+    for read in (lambda: RecordedTorque.read(file, biped), lambda: read_csv(file)):
+        with pytest.raises(ba.BipedError) as caught:
+            read()
+        assert TABLES[text] in str(caught.value)
+
+
+def test_a_public_name_that_is_not_there_has_a_nearest_one():
+    with pytest.raises(AttributeError, match="did you mean 'NPDController'"):
+        _ = ba.PDController
+
+
+def test_a_value_that_does_nothing_is_said():
+    walk = ba.walk_scenario(ba.Scenario("NPD", impacts=1, seed=5))
+    assert any("seed = 5 does nothing" in remark for remark in walk.remarks)

@@ -1,0 +1,96 @@
+"""Whatever is drawn: walks end with a status and finite numbers, damaged files are read or refused."""
+
+from __future__ import annotations
+
+import contextlib
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import biped_adrc as ba
+from biped_adrc.bench.study_file import load_study
+
+FIXED = settings(deadline=None, derandomize=True, database=None)
+STUDY = """
+[study]
+name = "walks"
+seeds = 2
+[grid]
+controller = ["ADRC", "NPD"]
+period = ["1 ms", "2 ms"]
+"""
+SCENARIOS = st.fixed_dictionaries(
+    {
+        "controller": st.sampled_from(["NPD", "ADRC"]),
+        "K_p": st.floats(1.0, 1e7),
+        "K_d": st.floats(0.1, 1e4),
+        "amplitude": st.floats(0.1, 1e4),
+        "start_speed": st.floats(-0.9, 2.0),
+        "slope": st.floats(-0.3, 0.3),
+    }
+)
+
+
+def ends_with_finite_numbers(values, engine):
+    s = ba.Scenario(**values, push="pulse", pushed_step=1, impacts=1, engine=engine)
+    try:
+        walk = ba.walk_scenario(s)
+    except ba.BipedError:
+        return
+    run = walk.trajectory
+    assert isinstance(run.status, ba.Status)
+    for arc in run.arcs:
+        assert all(np.all(np.isfinite(x)) for x in (arc.t, arc.x, arc.dx))
+    assert np.all(np.isfinite(run.final_state))
+    assert walk.legality.outcome in ("legal", "made", "fell", "ended")
+
+
+@settings(FIXED, max_examples=100)
+@given(SCENARIOS)
+def test_a_compiled_walk_ends_with_a_status_and_finite_numbers(values):
+    ends_with_finite_numbers(values, "compiled")
+
+
+@settings(FIXED, max_examples=10)
+@given(SCENARIOS)
+def test_a_walk_on_pinocchio_ends_with_a_status_and_finite_numbers(values):
+    ends_with_finite_numbers(values, "pinocchio")
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory, biped, gait):
+    """By kind: the bytes of a whole file, where changed ones go, and what reads them."""
+    folder = tmp_path_factory.mktemp("files")
+    walk = ba.walk_scenario(ba.Scenario("NPD", impacts=1, period=1e-3))
+    paths = {
+        "run": walk.save(folder / "run.npz"),
+        "gait": folder / "gait.json",
+        "study": folder / "study.toml",
+        "log": ba.write_log(ba.logged(walk), folder / "log.csv", biped),
+    }
+    gait.save(paths["gait"])
+    paths["study"].write_text(STUDY)
+    read = {
+        "run": ba.load_walk,
+        "gait": lambda path: ba.load_gait(path, biped),
+        "study": load_study,
+        "log": lambda path: ba.read_log(path, biped),
+    }
+    return {kind: (path.read_bytes(), path, read[kind]) for kind, path in paths.items()}
+
+
+@settings(FIXED, max_examples=100)
+@given(
+    kind=st.sampled_from(["run", "gait", "study", "log"]),
+    at=st.floats(0.0, 1.0, exclude_max=True),
+    cut=st.integers(0, 400),
+    added=st.binary(max_size=40),
+)
+def test_damaged_bytes_are_read_or_refused(files, kind, at, cut, added):
+    whole, path, read = files[kind]
+    first = int(at * len(whole))
+    path.write_bytes(whole[:first] + added + whole[first + cut :])
+    with contextlib.suppress(ba.BipedError):
+        read(path)
