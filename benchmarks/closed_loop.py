@@ -34,8 +34,8 @@ BUDGET = 4.0  # [s] for the restarts of one solver
 SAME = 1e-9
 """Largest relative difference of a peer's x' to the package's, dimensionless."""
 METHODS: dict[str, OneStepMethod] = {
-    "ETD-RK4 0.5 ms": Exponential(5e-4),
     "ETD-RK4 1 ms": Exponential(1e-3),
+    "ETD-RK4 0.5 ms": Exponential(5e-4),
     "ETD-RK4 with feedback 1 ms": Exponential(1e-3, feedback=True),
     "RK4 0.1 ms": RK4(1e-4),
     "DOP853 1e-6": Adaptive(1e-6, 1e-6),

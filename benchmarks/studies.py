@@ -152,8 +152,8 @@ def main() -> None:
     """Print both tables, and write them when asked."""
     asked = arguments(__doc__).parse_args()
     swept(study(4), Threads(1))  # whatever is compiled once
-    sweeps(*(40, 1) if asked.quick else (1000, 3)).finish(asked.out)
-    searches(*(10, 5) if asked.quick else (200, 20)).finish(asked.out)
+    sweeps(*(40, 1) if asked.quick else (500, 3)).finish(asked.out)
+    searches(*(10, 5) if asked.quick else (100, 20)).finish(asked.out)
 
 
 if __name__ == "__main__":
