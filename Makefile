@@ -30,9 +30,9 @@ docs: .venv/.dev
 	$(BIN)/biped-adrc play --torque-limit 150 -o docs/_build/html/_static/play.html
 	$(BIN)/python docs/check_pages.py docs/_build/html
 
-# what the README shows, from the runs of 'make reproduce'
+# the pictures of README.md and of the first page
 pictures: .venv/.core
-	$(BIN)/python docs/make_pictures.py $(OUT)
+	$(BIN)/python docs/make_pictures.py
 
 # published results and closed forms beside those of the package, in docs/verification.csv
 verification: .venv/.core

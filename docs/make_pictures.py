@@ -1,49 +1,48 @@
-"""Make the pictures README.md opens with, from the runs of a reproduction, and that of the zero dynamics.
-
-Run: python docs/make_pictures.py OUT
-"""
+"""Make the picture README.md opens with, and that of the zero dynamics. Run: python docs/make_pictures.py"""
 
 from __future__ import annotations
 
-import argparse
-from collections.abc import Mapping
 from pathlib import Path
 
 from matplotlib.figure import Figure
+from PIL import Image
 
 from biped_adrc.analysis.zero_report import zero_report
 from biped_adrc.files import write_bytes
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.model.biped import Biped
-from biped_adrc.paper.figures import draw, push_window
-from biped_adrc.scenario.recording import Walk
-from biped_adrc.scenario.stored import load_walks
+from biped_adrc.scenario.run import walk_scenario
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.viz.from_the_side.moving_parts import Motion
 from biped_adrc.viz.from_the_side.moving_picture import write_moving_picture
 from biped_adrc.viz.plots.zero_dynamics import zero_dynamics_figure
 from biped_adrc.viz.style import render
 
 IMAGES = Path(__file__).resolve().parent / "images"
-BEFORE, AFTER = 0.15, 0.25
-"""[s], shown before and after the push."""
-MOTION = Motion(apart=True, magnify=30.0, slower=5.0, width=800)
-Walks = Mapping[str, Walk]
+PUSH = "q1,q2=-150@4:0.3-0.5"
+"""A push on both hips under which NPD falls and ADRC walks on, each step of it feasible."""
+MOTION = Motion(apart=True, slower=2.0, fps=16.0, width=800)
+TOP, BOTTOM, WORDS = 75, 545, (0, 40, 800, 58)
+"""[px], of a frame: names and robots alone, without legend, curves and the line of errors."""
 
 
-def load(out: Path) -> Walks:
-    """The pushed walks of a reproduction by controller."""
-    return load_walks([out / "walk-npd.npz", out / "walk-adrc.npz"])
-
-
-def part(walks: Walks) -> tuple[float, float]:
-    """What of the walks the animation shows: the push and what is around it [s]."""
-    window = push_window(walks["NPD"].signals)
-    return (7.4, 8.2) if window is None else (window[0] - BEFORE, window[1] + AFTER)
-
-
-def figures(walks: Walks) -> dict[str, Figure]:
-    """The figures by name."""
-    return {"comparison": draw("comparison", walks), "zero": zero_picture()}
+def push_picture(path: Path) -> None:
+    """Both controllers under the same push, from just before it until one robot lies on the ground."""
+    values = {"gait": "v0.8", "torque_limit": 150.0, "pushes": (PUSH,), "impacts": 9}
+    walks = {name: walk_scenario(Scenario(name, **values)) for name in ("NPD", "ADRC")}
+    assert walks["ADRC"].legality.outcome == "legal"
+    assert walks["NPD"].legality.outcome == "fell"
+    write_moving_picture(path, walks, start=1.95, stop=3.62, motion=MOTION)
+    with Image.open(path) as picture:
+        frames = []
+        for i in range(picture.n_frames):
+            picture.seek(i)
+            frames.append(picture.convert("RGB").crop((0, TOP, picture.width, BOTTOM)))
+            frames[-1].paste(frames[-1].getpixel((0, 0)), WORDS)
+    same = frames[len(frames) // 4].quantize(32)  # a frame with the push in it
+    frames = [frame.quantize(palette=same, dither=Image.Dither.NONE) for frame in frames]
+    times = [62] * (len(frames) - 1) + [1500]
+    frames[0].save(path, save_all=True, append_images=frames[1:], duration=times, loop=0)
 
 
 def zero_picture() -> Figure:
@@ -54,13 +53,8 @@ def zero_picture() -> Figure:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("out", type=Path, help="folder of 'biped-adrc reproduce'")
-    walks = load(parser.parse_args().out)
-    start, stop = part(walks)
-    write_moving_picture(IMAGES / "walk.gif", walks, start=start, stop=stop, motion=MOTION)
-    for name, figure in figures(walks).items():
-        write_bytes(IMAGES / f"{name}.svg", render(figure, "svg"))
+    push_picture(IMAGES / "push.gif")
+    write_bytes(IMAGES / "zero.svg", render(zero_picture(), "svg"))
 
 
 if __name__ == "__main__":

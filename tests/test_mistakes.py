@@ -88,7 +88,7 @@ COMMANDS = {
     "animate nowhere.npz": (3, "not found"),
     "poincare --controller pid": (3, "'pid' is unknown"),
     "poincare --robot compass --slope 0.6": (4, "no return to the section"),
-    "reproduce --out file/out": (5, "cannot write"),
+    "reproduce --out file/out": (3, "file"),
 }
 TABLES = {
     "t,q1\n0,1\n\n1,x\n": "line 4, column 'q1'",

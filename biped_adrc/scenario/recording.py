@@ -20,6 +20,8 @@ reproduction of the paper read it.
 
 from __future__ import annotations
 
+import tempfile
+import webbrowser
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -210,6 +212,12 @@ class Walk(Shown):
         from biped_adrc.viz.export import Clip, export
 
         export(Path(path), {self.controller_name: self}, Clip(view=view))
+
+    def show(self) -> None:
+        """Open the animation in the browser: a page in the temporary folder, with no server behind it."""
+        path = Path(tempfile.mkdtemp(prefix="biped-adrc-")) / "walk.html"
+        self.animate(path)
+        webbrowser.open(path.as_uri())
 
     def save(self, path: Path | str, settings: Mapping[str, object] | None = None) -> Path:
         """Write the run (.npz) with robot, gait, controller and torques inside; `load_walk` reads it anywhere.
