@@ -98,7 +98,7 @@ types: .venv/.dev
 imports: .venv/.dev
 	$(BIN)/lint-imports
 
-# tables on the screen, JSON in $(OUT)/benchmarks and their ratios in $(CSV), in about 10 minutes; ARGS=--quick for a
+# tables on the screen, JSON in $(OUT)/benchmarks and their ratios in $(CSV), in about 5 minutes; ARGS=--quick for a
 # look, CSV=docs/benchmarks.csv for the documentation. Peers that are not installed (pip install '.[bench]') are rows
 # that say so
 bench: CSV ?= $(OUT)/benchmarks.csv
