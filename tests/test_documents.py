@@ -51,7 +51,7 @@ UNATTENDED = {"--live": ["--no-browser", "--wait", "1"]}
 """Options that are added where a command would wait for its user."""
 
 SHELLS = ("console", "bash", "sh", "shell")
-DIRECTIVES = {"{toctree}", "{figure}", "{eval-rst}", "{math}", "{image}", "{raw}"}
+DIRECTIVES = {"{csv-table}", "{toctree}", "{figure}", "{eval-rst}", "{math}", "{image}", "{raw}"}
 WRITTEN = re.compile(r"^(?:#|<!--) ([\w./-]+\.\w+)(?: -->)?$")
 TEST_NAME = re.compile(r"tests/[\w/]+\.py(?:::\w+)?")
 
