@@ -38,7 +38,7 @@ pictures: .venv/.core
 verification: .venv/.core
 	$(BIN)/python -m validation --out docs/verification.csv
 
-# tables on the screen, JSON in $(OUT)/benchmarks and their ratios in $(CSV), in about 10 minutes; ARGS=--quick for a
+# tables on the screen, JSON in $(OUT)/benchmarks and their ratios in $(CSV), in about 5 minutes; ARGS=--quick for a
 # look, CSV=docs/benchmarks.csv for the documentation. Peers that are not installed (pip install '.[bench]') are rows
 # that say so
 bench: CSV ?= $(OUT)/benchmarks.csv
