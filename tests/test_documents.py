@@ -7,7 +7,6 @@ that of the checkout. What a fence says of its block:
     console         `biped-adrc` and `python FILE` are run, `make` and `pip` have to be in .ci/run
     toml, xml, json parsed; a first line that is a comment with a path writes the block to that file
     text            left alone
-    {code-cell}     run by the build of the documentation
 """
 
 from __future__ import annotations
@@ -25,6 +24,7 @@ from typing import NamedTuple
 import pytest
 from markdown_it import MarkdownIt
 
+import biped_adrc as ba
 from biped_adrc.bench.study_file import load_study
 from biped_adrc.cli import app, gait_app
 from biped_adrc.cli.robot import robot_app
@@ -32,9 +32,8 @@ from biped_adrc.cli.robot import robot_app
 from .preloaded import Preloaded
 
 ROOT = Path(__file__).resolve().parents[1]
-BUILT = {"_build", "jupyter_execute"}
 PAGES = sorted(
-    path for path in (ROOT / "docs").rglob("*.md") if not BUILT & set(path.relative_to(ROOT).parts)
+    path for path in (ROOT / "docs").rglob("*.md") if "_build" not in path.relative_to(ROOT).parts
 )
 DOCUMENTS = [ROOT / "README.md", *PAGES]
 EXAMPLES = sorted((ROOT / "examples").rglob("*.py"))
@@ -67,17 +66,11 @@ class Block(NamedTuple):
 def blocks(text: str) -> list[Block]:
     """All code blocks in order; an indented one is a shell block."""
     found = []
-    for token in MarkdownIt().parse(without_header(text)):
+    for token in MarkdownIt().parse(text):
         if token.type in ("fence", "code_block"):
             info = token.info.strip().split() if token.type == "fence" else ["console"]
             found.append(Block(info[0] if info else "", token.content, token.map[0] + 1))
     return found
-
-
-def without_header(text: str) -> str:
-    """The text with a jupytext header blanked, so that lines keep their numbers."""
-    header = re.match(r"---\n.*?\n---\n", text, re.DOTALL)
-    return text if header is None else "\n" * header[0].count("\n") + text[header.end() :]
 
 
 def commands(text: str) -> list[str]:
@@ -147,10 +140,6 @@ def execute(
         write(block.text, folder)
     elif block.info == "json":
         json.loads(block.text)
-    elif block.info == "{code-cell}":
-        header = document.read_text().partition("\n---\n")[0]
-        assert "jupytext:" in header, "a {code-cell} outside of a notebook is run by no one"
-        assert "kernelspec:" in header, "a {code-cell} without a kernel is run by no one"
     else:
         known = block.info in DIRECTIVES | {"text", "bibtex"}
         assert known, (
@@ -182,11 +171,11 @@ def test_every_example_runs(example, tmp_path, preloaded):
 
 
 def test_blocks_are_found():
-    text = "---\nx: 1\n---\n\n```python\na = 1\n```\n\n    make test\n\n- b\n  ```console\n  $ ls\n  ```\n"
+    text = "```python\na = 1\n```\n\n    make test\n\n- b\n  ```console\n  $ ls\n  ```\n"
     assert blocks(text) == [
-        Block("python", "a = 1\n", 5),
-        Block("console", "make test\n", 9),
-        Block("console", "$ ls\n", 12),
+        Block("python", "a = 1\n", 1),
+        Block("console", "make test\n", 5),
+        Block("console", "$ ls\n", 8),
     ]
     assert commands("$ a b \\\n  c\n# no\n\nd\n") == ["a b    c", "d"]
 
@@ -205,7 +194,6 @@ def test_blocks_are_found():
         ("```python\n# ../out.py\n```", "outside of the folder"),
         ("```julia\n1\n```", "block of 'julia'"),
         ("```\n1\n```", "no language"),
-        ("```{code-cell} ipython3\n1\n```", "outside of a notebook"),
     ],
 )
 def test_a_block_that_cannot_run_fails(text, message, tmp_path, preloaded):
@@ -307,13 +295,12 @@ def test_the_package_claims_the_platforms_it_is_tested_on():
         assert "macOS" not in page.read_text(), page
 
 
-def test_every_package_is_in_the_reference():
+def test_every_public_name_is_on_one_page_of_the_reference():
     text = "".join(page.read_text() for page in (ROOT / "docs" / "api").glob("*.md"))
-    for path in (ROOT / "biped_adrc").iterdir():
-        if path.name.startswith("_") or (path.is_file() and path.suffix != ".py"):
-            continue
-        name = f"biped_adrc.{path.stem}"
-        assert f"<!-- modules of {name} -->" in text or f"automodule:: {name}\n" in text, name
+    rooms = [room for line in re.findall(r"<!-- names of (.+?) -->", text) for room in line.split()]
+    homes = {home.partition(".")[0] for home in ba._HOMES.values()}
+    assert len(rooms) == len(set(rooms))
+    assert homes <= set(rooms)
 
 
 def test_every_command_is_in_the_reference():
