@@ -131,7 +131,7 @@ def execute(
     elif block.info == "python":
         if write(block.text, folder) is None:
             padded = "\n" * block.line + block.text  # tracebacks point into the document
-            exec(compile(padded, str(document), "exec"), names)
+            exec(compile(padded, str(document), "exec", dont_inherit=True), names)
     elif block.info == "toml":
         tomllib.loads(block.text)
         write(block.text, folder)
