@@ -3,7 +3,7 @@
     .venv/bin/python benchmarks/lower_bounds.py [FOLDER]
 
 FOLDER is where the environment is made, by default a temporary one that is removed. It prints a table
-for docs/guide/files.md: package, bound, version that was there; then each command of the smoke set
+for the log: package, bound, version that was there; then each command of the smoke set
 with its exit code. Exit code 1 where the bounds cannot be installed or a command fails. It needs pip's index.
 """
 
