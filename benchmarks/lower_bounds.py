@@ -2,8 +2,8 @@
 
     .venv/bin/python benchmarks/lower_bounds.py [FOLDER]
 
-FOLDER is where the environment is made, by default a temporary one that is removed. It prints a table
-for the log: package, bound, version that was there; then each command of the smoke set
+FOLDER is where the environment is made, by default a temporary one that is removed. It prints a table:
+package, bound, version that was there; then each command of the smoke set
 with its exit code. Exit code 1 where the bounds cannot be installed or a command fails. It needs pip's index.
 """
 
