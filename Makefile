@@ -1,18 +1,16 @@
 # make reproduce   the paper: figures, tables, report.html and a verdict in out/
 # make test        the tests
-# each of the many processes would compile all that it imports
-unexport PYTHONDONTWRITEBYTECODE
+# make check       all that has to pass before a change is merged
+unexport PYTHONDONTWRITEBYTECODE # each of the many processes would compile all that it imports
 
 PYTHON ?= python3
 OUT ?= out
 ARGS ?=
 BIN := .venv/bin
-BENCHMARKS := engine/calls engine/paper_run engine/engines engine/sampled engine/batches engine/growth \
-  engine/compiling engine/continued engine/soft peers/plant peers/closed_loop bench/studies bench/tuning bench/metering bench/live \
-  pinocchio_calls
+BENCHMARKS := plant closed_loop sampled_walks batches compiling studies gait_design
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --no-compile --constraint constraints.txt
 
-.PHONY: reproduce test fuzz docs pictures verification dev lint format types imports bench mutants faults clean
+.PHONY: reproduce test check docs pictures verification bench format dev clean
 
 reproduce: .venv/.core
 	$(BIN)/biped-adrc reproduce --out $(OUT) $(ARGS)
@@ -22,14 +20,14 @@ test: export OPENBLAS_NUM_THREADS ?= 1
 test: .venv/.test
 	$(BIN)/python -m pytest -rs --numprocesses auto --dist loadgroup --no-loadscope-reorder
 
-# damaged files and nonsense on the command line, 500 of each kind, and a leak: about 10 minutes
-fuzz: .venv/.test
-	$(BIN)/python -m tests.fuzz
+# tests, lint, types, import rules, pages, wheel, and reproduction and benchmarks in short
+check: .venv/.dev
+	$(MAKE) --no-print-directory --jobs=3 --output-sync=target test docs .static .short
 
 # the pages, in docs/_build/html
 docs: .venv/.dev
 	$(BIN)/sphinx-build -W --keep-going -n -E -q -b html docs docs/_build/html
-	$(BIN)/biped-adrc play --torque-limit 150 --page docs/_build/html/_static/play.html
+	$(BIN)/biped-adrc play --torque-limit 150 -o docs/_build/html/_static/play.html
 	$(BIN)/python docs/check_pages.py docs/_build/html
 
 # what the README shows, from the runs of 'make reproduce'
@@ -40,37 +38,37 @@ pictures: .venv/.core
 verification: .venv/.core
 	$(BIN)/python -m validation --out docs/verification.csv
 
-dev: .venv/.dev
-
-lint: .venv/.dev
-	$(BIN)/ruff check .
-	$(BIN)/ruff format --check .
+# tables on the screen, JSON in $(OUT)/benchmarks and their ratios in $(CSV), in about 10 minutes; ARGS=--quick for a
+# look, CSV=docs/benchmarks.csv for the documentation. Peers that are not installed (pip install '.[bench]') are rows
+# that say so
+bench: CSV ?= $(OUT)/benchmarks.csv
+bench: .venv/.core
+	rm -rf $(OUT)/benchmarks
+	set -e; for script in $(BENCHMARKS); do \
+	  $(BIN)/python benchmarks/$$script.py $(OUT)/benchmarks $(ARGS); done
+	$(BIN)/python benchmarks/report.py $(OUT)/benchmarks $(CSV)
 
 format: .venv/.dev
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-types: .venv/.dev
+dev: .venv/.dev
+
+clean:
+	rm -rf .venv out build dist
+
+.PHONY: .static .short
+
+.static: .venv/.dev
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
 	$(BIN)/mypy
-
-imports: .venv/.dev
 	$(BIN)/lint-imports
+	$(BIN)/python tests/wheel.py
 
-# tables on the screen and JSON in $(OUT)/benchmarks, in about 10 minutes; ARGS=--quick for a look. Peers that are
-# not installed (pip install '.[bench]') are rows that say so
-bench: .venv/.core
-	set -e; for script in $(BENCHMARKS); do \
-	  $(BIN)/python benchmarks/$$script.py $(OUT)/benchmarks $(ARGS); done
-	$(BIN)/python benchmarks/gait_design.py $(OUT)/benchmarks --limit 10
-
-# faults put in one at a time, and which of them the tests notice: hours, resumable; ARGS="--limit 60" for an hour of
-# it, ARGS=--again for the survivors once more, ARGS=--report for the table alone
-mutants: .venv/.mutants
-	nice -n 19 $(BIN)/python benchmarks/mutants.py $(OUT)/mutants $(ARGS)
-
-# the faults that were chosen by hand, each against the test that has to notice it
-faults: .venv/.test
-	nice -n 19 $(BIN)/python benchmarks/mutants.py $(OUT)/mutants --planted $(ARGS)
+.short: .venv/.core
+	$(MAKE) --no-print-directory reproduce OUT=build/short ARGS=--quick
+	$(MAKE) --no-print-directory bench OUT=build/short ARGS=--quick
 
 .venv/.made:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
@@ -89,10 +87,3 @@ faults: .venv/.test
 .venv/.dev: .venv/.made pyproject.toml constraints.txt
 	$(PIP) --editable '.[dev]'
 	@touch $@ .venv/.test .venv/.core
-
-.venv/.mutants: .venv/.made pyproject.toml constraints.txt
-	$(PIP) --editable '.[mutants]'
-	@touch $@ .venv/.test .venv/.core
-
-clean:
-	rm -rf .venv out build dist

@@ -24,9 +24,7 @@ from biped_adrc.control.tracking import feedback as feedback
 from biped_adrc.control.tracking import solved_acceleration as solved_acceleration
 from biped_adrc.control.tracking import tracked_laws as tracked_laws
 from biped_adrc.deploy.export import export_c as export_c
-from biped_adrc.deploy.in_the_loop import in_the_loop as in_the_loop
 from biped_adrc.deploy.loaded import ExportedController as ExportedController
-from biped_adrc.deploy.loaded import Loaded as Loaded
 from biped_adrc.disturbances.base import Disturbance as Disturbance
 from biped_adrc.disturbances.base import DisturbanceLaw as DisturbanceLaw
 from biped_adrc.disturbances.base import WindowedTorque as WindowedTorque
@@ -82,10 +80,7 @@ from biped_adrc.hybrid.simulator import simulate as simulate
 from biped_adrc.hybrid.status import Status as Status
 from biped_adrc.hybrid.trajectory import Trajectory as Trajectory
 from biped_adrc.linear import solve as solve
-from biped_adrc.live.offline import write_play as write_play
 from biped_adrc.live.page import play as play
-from biped_adrc.live.repeated import replay_session as replay_session
-from biped_adrc.live.session import Session as Session
 from biped_adrc.logs.log_file import read_log as read_log
 from biped_adrc.logs.log_file import write_log as write_log
 from biped_adrc.logs.log_of_walk import logged as logged

@@ -24,6 +24,14 @@ def pytest_configure():
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+def pytest_terminal_summary(terminalreporter):
+    """Say once what the tests of pages miss."""
+    if any("no Chromium" in str(x.longrepr) for x in terminalreporter.stats.get("skipped", ())):
+        terminalreporter.line(
+            "tests of pages are skipped: on Debian, apt-get install chromium chromium-driver"
+        )
+
+
 @pytest.fixture
 def started():
     """Starts a process in a group of its own, in text mode; the test leaves no such group, however it ends."""

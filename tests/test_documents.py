@@ -46,9 +46,6 @@ RUN_BY_CI = {  # documented command: what has to stand in .ci/run
 }
 """Commands too large for a test."""
 
-UNATTENDED = {"--live": ["--no-browser", "--wait", "1"]}
-"""Options that are added where a command would wait for its user."""
-
 SHELLS = ("console", "bash", "sh", "shell")
 DIRECTIVES = {"{toctree}", "{figure}", "{eval-rst}", "{math}", "{image}", "{raw}", "{csv-table}"}
 WRITTEN = re.compile(r"^(?:#|<!--) ([\w./-]+\.\w+)(?: -->)?$")
@@ -92,8 +89,6 @@ def run(command: str, folder: Path, preloaded: Preloaded) -> None:
     else:
         check_run_by_ci(command)
         return
-    for option, more in UNATTENDED.items():
-        words += more if option in words else []
     ended = preloaded.run(Path(script), words, folder, strict=python)
     assert ended.code == 0, f"'{command}' ended with {ended.code}: {ended.stderr[-2000:]}"
 

@@ -15,6 +15,15 @@ from biped_adrc.gait.gait import Gait
 LONG = "n" * 300
 URDF = Path(__file__).parents[1] / "urdf" / "rabbit" / "floating.urdf"
 STUDY = '[study]\nname = "a"\n[fixed]\ncontroller = "NPD"\nimpacts = 1\n[grid]\nK_p = [5000.0]\n'
+SEARCH = """
+study = {name = "s", budget = 10, generation = 4, seed = 0}
+fixed = {controller = "LESO"}
+variables = {bandwidth = {from = 50, to = 500}}
+objectives = [{column = "rms_error"}]
+training = {seeds = [0]}
+selection = {seeds = [10]}
+test = {seeds = [20]}
+"""
 
 MISTAKES = [
     (f"simulate --gait {LONG}", 3, "no gait"),
@@ -27,7 +36,7 @@ MISTAKES = [
     ("sweep study.toml -o afile/below", 3, "is a file"),
     ("sweep /dev/full -o out", 3, "not a regular file"),
     ("sweep pipe.toml -o out", 3, "not a regular file"),
-    (f"tune study.toml -o {LONG}", 5, "too long"),
+    (f"tune search.toml -o {LONG}", 5, "too long"),
     (f"compare --seeds 2 -o {LONG}", 5, "too long"),
     ("reproduce --out afile", 3, "is a file"),
     (f"gait library --out {LONG}", 5, "too long"),
@@ -51,6 +60,7 @@ def here(tmp_path, monkeypatch, gait: Gait) -> None:
     monkeypatch.chdir(tmp_path)
     Path("afile").write_text("kept")
     Path("study.toml").write_text(STUDY)
+    Path("search.toml").write_text(SEARCH)
     gait.save("zero.json")
     record = json.loads(Path("zero.json").read_text())
     Path("zero.json").write_text(json.dumps(record | {"name": "a\0b"}))

@@ -221,7 +221,6 @@ COMPARE = {
     "controllers": Row("--controllers NPD,PD", same("controllers"), ("NPD", "PD")),
     "conditions": Row("--conditions nothing", same("conditions"), ("nothing",)),
     "seeds": Row("--seeds 4", same("seeds"), 4),
-    "pushes": Row("--no-pushes", same("pushes"), False),
     "plant": Row("--plant mujoco", same("plant"), "mujoco"),
 }
 SWEEP = {

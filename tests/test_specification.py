@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import importlib.util
 from dataclasses import replace
-from pathlib import Path
 
 import control
 import numpy as np
@@ -27,57 +25,53 @@ from biped_adrc.observer_design.tick_matrices import (
 )
 from biped_adrc.observer_design.walker_loop import FREQUENCIES, robot_step
 from biped_adrc.scenario.specified import specification_of
-
-BENCHMARK = Path(__file__).parents[1] / "benchmarks/specification.py"
-
-
-@pytest.fixture(scope="module")
-def walks():
-    """The benchmark's functions: candidates, multipliers, ripple in a walk."""
-    spec = importlib.util.spec_from_file_location("specification_of_walks", BENCHMARK)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+from tests.specified_walks import candidate, multiplier, rippled, specified
 
 
-def loop_of(walks, **values):
+def loop_of(**values):
     """The walker of some values, its gait, and the loop at the first phase."""
-    walker, gait = walks.candidate({"impacts": 2, "period": 1.5e-3, **values})
-    return walker, gait, walks.specified(walker, gait).loops[0, 0]
+    walker, gait = candidate({"impacts": 2, "period": 1.5e-3, **values})
+    return walker, gait, specified(walker, gait).loops[0, 0]
 
 
 # -- against walks ---------------------------------------------------------------------------------
 LOOP = {"controller": "LESO", "period": 1e-3, "velocity": "differences", "filter_time": 2e-3}
-"""One structure, which is compiled once; the benchmark draws 200 candidates of all kinds."""
+"""One structure, which is compiled once."""
 
 
 @pytest.mark.parametrize("bandwidth", [120.0, 300.0])
-def test_a_walk_bears_nine_tenths_of_the_delay_margin_and_not_eleven(walks, bandwidth):
-    walker, gait = walks.candidate({"impacts": 2, "bandwidth": bandwidth, **LOOP})
-    spec = walks.specified(walker, gait)
+def test_a_walk_bears_nine_tenths_of_the_delay_margin_and_not_eleven(bandwidth):
+    walker, gait = candidate({"impacts": 2, "bandwidth": bandwidth, **LOOP})
+    spec = specified(walker, gait)
     found = []
     for share in (0.9, 1.1):
         late = replace(walker.timing, delay=share * spec.delay_margin)
         late = replace(walker, timing=late)
-        found.append(walks.multiplier(late, gait))
-        assert walks.specified(late, gait).stable == (share < 1.0)
+        found.append(multiplier(late, gait))
+        assert specified(late, gait).stable == (share < 1.0)
     assert found[0] < 1.0 < found[1]
 
 
-@pytest.mark.parametrize("k", [0, 3])
-def test_ripple_is_that_of_a_walk_with_counts(walks, k):
-    by_specification, by_walk = walks.rippled(walks.RIPPLED[k])
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"controller": "NPD"},
+        {"controller": "LESO", "bandwidth": 160.0, "order": 2, "filter_time": 5e-3},
+    ],
+)
+def test_ripple_is_that_of_a_walk_with_counts(values):
+    by_specification, by_walk = rippled(values)
     assert by_walk / 1.25 < by_specification < 1.25 * by_walk
 
 
-def missed(walks, T, **values):
+def missed(T, **values):
     """By how much the matrices miss two walks that begin a little apart, over ten periods T [s], relatively.
 
     The walks are those of the walker itself; what lasts a while in `values` is given in periods.
     """
     times = ("delay", "lag", "filter_time", "prediction")
     lasting = {name: x * T for name, x in values.items() if name in times}
-    walker, gait, loop = loop_of(walks, **{**values, **lasting, "period": T})
+    walker, gait, loop = loop_of(**{**values, **lasting, "period": T})
     n, p = walker.plant.n, walker.plant.p
     point = ba.FrozenGait.of(walker.plant, gait, spread=0.0).points[0]
     deviation = 1e-6 * np.array(
@@ -110,18 +104,18 @@ def missed(walks, T, **values):
         {"controller": "NPD", "friction": True, "feedforward": 0.8, "delay": 0.5},
     ],
 )
-def test_a_small_deviation_goes_as_the_matrices_say(walks, values):
+def test_a_small_deviation_goes_as_the_matrices_say(values):
     """What is missed is the motion of the gait in ten periods, and goes to zero with the period."""
-    coarse, fine = (missed(walks, T, **values) for T in (1e-3, 2.5e-4))
+    coarse, fine = (missed(T, **values) for T in (1e-3, 2.5e-4))
     assert fine < 0.15 * coarse < 1e-3
 
 
 @pytest.mark.parametrize("controller", ["NPD", "LESO"])
-def test_a_delay_that_is_predicted_leaves_the_modes_of_the_loop_without_it(walks, controller):
+def test_a_delay_that_is_predicted_leaves_the_modes_of_the_loop_without_it(controller):
     """But for the change of q'' in that time, which goes with it."""
 
     def modes(**more):
-        loop = loop_of(walks, controller=controller, period=1e-3, **more)[2]
+        loop = loop_of(controller=controller, period=1e-3, **more)[2]
         return np.sort(np.abs(np.linalg.eigvals(loop.matrices().M)))[::-1]
 
     free, hidden, predicted = (
@@ -134,8 +128,8 @@ def test_a_delay_that_is_predicted_leaves_the_modes_of_the_loop_without_it(walks
 
 
 # -- the matrices ----------------------------------------------------------------------------------
-def test_the_derivative_of_a_tick_is_that_of_differences(walks):
-    walker, gait, _ = loop_of(walks, controller="LESO", delay=1e-3, velocity="differences")
+def test_the_derivative_of_a_tick_is_that_of_differences():
+    walker, gait, _ = loop_of(controller="LESO", delay=1e-3, velocity="differences")
     twin = linear_twin(walker)
     q, v = gait.start(walker.plant)
     x = twin.tick(0.0, twin.initial_state(q, v), ba.Mode())
@@ -145,7 +139,7 @@ def test_the_derivative_of_a_tick_is_that_of_differences(walks):
     np.testing.assert_allclose(J, K, rtol=1e-5, atol=1e-5 * np.max(np.abs(K)))
 
 
-def test_a_controller_in_plain_python_has_a_specification(walks):
+def test_a_controller_in_plain_python_has_a_specification():
     class Spring(ba.Controller):
         """K_p and K_d about the gait, through the model."""
 
@@ -157,9 +151,9 @@ def test_a_controller_in_plain_python_has_a_specification(walks):
             a = -5000.0 * (m.q_b - r.q_d) - 50.0 * (m.v_b - r.dq_d)
             return m.terms.kappa_inverse @ (a - m.terms.xi)
 
-    walker, gait, _ = loop_of(walks, controller="NPD", solve_theta=False)
+    walker, gait, _ = loop_of(controller="NPD", solve_theta=False)
     one = replace(walker, controller=Spring(gait.constraint))
-    by_differences, by_laws = (walks.specified(w, gait) for w in (one, walker))
+    by_differences, by_laws = (specified(w, gait) for w in (one, walker))
     assert by_differences.worst.growth == pytest.approx(by_laws.worst.growth, rel=0.3)
     assert by_differences.stable
 
@@ -199,9 +193,9 @@ def test_a_torque_that_changes_within_the_period():
     np.testing.assert_allclose(Phi @ x + G_1[:, 0] * 5.0 - G_2[:, 0] * 7.0, end, rtol=1e-9)
 
 
-def test_a_hidden_delay_is_as_one_of_the_clock_that_the_controller_does_not_know(walks):
-    _, _, loop = loop_of(walks, controller="LESO", delay=1e-3)
-    _, _, later = loop_of(walks, controller="LESO", delay=2.7e-3)
+def test_a_hidden_delay_is_as_one_of_the_clock_that_the_controller_does_not_know():
+    _, _, loop = loop_of(controller="LESO", delay=1e-3)
+    _, _, later = loop_of(controller="LESO", delay=2.7e-3)
     assert loop.growth(1.7e-3) == pytest.approx(later.growth(), rel=1e-6)
     margin = loop.delay_margin(0.05)
     assert loop.growth(0.999 * margin) < 0.0 < loop.growth(1.001 * margin)
@@ -230,10 +224,10 @@ def test_errors_of_sensors_are_those_of_what_they_show():
     assert not both.smooth().noisy
 
 
-def test_an_error_of_the_pitch_alone_reaches_the_torque(walks):
+def test_an_error_of_the_pitch_alone_reaches_the_torque():
     """No joint turns by it: it enters through Theta and Theta' only."""
-    walker, gait = walks.candidate({"controller": "NPD", "hardware": "rabbit", "impacts": 2})
-    spec = walks.specified(walker, gait)
+    walker, gait = candidate({"controller": "NPD", "hardware": "rabbit", "impacts": 2})
+    spec = specified(walker, gait)
     pitch = spec.errors * (np.arange(10) == 4)
     assert 0.2 * spec.ripple < replace(spec, errors=pitch).ripple < spec.ripple
 
@@ -287,11 +281,11 @@ def test_the_structured_value_is_reached_by_a_diagonal_matrix(p):
 
 
 @pytest.mark.parametrize("late", [{"delay": 1.2e-3, "lag": 1e-3}, {"velocity": "measured"}])
-def test_sensitivity_of_a_walker_is_that_of_its_open_loop(walks, late):
+def test_sensitivity_of_a_walker_is_that_of_its_open_loop(late):
     """S = 1 / (1 - G), with G from the torque to the torque that the controller then asks for; controller and
     robot one after the other, as `sensitivity` takes them, are the whole loop.
     """
-    _, _, loop = loop_of(walks, controller="LESO", **late)
+    _, _, loop = loop_of(controller="LESO", **late)
     M, B, C, D = loop.matrices()
     p, nyquist = len(C), np.pi / loop.period
     w = np.geomspace(loop.slow, nyquist, FREQUENCIES)

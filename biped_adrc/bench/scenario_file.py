@@ -11,7 +11,6 @@ unit; "none" for no value. Written by `tuning.tune`; read by the option --scenar
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
 from pathlib import Path
 
 from pydantic import ValidationError
@@ -27,22 +26,12 @@ def read_scenario(path: Path) -> dict[str, Value]:
     """The values of a scenario file by name, those of tables with a dot. Raises InputError."""
     with reading("scenario file", path, InputError):
         tables = tomllib.loads(path.read_text(encoding="utf-8"))
-    if "session" in tables:
-        raise InputError(
-            f"scenario file '{path}' has inputs of a session, which would be left out here; repeat it with "
-            f"'biped-adrc simulate {path}'"
-        )
-    return read_values(tables, f"scenario file '{path}'")
-
-
-def read_values(values: Mapping[str, object], what: str) -> dict[str, Value]:
-    """Values of a scenario by name, those of tables with a dot. Raises InputError, which names `what`."""
     found = {}
-    for name, x in flat(values).items():
+    for name, x in flat(tables).items():
         try:
             found[name] = read(name, x)
         except (Refused, ValidationError) as error:
-            raise InputError(f"{what}, {name}: {reason(error)}") from error
+            raise InputError(f"scenario file '{path}', {name}: {reason(error)}") from error
     return found
 
 

@@ -5,8 +5,8 @@ options, checks the names of its outputs, calls one function of `studies`, `scen
 `paper`, and prints or writes what comes back. No number is computed here. `main` is the entry
 point: it turns errors of the package into one line of text and an exit code.
 
-Exit codes: 0 all is well (for `reproduce`: every check holds); 1 a check of `reproduce`, `robot
-check` or `loop` does not hold; 2 the command line is wrong; 3 bad input (robot, gait, poles, duration, file);
+Exit codes: 0 all is well (for `reproduce`: every check holds); 1 a check of `reproduce` or `robot
+check` does not hold; 2 the command line is wrong; 3 bad input (robot, gait, poles, duration, file);
 4 the robot fell or did not come back; 5 a result cannot be written; 130 interrupted with Ctrl-C.
 """
 
@@ -35,7 +35,6 @@ COMMANDS = (
     "export",
     "gait",
     "look",
-    "loop",
     "observer",
     "play",
     "replay",

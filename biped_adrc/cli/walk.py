@@ -2,8 +2,8 @@
 
 Both make a `Scenario` of the options. `simulate` walks it with `scenario.run`, once more at half
 the step to say how far the numbers can be trusted, judges every step (`analysis.legality`) and
-stores the run. With the file of a session it walks that again (`cli.repeat`). `poincare` finds the
-fixed point of the return map and its multipliers (`studies.cycle_stability`).
+stores the run. `poincare` finds the fixed point of the return map and its multipliers
+(`studies.cycle_stability`).
 """
 
 from __future__ import annotations
@@ -18,7 +18,6 @@ from rich.table import Table
 
 from biped_adrc.cli.app import EXIT_FELL, app, bar, console, inputs, run_path, say, say_written
 from biped_adrc.cli.options import of_scenario, texts, values_of
-from biped_adrc.cli.repeat import repeat
 from biped_adrc.cli.steps import instants, print_on_ground, print_supports
 from biped_adrc.errors import InputError
 from biped_adrc.files import keep_inputs, output_path
@@ -52,7 +51,6 @@ NUMERICS = ("method", "engine", "friction_limit", "force_window")
 @texts("simulate")
 def simulate(
     given: PlainRecord,
-    session: Path | None = None,
     push: list[str] | None = None,
     sets: list[str] | None = None,
     scenario: Path | None = None,
@@ -61,17 +59,10 @@ def simulate(
     out: Path | None = None,
     log: Path | None = None,
 ) -> None:
-    """Walk, and print what each step needed of the ground and of the motors; or repeat a session."""
+    """Walk, and print what each step needed of the ground and of the motors."""
     from biped_adrc.scenario.build import limits
     from biped_adrc.scenario.scenario import Scenario
 
-    if session is not None:
-        if given or push or sets or scenario or as_printed or end_illegal or log:
-            raise InputError(
-                f"the session '{session}' is repeated as it was; leave out all options but --out"
-            )
-        repeat(session, out)
-        return
     printed = {"solve_theta": False} if as_printed else {}
     values = {"controller": usual(given), **values_of(given, push, sets, scenario), **printed}
     s = Scenario(**values)

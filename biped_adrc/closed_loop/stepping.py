@@ -12,7 +12,6 @@ recorded at the nodes, since they cannot be computed again from the states.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, cast
@@ -48,9 +47,6 @@ from biped_adrc.hybrid.trajectory import Event, Trajectory
 from biped_adrc.parts import handing_out, numbers
 from biped_adrc.timing import SampledTime, check_ends
 from biped_adrc.types import Array, Indices, frozen
-
-Acting = Callable[[float, Array, Array, Mode], Load]
-"""load(t, q, v, mode): what acts from outside at t [s], q (n,) [rad], v (n,) [rad/s]."""
 
 
 @dataclass(frozen=True)
@@ -184,25 +180,19 @@ class SteppingLoop(ClosedLoop[Any]):
         Nodes are recorded before a state that is not finite raises NotFiniteError, or one beyond the
         bounds RanAwayError, so that the last good motion can be looked at.
         """
-        return self.moved(t, x, mode, until, record, self.load)
-
-    def moved(
-        self, t: float, x: Array, mode: Mode, until: float, record: Record, load: Acting
-    ) -> tuple[float, Array, FoundEvent | None]:
-        """As `move`, with a load(t, q, v, mode) from outside that need not be the loop's own."""
         (q, v, _, tail), k = parts(self, x), self.held
         assert k is not None
         u, state = torque_held(k, tail), PlantState(t, q, v, tail[: k.sizes.own])
 
         def outside(t: float, q: Array, v: Array) -> Load:
-            return load(t, q, v, mode)
+            return self.load(t, q, v, mode)
 
         moved = advanced(self.plant, state, u, outside, until)
         passed = np.array([state.t, *(node.t for node in moved.nodes)])
         rows = np.array([self.with_plant(x, s) for s in (state, *moved.nodes)])
         rates, finite = rows[:, len(q) : 2 * len(q)], np.all(np.isfinite(rows), axis=1)
         good = np.logical_and.accumulate(finite & self.bounds.slow(rates))
-        self.keep(passed[good], rows[good], mode, record, load)
+        self.keep(passed[good], rows[good], mode, record)
         if not np.all(good):
             bad = int(np.argmin(good))
             if finite[bad]:
@@ -255,7 +245,7 @@ class SteppingLoop(ClosedLoop[Any]):
         x_plus = self.with_plant(landed(self, t, x, state.q, state.v, impulse, after), state)
         return FoundEvent(Event(name, t, x, x_plus), (x_plus, after))
 
-    def keep(self, t: Array, x: Array, mode: Mode, record: Record, load: Acting) -> None:
+    def keep(self, t: Array, x: Array, mode: Mode, record: Record) -> None:
         """Record each `store_every`-th of K nodes, t (K,) [s] and x (K, nx), both ends among them.
 
         Beside them the motors' torque (p,) and zeta (n,) [N m] and the observer's estimate (p,)
@@ -270,7 +260,7 @@ class SteppingLoop(ClosedLoop[Any]):
             slopes[:, n : 2 * n] = np.vstack((a, a[-1:]))
         xi = self.estimated(t[0], x[0], mode)
         kept = np.unique(np.append(np.arange(0, len(t), record.every), len(t) - 1))
-        zeta = np.array([load(t[k], x[k, :n], v[k], mode).zeta for k in kept])
+        zeta = np.array([self.load(t[k], x[k, :n], v[k], mode).zeta for k in kept])
         count = len(kept), 1
         read = {"u": self.motor_torque(x[kept]), "zeta": zeta, "xi_estimate": np.tile(xi, count)}
         record.add(t[kept], x[kept], slopes[kept], **read)

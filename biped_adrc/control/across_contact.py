@@ -10,8 +10,8 @@ the torque of the last such tick, so that from there on it runs as from a start.
 Policies act at ticks, so they work in sampled time alone. T = 0 is the controller itself, bit for bit. Around
 an outer loop they would begin that loop anew; put the outer loop around the policy.
 
-`AcrossContact` is the base of all policies; `ContactWindow` of those with a T. Others: `fade`, `ramp_torque`,
-`impact_invariant`; more as files that run are in `examples/policies`. What an observer does at the instant of
+`AcrossContact` is the base of all policies; `ContactWindow` of those with a T. Another one is
+`impact_invariant`; more, as files that run, are in `examples/policies`. What an observer does at the instant of
 the touchdown itself is its `ResetPolicy`.
 """
 
@@ -32,10 +32,9 @@ from biped_adrc.types import Array
 
 
 class SettlingParameters(NamedTuple):
-    """until: T less round-off [s]. rate: 1 / T [1/s], 0 for T = 0."""
+    """until: T less round-off [s]."""
 
     until: float
-    rate: float
 
 
 @dataclass(frozen=True)
@@ -60,13 +59,7 @@ class ContactWindow(AcrossContact):
 
     @property
     def own(self) -> SettlingParameters:
-        rate = 1.0 / self.window if self.window > 0.0 else 0.0
-        return SettlingParameters(float(self.window - SAME_INSTANT), rate)
-
-
-def ramp(x: float) -> float:
-    """w (1,) = x^2 (3 - 2 x): from 0 at x = 0 to 1 at x = 1, both without slope."""
-    return x * x * (3.0 - 2.0 * x)
+        return SettlingParameters(float(self.window - SAME_INSTANT))
 
 
 @lru_cache(maxsize=64)

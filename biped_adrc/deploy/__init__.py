@@ -1,1 +1,1 @@
-"""Onto a robot: a controller with all that it needs as C99 without dependencies, and its proof."""
+"""Onto a robot: a controller with all that it needs as C99 without dependencies, also as an FMU."""

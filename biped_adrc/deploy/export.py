@@ -8,12 +8,13 @@ cannot be exported is refused with the part that stands in the way.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from biped_adrc.bench.scenario_file import scenario_lines
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.deploy.computer import Computer
-from biped_adrc.deploy.fmu import Fmu, fmu_of
+from biped_adrc.deploy.fmu import fmu_of
 from biped_adrc.deploy.source import Source, source_of
 from biped_adrc.errors import OutputError
 from biped_adrc.files import write_bytes
@@ -42,28 +43,29 @@ def export_c(
         walker, lines = scenario, ["a walker of one's own"]
     else:
         walker, lines = build(scenario), scenario_lines(scenario)
-    source = source_of(Computer(walker), prefix, real, lines)
-    write_folder(Path(folder), source, fmu_of(source) if fmu else None)
+    source, folder = source_of(Computer(walker), prefix, real, lines), Path(folder)
+    write_folder(folder, source)
+    if fmu:
+        made = fmu_of(source)
+        write_bytes(folder / made.name, made.data)
     return source
 
 
-def write_folder(folder: Path, source: Source, fmu: Fmu | None = None) -> None:
-    """Write the files into a folder that is new, empty, or holds the same files alone; an FMU is replaced.
+def write_folder(folder: Path, source: Source) -> None:
+    """Write the files into a folder that is new, empty, or holds the same files and what is built from them.
 
     Raises OutputError for any other, so that a `main.c` that was changed by hand stays as it is.
     """
-    if folder.exists() and not folder.is_dir():
-        raise OutputError(f"'{folder}' is a file, expected the name of a folder")
     files = {name: text.encode() for name, text in source.files.items()}
-    files |= {fmu.name: fmu.data} if fmu else {}
-    found = sorted(folder.iterdir()) if folder.exists() else []
-    built = fmu.name if fmu else None  # a compiler's result, which nobody changes by hand
-    others = [
-        x.name
-        for x in found
-        if x.name != built
-        and (x.name not in files or x.is_dir() or x.read_bytes() != files[x.name])
-    ]
+    built = ("main", f"{source.prefix}.fmu")
+    try:
+        found = sorted(folder.iterdir()) if folder.exists() else []
+        others = [x.name for x in found if x.name not in built and not _same(x, files)]
+    except NotADirectoryError:
+        raise OutputError(f"'{folder}' is a file, expected the name of a folder") from None
+    except OSError as error:
+        said = f"cannot write to '{folder}': {error.strerror}; choose another name"
+        raise OutputError(said) from error
     if others:
         raise OutputError(
             f"folder '{folder}' holds '{others[0]}', other than it would be written; choose a new or an "
@@ -71,3 +73,9 @@ def write_folder(folder: Path, source: Source, fmu: Fmu | None = None) -> None:
         )
     for name, data in files.items():
         write_bytes(folder / name, data)
+
+
+def _same(path: Path, files: Mapping[str, bytes]) -> bool:
+    """Whether a file, no link, is one of these."""
+    plain = path.is_file() and not path.is_symlink()
+    return plain and path.name in files and path.read_bytes() == files[path.name]

@@ -13,14 +13,13 @@ from __future__ import annotations
 import hashlib
 import io
 import platform
-import tempfile
 import uuid
 import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from biped_adrc.deploy.loaded import COMPILERS, FLAGS, compiled, compiler
+from biped_adrc.deploy.loaded import COMPILERS, compiled, compiler
 from biped_adrc.deploy.source import Source, rendered
 
 MACHINES = {("Linux", "x86_64"): "linux64"}
@@ -72,12 +71,13 @@ class Fmu:
 
 
 def fmu_of(source: Source) -> Fmu:
-    """The FMU of an exported controller. Raises InputError where the compiler refuses the C."""
+    """The FMU of an exported controller. Raises InputError and OutputError as `compiled`."""
     texts = _texts(source, "")
     guid = uuid.UUID(bytes=hashlib.sha256("".join(texts.values()).encode()).digest()[:16])
-    files = {path: text.encode() for path, text in _texts(source, f"{{{guid}}}").items()}
+    texts = _texts(source, f"{{{guid}}}")
+    files = {path: text.encode() for path, text in texts.items()}
     if not without_binary():
-        files[f"binaries/{_machine()}/{source.prefix}.so"] = _binary(source, files)
+        files[f"binaries/{_machine()}/{source.prefix}.so"] = _binary(source, texts)
     return Fmu(f"{source.prefix}.fmu", files)
 
 
@@ -144,14 +144,9 @@ def _machine() -> str:
     return MACHINES.get((platform.system(), platform.machine()), "")
 
 
-def _binary(source: Source, files: Mapping[str, bytes]) -> bytes:
+def _binary(source: Source, texts: Mapping[str, str]) -> bytes:
     """The shared library of the sources."""
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        for path, data in files.items():
-            if path.startswith("sources/"):
-                (folder / Path(path).name).write_bytes(data)
-        flags = (*FLAGS, "-shared", "-fPIC", "-fvisibility=hidden")
-        names = [f"{source.prefix}.c", f"{source.prefix}_fmu.c"]
-        compiled(folder, names, folder / "fmu.so", flags)
-        return (folder / "fmu.so").read_bytes()
+    files = {Path(path).name: text for path, text in texts.items() if path.startswith("sources/")}
+    names = [f"{source.prefix}.c", f"{source.prefix}_fmu.c"]
+    with compiled(files, names, "-shared", "-fPIC", "-fvisibility=hidden") as (library, _):
+        return library.read_bytes()

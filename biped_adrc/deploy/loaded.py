@@ -1,7 +1,7 @@
 """An exported controller, compiled on this machine and called from Python.
 
-`Loaded` has the three functions of the C. `ExportedController` is a controller of a walker whose
-every sample instant is one call of the C, so that an exported controller walks on any plant.
+`ExportedController` is a controller of a walker whose every sample instant is one call of the C, so that
+an exported controller walks on any plant. `Loaded` has the three functions of the C.
 """
 
 from __future__ import annotations
@@ -11,7 +11,8 @@ import os
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -26,6 +27,7 @@ from biped_adrc.errors import (
     BipedError,
     InputError,
     NotFiniteError,
+    OutputError,
     RanAwayError,
     SingularError,
 )
@@ -33,8 +35,6 @@ from biped_adrc.types import Array
 
 FLAGS: tuple[str, ...] = ("-std=c99", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic")
 """How an exported controller is compiled."""
-UNOPTIMISED = tuple("-O0" if flag == "-O2" else flag for flag in FLAGS)
-"""As FLAGS with the same results to the last bit: sooner compiled, slower to run."""
 COMPILERS = ("cc", "gcc", "clang")
 """Names of C compilers, the first one found is taken; the variable CC goes before them."""
 OK, NOT_MEASURED, NO_RESULT, SINGULAR, RAN_AWAY = range(5)
@@ -57,76 +57,77 @@ def compiler() -> str | None:
     return next(filter(None, map(shutil.which, names)), None)
 
 
-def compiled(folder: Path, names: Sequence[str], out: Path, flags: Sequence[str] = FLAGS) -> str:
-    """Compile files of a folder to `out`; what the compiler said.
+@contextmanager
+def compiled(
+    files: Mapping[str, str], names: Sequence[str], *flags: str
+) -> Iterator[tuple[Path, str]]:
+    """What these names of files of C are compiled to, in a folder of its own, and what the compiler said.
 
-    Raises InputError where there is no compiler, or it refuses.
+    flags: beside `FLAGS`. Raises InputError where there is no compiler, or it refuses, and OutputError
+    where there is no room for temporary files.
     """
     program = compiler()
     if program is None:
         raise InputError(
             f"there is no C compiler, looked for {', '.join(COMPILERS)}; install one, or set CC"
         )
-    files = [str(folder / name) for name in names]
-    done = subprocess.run(
-        [program, *flags, "-o", str(out), *files, "-lm"], capture_output=True, text=True
-    )
-    if done.returncode != 0:
-        raise InputError(f"{Path(program).name} does not compile {names[0]}: {done.stderr[:400]}")
-    return done.stderr
+    try:
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            for file, text in files.items():
+                (folder / file).write_text(text, encoding="utf-8")
+            given = [*FLAGS, *flags, "-o", "out", *names, "-lm"]
+            done = subprocess.run([program, *given], cwd=folder, capture_output=True, text=True)
+            if done.returncode != 0:
+                said = f"{Path(program).name} does not compile {names[0]}: {done.stderr[:400]}"
+                raise InputError(said)
+            yield folder / "out", done.stderr
+    except OSError as error:
+        raise OutputError(
+            f"the C cannot be compiled in the temporary folder: {error.strerror or error}; make room, or "
+            "set TMPDIR to another folder"
+        ) from error
 
 
 def tried(source: Source) -> str:
     """What a C compiler says of a source, in a sentence; that there is none, where there is none."""
     if (program := compiler()) is None:
         return f"not compiled: there is no C compiler, looked for {', '.join(COMPILERS)}"
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        for file, text in source.files.items():
-            (folder / file).write_text(text)
-        said = compiled(folder, ["main.c", f"{source.prefix}.c"], folder / "main")
-    return f"compiled by {Path(program).name}: {said or 'no warnings'}"
+    with compiled(source.files, ["main.c", f"{source.prefix}.c"]) as (_, said):
+        return f"compiled by {Path(program).name}: {said or 'no warnings'}"
 
 
 @dataclass(frozen=True)
 class Loaded:
-    """The functions of a source in memory, with numbers of a type: "float64" or "float32"."""
+    """The functions of a source in memory."""
 
     source: Source
-    real: str = "float64"
-    flags: tuple[str, ...] = FLAGS
 
     def __repr__(self) -> str:
-        return f"Loaded({self.source.prefix}, {self.real})"
+        return f"Loaded({self.source.prefix})"
 
     @cached_property
     def measurement(self) -> np.dtype[np.void]:
         """The struct of a measurement."""
         n = self.source.n
-        fields: Any = [("t", "f8"), ("q", "f8", (n,)), ("v", self.real, (n,))]
+        fields: Any = [("t", "f8"), ("q", "f8", (n,)), ("v", self.source.real, (n,))]
         return np.dtype(fields, align=True)
 
     @cached_property
     def state(self) -> np.dtype[np.void]:
         """The struct of the state."""
-        own = [(f.name, "f8" if f.double else self.real, (f.size,)) for f in self.source.fields]
+        real, p = self.source.real, self.source.p
+        own = [(f.name, "f8" if f.double else real, (f.size,)) for f in self.source.fields]
         head = [("start", "f8"), ("last", "f8")]
-        end = [("sent", self.real, (self.source.p,)), ("step", "i4"), ("without", "i4")]
+        end = [("sent", real, (p,)), ("step", "i4"), ("without", "i4")]
         fields: Any = [*head, *own, *end]
         return np.dtype(fields, align=True)
 
     @cached_property
     def functions(self) -> dict[str, Any]:
         """init, step and touchdown, compiled into a folder that is gone once they are in memory."""
-        source, P = self.source, self.source.prefix
-        kind = {"float64": "double", "float32": "float"}[self.real]
-        with tempfile.TemporaryDirectory() as name:
-            folder = Path(name)
-            for file, text in source.files.items():
-                (folder / file).write_text(text)
-            out = folder / f"{P}.so"
-            flags = (*self.flags, "-shared", "-fPIC", f"-D{P.upper()}_REAL={kind}")
-            compiled(folder, [f"{P}.c"], out, flags)
+        P = self.source.prefix
+        with compiled(self.source.files, [f"{P}.c"], "-shared", "-fPIC") as (out, _):
             library = ctypes.CDLL(str(out))
         return {name: getattr(library, f"{P}_{name}") for name in ("init", "step", "touchdown")}
 
@@ -143,7 +144,7 @@ class Loaded:
 
     def step(self, x: Record, m: Record) -> tuple[int, Array]:
         """What step returns, and the torque (p,) [N m]; x changes."""
-        u = np.zeros(self.source.p, self.real)
+        u = np.zeros(self.source.p, self.source.real)
         return self.functions["step"](_at(x), _at(m), _at(u)), u
 
     def touchdown(self, x: Record, m: Record) -> int:
@@ -156,12 +157,6 @@ class Loaded:
         return {name: x for name, x in vars(self).items() if name != "functions"}
 
 
-def check_flag(flag: int) -> None:
-    """Raise what `ERRORS` has for a sample without a result."""
-    if flag != OK:
-        raise ERRORS[flag](f"the exported controller returned {flag}: it has no result")
-
-
 def _at(array: NDArray[Any]) -> ctypes.c_void_p:
     """The address of an array, as C takes it."""
     return ctypes.c_void_p(array.ctypes.data)
@@ -169,16 +164,21 @@ def _at(array: NDArray[Any]) -> ctypes.c_void_p:
 
 @dataclass(frozen=True)
 class ExportedController(Controller):
-    """The exported controller in the place of the one that it was made from.
+    """The exported controller in the place of the one that it was made from; its source is that of `export_c`.
 
     Its state s is the struct of the C and the torque, as floats. A sample without a result ends the
     walk with the status that the controller in Python would give it; on a robot the last torque goes on.
     """
 
-    loaded: Loaded
+    source: Source
+
+    @cached_property
+    def loaded(self) -> Loaded:
+        """The functions of the C."""
+        return Loaded(self.source)
 
     def initial_state(self, m: Measurement) -> Array:
-        return self._kept(*self.loaded.init(self._given(m)), np.zeros(self.loaded.source.p))
+        return self._kept(*self.loaded.init(self._given(m)), np.zeros(self.source.p))
 
     def correct(self, s: Array, m: Measurement) -> Array:
         x = self._state(s)
@@ -186,7 +186,7 @@ class ExportedController(Controller):
         return self._kept(flag, x, u)
 
     def output(self, s: Array, m: Measurement) -> Array:
-        return s[len(s) - self.loaded.source.p :]
+        return s[len(s) - self.source.p :]
 
     def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
         x = self._state(s)
@@ -213,6 +213,7 @@ class ExportedController(Controller):
 
     def _kept(self, flag: int, x: Record, u: Array) -> Array:
         """The struct and the torque (p,) as floats. Raises what `ERRORS` has for a sample without a result."""
-        check_flag(flag)
+        if flag != OK:
+            raise ERRORS[flag](f"the exported controller returned {flag}: it has no result")
         parts = [np.ravel(x[name]) for name in self.loaded.state.names or ()]
         return np.concatenate((*parts, u)).astype(float)

@@ -15,7 +15,6 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from biped_adrc.deploy.computer import Computer
-from biped_adrc.deploy.datagram import VERSION
 from biped_adrc.deploy.layout import Field, Functions, functions
 from biped_adrc.engine.c_text import Written, c_text, decimal, used_numbers
 from biped_adrc.engine.symbols import floats, paths
@@ -25,6 +24,11 @@ from biped_adrc.versions import packages
 
 REALS = {"float64": "double", "float32": "float"}
 """Type of numbers in C, by its name in NumPy."""
+TAKEN = {
+    "main": "main.c is the example",
+    **{x: f"{x.upper()}_OK is a name of POSIX" for x in "frwx"},
+}
+"""Prefixes with which the C would clash with other names, and why."""
 ARGUMENTS = {"init": "", "step": ", real *u, real *lost", "touchdown": ""}
 """What a function is given beside x, m and next."""
 ON_THE_LINE = ("queue", "waiting", "acting")
@@ -37,6 +41,8 @@ class Source:
 
     prefix: str
     """Of all names."""
+    real: str
+    """Type of numbers, a key of `REALS`."""
     files: Mapping[str, str]
     """Text by name of file."""
     fields: tuple[Field, ...]
@@ -61,13 +67,11 @@ def source_of(
     prefix: str = "controller",
     real: str = "float64",
     scenario: Sequence[str] = (),
-    shaken: bool = False,
 ) -> Source:
-    """Header, source, main.c, loop.c, Makefile and README of a computer's functions.
+    """Header, source, main.c, Makefile and README of a computer's functions.
 
     prefix: of all names, a word of small letters. real: "float64" or "float32", which
-    -DCONTROLLER_REAL=float overrides. scenario: lines for the comment. shaken: with random roundings, as
-    `deploy.ripple` has them.
+    -DCONTROLLER_REAL=float overrides. scenario: lines for the comment.
 
     Raises InputError for a prefix or a type that is none, NaN among the numbers, or a law that
     cannot be traced.
@@ -76,6 +80,8 @@ def source_of(
         raise InputError(
             f"the prefix is {prefix!r}, expected small letters, digits and _, such as 'controller'"
         )
+    if prefix in TAKEN:
+        raise InputError(f"the prefix '{prefix}' is taken: {TAKEN[prefix]}; choose another one")
     if real not in REALS:
         raise InputError(f"the type of numbers is {real!r}, expected one of {list(REALS)}")
     made, k = functions(computer), computer.held.sizes
@@ -85,7 +91,7 @@ def source_of(
     if bad:
         raise InputError(f"the parameter {bad[0]} of the scenario is NaN, expected a number")
     written = {
-        name: c_text(f, used, shaken)
+        name: c_text(f, used)
         for name, f in zip(("init", "step", "touchdown"), made.all, strict=True)
     }
     given = {
@@ -96,7 +102,6 @@ def source_of(
         "numbers": [(names[i].replace("plant", "model", 1), decimal(values[i])) for i in used],
         "laws": [(name, ARGUMENTS[name], written[name].lines) for name in written],
         "scenario": scenario,
-        "shaken": shaken,
         "operations": {name: f.operations for name, f in written.items()},
         "doubles": {name: f.doubles for name, f in written.items()},
     }
@@ -104,13 +109,12 @@ def source_of(
         "header.h": f"{prefix}.h",
         "source.c": f"{prefix}.c",
         "main.c": "main.c",
-        "loop.c": "loop.c",
         "Makefile": "Makefile",
         "README.md": "README.md",
         "LICENSE": "LICENSE",
     }
     files = {name: rendered(template, given) for template, name in texts.items()}
-    return Source(prefix, files, made.fields, written, len(used), k.n, k.p, given)
+    return Source(prefix, real, files, made.fields, written, len(used), k.n, k.p, given)
 
 
 def _of_robot(computer: Computer, made: Functions) -> dict[str, object]:
@@ -147,7 +151,6 @@ def _of_robot(computer: Computer, made: Functions) -> dict[str, object]:
         ),
         "fields": made.fields,
         "line": ON_THE_LINE,
-        "version": VERSION,
         "versions": packages(("biped-adrc", "casadi", "pin", "numpy")),
     }
 

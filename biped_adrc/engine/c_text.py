@@ -47,8 +47,6 @@ PATTERNS: Patterns = {
     },
 }
 """Lines of C by operation; F is empty in double."""
-ROUNDED = {ca.OP_ADD, ca.OP_SUB, ca.OP_MUL, ca.OP_DIV, ca.OP_SQ, ca.OP_INV, ca.OP_SQRT, *FUNCTIONS}
-"""Operations whose result is rounded."""
 
 
 @dataclass(frozen=True)
@@ -91,16 +89,14 @@ def used_numbers(functions: Sequence[CFunction]) -> list[int]:
     return sorted(found)
 
 
-def c_text(each: CFunction, numbers: Sequence[int], shaken: bool = False) -> Written:
+def c_text(each: CFunction, numbers: Sequence[int]) -> Written:
     """The lines of a function whose K lies in the table k, which holds the entries `numbers` of K.
 
-    shaken: what is rounded to `real` goes through SHAKEN(x), what is to double through WIDE(x), which a
-    study of rounding defines.
     Raises InputError for an operation that has no line here.
     """
     f = straight_line(each.function)
     K = {place: Entry(f"k[{i}]", double=True) for i, place in enumerate(numbers)}
-    writer = _Writer(each, K, in_double(f, [entry.double for entry in each.inputs]), shaken)
+    writer = _Writer(each, K, in_double(f, [entry.double for entry in each.inputs]))
     lines = writer.written(f)
     count = len(writer.needed)
     return Written(tuple(lines), count, sum(name.startswith("w") for name in writer.needed))
@@ -159,9 +155,9 @@ class _Writer(Writer):
 
     patterns, language = PATTERNS, "C"
 
-    def __init__(self, each: CFunction, K: dict[int, Entry], wide: set[int], shaken: bool) -> None:
+    def __init__(self, each: CFunction, K: dict[int, Entry], wide: set[int]) -> None:
         super().__init__()
-        self.each, self.K, self.wide, self.shaken = each, K, wide, shaken
+        self.each, self.K, self.wide = each, K, wide
         self.now = -1
         self.double: set[str] = set()
         """Names of values that are doubles."""
@@ -207,9 +203,7 @@ class _Writer(Writer):
 
     def cast(self, name: str) -> str:
         """A value as an operand of type `real`."""
-        if name not in self.double:
-            return name
-        return f"SHAKEN({name})" if self.shaken else f"(real){name}"
+        return f"(real){name}" if name in self.double else name
 
     def line(self, code: int, a: tuple[str, ...]) -> str:
         """As of every language, with operands of the type in which the operation is carried out."""
@@ -219,8 +213,6 @@ class _Writer(Writer):
         wide = self.now in self.wide
         shown = a if wide else tuple(map(self.cast, a))
         text = pattern.format(**dict(zip("abc", shown, strict=False)), F="" if wide else "F")
-        if self.shaken and code in ROUNDED:
-            text = f"{'WIDE' if wide else 'SHAKEN'}({text})"
         return self.new(text, a)
 
     def new(self, text: str, operands: tuple[str, ...]) -> str:

@@ -131,7 +131,7 @@ class _Arcs:
         at the start.
         """
         s = starting(self.compiled, x, t, mode, self.options.t_end, fired)
-        return flown(self.compiled, s, mode, self.options.store_every, self.room)[0]
+        return flown(self.compiled, s, mode, self.options.store_every, self.room)
 
 
 def starting(
@@ -145,10 +145,8 @@ def starting(
     return s
 
 
-def flown(
-    made: CompiledWalker, s: Array, mode: Mode, every: int, room: int
-) -> tuple[FlownArc, Array]:
-    """From the run vector s to its END or the first event, with the impact there; and s where that ended.
+def flown(made: CompiledWalker, s: Array, mode: Mode, every: int, room: int) -> FlownArc:
+    """From the run vector s to its END or the first event, with the impact there.
 
     every: each so many-th step is kept. room: nodes to make room for at first.
     """
@@ -166,4 +164,4 @@ def flown(
     nodes = Arc(mode, found.t.copy(), found.x.copy(), found.dx.copy(), event)
     lost = STATUS[code] in simulator.FAILURES
     detail = f"after t = {nodes.t[-1]:.6g} s" if lost else ""
-    return FlownArc(nodes, STATUS[code], detail, outcome), s
+    return FlownArc(nodes, STATUS[code], detail, outcome)

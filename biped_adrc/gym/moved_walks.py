@@ -1,7 +1,7 @@
 """N walks of learners moved on sample by sample, one after the other: plants that move by themselves, such as
 MuJoCo, and controllers in plain Python.
 
-The samples are those of `biped_adrc.live`. On soft ground friction and the direction of the force are what the
+The samples are those of `gym.moving`. On soft ground friction and the direction of the force are what the
 simulator makes them, so legality is another thing there: a single support is illegal where a foot slips, by the
 numbers of `soft.meters`, or where a torque is beyond the limit.
 """
@@ -21,10 +21,9 @@ from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.ground import ground_axes
 from biped_adrc.gym.compiled_walks import place_of_torque
 from biped_adrc.gym.episode import Episode
+from biped_adrc.gym.moving import Moving
 from biped_adrc.gym.view import learner_view
 from biped_adrc.hybrid.status import Status
-from biped_adrc.live.in_plant import MovingPlant
-from biped_adrc.live.movers import moving_of
 from biped_adrc.robots.limits import KnownLimits
 from biped_adrc.soft.meters import PRESSED, slipping
 from biped_adrc.types import Array
@@ -36,14 +35,14 @@ class MovedWalk:
     def __init__(self, episode: Episode, limits: KnownLimits):
         """At its start. Raises InputError for what cannot walk sample by sample."""
         self.episode, self.limits = episode, limits
-        self.moving = moving_of(episode.walker, episode.method, episode.loop)
-        self.now = self.moving.start(episode.q, episode.v, episode.mode, 0.0)
+        self.moving = Moving.of(episode.walker, episode.method, episode.loop)
+        self.now = self.moving.start(episode.q, episode.v, episode.mode)
         self.legality, self.looks = np.zeros(4), 0
 
     def give(self, torque: Array) -> None:
         """The learner's torque (p,) [N m] of the coming sample, where the controller reads it."""
         self.episode.torque[:] = torque
-        system = self.moving.system if isinstance(self.moving, MovingPlant) else None
+        system = self.moving.system
         if isinstance(system, Strides) and system.code is not None:
             at = place_of_torque(system.code.numbers)
             system.code.K[at : at + len(torque)] = torque

@@ -83,21 +83,6 @@ def save(
     """
     path, beside = run_files(path)
     check_beside(beside)
-    with naming_run(path):
-        data, text = packed(trajectory, settings, beside_it)
-    write_bytes(path, data)
-    write_text(beside, text + "\n")
-    return path
-
-
-def packed(
-    trajectory: Trajectory,
-    settings: Mapping[str, object] | None = None,
-    beside_it: Mapping[str, ArrayLike] | None = None,
-) -> tuple[bytes, str]:
-    """The bytes of a run's .npz and the JSON text in it; see `save`. Raises InputError for settings that JSON
-    has not.
-    """
     meta = {
         "format": FORMAT,
         "status": trajectory.status.name,
@@ -112,7 +97,7 @@ def packed(
         text = json.dumps(meta, indent=2)
     except (TypeError, ValueError) as error:
         raise InputError(
-            f"{error}; expected settings of numbers, text, lists and mappings"
+            f"run '{path}': {error}; expected settings of numbers, text, lists and mappings"
         ) from error
     arrays: dict[str, Any] = {"meta": np.array(text)}
     arrays |= {f"{BESIDE}{name}": np.asarray(x) for name, x in (beside_it or {}).items()}
@@ -126,7 +111,9 @@ def packed(
                 arrays[f"x_plus{i}"] = arc.event.x_plus
     buffer = io.BytesIO()
     np.savez_compressed(buffer, **arrays)
-    return buffer.getvalue(), text
+    write_bytes(path, buffer.getvalue())
+    write_text(beside, text + "\n")
+    return path
 
 
 def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: numbers) -> Trajectory:
@@ -138,25 +125,18 @@ def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: number
         check_regular(path, "it", InputError)
         if not os.path.isfile(path):
             raise InputError("not found")
-        return unpacked(_zipped(Path(path)), mode)
-
-
-def unpacked(packed: bytes, mode: Callable[..., object] = lambda *numbers: numbers) -> Trajectory:
-    """The run in the bytes of a .npz. Raises InputError for another format; whatever bytes that are damaged
-    raise, `reading_run` makes an InputError.
-    """
-    with np.load(io.BytesIO(packed), allow_pickle=False) as data:
-        meta = json.loads(str(data["meta"]))
-        if meta["format"] != FORMAT:
-            raise InputError(f"it has format '{meta['format']}', expected '{FORMAT}'")
-        arcs = tuple(_arc(data, i, event, mode) for i, event in enumerate(meta["events"]))
-        _check_order(arcs)
-        if not arcs or f"t{len(arcs)}" in data:
-            raise ValueError(f"there are events of {len(arcs)} arcs")
-    settings = dict(meta["settings"])
-    if not all(isinstance(settings.get(name, ""), str) for name in ("method", "engine")):
-        raise ValueError("its method or engine is not text")
-    return Trajectory(arcs, Status[meta["status"]], str(meta["detail"]), settings)
+        with np.load(io.BytesIO(_zipped(Path(path))), allow_pickle=False) as data:
+            meta = json.loads(str(data["meta"]))
+            if meta["format"] != FORMAT:
+                raise InputError(f"it has format '{meta['format']}', expected '{FORMAT}'")
+            arcs = tuple(_arc(data, i, event, mode) for i, event in enumerate(meta["events"]))
+            _check_order(arcs)
+            if not arcs or f"t{len(arcs)}" in data:
+                raise ValueError(f"there are events of {len(arcs)} arcs")
+        settings = dict(meta["settings"])
+        if not all(isinstance(settings.get(name, ""), str) for name in ("method", "engine")):
+            raise ValueError("its method or engine is not text")
+        return Trajectory(arcs, Status[meta["status"]], str(meta["detail"]), settings)
 
 
 def _zipped(path: Path) -> bytes:
@@ -177,13 +157,7 @@ def _zipped(path: Path) -> bytes:
 
 def load_beside(path: Path | str) -> dict[str, Stored]:
     """The arrays beside the trajectory, by name, in a file that `load` has read. Raises InputError."""
-    with reading_run(path):
-        return beside_in(Path(path).read_bytes())
-
-
-def beside_in(packed: bytes) -> dict[str, Stored]:
-    """The arrays beside the trajectory in the bytes of a .npz, by name."""
-    with np.load(io.BytesIO(packed), allow_pickle=False) as data:
+    with reading_run(path), np.load(Path(path), allow_pickle=False) as data:
         names = [name for name in data.files if name.startswith(BESIDE)]
         return {name.removeprefix(BESIDE): data[name] for name in names}
 
@@ -194,10 +168,9 @@ def reading_run(path: Path | str) -> Iterator[None]:
     if not isinstance(path, str | os.PathLike):
         raise InputError(f"a run is read from {path!r}, expected the name of a file")
     try:
-        with naming_run(path):
-            yield
-    except BipedError:
-        raise
+        yield
+    except BipedError as error:
+        raise InputError(f"run '{path}': {error}") from error
     except OSError as error:
         raise InputError(f"run '{path}' cannot be read: {error.strerror or error}") from error
     except Exception as error:  # whatever damaged bytes may raise
@@ -205,15 +178,6 @@ def reading_run(path: Path | str) -> Iterator[None]:
             f"run '{path}' is damaged and cannot be read: {type(error).__name__}: {error}; take a "
             "copy, or walk it again"
         ) from error
-
-
-@contextmanager
-def naming_run(path: Path | str) -> Iterator[None]:
-    """While something is made of a run: an error of this package becomes an InputError that names the file."""
-    try:
-        yield
-    except BipedError as error:
-        raise InputError(f"run '{path}': {error}") from error
 
 
 def _arc(

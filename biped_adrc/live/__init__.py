@@ -1,1 +1,1 @@
-"""A walk under one's own hand: moved on sample by sample, pushed and changed on the way, and repeated."""
+"""A walk in the browser under one's own hand: a page that needs neither server nor network."""

@@ -1,11 +1,13 @@
-"""A session in the browser: `ba.play`.
+"""A walk on a page, to be pushed and pulled by hand: `ba.play`, `biped-adrc play`.
 
-    ba.play(ba.Scenario("ADRC", hardware="ideal"), ghost={"controller": "NPD"})
-    ba.play(walker, gait)
+    ba.play("walk.html", ba.Scenario("ADRC", hardware="ideal"))
 
-The page (viz/play) draws with the scripts of stored walks, from one `frame` after the other; its server is
-`viz.meshcat.server`, with a `Stage` that hears the pages. A live walk has no end and its ground is not known
-beforehand: the page moves the ground and a few footprints along with it.
+The page has laws and loops as WebAssembly (`engine.web_walker`); its scripts (viz/play) do samples, pushes and
+springs, steps back, and a ghost. It walks what it was made with, on the rigid plant: the scenario, OTHERS, and
+the stations of the tour. A walk that is chosen begins anew from the start.
+
+The walk has no end and its ground is not known beforehand: the page moves the ground and a few footprints along
+with it.
 """
 
 from __future__ import annotations
@@ -14,163 +16,164 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import cast
+from typing import Any
 
 import numpy as np
 
-from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.bench.parameters import NONE
 from biped_adrc.errors import InputError
-from biped_adrc.gait.gait import Gait
+from biped_adrc.files import output_path, write_text
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.live.controls import controls, tour
-from biped_adrc.live.driver import Driver
-from biped_adrc.live.frame import limits_of
-from biped_adrc.live.hand import MOST_FORCE, MOST_TORQUE
-from biped_adrc.live.live_walk import LiveWalk
-from biped_adrc.live.of_walker import scenario_of
-from biped_adrc.live.session import Session
-from biped_adrc.live.stage import Stage
-from biped_adrc.model.biped import Biped
+from biped_adrc.live.walks import MOST, PageWalk, drawn_links, numbers
 from biped_adrc.parts import check_part
-from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.resources import packaged
+from biped_adrc.scenario.scenario import DEFAULTS, Scenario
 from biped_adrc.viz.meshcat import objects as draw
-from biped_adrc.viz.meshcat.server import Say, run
-from biped_adrc.viz.meshcat.view import LANE, Look, captions, scene_settings
+from biped_adrc.viz.meshcat.view import Look, captions, scene_settings
 from biped_adrc.viz.pages import with_viewer
 from biped_adrc.viz.placement import WalkScene
 from biped_adrc.viz.style import TORQUE
 
+FIRST = Scenario("ADRC", hardware="ideal", torque_limit=150.0)
+"""What walks on a page that was given nothing: as in the tour."""
+OTHERS: Mapping[str, Mapping[str, object]] = {
+    "NPD": {"controller": "NPD"},
+    "NPID": {"controller": "NPID"},
+    "ADRC": {"controller": "ADRC"},
+    **{
+        f"ADRC, m = {m}, 300 rad/s": {"controller": "ADRC", "order": m, "bandwidth": 300.0}
+        for m in (1, 2, 3, 7)
+    },
+}
+"""Walks to choose from on a page: values by which they differ from its scenario, by name."""
+OF_CONTROLLER = ("observer", "poles", "bandwidth", "order", "reset")
+"""Fields that go back to their defaults with another controller, unless they are given with it."""
 AROUND = 4.0
 """How far [m] the ground reaches before and behind the robot."""
-SLOW = 0.9
-"""Share of the pace asked for below which a walk is said not to have kept up."""
 PRINTS = 12
 """Footprints that are there at once."""
-GHOSTS = ("NPD", "NPID", "ADRC")
-"""Controllers of a ghost to choose from."""
 NEARER = -0.15
 """Where the arrow of the hand is [m], from the plane of the walk towards the camera."""
 
 
 def play(
-    scenario: Scenario | Walker,
-    gait: Gait | None = None,
-    *,
-    ghost: Mapping[str, object] | None = None,
-    out: Path | str = ".",
-    port: int = 0,
-    open_browser: bool = True,
-    wait: float = 120.0,
-    say: Say = print,
-) -> str:
-    """A walk live in the browser, under one's own hand, until the page is closed; returns why it ended.
+    path: Path | str,
+    scenario: Scenario | None = None,
+    others: Mapping[str, Mapping[str, object]] | None = None,
+) -> Path:
+    """Write a page on which a walk is pushed by hand, one file without server or network; returns its path.
 
-    scenario: in sampled time, such as hardware = "ideal"; or a walker, with its gait, all of which a scenario
-    can say (`of_walker`). ghost: values by which a walk beside it differs.
-    out: folder for sessions that are saved. port: 0 for a free one. open_browser: open the user's browser
-    there. wait [s]: how long to wait for the first page. say: is given the address, and other sentences.
-    Raises InputError for what cannot walk live, a folder that is none, a port that is in use, and inside a
-    running event loop.
+    scenario: in sampled time on the rigid plant; FIRST if None. others: the walks to choose from, values of a
+    scenario by a name for each; OTHERS if None. The first of them is the ghost.
+    Raises InputError for what a page cannot walk, and OutputError.
     """
-    check_part(scenario, "what is to walk live", Scenario, Walker)
-    if isinstance(scenario, Walker):
-        check_part(gait, "the gait of the walker", Gait)
-        scenario = scenario_of(scenario, cast(Gait, gait))
-    elif gait is not None:
-        raise InputError("a scenario has its gait; leave the other one out")
-    folder = Path(out)
-    if not folder.is_dir():
-        raise InputError(f"'{folder}' is no folder; sessions are saved in one that there is")
-    stage = Stage(Driver(Session(scenario, ghost)), folder)
-    stage.ready()
-    html = page(stage.driver.session)
-    why = run(
-        html, stage.stream, listener=stage, port=port, open_browser=open_browser, wait=wait, say=say
-    )
-    if (kept := stage.driver.kept) < SLOW:
-        say(f"this walk did not keep up with the clock: {kept:.2f} of the pace asked for")
-    return why
+    scenario = FIRST if scenario is None else scenario
+    check_part(scenario, "what is to walk on a page", Scenario)
+    check_part(others, "the walks to choose from", Mapping, type(None))
+    path, others = output_path(Path(path), (".html",)), OTHERS if others is None else others
+    for name, values in others.items():
+        if not isinstance(values, Mapping):
+            raise InputError(
+                f"the walk '{name}' is {values!r:.60}, expected values of a scenario by name"
+            )
+    write_text(path, page(scenario, others))
+    return path
 
 
-def page(session: Session) -> str:
-    """The text of the page of a session."""
-    scenes = {name: laid_out(live) for name, live in zip(NAMES, with_ghost(session), strict=True)}
-    legend = captions({"walk": scenes["walk"]})[1:]
-    title = f"{session.walking[0].scenario.robot}, live"
-    return with_viewer(
-        "play",
-        settings(session.walking[0].scenario, scenes),
-        title=title,
-        captions=legend,
-        style="play/play.css",
-    )
+def page(scenario: Scenario, others: Mapping[str, Mapping[str, object]]) -> str:
+    """The text of the page. Raises InputError."""
+    scenarios = {name: revised(scenario, x) for name, x in others.items()}
+    own = (name for name, x in scenarios.items() if x == scenario)
+    first = next(own, f"{scenario.controller}, as given")
+    scenarios[first] = scenario
+    stations = guided(scenario, scenarios)
+    walks = {first: PageWalk.of(first, scenario)}
+    walks = {name: walks.get(name) or PageWalk.of(name, s) for name, s in scenarios.items()}
+    scene = laid_out(walks[first])
+    given = settings(walks[first], scene) | {
+        "tour": stations,
+        "numbers": numbers(walks) | {"first": first, "ghost": next(iter(others), None)},
+    }
+    title = f"{scenario.robot}, live"
+    legend = captions({"walk": scene})[1:]
+    return with_viewer("play", given, title=title, captions=legend, style="play/play.css")
 
 
-NAMES = ("walk", "ghost")
-"""Of the robots on the page."""
+def revised(s: Scenario, values: Mapping[str, object]) -> Scenario:
+    """A scenario with other values by name; another controller comes without the observer of the one before.
 
-
-def with_ghost(session: Session) -> tuple[LiveWalk, LiveWalk]:
-    """The walk, and the ghost or, without one, the walk again: the page may ask for a ghost later."""
-    return session.walking[0], session.walking[-1]
-
-
-def laid_out(live: LiveWalk) -> WalkScene:
-    """A live walk where it is now, with as much ground and as many footprints as are seen at once.
-
-    The ground is drawn without its steps: the page moves it under the foot that stands.
+    Raises InputError for values that it does not take.
     """
-    walker = replace(live.moving.walker, ground_steps=())
-    x = live.now.x[None, :]
-    arc = Arc(live.now.mode, np.array([live.now.t]), x, np.zeros_like(x))
+    if values.get("controller", s.controller) != s.controller:
+        values = {name: DEFAULTS[name] for name in OF_CONTROLLER} | dict(values)
+    try:
+        return replace(s, **values)  # type: ignore[arg-type]
+    except TypeError as error:
+        raise InputError(f"{error}; expected fields of a scenario, such as bandwidth") from error
+
+
+def tour() -> list[dict[str, Any]]:
+    """The stations of tour.toml, each with all values that it sets; there "none" stands for no value."""
+    table = packaged("biped_adrc.live", "tour.toml")
+    stations = [x | {"values": table["base"] | x["values"]} for x in table["station"]]
+    for x in stations:
+        x["values"] = {k: None if y == NONE else y for k, y in x["values"].items()}
+    return stations
+
+
+def guided(scenario: Scenario, scenarios: dict[str, Scenario]) -> list[dict[str, Any]]:
+    """The stations of the tour, each with the name of its walk, which joins the scenarios.
+
+    One that the scenario cannot be given is left out.
+    """
+    stations = []
+    for station in tour():
+        try:
+            s = revised(scenario, station.pop("values"))
+        except InputError:
+            continue
+        name = next((name for name, x in scenarios.items() if x == s), station["title"])
+        scenarios[name] = s
+        stations.append(station | {"walk": name})
+    return stations
+
+
+def laid_out(walk: PageWalk) -> WalkScene:
+    """A walk where it begins, with as much ground and as many footprints as are seen at once."""
+    x = walk.x[None, :]
+    arc = Arc(walk.mode, np.zeros(1), x, np.zeros_like(x))
     footholds = np.linspace(-AROUND, AROUND, PRINTS)
     run = Trajectory((arc,) * PRINTS, Status.COMPLETED)
-    return WalkScene(walker, run, footholds, -math.tan(walker.slope) * footholds)
+    slope = walk.walker.slope
+    return WalkScene(walk.walker, run, footholds, -math.tan(slope) * footholds)
 
 
-def settings(s: Scenario, scenes: Mapping[str, WalkScene]) -> dict[str, object]:
-    """What the scripts of a page are told: as `scene_settings` has it, and what a session has besides.
+def settings(walk: PageWalk, scene: WalkScene) -> dict[str, object]:
+    """What the scripts of a page read: as `scene_settings` has it, and besides
 
     links       (path, link): the drawn parts of the walk, and the link that each belongs to
     hand        paths of the arrow and of the line of the spring
     robot       coordinates, links and trunk by name, motors p
-    limits      friction, torque [N m]; most: force [N] and torque [N m] of a hand
-    controls    sliders and choices; ghosts: names to choose from; tour: its stations
+    most        force [N] and torque [N m] of a hand
     """
-    biped = scenes["walk"].biped
-    d = biped.description
-    told = scene_settings(scenes, Look(solid="walk"))
-    commands = told["commands"]
+    biped = walk.walker.plant
+    given = scene_settings({"walk": scene, "ghost": scene}, Look(solid="walk"))
+    commands = given["commands"]
     assert isinstance(commands, list)
-    return told | {
-        "live": True,
+    links = drawn_links(biped)
+    return given | {
         "commands": [*commands, *hand_commands()],
-        "lane": LANE,
-        "links": drawn_links(biped),
+        "links": links,
         "hand": {"arrow": "meshcat/hand/arrow", "line": "meshcat/hand/line"},
         "robot": {
             "coordinates": [f"q{k}" for k in range(1, biped.n + 1)],
-            "links": [*dict.fromkeys(link for _, link in drawn_links(biped))],
-            "trunk": d.trunk,
+            "links": [*dict.fromkeys(link for _, link in links)],
+            "trunk": biped.description.trunk,
             "p": biped.p,
         },
-        "limits": limits_of(s, d),
-        "most": {"force": MOST_FORCE, "torque": MOST_TORQUE},
-        "controls": controls(),
-        "ghosts": GHOSTS,
-        "tour": tour(),
+        "most": MOST,
     }
-
-
-def drawn_links(biped: Biped) -> list[tuple[str, str]]:
-    """(path, link) of every primitive of the walk's robot."""
-    tree = biped.tree
-    return [
-        (f"meshcat/robots/walk/{draw.joint_path(tree, joint)}/visual_{k}", joint.child)
-        for joint in tree.joints
-        for k in range(len(tree.links[joint.child].visuals))
-    ]
 
 
 def hand_commands() -> list[str]:

@@ -9,7 +9,6 @@ Entries of the file, beside the trajectory that `hybrid.storage` writes:
 
     walker      JSON: {"parts": records of all objects, "walker": place of the walker, "gait": the gait}
     signal.*    arrays over the nodes: u alone, or all signals where a class of the user's takes part
-    ghost       another walk as the bytes of a file of its own, where it belongs to this one
     settings    versions, the scenario's record, names of the user's classes, and what the caller adds
 """
 
@@ -59,37 +58,18 @@ class AbsentDisturbance(MissingPart, Disturbance):
         raise InputError(f"the walk cannot go on without its disturbance: {self.why}")
 
 
-GHOST = "ghost"
-"""Name in a file of the other walk that belongs to it."""
 STAND_INS = {"controller": AbsentController, "disturbance": AbsentDisturbance}
 """Fields of a walker in which a missing part is accepted, and the class that takes its place."""
 
 
-def save_walk(
-    walk: Walk,
-    path: Path | str,
-    settings: Mapping[str, object] | None = None,
-    ghost: Walk | None = None,
-    beside: Mapping[str, ArrayLike] | None = None,
-) -> Path:
+def save_walk(walk: Walk, path: Path | str, settings: Mapping[str, object] | None = None) -> Path:
     """Write a walk (.npz) that `load_walk` reads anywhere; returns its path.
 
-    settings: more plain values to be stored beside it. ghost: another walk that is kept in the same file, which
-    `load_ghost` reads. beside: more arrays, which `hybrid.storage.load_beside` reads.
+    settings: more plain values to be stored beside it.
 
     All signals are stored where a class of the user's takes part, and those that were recorded; torques only
     elsewhere, since the others can be computed again. Raises InputError and OutputError.
     """
-    about, arrays = _told(walk)
-    if ghost is not None:
-        packed, _ = storage.packed(ghost.trajectory, *_told(ghost))
-        arrays[GHOST] = np.frombuffer(packed, np.uint8)
-    arrays |= beside or {}
-    return storage.save(walk.trajectory, path, {**about, **(settings or {})}, arrays)
-
-
-def _told(walk: Walk) -> tuple[dict[str, object], dict[str, ArrayLike]]:
-    """The settings of a walk and the arrays beside its trajectory, as a file has them."""
     writer = Writer()
     walker, gait = writer.part(walk.walker), writer.plain(walk.gait)
     record = {"parts": writer.records, "walker": walker, "gait": gait}
@@ -100,7 +80,9 @@ def _told(walk: Walk) -> tuple[dict[str, object], dict[str, ArrayLike]]:
         about["scenario"] = walk.scenario.record()
     if writer.own:
         about["own"] = sorted(set(writer.own))
-    return about, {"walker": json.dumps(record), **{f"signal.{k}": x for k, x in seen.items()}}
+    arrays: dict[str, ArrayLike] = {"walker": json.dumps(record)}
+    arrays |= {f"signal.{k}": x for k, x in seen.items()}
+    return storage.save(walk.trajectory, path, {**about, **(settings or {})}, arrays)
 
 
 def load_walk(path: Path | str, controller: object = None) -> Walk:
@@ -122,21 +104,6 @@ def load_walk(path: Path | str, controller: object = None) -> Walk:
                 "'biped-adrc simulate' and 'reproduce' do"
             )
         found = _stored(trajectory, beside, controller)
-        _check(found)
-    return found
-
-
-def load_ghost(path: Path | str) -> Walk | None:
-    """The other walk in a file that `load_walk` reads, such as that of a session's ghost; None without one.
-
-    Raises InputError.
-    """
-    packed = storage.load_beside(path).get(GHOST)
-    if packed is None:
-        return None
-    with storage.reading_run(path), read_from_a_file():
-        data = packed.tobytes()
-        found = _stored(storage.unpacked(data, _mode), storage.beside_in(data), None)
         _check(found)
     return found
 
@@ -247,19 +214,14 @@ def replay(s: Scenario, trajectory: Trajectory) -> Walk:
 
 
 def load_walks(paths: Sequence[Path]) -> dict[str, Walk]:
-    """The walks in run files, by a name for each, and each behind it the ghost that is in the same file.
+    """The walks in run files, by a name for each.
 
     The name is that of the controller, with the file or a number where names repeat.
     """
-    found = [
-        (f"{path.stem}{of}", walk)
-        for path in paths
-        for of, walk in (("", load_walk(path)), (", ghost", load_ghost(path)))
-        if walk is not None
-    ]
-    names = [walk.controller_name for _, walk in found]
+    walks = [load_walk(path) for path in paths]
+    names = [walk.controller_name for walk in walks]
     if len(set(names)) < len(names):
-        names = [f"{walk.controller_name} ({of})" for of, walk in found]
+        names = [f"{name} ({path.stem})" for name, path in zip(names, paths, strict=True)]
     if len(set(names)) < len(names):
         names = [f"{name} {k}" for k, name in enumerate(names, start=1)]
-    return dict(zip(names, (walk for _, walk in found), strict=True))
+    return dict(zip(names, walks, strict=True))

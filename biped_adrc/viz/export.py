@@ -73,7 +73,7 @@ class Clip:
         return self.apart or self.magnify is not None or self.slower != 1.0
 
     def look(self) -> Look:
-        """The settings of a page or of the live view."""
+        """The settings of a page."""
         return Look(fps=60.0 if self.fps is None else self.fps, view=self.view)
 
     def motion(self) -> Motion:

@@ -203,8 +203,7 @@ def player(settings: Mapping[str, object], title: str, legend: Sequence[tuple[st
     """The page that plays walks in Meshcat's viewer, with play, pause, speed and a slider of time.
 
     settings: as `meshcat.view.scene_settings` gives them; player.js reads them as JSON. legend:
-    pairs (colour, text), the text plain, as it is escaped here. With settings["live"] the page may
-    open a WebSocket to the server it came from, and to nothing else.
+    pairs (colour, text), the text plain, as it is escaped here.
     """
     return with_viewer("player", settings, title=title, captions=legend, style="player.css")
 
@@ -218,7 +217,6 @@ def with_viewer(template: str, settings: Mapping[str, object], **values: object)
     return rendered(
         template,
         s=settings,
-        policy=POLICY + ("; connect-src 'self'" if settings["live"] else ""),
         viewer=Markup(viewer),
         data=Markup(json.dumps(settings).replace("<", "\\u003c")),
         **values,

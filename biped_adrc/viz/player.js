@@ -1,4 +1,4 @@
-// Plays walks at any time t, from the data of the page or from a server's messages; scene.js draws them.
+// Plays walks at any time t, from the data of the page; scene.js draws them.
 const robots = scene.walks.map((walk) => new Robot(walk));
 const leader = robots[scene.leader];
 
@@ -6,7 +6,7 @@ const leader = robots[scene.leader];
 const animator = viewer.animator;
 const reduced = matchMedia("(prefers-reduced-motion: reduce)").matches;
 const REST = 2; // [s] of standing still at the end where a walk ended badly
-let playing = !scene.live && !reduced, speed = 1, last = null, rested = 0;
+let playing = !reduced, speed = 1, last = null, rested = 0;
 
 function describe(t, pose) {
   const support = leader.walk.supports[pose.arc];
@@ -20,11 +20,10 @@ function describe(t, pose) {
     now.push(robots.length > 1 ? ", " + robot.walk.name + " slips" : ", slips");
   }
   element("clock").textContent = "t = " + t.toFixed(2) + " s, step " + support.number + now.join("");
-  if (!told) tell(robots.filter((robot) => over(robot, t)).map((r) => r.walk.name + " " + r.walk.ending));
+  tell(robots.filter((robot) => over(robot, t)).map((r) => r.walk.name + " " + r.walk.ending));
 }
 // whether a walk has ended by t [s] without having done what it was asked for
 const over = ({ walk }, t) => walk.ending !== "" && t >= walk.end - 1e-9;
-let told = false; // the server's last word stays
 function tell(words) {
   element("message").textContent = words.join(". ");
   element("message").hidden = words.length === 0;
@@ -52,7 +51,7 @@ animator.pause = () => {
   element("play").textContent = "play";
 };
 animator.update = () => {
-  if (!playing || scene.live) return;
+  if (!playing) return;
   const now = performance.now();
   const before = last === null ? now : last;
   const t = animator.time + speed * 1e-3 * (now - before);
@@ -83,48 +82,11 @@ const keys = {
 };
 document.addEventListener("keydown", (e) => {
   const own = ["BUTTON", "SELECT", "INPUT"].includes(e.target.tagName);
-  if (scene.live && e.key !== "v") return;
   if (e.ctrlKey || e.altKey || e.metaKey || !(e.key in keys) || (own && e.key !== "v")) return;
   e.preventDefault();
   keys[e.key]();
 });
 viewer.gui.close();
 look(scene.view);
-
-// -- live ------------------------------------------------------------------------------------------
-function connect() {
-  const socket = new WebSocket("ws://" + location.host + "/poses");
-  let heard = performance.now();
-  const say = (text) => {
-    told = true;
-    tell([text]);
-  };
-  socket.onmessage = (event) => {
-    heard = performance.now();
-    const message = JSON.parse(event.data);
-    if (message.over) { say(message.over); return; }
-    if (!message.poses) return;
-    message.poses.forEach((pose, k) => {
-      const passed = robots[k].passed;
-      if (message.restart) passed.length = 0;
-      robots[k].show(pose);
-      passed.push({ p: pose.points, arc: pose.arc });
-    });
-    animator.time = message.t;
-    describe(message.t, message.poses[scene.leader]);
-    viewer.set_dirty();
-  };
-  const lost = "The server has stopped: this picture no longer moves. Start it again, or write a page that "
-    + "needs no server with 'biped-adrc animate RUN.npz -o walk.html'.";
-  socket.onclose = () => { if (!told) say(lost); };
-  setInterval(() => {
-    if (!told && performance.now() - heard > 3000) { say(lost); socket.close(); }
-  }, 500);
-}
-if (scene.live) {
-  document.body.classList.add("live");
-  connect();
-} else {
-  animator.seek(scene.start);
-  if (playing) animator.play(); else animator.pause();
-}
+animator.seek(scene.start);
+if (playing) animator.play(); else animator.pause();

@@ -388,9 +388,10 @@ def loop_compiles(walker, states=20, ticks=0):
     ticks: taken before each state is compared, so that a line of torques has something in it.
     """
     random, n, mode = np.random.default_rng(11), walker.plant.n, ba.Mode(3, 0.05)
-    q, v = gait().start(robot())
+    ends = gait().start(robot()), (gait().q_minus, gait().v_minus)
     program = struck = None
-    for _ in range(states):
+    for i in range(states):
+        q, v = ends[i % 2]
         x = walker.initial_state(*(a + 0.3 * random.normal(size=n) for a in (q, v)))
         x[2 * n :] *= 1.0 + 0.1 * random.normal(size=len(x) - 2 * n)
         for _ in range(ticks):

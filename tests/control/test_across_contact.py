@@ -7,7 +7,6 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.control.across_contact import Hold
-from biped_adrc.control.fade import Fade
 from biped_adrc.control.impact_invariant import ImpactInvariant
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_adrc import OutputADRCController
@@ -18,7 +17,7 @@ from biped_adrc.scenario.build import build
 PERIOD, SWAP = 1e-3, np.array([1, 0, 3, 2])
 PUSH = ba.TorquePulse([30.0, 20.0, -10.0, 15.0, 0.0], step=2, start=0.1, stop=0.8)
 FAST = ba.GPIObserver.from_bandwidth(500.0)
-WINDOWS = (Hold, Fade, ImpactInvariant)
+WINDOWS = (Hold, ImpactInvariant)
 
 
 @pytest.fixture(scope="module")
@@ -75,19 +74,6 @@ def test_held_the_observer_begins_anew_at_each_tick_of_the_window(h, seen):
             assert np.array_equal(law.correct(s, m), expected)
             assert np.array_equal(law.predict(s, m, m.v_b), inner.predict(s, m, m.v_b))
             assert np.array_equal(law.jump(s, m, SWAP), inner.jump(s, m, SWAP))
-
-
-@pytest.mark.parametrize(("x", "w"), [(0.0, 0.0), (0.25, 0.15625), (0.5, 0.5), (0.75, 0.84375)])
-def test_faded_the_observer_counts_by_the_ramp(h, seen, x, w):
-    for controller in inside(h):
-        inner, law = controller.sampled(PERIOD), Fade(controller, 0.04).sampled(PERIOD)
-        m = seen(0.04 * x)
-        s = off(inner, m)
-        fresh, run = inner.output(inner.initial_state(m), m), inner.output(s, m)
-        np.testing.assert_allclose(law.output(s, m), (1.0 - w) * fresh + w * run, rtol=1e-9)
-        assert np.array_equal(law.correct(s, m), inner.correct(s, m))
-        late = seen(0.041)
-        assert np.array_equal(law.output(s, late), inner.output(s, late))
 
 
 # -- what no impulse changes -------------------------------------------------------------------------
@@ -221,7 +207,7 @@ def test_what_does_not_fit_is_refused(biped, gait, h):
 
 
 def test_a_scenario_names_the_policy():
-    for name, policy in (("hold", Hold), ("Fade", Fade), ("impact invariant", ImpactInvariant)):
+    for name, policy in (("Hold", Hold), ("impact invariant", ImpactInvariant)):
         s = ba.Scenario("LESO", contact=name, contact_window=0.02, period=PERIOD)
         made = build(s).controller
         assert (type(made), type(made.inner)) == (policy, ba.ADRCController)

@@ -66,12 +66,10 @@ ROWS = {
     },
     "contact": {
         "hold": lambda make, h: [make(ba.ADRCController(h, SLOW), 0.2), make(ba.NPDController(h))],
-        "fade": lambda make, h: [make(MomentumDOBController(h), 0.2)],
         "impact invariant": lambda make, h: [
             make(ba.NPDController(h), 0.07),
             make(MomentumDOBController(h), 0.2, innovation=True),
         ],
-        "ramp torque": lambda make, h: [make(ba.ADRCController(h, SLOW), 0.2)],
     },
     "around": {
         "prediction": lambda make, h: [make(ba.ADRCController(h, SLOW), 2.3e-3)],
@@ -157,7 +155,7 @@ BASES = {
     ba.Observer: ("observers", {"ChainObserver", "InjectedChain", "MomentumChain"}),
     ba.Disturbance: (
         "disturbances",
-        {"Windowed", "WindowedTorque", "AbsentDisturbance", "RecordedHand"},
+        {"Windowed", "WindowedTorque", "AbsentDisturbance"},
     ),
     ba.Reference: ("gait", set()),
     Outputs: ("gait", set()),

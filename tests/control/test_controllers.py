@@ -8,8 +8,6 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.linear_loop import tracking_error
 from biped_adrc.closed_loop.walker import Mode
-from biped_adrc.control.momentum_dob import MomentumDOBController
-from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.errors import InputError, NotFiniteError
 from biped_adrc.paper.physical_laws import held_joint
@@ -156,20 +154,3 @@ def test_an_observer_in_continuous_time_is_fed_the_torque_that_the_motors_give(b
     assert not np.allclose(found[10:], walker.law.flow(s, m, asked), rtol=1e-6)
     a = biped.acceleration(x[:5], x[5:10], np.append(given, 0.0))
     np.testing.assert_allclose(found[5:10], a, rtol=1e-9)
-
-
-@pytest.mark.parametrize("law", [ba.ADRCController, MomentumDOBController, OutputADRCController])
-def test_at_a_tick_an_observer_is_told_the_torque_within_the_limit(biped, gait, law):
-    """One that was told the torque asked for would take the motors' limit for a disturbance."""
-    timing = ba.SampledTime(1e-3)
-    walker = ba.Walker(biped, law(gait.constraint), timing=timing, torque_limit=5.0)
-    q, v = gait.start(biped)
-    x, mode = walker.initial_state(q, 1.05 * v), Mode()
-    s, m = walker.split_state(x)[2], walker.measure(0.0, x[:5], x[5:10], mode)
-    m = m._replace(body=biped.body_terms(x[:5], x[5:10]))
-    s = walker.law.correct(s, m)
-    asked = walker.law.output(s, m)
-    given = np.clip(asked, -5.0, 5.0)
-    found = walker.split_state(walker.tick(0.0, x, mode))[2]
-    np.testing.assert_allclose(found, walker.law.predict(s, m, given), rtol=1e-12)
-    assert not np.allclose(found, walker.law.predict(s, m, asked), rtol=1e-6)

@@ -1,5 +1,7 @@
 """The controllers and observers of the field: what each promises, by a law that its code does not use."""
 
+from dataclasses import dataclass, replace
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq
@@ -271,3 +273,60 @@ def test_the_high_gain_observer_is_gpi_with_the_same_poles(alpha):
 def clean(poles):
     """Poles without the imaginary parts that round-off gives equal ones."""
     return [pole.real if abs(pole.imag) < 1e-3 * abs(pole) else pole for pole in poles]
+
+
+# -- anti-windup -------------------------------------------------------------------------------
+@dataclass(frozen=True)
+class Unlimited(ba.Controller):
+    """A controller whose observer is told the torque asked for, not the one applied."""
+
+    inner: ba.Controller
+
+    @property
+    def needs_body(self):
+        return self.inner.needs_body
+
+    def output(self, s, m):
+        return self.inner.output(s, m)
+
+    def initial_state(self, m):
+        return self.inner.initial_state(m)
+
+    def correct(self, s, m):
+        return self.inner.correct(s, m)
+
+    def predict(self, s, m, u):
+        return self.inner.predict(s, m, self.inner.output(s, m))
+
+    def jump(self, s, after, swap):
+        return self.inner.jump(s, after, swap)
+
+    def sampled(self, period):
+        return replace(self, inner=self.inner.sampled(period))
+
+    def estimate(self, s, m):
+        return self.inner.estimate(s, m)
+
+
+@pytest.mark.parametrize("name", ["ADRC, outputs, m = 1", "momentum observer"])
+def test_the_observer_is_told_the_torque_applied(biped, gait, name):
+    """A push that the motors cannot answer: the estimate stays near q_b'' - kappa u, and the walk goes on."""
+    push = ba.TorquePulse([110.0, -110.0, 110.0, -110.0, 0.0], step=2, start=0.1, stop=0.2)
+    law, errors = FIELD[name](gait.constraint), []
+    for told in (law, Unlimited(law)):
+        walker = Walker(biped, told, push, SampledTime(1e-3), torque_limit=100.0)
+        walk = ba.walk(walker, gait, 4, ba.RK4(1e-3), engine="compiled")
+        s = walk.signals.of_step(2)
+        during = (s.t - s.t[0] > 0.12) & (s.t - s.t[0] < 0.2)
+        assert np.max(np.abs(s.u[during])) == 100.0
+        wrong = np.linalg.norm((s.xi_estimate - s.xi)[during], axis=1)
+        errors.append(np.median(wrong) / np.median(np.linalg.norm(s.xi[during], axis=1)))
+        if told is law:
+            assert walk.trajectory.status.ok
+            late = walk.signals.of_step(4)
+            assert np.max(np.abs(late.error)) < 5e-3
+        else:
+            assert not walk.trajectory.status.ok
+    near, off = errors
+    assert near < 0.05, errors
+    assert off > 5.0, errors

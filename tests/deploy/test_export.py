@@ -1,11 +1,11 @@
-"""An exported controller against Python, call by call over walks, and what its folder is like."""
+"""An exported controller: what its functions do without a measurement, its program, its folder."""
 
-import ctypes
+import errno
 import os
-import re
 import shutil
 import subprocess
 from dataclasses import replace
+from functools import partial
 
 import casadi as ca
 import numpy as np
@@ -13,105 +13,26 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.deploy import loaded as loading
-from biped_adrc.deploy.apart import TIMES, apart, walk
 from biped_adrc.deploy.computer import Computer
 from biped_adrc.deploy.export import export_c
-from biped_adrc.deploy.loaded import FLAGS, NOT_MEASURED, OK, UNOPTIMISED, Loaded
-from biped_adrc.deploy.records import fed, recorded
-from biped_adrc.deploy.ripple import ripple
-from biped_adrc.deploy.rounding import proof
+from biped_adrc.deploy.loaded import NOT_MEASURED, OK, Loaded, compiled
+from biped_adrc.deploy.noticed import Noticed
 from biped_adrc.deploy.source import source_of
 from biped_adrc.engine.c_text import in_double
+from biped_adrc.engine.mechanics import RobotStructure
 from biped_adrc.errors import InputError, OutputError
 from biped_adrc.hardware.sensing import Sensor
-from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.status import Status
-from biped_adrc.scenario.build import RobotAndGait, build, start
-from tests.deploy.robot import PUSH, ROBOT
+from biped_adrc.scenario.build import build
+from tests.deploy.calls import SCENARIOS, recorded
 
-CASES = {
-    "NPD": ba.Scenario("NPD", hardware="ideal", impacts=2, pushes=PUSH),
-    "Table I": ba.Scenario("ADRC", hardware="ideal", impacts=2, pushes=PUSH),
-    "on a robot": ba.Scenario("LESO", impacts=2, pushes=PUSH, **ROBOT),
-    "touchdown noticed": ba.Scenario(
-        "DOB", hardware="rabbit", counts=1e6, impacts=2, touchdown="kinematics"
-    ),
-}
-
-
-@pytest.fixture(scope="module")
-def cases():
-    """Computer, exported controller and recorded calls, by name; made when asked for."""
-    made = {}
-
-    def case(name):
-        if name not in made:
-            walk = ba.walk_scenario(CASES[name])
-            computer = Computer(walk.walker)
-            flags = FLAGS if name == "on a robot" else UNOPTIMISED
-            loaded = Loaded(source_of(computer), flags=flags)
-            made[name] = computer, loaded, recorded(walk.walker, walk.trajectory)
-        return made[name]
-
-    return case
-
-
-@pytest.mark.parametrize(
-    ("name", "real"), [*((name, "float64") for name in CASES), ("on a robot", "float32")]
-)
-def test_a_call_differs_from_python_by_what_ulps_of_its_inputs_do(cases, name, real):
-    computer, loaded, calls = cases(name)
-    assert {"init", "step", "touchdown"} == {call.kind for call in calls}
-    found = proof(computer, replace(loaded, real=real), calls, every=7)
-    assert found.worst <= TIMES
-    assert found.torque > 90.0
-
-
-def test_the_last_torque_is_on_its_way_and_the_limits_are_kept(cases):
-    computer, loaded, calls = cases("on a robot")
-    made, slower = fed(loaded, calls), fed(replace(loaded, flags=UNOPTIMISED), calls)
-    assert loaded.flags != UNOPTIMISED
-    np.testing.assert_array_equal(made.u, slower.u)
-    steps = [i for i, call in enumerate(calls) if call.kind == "step"]
-    assert not any(made.flags)
-    assert np.max(np.abs(made.u[steps])) == computer.walker.torque_limit
-    change = np.diff([made.u[i] for i in steps if calls[i].t < 0.3], axis=0)
-    assert np.max(np.abs(change)) == pytest.approx(3e4 * 1.5e-3, rel=1e-12)
-
-
-def beside_python(name, loaded, computer, impacts):
-    """How far walks of a case, by Python and by what is loaded, come apart."""
-    begin = start(CASES[name], RobotAndGait.of(CASES[name]))
-    options = RunOptions(2.0, stop_after=("foot_strike", impacts))
-    return apart(computer, loaded, begin, options)
-
-
-@pytest.mark.parametrize("name", ["Table I", "on a robot"])
-def test_a_walk_by_the_exported_controller_is_the_same_walk(cases, name):
-    computer, loaded, _ = cases(name)
-    found = beside_python(name, loaded, computer, 2)
-    assert len(found.run.arcs) == 2
-    assert found.proved, found
-
-
-@pytest.mark.parametrize("number", ["rotor[2]", "curve.stacked[4, 4]", "K_d[0]"])
-def test_a_walk_shows_a_constant_that_is_wrong_by_1e_9(cases, number):
-    computer, loaded, _ = cases("NPD")
-    files = dict(loaded.source.files)
-    line = next(x for x in files["controller.c"].splitlines() if f"{number} */" in x)
-    value = re.search(r"-?[0-9.e-]+[0-9]", line)[0]
-    files["controller.c"] = files["controller.c"].replace(
-        line, line.replace(value, repr(float(value) * (1.0 + 1e-9)), 1)
-    )
-    wrong = replace(loaded, source=replace(loaded.source, files=files), flags=UNOPTIMISED)
-    found = beside_python("NPD", wrong, computer, 1)
-    assert found.same_end
-    assert found.worst > 30.0 * TIMES
+NPD, ON_A_ROBOT = SCENARIOS.values()
+SANITIZERS = ("-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
-def test_what_is_not_measured_leaves_the_state_and_the_torque_and_then_none(cases, bad):
-    _, loaded, calls = cases("NPD")
+def test_what_is_not_measured_leaves_the_state_and_the_torque_and_then_none(bad):
+    loaded, calls = recorded("NPD")
     for entry in ("t", "q", "v"):
         _, x = loaded.init(loaded.measured(*calls[0][1:4]))
         good = loaded.measured(*calls[1][1:4])
@@ -129,8 +50,8 @@ def test_what_is_not_measured_leaves_the_state_and_the_torque_and_then_none(case
         assert loaded.step(x, good)[0] == OK
 
 
-def test_no_difference_is_taken_over_a_sample_that_is_not_measured(cases):
-    _, loaded, calls = cases("on a robot")
+def test_no_difference_is_taken_over_a_sample_that_is_not_measured():
+    loaded, calls = recorded("on a robot")
     rates = {}
     for bad in (range(40, 43), range(0)):
         x, made = loaded.init(loaded.measured(*calls[0][1:4]))[1], []
@@ -144,43 +65,43 @@ def test_no_difference_is_taken_over_a_sample_that_is_not_measured(cases):
     assert np.all(np.diff(off[43:]) < 0.0)
 
 
-@pytest.mark.parametrize("name", ["NPD", "on a robot"])
-def test_an_initial_state_that_is_none_is_zero_and_gives_no_torque(cases, name):
-    _, loaded, calls = cases(name)
-    m = loaded.measured(np.nan, calls[0].q, calls[0].v)
-    x = np.frombuffer(bytearray(b"\xff" * loaded.state.itemsize), loaded.state)[0:1].reshape(())
-    at = (ctypes.c_void_p(a.ctypes.data) for a in (x, m))
-    assert loaded.functions["init"](*at) == NOT_MEASURED
-    left = {field: x[field].tolist() for field in loaded.state.names if np.any(x[field] != 0)}
-    assert left == {"step": 1, "without": 5}
-    assert not np.any(loaded.step(x, m)[1])
-
-
 def test_a_walk_that_runs_away_ends_as_that_of_python():
     scenario = ba.Scenario("NPD", period=1e-3, delay=2e-2, impacts=1)
-    computer = Computer(build(scenario))
-    loaded = Loaded(source_of(computer), flags=UNOPTIMISED)
-    found = apart(computer, loaded, start(scenario, RobotAndGait.of(scenario)), RunOptions(1.0))
-    assert found.run.status is Status.RAN_AWAY
-    assert found.proved, found
+    controller = ba.ExportedController(source_of(Computer(build(scenario))))
     here = ba.walk_scenario(scenario).trajectory
-    there = ba.walk_scenario(scenario, controller=ba.ExportedController(loaded)).trajectory
+    there = ba.walk_scenario(scenario, controller=controller).trajectory
+    assert here.status is Status.RAN_AWAY
     assert (there.status, there.t_end) == (here.status, here.t_end)
 
 
 @pytest.mark.parametrize("flag", loading.ERRORS)
-def test_every_flag_ends_a_walk_with_the_status_of_its_name(cases, flag):
-    computer, loaded, _ = cases("NPD")
+def test_every_flag_ends_a_walk_with_the_status_of_its_name(flag):
     name = {NOT_MEASURED: "NOT_FINITE", 2: "NOT_FINITE", 3: "SINGULAR", 4: "RAN_AWAY"}[flag]
-    begin = start(CASES["NPD"], RobotAndGait.of(CASES["NPD"]))
 
     class Failing(ba.ExportedController):
         def correct(self, s, m):
             return super()._kept(flag if m.t > 2.5e-3 else OK, self._state(s), self.output(s, m))
 
-    run = walk(computer.walker, Failing(loaded), begin, RunOptions(1.0))
+    run = ba.walk_scenario(NPD, controller=Failing(recorded("NPD")[0].source)).trajectory
     assert run.status is Status[name]
     assert run.t_end == pytest.approx(3e-3)
+
+
+def test_a_noticed_touchdown_is_seen_in_the_old_labels_with_the_offset_of_the_angles():
+    """q+ = R q- + r, R R = 1, R r = -r: no robot of the package has an r."""
+    R, r = np.array([[0, 1, 0], [1, 0, 0], [0, 0, 1]]), np.array([0.3, -0.3, 0.0])
+    inner, robot = ba.Sensors(filter_time=2e-3), partial(RobotStructure, 3, 2, np.eye(3), R)
+    around = Noticed(inner, robot(r, np.array([1, 0]), ())).laws(3, 2, 1e-3)
+    laws = inner.laws(3, 2, 1e-3)
+    k, q, v = laws.parameters, np.array([0.1, -0.4, 0.7]), np.array([1.0, 2.0, -3.0])
+    w = laws.sense(k, inner.start(k, q, v), q + 1e-3 * v, v)
+    old = q + 2e-3 * v
+    before = laws.sense(k, w, old, v)
+    wanted = laws.impact(k, before, R @ old + r, R @ v, R @ laws.seen(k, before, old, v)[1])
+    found = around.impact(k, np.append(w, 0.0), R @ old + r, R @ v, np.zeros(3))
+    np.testing.assert_allclose(found, np.append(wanted, 1.0), rtol=1e-12)
+    with pytest.raises(InputError, match="do not exchange in pairs"):
+        Noticed(inner, robot(np.abs(r), np.array([1, 0]), ()))
 
 
 class Own(Sensor):
@@ -202,38 +123,56 @@ def test_what_stands_in_the_way_is_named(tmp_path):
     ]:
         with pytest.raises(InputError, match=word):
             export_c(scenario, tmp_path / "out")
-    for wrong, word in [({"prefix": "2nd"}, "prefix"), ({"real": "half"}, "float64")]:
+    wrong = [("prefix", "2nd", "prefix"), ("prefix", "main", "main.c"), ("prefix", "x", "X_OK")]
+    for name, value, word in [*wrong, ("real", "half", "float64")]:
         with pytest.raises(InputError, match=word):
-            export_c(walker, tmp_path / "out", **wrong)
+            export_c(walker, tmp_path / "out", **{name: value})
     assert not (tmp_path / "out").exists()
 
 
 def test_a_folder_with_other_files_is_left_alone(tmp_path):
-    export_c(CASES["NPD"], tmp_path / "new")
-    before = {x.name: x.read_bytes() for x in (tmp_path / "new").iterdir()}
-    export_c(CASES["NPD"], tmp_path / "new")
-    assert {x.name: x.read_bytes() for x in (tmp_path / "new").iterdir()} == before
+    new = tmp_path / "new"
+    export_c(NPD, new, fmu=True)
+    before = {x.name: x.read_bytes() for x in new.iterdir()}
+    subprocess.run(["make", "-s", "-C", new], check=True)
+    subprocess.run(["make", "-s", "-C", new, "float"], check=True)
+    export_c(NPD, new)  # what make has built is no file of somebody else
+    assert {x.name: x.read_bytes() for x in new.iterdir() if x.name != "main"} == before
     with pytest.raises(OutputError, match="other than it would be written"):
-        export_c(CASES["touchdown noticed"], tmp_path / "new")
-    assert {x.name: x.read_bytes() for x in (tmp_path / "new").iterdir()} == before
-    (tmp_path / "new" / "main.c").write_text("changed by hand")
+        export_c(ON_A_ROBOT, new)
+    (new / "main.c").write_text("changed by hand")
     with pytest.raises(OutputError, match=r"main\.c"):
-        export_c(CASES["NPD"], tmp_path / "new")
-    assert (tmp_path / "new" / "main.c").read_text() == "changed by hand"
-    (tmp_path / "new" / "main.c").unlink()
-    (tmp_path / "new" / "mine.txt").write_text("mine")
+        export_c(NPD, new)
+    assert (new / "main.c").read_text() == "changed by hand"
+    (new / "main.c").unlink()
+    (new / "main.c").symlink_to("nowhere")
+    with pytest.raises(OutputError, match=r"main\.c"):
+        export_c(NPD, new)
+    (new / "main.c").unlink()
+    (new / "mine.txt").write_text("mine")
     with pytest.raises(OutputError, match=r"mine\.txt"):
-        export_c(CASES["NPD"], tmp_path / "new")
-    with pytest.raises(OutputError, match="is a file"):
-        export_c(CASES["NPD"], tmp_path / "new" / "mine.txt")
+        export_c(NPD, new)
+    for name, word in [("new/mine.txt", "is a file"), (300 * "a", "too long")]:
+        with pytest.raises(OutputError, match=word):
+            export_c(NPD, tmp_path / name)
 
 
-def test_without_a_compiler_it_is_said(cases, monkeypatch):
-    _, loaded, _ = cases("NPD")
+def test_without_a_compiler_or_room_to_compile_the_c_is_written_and_it_is_said(
+    tmp_path, monkeypatch
+):
+    def full(*_, **__):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(loading.tempfile, "TemporaryDirectory", full)
+        with pytest.raises(OutputError, match=r"No space left on device.*TMPDIR"):
+            export_c(NPD, tmp_path / "new", fmu=True)
+    assert (tmp_path / "new" / "controller.c").exists()
+    source = export_c(NPD, tmp_path / "new")
     monkeypatch.setattr(loading.shutil, "which", lambda name: None)
-    assert "there is no C compiler" in loading.tried(loaded.source)
+    assert "there is no C compiler" in loading.tried(source)
     with pytest.raises(InputError, match="there is no C compiler"):
-        Loaded(loaded.source).functions  # noqa: B018
+        Loaded(source).functions  # noqa: B018
 
 
 COMPILERS = {"gcc": ["-std=c99"], "g++": ["-x", "c++"], "clang": ["-std=c99"]}
@@ -244,55 +183,49 @@ REQUIRED = os.environ.get("REQUIRED_COMPILERS", "").split()
 @pytest.mark.parametrize("program", [x for x in COMPILERS if x in REQUIRED or shutil.which(x)])
 @pytest.mark.parametrize("real", ["double", "float"])
 def test_no_compiler_warns(tmp_path, program, real):
-    export_c(CASES["on a robot"], tmp_path / "c", prefix="leg")
+    export_c(ON_A_ROBOT, tmp_path / "c", prefix="leg")
     strict = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", f"-DLEG_REAL={real}"]
     command = [program, *COMPILERS[program], *strict, "-c", "-o", os.devnull]
-    for name in ("leg.c", "main.c", "loop.c"):
+    for name in ("leg.c", "main.c"):
         subprocess.run([*command, str(tmp_path / "c" / name)], check=True)
 
 
-def test_the_program_under_sanitizers_prints_the_torques(tmp_path, cases):
-    _, loaded, calls = cases("on a robot")
-    for name, text in loaded.source.files.items():
-        (tmp_path / name).write_text(text)
-    flags = (*FLAGS, "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
-    loading.compiled(tmp_path, ["main.c", "controller.c"], tmp_path / "main", flags)
-    lines, landed = [], 0
+@pytest.fixture(scope="module")
+def program():
+    """The example's program of a robot's controller, under sanitizers."""
+    files = recorded("on a robot")[0].source.files
+    with compiled(files, ["main.c", "controller.c"], *SANITIZERS) as (path, said):
+        assert not said
+        yield path
+
+
+def printed(program, lines):
+    """The exit code of a program, and the numbers that it prints for lines."""
+    done = subprocess.run([program], input="\n".join(lines), capture_output=True, text=True)
+    return done.returncode, [list(map(float, line.split())) for line in done.stdout.splitlines()]
+
+
+def line_of(landed, call):
+    return " ".join(map(repr, [landed, call.t, *call.q.tolist(), *call.v.tolist()]))
+
+
+def test_the_program_prints_the_torques_bit_for_bit(program):
+    _, calls = recorded("on a robot")
+    lines, wanted, landed = [], [], 0
     for call in calls:
         if call.kind == "step":
-            lines.append(" ".join(map(repr, [landed, call.t, *call.q.tolist(), *call.v.tolist()])))
+            lines.append(line_of(landed, call))
+            wanted.append([OK, *call.u.tolist()])
         landed = int(call.kind == "touchdown")
-    lines.append(lines[-1].replace(repr(calls[-1].t), "nan", 1))
-    done = subprocess.run(
-        [tmp_path / "main"], input="\n".join(lines), capture_output=True, text=True, check=True
-    )
-    printed = np.array([line.split() for line in done.stdout.splitlines()], dtype=float)
-    assert len(printed) == len(lines)
-    assert printed[:-1, 0].tolist() == [OK] * (len(lines) - 1)
-    assert printed[-1, 0] == NOT_MEASURED
-    before = [call.u for call in calls[:200] if call.kind == "step"]
-    np.testing.assert_allclose(printed[: len(before), 1:], before, rtol=1e-9, atol=1e-9)
+    code, made = printed(program, [*lines, "", line_of(0, calls[-1]._replace(t=np.nan))])
+    assert (code, made) == (0, [*wanted, [NOT_MEASURED, *wanted[-1][1:]]])
 
 
-def test_in_the_program_a_touchdown_that_is_not_measured_waits(tmp_path, cases):
-    _, loaded, calls = cases("on a robot")
-    for name, text in loaded.source.files.items():
-        (tmp_path / name).write_text(text)
-    loading.compiled(tmp_path, ["main.c", "controller.c"], tmp_path / "main", UNOPTIMISED)
-    at = next(i for i, call in enumerate(calls) if call.kind == "touchdown")
-    first, bad, good = calls[0], calls[at]._replace(t=np.nan), calls[at + 2]
-    x = loaded.init(loaded.measured(*first[1:4]))[1]
-    made = [loaded.step(x, loaded.measured(*call[1:4])) for call in (first, bad)]
-    assert loaded.touchdown(x, loaded.measured(*good[1:4])) == OK
-    made.append(loaded.step(x, loaded.measured(*good[1:4])))
-    rows = [(0, first), (1, bad), (0, good)]
-    lines = [" ".join(map(repr, map(float, (c.t, *c.q, *c.v)))) for _, c in rows]
-    told = "\n".join(f"{landed} {line}" for (landed, _), line in zip(rows, lines, strict=True))
-    done = subprocess.run(
-        [tmp_path / "main"], input=told, capture_output=True, text=True, check=True
-    )
-    printed = [list(map(float, line.split())) for line in done.stdout.splitlines()]
-    assert printed == [[flag, *u.tolist()] for flag, u in made]
+@pytest.mark.parametrize("bad", ["one", "0 0.1", "{} 1", "{} x", "0 nan"])
+def test_the_program_ends_at_a_line_that_is_no_sample(program, bad):
+    good = line_of(0, recorded("on a robot")[1][0])
+    code, made = printed(program, [good, bad.format(good), good])
+    assert (code, len(made)) == (9, 1)
 
 
 def test_differences_of_angles_and_what_they_are_made_of_stay_in_double():
@@ -302,16 +235,3 @@ def test_differences_of_angles_and_what_they_are_made_of_stay_in_double():
     wide = in_double(f, [True, True, False])
     codes = sorted(f.instruction_id(i) for i in wide)
     assert codes == sorted([ca.OP_MUL, ca.OP_SIN, ca.OP_SUB])
-
-
-@pytest.mark.parametrize(
-    ("controller", "least", "most"), [("ADRC", 0.1, 1.0), ("ADRC output", 0.0, 1e-4)]
-)
-def test_random_roundings_foretell_what_floats_do_to_a_walk(controller, least, most):
-    scenario = ba.Scenario(controller, hardware="ideal", impacts=1)
-    begin = start(scenario, RobotAndGait.of(scenario))
-    found = ripple(build(scenario), begin, impacts=1, flags=UNOPTIMISED)
-    assert 0.5 < found.single / found.predicted_single < 2.0
-    assert 0.5 < found.double / found.predicted_double < 2.0
-    assert least <= found.single / found.torque < most
-    assert found.same_status

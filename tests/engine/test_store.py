@@ -76,22 +76,21 @@ print(module.f(2.0), sum(module.f.stats.cache_hits.values()))
 """
 
 
-@pytest.mark.parametrize("ending", [".nbc", ".nbi", ".sha256"])
-@pytest.mark.parametrize("damage", ["a bit", "no text", "nothing"])
-def test_damage_in_what_numba_keeps_is_noticed(cache, ending, damage):
+def test_damage_in_what_numba_keeps_is_noticed(cache):
     """numba itself would run a flipped bit; a checksum that is no text heals too."""
-    folder = cache / f"{ending}-{damage}"
+    folder = cache / "damaged"
 
     def walked():
         return python(DOUBLED, folder).communicate(timeout=120)[0].strip()
 
     cold, warm = walked(), walked()
     assert (cold, warm) == ("4.0 0", "4.0 1")
-    damaged = min(folder.glob(f"*/__pycache__/*{ending}"))
-    data = bytearray(damaged.read_bytes())
-    data[len(data) // 2] ^= 1
-    damaged.write_bytes({"a bit": bytes(data), "no text": b"\xff\xfe\x00", "nothing": b""}[damage])
-    assert walked() == cold
+    for ending in (".nbc", ".nbi", ".sha256"):
+        damaged = min(folder.glob(f"*/__pycache__/*{ending}"))
+        data = bytearray(damaged.read_bytes())
+        data[len(data) // 2] ^= 1
+        damaged.write_bytes(b"\xff\xfe\x00" if ending == ".sha256" else bytes(data))
+        assert walked() == cold
     assert walked() == warm
 
 
@@ -133,8 +132,8 @@ def test_several_processes_make_the_same_code(cache):
         "c = CompiledBiped.of(ba.Biped.load('rabbit'))\n"
         "print(c.acceleration(np.linspace(0.1, 0.5, 5), np.ones(5), np.zeros(5)).tobytes().hex())\n"
     )
-    for each, count in ((lines, 4), (DOUBLED, 4)):
-        processes = [python(each, cache / "several") for _ in range(count)]
+    for each in (lines, DOUBLED):
+        processes = [python(each, cache / "several") for _ in range(2)]
         found = {process.communicate(timeout=120)[0].split()[0] for process in processes}
         assert len(found) == 1
-        assert [process.returncode for process in processes] == [0] * count
+        assert [process.returncode for process in processes] == [0, 0]

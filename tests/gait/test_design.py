@@ -126,6 +126,12 @@ def test_a_gait_on_a_slope_is_read_back(downhill: DesignedGait, tmp_path) -> Non
     np.testing.assert_array_equal(again.q_minus, downhill.gait.q_minus)
 
 
+def test_legs_without_knees_walk_when_scuffing_is_allowed() -> None:
+    found = design_gait("three_link", 0.9, 0.6, limits=StepLimits(clearance=None))
+    assert found.gap < 1e-6
+    assert found.speed == pytest.approx(0.9, abs=1e-5)
+
+
 # -- the stored library ----------------------------------------------------------------------------
 @pytest.mark.parametrize("preset", ["identified", "identified-bare", "tac2003"])
 def test_stored_gaits_have_their_speed_and_keep_the_limits(preset: str) -> None:

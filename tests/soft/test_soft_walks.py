@@ -81,7 +81,6 @@ def test_what_a_finished_walk_offers(made, tmp_path):
     assert again.soft
     assert np.array_equal(again.signals.ground_reaction, made.signals.ground_reaction)
     assert again.legality.record() == made.legality.record()
-    made.animate(tmp_path / "soft.png")
 
 
 @pytest.mark.parametrize(

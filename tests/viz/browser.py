@@ -14,8 +14,6 @@ from selenium.webdriver import Chrome, ChromeOptions
 from selenium.webdriver.chrome.service import Service
 
 CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
-MISSING = "headless Chromium is not here; on Debian: apt-get install chromium chromium-driver"
-needs_chromium = pytest.mark.skipif(CHROMIUM is None or DRIVER is None, reason=MISSING)
 FLAGS = (
     "--headless=new",
     "--no-sandbox",
@@ -30,9 +28,11 @@ FLAGS = (
 
 @contextmanager
 def chromium() -> Iterator[Chrome]:
-    """A browser that logs its console and its network."""
+    """A browser that logs its console and its network; without Chromium the test is skipped."""
+    if CHROMIUM is None or DRIVER is None:
+        pytest.skip("no Chromium")
     options = ChromeOptions()
-    options.binary_location = CHROMIUM or ""
+    options.binary_location = CHROMIUM
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         for flag in (*FLAGS, f"--user-data-dir={profile}"):
             options.add_argument(flag)

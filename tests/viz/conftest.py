@@ -10,8 +10,6 @@ from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
-from biped_adrc.scenario.run import walk_scenario
-from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import walk
 
 
@@ -29,14 +27,3 @@ def walks(biped: Biped) -> dict[str, Walk]:
         "NPD": walk(Walker(biped, npd), gait, 3, RK4(2e-3)),
         "ADRC": walk(Walker(biped, adrc), gait, 3, Exponential(2e-3)),
     }
-
-
-@pytest.fixture(scope="package")
-def slippery() -> Walk:
-    """Two single supports on soft ground on which feet slip and, after touchdown, both carry."""
-    pytest.importorskip("mujoco")
-    ground = {"plant": "mujoco", "ground_friction": 0.4, "time_constant": 0.02}
-    own = {"integrator": "leapfrog"}
-    return walk_scenario(
-        Scenario("NPD", period=1e-3, torque_limit=150.0, impacts=2, own=own, **ground)
-    )

@@ -21,10 +21,8 @@ from biped_adrc.viz.export import export
 from biped_adrc.viz.meshcat.objects import joint_path
 from biped_adrc.viz.placement import WalkScene
 
-from .browser import chromium, console, needs_chromium, requested, seek, world
+from .browser import chromium, console, requested, seek, world
 from .pinocchio_view import floating
-
-pytestmark = needs_chromium
 
 
 @pytest.fixture(scope="module")

@@ -43,6 +43,20 @@ def test_extremes_ends_jumps_and_gaps_survive() -> None:
         assert np.nanmin(drawn) == np.nanmin(whole)
 
 
+def test_sparse_lines_are_left_alone() -> None:
+    t, y = spiked(400)
+    np.testing.assert_array_equal(thinned(t, y, WIDTH), np.arange(len(t)))
+
+
+def test_a_curve_keeps_its_turning_points() -> None:
+    angle = np.linspace(0.0, 2.0 * np.pi, 50_001)
+    x, y = np.cos(angle), np.sin(angle)
+    kept = thinned(x, y, 2.0 / 600)
+    assert len(kept) < 10_000
+    for whole, drawn in ((x, x[kept]), (y, y[kept])):
+        assert (drawn.min(), drawn.max()) == (whole.min(), whole.max())
+
+
 def drawn(count: int, zoom: bool = False) -> Figure:
     figure = Figure()
     axes = figure.subplots()

@@ -3,7 +3,7 @@
 Nodes are the frames, both ends of every single support, the edges of pushes, and on soft ground the times at
 which the other foot touches or leaves it, or a foot begins or ends to slip; where that is not
 enough for the joints to be within `TOLERANCE` of the trajectory between two nodes, the interval is
-halved. `view` packs the nodes into the page; `live` sends one `pose` at a time.
+halved. `view` packs the nodes into the page.
 """
 
 from __future__ import annotations

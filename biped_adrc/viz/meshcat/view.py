@@ -38,7 +38,7 @@ LANE = 0.4
 LONGEST = 1.2
 """Longest arrow of a ground reaction [m]; that of a larger one is cut, and the page says so."""
 TRACE_POINTS = 20_000
-"""Room for the traces of a live walk, whose number of nodes is not known beforehand."""
+"""Room for the traces of a walk without samples."""
 TALL = 1.6
 """Height [m] of the highest robot that the cameras show from where they are for RABBIT; for higher
 ones they stand back.
@@ -107,15 +107,14 @@ def scene_settings(
 ) -> dict[str, object]:
     """What scene.js and player.js are told: Meshcat's commands and, by walk, the paths of what moves.
 
-    scenes: the solid walk first. frames: the samples of each walk, for a page; a live walk has
-    none.
+    scenes: the solid walk first. frames: the samples of each walk, for a page; that of `live`
+    has none.
 
         walks       for each walk what `_add_walk` says, its name, its end [s] and how it ended
         leader      index of the walk the camera follows; follow: the node it follows
         marks       as in `Look`; fps [1/s]; start, end [s] of the slider
         view        the camera at the start; views: commands, position and target [m] of each
         commands    Meshcat's commands that build the scene
-        live        whether poses come from a server
     """
     window = draw.MemoryWindow()
     viewer = window.viewer
@@ -147,7 +146,6 @@ def scene_settings(
         "view": look.view,
         "views": {kind: _view(kind, scale) for kind in VIEWS},
         "commands": window.packed,
-        "live": False,
     }
 
 

@@ -1,15 +1,13 @@
-// The page of a live walk: messages from the session, keys, and the line that says how it is.
+// The page: frames, keys, and the line that says how the walk is.
 const STAYS = 600; // [ms] for which a breach of a limit can be read
-const SILENCE = 5000; // [ms] without a message after which the server is said to be silent
 let breach = { words: "", until: 0 };
 
-// of all samples since the last message
+// of all samples since the last frame
 function breachOf({ worst }) {
   if (!worst) return "";
-  const { friction, torque } = scene.limits, rigid = worst.slips === null;
-  if (worst.slips) return "a foot slips";
-  if (rigid && worst.normal !== null && worst.normal <= 0) return "the ground would have to pull the foot";
-  if (rigid && worst.friction > friction) return "friction " + worst.friction.toFixed(2) + " > " + friction;
+  const { friction, torque } = scene.limits;
+  if (worst.normal !== null && worst.normal <= 0) return "the ground would have to pull the foot";
+  if (worst.friction > friction) return "friction " + worst.friction.toFixed(2) + " > " + friction;
   return worst.torque > torque * (1 + 1e-9) ? "torque " + worst.torque.toFixed(0) + " > " + torque + " N m" : "";
 }
 function describe(message) {
@@ -26,52 +24,48 @@ function describe(message) {
   tell(ends.map(([name, w]) => name + " " + w.ending).join(". "));
 }
 function tell(words) {
-  if (over) return;
   if (element("message").textContent !== words) element("message").textContent = words;
   element("message").hidden = words === "";
 }
 
-function hear(message) {
-  if (message.over) { tell(message.over); over = true; }
-  else if (message.values) showValues(message.values);
-  else if (message.refused) refuse(message);
-  else if (message.saved) element("said").textContent = "saved as " + message.saved.join(" and ");
-  else if (message.remark) element("said").textContent = message.remark;
-  else if (message.walks) {
-    ({ rate, paused } = message);
-    scene.limits = message.limits;
-    element("play").textContent = paused ? "go" : "pause";
-    drawWalks(message);
-    remember(message);
-    drawPlots();
-    describe(message);
-    keepPulling();
-    page.last = message;
+function showFrame(frame) {
+  ({ rate, paused } = frame);
+  scene.limits = frame.limits;
+  element("play").textContent = paused ? "go" : "pause";
+  drawWalks(frame);
+  remember(frame);
+  drawPlots();
+  describe(frame);
+  keepPulling();
+  page.last = frame;
+}
+// what keys, fields and the mouse ask of the walks, such as { do: "push", torque: { q1: 30 } }
+function send({ do: word, ...given }) {
+  if (play === null) return;
+  try {
+    play[word](given);
+  } catch (error) {
+    complain(error.message);
   }
 }
-
-const page = { frames: 0, last: null, text: "", heard: performance.now() };
-let over = false;
-const socket = scene.offline ? new OfflineSocket() : new WebSocket("ws://" + location.host + "/poses");
-const send = (message) => { if (socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message)); };
-socket.onmessage = ({ data }) => {
-  page.frames += 1;
-  page.heard = performance.now();
-  if (data !== page.text) hear(JSON.parse(data)); // at rest nothing is drawn
-  page.text = data;
-};
-let silent = false;
-setInterval(() => {
-  const since = performance.now() - page.heard, was = silent;
-  silent = !scene.offline && since > SILENCE; // a page that nobody sees rests
-  if (silent) tell("The server has said nothing for " + (since / 1000).toFixed(0) + " s: it computes, or has stopped.");
-  else if (was && page.last) describe(page.last);
-}, 1000);
-socket.onclose = () => tell("The session has ended: this picture no longer moves. Start it again with 'biped-adrc play'.");
+function turn(now) {
+  play.advance(now);
+  const text = JSON.stringify(play.frame());
+  if (text !== page.text) showFrame(JSON.parse(text)); // at rest nothing is drawn
+  page.text = text;
+  requestAnimationFrame(turn);
+}
+const page = { last: null, text: "" };
+let play = null;
+startMachine().then(() => {
+  names.forEach((name) => { kinds[name] = new Kind(name); });
+  play = new Play(numbers.first, numbers.ghost);
+  turn(performance.now());
+}).catch((error) => tell("This page cannot walk here: " + error.message));
 
 const KEYS = {
   " ": toggle, ArrowRight: ACTIONS.step, Backspace: ACTIONS.reset, b: ACTIONS.back,
-  "-": ACTIONS.slower, "+": ACTIONS.faster, "=": ACTIONS.faster, v: ACTIONS.view, s: ACTIONS.save,
+  "-": ACTIONS.slower, "+": ACTIONS.faster, "=": ACTIONS.faster, v: ACTIONS.view,
   "?": ACTIONS.help, t: tour, n: () => { if (station >= 0) goTo(station + 1); }, p: pushOnce,
   f: ACTIONS["shove-on"], r: ACTIONS["shove-back"], Escape: () => { release(); select(null); decline(); },
 };

@@ -1,19 +1,19 @@
 // The guided tour: each station sets the walk, may push it, and says what to look at.
-let station = -1, timers = [], before = {}; // before: values that the tour changes, as they were
+let station = -1, timers = [], before = null; // before: what walked
 
 function leaveTour() {
   timers.forEach(clearTimeout);
   timers = [];
   station = -1;
   element("tour").hidden = true;
-  act({ do: "reset", values: before });
+  act({ do: "reset", walk: before });
 }
 function goTo(k) {
   if (k < 0 || k >= scene.tour.length) { leaveTour(); return; }
   timers.forEach(clearTimeout);
   decline();
   const s = scene.tour[k];
-  if (station < 0) before = Object.fromEntries(Object.keys(s.values).map((name) => [name, known[0][name]]));
+  if (station < 0) [before] = known;
   station = k;
   element("tour").hidden = false;
   element("tour-title").textContent = k + 1 + " of " + scene.tour.length + ": " + s.title;
@@ -22,8 +22,8 @@ function goTo(k) {
   element("tour-next").textContent = k + 1 < scene.tour.length ? "next (n)" : "end (n)";
   element("tour-title").focus();
   act({ do: "let_go" });
-  send({ do: "reset", values: s.values });
-  send({ do: "rate", rate: s.rate });
+  send({ do: "reset", walk: s.walk });
+  send({ do: "go_at", rate: s.rate });
   send({ do: "go" });
   if (s.push) timers = [setTimeout(pushAgain, 1000 * s.after / s.rate)];
 }

@@ -21,9 +21,9 @@ from biped_adrc.bench.run import measured, run_trial
 from biped_adrc.engine.batch import run_case
 from biped_adrc.gait.published import passive_cycle
 from biped_adrc.scenario import build as scenario
-from biped_adrc.scenario.controllers import OF_OBSERVER
 from biped_adrc.scenario.push import parse_push
-from biped_adrc.scenario.run import FREE, parts_of
+from biped_adrc.scenario.run import parts_of
+from biped_adrc.scenario.scenario import FREE
 from biped_adrc.scenario.walk import Part, default_parts, walk_in_parts
 from tests.photograph.adapter import walkers
 
@@ -48,6 +48,15 @@ class Ready(NamedTuple):
 
 
 # -- scenarios by kind -----------------------------------------------------------------------------
+def effective(fields: Plain) -> Plain:
+    """Fields of a drawn run without those that have no effect, which a scenario refuses."""
+    idle = {"store_every", "poles" if fields.get("bandwidth") else "order"}
+    if fields.get("controller") == "NPD":
+        idle |= {"observer", "poles", "bandwidth", "order", "reset"}
+    idle |= set() if fields.get("method") in FREE else {"tolerance"}
+    return {name: x for name, x in fields.items() if name not in idle}
+
+
 def as_before() -> AbstractContextManager[object]:
     """While it lasts the default step behind hardware is the 1 ms with which `before` was taken."""
     return patch("biped_adrc.scenario.walk.HARDWARE_STEP", 1e-3)
@@ -79,17 +88,9 @@ def _trial(s: Plain) -> Ready:
     return Ready(case.walker, g, case.q, case.v, lambda engine: parts)
 
 
-def with_effect(fields: Plain) -> Plain:
-    """Values of a scenario without those that do nothing in it, which a scenario refuses."""
-    idle = {"store_every", "poles" if fields.get("bandwidth") else "order"}
-    idle |= {*OF_OBSERVER, "reset"} if fields.get("controller") == "NPD" else set()
-    idle |= set() if fields.get("method") in FREE else {"tolerance"}
-    return {name: x for name, x in fields.items() if name not in idle}
-
-
 def _run(s: Plain) -> Ready:
     pushes = tuple(parse_push(text) for text in s["pushes"])
-    run = ba.Scenario(pushes=pushes, **with_effect(s["fields"]))
+    run = ba.Scenario(pushes=pushes, **effective(s["fields"]))
     scene = scenario.RobotAndGait.of(run)
     g, w = scene.walked, scenario.build(run, scene)
     q, v = g.start(w.nominal)

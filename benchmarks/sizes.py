@@ -1,0 +1,80 @@
+"""Sizes of the project, a column for each git revision or of the working tree.
+
+Code lines have no docstring, comment or blank. Words of docs: no notebooks, no api. Data: no gifs."""
+
+import argparse
+import ast
+import re
+import sys
+import tempfile
+import tomllib
+from collections import Counter
+from io import StringIO
+from pathlib import Path
+from subprocess import check_output, run
+from tokenize import COMMENT, generate_tokens
+
+ROOT = Path(__file__).resolve().parents[1]
+git = lambda *words: check_output(["git", *words], cwd=ROOT)  # noqa: E731
+COMMANDS = """
+from typer.main import get_command
+from biped_adrc.cli import app
+def leaves(c): return sum(map(leaves, c.commands.values()), []) if hasattr(c, "commands") else [c]
+print(len(x := leaves(get_command(app))), sum(p.param_type_name == "option" for c in x for p in c.params))
+"""
+DOCUMENTED = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
+
+
+def code_lines(text):
+    """Of one module."""
+    nodes = [x for x in ast.walk(ast.parse(text)) if isinstance(x, DOCUMENTED)]
+    docs = [x.body[0] for x in nodes if ast.get_docstring(x) is not None]
+    other = {i for x in docs for i in range(x.lineno, x.end_lineno + 1)}
+    comments = [t for t in generate_tokens(StringIO(text).readline) if t.type == COMMENT]
+    other |= {t.start[0] for t in comments if t.line.lstrip()[0] == "#"}
+    return len({i for i, line in enumerate(text.splitlines(), 1) if line.strip()} - other)
+
+
+def sizes(root, listed):
+    """By measure, of the files below `root` that git has listed."""
+    paths = [p for p in map(Path, listed.decode().split()) if (root / p).is_file()]
+    texts = {p: (root / p).read_text() for p in paths if p.suffix in (".py", ".md", ".pyi")}
+    package = [p for p in texts if p.suffix == ".py" and p.parts[0] == "biped_adrc"]
+    code, docs = Counter(), [p for p in paths if p.parts[0] == "docs"]
+    for p in texts:
+        code[p.parts[0]] += code_lines(texts[p]) if p.suffix == ".py" else 0
+    project = tomllib.loads((root / "pyproject.toml").read_text())["project"]
+    targets = re.search(r"^\.PHONY:(.*)$", (root / "Makefile").read_text(), re.M)[1]
+    made = run([sys.executable, "-c", COMMANDS], cwd=root, capture_output=True, text=True)
+    pages = [p for p in docs if p.suffix == ".md" and p.parts[1] not in ("api", "notebooks")]
+    data = sum((root / p).stat().st_size for p in docs if p.suffix not in (".py", ".md", ".gif"))
+    nodes = [x for p in package for x in ast.walk(ast.parse(texts[p]))]
+    return {
+        "code lines of the package": code["biped_adrc"],
+        "modules": len(package),
+        "rooms": len({p.parts[1] for p in paths if p.parts[0] == "biped_adrc"}),
+        "code lines of tests": code["tests"],
+        "... of benchmarks and validation": code["benchmarks"] + code["validation"],
+        "... of scripts in docs": code["docs"],
+        "leaf commands, options": made.stdout.strip() or "no import",
+        "make targets": len(targets.split()),
+        "extras": len(project["optional-dependencies"]),
+        "dependencies": len(project["dependencies"]),
+        "public names": texts[Path("biped_adrc/__init__.pyi")].count(" import "),
+        "words of README": len(texts[Path("README.md")].split()),
+        "words of docs": sum(len(texts[p].split()) for p in pages),
+        "data in docs [MB]": round(1e-6 * data, 1),
+        "raise statements": sum(isinstance(x, ast.Raise) for x in nodes),
+    }
+
+
+parser, columns = argparse.ArgumentParser(description=__doc__), {}
+parser.add_argument("revisions", nargs="*", metavar="REV")
+for rev in parser.parse_args().revisions:
+    with tempfile.TemporaryDirectory() as folder:
+        run(["tar", "-x", "-C", folder], input=git("archive", rev), check=True)
+        columns[rev] = sizes(Path(folder), git("ls-tree", "-r", "--name-only", rev))
+if not columns:
+    columns["now"] = sizes(ROOT, git("ls-files", "-co", "--exclude-standard"))
+for row in next(iter(columns.values())):
+    print(f"{row:33}", *(f"{column[row]!s:>9}" for column in columns.values()))

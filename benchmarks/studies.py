@@ -1,0 +1,160 @@
+"""Studies beside the walks that they make: a sweep, and a search by `tune`.
+
+Run: python benchmarks/studies.py [OUT] [--quick]
+
+The bare walks are there before the clock starts, with the same meter, and nobody asks for a row; what a
+ratio has above 1 is what a study costs beside its walks. CPU time, of the children too; processes are
+forked from this one, where all is imported. Sweep: ADRC at 1 kHz, 25 impacts, every walk with a push of its
+own. Search: candidates of two gains and a bandwidth, each on walks of 10 impacts with a push of their own;
+its bare walks are the rows of the very same settings.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Sequence
+from concurrent.futures import Executor, ThreadPoolExecutor
+from functools import partial
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from report import Run, Table, arguments, forked, rounds, spent
+
+from biped_adrc.bench.build import case
+from biped_adrc.bench.parameters import trial
+from biped_adrc.bench.run import run_trials
+from biped_adrc.bench.study import Study
+from biped_adrc.bench.sweep import sweep
+from biped_adrc.campaign.chunk import Record
+from biped_adrc.campaign.execute import LARGEST_CHUNK
+from biped_adrc.campaign.workers import Threads, Workers
+from biped_adrc.engine.batch import Case, simulate_many
+from biped_adrc.tuning.study import TuningStudy
+from biped_adrc.tuning.study_file import read_tuning
+
+PUSH: dict[str, Any] = {"push": "pulse", "on": "random joints", "amplitude": 40.0}
+CASES: list[Case] = []
+"""The walks of the bare batch; processes that are forked have them too."""
+
+
+def study(walks: int) -> Study:
+    """Pushes drawn by seed."""
+    fixed = {"controller": "ADRC", "impacts": 25, **PUSH}
+    return Study(name=f"{walks} walks", fixed=fixed, seeds=tuple(range(walks)))
+
+
+def swept(asked: Study, workers: Workers | Executor) -> None:
+    """Carry a study out in a folder of its own."""
+    with tempfile.TemporaryDirectory() as folder:
+        sweep(asked, Path(folder), workers)
+
+
+def walk(first: int, last: int) -> int:
+    """Some of the cases, one after the other; the number of their impacts."""
+    return sum(walked.impacts for walked in simulate_many(CASES[first:last], threads=1))
+
+
+def bare(executor: Executor) -> None:
+    """All cases, in chunks."""
+    chunks = range(0, len(CASES), LARGEST_CHUNK)
+    for future in [executor.submit(walk, i, i + LARGEST_CHUNK) for i in chunks]:
+        future.result()
+
+
+def on_two(run: Any) -> None:
+    """A call with two processes of its own."""
+    with forked() as executor:
+        run(executor)
+
+
+def sweeps(size: int, count: int) -> Table:
+    """A sweep in one thread and in two processes."""
+    asked = study(size)
+    CASES[:] = [case(trial(point.record)) for point in asked.points()]
+    table = Table("Sweep", "walk", f"{size} walks", ("numba",))
+    runs: dict[str, Run] = {
+        "bare walks, 1 thread": partial(walk, 0, size),
+        "sweep, 1 thread": partial(swept, asked, Threads(1)),
+        "bare walks, 2 processes": partial(on_two, bare),
+        "sweep, 2 processes": partial(on_two, partial(swept, asked)),
+    }
+    for name, seconds in rounds(runs, count).items():
+        table.add(name, seconds, size)
+    return table
+
+
+def search(budget: int, walks: int) -> TuningStudy:
+    """Gains and bandwidth of m = 1."""
+    about = {"name": "m = 1", "budget": budget, "generation": 20, "finalists": 1, "seed": 1}
+    ranges = {"K_p": (1000.0, 9000.0), "K_d": (30.0, 150.0), "bandwidth": (200.0, 900.0)}
+    return read_tuning(
+        {
+            "study": about,
+            "fixed": {"controller": "LESO", "impacts": 10, "pushed_step": 3, **PUSH},
+            "variables": {
+                name: {"from": low, "to": high, "scale": "log"}
+                for name, (low, high) in ranges.items()
+            },
+            "objectives": [{"column": "rms_error", "counts": "made"}],
+            "training": {"seeds": {"from": 0, "count": walks}},
+            "selection": {"seeds": [1000]},
+            "test": {"seeds": [2000]},
+        }
+    )
+
+
+def searched(asked: TuningStudy, executor: Executor) -> list[Record]:
+    """Search in a folder of its own; the records of all walks of the training set."""
+    from biped_adrc.tuning.tune import tune
+
+    with tempfile.TemporaryDirectory() as folder:
+        found = tune(asked, Path(folder), executor).candidates
+    values = [asked.values(one.chosen) for one in found]
+    return [point.record for one in values for point in asked.walks("training").points(one, {})]
+
+
+def rows(records: Sequence[Record], executor: Executor) -> None:
+    """The walks alone, in chunks as those of a search."""
+    chunks = [records[i : i + LARGEST_CHUNK] for i in range(0, len(records), LARGEST_CHUNK)]
+    for future in [executor.submit(run_trials, chunk) for chunk in chunks]:
+        future.result()
+
+
+def searches(budget: int, walks: int) -> Table:
+    """A search in two threads and in two processes."""
+    note = f"{budget} candidates, {walks} walks of 10 impacts each"
+    table = Table("Search", "walk", note, ("optuna", "cmaes"))
+    if not (find_spec("optuna") and find_spec("cmaes")):
+        table.missing("tune")
+        return table
+    with ThreadPoolExecutor(2) as executor:
+        searched(search(4, 2), executor)  # whatever is compiled once
+    asked = search(budget, walks)
+    for name, workers in (("2 threads", partial(ThreadPoolExecutor, 2)), ("2 processes", forked)):
+        records: list[Record] = []
+
+        def whole(workers: Any = workers, records: list[Record] = records) -> None:
+            with workers() as executor:
+                records.extend(searched(asked, executor))
+
+        def alone(workers: Any = workers, records: list[Record] = records) -> None:
+            with workers() as executor:
+                rows(records, executor)
+
+        seconds = spent(whole)
+        table.add(f"bare walks, {name}", spent(alone), len(records))
+        table.add(f"search, {name}", seconds, len(records))
+    return table
+
+
+def main() -> None:
+    """Print both tables, and write them when asked."""
+    asked = arguments(__doc__).parse_args()
+    swept(study(4), Threads(1))  # whatever is compiled once
+    sweeps(*(40, 1) if asked.quick else (500, 3)).finish(asked.out)
+    searches(*(10, 5) if asked.quick else (100, 20)).finish(asked.out)
+
+
+if __name__ == "__main__":
+    main()
