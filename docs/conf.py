@@ -36,6 +36,7 @@ autodoc_default_options = {
     "special-members": "__call__",
 }
 autodoc_typehints_format = "short"
+autodoc_docstring_signature = False  # "output -> u." is a sentence
 autodoc_preserve_defaults = True
 autodoc_use_type_comments = False  # there are none to look for
 
