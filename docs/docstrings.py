@@ -28,6 +28,9 @@ def plain(app, what, name, obj, options, lines):
     if obj.__doc__ and obj.__doc__ is getattr(type(obj), "__doc__", None) and what != "module":
         lines[:] = []  # an instance of tuple or dict shows its class's text
         return
+    if lines and lines[0].startswith("Alias for field number"):
+        lines[:] = []  # a field without a text of its own
+        return
     out: list[str] = []
     literal = False
     for line in lines:

@@ -5,6 +5,7 @@ Run: python docs/draw_architecture.py
 
 from __future__ import annotations
 
+import re
 import tomllib
 from pathlib import Path
 
@@ -13,35 +14,9 @@ from diagrams import BLUE, GREY, INK, ORANGE, Diagram
 ROOT = Path(__file__).resolve().parents[1]
 LEAVES = {"control", "hardware", "observers", "disturbances", "gait"}
 """Where a research idea is one file."""
-WORDS = {
-    "validation": "published results, outside the wheel",
-    "cli": "the commands",
-    "paper": "the reproduction",
-    "bench": "sweeps and comparisons",
-    "tuning": "the best setting, held-out walks",
-    "logs": "a robot's measurements replayed",
-    "deploy": "a controller as C",
-    "live": "a walk under one's own hand",
-    "gym": "walks for learners",
-    "studies": "stability, design, observer of one gait",
-    "scenario": "one walk in plain values, the registry",
-    "viz": "figures, pages, Meshcat",
-    "analysis": "signals, legality, return map",
-    "observer_design": "bandwidth, noise, delay",
-    "engine": "laws as machine code",
-    "soft": "contact of others: MuJoCo",
-    "closed_loop": "flow, tick, impact, events",
-    "control": "u from a measurement",
-    "hardware": "sensors, motors",
-    "observers": "estimates of q, q', xi",
-    "disturbances": "zeta(t, q)",
-    "gait": "q_d = h(Theta), design",
-    "robot_import": "a robot of one's own",
-    "model": "D_s, Omega, impact map",
-    "hybrid": "integrators, events, runs",
-    "robots": "URDF, robot.toml",
-    "campaign": "many tasks, stored",
-}
+PAGE = Path(__file__).resolve().parent / "architecture.md"
+WORDS = dict(re.findall(r"^\| \*\*(\w+)\*\* \| (.+?) \|", PAGE.read_text("utf-8"), re.MULTILINE))
+"""What a room is for, from the table of the page."""
 
 
 def layers() -> list[list[str]]:

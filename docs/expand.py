@@ -1,53 +1,46 @@
 """Lines of the pages that are filled in from the package, so that they cannot go stale.
 
-<!-- modules of biped_adrc.gait -->      one section for every module of the package
-<!-- names of biped_adrc -->             a table of the names at the top of the package
-<!-- help of biped-adrc simulate -->     what the command prints for --help
+<!-- table of biped_adrc -->            the public names, each with its first sentence
+<!-- names of control observers -->     the documentation of the public names of these rooms
+<!-- help of biped-adrc simulate -->    what the command prints for --help
 <!-- fields of biped_adrc.scenario.scenario.Scenario -->   a table of what a study may vary
 """
 
 import importlib
-import pkgutil
 import re
 
 import biped_adrc
 
-_LINE = re.compile(r"^<!-- (modules|names|help|fields) of (.+?) -->$", re.MULTILINE)
+_LINE = re.compile(r"^<!-- (table|names|help|fields) of (.+?) -->$", re.MULTILINE)
 
 
 def placeholders(app, docname, source):
     """Expand the lines of one page."""
-    makers = {"modules": _modules, "names": _names, "help": _help, "fields": _fields}
+    makers = {"table": _table, "names": _names, "help": _help, "fields": _fields}
     source[0] = _LINE.sub(lambda m: makers[m[1]](m[2]), source[0])
 
 
-def _automodule(name: str, *options: str) -> str:
-    text = "\n".join([f".. automodule:: {name}", *(f"   :{option}:" for option in options)])
-    return f"```{{eval-rst}}\n{text}\n```\n"
+def _kind(name: str) -> str:
+    thing = getattr(biped_adrc, name)
+    return "class" if isinstance(thing, type) else "function" if callable(thing) else "data"
 
 
-def _modules(package: str) -> str:
-    found = importlib.import_module(package)
-    out = []
-    if not hasattr(found, "__path__"):
-        return _automodule(package)
-    out.append(_automodule(package, "no-members"))
-    for module in pkgutil.walk_packages(found.__path__, f"{package}."):
-        out.append(f"## {module.name.removeprefix('biped_adrc.')}\n")
-        out.append(_automodule(module.name, *(["no-members"] if module.ispkg else [])))
-    return "\n".join(out)
-
-
-def _names(_: str) -> str:
-    rows = ["| name | where | what |", "|---|---|---|"]
-    for name, home in sorted(biped_adrc._HOMES.items()):
-        module = f"biped_adrc.{home}"
-        thing = getattr(importlib.import_module(module), name)
-        text = thing.__doc__ if callable(thing) else "A value; see there."
-        first = (text or "").strip().partition("\n\n")[0].replace("\n", " ").replace("|", "\\|")
-        kind = "class" if isinstance(thing, type) else "func" if callable(thing) else "data"
-        rows.append(f"| {{py:{kind}}}`ba.{name} <{module}.{name}>` | `{module}` | {first} |")
+def _table(_: str) -> str:
+    rows = ["| name | what |", "|---|---|"]
+    for name in sorted(biped_adrc._HOMES):
+        thing = getattr(biped_adrc, name)
+        text = (thing.__doc__ if callable(thing) else "") or ""
+        first = text.strip().partition("\n\n")[0].replace("\n", " ").replace("|", "\\|")
+        role = _kind(name).replace("function", "func")
+        rows.append(f"| {{py:{role}}}`ba.{name} <biped_adrc.{name}>` | {first} |")
     return "\n".join(rows)
+
+
+def _names(rooms: str) -> str:
+    below = rooms.split()
+    found = [n for n, home in biped_adrc._HOMES.items() if home.partition(".")[0] in below]
+    lines = [f".. auto{_kind(name)}:: biped_adrc.{name}" for name in sorted(found)]
+    return "```{eval-rst}\n" + "\n\n".join(lines) + "\n```\n"
 
 
 def _fields(model: str) -> str:
