@@ -93,7 +93,6 @@ from biped_adrc.model.reduction import Reduction as Reduction
 from biped_adrc.observer_design.frozen_gait import FrozenGait as FrozenGait
 from biped_adrc.observer_design.specification import Specification as Specification
 from biped_adrc.observer_design.specification import specification as specification
-from biped_adrc.observer_design.to_ss import to_ss as to_ss
 from biped_adrc.observers.base import Observer as Observer
 from biped_adrc.observers.base import ResetPolicy as ResetPolicy
 from biped_adrc.observers.chain import chain_laws as chain_laws

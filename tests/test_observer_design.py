@@ -23,7 +23,6 @@ from biped_adrc.observer_design.observer_sampled import (
     sampled_loop,
 )
 from biped_adrc.observer_design.observer_tables import of_stable
-from biped_adrc.observer_design.to_ss import error_to_ss, loop_to_ss
 from biped_adrc.observers.gpi import gpi_correct, gpi_flow, gpi_predict
 from biped_adrc.studies.observer_check import DelayCase, check_encoders, step_errors
 
@@ -95,17 +94,37 @@ def test_a_loop_that_is_unstable_without_delay_has_no_margin():
     assert of_stable(loop.delay_margin().delay, "s") == "unstable"
 
 
+def response(A, B, C, D, frequencies):
+    """C (i w - A)^-1 B + D at frequencies w [rad/s], (K, outputs, inputs)."""
+    return np.array([C @ np.linalg.solve(1j * w * np.eye(len(A)) - A, B) + D for w in frequencies])
+
+
+def error_system(observer):
+    """A, B of (19) in scaled errors E, with inputs xi and n (measurement error); rows of E: e1, e2, -xi^."""
+    A, w, k = observer.error_system().A, observer.scale, observer.order
+    B, C = np.zeros((k, 2)), np.zeros((3, k))
+    B[1, 0], B[:, 1] = 1.0 / w, -w * observer.parameters.gains
+    for i in range(min(k, 3)):
+        C[i, i] = w**i
+    return A, B, C
+
+
 def test_transfer_functions_are_those_of_the_state_space(observer):
+    """e_q'' = -K_d (e_q' - e2) - K_p (e_q - e1) + xi - xi^, of (21) to (23), beside (19)."""
     frequencies = np.array([3.0, 30.0, 100.0, 300.0, 1e3, 1e4])
+    A_e, B_e, C_e = error_system(observer)
+    k = len(A_e)
+    A, B, C = np.zeros((k + 2, k + 2)), np.zeros((k + 2, 2)), np.zeros((2, k + 2))
+    A[0, 1] = B[1, 0] = C[0, 0] = 1.0
+    A[1] = C[1] = np.concatenate(([-K_P, -K_D], np.array([K_P, K_D, 1.0]) @ C_e))
+    A[2:, 2:], B[2:] = A_e, B_e
+    values = response(A, B, C, np.zeros((2, 2)), frequencies)
+    xi_error = 1.0 + response(A_e, B_e, C_e, np.zeros((3, 2)), frequencies)[:, 2, 0]
     loop = observer_loop(observer)
-    space = loop_to_ss(ba.ADRCController(ba.TimeReference(None), observer))
-    error = error_to_ss(observer)
-    values = np.array([space(1j * w) for w in frequencies])
-    xi_error = np.array([error(1j * w)[2, 0] for w in frequencies])
     # the state space finds e / xi by differences of up to xi / K_p: round-off of that size is its own
     floor = 1e-12 / K_P
     np.testing.assert_allclose(loop.tracking_error(frequencies), values[:, 0, 0], 1e-6, floor)
-    np.testing.assert_allclose(loop.noise(frequencies), values[:, 2, 1], 1e-6)
+    np.testing.assert_allclose(loop.noise(frequencies), values[:, 1, 1], 1e-6)
     np.testing.assert_allclose(loop.estimate(frequencies), 1.0 - xi_error, 1e-6, 1e-9)
 
 

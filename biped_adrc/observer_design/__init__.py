@@ -10,7 +10,6 @@
 - `walker_loop`      its sampled loop at frozen phases, from the derivative of the sample instant
 - `frozen_gait`      the robot along a gait and its like with other inertias, linearised
 - `disk_margin`      the multiloop disk margin
-- `to_ss`            observer and loop as state spaces of python-control
 
 It uses the model, a gait's periodic orbit and the observers; no simulation enters.
 """

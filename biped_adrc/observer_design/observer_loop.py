@@ -198,19 +198,13 @@ def observer_loop(
     Raises InputError for another observer, a joint without gains, or a kappa_ratio that is not
     positive.
     """
-    checked_gpi(observer, "linear loop")
-    check_positive(kappa_ratio, f"kappa_ratio is {kappa_ratio}")
-    return ObserverLoop(observer, *joint_gains(gains, joint), float(kappa_ratio))
-
-
-def checked_gpi(observer: Observer, what: str) -> GPIObserver:
-    """The observer itself. Raises InputError that names `what` was asked of it, if it is no GPIObserver."""
     if not isinstance(observer, GPIObserver):
         raise InputError(
-            f"the {what} of a {type(observer).__name__} was asked for, expected a GPIObserver in "
+            f"the linear loop of a {type(observer).__name__} was asked for, expected a GPIObserver in "
             "continuous time"
         )
-    return observer
+    check_positive(kappa_ratio, f"kappa_ratio is {kappa_ratio}")
+    return ObserverLoop(observer, *joint_gains(gains, joint), float(kappa_ratio))
 
 
 def conditioning(observer: GPIObserver) -> Conditioning:
