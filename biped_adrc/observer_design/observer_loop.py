@@ -38,7 +38,6 @@ from scipy.optimize import brentq
 
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.errors import InputError, check_positive
-from biped_adrc.observers.base import Observer
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.types import Array, ComplexArray
 
