@@ -10,7 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
+from typer.testing import CliRunner
 
+from biped_adrc.cli import app
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Event
@@ -148,3 +150,19 @@ def test_a_strip_says_how_a_walk_ended(walks: dict[str, Walk]) -> None:
         axes = new_figure(6.0, 4.0).subplots()
         strip(axes, fallen(walks["NPD"], Status.STALLED, "step_too_long"), 0.1, 0.4)
     assert "stalled" not in axes.get_title(loc="left")
+
+
+def test_the_run_is_drawn_solid_and_its_ghost_behind(
+    walks: dict[str, Walk], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What is drawn last lies in front."""
+    drawn: list[str] = []
+    monkeypatch.setattr(
+        "biped_adrc.viz.export.export", lambda path, walks, clip: drawn.extend(walks)
+    )
+    runs = [str(walk.save(tmp_path / f"{name}.npz")) for name, walk in walks.items()]
+    done = CliRunner().invoke(
+        app, ["animate", runs[0], "--ghost", runs[1], "-o", str(tmp_path / "a.html")]
+    )
+    assert done.exit_code == 0, done.output
+    assert drawn == [*walks][::-1]
