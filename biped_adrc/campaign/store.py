@@ -4,7 +4,6 @@
     versions  sets of versions that runs were made with
     runs      the row of results of each record, by the record's hash
     points    place in the study, varied values, and key of the run of each point
-    tally     how many runs and points there are; each row has a checksum (`campaign.store_check`)
 
 Runs and points are separate tables, since two points may share a run. Rows that are handed in together are one
 transaction of SQLite's write-ahead log with synchronous = FULL: all of them are on the disk, or none. A lock
@@ -29,7 +28,6 @@ from typing import NamedTuple
 from filelock import FileLock
 
 from biped_adrc.campaign.chunk import CRASHED, NO_WALK, text_of
-from biped_adrc.campaign.store_check import COLUMNS, checksum, damaged
 from biped_adrc.campaign.workers import undisturbed
 from biped_adrc.errors import InputError, OutputError
 
@@ -47,6 +45,10 @@ class About(NamedTuple):
     """Of all that decides the numbers, by name."""
     points: int | None = None
     """How many there are in all; None where unknown."""
+
+
+RUN = "key, record, row, status, engine, seed, seconds"
+"""Columns of a run in the order of `Ran`."""
 
 
 class Ran(NamedTuple):
@@ -103,9 +105,7 @@ class Store:
     def place(self, points: Iterable[Placed]) -> None:
         """Keep where points lie; one that is there already stays as it is. Raises OutputError."""
         with self._writing() as db:
-            rows = ((*point, checksum(*point)) for point in points)
-            new = db.executemany("INSERT OR IGNORE INTO points VALUES (?, ?, ?, ?)", rows).rowcount
-            db.execute("UPDATE tally SET points = points + ?", (max(new, 0),))
+            db.executemany("INSERT OR IGNORE INTO points VALUES (?, ?, ?)", points)
 
     def add(self, runs: Iterable[Ran]) -> None:
         """Keep finished runs in one transaction, all of them or none. Raises OutputError.
@@ -115,24 +115,12 @@ class Store:
         """
         with self._writing() as db:
             versions = text_of(self.about.versions)
-            known = "SELECT id FROM versions WHERE versions = ?"
-            found = db.execute(known, (versions,)).fetchone()
-            if found is None:
-                made = db.execute(
-                    "INSERT INTO versions (versions) VALUES (?)", (versions,)
-                ).lastrowid
-                db.execute(
-                    "UPDATE versions SET sum = ? WHERE id = ?", (checksum(made, versions), made)
-                )
-                found = (made,)
-            rows = [(*run, *found) for run in runs]
-            gone = db.executemany("DELETE FROM runs WHERE key = ?", [row[:1] for row in rows])
-            new = len({row[0] for row in rows}) - max(gone.rowcount, 0)
+            db.execute("INSERT OR IGNORE INTO versions (versions) VALUES (?)", (versions,))
+            made_with = "(SELECT id FROM versions WHERE versions = ?)"
             db.executemany(
-                f"INSERT OR REPLACE INTO runs ({COLUMNS['runs']}, sum) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
-                ((*row, checksum(*row)) for row in rows),
+                f"INSERT OR REPLACE INTO runs ({RUN}, versions) VALUES (?, ?, ?, ?, ?, ?, ?, {made_with})",
+                ((*run, versions) for run in runs),
             )
-            db.execute("UPDATE tally SET runs = runs + ?", (new,))
 
     def crashed(self, keys: Sequence[str]) -> dict[str, bool]:
         """Those of the keys that have a row; True where it says that the process died."""
@@ -257,6 +245,14 @@ def identity_of(path: Path) -> tuple[int, int] | None:
     except OSError:
         return None
     return found.st_dev, found.st_ino
+
+
+def damaged(path: Path, reason: object) -> InputError:
+    """The error for a results file that cannot be read."""
+    return InputError(
+        f"the results file '{path}' cannot be read: {reason}; it is damaged, take a copy of it or begin anew "
+        "in another folder"
+    )
 
 
 def cannot_write(path: Path, error: Exception) -> OutputError:

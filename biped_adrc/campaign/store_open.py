@@ -20,26 +20,22 @@ from pathlib import Path
 from filelock import FileLock, Timeout
 
 from biped_adrc.campaign.chunk import text_of
-from biped_adrc.campaign.store import About, Store, cannot_write, identity_of
-from biped_adrc.campaign.store_check import check_whole, checksum, damaged
+from biped_adrc.campaign.store import About, Store, cannot_write, damaged, identity_of
 from biped_adrc.errors import InputError, OutputError
 from biped_adrc.files import check_place, replacing
 from biped_adrc.versions import differences
 
 APPLICATION = 0x62614452
 """SQLite's application_id, by which a results file is told from other databases."""
-FORMAT = 2
+FORMAT = 3
 """SQLite's user_version: the version of the schema below."""
 SCHEMA = """
 CREATE TABLE study (id INTEGER PRIMARY KEY CHECK (id = 1), name TEXT NOT NULL, hash TEXT NOT NULL,
-  configuration TEXT NOT NULL, versions TEXT NOT NULL, points INTEGER, created TEXT NOT NULL,
-  sum TEXT);
-CREATE TABLE versions (id INTEGER PRIMARY KEY, versions TEXT NOT NULL UNIQUE, sum TEXT);
+  configuration TEXT NOT NULL, versions TEXT NOT NULL, points INTEGER, created TEXT NOT NULL);
+CREATE TABLE versions (id INTEGER PRIMARY KEY, versions TEXT NOT NULL UNIQUE);
 CREATE TABLE runs (key TEXT PRIMARY KEY, record TEXT NOT NULL, seed INTEGER, engine TEXT, status TEXT,
-  row TEXT NOT NULL, seconds REAL NOT NULL, versions INTEGER NOT NULL REFERENCES versions,
-  sum TEXT) WITHOUT ROWID;
-CREATE TABLE points (position INTEGER PRIMARY KEY, key TEXT NOT NULL, at TEXT NOT NULL, sum TEXT);
-CREATE TABLE tally (id INTEGER PRIMARY KEY CHECK (id = 1), runs INTEGER, points INTEGER);
+  row TEXT NOT NULL, seconds REAL NOT NULL, versions INTEGER NOT NULL REFERENCES versions) WITHOUT ROWID;
+CREATE TABLE points (position INTEGER PRIMARY KEY, key TEXT NOT NULL, at TEXT NOT NULL);
 """
 """The tables, as described in `campaign.store`."""
 LOCKED = 5.0
@@ -101,7 +97,9 @@ def _connected(path: Path, mode: str) -> sqlite3.Connection:
 def _checked(path: Path, db: sqlite3.Connection) -> About:
     """The study of a file that is whole. Raises InputError."""
     _check_format(path, db)
-    check_whole(path, db)
+    (found,) = db.execute("PRAGMA quick_check(1)").fetchone()
+    if found != "ok":
+        raise damaged(path, found)
     return _about(path, db)
 
 
@@ -152,8 +150,7 @@ def _create(path: Path, about: About) -> None:
         db.execute(f"PRAGMA application_id = {APPLICATION}")
         for statement in SCHEMA.split(";")[:-1]:
             db.execute(statement)
-        db.execute("INSERT INTO study VALUES (?, ?, ?, ?, ?, ?, ?, ?)", (*told, checksum(*told)))
-        db.execute("INSERT INTO tally VALUES (1, 0, 0)")
+        db.execute("INSERT INTO study VALUES (?, ?, ?, ?, ?, ?, ?)", told)
         db.execute(f"PRAGMA user_version = {FORMAT}")
         db.execute("COMMIT")
 
