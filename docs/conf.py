@@ -33,7 +33,7 @@ nitpick_ignore_regex = [
     (r"py:.*", r"(Figure|Axes|ArrayLike|NDArray|Path|Callable|Mapping|Sequence|Iterator|Iterable)"),
     (r"py:.*", r"StateSpace"),
     (r"py:.*", r"Ints|Value|Scale"),  # aliases
-    (r"py:.*", r"(annotated_types|pydantic|sqlite3|distributed|inspect|filelock|markupsafe)\b.*"),
+    (r"py:.*", r"(annotated_types|pydantic|sqlite3|distributed|inspect|markupsafe)\b.*"),
     (r"py:.*", r"(ca|casadi|numba|llvmlite|pandas|signal|binding|gymnasium)\b.*"),
     (r"py:.*", r"biped_adrc\.[a-z_.]+\.[A-Z](_co)?"),  # of a generic class
     (r"py:.*", r"tuple\[.*"),

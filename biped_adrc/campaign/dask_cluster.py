@@ -1,8 +1,8 @@
 """The workers of an existing Dask cluster, reached by the address of its scheduler (the extra `[cluster]`).
 
 A `Cluster` is handed to `sweep` in place of a number of processes. The executor is Dask's own
-(`Client.get_executor`). Results must not depend on where a run was made: the workers that are there when a study
-starts are asked for the versions of all that decides the numbers.
+(`Client.get_executor`). Results must not depend on where a run was made: the workers that are there when
+a study starts are asked for the versions of all that decides the numbers.
 """
 
 from __future__ import annotations
@@ -41,7 +41,8 @@ class Cluster(Workers):
             from distributed import Client
         except ImportError as error:
             raise InputError(
-                "a study on a Dask cluster needs Dask, which is not installed; pip install 'biped-adrc[cluster]'"
+                "a study on a Dask cluster needs Dask, which is not installed; "
+                "pip install 'biped-adrc[cluster]'"
             ) from error
         try:
             client = Client(self.address, timeout=self.timeout, set_as_default=False)
@@ -66,14 +67,14 @@ class Cluster(Workers):
             there = client.run(numerical_versions)
         except (TimeoutError, ImportError) as error:
             raise InputError(
-                f"the scheduler at {self.address} has no workers with biped-adrc after {self.timeout:g} s; start "
-                f"some with 'dask worker {self.address}' where it is installed"
+                f"the scheduler at {self.address} has no workers with biped-adrc after {self.timeout:g} s; "
+                f"start some with 'dask worker {self.address}' where it is installed"
             ) from error
         for worker, found in there.items():
             if text := differences(found, numerical_versions()):
                 raise InputError(
-                    f"worker {worker} of the scheduler at {self.address} would give other numbers: {text}. Give "
-                    "all workers the versions of this machine, or run the study where they are"
+                    f"worker {worker} of the scheduler at {self.address} would give other numbers: {text}. "
+                    "Give all workers the versions of this machine, or run the study where they are"
                 )
 
     def count(self, executor: Executor) -> int:
