@@ -35,8 +35,6 @@ MuJoCoData: TypeAlias = Any
 
 DaskClient: TypeAlias = Any
 """`distributed.Client`, the connection to a Dask scheduler: Dask is optional and has no types of its own."""
-DaskFuture: TypeAlias = Any
-"""`distributed.Future`, a task on the cluster, for the same reason."""
 
 
 def read_only(values: ArrayLike) -> Array:

@@ -1,43 +1,23 @@
 """The workers of an existing Dask cluster, reached by the address of its scheduler (the extra `[cluster]`).
 
-Results must not depend on where a run was made. Each worker is therefore asked for the versions of all that
-decides the numbers, once when the study starts and again with every chunk: a worker that joins late, with
-another NumPy, cannot spoil a study. Dask replaces workers that die by itself; what it gives up is run again by
-`campaign.execute`, as for processes.
-
-A `Cluster` is handed to `sweep` in place of a number of processes.
+A `Cluster` is handed to `sweep` in place of a number of processes. The executor is Dask's own
+(`Client.get_executor`). Results must not depend on where a run was made: the workers that are there when
+a study starts are asked for the versions of all that decides the numbers.
 """
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Mapping
-from concurrent.futures import Executor, Future
+from concurrent.futures import Executor
 from dataclasses import dataclass
-from functools import partial
-from typing import ClassVar, ParamSpec, TypeVar, cast
+from typing import ClassVar
 
 from biped_adrc.campaign.workers import Workers, WorkersError
 from biped_adrc.errors import InputError
-from biped_adrc.types import DaskClient, DaskFuture
+from biped_adrc.types import DaskClient
 from biped_adrc.versions import differences, numerical_versions
 
 TIMEOUT = 10.0
 """Time for a scheduler to answer, and for its first worker to appear [s]."""
-PATIENT = 6
-"""Timeouts without any result and without any worker, after which a study ends; Dask replaces them sooner."""
-
-P = ParamSpec("P")
-"""Arguments of what is submitted."""
-T = TypeVar("T")
-"""What is returned from a worker."""
-Versions = Mapping[str, str]
-"""Version by package name, as `versions.numerical_versions` gives them."""
-
-PRINTED = "tcp://host:8786, which 'dask scheduler' prints when it starts"
-"""An example of an address, for errors."""
-ADDRESS = re.compile(r"(?:(?:tcp|tls)://)?(?:\[[0-9a-fA-F:.]+\]|[\w.-]+):([0-9]{1,5})")
-"""An address: protocol (optional), host or bracketed IPv6 address, and port."""
 
 
 @dataclass(frozen=True)
@@ -55,16 +35,47 @@ class Cluster(Workers):
     def start(self) -> Executor:
         """Connect and check all workers.
 
-        Raises InputError for what is no address, when no scheduler answers, it has no workers, or some of them
-        have other versions.
+        Raises InputError when no scheduler answers, it has no workers, or they have other versions.
         """
-        client = _client(self.address, self.timeout)
         try:
-            _check_workers(client, self.address, self.timeout)
+            from distributed import Client
+        except ImportError as error:
+            raise InputError(
+                "a study on a Dask cluster needs Dask, which is not installed; "
+                "pip install 'biped-adrc[cluster]'"
+            ) from error
+        try:
+            client = Client(self.address, timeout=self.timeout, set_as_default=False)
+        except (OSError, ValueError, TypeError) as error:
+            raise InputError(
+                f"no Dask scheduler answers at '{self.address}' within {self.timeout:g} s "
+                f"({type(error).__name__}: {error}); expected an address such as tcp://host:8786, which "
+                "'dask scheduler' prints when it starts"
+            ) from error
+        try:
+            self._check_workers(client)
         except BaseException:
             client.close(timeout=1)
             raise
-        return _Checked(client, numerical_versions())
+        executor: Executor = client.get_executor(pure=False)
+        return executor
+
+    def _check_workers(self, client: DaskClient) -> None:
+        """Raises InputError where there is no worker after the timeout, or one has other versions."""
+        try:
+            client.wait_for_workers(1, timeout=self.timeout)
+            there = client.run(numerical_versions)
+        except (TimeoutError, ImportError) as error:
+            raise InputError(
+                f"the scheduler at {self.address} has no workers with biped-adrc after {self.timeout:g} s; "
+                f"start some with 'dask worker {self.address}' where it is installed"
+            ) from error
+        for worker, found in there.items():
+            if text := differences(found, numerical_versions()):
+                raise InputError(
+                    f"worker {worker} of the scheduler at {self.address} would give other numbers: {text}. "
+                    "Give all workers the versions of this machine, or run the study where they are"
+                )
 
     def count(self, executor: Executor) -> int:
         """Threads of all workers."""
@@ -79,15 +90,13 @@ class Cluster(Workers):
         return executor
 
     def broken(self, error: BaseException) -> bool:
-        """Also what Dask says of a task that has killed several workers."""
+        """Whether this is what Dask says of a task that has killed several workers."""
         from distributed import KilledWorker
 
-        return super().broken(error) or isinstance(error, KilledWorker)
+        return isinstance(error, KilledWorker)
 
-    def check(self, executor: Executor, idle: float) -> None:
-        """Raises WorkersError where the connection to the scheduler is closed, and where nothing has ended for
-        longer than `PATIENT` timeouts and no worker is left.
-        """
+    def check(self, executor: Executor) -> None:
+        """Raises WorkersError where the connection to the scheduler is closed."""
         client = _client_of(executor)
         comm = client.scheduler_comm
         if client.status != "running" or comm is None or comm.comm.closed():
@@ -95,129 +104,8 @@ class Cluster(Workers):
                 f"the scheduler at {self.address} has gone away; what was finished is kept. Start the cluster "
                 "again, and then the study: it goes on from there"
             )
-        if idle > PATIENT * self.timeout and not client.nthreads():
-            raise WorkersError(
-                f"the scheduler at {self.address} has had no worker for {idle:.0f} s; what was finished is "
-                f"kept. Start some with 'dask worker {self.address}', then the study: it goes on from there"
-            )
 
 
 def _client_of(executor: Executor) -> DaskClient:
-    """The client of an executor that `Cluster.start` made."""
-    return cast("_Checked", executor).client
-
-
-def _check_workers(client: DaskClient, address: str, timeout: float) -> None:
-    """Raises InputError where there is no worker after `timeout` [s], or one has other versions."""
-    try:
-        client.wait_for_workers(1, timeout=timeout)
-    except TimeoutError as error:
-        raise InputError(
-            f"the scheduler at {address} has no workers after {timeout:g} s; start some with "
-            f"'dask worker {address}'"
-        ) from error
-    for worker, found in client.run(_asked()).items():
-        text = difference(found, numerical_versions())
-        if text:
-            raise InputError(_refusal(f"worker {worker} of the scheduler at {address}", text))
-
-
-def difference(found: Versions | str, expected: Versions) -> str:
-    """Which versions differ, in words; empty when none does. A text in place of `found` is what went wrong
-    there.
-    """
-    return found if isinstance(found, str) else differences(found, expected)
-
-
-def _refusal(who: str, text: str) -> str:
-    """The sentence for a worker with other versions."""
-    return (
-        f"{who} would give other numbers: {text}. Give all workers the versions of this machine, or run the "
-        "study where they are"
-    )
-
-
-def _client(address: str, timeout: float) -> DaskClient:
-    """A connection to the scheduler. Raises InputError without Dask, for no address, or without an answer."""
-    try:
-        from distributed import Client as connect
-    except ImportError as error:
-        raise InputError(
-            "a study on a Dask cluster needs Dask, which is not installed; pip install 'biped-adrc[cluster]'"
-        ) from error
-    match = ADDRESS.fullmatch(address)
-    if match is None or not 0 < int(match[1]) < 2**16:
-        raise InputError(
-            f"the address of the Dask scheduler is '{address}', expected one such as {PRINTED}"
-        )
-    client: DaskClient = connect.__new__(connect)
-    try:
-        client.__init__(address, timeout=timeout, set_as_default=False)
-    except (OSError, ValueError, TypeError, TimeoutError, ImportError) as error:
-        _let_go(client)
-        raise InputError(
-            f"no Dask scheduler answers at '{address}' within {timeout:g} s ({type(error).__name__}: {error}); "
-            f"expected an address such as {PRINTED}"
-        ) from error
-    return client
-
-
-def _let_go(client: DaskClient) -> None:
-    """End a connection that its constructor left half made.
-
-    As garbage it would be closed some time later; while another one starts that waits for Dask's lock for ever.
-    """
-    client.status = "closed"
-    if (runner := getattr(client, "_loop_runner", None)) is not None:
-        runner.stop()
-
-
-def _asked() -> Callable[[], Versions | str]:
-    """A function that also workers without this package can run: Dask sends a nested function by value."""
-
-    def versions() -> Versions | str:
-        try:
-            from biped_adrc.versions import numerical_versions
-        except ImportError as error:
-            return f"biped-adrc cannot be imported there ({error})"
-        return dict(numerical_versions())
-
-    return versions
-
-
-def _run(expected: Versions, function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -> T:
-    """Runs on the worker: function(*args) if the versions there are the expected ones. Raises InputError."""
-    text = difference(numerical_versions(), expected)
-    if text:
-        raise InputError(_refusal("a worker of the cluster", text))
-    return function(*args, **kwargs)
-
-
-@dataclass(frozen=True)
-class _Checked(Executor):
-    """Dask's client as an executor, which lets each worker look at its versions before it runs anything.
-
-    Dask's own executor takes a result and the state of its task one after the other; a worker that dies between
-    the two leaves a future that never ends. Here one call gives either the result or an error.
-    """
-
-    client: DaskClient
-    versions: Versions
-
-    def submit(self, function: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
-        checked: Callable[..., T] = partial(_run, dict(self.versions), function)
-        there = self.client.submit(checked, *args, pure=False, **kwargs)
-        here: Future[T] = Future()
-        here.add_done_callback(lambda ended: there.cancel() if ended.cancelled() else None)
-        there.add_done_callback(partial(_hand_over, here))
-        return here
-
-
-def _hand_over(here: Future[T], there: DaskFuture) -> None:
-    """The outcome of a task on the cluster, as that of the future that was handed out."""
-    if not here.set_running_or_notify_cancel():
-        return
-    try:
-        here.set_result(there.result())
-    except BaseException as error:
-        here.set_exception(error)
+    """The client behind Dask's executor."""
+    return vars(executor)["_client"]

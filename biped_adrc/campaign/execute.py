@@ -188,8 +188,6 @@ class _Flight:
     """Keys on their way whose runs had crashed in an earlier call: their next crash is no news."""
     begin: float = field(default_factory=time.monotonic)
     """When the call began [s], for the time left."""
-    heard: float = field(default_factory=time.monotonic)
-    """When a chunk ended last [s]."""
 
     def missing(self, points: Iterator[Point]) -> Iterator[Job]:
         """The runs to be made, each once; where all points lie is stored on the way.
@@ -240,10 +238,8 @@ class _Flight:
     def died(self) -> list[Chunk]:
         """Wait for finished chunks and store them; returns those whose worker died."""
         finished, _ = wait(self.pending, PATIENCE, FIRST_COMPLETED)
-        if finished:
-            self.heard = time.monotonic()
-        else:
-            self.crew.check(self.executor, time.monotonic() - self.heard)
+        if not finished:
+            self.crew.check(self.executor)
         return [chunk for future in finished if (chunk := self.take(future)) is not None]
 
     def take(self, future: Future[list[Made]]) -> Chunk | None:
@@ -331,7 +327,7 @@ class _Flight:
 
     def named(self, error: BaseException) -> BaseException:
         """The error to raise for one on the way to the workers or back, such as what cannot be pickled."""
-        self.crew.check(self.executor, 0.0)
+        self.crew.check(self.executor)
         if isinstance(error, BipedError):
             return error
         return WorkersError(

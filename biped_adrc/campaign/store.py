@@ -4,11 +4,9 @@
     versions  sets of versions that runs were made with
     runs      the row of results of each record, by the record's hash
     points    place in the study, varied values, and key of the run of each point
-    tally     how many runs and points there are; each row has a checksum (`campaign.store_check`)
 
 Runs and points are separate tables, since two points may share a run. Rows that are handed in together are one
-transaction of SQLite's write-ahead log with synchronous = FULL: all of them are on the disk, or none. A lock
-file, which the operating system releases with its process, keeps a second writer away.
+transaction of SQLite's write-ahead log with synchronous = FULL: all of them are on the disk, or none.
 
 `campaign.store_open` opens files, `campaign.execute` writes them, `bench.sweep` reads them.
 
@@ -26,11 +24,7 @@ from json import loads
 from pathlib import Path
 from typing import NamedTuple
 
-from filelock import FileLock
-
 from biped_adrc.campaign.chunk import CRASHED, NO_WALK, text_of
-from biped_adrc.campaign.store_check import COLUMNS, checksum, damaged
-from biped_adrc.campaign.workers import undisturbed
 from biped_adrc.errors import InputError, OutputError
 
 
@@ -47,6 +41,10 @@ class About(NamedTuple):
     """Of all that decides the numbers, by name."""
     points: int | None = None
     """How many there are in all; None where unknown."""
+
+
+RUN = "key, record, row, status, engine, seed, seconds"
+"""Columns of a run in the order of `Ran`."""
 
 
 class Ran(NamedTuple):
@@ -95,17 +93,13 @@ class Store:
     """Without implicit transactions."""
     about: About
     """The study; its versions are those of this process when writing, and those of the file when reading."""
-    lock: FileLock | None = None
-    """Held while the file is open to write; None to read."""
-    identity: tuple[int, int] | None = None
-    """Device and number of the file that is written, so that one that is gone is noticed; None to read."""
+    writes: bool = False
+    """Whether it is open to write."""
 
     def place(self, points: Iterable[Placed]) -> None:
         """Keep where points lie; one that is there already stays as it is. Raises OutputError."""
         with self._writing() as db:
-            rows = ((*point, checksum(*point)) for point in points)
-            new = db.executemany("INSERT OR IGNORE INTO points VALUES (?, ?, ?, ?)", rows).rowcount
-            db.execute("UPDATE tally SET points = points + ?", (max(new, 0),))
+            db.executemany("INSERT OR IGNORE INTO points VALUES (?, ?, ?)", points)
 
     def add(self, runs: Iterable[Ran]) -> None:
         """Keep finished runs in one transaction, all of them or none. Raises OutputError.
@@ -115,24 +109,12 @@ class Store:
         """
         with self._writing() as db:
             versions = text_of(self.about.versions)
-            known = "SELECT id FROM versions WHERE versions = ?"
-            found = db.execute(known, (versions,)).fetchone()
-            if found is None:
-                made = db.execute(
-                    "INSERT INTO versions (versions) VALUES (?)", (versions,)
-                ).lastrowid
-                db.execute(
-                    "UPDATE versions SET sum = ? WHERE id = ?", (checksum(made, versions), made)
-                )
-                found = (made,)
-            rows = [(*run, *found) for run in runs]
-            gone = db.executemany("DELETE FROM runs WHERE key = ?", [row[:1] for row in rows])
-            new = len({row[0] for row in rows}) - max(gone.rowcount, 0)
+            db.execute("INSERT OR IGNORE INTO versions (versions) VALUES (?)", (versions,))
+            made_with = "(SELECT id FROM versions WHERE versions = ?)"
             db.executemany(
-                f"INSERT OR REPLACE INTO runs ({COLUMNS['runs']}, sum) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
-                ((*row, checksum(*row)) for row in rows),
+                f"INSERT OR REPLACE INTO runs ({RUN}, versions) VALUES (?, ?, ?, ?, ?, ?, ?, {made_with})",
+                ((*run, versions) for run in runs),
             )
-            db.execute("UPDATE tally SET runs = runs + ?", (new,))
 
     def crashed(self, keys: Sequence[str]) -> dict[str, bool]:
         """Those of the keys that have a row; True where it says that the process died."""
@@ -178,13 +160,10 @@ class Store:
     def _plain(self, key: str, text: str) -> dict[str, object]:
         """The values in a text of the file. Raises InputError where that is damaged."""
         try:
-            found = loads(text)
-            if isinstance(found, dict):
-                return found
-            reason = f"found {found!r}"
-        except (ValueError, TypeError, RecursionError) as error:
-            reason = str(error)
-        raise damaged(self.path, f"the run {key} has no values, {reason}")
+            values: dict[str, object] = loads(text)
+            return values
+        except (ValueError, TypeError) as error:
+            raise damaged(self.path, f"the run {key} has no values, {error}") from error
 
     def results(self) -> Iterator[Result]:
         """Points with a row, in the order of the study; read one after the other."""
@@ -194,41 +173,26 @@ class Store:
                 yield Result(position, key, self._plain(key, at), self._plain(key, row))
 
     def close(self) -> None:
-        """Merge the write-ahead log, so that one file is left, and release the lock; Ctrl-C waits until that is
-        done.
-        """
-        with undisturbed():
-            try:
-                if self.lock is not None:
-                    self.connection.execute("PRAGMA journal_mode = DELETE")
-            except sqlite3.Error:
-                pass  # somebody reads it: the log stays beside the file
-            finally:
-                self.connection.close()
-                if self.lock is not None:
-                    Path(self.lock.lock_file).unlink(missing_ok=True)
-                    self.lock.release()
+        """Merge the write-ahead log, so that one file is left."""
+        try:
+            if self.writes:
+                self.connection.execute("PRAGMA journal_mode = DELETE")
+        except sqlite3.Error:
+            pass  # somebody reads it: the log stays beside the file
+        finally:
+            self.connection.close()
 
     def __enter__(self) -> Store:
         return self
 
     def __exit__(self, *_: object) -> None:
-        try:
-            self.close()
-        except KeyboardInterrupt:  # Ctrl-C once more, before it was ignored or after
-            self.close()
-            raise
+        self.close()
 
     @contextmanager
     def _writing(self) -> Iterator[sqlite3.Connection]:
         """A transaction, undone on any error. Raises OutputError, and InputError for an integer
         beyond 64 bits.
         """
-        if self.identity not in (None, identity_of(self.path)):
-            raise OutputError(
-                f"the results file '{self.path}' was removed or replaced while it was written; what was "
-                "finished before is lost with it. Begin anew, in a folder that nobody clears"
-            )
         try:
             with self.connection as db:
                 db.execute("BEGIN IMMEDIATE")
@@ -250,24 +214,20 @@ class Store:
             raise damaged(self.path, error) from error
 
 
-def identity_of(path: Path) -> tuple[int, int] | None:
-    """Device and number of a file; None where there is none."""
-    try:
-        found = path.stat()
-    except OSError:
-        return None
-    return found.st_dev, found.st_ino
+def damaged(path: Path, reason: object) -> InputError:
+    """The error for a results file that cannot be read."""
+    return InputError(
+        f"the results file '{path}' cannot be read: {reason}; it is damaged, take a copy of it or begin anew "
+        "in another folder"
+    )
 
 
 def cannot_write(path: Path, error: Exception) -> OutputError:
     """The error for a results file that cannot be written."""
-    if (getattr(error, "sqlite_errorcode", 0) & 0xFF) in (
-        sqlite3.SQLITE_BUSY,
-        sqlite3.SQLITE_LOCKED,
-    ):
+    if (getattr(error, "sqlite_errorcode", 0) & 0xFF) == sqlite3.SQLITE_BUSY:
         return OutputError(
-            f"cannot write the results file '{path}': another program has locked it, such as one that shows or "
-            "copies databases; close it, and the same command goes on"
+            f"the results file '{path}' is in use by another process, such as a study that is running or a "
+            "program that shows databases; wait for it or close it, and the same command goes on"
         )
     reason = getattr(error, "strerror", None) or error
     return OutputError(

@@ -2,8 +2,8 @@
 
 Two rules keep results apart. Nothing is written into a file before it is known to be a results file of the same
 study (the hash of its configuration) made with the same versions: otherwise rows of two programs would stand in
-one table without a mark. And one process writes at a time: a lock file beside the results is held by the
-operating system for as long as the process lives, so that a kill releases it and no stale lock stays.
+one table without a mark. And one process writes at a time: SQLite turns the write-ahead log of a file on and
+off only for a process that has the file to itself, and a process that writes has the log open until it ends.
 
 Called by `bench.sweep` and `bench.compare_study`; what is read and written is in `campaign.store`.
 """
@@ -17,29 +17,23 @@ from contextlib import ExitStack, closing
 from json import loads
 from pathlib import Path
 
-from filelock import FileLock, Timeout
-
 from biped_adrc.campaign.chunk import text_of
-from biped_adrc.campaign.store import About, Store, cannot_write, identity_of
-from biped_adrc.campaign.store_check import check_whole, checksum, damaged
-from biped_adrc.errors import InputError, OutputError
-from biped_adrc.files import check_place, replacing
+from biped_adrc.campaign.store import About, Store, cannot_write, damaged
+from biped_adrc.errors import InputError
+from biped_adrc.files import check_place
 from biped_adrc.versions import differences
 
 APPLICATION = 0x62614452
 """SQLite's application_id, by which a results file is told from other databases."""
-FORMAT = 2
+FORMAT = 3
 """SQLite's user_version: the version of the schema below."""
 SCHEMA = """
 CREATE TABLE study (id INTEGER PRIMARY KEY CHECK (id = 1), name TEXT NOT NULL, hash TEXT NOT NULL,
-  configuration TEXT NOT NULL, versions TEXT NOT NULL, points INTEGER, created TEXT NOT NULL,
-  sum TEXT);
-CREATE TABLE versions (id INTEGER PRIMARY KEY, versions TEXT NOT NULL UNIQUE, sum TEXT);
+  configuration TEXT NOT NULL, versions TEXT NOT NULL, points INTEGER, created TEXT NOT NULL);
+CREATE TABLE versions (id INTEGER PRIMARY KEY, versions TEXT NOT NULL UNIQUE);
 CREATE TABLE runs (key TEXT PRIMARY KEY, record TEXT NOT NULL, seed INTEGER, engine TEXT, status TEXT,
-  row TEXT NOT NULL, seconds REAL NOT NULL, versions INTEGER NOT NULL REFERENCES versions,
-  sum TEXT) WITHOUT ROWID;
-CREATE TABLE points (position INTEGER PRIMARY KEY, key TEXT NOT NULL, at TEXT NOT NULL, sum TEXT);
-CREATE TABLE tally (id INTEGER PRIMARY KEY CHECK (id = 1), runs INTEGER, points INTEGER);
+  row TEXT NOT NULL, seconds REAL NOT NULL, versions INTEGER NOT NULL REFERENCES versions) WITHOUT ROWID;
+CREATE TABLE points (position INTEGER PRIMARY KEY, key TEXT NOT NULL, at TEXT NOT NULL);
 """
 """The tables, as described in `campaign.store`."""
 LOCKED = 5.0
@@ -47,29 +41,28 @@ LOCKED = 5.0
 
 
 def open_store(path: Path, about: About, other_versions: bool = False) -> Store:
-    """Make the results file, or open it to go on; locked until the store is closed.
+    """Make the results file, or open it to go on.
 
     about: the study that is to be run. other_versions: go on though other versions made what is there; each run
-    names its own. Raises InputError for a file that is not one of this study, or that another process writes,
-    and OutputError, also where the file or one that SQLite keeps beside it is a link to elsewhere.
+    names its own. Raises InputError for a file that is not one of this study, and OutputError where another
+    process uses it, also where the file or one that SQLite keeps beside it is a link to elsewhere.
     """
-    for beside in ("", ".lock", "-wal", "-shm", "-journal"):
+    for beside in ("", "-wal", "-shm", "-journal"):
         check_place(path.with_name(path.name + beside))
     try:
+        path.parent.mkdir(parents=True, exist_ok=True)
         with ExitStack() as undo:
-            lock = _locked(path)
-            undo.callback(lock.release)
-            if not path.exists():
-                _create(path, about)
-            connection = undo.enter_context(closing(_connected(path, "rw")))
-            _check_study(path, _checked(path, connection), about, other_versions)
-            connection.execute("PRAGMA journal_mode = WAL")
-            connection.execute("PRAGMA synchronous = FULL")
+            db = undo.enter_context(closing(_connected(path, "rwc")))
+            _begin(path, db, about)
+            _check_study(path, _checked(path, db), about, other_versions)
+            for mode in ("DELETE", "WAL"):  # refused while another process writes
+                db.execute(f"PRAGMA journal_mode = {mode}")
+            db.execute("PRAGMA synchronous = FULL")
             undo.pop_all()  # it stays open
-            return Store(path, connection, about, lock, identity_of(path))
+            return Store(path, db, about, writes=True)
+    except InputError:
+        raise
     except (sqlite3.Error, UnicodeError, OSError) as error:
-        if isinstance(error, OutputError):
-            raise
         raise cannot_write(path, error) from error
 
 
@@ -100,62 +93,52 @@ def _connected(path: Path, mode: str) -> sqlite3.Connection:
 
 def _checked(path: Path, db: sqlite3.Connection) -> About:
     """The study of a file that is whole. Raises InputError."""
-    _check_format(path, db)
-    check_whole(path, db)
+    if _of_program(path, db) != APPLICATION:
+        raise InputError(
+            f"'{path}' is no results file, but empty or a database of another program; it is left as it is, "
+            "choose another folder"
+        )
+    (found,) = db.execute("PRAGMA user_version").fetchone()
+    if found != FORMAT:
+        raise InputError(
+            f"results file '{path}' has the format {found}, expected {FORMAT}; it is left as it is, choose "
+            "another folder"
+        )
+    (found,) = db.execute("PRAGMA quick_check(1)").fetchone()
+    if found != "ok":
+        raise damaged(path, found)
     return _about(path, db)
 
 
-def _check_format(path: Path, db: sqlite3.Connection) -> None:
-    """Raise InputError for a file in which nothing is, or something other than results of this format."""
+def _of_program(path: Path, db: sqlite3.Connection) -> int:
+    """The number of the program that a database belongs to. Raises InputError for what is no database."""
     try:
-        application = db.execute("PRAGMA application_id").fetchone()[0]
-        tables = db.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]
+        (found,) = db.execute("PRAGMA application_id").fetchone()
+        return int(found)
     except sqlite3.OperationalError:
         raise
     except sqlite3.DatabaseError as error:
         raise InputError(
             f"'{path}' is no results file: {error}; it is left as it is, choose another folder"
         ) from error
-    if application == 0 and tables == 0:
-        raise InputError(
-            f"the results file '{path}' is empty: nothing was begun in it, or it was cut off. Remove it to "
-            "begin anew, or bring back a copy"
-        )
-    if application != APPLICATION:
-        raise InputError(
-            f"'{path}' is a database of another program (application {application:#x}, expected "
-            f"{APPLICATION:#x}); it is left as it is, choose another folder"
-        )
-    found: int = db.execute("PRAGMA user_version").fetchone()[0]
-    if found != FORMAT:
-        raise InputError(
-            f"results file '{path}' has the format {found}, expected {FORMAT}; it is left as it is, choose "
-            "another folder"
-        )
 
 
-def _create(path: Path, about: About) -> None:
-    """Make the file with its tables and the row of the study: a kill leaves no file, or all of it.
-
-    Raises InputError where the log of a file is there that is not.
-    """
-    if path.with_name(f"{path.name}-wal").exists():
-        raise InputError(
-            f"the results file '{path}' was removed, and the log of one, '{path.name}-wal', is still there; "
-            "bring the file back, or remove the log to begin anew"
-        )
+def _begin(path: Path, db: sqlite3.Connection, about: About) -> None:
+    """Write the tables and the row of the study where nothing is there; a kill leaves all of it, or nothing."""
+    if _of_program(path, db) or db.execute("SELECT 1 FROM sqlite_master").fetchone():
+        return
     created = time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime())
     texts = text_of(about.configuration), text_of(about.versions)
-    told = (1, about.name, about.hash, *texts, about.points, created)
-    with replacing(path) as temporary, closing(_connected(temporary, "rw")) as db:
+    with db:
         db.execute("BEGIN IMMEDIATE")
-        db.execute(f"PRAGMA application_id = {APPLICATION}")
+        if db.execute("SELECT 1 FROM sqlite_master").fetchone():
+            return  # another process was faster
         for statement in SCHEMA.split(";")[:-1]:
             db.execute(statement)
-        db.execute("INSERT INTO study VALUES (?, ?, ?, ?, ?, ?, ?, ?)", (*told, checksum(*told)))
-        db.execute("INSERT INTO tally VALUES (1, 0, 0)")
+        told = (1, about.name, about.hash, *texts, about.points, created)
+        db.execute("INSERT INTO study VALUES (?, ?, ?, ?, ?, ?, ?)", told)
+        db.execute(f"PRAGMA application_id = {APPLICATION}")
         db.execute(f"PRAGMA user_version = {FORMAT}")
-        db.execute("COMMIT")
 
 
 def _about(path: Path, db: sqlite3.Connection) -> About:
@@ -164,7 +147,7 @@ def _about(path: Path, db: sqlite3.Connection) -> About:
     try:
         name, key, configuration, versions, points = db.execute(text).fetchone()
         return About(name, key, loads(configuration), loads(versions), points)
-    except (sqlite3.Error, TypeError, ValueError, RecursionError) as error:
+    except (sqlite3.Error, TypeError, ValueError) as error:
         raise damaged(path, error) from error
 
 
@@ -193,27 +176,3 @@ def _difference(found: About, asked: About) -> str:
     keys = sorted({*found.configuration, *asked.configuration})
     differ = [key for key in keys if found.configuration.get(key) != asked.configuration.get(key)]
     return f", other in {', '.join(differ)}" if differ else ""
-
-
-def _locked(path: Path) -> FileLock:
-    """The lock beside the file. Raises InputError where another process has it, OutputError.
-
-    The number of this process is written into it, so that the error of a second process can name the first.
-    """
-    beside = path.with_name(f"{path.name}.lock")
-    lock = FileLock(beside, blocking=False, thread_local=False)
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        lock.acquire()
-        beside.write_text(f"{os.getpid()}\n", encoding="utf-8")
-    except Timeout as error:
-        found = beside.read_text(encoding="utf-8", errors="replace") if beside.is_file() else ""
-        holder = found.strip()
-        raise InputError(
-            f"the results file '{path}' is being written by process {holder or 'of another'}; expected one "
-            "study at a time. Wait for it, or choose another folder"
-        ) from error
-    except OSError as error:
-        lock.release()
-        raise cannot_write(path, error) from error
-    return lock

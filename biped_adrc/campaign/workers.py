@@ -90,8 +90,8 @@ class Workers(ABC):
         """Whether an error means that a worker died, rather than an error in what it ran."""
         return isinstance(error, BrokenExecutor)
 
-    def check(self, executor: Executor, idle: float) -> None:
-        """Called when nothing has come for a while, `idle` [s]. Raises WorkersError when nothing will."""
+    def check(self, executor: Executor) -> None:
+        """Called when nothing has come for a while. Raises WorkersError when nothing will."""
         return
 
 
@@ -286,8 +286,8 @@ class Kept(Workers):
     def broken(self, error: BaseException) -> bool:
         return self.crew.broken(error)
 
-    def check(self, executor: Executor, idle: float) -> None:
-        self.crew.check(executor, idle)
+    def check(self, executor: Executor) -> None:
+        self.crew.check(executor)
 
     def close(self) -> None:
         """End them, where there are any."""

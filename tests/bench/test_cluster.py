@@ -17,7 +17,7 @@ from biped_adrc.campaign.execute import run_study
 from biped_adrc.campaign.store_open import open_store
 from biped_adrc.campaign.workers import Threads
 from biped_adrc.errors import InputError
-from biped_adrc.versions import numerical_versions
+from biped_adrc.versions import differences
 
 pytestmark = pytest.mark.filterwarnings("ignore")
 FOLDER = Path(standin.__file__).parent
@@ -80,19 +80,16 @@ def test_a_worker_that_is_killed_in_the_middle(tmp_path, address):
     assert [row for *_, row in found] == rows(records(90))
 
 
-@pytest.mark.parametrize("address", ["nowhere", "tcp://host:port", "tcp://host:70000"])
-def test_what_is_no_address(address):
-    with pytest.raises(InputError, match=r"is '.*', expected one such as tcp://host:8786"):
-        Cluster(address).start()
-
-
-def test_a_scheduler_that_does_not_answer():
-    with pytest.raises(InputError, match="no Dask scheduler answers"):
-        Cluster("tcp://127.0.0.1:9", timeout=1.0).start()
+@pytest.mark.parametrize("address", ["tcp://host:port", "tcp://127.0.0.1:9"])
+def test_a_scheduler_that_does_not_answer(address):
+    with pytest.raises(InputError, match=f"no Dask scheduler answers at '{address}'"):
+        Cluster(address, timeout=1.0).start()
 
 
 def test_a_worker_with_other_versions_is_refused(monkeypatch, address):
-    other = {**numerical_versions(), "numpy": "99.1"}
-    monkeypatch.setattr(of_cluster, "numerical_versions", lambda: other)
+    def other(found, here):
+        return differences(found, {**here, "numpy": "99.1"})
+
+    monkeypatch.setattr(of_cluster, "differences", other)
     with pytest.raises(InputError, match=r"worker tcp.*numpy .* there, 99.1 here"):
         Cluster(address).start()

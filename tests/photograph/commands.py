@@ -130,4 +130,4 @@ def stamps(folder: Path) -> dict[str, tuple[int, int]]:
 
 def _own(path: str) -> bool:
     """Whether a file is the database's own, and gone with the process."""
-    return path.endswith(("-wal", "-shm", "-journal", ".lock"))
+    return path.endswith(("-wal", "-shm", "-journal"))
