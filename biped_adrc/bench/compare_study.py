@@ -13,7 +13,6 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
-from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -31,7 +30,7 @@ from biped_adrc.campaign.chunk import Point, Record, Row, key_of, text_of
 from biped_adrc.campaign.execute import LARGEST_CHUNK, Progress, run_study
 from biped_adrc.campaign.store import About, Store
 from biped_adrc.campaign.store_open import open_store
-from biped_adrc.campaign.workers import Kept, Workers, workers_of
+from biped_adrc.campaign.workers import Crew, Workers, workers_of
 from biped_adrc.files import check_folder, plain, write_text
 from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.build import RIGID
@@ -61,7 +60,7 @@ class Stored:
 
     store: Store
     """The open file of results."""
-    workers: Workers
+    crew: Crew
     """Who walks; they stay from one call to the next."""
     progress: Callable[[Progress], None] | None
     """Called now and then; None for nobody."""
@@ -78,7 +77,7 @@ class Stored:
             run_trials,
             points,
             self.store,
-            self.workers,
+            self.crew,
             chunk=max(1, min(LARGEST_CHUNK, len(points) // 16)),
             total=len(points),
             progress=self.progress,
@@ -130,10 +129,11 @@ def run_comparison(
         "comparison", key_of(text_of(asked)), asked, _versions(settings, controllers, plant)
     )
     check_folder(out)
-    crew = workers_of(workers)
-    crew.prepare()
-    with open_store(out / RESULTS, about, other_versions) as store, closing(Kept(crew)) as kept:
-        carry = Stored(store, kept, progress, shared)
+    with (
+        Crew(workers_of(workers)) as crew,
+        open_store(out / RESULTS, about, other_versions) as store,
+    ):
+        carry = Stored(store, crew, progress, shared)
         found = compare(carry, controllers, conditions, seeds, settings)
     return write(found, out, command, carry.walks, shared)
 

@@ -35,7 +35,7 @@ from biped_adrc.campaign.chunk import Function
 from biped_adrc.campaign.execute import Progress, Summary, run_study
 from biped_adrc.campaign.store import About, Result
 from biped_adrc.campaign.store_open import open_store, read_store
-from biped_adrc.campaign.workers import Workers, workers_of
+from biped_adrc.campaign.workers import Crew, Workers, workers_of
 from biped_adrc.errors import InputError
 from biped_adrc.files import check_folder
 from biped_adrc.scenario.registry import read_from_a_file
@@ -175,10 +175,9 @@ def sweep(
 
         function = run_trials
     check_folder(out)
-    path, crew = Path(out) / RESULTS, workers_of(workers)
-    about = about_study(study, crew)
-    crew.prepare()
-    with open_store(path, about, other_versions) as store:
+    path, asked = Path(out) / RESULTS, workers_of(workers)
+    about = about_study(study, asked)
+    with Crew(asked) as crew, open_store(path, about, other_versions) as store:
         summary = run_study(
             function,
             study.points(),
@@ -191,7 +190,7 @@ def sweep(
     return Sweep(path, study, summary)
 
 
-def about_study(study: Study, crew: Workers) -> About:
+def about_study(study: Study, workers: Workers) -> About:
     """What is stored to recognise a study: its hash, configuration, and the versions of all its numbers depend
     on.
 
@@ -201,7 +200,7 @@ def about_study(study: Study, crew: Workers) -> About:
     if study.count > MOST_POINTS:
         raise InputError(f"study '{study.name}' {too_many(study)}")
     files = files_of_study(study)
-    if files and crew.elsewhere:
+    if files and workers.elsewhere:
         raise InputError(
             f"study '{study.name}' names the files {[str(path) for path in files]}, which workers elsewhere "
             "may not have, or have others; run it with processes or threads of this machine"

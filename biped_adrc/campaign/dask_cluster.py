@@ -28,10 +28,6 @@ class Cluster(Workers):
     timeout: float = TIMEOUT
     elsewhere: ClassVar[bool] = True
 
-    def prepare(self) -> None:
-        """Connect once and leave. Raises InputError as `start`."""
-        self.stop(self.start(), True)
-
     def start(self) -> Executor:
         """Connect and check all workers.
 
@@ -85,12 +81,8 @@ class Cluster(Workers):
         """Close the connection, which gives up what has not ended; the cluster itself goes on."""
         _client_of(executor).close(timeout=2)
 
-    def restart(self, executor: Executor) -> Executor:
-        """The same executor: the scheduler replaces workers that died."""
-        return executor
-
     def broken(self, error: BaseException) -> bool:
-        """Whether this is what Dask says of a task that has killed several workers."""
+        """Whether this is what Dask says of a task that has killed several workers; it replaces them itself."""
         from distributed import KilledWorker
 
         return isinstance(error, KilledWorker)

@@ -4,10 +4,9 @@ The data flow: records -> look up in the store which are missing -> chunks -> wo
 come from a generator and only a bounded number of chunks is on its way, so that neither a million records nor
 their rows are in memory. A kill at any moment loses the chunks on their way and nothing else.
 
-A worker may die (memory, a fault in compiled code) and take its chunk with it; the pool then reports all chunks
-on their way as lost, without saying which one was to blame. Each of them is therefore run again with nothing
-beside it. A chunk that kills its worker again is run record by record, and a record that does it alone gets a
-row with the status CRASHED. Two limits end a study in which everything dies.
+A worker may die (memory, a fault in compiled code) and take its chunk with it; a pool of processes then gives
+up all chunks on their way, without saying which one was to blame. Their records are run again one by one, with
+nothing beside them, and one that kills its worker again gets a row with the status CRASHED.
 
 Rows depend on their records alone, not on the workers, their number, or the size of chunks. Knows no robots.
 Called by `bench.sweep` and `bench.compare_study`.
@@ -16,7 +15,7 @@ What becomes of a chunk:
 
     finished              rows stored in one transaction
     the function raised   the worker has split it already (`campaign.chunk`): rows with the status RAISED
-    the worker died       a new executor; all lost chunks again, one at a time; then record by record
+    the worker died       all that was on its way runs again, record by record: rows, or the status CRASHED
     Ctrl-C, an error      chunks that are finished are stored, the others are dropped; the same call goes on
 """
 
@@ -24,8 +23,8 @@ from __future__ import annotations
 
 import itertools
 import time
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, wait
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Future, wait
 from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -43,13 +42,7 @@ from biped_adrc.campaign.chunk import (
     text_of,
 )
 from biped_adrc.campaign.store import Placed, Ran, Store
-from biped_adrc.campaign.workers import (
-    Workers,
-    WorkersError,
-    held_back,
-    undisturbed,
-    workers_of,
-)
+from biped_adrc.campaign.workers import Crew, WorkersError, held_back
 from biped_adrc.errors import BipedError, InputError
 
 LOOK_UP = 256
@@ -60,10 +53,6 @@ AHEAD = 3
 """Chunks on their way for each worker, so that none waits for this process."""
 PATIENCE = 5.0
 """Time without a result [s] after which the workers are asked whether they are still there."""
-MOST_DEATHS = 6
-"""Workers that die one after the other, without a finished chunk or a culprit between them, that
-end the study.
-"""
 MOST_CRASHED = 20
 """Records new to the store that kill their workers one after the other, and so end the study."""
 
@@ -95,23 +84,23 @@ class Summary(NamedTuple):
 
 
 class Job(NamedTuple):
-    """A run to be made: its key, its record as text and as values, and its seed where it has one."""
+    """A run to be made."""
 
     key: str
+    """Of its row in the store."""
     text: str
+    """Its record, JSON."""
     record: Record
+    """Its record."""
     seed: int | None
-
-
-Chunk = tuple[Job, ...]
-"""Runs that are handed to a worker together."""
+    """Of the record, if it has one."""
 
 
 def run_study(
     function: Function,
     records: Iterable[Record | Point],
     store: Store,
-    workers: Workers | Executor | int | None = None,
+    crew: Crew,
     *,
     chunk: int | None = None,
     total: int | None = None,
@@ -127,9 +116,8 @@ def run_study(
     """
     if chunk is not None and chunk < 1:
         raise InputError(f"the study asks for chunks of {chunk} runs, expected at least 1")
-    crew = workers_of(workers)
-    f = _Flight(function, store, crew, crew.start(), total, progress, first)
-    count = crew.count(f.executor)
+    f = _Flight(function, store, crew, total, progress, first)
+    count = crew.workers.count(crew.executor)
     size = chunk or _chunk_size(count, None if total is None else total - len(store))
     try:
         jobs = f.missing(map(point, records))
@@ -140,10 +128,8 @@ def run_study(
         while f.pending:
             f.collect()
     except BaseException:
-        with undisturbed():  # Ctrl-C once more
-            f.abandon()
+        f.abandon()
         raise
-    crew.stop(f.executor, False)
     return Summary(f.done, f.fresh, f.deaths)
 
 
@@ -160,18 +146,16 @@ class _Flight:
     """What makes rows of records."""
     store: Store
     """Where rows are looked up and kept."""
-    crew: Workers
-    """What starts executors, and knows when one is broken."""
-    executor: Executor
-    """The one in use; replaced when a worker has died."""
+    crew: Crew
+    """Whose executor is in use."""
     total: int | None
     """Number of points of the study, for progress."""
     progress: Callable[[Progress], None] | None
     """Called after each change."""
     first: int = 0
     """Place in the study of the first point."""
-    pending: dict[Future[list[Made]], tuple[Chunk, Executor]] = field(default_factory=dict)
-    """Chunks on their way, each with the executor that has it."""
+    pending: dict[Future[list[Made]], Sequence[Job]] = field(default_factory=dict)
+    """Chunks on their way."""
     keys: set[str] = field(default_factory=set)
     """Keys of the runs on their way: a record that comes twice is not run twice."""
     done: int = 0
@@ -180,14 +164,14 @@ class _Flight:
     """Runs made by this call."""
     deaths: int = 0
     """Workers that died in this call."""
-    in_a_row: int = 0
-    """Workers that died since the last finished chunk."""
     crashed_in_a_row: int = 0
     """Records without a row before that killed their workers, since the last finished chunk."""
     known: set[str] = field(default_factory=set)
     """Keys on their way whose runs had crashed in an earlier call: their next crash is no news."""
     begin: float = field(default_factory=time.monotonic)
     """When the call began [s], for the time left."""
+    error: BaseException | None = None
+    """With which the last chunk was lost."""
 
     def missing(self, points: Iterator[Point]) -> Iterator[Job]:
         """The runs to be made, each once; where all points lie is stored on the way.
@@ -210,81 +194,67 @@ class _Flight:
             yield from (job for job in new.values() if job.key not in crashed)
         yield from late
 
-    def send(self, chunk: Chunk) -> None:
-        """Hand a chunk to the executor. If that is broken, the chunk counts as lost with it."""
-        records = [job.record for job in chunk]
+    def send(self, chunk: Sequence[Job]) -> None:
+        """Hand a chunk to the executor; where that takes none, it is lost as if its worker had died."""
         try:
             with held_back():
-                future = self.executor.submit(run_chunk, self.function, records)
-        except BaseException as error:
-            if not self.crew.broken(error):
-                raise
+                records = [job.record for job in chunk]
+                future = self.crew.executor.submit(run_chunk, self.function, records)
+        except Exception as error:
             future = Future()
             future.set_exception(error)
-        self.pending[future] = chunk, self.executor
+        self.pending[future] = chunk
 
     def collect(self) -> None:
-        """Store what is finished, waiting for it where nothing is; chunks whose worker died are run again
-        alone.
+        """Store what is finished, waiting for it where nothing is; what is lost is run again, one by one."""
+        lost = self.finished()
+        while lost and self.pending:  # nothing may be beside them
+            lost += self.finished()
+        if lost:
+            self.renew()
+        for job in lost:
+            self.alone(job)
 
-        When one worker dies the pool gives up all chunks on their way, so all of them are waited for first.
-        """
-        suspects = self.died()
-        while suspects and self.pending:  # they would be suspects too
-            suspects += self.died()
-        for chunk in suspects:
-            self.alone(chunk)
-
-    def died(self) -> list[Chunk]:
-        """Wait for finished chunks and store them; returns those whose worker died."""
-        finished, _ = wait(self.pending, PATIENCE, FIRST_COMPLETED)
-        if not finished:
-            self.crew.check(self.executor)
-        return [chunk for future in finished if (chunk := self.take(future)) is not None]
-
-    def take(self, future: Future[list[Made]]) -> Chunk | None:
-        """Store the rows of a finished chunk; returns the chunk itself where its worker died."""
-        chunk, executor = self.pending[future]
-        try:
-            rows = future.result()
-        except (Exception, CancelledError) as error:
-            if not self.crew.broken(error):
-                raise self.named(error) from error
+    def finished(self) -> list[Job]:
+        """Wait for finished chunks and store them; returns the runs of those that were lost."""
+        ended, _ = wait(self.pending, PATIENCE, FIRST_COMPLETED)
+        if not ended:
+            self.crew.workers.check(self.crew.executor)
+        lost: list[Job] = []
+        for future in ended:
+            error = CancelledError() if future.cancelled() else future.exception()
+            if error is None:
+                self.keep(self.pending[future], future.result())
+            else:
+                lost += self.pending[future]
+                self.error = error
             del self.pending[future]
-            if executor is self.executor:
-                self.restart(error)
-            return chunk
-        self.keep(chunk, rows)
-        del self.pending[future]
-        return None
+        return lost
 
-    def alone(self, chunk: Chunk) -> None:
-        """Run a chunk again with nothing else on its way, so that a second death has one possible cause.
-
-        A chunk of several is then split; a single record gets a row with the status CRASHED when it dies once
-        more: a cluster may give it to a worker whose end it has not heard of yet.
-        """
-        if not self.dies(chunk) or (len(chunk) == 1 and not self.dies(chunk)):
+    def renew(self) -> None:
+        """Count a worker that died, and start another executor where one is needed."""
+        if not self.crew.workers.broken(error := self.error or CancelledError()):
             return
-        if len(chunk) > 1:
-            for job in chunk:
-                self.alone((job,))
-        else:
-            detail = "the worker process that ran it died, each time it was tried"
-            self.keep(chunk, [made({"status": CRASHED, "detail": detail}, 0.0)], died=True)
-            self.blame(chunk[0])
+        self.deaths += 1
+        self.tell("a worker process died; what it was running is run again")
+        if isinstance(error, BrokenExecutor):
+            self.crew.close(now=True)
 
-    def dies(self, chunk: Chunk) -> bool:
-        """Run a chunk, with nothing else on its way; whether its worker died."""
-        self.send(chunk)
-        died: list[Chunk] = []
+    def alone(self, job: Job) -> None:
+        """Run a record with nothing else on its way; it is stored as CRASHED where its worker dies.
+
+        Raises WorkersError for any other failure, and when one record after the other kills its worker.
+        """
+        self.send([job])
         while self.pending:
-            died += self.died()
-        return bool(died)
-
-    def blame(self, job: Job) -> None:
-        """Count a record that killed its worker. Raises WorkersError when all of them seem to do so."""
-        self.crashed_in_a_row += job.key not in self.known
+            if not self.finished():
+                continue
+            if not self.crew.workers.broken(error := self.error or CancelledError()):
+                raise self.failed(error)
+            self.renew()
+            detail = "the worker process that ran it died, each time it was tried"
+            self.keep([job], [made({"status": CRASHED, "detail": detail}, 0.0)], died=True)
+            self.crashed_in_a_row += job.key not in self.known
         if self.crashed_in_a_row >= MOST_CRASHED:
             raise WorkersError(
                 f"{self.crashed_in_a_row} runs one after the other killed their worker processes, each alone; "
@@ -292,22 +262,9 @@ class _Flight:
                 "run; the study goes on with the others when it is started again"
             )
 
-    def restart(self, error: BaseException) -> None:
-        """Another executor for one that broke. Raises WorkersError when workers keep dying without a result."""
-        self.deaths += 1
-        self.in_a_row += 1
-        if self.in_a_row >= MOST_DEATHS:
-            raise WorkersError(
-                f"{self.in_a_row} worker processes died one after the other, without a run between them "
-                f"({error}); look for lack of memory, or for a fault in what they import"
-            ) from error
-        self.executor = self.crew.restart(self.executor)
-        self.tell("a worker process died; what it was running is run again")
-
-    def keep(self, chunk: Chunk, rows: list[Made], died: bool = False) -> None:
+    def keep(self, chunk: Sequence[Job], rows: list[Made], died: bool = False) -> None:
         """Store the rows of a chunk in one transaction, and count them; died: they say that the worker died."""
         self.store.add(map(_ran, chunk, rows))
-        self.in_a_row = 0
         self.crashed_in_a_row = self.crashed_in_a_row if died else 0
         self.done += len(chunk)
         self.fresh += len(chunk)
@@ -315,24 +272,23 @@ class _Flight:
         self.tell()
 
     def abandon(self) -> None:
-        """Stop the workers, and store what they had finished: on an error or Ctrl-C."""
-        for future in self.pending:
-            future.cancel()
-        self.crew.stop(self.executor, True)
-        wait([future for future in self.pending if not future.cancelled()], PATIENCE)
-        for future, (chunk, _) in self.pending.items():
-            if future.done() and not future.cancelled() and future.exception() is None:
-                with suppress(BipedError):
-                    self.store.add(map(_ran, chunk, future.result()))
+        """Stop the workers, and store what they had finished: on an error or Ctrl-C, which waits for that."""
+        with held_back():
+            for future in self.pending:
+                future.cancel()
+            self.crew.close(now=True)
+            wait([future for future in self.pending if not future.cancelled()], PATIENCE)
+            for future, chunk in self.pending.items():
+                if future.done() and not future.cancelled() and future.exception() is None:
+                    with suppress(BipedError):
+                        self.store.add(map(_ran, chunk, future.result()))
 
-    def named(self, error: BaseException) -> BaseException:
-        """The error to raise for one on the way to the workers or back, such as what cannot be pickled."""
-        self.crew.check(self.executor)
-        if isinstance(error, BipedError):
-            return error
+    def failed(self, error: BaseException) -> WorkersError:
+        """The error for a record that reached no worker, or whose row did not come back."""
+        self.crew.workers.check(self.crew.executor)
         return WorkersError(
-            f"a chunk of runs could not be handed to a worker or back: {type(error).__name__}: {error}. What "
-            "was finished is kept; the function of the study has to be one that workers can import by name"
+            f"a run could not be handed to a worker or back: {type(error).__name__}: {error}. What was "
+            "finished is kept; the function of the study has to be one that workers can import by name"
         )
 
     def tell(self, note: str = "") -> None:

@@ -14,7 +14,7 @@ from concurrent.futures import as_completed
 from dataclasses import dataclass
 from typing import Generic, NamedTuple, TypeVar
 
-from biped_adrc.campaign.workers import Processes, cores, held_back, undisturbed
+from biped_adrc.campaign.workers import Crew, Processes, cores, held_back
 
 T = TypeVar("T")
 """What a task returns."""
@@ -67,17 +67,10 @@ def run_tasks(
             results.append(_timed(task))
             told(done, len(tasks), task.name)
         return results
-    crew = Processes(workers, PRELOADED)
-    executor = crew.start()
-    try:
+    with Crew(Processes(workers, PRELOADED)) as crew:
         with held_back():
-            futures = {executor.submit(_timed, task): task.name for task in tasks}
+            futures = {crew.executor.submit(_timed, task): task.name for task in tasks}
         for done, future in enumerate(as_completed(futures), 1):
             future.result()
             told(done, len(tasks), futures[future])
-    except BaseException:
-        with undisturbed():
-            crew.stop(executor, True)
-        raise
-    crew.stop(executor, False)
     return [future.result() for future in futures]

@@ -60,8 +60,6 @@ def open_store(path: Path, about: About, other_versions: bool = False) -> Store:
             db.execute("PRAGMA synchronous = FULL")
             undo.pop_all()  # it stays open
             return Store(path, db, about, writes=True)
-    except InputError:
-        raise
     except (sqlite3.Error, UnicodeError, OSError) as error:
         raise cannot_write(path, error) from error
 

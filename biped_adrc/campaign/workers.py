@@ -1,12 +1,12 @@
 """Who carries a study out: processes or threads of this machine, or any `concurrent.futures.Executor`.
 
-A `Workers` object describes executors and makes them; a `ProcessPoolExecutor` of which one process has died is
-useless, so that a new one must be made in the middle of a study. An executor that the user hands in is used as
-it is and never ended (`Given`).
+A `Workers` object says which executor is made, and a `Crew` has the one in use: a `ProcessPoolExecutor` of
+which one process has died is useless, and another one takes its place in the middle of a study. An executor
+that the user hands in is used as it is and never ended (`Given`).
 
 Two things are done here that the standard library leaves open. Ctrl-C reaches every process of a terminal at
-once: the workers ignore it and the parent alone answers, by storing what is finished; signals are held back
-while processes start, so that none is left running unknown. And workers end when their parent is killed.
+once: the workers ignore it and the parent alone answers, by storing what is finished. And workers end when
+their parent is killed.
 
 Used by `campaign.execute` and `campaign.pool`; `campaign.dask_cluster` adds the workers of a cluster.
 
@@ -24,14 +24,12 @@ import multiprocessing
 import os
 import signal
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing import forkserver, resource_tracker
-from multiprocessing.process import BaseProcess
 from threading import Thread, current_thread, main_thread
-from types import FrameType
 from typing import ClassVar
 
 from biped_adrc.errors import InputError, SimulationError
@@ -44,19 +42,16 @@ GUARD = (
     "what they import"
 )
 """The hint for a script without a main guard, whose workers would start the study again."""
-
 SAFE_PATH = "PYTHONSAFEPATH"
 """Environment variable: the working directory is not put first on the path."""
+MOST_WORKERS = 1024
+"""Of one machine; more are a mistake, which would take its memory before a walk is made."""
 
 
 class WorkersError(SimulationError):
     """Workers, or the connection to them, are gone; no walk is to blame (exit code 3)."""
 
     exit_code = 3
-
-
-MOST_WORKERS = 1024
-"""Of one machine; more are a mistake, which would take its memory before a walk is made."""
 
 
 class Workers(ABC):
@@ -67,11 +62,7 @@ class Workers(ABC):
 
     @abstractmethod
     def start(self) -> Executor:
-        """An executor that works. Raises InputError."""
-
-    def prepare(self) -> None:
-        """Raises what `start` would, as far as that is quickly known; called before anything is written."""
-        return
+        """An executor that works. Raises InputError, WorkersError."""
 
     @abstractmethod
     def count(self, executor: Executor) -> int:
@@ -80,11 +71,6 @@ class Workers(ABC):
     def stop(self, executor: Executor, now: bool) -> None:
         """End the executor; `now`: without waiting for what runs, where that is possible."""
         executor.shutdown(wait=True, cancel_futures=now)
-
-    def restart(self, executor: Executor) -> Executor:
-        """Another executor for one that broke. Raises the errors of `start`."""
-        self.stop(executor, True)
-        return self.start()
 
     def broken(self, error: BaseException) -> bool:
         """Whether an error means that a worker died, rather than an error in what it ran."""
@@ -127,17 +113,14 @@ class Processes(Threads):
 
     preload: tuple[str, ...] = PRELOADED
 
-    def prepare(self) -> None:
-        """Raises InputError in a process that is itself being started: its script has no main guard."""
-        if getattr(multiprocessing.current_process(), "_inheriting", False):
-            raise InputError(GUARD)
-
     def start(self) -> ProcessPoolExecutor:
         """Start the processes and wait until one of them answers.
 
-        Raises InputError, and WorkersError when the first process ends before it has done anything.
+        Raises InputError in a process that is itself being started, as its script has no main guard, and
+        WorkersError when the first process ends before it has done anything.
         """
-        self.prepare()
+        if getattr(multiprocessing.current_process(), "_inheriting", False):
+            raise InputError(GUARD)
         context = multiprocessing.get_context("forkserver")
         context.set_forkserver_preload(list(self.preload))
         with held_back():
@@ -147,92 +130,19 @@ class Processes(Threads):
             with held_back():
                 first = executor.submit(os.getpid)
             first.result()
-        except BrokenExecutor as error:
+        except BaseException as error:
             self.stop(executor, True)
-            raise WorkersError(f"the worker processes end as they start. {GUARD}") from error
-        except BaseException:
-            with undisturbed():
-                self.stop(executor, True)
+            if isinstance(error, BrokenExecutor):
+                raise WorkersError(f"the worker processes end as they start. {GUARD}") from error
             raise
         return executor
 
     def stop(self, executor: Executor, now: bool) -> None:
-        """End the processes; now: also terminate those in the middle of a run, for which a pool alone would
-        wait.
-        """
-        processes: dict[int, BaseProcess] = getattr(executor, "_processes", None) or {}
-        running = list(processes.values())
-        manager: Thread | None = getattr(executor, "_executor_manager_thread", None)
+        """End the processes; now: also those in the middle of a run, for which a pool alone would wait."""
         if now:
-            executor.shutdown(wait=False, cancel_futures=True)
-            for process in running:
+            for process in list((getattr(executor, "_processes", None) or {}).values()):
                 process.terminate()
-            if manager is not None:  # a second shutdown does not wait for it
-                manager.join()
         super().stop(executor, now)
-
-
-def _start_forkserver() -> None:
-    """Start the fork server with Ctrl-C blocked, a state that its children inherit.
-
-    The resource tracker, which multiprocessing would otherwise start in between, lets the signal in; it is
-    started before. Both are `python -c`, which would import modules from the working directory.
-    """
-    safe = os.environ.get(SAFE_PATH)
-    os.environ[SAFE_PATH] = "1"
-    before = None
-    try:
-        resource_tracker.ensure_running()
-        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-        forkserver.ensure_running()
-    finally:
-        if before is not None:
-            signal.pthread_sigmask(signal.SIG_SETMASK, before)
-        os.environ.pop(SAFE_PATH)
-        if safe is not None:
-            os.environ[SAFE_PATH] = safe
-
-
-Handler = signal.Handlers | Callable[[int, FrameType | None], object]
-"""What answers a signal."""
-
-
-@contextmanager
-def undisturbed(handler: Handler = signal.SIG_IGN) -> Iterator[None]:
-    """Ignore Ctrl-C within the block, or have `handler` answer it; does nothing outside of the main thread."""
-    if current_thread() is not main_thread():
-        yield
-        return
-    before = signal.signal(signal.SIGINT, handler)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before or signal.SIG_DFL)
-
-
-@contextmanager
-def held_back() -> Iterator[None]:
-    """Ctrl-C within the block is raised at its end, so that no process starts without being known."""
-    came: list[int] = []
-    try:
-        with undisturbed(lambda number, _: came.append(number)):
-            yield
-    finally:
-        if came:
-            signal.raise_signal(signal.SIGINT)
-
-
-def _begin() -> None:
-    """First call in each worker: ignore Ctrl-C, and end with the parent, even where that is killed."""
-
-    def end_with_parent() -> None:
-        if (parent := multiprocessing.parent_process()) is not None:
-            parent.join()
-            os._exit(1)
-
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
-    Thread(target=end_with_parent, daemon=True).start()
 
 
 @dataclass(frozen=True)
@@ -255,45 +165,34 @@ class Given(Workers):
 
 
 @dataclass
-class Kept(Workers):
-    """Workers that stay between the rounds of a study, which would otherwise start anew in each of them.
+class Crew:
+    """Workers at work, from one round of a study to the next; a context manager, which starts and ends them."""
 
-    They are started by the first round and ended by `close`, or where a round fails.
-    """
-
-    crew: Workers
+    workers: Workers
     """Who they are."""
-    executor: Executor | None = None
-    """The one in use."""
+    running: Executor | None = None
+    """The executor in use, if any."""
 
-    def count(self, executor: Executor) -> int:
-        return self.crew.count(executor)
+    @property
+    def executor(self) -> Executor:
+        """The executor in use, started where there is none. Raises the errors of `Workers.start`."""
+        if self.running is None:
+            self.running = self.workers.start()
+        return self.running
 
-    def prepare(self) -> None:
-        self.crew.prepare()
+    def close(self, now: bool = False) -> None:
+        """End the executor; `now`: with what it runs. Ctrl-C waits until that is done."""
+        running, self.running = self.running, None
+        if running is not None:
+            with held_back():
+                self.workers.stop(running, now)
 
-    def start(self) -> Executor:
-        if self.executor is None:
-            self.executor = self.crew.start()
-        return self.executor
+    def __enter__(self) -> Crew:
+        assert self.executor
+        return self
 
-    def stop(self, executor: Executor, now: bool) -> None:
-        """Leave them for the next round; `now`: end them."""
-        if now:
-            self.executor = None
-            self.crew.stop(executor, True)
-
-    def broken(self, error: BaseException) -> bool:
-        return self.crew.broken(error)
-
-    def check(self, executor: Executor) -> None:
-        self.crew.check(executor)
-
-    def close(self) -> None:
-        """End them, where there are any."""
-        if self.executor is not None:
-            executor, self.executor = self.executor, None
-            self.crew.stop(executor, False)
+    def __exit__(self, kind: object, *_: object) -> None:
+        self.close(now=kind is not None)
 
 
 def workers_of(given: Workers | Executor | int | None) -> Workers:
@@ -310,3 +209,49 @@ def cores() -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
+
+
+@contextmanager
+def held_back() -> Iterator[None]:
+    """Ctrl-C within the block is raised at its end; does nothing outside of the main thread."""
+    if current_thread() is not main_thread():
+        yield
+        return
+    came: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, _: came.append(number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before or signal.SIG_DFL)
+        if came:
+            signal.raise_signal(signal.SIGINT)
+
+
+def _start_forkserver() -> None:
+    """Start the fork server with Ctrl-C blocked, a state that its children inherit.
+
+    The resource tracker, which multiprocessing would otherwise start in between, lets the signal in; it is
+    started before. Both are `python -c`, which would import modules from the working directory.
+    """
+    safe = os.environ.get(SAFE_PATH, "")
+    os.environ[SAFE_PATH] = "1"
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, ())
+    try:
+        resource_tracker.ensure_running()
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        forkserver.ensure_running()
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        os.environ[SAFE_PATH] = safe
+
+
+def _begin() -> None:
+    """First call in each worker: ignore Ctrl-C, and end with the parent, even where that is killed."""
+
+    def end_with_parent() -> None:
+        if (parent := multiprocessing.parent_process()) is not None:
+            parent.join()
+            os._exit(1)
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    Thread(target=end_with_parent, daemon=True).start()

@@ -20,7 +20,6 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
-from contextlib import closing
 from pathlib import Path
 
 from biped_adrc.bench.build import case, files_of, hashes, own_of_study, plants_of_study
@@ -31,7 +30,7 @@ from biped_adrc.campaign.chunk import Function
 from biped_adrc.campaign.execute import Progress
 from biped_adrc.campaign.store import About
 from biped_adrc.campaign.store_open import open_store
-from biped_adrc.campaign.workers import Kept, Workers, workers_of
+from biped_adrc.campaign.workers import Crew, Workers, workers_of
 from biped_adrc.errors import BipedError, InputError
 from biped_adrc.files import check_folder, write_text
 from biped_adrc.tuning.candidate import (
@@ -86,12 +85,11 @@ def tune(
 
         function = run_trials
     check_folder(out)
-    out, crew = Path(out), workers_of(workers)
-    about = about_tuning(study, crew)
-    crew.prepare()
-    with open_store(out / RESULTS, about, other_versions) as store, closing(Kept(crew)) as kept:
+    out, asked = Path(out), workers_of(workers)
+    about = about_tuning(study, asked)
+    with Crew(asked) as crew, open_store(out / RESULTS, about, other_versions) as store:
         _write_test_set(study, out)
-        tuned = _carried_out(study, out, StoredWalks(study, function, store, kept, progress))
+        tuned = _carried_out(study, out, StoredWalks(study, function, store, crew, progress))
     write(tuned, command)
     return tuned
 
@@ -144,14 +142,14 @@ def best_so_far(study: TuningStudy, best: Candidate, published: Candidate) -> st
     return f"candidate {best.number}: {', '.join(numbers)}{missed}"
 
 
-def about_tuning(study: TuningStudy, crew: Workers) -> About:
+def about_tuning(study: TuningStudy, workers: Workers) -> About:
     """What is stored to recognise a study: its hash, configuration, and the versions its numbers depend on.
 
     Raises InputError for files that workers on other machines may not have.
     """
     given = as_sweep(study)
     files = tuple(sorted({path for pair in given.given() for path in files_of(*pair)}))
-    if files and crew.elsewhere:
+    if files and workers.elsewhere:
         raise InputError(
             f"study '{study.name}' names the files {[str(path) for path in files]}, which workers elsewhere "
             "may not have, or have others; run it with processes or threads of this machine"

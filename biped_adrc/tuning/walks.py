@@ -14,7 +14,7 @@ from biped_adrc.bench.study import CONDITION
 from biped_adrc.campaign.chunk import Function, key_of, text_of
 from biped_adrc.campaign.execute import LARGEST_CHUNK, Progress, run_study
 from biped_adrc.campaign.store import Store
-from biped_adrc.campaign.workers import Workers
+from biped_adrc.campaign.workers import Crew
 from biped_adrc.tuning.measure import Walks
 from biped_adrc.tuning.study import CANDIDATE, SET, TuningStudy
 from biped_adrc.tuning.variables import Values
@@ -30,7 +30,7 @@ class StoredWalks:
     """What makes rows of records."""
     store: Store
     """The open file of results."""
-    workers: Workers
+    crew: Crew
     """Who walks."""
     progress: Callable[[Progress], None] | None = None
     """Called now and then."""
@@ -53,9 +53,7 @@ class StoredWalks:
         keys = [key_of(text_of(point.record)) for point in points]
         chunk = max(1, min(LARGEST_CHUNK, len(points) // 16))
         told = {"chunk": chunk, "total": len(points), "first": self.done}
-        done = run_study(
-            self.function, points, self.store, self.workers, progress=self.tell, **told
-        )
+        done = run_study(self.function, points, self.store, self.crew, progress=self.tell, **told)
         self.done, self.fresh = self.done + len(points), self.fresh + done.fresh
         rows = self.store.rows(keys)
         named = [(str(p.at[CONDITION]), rows[key]) for p, key in zip(points, keys, strict=True)]

@@ -13,12 +13,12 @@ from pathlib import Path
 from biped_adrc.campaign.execute import run_study
 from biped_adrc.campaign.store import About
 from biped_adrc.campaign.store_open import open_store
-from biped_adrc.campaign.workers import Threads
+from biped_adrc.campaign.workers import Crew, Threads, workers_of
 from biped_adrc.versions import numerical_versions
 
 
 def rows(records):
-    """A row of each record; `raise` raises, `kill` ends the process, `once` and `twice` do so at first."""
+    """A row of each record; `raise` raises, `kill` ends the process, `once` does so at first."""
     return [_row(record) for record in records]
 
 
@@ -26,8 +26,7 @@ def _row(record):
     time.sleep(record.get("pause", 0.0))
     if "raise" in record:
         raise ValueError(f"no row for {record['x']}")
-    twice = record.get("twice", ())
-    if "kill" in record or _first_time(record.get("once")) or any(map(_first_time, twice)):
+    if "kill" in record or _first_time(record.get("once")):
         os.kill(os.getpid(), signal.SIGKILL)
     x = record["x"]
     return {
@@ -44,6 +43,11 @@ def _first_time(path):
         return False
     Path(path).touch()
     return True
+
+
+def carried_out(function, given, store, workers, **more):
+    with Crew(workers_of(workers)) as crew:
+        return run_study(function, given, store, crew, **more)
 
 
 def about(name="standin", **configuration):
@@ -66,7 +70,7 @@ def main(path, n, pause):
 
     with open_store(Path(path), about()) as store:
         given = records(int(n), float(pause))
-        run_study(rows, given, store, Threads(2), chunk=3, total=int(n), progress=progress)
+        carried_out(rows, given, store, Threads(2), chunk=3, total=int(n), progress=progress)
     print("end", flush=True)
 
 

@@ -7,13 +7,12 @@ from pathlib import Path
 
 import pytest
 import standin
-from standin import about, records, results, rows
+from standin import about, carried_out, records, results, rows
 
 from biped_adrc.bench.study_file import read_study
 from biped_adrc.bench.sweep import sweep
 from biped_adrc.campaign import dask_cluster as of_cluster
 from biped_adrc.campaign.dask_cluster import Cluster
-from biped_adrc.campaign.execute import run_study
 from biped_adrc.campaign.store_open import open_store
 from biped_adrc.campaign.workers import Threads
 from biped_adrc.errors import InputError
@@ -54,7 +53,7 @@ def address():
 
 def run(path, given, workers, **more):
     with open_store(path, about()) as store:
-        summary = run_study(rows, given, store, workers, **more)
+        summary = carried_out(rows, given, store, workers, **more)
         return results(store), summary
 
 

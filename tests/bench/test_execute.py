@@ -8,12 +8,12 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
-from standin import about, records, results, rows
+from standin import about, carried_out, records, results, rows
 
 import biped_adrc as ba
 from biped_adrc.campaign import execute
 from biped_adrc.campaign.chunk import Point, point
-from biped_adrc.campaign.execute import LOOK_UP, run_study
+from biped_adrc.campaign.execute import LOOK_UP
 from biped_adrc.campaign.store_open import open_store, read_store
 from biped_adrc.campaign.workers import Processes, Threads
 from biped_adrc.errors import SimulationError
@@ -25,7 +25,7 @@ SOON = 30.0
 
 def run(path, given, workers, **more):
     with open_store(path, about()) as store:
-        summary = run_study(more.pop("function", rows), given, store, workers, **more)
+        summary = carried_out(more.pop("function", rows), given, store, workers, **more)
         return results(store), summary
 
 
@@ -104,7 +104,7 @@ def test_what_was_running_when_a_study_is_stopped_is_stored(tmp_path):
 
     with open_store(tmp_path / "r.sqlite", about()) as store:
         with pytest.raises(KeyboardInterrupt):
-            run_study(in_turn, records(2), store, Threads(2), chunk=1, progress=stop)
+            carried_out(in_turn, records(2), store, Threads(2), chunk=1, progress=stop)
         assert [row["n"] for *_, row in results(store)] == [0, 1]
 
 
@@ -144,14 +144,6 @@ def test_a_worker_that_is_killed_once_changes_nothing(tmp_path, expected):
     assert [row for *_, row in found] == [row for *_, row in expected]
 
 
-def test_a_record_alone_that_loses_two_workers_is_tried_once_more(tmp_path, expected):
-    marks = [str(tmp_path / name) for name in ("first", "second")]
-    given = [{**r, "twice": marks} if r["x"] == 4 else r for r in records(9)]
-    found, summary = run(tmp_path / "r.sqlite", given, Processes(1, LIGHT), chunk=1)
-    assert summary.deaths == 2
-    assert [row for *_, row in found] == [row for *_, row in expected[:9]]
-
-
 def test_a_record_that_kills_its_worker_is_named(tmp_path, expected):
     given = [{**r, "kill": 1} if r["x"] == 30 else r for r in records(40)]
     found, summary = run(tmp_path / "r.sqlite", given, Processes(2, LIGHT), chunk=4)
@@ -174,7 +166,7 @@ def test_what_killed_its_worker_before_comes_last(tmp_path):
         jobs = [execute._job(point(r)) for r in records(5)]
         row = execute.made({"status": "CRASHED", "detail": "it died"}, 0.0)
         store.add(execute._ran(job, row) for job in jobs[:2])
-        run_study(noting, records(5), store, Threads(1), chunk=1)
+        carried_out(noting, records(5), store, Threads(1), chunk=1)
         assert seen == [2, 3, 4, 0, 1]
         assert store.statuses() == {"COMPLETED": 5}
 

@@ -20,14 +20,13 @@ SCRIPT = """
 import sys
 from pathlib import Path
 sys.path.insert(0, sys.argv[1])
-from standin import about, records, rows
-from biped_adrc.campaign.execute import run_study
+from standin import about, carried_out, records, rows
 from biped_adrc.campaign.store_open import open_store
 from biped_adrc.campaign.workers import Processes
 
 if __name__ == "__main__":
     with open_store(Path(sys.argv[2]), about()) as store:
-        run_study(rows, records({N}, 5e-3), store, Processes(2, ("standin",)), chunk=4,
+        carried_out(rows, records({N}, 5e-3), store, Processes(2, ("standin",)), chunk=4,
                   progress=lambda p: print(p.done, flush=True))
 """.replace("{N}", str(MANY))
 

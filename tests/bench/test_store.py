@@ -8,10 +8,9 @@ import sys
 
 import pytest
 import standin
-from standin import about, records, results, rows
+from standin import about, carried_out, records, results, rows
 
 from biped_adrc.campaign.chunk import key_of, made, text_of
-from biped_adrc.campaign.execute import run_study
 from biped_adrc.campaign.store import Placed, Ran
 from biped_adrc.campaign.store_open import open_store, read_store
 from biped_adrc.campaign.workers import Threads
@@ -27,7 +26,7 @@ def ran(record, row):
 
 def filled(path, n=20):
     with open_store(path, about()) as store:
-        run_study(rows, records(n), store, Threads(1))
+        carried_out(rows, records(n), store, Threads(1))
     return path
 
 
@@ -66,12 +65,12 @@ def test_resumed_equals_uninterrupted(tmp_path):
     with open_store(path, about()) as store:
         assert N // 4 <= len(store) < N
         fresh = N - len(store)
-        summary = run_study(rows, records(N, 2e-3), store, Threads(2))
+        summary = carried_out(rows, records(N, 2e-3), store, Threads(2))
         assert (summary.points, summary.fresh) == (N, fresh)
         resumed = results(store)
-        assert run_study(rows, records(N, 2e-3), store, Threads(2)).fresh == 0
+        assert carried_out(rows, records(N, 2e-3), store, Threads(2)).fresh == 0
     with open_store(whole, about()) as store:
-        run_study(rows, records(N, 2e-3), store, Threads(2))
+        carried_out(rows, records(N, 2e-3), store, Threads(2))
         assert results(store) == resumed
 
 
@@ -96,7 +95,7 @@ def test_killed_at_any_moment_no_finished_run_is_lost(tmp_path, lines):
             with read_store(path) as store:
                 assert told <= len(store) == len(results(store)) < N
     with open_store(path, about()) as store:
-        run_study(rows, records(N, 1.5e-3), store, Threads(2))
+        carried_out(rows, records(N, 1.5e-3), store, Threads(2))
         assert [r.row["n"] for r in store.results()] == [k * k for k in range(N)]
 
 
@@ -167,7 +166,7 @@ def test_other_versions_are_refused_unless_asked_for(tmp_path):
     with pytest.raises(InputError, match=rf"numpy {now.versions['numpy']} there, 99.1 here"):
         open_store(path, other)
     with open_store(path, other, other_versions=True) as store:
-        run_study(rows, records(8), store, Threads(1))
+        carried_out(rows, records(8), store, Threads(1))
     with sqlite3.connect(path) as db:
         made_with = dict(db.execute("SELECT versions, count(*) FROM runs GROUP BY 1").fetchall())
     db.close()
@@ -179,10 +178,10 @@ def test_a_full_disk_ends_the_study_and_keeps_what_was_finished(tmp_path):
     with open_store(path, about()) as store:
         store.connection.execute("PRAGMA max_page_count = 30")
         with pytest.raises(OutputError, match="full"):
-            run_study(rows, records(5000), store, Threads(2))
+            carried_out(rows, records(5000), store, Threads(2))
         kept = len(store)
         assert kept > 0
     with open_store(path, about()) as store:
         assert len(store) == kept
-        run_study(rows, records(500), store, Threads(2))
+        carried_out(rows, records(500), store, Threads(2))
         assert [r.row["n"] for r in store.results()] == [k * k for k in range(500)]
