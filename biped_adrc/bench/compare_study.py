@@ -102,7 +102,6 @@ def run_comparison(
     seeds: int = 20,
     workers: Workers | Executor | int | None = None,
     progress: Callable[[Progress], None] | None = None,
-    other_versions: bool = False,
     plant: str = RIGID,
     settings: Settings = TUNED,
 ) -> dict[str, Any]:
@@ -131,7 +130,7 @@ def run_comparison(
     check_folder(out)
     with (
         Crew(workers_of(workers)) as crew,
-        open_store(out / RESULTS, about, other_versions) as store,
+        open_store(out / RESULTS, about) as store,
     ):
         carry = Stored(store, crew, progress, shared)
         found = compare(carry, controllers, conditions, seeds, settings)

@@ -158,15 +158,13 @@ def sweep(
     function: Function | None = None,
     chunk: int | None = None,
     progress: Callable[[Progress], None] | None = None,
-    other_versions: bool = False,
 ) -> Sweep:
     """Run all points of a study whose results are not yet in the folder `out`; returns all of its results.
 
     study: a `Study`, or the name of its file. workers: processes (one per core if None), `Threads`, `Cluster`,
     or any executor. function: what makes rows of records, walks if None. chunk: runs handed to a worker at
-    once; it changes no number. progress: called now and then. other_versions: go on though other versions of
-    the package or its dependencies made what is there. Raises InputError, OutputError, WorkersError. After
-    Ctrl-C what is finished is kept, and the same call goes on.
+    once; it changes no number. progress: called now and then. Raises InputError, OutputError, WorkersError.
+    After Ctrl-C what is finished is kept, and the same call goes on.
     """
     study = study if isinstance(study, Study) else load_study(study)
     if function is None:
@@ -177,7 +175,7 @@ def sweep(
     check_folder(out)
     path, asked = Path(out) / RESULTS, workers_of(workers)
     about = about_study(study, asked)
-    with Crew(asked) as crew, open_store(path, about, other_versions) as store:
+    with Crew(asked) as crew, open_store(path, about) as store:
         summary = run_study(
             function,
             study.points(),

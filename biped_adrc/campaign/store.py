@@ -1,7 +1,6 @@
 """The results of a study in one SQLite file, which can be opened after a kill at any moment.
 
     study     configuration, hash and versions of the study; its only row
-    versions  sets of versions that runs were made with
     runs      the row of results of each record, by the record's hash
     points    place in the study, varied values, and key of the run of each point
 
@@ -24,54 +23,22 @@ from json import loads
 from pathlib import Path
 from typing import NamedTuple
 
-from biped_adrc.campaign.chunk import CRASHED, NO_WALK, text_of
+from biped_adrc.campaign.chunk import CRASHED, NO_WALK, Ran
 from biped_adrc.errors import InputError, OutputError
 
 
 class About(NamedTuple):
-    """Which study a results file is of."""
+    """Which study a results file is of: name, hash, all of it in plain values, versions, number of points.
+
+    By the hash it is recognised; the versions are of all that decides the numbers; the number is None where
+    unknown.
+    """
 
     name: str
-    """Of the study."""
     hash: str
-    """By which the study is recognised."""
     configuration: Mapping[str, object]
-    """The whole study in plain values."""
     versions: Mapping[str, str]
-    """Of all that decides the numbers, by name."""
     points: int | None = None
-    """How many there are in all; None where unknown."""
-
-
-RUN = "key, record, row, status, engine, seed, seconds"
-"""Columns of a run in the order of `Ran`."""
-
-
-class Ran(NamedTuple):
-    """A finished run as it is stored."""
-
-    key: str
-    """Hash of the record."""
-    record: str
-    """Its text, JSON."""
-    row: str
-    """Text of the results, JSON."""
-    status: str | None
-    """How it ended."""
-    engine: str | None
-    """What ran it."""
-    seed: int | None
-    """Of the record, if it has one."""
-    seconds: float
-    """Wall time [s]."""
-
-
-class Placed(NamedTuple):
-    """A point of the study: its place, the key of its run, and its varied values as JSON."""
-
-    position: int
-    key: str
-    at: str
 
 
 class Result(NamedTuple):
@@ -85,36 +52,28 @@ class Result(NamedTuple):
 
 @dataclass(frozen=True)
 class Store:
-    """An open results file. Made by `open_store` to write or by `read_store` to read; a context manager."""
+    """An open results file. Made by `open_store` to write or by `read_store` to read; a context manager.
+
+    connection: without implicit transactions. writes: whether it is open to write.
+    """
 
     path: Path
-    """The file."""
     connection: sqlite3.Connection
-    """Without implicit transactions."""
     about: About
-    """The study; its versions are those of this process when writing, and those of the file when reading."""
     writes: bool = False
-    """Whether it is open to write."""
 
-    def place(self, points: Iterable[Placed]) -> None:
-        """Keep where points lie; one that is there already stays as it is. Raises OutputError."""
+    def place(self, points: Iterable[tuple[int, str, str]]) -> None:
+        """Keep place, key and varied values (JSON) of points; one that is there stays. Raises OutputError."""
         with self._writing() as db:
             db.executemany("INSERT OR IGNORE INTO points VALUES (?, ?, ?)", points)
 
     def add(self, runs: Iterable[Ran]) -> None:
         """Keep finished runs in one transaction, all of them or none. Raises OutputError.
 
-        A run that crashed before is replaced; the versions of this process are kept once and referred to by
-        number.
+        A run that crashed before is replaced.
         """
         with self._writing() as db:
-            versions = text_of(self.about.versions)
-            db.execute("INSERT OR IGNORE INTO versions (versions) VALUES (?)", (versions,))
-            made_with = "(SELECT id FROM versions WHERE versions = ?)"
-            db.executemany(
-                f"INSERT OR REPLACE INTO runs ({RUN}, versions) VALUES (?, ?, ?, ?, ?, ?, ?, {made_with})",
-                ((*run, versions) for run in runs),
-            )
+            db.executemany("INSERT OR REPLACE INTO runs VALUES (?, ?, ?, ?, ?)", runs)
 
     def crashed(self, keys: Sequence[str]) -> dict[str, bool]:
         """Those of the keys that have a row; True where it says that the process died."""
@@ -122,7 +81,7 @@ class Store:
 
     def rows(self, keys: Sequence[str]) -> dict[str, dict[str, object]]:
         """The rows of those of the keys that have one."""
-        return {key: self._plain(key, row) for key, row in self._of("row", keys)}
+        return {key: loads(row) for key, row in self._of("row", keys)}
 
     def _of(self, column: str, keys: Sequence[str]) -> Iterator[tuple[str, str]]:
         """One column of the runs with these keys, 500 at a time, since SQLite limits the parameters of a
@@ -154,23 +113,15 @@ class Store:
         marks = ",".join("?" * len(NO_WALK))
         text = f"SELECT status, row, min(key) FROM runs WHERE status IN ({marks}) GROUP BY 1"
         with self._reading():
-            found = self.connection.execute(text, NO_WALK).fetchall()
-        return {s: str(self._plain(key, row).get("detail") or "") for s, row, key in found}
-
-    def _plain(self, key: str, text: str) -> dict[str, object]:
-        """The values in a text of the file. Raises InputError where that is damaged."""
-        try:
-            values: dict[str, object] = loads(text)
-            return values
-        except (ValueError, TypeError) as error:
-            raise damaged(self.path, f"the run {key} has no values, {error}") from error
+            found = self.connection.execute(text, NO_WALK)
+            return {s: str(loads(row).get("detail") or "") for s, row, _ in found}
 
     def results(self) -> Iterator[Result]:
         """Points with a row, in the order of the study; read one after the other."""
         text = "SELECT position, key, at, row FROM points JOIN runs USING (key) ORDER BY position"
         with self._reading():
             for position, key, at, row in self.connection.execute(text):
-                yield Result(position, key, self._plain(key, at), self._plain(key, row))
+                yield Result(position, key, loads(at), loads(row))
 
     def close(self) -> None:
         """Merge the write-ahead log, so that one file is left."""
@@ -190,27 +141,20 @@ class Store:
 
     @contextmanager
     def _writing(self) -> Iterator[sqlite3.Connection]:
-        """A transaction, undone on any error. Raises OutputError, and InputError for an integer
-        beyond 64 bits.
-        """
+        """A transaction, undone on any error. Raises OutputError."""
         try:
             with self.connection as db:
                 db.execute("BEGIN IMMEDIATE")
                 yield db
         except (sqlite3.Error, UnicodeError) as error:
             raise cannot_write(self.path, error) from error
-        except OverflowError as error:
-            raise InputError(
-                f"a number of a run, such as its seed, is too large for the results file '{self.path}': {error}"
-                "; expected at most 2^63 - 1"
-            ) from error
 
     @contextmanager
     def _reading(self) -> Iterator[None]:
-        """Raises InputError, which calls the file damaged, for an error of SQLite."""
+        """Raises InputError, which calls the file damaged, for an error of SQLite or a text that is no JSON."""
         try:
             yield
-        except (sqlite3.Error, UnicodeError) as error:
+        except (sqlite3.Error, ValueError, TypeError) as error:
             raise damaged(self.path, error) from error
 
 

@@ -65,7 +65,6 @@ def tune(
     *,
     function: Function | None = None,
     progress: Callable[[Progress], None] | None = None,
-    other_versions: bool = False,
     command: str = "ba.tune",
 ) -> Tuned:
     """The best setting that a study finds, and what it is worth on walks that no choice has touched.
@@ -73,8 +72,8 @@ def tune(
     study: a `TuningStudy`, or the name of its file. out: folder of results, scenario file and page; an
     interrupted study goes on there. workers: processes (one per core if None), `Threads`, `Cluster`, or any
     executor. function: what makes rows of records, walks if None. progress: called now and then.
-    other_versions: go on though other versions made what is there. command: as typed, for the page.
-    Raises InputError, where no candidate keeps all limits too, OutputError, WorkersError.
+    command: as typed, for the page. Raises InputError, where no candidate keeps all limits too, OutputError,
+    WorkersError.
     """
     study = study if isinstance(study, TuningStudy) else load_tuning(study)
     with optuna_quiet():
@@ -87,7 +86,7 @@ def tune(
     check_folder(out)
     out, asked = Path(out), workers_of(workers)
     about = about_tuning(study, asked)
-    with Crew(asked) as crew, open_store(out / RESULTS, about, other_versions) as store:
+    with Crew(asked) as crew, open_store(out / RESULTS, about) as store:
         _write_test_set(study, out)
         tuned = _carried_out(study, out, StoredWalks(study, function, store, crew, progress))
     write(tuned, command)
