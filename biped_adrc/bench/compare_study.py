@@ -28,8 +28,7 @@ from biped_adrc.bench.run import run_trials
 from biped_adrc.bench.settings import TUNED, Settings
 from biped_adrc.campaign.chunk import Point, Record, Row, key_of, text_of
 from biped_adrc.campaign.execute import LARGEST_CHUNK, Progress, run_study
-from biped_adrc.campaign.store import About, Store
-from biped_adrc.campaign.store_open import open_store
+from biped_adrc.campaign.store import About, Store, open_store
 from biped_adrc.campaign.workers import Crew, Workers, workers_of
 from biped_adrc.files import check_folder, plain, write_text
 from biped_adrc.robots.limits import Limits

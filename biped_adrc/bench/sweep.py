@@ -33,8 +33,7 @@ from biped_adrc.bench.study import MOST_POINTS, Study, rehearse, too_many
 from biped_adrc.bench.study_file import load_study
 from biped_adrc.campaign.chunk import Function
 from biped_adrc.campaign.execute import Progress, Summary, run_study
-from biped_adrc.campaign.store import About, Result
-from biped_adrc.campaign.store_open import open_store, read_store
+from biped_adrc.campaign.store import About, Result, open_store, read_store
 from biped_adrc.campaign.workers import Crew, Workers, workers_of
 from biped_adrc.errors import InputError
 from biped_adrc.files import check_folder
@@ -205,7 +204,7 @@ def about_study(study: Study, workers: Workers) -> About:
         )
     of_parts = own_of_study(study) | plants_of_study(study)
     versions = {**numerical_versions(), **hashes(files), **of_parts}
-    return About(study.name, study.hash, study.configuration(), versions, study.count)
+    return About(study.name, study.hash, study.configuration(), versions)
 
 
 def load_sweep(out: Path | str) -> Sweep:

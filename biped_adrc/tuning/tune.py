@@ -28,8 +28,7 @@ from biped_adrc.bench.study import SEED, Named, Study
 from biped_adrc.bench.sweep import RESULTS
 from biped_adrc.campaign.chunk import Function
 from biped_adrc.campaign.execute import Progress
-from biped_adrc.campaign.store import About
-from biped_adrc.campaign.store_open import open_store
+from biped_adrc.campaign.store import About, open_store
 from biped_adrc.campaign.workers import Crew, Workers, workers_of
 from biped_adrc.errors import BipedError, InputError
 from biped_adrc.files import check_folder, write_text

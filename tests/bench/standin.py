@@ -12,8 +12,7 @@ from pathlib import Path
 
 from biped_adrc.campaign.chunk import Point
 from biped_adrc.campaign.execute import run_study
-from biped_adrc.campaign.store import About
-from biped_adrc.campaign.store_open import open_store
+from biped_adrc.campaign.store import About, open_store
 from biped_adrc.campaign.workers import Crew, Threads, workers_of
 from biped_adrc.versions import numerical_versions
 

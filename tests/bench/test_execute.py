@@ -14,7 +14,7 @@ import biped_adrc as ba
 from biped_adrc.campaign import execute
 from biped_adrc.campaign.chunk import Point
 from biped_adrc.campaign.execute import LOOK_UP
-from biped_adrc.campaign.store_open import open_store, read_store
+from biped_adrc.campaign.store import open_store, read_store
 from biped_adrc.campaign.workers import Processes, Threads
 from biped_adrc.errors import SimulationError
 

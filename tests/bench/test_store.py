@@ -11,7 +11,7 @@ import standin
 from standin import about, carried_out, records, results, rows
 
 from biped_adrc.campaign.chunk import Job, key_of, ran, text_of
-from biped_adrc.campaign.store_open import open_store, read_store
+from biped_adrc.campaign.store import open_store, read_store
 from biped_adrc.campaign.workers import Threads
 from biped_adrc.errors import InputError, OutputError
 
