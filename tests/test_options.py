@@ -226,7 +226,6 @@ COMPARE = {
 SWEEP = {
     "workers": Row("--workers 3", same("workers.number"), 3),
     "threads": Row("--threads", lambda a: type(a.workers).__name__, "Threads"),
-    "other_versions": Row("--other-versions", same("other_versions"), True),
     "export": Row("--export csv", same("path"), Path("folder/results.csv"), "bench.export:export"),
     "plot": Row(
         "--plot bandwidth,period:rms_error",

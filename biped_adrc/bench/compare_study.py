@@ -28,8 +28,7 @@ from biped_adrc.bench.run import run_trials
 from biped_adrc.bench.settings import TUNED, Settings
 from biped_adrc.campaign.chunk import Point, Record, Row, key_of, text_of
 from biped_adrc.campaign.execute import LARGEST_CHUNK, Progress, run_study
-from biped_adrc.campaign.store import About, Store
-from biped_adrc.campaign.store_open import open_store
+from biped_adrc.campaign.store import About, Store, open_store
 from biped_adrc.campaign.workers import Crew, Workers, workers_of
 from biped_adrc.files import check_folder, plain, write_text
 from biped_adrc.robots.limits import Limits
@@ -102,7 +101,6 @@ def run_comparison(
     seeds: int = 20,
     workers: Workers | Executor | int | None = None,
     progress: Callable[[Progress], None] | None = None,
-    other_versions: bool = False,
     plant: str = RIGID,
     settings: Settings = TUNED,
 ) -> dict[str, Any]:
@@ -131,7 +129,7 @@ def run_comparison(
     check_folder(out)
     with (
         Crew(workers_of(workers)) as crew,
-        open_store(out / RESULTS, about, other_versions) as store,
+        open_store(out / RESULTS, about) as store,
     ):
         carry = Stored(store, crew, progress, shared)
         found = compare(carry, controllers, conditions, seeds, settings)

@@ -33,8 +33,7 @@ from biped_adrc.bench.study import MOST_POINTS, Study, rehearse, too_many
 from biped_adrc.bench.study_file import load_study
 from biped_adrc.campaign.chunk import Function
 from biped_adrc.campaign.execute import Progress, Summary, run_study
-from biped_adrc.campaign.store import About, Result
-from biped_adrc.campaign.store_open import open_store, read_store
+from biped_adrc.campaign.store import About, Result, open_store, read_store
 from biped_adrc.campaign.workers import Crew, Workers, workers_of
 from biped_adrc.errors import InputError
 from biped_adrc.files import check_folder
@@ -158,15 +157,13 @@ def sweep(
     function: Function | None = None,
     chunk: int | None = None,
     progress: Callable[[Progress], None] | None = None,
-    other_versions: bool = False,
 ) -> Sweep:
     """Run all points of a study whose results are not yet in the folder `out`; returns all of its results.
 
     study: a `Study`, or the name of its file. workers: processes (one per core if None), `Threads`, `Cluster`,
     or any executor. function: what makes rows of records, walks if None. chunk: runs handed to a worker at
-    once; it changes no number. progress: called now and then. other_versions: go on though other versions of
-    the package or its dependencies made what is there. Raises InputError, OutputError, WorkersError. After
-    Ctrl-C what is finished is kept, and the same call goes on.
+    once; it changes no number. progress: called now and then. Raises InputError, OutputError, WorkersError.
+    After Ctrl-C what is finished is kept, and the same call goes on.
     """
     study = study if isinstance(study, Study) else load_study(study)
     if function is None:
@@ -177,7 +174,7 @@ def sweep(
     check_folder(out)
     path, asked = Path(out) / RESULTS, workers_of(workers)
     about = about_study(study, asked)
-    with Crew(asked) as crew, open_store(path, about, other_versions) as store:
+    with Crew(asked) as crew, open_store(path, about) as store:
         summary = run_study(
             function,
             study.points(),
@@ -207,7 +204,7 @@ def about_study(study: Study, workers: Workers) -> About:
         )
     of_parts = own_of_study(study) | plants_of_study(study)
     versions = {**numerical_versions(), **hashes(files), **of_parts}
-    return About(study.name, study.hash, study.configuration(), versions, study.count)
+    return About(study.name, study.hash, study.configuration(), versions)
 
 
 def load_sweep(out: Path | str) -> Sweep:

@@ -28,17 +28,10 @@ Row = Mapping[str, object]
 
 
 class Point(NamedTuple):
-    """A run of a study and where it lies in it."""
+    """A run of a study: all values that make it, and those by which the study tells it from its others."""
 
     record: Record
-    """All values that make the run."""
     at: Record
-    """The values by which the study tells the point from its others: what is varied."""
-
-
-def point(of: Record | Point) -> Point:
-    """A `Point` as it is; for a plain record all of its values tell it from others."""
-    return of if isinstance(of, Point) else Point(of, of)
 
 
 def text_of(values: Record) -> str:
@@ -62,21 +55,30 @@ Function = Callable[[Sequence[Record]], Sequence[Row]]
 """What workers run: a row of plain values for each record, in their order."""
 
 
-class Made(NamedTuple):
-    """A row ready to be stored."""
+class Job(NamedTuple):
+    """A run to be made: the key of its row, its record as JSON and as values, and whether it crashed before."""
 
+    key: str
+    text: str
+    record: Record
+    tried: bool = False
+
+
+class Ran(NamedTuple):
+    """A finished run as it is stored: key, record and row as JSON, the row's status, and wall time [s].
+
+    The time of a run is its share where a chunk was run as a whole.
+    """
+
+    key: str
+    record: str
     row: str
-    """Its text, JSON."""
     status: str | None
-    """Its status, if it has one: a column of its own in the store."""
-    engine: str | None
-    """What ran, if the row says so."""
     seconds: float
-    """Wall time of the run [s]; of a chunk that was run as a whole, its share."""
 
 
-def run_chunk(function: Function, records: Sequence[Record]) -> list[Made]:
-    """A row of each record, in their order. Runs in a worker process.
+def run_chunk(function: Function, jobs: Sequence[Job]) -> list[Ran]:
+    """The runs of a chunk, in their order. Called in a worker process.
 
     Where the function raises on the chunk, it is called again with one record at a time, so that one bad record
     spoils no other; that record's row has the status RAISED and the error's text. A SystemExit counts as an
@@ -84,34 +86,26 @@ def run_chunk(function: Function, records: Sequence[Record]) -> list[Made]:
     """
     begin = time.perf_counter()
     try:
-        rows = _rows(function, records)
-        share = (time.perf_counter() - begin) / max(len(records), 1)
-        return [made(row, share) for row in rows]
+        rows = function([job.record for job in jobs])
+        if len(rows) != len(jobs):
+            raise ValueError(f"the function gave {len(rows)} rows for {len(jobs)} records")
+        share = (time.perf_counter() - begin) / max(len(jobs), 1)
+        return [ran(job, row, share) for job, row in zip(jobs, rows, strict=True)]
     except (Exception, SystemExit) as error:
-        if len(records) > 1:
-            return [one for record in records for one in run_chunk(function, [record])]
-        detail = f"{type(error).__name__}: {error}"
-        return [made({"status": RAISED, "detail": detail}, time.perf_counter() - begin)]
+        if len(jobs) > 1:
+            return [one for job in jobs for one in run_chunk(function, [job])]
+        row = {"status": RAISED, "detail": f"{type(error).__name__}: {error}"}
+        return [ran(jobs[0], row, time.perf_counter() - begin)]
 
 
-def _rows(function: Function, records: Sequence[Record]) -> Sequence[Row]:
-    """What the function gives. Raises ValueError for another number of rows than records."""
-    rows = function(records)
-    if len(rows) != len(records):
-        raise ValueError(f"the function gave {len(rows)} rows for {len(records)} records")
-    return rows
-
-
-def made(row: Row, seconds: float) -> Made:
-    """The row, checked and as text. Raises TypeError for a value that is not a number, text or None."""
+def ran(job: Job, row: Row, seconds: float) -> Ran:
+    """The run as it is stored. Raises TypeError for a value of the row that is not a number, text or None."""
     for name, x in row.items():
         if x is not None and not isinstance(x, (float, int, str)):
             raise TypeError(
                 f"the row has {type(x).__name__} {x!r} in '{name}', expected a number or text"
             )
-    status, engine = row.get("status"), row.get("engine")
-    return Made(json.dumps(dict(row)), _text(status), _text(engine), seconds)
-
-
-def _text(x: object) -> str | None:
-    return None if x is None else str(x)
+    status = row.get("status")
+    return Ran(
+        job.key, job.text, json.dumps(dict(row)), None if status is None else str(status), seconds
+    )

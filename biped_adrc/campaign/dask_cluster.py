@@ -7,11 +7,12 @@ a study starts are asked for the versions of all that decides the numbers.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import ClassVar
 
-from biped_adrc.campaign.workers import Workers, WorkersError
+from biped_adrc.campaign.workers import Workers
 from biped_adrc.errors import InputError
 from biped_adrc.types import DaskClient
 from biped_adrc.versions import differences, numerical_versions
@@ -35,13 +36,15 @@ class Cluster(Workers):
         """
         try:
             from distributed import Client
+
+            connect: Callable[..., DaskClient] = Client
         except ImportError as error:
             raise InputError(
                 "a study on a Dask cluster needs Dask, which is not installed; "
                 "pip install 'biped-adrc[cluster]'"
             ) from error
         try:
-            client = Client(self.address, timeout=self.timeout, set_as_default=False)
+            client: DaskClient = connect(self.address, timeout=self.timeout, set_as_default=False)
         except (OSError, ValueError, TypeError) as error:
             raise InputError(
                 f"no Dask scheduler answers at '{self.address}' within {self.timeout:g} s "
@@ -86,16 +89,6 @@ class Cluster(Workers):
         from distributed import KilledWorker
 
         return isinstance(error, KilledWorker)
-
-    def check(self, executor: Executor) -> None:
-        """Raises WorkersError where the connection to the scheduler is closed."""
-        client = _client_of(executor)
-        comm = client.scheduler_comm
-        if client.status != "running" or comm is None or comm.comm.closed():
-            raise WorkersError(
-                f"the scheduler at {self.address} has gone away; what was finished is kept. Start the cluster "
-                "again, and then the study: it goes on from there"
-            )
 
 
 def _client_of(executor: Executor) -> DaskClient:

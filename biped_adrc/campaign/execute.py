@@ -32,16 +32,15 @@ from typing import NamedTuple
 from biped_adrc.campaign.chunk import (
     CRASHED,
     Function,
-    Made,
+    Job,
     Point,
-    Record,
+    Ran,
     key_of,
-    made,
-    point,
+    ran,
     run_chunk,
     text_of,
 )
-from biped_adrc.campaign.store import Placed, Ran, Store
+from biped_adrc.campaign.store import Store
 from biped_adrc.campaign.workers import Crew, WorkersError, held_back
 from biped_adrc.errors import BipedError, InputError
 
@@ -52,53 +51,37 @@ LARGEST_CHUNK = 16
 AHEAD = 3
 """Chunks on their way for each worker, so that none waits for this process."""
 PATIENCE = 5.0
-"""Time without a result [s] after which the workers are asked whether they are still there."""
+"""Time that runs get to end in an executor of the user's when a study is stopped [s]."""
 MOST_CRASHED = 20
 """Records new to the store that kill their workers one after the other, and so end the study."""
 
 
 class Progress(NamedTuple):
-    """What is told while a study runs."""
+    """What is told while a study runs.
+
+    done: points with a row, found in the store or run now. total: points of the study, None where unknown.
+    fresh: runs made by this call. left: estimated time [s], None while unknown. note: what the user should hear
+    of, such as a worker that died.
+    """
 
     done: int
-    """Points with a row, found in the store or run now."""
     total: int | None
-    """Points of the study; None where unknown."""
     fresh: int
-    """Runs made by this call."""
     left: float | None
-    """Estimated time left [s]; None while unknown."""
     note: str = ""
-    """What the user should hear of, such as a worker that died."""
 
 
 class Summary(NamedTuple):
-    """What a call did."""
+    """What a call did: points with a row at the end, runs made by this call, and workers that died."""
 
     points: int
-    """Points with a row at the end."""
     fresh: int
-    """Runs made by this call."""
     deaths: int
-    """Workers that died."""
-
-
-class Job(NamedTuple):
-    """A run to be made."""
-
-    key: str
-    """Of its row in the store."""
-    text: str
-    """Its record, JSON."""
-    record: Record
-    """Its record."""
-    seed: int | None
-    """Of the record, if it has one."""
 
 
 def run_study(
     function: Function,
-    records: Iterable[Record | Point],
+    points: Iterable[Point],
     store: Store,
     crew: Crew,
     *,
@@ -107,10 +90,10 @@ def run_study(
     progress: Callable[[Progress], None] | None = None,
     first: int = 0,
 ) -> Summary:
-    """Run what the store does not have yet of the records; they may come from a generator.
+    """Run what the store does not have yet of the points; they may come from a generator.
 
     function: a row for each record of a list; workers have to be able to import it by name. chunk: runs handed
-    out at once, chosen by `total` and the number of workers if None. total: number of records, for progress.
+    out at once, chosen by `total` and the number of workers if None. total: number of points, for progress.
     first: the place in the study of the first of them. After Ctrl-C all that is finished is in the store.
     Raises InputError, OutputError, and WorkersError when the workers die.
     """
@@ -120,7 +103,7 @@ def run_study(
     count = crew.workers.count(crew.executor)
     size = chunk or _chunk_size(count, None if total is None else total - len(store))
     try:
-        jobs = f.missing(map(point, records))
+        jobs = f.missing(iter(points))
         while part := tuple(itertools.islice(jobs, size)):
             f.send(part)
             while len(f.pending) >= AHEAD * count:
@@ -140,38 +123,27 @@ def _chunk_size(workers: int, runs: int | None) -> int:
 
 @dataclass
 class _Flight:
-    """The chunks on their way and the counters of one call of `run_study`."""
+    """The chunks on their way (`pending`) and the counters of one call of `run_study`.
+
+    keys: of the runs on their way: a record that comes twice is not run twice. crashed: records without a row
+    before that killed their workers, since the last finished chunk. begin: when the call began [s]. error: with
+    which the last chunk was lost.
+    """
 
     function: Function
-    """What makes rows of records."""
     store: Store
-    """Where rows are looked up and kept."""
     crew: Crew
-    """Whose executor is in use."""
     total: int | None
-    """Number of points of the study, for progress."""
     progress: Callable[[Progress], None] | None
-    """Called after each change."""
-    first: int = 0
-    """Place in the study of the first point."""
-    pending: dict[Future[list[Made]], Sequence[Job]] = field(default_factory=dict)
-    """Chunks on their way."""
+    first: int
+    pending: dict[Future[list[Ran]], Sequence[Job]] = field(default_factory=dict)
     keys: set[str] = field(default_factory=set)
-    """Keys of the runs on their way: a record that comes twice is not run twice."""
     done: int = 0
-    """Points with a row."""
     fresh: int = 0
-    """Runs made by this call."""
     deaths: int = 0
-    """Workers that died in this call."""
-    crashed_in_a_row: int = 0
-    """Records without a row before that killed their workers, since the last finished chunk."""
-    known: set[str] = field(default_factory=set)
-    """Keys on their way whose runs had crashed in an earlier call: their next crash is no news."""
+    crashed: int = 0
     begin: float = field(default_factory=time.monotonic)
-    """When the call began [s], for the time left."""
-    error: BaseException | None = None
-    """With which the last chunk was lost."""
+    error: BaseException = field(default_factory=CancelledError)
 
     def missing(self, points: Iterator[Point]) -> Iterator[Job]:
         """The runs to be made, each once; where all points lie is stored on the way.
@@ -183,14 +155,13 @@ class _Flight:
         while batch := list(itertools.islice(points, LOOK_UP)):
             jobs = [_job(p) for p in batch]
             told = zip(jobs, batch, strict=True)
-            self.store.place(Placed(next(places), job.key, text_of(p.at)) for job, p in told)
+            self.store.place((next(places), job.key, text_of(p.at)) for job, p in told)
             crashed = self.store.crashed([job.key for job in jobs])
             new = {j.key: j for j in jobs if crashed.get(j.key, True) and j.key not in self.keys}
             self.done += len(batch) - len(new)
             self.keys |= new.keys()
             self.tell()
-            self.known |= crashed.keys() & new.keys()
-            late += [job for job in new.values() if job.key in crashed]
+            late += [job._replace(tried=True) for job in new.values() if job.key in crashed]
             yield from (job for job in new.values() if job.key not in crashed)
         yield from late
 
@@ -198,8 +169,7 @@ class _Flight:
         """Hand a chunk to the executor; where that takes none, it is lost as if its worker had died."""
         try:
             with held_back():
-                records = [job.record for job in chunk]
-                future = self.crew.executor.submit(run_chunk, self.function, records)
+                future = self.crew.executor.submit(run_chunk, self.function, chunk)
         except Exception as error:
             future = Future()
             future.set_exception(error)
@@ -217,14 +187,12 @@ class _Flight:
 
     def finished(self) -> list[Job]:
         """Wait for finished chunks and store them; returns the runs of those that were lost."""
-        ended, _ = wait(self.pending, PATIENCE, FIRST_COMPLETED)
-        if not ended:
-            self.crew.workers.check(self.crew.executor)
+        ended, _ = wait(self.pending, return_when=FIRST_COMPLETED)
         lost: list[Job] = []
         for future in ended:
             error = CancelledError() if future.cancelled() else future.exception()
             if error is None:
-                self.keep(self.pending[future], future.result())
+                self.keep(future.result())
             else:
                 lost += self.pending[future]
                 self.error = error
@@ -233,11 +201,11 @@ class _Flight:
 
     def renew(self) -> None:
         """Count a worker that died, and start another executor where one is needed."""
-        if not self.crew.workers.broken(error := self.error or CancelledError()):
+        if not self.crew.workers.broken(self.error):
             return
         self.deaths += 1
         self.tell("a worker process died; what it was running is run again")
-        if isinstance(error, BrokenExecutor):
+        if isinstance(self.error, BrokenExecutor):
             self.crew.close(now=True)
 
     def alone(self, job: Job) -> None:
@@ -249,26 +217,28 @@ class _Flight:
         while self.pending:
             if not self.finished():
                 continue
-            if not self.crew.workers.broken(error := self.error or CancelledError()):
-                raise self.failed(error)
+            if not self.crew.workers.broken(self.error):
+                raise WorkersError(
+                    f"a run could not be handed to a worker or back: {self.error!r}. What was finished is "
+                    "kept; look whether the workers are there and can import the function of the study by name"
+                )
             self.renew()
             detail = "the worker process that ran it died, each time it was tried"
-            self.keep([job], [made({"status": CRASHED, "detail": detail}, 0.0)], died=True)
-            self.crashed_in_a_row += job.key not in self.known
-        if self.crashed_in_a_row >= MOST_CRASHED:
+            self.keep([ran(job, {"status": CRASHED, "detail": detail}, 0.0)], died=not job.tried)
+        if self.crashed >= MOST_CRASHED:
             raise WorkersError(
-                f"{self.crashed_in_a_row} runs one after the other killed their worker processes, each alone; "
+                f"{self.crashed} runs one after the other killed their worker processes, each alone; "
                 "what they are is in the results file. Look for lack of memory, or for a fault in what they "
                 "run; the study goes on with the others when it is started again"
             )
 
-    def keep(self, chunk: Sequence[Job], rows: list[Made], died: bool = False) -> None:
-        """Store the rows of a chunk in one transaction, and count them; died: they say that the worker died."""
-        self.store.add(map(_ran, chunk, rows))
-        self.crashed_in_a_row = self.crashed_in_a_row if died else 0
-        self.done += len(chunk)
-        self.fresh += len(chunk)
-        self.keys -= {job.key for job in chunk}
+    def keep(self, runs: list[Ran], died: bool = False) -> None:
+        """Store runs in one transaction, and count them; died: their worker died, which is news."""
+        self.store.add(runs)
+        self.crashed = self.crashed + 1 if died else 0
+        self.done += len(runs)
+        self.fresh += len(runs)
+        self.keys -= {run.key for run in runs}
         self.tell()
 
     def abandon(self) -> None:
@@ -278,18 +248,10 @@ class _Flight:
                 future.cancel()
             self.crew.close(now=True)
             wait([future for future in self.pending if not future.cancelled()], PATIENCE)
-            for future, chunk in self.pending.items():
+            for future in self.pending:
                 if future.done() and not future.cancelled() and future.exception() is None:
                     with suppress(BipedError):
-                        self.store.add(map(_ran, chunk, future.result()))
-
-    def failed(self, error: BaseException) -> WorkersError:
-        """The error for a record that reached no worker, or whose row did not come back."""
-        self.crew.workers.check(self.crew.executor)
-        return WorkersError(
-            f"a run could not be handed to a worker or back: {type(error).__name__}: {error}. What was "
-            "finished is kept; the function of the study has to be one that workers can import by name"
-        )
+                        self.store.add(future.result())
 
     def tell(self, note: str = "") -> None:
         """Report progress; the time left is estimated from the runs of this call."""
@@ -302,11 +264,6 @@ class _Flight:
 
 
 def _job(p: Point) -> Job:
-    """The run of a point. Its seed, if any, gets a column in the store."""
-    text, seed = text_of(p.record), p.at.get("seed", p.record.get("seed"))
-    return Job(key_of(text), text, p.record, seed if isinstance(seed, int) else None)
-
-
-def _ran(job: Job, row: Made) -> Ran:
-    """A run and its row as the store keeps them."""
-    return Ran(job.key, job.text, row.row, row.status, row.engine, job.seed, row.seconds)
+    """The run of a point."""
+    text = text_of(p.record)
+    return Job(key_of(text), text, p.record)

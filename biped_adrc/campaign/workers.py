@@ -76,10 +76,6 @@ class Workers(ABC):
         """Whether an error means that a worker died, rather than an error in what it ran."""
         return isinstance(error, BrokenExecutor)
 
-    def check(self, executor: Executor) -> None:
-        """Called when nothing has come for a while. Raises WorkersError when nothing will."""
-        return
-
 
 @dataclass(frozen=True)
 class Threads(Workers):
@@ -166,12 +162,13 @@ class Given(Workers):
 
 @dataclass
 class Crew:
-    """Workers at work, from one round of a study to the next; a context manager, which starts and ends them."""
+    """Workers at work, from one round of a study to the next; a context manager, which starts and ends them.
+
+    running: the executor in use, if any.
+    """
 
     workers: Workers
-    """Who they are."""
     running: Executor | None = None
-    """The executor in use, if any."""
 
     @property
     def executor(self) -> Executor:

@@ -29,7 +29,6 @@ def compare(
     workers: int | None = None,
     threads: bool = False,
     scheduler: str | None = None,
-    other_versions: bool = False,
 ) -> None:
     """Which controller walks legally under what: controllers x conditions x seeds, with intervals."""
     crew = study_workers(workers, threads, scheduler)
@@ -43,9 +42,7 @@ def compare(
     with carried_out(
         "walking", out / RESULTS, None, "{:.0f} s left in this round".format
     ) as progress:
-        summary = run_comparison(
-            out, command(), *asked, crew, progress, other_versions, plant, chosen
-        )
+        summary = run_comparison(out, command(), *asked, crew, progress, plant, chosen)
     _print(summary)
     say(f"written to {out}: comparison.html, summary.json, figures, {RESULTS}")
 

@@ -41,7 +41,6 @@ def sweep(
     plot: list[str] | None = None,
     dry_run: bool = False,
     no_run: bool = False,
-    other_versions: bool = False,
 ) -> None:
     """Walk every point of a study, on all cores or a cluster; what is finished is never lost."""
     from biped_adrc.bench.export import check_kind, write_map
@@ -65,7 +64,7 @@ def sweep(
         from biped_adrc.bench.sweep import sweep as run
 
         with carried_out(found.name, out / RESULTS, found.count, clock) as progress:
-            done = run(found, out, crew, progress=progress, other_versions=other_versions)
+            done = run(found, out, crew, progress=progress)
     _print_statuses(done)
     for kind in export or []:
         export_results(done, out / f"results.{kind}")

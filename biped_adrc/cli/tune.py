@@ -28,7 +28,6 @@ def tune(
     threads: bool = False,
     scheduler: str | None = None,
     dry_run: bool = False,
-    other_versions: bool = False,
 ) -> None:
     """The best setting that a study finds for a controller, and what it is worth on held-out walks."""
     from biped_adrc.bench.sweep import RESULTS
@@ -49,7 +48,6 @@ def tune(
             out,
             crew,
             progress=progress,
-            other_versions=other_versions,
             command=command(),
         )
     _print(tuned)

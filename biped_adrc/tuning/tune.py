@@ -28,8 +28,7 @@ from biped_adrc.bench.study import SEED, Named, Study
 from biped_adrc.bench.sweep import RESULTS
 from biped_adrc.campaign.chunk import Function
 from biped_adrc.campaign.execute import Progress
-from biped_adrc.campaign.store import About
-from biped_adrc.campaign.store_open import open_store
+from biped_adrc.campaign.store import About, open_store
 from biped_adrc.campaign.workers import Crew, Workers, workers_of
 from biped_adrc.errors import BipedError, InputError
 from biped_adrc.files import check_folder, write_text
@@ -65,7 +64,6 @@ def tune(
     *,
     function: Function | None = None,
     progress: Callable[[Progress], None] | None = None,
-    other_versions: bool = False,
     command: str = "ba.tune",
 ) -> Tuned:
     """The best setting that a study finds, and what it is worth on walks that no choice has touched.
@@ -73,8 +71,8 @@ def tune(
     study: a `TuningStudy`, or the name of its file. out: folder of results, scenario file and page; an
     interrupted study goes on there. workers: processes (one per core if None), `Threads`, `Cluster`, or any
     executor. function: what makes rows of records, walks if None. progress: called now and then.
-    other_versions: go on though other versions made what is there. command: as typed, for the page.
-    Raises InputError, where no candidate keeps all limits too, OutputError, WorkersError.
+    command: as typed, for the page. Raises InputError, where no candidate keeps all limits too, OutputError,
+    WorkersError.
     """
     study = study if isinstance(study, TuningStudy) else load_tuning(study)
     with optuna_quiet():
@@ -87,7 +85,7 @@ def tune(
     check_folder(out)
     out, asked = Path(out), workers_of(workers)
     about = about_tuning(study, asked)
-    with Crew(asked) as crew, open_store(out / RESULTS, about, other_versions) as store:
+    with Crew(asked) as crew, open_store(out / RESULTS, about) as store:
         _write_test_set(study, out)
         tuned = _carried_out(study, out, StoredWalks(study, function, store, crew, progress))
     write(tuned, command)

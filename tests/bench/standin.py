@@ -10,9 +10,9 @@ import sys
 import time
 from pathlib import Path
 
+from biped_adrc.campaign.chunk import Point
 from biped_adrc.campaign.execute import run_study
-from biped_adrc.campaign.store import About
-from biped_adrc.campaign.store_open import open_store
+from biped_adrc.campaign.store import About, open_store
 from biped_adrc.campaign.workers import Crew, Threads, workers_of
 from biped_adrc.versions import numerical_versions
 
@@ -47,7 +47,8 @@ def _first_time(path):
 
 def carried_out(function, given, store, workers, **more):
     with Crew(workers_of(workers)) as crew:
-        return run_study(function, given, store, crew, **more)
+        points = (r if isinstance(r, Point) else Point(r, r) for r in given)
+        return run_study(function, points, store, crew, **more)
 
 
 def about(name="standin", **configuration):

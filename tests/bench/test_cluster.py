@@ -13,7 +13,7 @@ from biped_adrc.bench.study_file import read_study
 from biped_adrc.bench.sweep import sweep
 from biped_adrc.campaign import dask_cluster as of_cluster
 from biped_adrc.campaign.dask_cluster import Cluster
-from biped_adrc.campaign.store_open import open_store
+from biped_adrc.campaign.store import open_store
 from biped_adrc.campaign.workers import Threads
 from biped_adrc.errors import InputError
 from biped_adrc.versions import differences

@@ -12,9 +12,9 @@ from standin import about, carried_out, records, results, rows
 
 import biped_adrc as ba
 from biped_adrc.campaign import execute
-from biped_adrc.campaign.chunk import Point, point
+from biped_adrc.campaign.chunk import Point
 from biped_adrc.campaign.execute import LOOK_UP
-from biped_adrc.campaign.store_open import open_store, read_store
+from biped_adrc.campaign.store import open_store, read_store
 from biped_adrc.campaign.workers import Processes, Threads
 from biped_adrc.errors import SimulationError
 
@@ -163,9 +163,9 @@ def test_what_killed_its_worker_before_comes_last(tmp_path):
         return rows(given)
 
     with open_store(tmp_path / "r.sqlite", about()) as store:
-        jobs = [execute._job(point(r)) for r in records(5)]
-        row = execute.made({"status": "CRASHED", "detail": "it died"}, 0.0)
-        store.add(execute._ran(job, row) for job in jobs[:2])
+        jobs = [execute._job(Point(r, r)) for r in records(5)]
+        row = {"status": "CRASHED", "detail": "it died"}
+        store.add(execute.ran(job, row, 0.0) for job in jobs[:2])
         carried_out(noting, records(5), store, Threads(1), chunk=1)
         assert seen == [2, 3, 4, 0, 1]
         assert store.statuses() == {"COMPLETED": 5}

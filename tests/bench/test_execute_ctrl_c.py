@@ -10,7 +10,7 @@ import psutil
 import pytest
 import standin
 
-from biped_adrc.campaign.store_open import read_store
+from biped_adrc.campaign.store import read_store
 
 SOON = 60.0
 """[s] In which what takes less than a second has ended, on any machine; what would go on takes longer."""
@@ -21,7 +21,7 @@ import sys
 from pathlib import Path
 sys.path.insert(0, sys.argv[1])
 from standin import about, carried_out, records, rows
-from biped_adrc.campaign.store_open import open_store
+from biped_adrc.campaign.store import open_store
 from biped_adrc.campaign.workers import Processes
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from biped_adrc.bench.sweep import RESULTS
-from biped_adrc.campaign.store_open import read_store
+from biped_adrc.campaign.store import read_store
 from biped_adrc.campaign.workers import Processes, Threads
 from biped_adrc.tuning import without_walk
 from biped_adrc.tuning.candidate import front, ranked
