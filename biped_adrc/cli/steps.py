@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from rich.table import Table
+from rich.box import SIMPLE_HEAD
+from rich.table import Column, Table
 
 from biped_adrc.cli.app import console
 
@@ -14,12 +15,16 @@ if TYPE_CHECKING:
     from biped_adrc.soft.meters import SoftStep
 
 
+FRICTION = Column("friction", min_width=8)
+"""A heading that a terminal of 80 columns shows whole."""
+
+
 def print_supports(legality: Legality, ended: str) -> None:
     """Print what every step needed of ground and motors, a row each; below how the walk ended, in words."""
     from biped_adrc.analysis.certificate import Certificate, ratio_text
 
-    names = ("step", "time [s]", "length [m]", "torque [N m]", "F_N [N]", "friction", "at impact")
-    table = Table(*names, "scuffs [mm]", "not legal")
+    names = ("step", "time [s]", "length [m]", "torque [N m]", "F_N [N]", FRICTION, "at impact")
+    table = Table(*names, "scuffs [mm]", "not legal", box=SIMPLE_HEAD, pad_edge=False)
     for s in legality.supports:
         c = s if isinstance(s, Certificate) else None
         table.add_row(

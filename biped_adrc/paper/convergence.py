@@ -29,6 +29,8 @@ from biped_adrc.scenario.outcome import Outcome
 
 AGREE = 0.01
 """Largest relative difference of two values that agree."""
+NEGLIGIBLE = 1e-6
+"""[rad]: a smaller tracking error is none, whatever its digits."""
 PEAK_RESOLUTION = 1e-9
 """Peak errors nearer than this are not told apart [rad]; undisturbed walks differ by 6e-10 at most at both
 steps.
@@ -161,7 +163,7 @@ def error_text(o: Outcome) -> str:
         ends = f"at half the step the walk ends as {o.half.status} after {o.half.impacts} impacts"
         return f"{text}; {ends}: shorten the step"
     found = next(h for h in halved(o) if h.name == "peak error")
-    if found.agrees:
+    if found.agrees or max(found.value, found.half) < NEGLIGIBLE:
         return text
     return f"{text}, the step decides it: shorten it"
 
