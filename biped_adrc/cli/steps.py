@@ -15,15 +15,19 @@ if TYPE_CHECKING:
     from biped_adrc.soft.meters import SoftStep
 
 
-FRICTION = Column("friction", min_width=8)
-"""A heading that a terminal of 80 columns shows whole."""
-
-
 def print_supports(legality: Legality, ended: str) -> None:
     """Print what every step needed of ground and motors, a row each; below how the walk ended, in words."""
     from biped_adrc.analysis.certificate import Certificate, ratio_text
 
-    names = ("step", "time [s]", "length [m]", "torque [N m]", "F_N [N]", FRICTION, "at impact")
+    names = (
+        "step",
+        "time [s]",
+        "length [m]",
+        "torque [N m]",
+        "F_N [N]",
+        Column("friction", min_width=8),
+        "at impact",
+    )
     table = Table(*names, "scuffs [mm]", "not legal", box=SIMPLE_HEAD, pad_edge=False)
     for s in legality.supports:
         c = s if isinstance(s, Certificate) else None
