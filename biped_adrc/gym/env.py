@@ -17,9 +17,8 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from biped_adrc.errors import InputError
-from biped_adrc.gym.drawn import Drawn
 from biped_adrc.gym.episode import TORQUES
-from biped_adrc.gym.picture import Window
+from biped_adrc.gym.picture import Drawn, Window
 from biped_adrc.gym.stage import Stage
 from biped_adrc.gym.task import LearnerTask
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
@@ -67,8 +66,8 @@ class WalkEnv(gymnasium.Env[Any, Any]):
         render_mode: str | None = None,
         **values: object,
     ):
-        how = {"action": action, "seconds": seconds, "alive": alive, "tracking": tracking}
-        task = LearnerTask.of(scenario, condition, values, effort=effort, **how)
+        how = (action, seconds, alive, tracking, effort)
+        task = LearnerTask.of(scenario, condition, values, *how)
         self.render_mode = checked_mode(render_mode)
         self.stage = Stage(task, 1)
         self.observation_space, self.action_space = spaces_of(self.stage)
@@ -91,15 +90,10 @@ class WalkEnv(gymnasium.Env[Any, Any]):
         if stage.walks.codes[0] != 0:
             raise InputError("there is no walk that goes on; call reset() first")
         stage.move([action])  # type: ignore[arg-type]
-        fallen, late = stage.ended()
+        fallen, late = (bool(over[0]) for over in stage.ended())
         self._show(False)
-        return (
-            stage.observations()[0],
-            float(stage.rewards()[0]),
-            bool(fallen[0]),
-            bool(late[0]),
-            self._info(),
-        )
+        reward = float(stage.rewards()[0])
+        return stage.observations()[0], reward, fallen, late, self._info()
 
     @property
     def torque(self) -> float:

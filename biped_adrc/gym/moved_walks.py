@@ -1,63 +1,119 @@
 """N walks of learners moved on sample by sample, one after the other: plants that move by themselves, such as
 MuJoCo, and controllers in plain Python.
 
-The samples are those of `gym.moving`. On soft ground friction and the direction of the force are what the
-simulator makes them, so legality is another thing there: a single support is illegal where a foot slips, by the
-numbers of `soft.meters`, or where a torque is beyond the limit.
+A sample goes from one sample instant, or impact, to the next sample instant or impact. `Now` is all that a walk
+is made of. The samples are those of `ba.walk_scenario`, bit for bit.
+
+The walker's controller is plain Python around a compiled plant, or the plant moves by itself. On soft ground
+friction and the direction of the force are what the simulator makes them, so legality is another thing there: a
+single support is illegal where a foot slips, by the numbers of `soft.meters`, or where a torque is beyond the
+limit.
 """
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+from typing import Any, NamedTuple, cast
+
 import numpy as np
 
 from biped_adrc.closed_loop.feet import OnFeet
+from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.semantics import parts, torque_held
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import PlantState
+from biped_adrc.closed_loop.system import ClosedLoop
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.control.base import Measurement
+from biped_adrc.engine.compiled_loop import CompiledLoop
+from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.run_plan import STATUS
+from biped_adrc.engine.program import NotCompiled
+from biped_adrc.engine.simulate import compiled_plant
 from biped_adrc.engine.strides import Strides
+from biped_adrc.engine.ticks import TicksWithHardware, flowing
+from biped_adrc.errors import InputError
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.ground import ground_axes
 from biped_adrc.gym.compiled_walks import place_of_torque
 from biped_adrc.gym.episode import Episode
-from biped_adrc.gym.moving import Moving
 from biped_adrc.gym.view import learner_view
+from biped_adrc.hybrid.integrators import OneStepMethod
+from biped_adrc.hybrid.simulator import RunOptions, finite, flow_arc
 from biped_adrc.hybrid.status import Status
+from biped_adrc.hybrid.system import HybridSystem
+from biped_adrc.parts import handing_out
 from biped_adrc.robots.limits import KnownLimits
 from biped_adrc.soft.meters import PRESSED, slipping
+from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
 
 
+class Now(NamedTuple):
+    """Where a walk is."""
+
+    t: float
+    """[s]"""
+    x: Array
+    """State (nx,) before the sample instant at t."""
+    mode: Mode
+    began: float
+    """Where the clock of sample instants began that restarts at impacts [s]."""
+    fired: str | None = None
+    """The event that has just happened; None for none."""
+
+
 class MovedWalk:
-    """One walk, where it is, and its legality so far as `view.LEGALITY`."""
+    """One walk, where it is, and its legality so far as `view.LEGALITY`.
+
+    Ticks of a clock that does not restart are counted from 0 s.
+    """
 
     def __init__(self, episode: Episode, limits: KnownLimits):
         """At its start. Raises InputError for what cannot walk sample by sample."""
         self.episode, self.limits = episode, limits
-        self.moving = Moving.of(episode.walker, episode.method, episode.loop)
-        self.now = self.moving.start(episode.q, episode.v, episode.mode)
+        self.loop, self.system = moving(episode)
+        self.timing = cast(SampledTime, self.loop.timing)
+        start = self.loop.initial_state(episode.q, episode.v, episode.mode)
+        self.now = Now(0.0, start, episode.mode, 0.0)
         self.legality, self.looks = np.zeros(4), 0
 
     def give(self, torque: Array) -> None:
         """The learner's torque (p,) [N m] of the coming sample, where the controller reads it."""
         self.episode.torque[:] = torque
-        system = self.moving.system
-        if isinstance(system, Strides) and system.code is not None:
-            at = place_of_torque(system.code.numbers)
-            system.code.K[at : at + len(torque)] = torque
+        if isinstance(self.system, Strides) and self.system.code is not None:
+            at = place_of_torque(self.system.code.numbers)
+            self.system.code.K[at : at + len(torque)] = torque
 
     def sample(self) -> Status:
         """To the next sample instant; COMPLETED where it goes on, else `now` is at the end."""
         while True:
-            until = self.moving.until(self.now)
-            flown, now = self.moving.moved(self.now)
-            if now is None:
-                self.now = self.now._replace(t=float(flown.arc.t[-1]), x=flown.arc.x[-1])
-                return flown.status
-            self.now = now
-            if flown.outcome is None or self.moving.timing.restart or now.t >= until:
+            until, now, system = self._until(), self.now, self.system
+            if isinstance(system, Strides):
+                system = replace(system, began=now.began)
+            at = (now.t, now.x, now.mode, now.fired, now.began)
+            with handing_out(), np.errstate(over="ignore", invalid="ignore"):
+                made = finite(flow_arc(system, None, RunOptions(until, 0.0), *at))
+            event, t, x = made.arc.event, float(made.arc.t[-1]), made.arc.x[-1]
+            if made.status is not Status.COMPLETED:
+                self.now = now._replace(t=t, x=x)
+                return made.status
+            if made.outcome is None or event is None:
+                self.now = Now(t, x.copy(), now.mode, now.began)  # a view would keep all nodes
                 return Status.COMPLETED
+            self.now = Now(event.t, *made.outcome, event.t, FOOT_STRIKE)
+            if self.timing.restart or event.t >= until:
+                return Status.COMPLETED
+
+    def _until(self) -> float:
+        """The first sample instant after `now` [s], by the expression that the engines have."""
+        t, period = self.now.t, self.timing.period
+        origin = self.now.began if self.timing.restart else 0.0
+        k = max(0, math.floor((t - origin) / period))
+        while origin + k * period <= t:
+            k += 1
+        return origin + k * period
 
     def seen(self, reference: Reference) -> Array:
         """The numbers of `view.LearnerView` where it is, in one row."""
@@ -65,14 +121,14 @@ class MovedWalk:
         def point(s: Array, m: Measurement) -> ReferencePoint:
             return reference(m.t, m.q, m.v)
 
-        view = learner_view(self.moving.loop, self.now.t, self.now.x, self.now.mode, point)
+        view = learner_view(self.loop, self.now.t, self.now.x, self.now.mode, point)
         return np.concatenate(
             [*view[:-1], view.legality if len(view.legality) else self._on_feet()]
         )
 
     def _on_feet(self) -> Array:
         """Legality (4,) of a walk on soft ground, with where it is now."""
-        loop, now = self.moving.loop, self.now
+        loop, now = self.loop, self.now
         assert isinstance(loop, SteppingLoop)
         (q, v, _, tail), k = parts(loop, now.x), loop.held
         assert k is not None
@@ -96,6 +152,35 @@ class MovedWalk:
         )
         self.looks += 1
         return self.legality
+
+
+def moving(episode: Episode) -> tuple[ClosedLoop[Any], HybridSystem]:
+    """The closed loop of an episode, in sampled time, and the same as the simulator runs it.
+
+    Raises InputError for a disturbance or a method without a compiled form, on the rigid plant.
+    """
+    walker, loop = episode.walker, episode.loop
+    if loop is None:
+        return walker, _ticks(walker, episode.method)
+    if not isinstance(loop, CompiledLoop):
+        return loop, loop
+    still = np.zeros(loop.plant.n)
+    size = len(loop.law.initial_state(loop.measure(0.0, still, still, Mode())))
+    return loop, loop.system(size, 0.0)
+
+
+def _ticks(walker: Walker, method: OneStepMethod) -> TicksWithHardware:
+    """The controller in Python on the compiled plant. Raises InputError for what has no compiled form."""
+    still = np.zeros(walker.plant.n)
+    size = walker.controller_size(walker.initial_state(still, still))
+    try:
+        fast, _ = compiled_plant(walker)
+        held = CompiledWalker.held(fast, method)
+    except NotCompiled as reason:
+        raise InputError(f"a learner's walk is moved in machine code, and {reason}") from reason
+    assert fast.held is not None
+    places = flowing(fast.held.sizes, 2 * walker.plant.n + size + walker.behind)
+    return TicksWithHardware(fast, held, places)
 
 
 class MovedWalks:

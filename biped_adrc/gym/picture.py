@@ -8,18 +8,19 @@ from __future__ import annotations
 
 import math
 import time
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
+from biped_adrc.gym.stage import Stage
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
-from biped_adrc.viz.from_the_side.side_view import Bone, bones
-from biped_adrc.viz.placement import TILE, exchanged, joint_values, link_placements
-from biped_adrc.viz.style import GREY, STANCE, SWING, TRUNK
+from biped_adrc.viz.from_the_side.moving_parts import COLOURS
+from biped_adrc.viz.from_the_side.side_view import bones, placed_lines, roles_of
+from biped_adrc.viz.placement import TILE, joint_values, link_placements
+from biped_adrc.viz.style import GREY, TRUNK
 
 WIDTH, HEIGHT = 480, 360
 """Of a picture [pixels]."""
@@ -27,32 +28,21 @@ LINE, MARGIN = 6, 40
 """Width of a link, and height of the ground in the picture [pixels]."""
 PICTURES = 50
 """Of the window in a second of the walk."""
-COLOURS = {"stance": STANCE, "swing": SWING, "": TRUNK}
-OTHER = {"stance": "swing", "swing": "stance", "": ""}
 
 
 class Picture:
     """The drawing of one robot on a slope [rad]; q (n,) [rad]: a posture that decides the scale."""
 
     def __init__(self, biped: Biped, slope: float, q: Array):
-        self.biped, self.fall = biped, math.tan(slope)
+        self.biped, self.bones, self.fall = biped, bones(biped), math.tan(slope)
         highest = max(float(z) for ends, _ in self._lines(q, 1, np.zeros(2)) for z in ends[:, 1])
         self.scale = (HEIGHT - 2 * MARGIN) / max(highest, 1e-3)
-
-    @cached_property
-    def _bones(self) -> list[Bone]:
-        return bones(self.biped)
 
     def _lines(self, q: Array, step: int, foot: Array) -> list[tuple[Array, str]]:
         """Ends (2, 2) [m] of every link in the world, and its leg: "stance", "swing" or ""."""
         values = joint_values(self.biped, q, step, float(foot[0]), float(foot[1]))
-        placed, swapped = link_placements(self.biped.tree, values), exchanged(self.biped, step)
-        found = []
-        for bone in self._bones:
-            M = placed[bone.link]
-            ends = (bone.ends @ M[:3, :3].T + M[:3, 3])[:, [0, 2]]
-            found.append((ends, OTHER[bone.leg] if swapped else bone.leg))
-        return found
+        ends = placed_lines(self.bones, link_placements(self.biped.tree, values))
+        return list(zip(ends, roles_of(self.bones, self.biped, step), strict=True))
 
     def drawn(self, q: Array, step: int, foot: Array, t: float) -> NDArray[np.uint8]:
         """(HEIGHT, WIDTH, 3) at q (n,) [rad] in single support `step`, its foot at `foot` (2,) [m], t [s]."""
@@ -77,6 +67,36 @@ class Picture:
             pen.line([pixel(*end) for end in ends.tolist()], fill=COLOURS[leg], width=LINE)
         pen.text((8, 8), f"t = {t:.3f} s, step {step}", fill=TRUNK)
         return np.array(image)
+
+
+class Drawn:
+    """Walk i of a stage, drawn as it is measured. `follow` is called after every sample."""
+
+    def __init__(self, stage: Stage, i: int):
+        self.stage, self.i = stage, i
+        scenario, gait = stage.task.scenario, stage.scene.walked
+        self.scene = Picture(stage.plant, gait.slope + scenario.slope, stage.scene.on_orbit[0])
+        self.foot, self.step = np.zeros(2), 0
+
+    @property
+    def t(self) -> float:
+        """Time of the walk [s]."""
+        return float(self.stage.walks.seen[self.i, self.stage.first])
+
+    def follow(self, begins: bool) -> None:
+        """Keep (x, z) [m] of the stance foot: after a touchdown the foot before is the swing foot."""
+        row = self.stage.walks.seen[self.i]
+        q, step = row[: self.stage.plant.n], int(row[self.stage.first + 1])
+        if begins:
+            self.foot = np.zeros(2)
+        elif step != self.step:
+            self.foot = self.foot - self.stage.plant.swing_foot(q)
+        self.step = step
+
+    def picture(self) -> NDArray[np.uint8]:
+        """(height, width, 3)."""
+        q = self.stage.walks.seen[self.i, : self.stage.plant.n]
+        return self.scene.drawn(q, self.step, self.foot, self.t)
 
 
 class Window:

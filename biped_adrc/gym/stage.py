@@ -76,11 +76,6 @@ class Stage:
         """Of the scenario with this seed. Raises InputError for a seed out of its range."""
         return Episode.of(replace(self.task.scenario, seed=seed), self.scene, self.task.action)
 
-    @property
-    def size(self) -> int:
-        """Numbers of an observation."""
-        return self.first + 1
-
     def begin(self, i: int, seed: int) -> None:
         """Walk i anew, with this seed of its scenario."""
         self.walks.begin(i, self._episode(seed))
@@ -108,9 +103,9 @@ class Stage:
 
     # -- where they are ----------------------------------------------------------------------------
     def observations(self) -> Array:
-        """(N, size), within the bounds."""
+        """(N, first + 1), within the bounds."""
         seen = self.walks.seen
-        found = np.empty((len(seen), self.size))
+        found = np.empty((len(seen), self.first + 1))
         found[:, :-1] = seen[:, : self.first]
         found[:, -1] = np.vecdot(seen[:, : self.plant.n], self.phase)
         return np.minimum(np.maximum(found, -self.highest, out=found), self.highest, out=found)

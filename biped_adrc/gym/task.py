@@ -79,10 +79,11 @@ class LearnerTask(Shown):
         scenario: Scenario | None,
         condition: str | None,
         values: Mapping[str, object],
-        **how: object,
+        *how: object,
     ) -> LearnerTask:
         """A scenario, or a condition of the bench on its base, with other values by name.
 
+        how: the fields of a task behind its scenario, in their order.
         Raises InputError for a condition that there is not on this plant, and values that are no scenario.
         """
         if scenario is not None and condition is not None:
@@ -102,7 +103,7 @@ class LearnerTask(Shown):
             raise InputError(
                 f"{error}; expected fields of a scenario, such as gait = 'published' or push = 'pulse'"
             ) from error
-        return cls(s, **how)  # type: ignore[arg-type]
+        return cls(s, *how)  # type: ignore[arg-type]
 
     def limits(self, scene: RobotAndGait) -> KnownLimits:
         """Of ground and motors; the torque limit is the scenario's where it has one."""

@@ -17,9 +17,9 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from biped_adrc.errors import InputError, check_count
-from biped_adrc.gym.drawn import Drawn
 from biped_adrc.gym.env import check_options, checked_mode, spaces_of
 from biped_adrc.gym.episode import TORQUES
+from biped_adrc.gym.picture import Drawn
 from biped_adrc.gym.stage import Flags, Stage
 from biped_adrc.gym.task import LearnerTask
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
@@ -54,8 +54,8 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         check_count(num_envs, f"num_envs is {num_envs}")
         if checked_mode(render_mode) == "human":
             raise InputError("a vector of walks has no window; expected render_mode 'rgb_array'")
-        how = {"action": action, "seconds": seconds, "alive": alive, "tracking": tracking}
-        task = LearnerTask.of(scenario, condition, values, effort=effort, **how)
+        how = (action, seconds, alive, tracking, effort)
+        task = LearnerTask.of(scenario, condition, values, *how)
         self.num_envs, self.render_mode = num_envs, render_mode
         self.stage = Stage(task, num_envs)
         self.single_observation_space, self.single_action_space = spaces_of(self.stage)

@@ -25,7 +25,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.files import output_path, write_text
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.live.walks import MOST, PageWalk, drawn_links, numbers
+from biped_adrc.live.walks import MOST, PageWalk, numbers
 from biped_adrc.parts import check_part
 from biped_adrc.resources import packaged
 from biped_adrc.scenario.scenario import DEFAULTS, Scenario
@@ -161,7 +161,8 @@ def settings(walk: PageWalk, scene: WalkScene) -> dict[str, object]:
     given = scene_settings({"walk": scene, "ghost": scene}, Look(solid="walk"))
     commands = given["commands"]
     assert isinstance(commands, list)
-    links = drawn_links(biped)
+    robot = "meshcat/robots/walk"
+    links = [(f"{robot}/{path}", link) for path, link in draw.visual_links(biped.tree)]
     return given | {
         "commands": [*commands, *hand_commands()],
         "links": links,

@@ -38,7 +38,7 @@ from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
-from biped_adrc.viz.meshcat.objects import joint_path
+from biped_adrc.viz.meshcat.objects import visual_links
 from biped_adrc.viz.placement import exchanged, joint_values
 
 MOST = {"force": 300.0, "torque": 200.0}
@@ -133,7 +133,7 @@ def numbers(walks: Mapping[str, PageWalk]) -> dict[str, Any]:
         "functions": web.functions,
         "walks": dict(zip(walks, found, strict=True)),
         "n": plant.n,
-        "links": link_numbers(plant, [link for _, link in drawn_links(plant)]),
+        "links": link_numbers(plant, [link for _, link in visual_links(plant.tree)]),
         "twins": twins(plant.tree, feet),
         "trunk": trunk_of(plant),
         "joints": joint_places(plant),
@@ -201,16 +201,6 @@ def marked(make: Callable[[float], object]) -> list[int]:
     zero, other = (np.array(floats(make(c))) for c in (0.0, 1.0))
     places: list[int] = np.flatnonzero(zero != other).tolist()
     return places
-
-
-def drawn_links(biped: Biped) -> list[tuple[str, str]]:
-    """(path, link) of every primitive of the walk's robot."""
-    tree = biped.tree
-    return [
-        (f"meshcat/robots/walk/{joint_path(tree, joint)}/visual_{k}", joint.child)
-        for joint in tree.joints
-        for k in range(len(tree.links[joint.child].visuals))
-    ]
 
 
 def link_numbers(plant: Biped, links: list[str]) -> dict[str, Any]:

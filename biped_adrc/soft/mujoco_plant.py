@@ -43,7 +43,6 @@ from biped_adrc.parts import Checked
 from biped_adrc.shown import Shown
 from biped_adrc.soft.ground import SoftGround
 from biped_adrc.soft.mujoco_engine import INTEGRATORS, MuJoCoEngine, Own
-from biped_adrc.soft.mujoco_feet import feet_of
 from biped_adrc.soft.mujoco_robot import PLANES, floating_model, mujoco
 from biped_adrc.timing import check_ends
 from biped_adrc.types import Array, Indices, MuJoCoData, MuJoCoModel
@@ -164,14 +163,11 @@ class MuJoCoPlant(Checked, Shown):
         work space would end the process.
         """
         engines: dict[int, MuJoCoEngine] = vars(self).setdefault("_engines", {})
-        found = engines.get(get_ident())
-        return self._engine_of_thread(engines) if found is None else found
-
-    def _engine_of_thread(self, engines: dict[int, MuJoCoEngine]) -> MuJoCoEngine:
-        """Made, and noted in `engines`: the first around `model` and `data`, others around copies."""
+        if (found := engines.get(get_ident())) is not None:
+            return found
         with _MAKING:
             model, data = self.model, self.data
-            if engines:
+            if engines:  # the first is around `model` and `data`, others around copies
                 model = copy(model)
                 data = mujoco().MjData(model)
             numbers = self.h, self.integrator, self.lag
@@ -259,8 +255,17 @@ class MuJoCoPlant(Checked, Shown):
         _, q, v, own = state
         self.engine.place(np.concatenate((q, v, own)))
         self.engine.push(self.motor_torque(own, u), q, load)
-        names, up = self.biped.description.feet, self.ground.foot_radius * np.array(self.out)
-        return feet_of(self.engine.model, self.engine.data, names, self.forces(), up)
+        # from the point that touches to the foot's centre; it moves at v + omega x (-up)
+        mj, up = mujoco(), self.ground.foot_radius * np.array(self.out)
+        model, data, force = self.engine.model, self.engine.data, self.forces()
+        place, speed = np.zeros((2, 2)), np.zeros((2, 2))
+        for i, name in enumerate(self.biped.description.feet):
+            moves, body = np.zeros(6), data.body(name)
+            mj.mj_objectVelocity(model, data, mj.mjtObj.mjOBJ_XBODY, body.id, moves, 0)
+            spin, centre = moves[1], moves[[3, 5]]
+            place[i] = body.xpos[[0, 2]]
+            speed[i] = centre - spin * np.array([up[1], -up[0]])
+        return Feet(force, place, speed)
 
     def landed(self, state: PlantState, contacts: tuple[Contact, ...]) -> PlantState:
         """The same motion after these contacts: a touchdown relabels the coordinates."""

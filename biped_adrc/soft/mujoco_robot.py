@@ -20,7 +20,7 @@ import numpy as np
 from biped_adrc.errors import InputError
 from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
-from biped_adrc.robots.urdf import Joint, Link, Tree
+from biped_adrc.robots.urdf import Joint, Tree
 from biped_adrc.soft.ground import SoftGround
 from biped_adrc.types import MuJoCoModel, MuJoCoSpec
 
@@ -102,9 +102,8 @@ def _spec(biped: Biped, h: float) -> MuJoCoSpec:
     spec.option.integrator = mj.mjtIntegrator.mjINT_RK4
     spec.option.jacobian = mj.mjtJacobian.mjJAC_DENSE
     spec.option.disableflags |= mj.mjtDisableBit.mjDSBL_WARMSTART
-    spec.option.disableflags |= (
-        mj.mjtDisableBit.mjDSBL_ISLAND
-    )  # one robot is one, and looking costs 7 %
+    # one robot is one island, and looking costs 7 %
+    spec.option.disableflags |= mj.mjtDisableBit.mjDSBL_ISLAND
     for joint in biped.description.actuated:
         spec.add_actuator(name=joint, target=joint, trntype=mj.mjtTrn.mjTRN_JOINT)
     return spec
@@ -114,7 +113,10 @@ def _add(parent: MuJoCoSpec, tree: Tree, joints: Sequence[Joint], biped: Biped) 
     """One body that moves by `joints`, the last of which carries its link, and all that hangs on it."""
     mj, last = mujoco(), joints[-1]
     body = parent.add_body(name=last.child, pos=np.sum([j.origin for j in joints], axis=0))
-    _fill(body, tree.links[last.child])
+    if (inertial := tree.links[last.child].inertial) is not None:  # None: a frame without mass
+        xx, xy, xz, yy, yz, zz = inertial.inertia
+        body.mass, body.ipos = inertial.mass, inertial.com
+        body.fullinertia, body.explicitinertial = [xx, yy, zz, xy, xz, yz], True
     names = biped.description.joints
     for joint in joints:
         if joint.type == "fixed":
@@ -129,12 +131,3 @@ def _add(parent: MuJoCoSpec, tree: Tree, joints: Sequence[Joint], biped: Biped) 
         )  # fmt: skip
     for joint in tree.joints_below(last.child):
         _add(body, tree, [joint], biped)
-
-
-def _fill(body: MuJoCoSpec, link: Link) -> None:
-    """Mass, centre and inertia of a link; none for a frame without mass."""
-    if (inertial := link.inertial) is None:
-        return
-    xx, xy, xz, yy, yz, zz = inertial.inertia
-    body.mass, body.ipos = inertial.mass, inertial.com
-    body.fullinertia, body.explicitinertial = [xx, yy, zz, xy, xz, yz], True

@@ -44,6 +44,7 @@ from biped_adrc.gait.reference import TimeReference
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.simulator import simulate
+from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.parts import check_part
 from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.build import RobotAndGait, build
@@ -193,10 +194,7 @@ def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = Non
     Raises SimulationError where the step does not end with an impact.
     """
     P, walker = cycle.P, cycle.P.walker
-    start = after_impact(walker, 0.0, orbit.x_minus, Mode())
-    run = simulate(
-        walker, *start, P.method, t_end=walker.max_step_time, stop_after=(FOOT_STRIKE, 1)
-    )
+    run = _walk_on(P, orbit.x_minus, 1)
     if not run.status.ok:
         raise SimulationError(f"the step of the cycle ended before: {run.status.name}")
     none = np.zeros(walker.plant.p)
@@ -218,22 +216,21 @@ def walk_beside(P: ReturnMap, x_star: Array, impacts: int) -> Array:
     x_star: fixed point, (2 n,) or more; the walk starts with its rates `BESIDE` faster. Raises SimulationError
     when the walker does not make so many impacts.
     """
-    walker, n = P.walker, P.walker.plant.n
-    x = np.array(x_star)
+    n, x = P.walker.plant.n, np.array(x_star)
     x[n : 2 * n] *= 1.0 + BESIDE
-    run = simulate(
-        walker,
-        *after_impact(walker, 0.0, x, Mode()),
-        P.method,
-        t_end=impacts * walker.max_step_time,
-        stop_after=(FOOT_STRIKE, impacts),
-    )
+    run = _walk_on(P, x, impacts)
     if not run.status.ok:
         raise SimulationError(
             f"the walk of {impacts} impacts for the regression ended before: {run.status.name}, "
             f"{run.status.value}; ask for fewer"
         )
     return np.array([event.x_minus[: 2 * n] for event in run.events(FOOT_STRIKE)])
+
+
+def _walk_on(P: ReturnMap, x: Array, impacts: int) -> Trajectory:
+    """The walk of so many impacts from the state x before one, by the method of the map."""
+    start, t_end = after_impact(P.walker, 0.0, x, Mode()), impacts * P.walker.max_step_time
+    return simulate(P.walker, *start, P.method, t_end=t_end, stop_after=(FOOT_STRIKE, impacts))
 
 
 @dataclass(frozen=True)

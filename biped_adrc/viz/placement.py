@@ -122,13 +122,15 @@ def link_placements(tree: Tree, values: dict[str, float]) -> dict[str, Array]:
 
     values: joint name -> [rad] or [m], as `joint_values` gives them for the floating URDF.
     """
-    placements: dict[str, Array] = {}
-    for name in tree.links:
-        M = np.eye(4)
-        for joint in tree.path_to_root(name):
-            M = joint_transform(joint, values.get(joint.name, 0.0)) @ M
-        placements[name] = M
-    return placements
+    return {name: link_placement(tree, values, name) for name in tree.links}
+
+
+def link_placement(tree: Tree, values: dict[str, float], link: str) -> Array:
+    """World placement (4, 4) of one link, as `link_placements` has it."""
+    M = np.eye(4)
+    for joint in tree.path_to_root(link):
+        M = joint_transform(joint, values.get(joint.name, 0.0)) @ M
+    return M
 
 
 def is_wheel(biped: Biped) -> bool:
@@ -183,10 +185,7 @@ def joint_values(
     other = exchanged(biped, step)
     drawn = biped.relabel(q) if other else q
     values = dict(zip(d.joints, map(float, drawn), strict=True))
-    foot = d.swing_foot if other else d.stance_foot
-    M = np.eye(4)
-    for joint in biped.tree.path_to_root(foot):
-        M = joint_transform(joint, values.get(joint.name, 0.0)) @ M
+    M = link_placement(biped.tree, values, d.swing_foot if other else d.stance_foot)
     values[d.base[0]] = foothold - float(M[0, 3])
     values[d.base[1]] = height - float(M[2, 3])
     return values

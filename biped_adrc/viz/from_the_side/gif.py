@@ -40,9 +40,8 @@ def encoded(frames: Sequence[Array], fps: float, rest: float) -> bytes:
     palette = Image.fromarray(np.concatenate([*some, *band])).quantize(64)
     reduced = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
     buffer = io.BytesIO()
-    ends = [
-        10 * round(100.0 * k / fps) for k in range(len(images) + 1)
-    ]  # [ms], in hundredths of a second
+    # [ms], in hundredths of a second
+    ends = [10 * round(100.0 * k / fps) for k in range(len(images) + 1)]
     durations = [end - begin for begin, end in pairwise(ends)]
     durations[-1] += round(1000.0 * rest)
     reduced[0].save(

@@ -39,33 +39,29 @@ ENCODERS = {".gif": gif.encoded, ".mp4": mp4.encoded}
 def write_moving_picture(
     path: Path,
     walks: Mapping[str, Recorded],
-    solid: str | None = None,
     start: float | None = None,
     stop: float | None = None,
     motion: draw.Motion | None = None,
 ) -> None:
     """Write walks, over one another or side by side, as a GIF that repeats or as a video (.mp4).
 
-    walks: name -> walk. solid: where they are laid over one another, the walk drawn opaque that the
-    picture follows; the last one if None. start, stop [s]: the part shown, the whole if None.
-    motion: pace, size and arrangement.
+    walks: name -> walk, one or more. Where they are laid over one another, the last is drawn opaque, and
+    the picture follows it. start, stop [s]: the part shown, the whole if None. motion: pace, size and
+    arrangement.
 
-    Raises InputError for a name, a part or a motion that does not fit, for a video without PyAV
+    Raises InputError for no walk, a part or a motion that does not fit, for a video without PyAV
     installed, and OutputError.
     """
     encoded = ENCODERS[check_moving(path)]
     motion = draw.Motion() if motion is None else motion
-    names = list(walks)
-    solid = names[-1] if solid is None and names else solid
-    if solid is None or solid not in walks:
-        raise InputError(f"there is no walk '{solid}' to draw solid; choose one of {names}")
+    if not walks:
+        raise InputError("there is no walk to draw; expected at least one")
     times = _times(walks, start, stop, motion)
     with style():
         if motion.apart:
             images = frames_apart(walks, times, motion)
         else:
-            order = [*(n for n in names if n != solid), solid]
-            scenes = {n: WalkScene.of(walks[n]) for n in order}
+            scenes = {n: WalkScene.of(walk) for n, walk in walks.items()}
             images = _frames(scenes, times, motion)
     badly = any(ending(w.trajectory) and w.trajectory.t_end <= times[-1] for w in walks.values())
     rest = REST if badly else 0.0
@@ -143,13 +139,9 @@ def _frames(scenes: Mapping[str, WalkScene], times: Array, motion: draw.Motion) 
             trail.show(k, t)
             robot.show(t)
             forces.show(t)
-        over = [f"{n} {ending(s.trajectory)}" for n, s in scenes.items() if _is_over(s, t)]
+        ended = {n: ending(s.trajectory) for n, s in scenes.items() if t >= s.trajectory.t_end}
+        over = [f"{name} {badly}" for name, badly in ended.items() if badly]
         words = "\n".join((caption, f"t = {t:.2f} s, step {last.step(t)}{pace}", *over))
         text.set_text(draw.wrapped(words, 0.96 * width))
         out.append(draw.picture(canvas))
     return out
-
-
-def _is_over(scene: WalkScene, t: float) -> bool:
-    """Whether a walk has ended badly by t [s]."""
-    return t >= scene.trajectory.t_end and ending(scene.trajectory) != ""

@@ -47,12 +47,8 @@ def robot_figure(biped: Biped, q: Array | None = None) -> Figure:
         _feet(axes, biped, q)
         axes.set_aspect("equal")
         axes.grid(False)
-        label(
-            axes,
-            "x [m]",
-            "z [m]",
-            f"{literal(biped.description.name)}: coordinates in single support",
-        )
+        name = literal(biped.description.name)
+        label(axes, "x [m]", "z [m]", f"{name}: coordinates in single support")
         return figure
 
 

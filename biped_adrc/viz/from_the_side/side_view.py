@@ -54,18 +54,16 @@ class Deviation:
             )
         return cls(walk.signals, factor)
 
-    def error(self, t: float, step: int) -> Array:
-        """q_b - q_d (p,) [rad] at t [s] in single support `step`, linear between nodes; its ends
-        outside them.
+    def change(self, t: float, step: int) -> Array:
+        """What is added to q_b (p,) [rad] at t [s] for the posture drawn: (k - 1)(q_b - q_d).
+
+        q_b - q_d in single support `step` is linear between nodes, and has its ends outside them.
         """
         s = self.signals
         first, last = np.searchsorted(s.step, [step, step + 1])
         rows = slice(int(first), int(last))
-        return np.array([np.interp(t, s.t[rows], column) for column in s.error[rows].T])
-
-    def change(self, t: float, step: int) -> Array:
-        """What is added to q_b (p,) [rad] at t [s] for the posture drawn: (k - 1)(q_b - q_d)."""
-        return (self.factor - 1.0) * self.error(t, step)
+        error = np.array([np.interp(t, s.t[rows], column) for column in s.error[rows].T])
+        return (self.factor - 1.0) * error
 
 
 @dataclass(frozen=True)
@@ -104,6 +102,20 @@ def bones(biped: Biped) -> list[Bone]:
     return [replace(bone, ends=bone.ends @ R.T) for R in spokes(biped) for bone in found]
 
 
+def placed_lines(lines: list[Bone], placements: dict[str, Array]) -> list[Array]:
+    """x and z [m] of both ends (2, 2) of every line, with the placement (4, 4) of each link by name."""
+    found = ((bone, placements[bone.link]) for bone in lines)
+    return [(bone.ends @ M[:3, :3].T + M[:3, 3])[:, [0, 2]] for bone, M in found]
+
+
+def roles_of(lines: list[Bone], biped: Biped, step: int) -> list[str]:
+    """ "stance", "swing" or "" of every line in single support `step`: the legs change over at every impact."""
+    if not exchanged(biped, step):
+        return [bone.leg for bone in lines]
+    other = {"stance": "swing", "swing": "stance", "": ""}
+    return [other[bone.leg] for bone in lines]
+
+
 def _axis(visual: Visual) -> Array | None:
     """Ends (2, 3) of the line a primitive stands for; None for a ball."""
     if visual.shape == "sphere":
@@ -139,23 +151,15 @@ class SideView:
 
     def segments(self, t: float) -> Array:
         """(bones, 2, 2), x and z [m] of both ends of every line at t [s], in the order of `bones`."""
-        placements = self.placements(t)
-        rows = []
-        for bone in self.bones:
-            M = placements[bone.link]
-            rows.append((bone.ends @ M[:3, :3].T + M[:3, 3])[:, [0, 2]])
-        return np.array(rows)
+        return np.array(placed_lines(self.bones, self.placements(t)))
 
     def step(self, t: float) -> int:
         """Number of the single support at t [s], counted from 1."""
         return self.scene.trajectory.arcs[self.scene.arc_at(t)].mode.step
 
     def roles(self, t: float) -> list[str]:
-        """ "stance", "swing" or "" by bone at t: the legs change over at every impact."""
-        if not exchanged(self.scene.biped, self.step(t)):
-            return [bone.leg for bone in self.bones]
-        other = {"stance": "swing", "swing": "stance", "": ""}
-        return [other[bone.leg] for bone in self.bones]
+        """ "stance", "swing" or "" by bone at t [s]."""
+        return roles_of(self.bones, self.scene.biped, self.step(t))
 
     def points(self, t: float) -> Array:
         """(4,), x and z [m] of the hip and of the swing foot at t [s], of the walk itself without a

@@ -60,13 +60,8 @@ def strip(
     times = np.linspace(start, stop, poses)
     for k, t in enumerate(times):
         # the end of the last step is its own last pose, not the first of the next
-        _pose(
-            axes,
-            view,
-            float(np.nextafter(t, start)) if k else float(t),
-            (k + 1) / poses,
-            k == poses - 1,
-        )
+        shown = float(np.nextafter(t, start)) if k else float(t)
+        _pose(axes, view, shown, (k + 1) / poses, k == poses - 1)
     _ground(axes, view, start, stop)
     axes.set_aspect("equal")
     axes.grid(False)
@@ -130,15 +125,9 @@ def _ground(axes: Axes, view: SideView, start: float, stop: float) -> None:
     axes.set_ylim(float(line[:, 1].min()) - 0.08, float(z.max()) + 1.05 * view.height)
 
 
-def write_strip(
-    path: Path,
-    walk: Recorded,
-    start: float | None = None,
-    stop: float | None = None,
-    poses: int = 13,
-) -> None:
+def write_strip(path: Path, walk: Recorded, start: float | None, stop: float | None) -> None:
     """Write a strip as .png or .svg; arguments as for `strip`. Raises InputError and OutputError."""
     with style():
         figure = new_figure(6.4, 5.2)
-        strip(figure.subplots(), walk, start, stop, poses)
+        strip(figure.subplots(), walk, start, stop)
     write_figure(path, figure)

@@ -14,7 +14,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import check_positive
 from biped_adrc.hybrid.trajectory import Arc, hermite
 from biped_adrc.types import Array
 from biped_adrc.viz.placement import (
@@ -50,25 +49,18 @@ class Pose(NamedTuple):
 
 @dataclass(frozen=True)
 class Frames:
-    """A walk at its nodes, one in each row (K,); a node at an impact is there twice, before and after it.
-
-    joints, rates (K, J), loads (K, 2 + n), points (K, 4), contact (K, 5): as in `Pose`.
-    """
+    """A walk at its nodes, one in each row (K,); a node at an impact is there twice, before and after it."""
 
     t: Array
     """(K,) [s]."""
     arc: Array
     """(K,) index of the single support, from 0."""
-    joints: Array
-    rates: Array
-    loads: Array
-    points: Array
-    contact: Array
+    poses: Pose
+    """What is drawn there, with K rows: (K, J), (K, J), (K, 2 + n), (K, 4), (K, 5)."""
 
     @classmethod
     def of(cls, scene: WalkScene, fps: float) -> Frames:
-        """Sample a walk at `fps` [1/s] or finer. Raises InputError for an fps that is not positive."""
-        check_positive(fps, f"fps is {fps} frames per second")
+        """Sample a walk at `fps` [1/s], which is positive, or finer. Raises InputError for too many frames."""
         check_frames((scene.trajectory.t_end - scene.trajectory.t_start) * fps)
         t, arcs, poses = [], [], []
         for i, arc in enumerate(scene.trajectory.arcs):
@@ -77,7 +69,7 @@ class Frames:
             arcs.append(np.full(len(nodes), i))
             poses += [pose(scene, i, float(node)) for node in nodes]
         columns = map(np.array, zip(*poses, strict=True))
-        return cls(np.concatenate(t), np.concatenate(arcs), *columns)
+        return cls(np.concatenate(t), np.concatenate(arcs), Pose(*columns))
 
 
 def pose(scene: WalkScene, i: int, t: float) -> Pose:

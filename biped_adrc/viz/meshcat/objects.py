@@ -136,15 +136,16 @@ def leg_visuals(biped: Biped) -> list[list[str]]:
 
     The player gives them their colours, which change over at impact.
     """
-    tree = biped.tree
+    drawn = visual_links(biped.tree)
+    return [[path for path, link in drawn if link in leg] for leg in legs(biped)]
+
+
+def visual_links(tree: Tree) -> list[tuple[str, str]]:
+    """(path below the robot, link) of every primitive."""
     return [
-        [
-            f"{joint_path(tree, joint)}/visual_{k}"
-            for joint in tree.joints
-            if joint.child in leg
-            for k in range(len(tree.links[joint.child].visuals))
-        ]
-        for leg in legs(biped)
+        (f"{joint_path(tree, joint)}/visual_{k}", joint.child)
+        for joint in tree.joints
+        for k in range(len(tree.links[joint.child].visuals))
     ]
 
 

@@ -94,10 +94,8 @@ def animation_html(walks: Mapping[str, Recorded], look: Look | None = None) -> s
 
 def _packed(frames: Frames) -> dict[str, str]:
     """The samples in base64: times as float64, the rest as float32, which is finer than a pixel."""
-    kinds = {"t": np.float64} | dict.fromkeys(
-        ("arc", "joints", "rates", "loads", "points", "contact"), np.float32
-    )
-    packed = {name: np.asarray(getattr(frames, name), dtype=kind) for name, kind in kinds.items()}
+    others = {"arc": frames.arc, **frames.poses._asdict()}
+    packed = {"t": frames.t} | {name: x.astype(np.float32) for name, x in others.items()}
     return {name: base64.b64encode(x.tobytes()).decode("ascii") for name, x in packed.items()}
 
 

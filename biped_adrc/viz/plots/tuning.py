@@ -7,9 +7,11 @@ summary.json. A candidate whose objective is infinite has no mark.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
+import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
@@ -43,14 +45,8 @@ def path_figure(told: PlainRecord) -> Figure:
     with style():
         figure = new_figure(7.0, 3.2)
         axes = figure.subplots()
-        for feasible, words, mark in (
-            (True, "keeps all limits", "o"),
-            (False, "misses a limit", "x"),
-        ):
-            some = [c for c in walked if c["feasible"] is feasible and c["number"] > 0]
-            x, y = [c["number"] for c in some], [_number(c["objectives"][0]) for c in some]
-            color = PALETTE[0] if feasible else GREY
-            axes.plot(x, y, mark, color=color, ms=4.0, ls="none", label=words)
+        searched = [c for c in walked if c["number"] > 0]
+        _candidates(axes, searched, lambda c: (c["number"], _number(c["objectives"][0])))
         axes.plot([0], [_number(walked[0]["objectives"][0])], **PUBLISHED)
         best = _best_so_far(walked, of["goal"] == "minimise")
         axes.step(
@@ -74,14 +70,7 @@ def front_figure(told: PlainRecord) -> Figure:
     with style():
         figure = new_figure(5.5, 4.2)
         axes = figure.subplots()
-        for feasible, words, mark in (
-            (True, "keeps all limits", "o"),
-            (False, "misses a limit", "x"),
-        ):
-            some = [c for c in walked if c["feasible"] is feasible]
-            x, y = ([_number(c["objectives"][i]) for c in some] for i in (0, 1))
-            color = PALETTE[0] if feasible else GREY
-            axes.plot(x, y, mark, color=color, ms=4.0, ls="none", label=words)
+        _candidates(axes, walked, lambda c: tuple(map(_number, c["objectives"][:2])))
         line = sorted([_number(x) for x in by_number[n]["objectives"][:2]] for n in told["front"])
         axes.plot([x for x, _ in line], [y for _, y in line], color=PALETTE[1], label="front")
         axes.plot(*([_number(x)] for x in walked[0]["objectives"][:2]), **PUBLISHED)
@@ -102,6 +91,18 @@ def importance_figure(shares: dict[str, float]) -> Figure:
         axes.set_xlim(0.0, 1.0)
         label(axes, "share of what decides", "")
         return figure
+
+
+def _candidates(
+    axes: Axes, walked: Sequence[PlainRecord], point: Callable[[PlainRecord], tuple[float, ...]]
+) -> None:
+    """Draw candidates at their points (x, y), one mark for those that keep all limits, another for the rest."""
+    for feasible, words, mark, color in (
+        (True, "keeps all limits", "o", PALETTE[0]),
+        (False, "misses a limit", "x", GREY),
+    ):
+        x, y = np.array([point(c) for c in walked if c["feasible"] is feasible]).reshape(-1, 2).T
+        axes.plot(x, y, mark, color=color, ms=4.0, ls="none", label=words)
 
 
 def _best_so_far(walked: Sequence[PlainRecord], less: bool) -> list[tuple[int, float]]:
