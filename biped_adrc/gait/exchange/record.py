@@ -131,8 +131,7 @@ class GaitRecord(Shown):
         counts = (len(self.own.outputs), n) if self.outputs is None else (len(self.outputs),)
         if n != self.own.n or rows not in counts:
             raise self.error(
-                f"coefficients have {rows} rows for {self.own.source}, expected {counts[0]}, one per "
-                "motor, or "
+                f"coefficients have {rows} rows for {self.own.source}, expected {counts[0]}, one per motor, or "
                 f"{self.own.n}, one per coordinate ({', '.join(self.own.coordinates)}); rows are joints, "
                 "columns k = 0..M"
             )
@@ -215,8 +214,7 @@ class GaitRecord(Shown):
             object.__setattr__(self, key, number)
         if self.theta_plus == self.theta_minus:
             raise self.error(
-                f"theta_plus and theta_minus are both {self.theta_plus} rad, expected two different "
-                "ends; a "
+                f"theta_plus and theta_minus are both {self.theta_plus} rad, expected two different ends; a "
                 "normalised s in [0, 1] needs the phase at s = 0 and at s = 1"
             )
         if self.period is not None and self.period <= 0:
