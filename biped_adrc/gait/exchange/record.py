@@ -185,11 +185,8 @@ class GaitRecord(Shown):
             raise self.error(f"{key} has shape {a.shape}, expected {shape}")
         if not np.all(np.isfinite(a)):
             where = tuple(int(i) for i in np.argwhere(~np.isfinite(a))[0])
-            what = (
-                f"joint {where[0] + 1}, column {where[1] + 1}"
-                if a.ndim == 2
-                else f"entry {where[0] + 1}"
-            )
+            kinds = ("joint", "column") if a.ndim == 2 else ("entry",)
+            what = ", ".join(f"{kind} {i + 1}" for kind, i in zip(kinds, where, strict=True))
             raise self.error(
                 f"{key}: {what} (counted from 1) is {a[where]}, expected finite numbers; was the file "
                 "written by an optimisation that did not converge?"

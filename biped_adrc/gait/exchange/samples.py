@@ -193,11 +193,8 @@ def _missed(h: VirtualConstraint, s: Samples, biped: Biped) -> tuple[int, float,
 def _bad_fit(s: Samples, biped: Biped, degree: int) -> GaitError:
     """What the fit misses, and which degree would do."""
     joint, at, gap = _missed(_fitted(s, biped, degree), s, biped)
-    better = [
-        m
-        for m in DEGREES
-        if degree < m < len(s.t) and _missed(_fitted(s, biped, m), s, biped)[2] <= FITS
-    ]
+    higher = range(degree + 1, min(len(s.t), DEGREES.stop))
+    better = [m for m in higher if _missed(_fitted(s, biped, m), s, biped)[2] <= FITS]
     do = f"degree {better[0]} would do" if better else "no degree up to 12 does; are they smooth?"
     return GaitError(
         f"the fit is bad: curves of degree {degree} miss the samples of {biped.description.joints[joint]} by "
