@@ -270,8 +270,9 @@ class Windowed(Disturbance):
                 f"torque window is [{self.start}, {self.stop}] s, expected 0 <= start < stop"
             )
         if self.step is not None:
-            what = f"torque step is {self.step}; single supports are counted from 1"
-            check_count(self.step, what)
+            check_count(
+                self.step, f"torque step is {self.step}; single supports are counted from 1"
+            )
         amplitude.setflags(write=False)
         object.__setattr__(self, "amplitude", amplitude)
 

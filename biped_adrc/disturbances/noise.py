@@ -65,9 +65,8 @@ class TorqueNoise(Windowed):
     def __post_init__(self) -> None:
         super().__post_init__()
         check_positive(self.bandwidth, f"noise bandwidth is {self.bandwidth} Hz")
-        for name, least in (("seed", 0), ("sines", 1)):
-            value = getattr(self, name)
-            check_whole(value, f"noise {name} is {value}", least)
+        check_whole(self.seed, f"noise seed is {self.seed}")
+        check_whole(self.sines, f"noise sines is {self.sines}", 1)
 
     @cached_property
     def parameters(self) -> NoiseParameters:

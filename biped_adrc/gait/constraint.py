@@ -127,13 +127,9 @@ class VirtualConstraint(Reference):
             )
         fade = read_only([] if self.fade is None else [self.fade])
         object.__setattr__(self, "phase", c)
-        object.__setattr__(
-            self,
-            "_parameters",
-            ConstraintParameters(
-                self.curve.parameters, c, float(self.theta_plus), float(1.0 / span), fade
-            ),
-        )
+        begin, rate = float(self.theta_plus), float(1.0 / span)
+        k = ConstraintParameters(self.curve.parameters, c, begin, rate, fade)
+        object.__setattr__(self, "_parameters", k)
 
     @property
     def parameters(self) -> ConstraintParameters:
@@ -189,9 +185,5 @@ class CorrectedConstraint(Reference):
         r, phase = self.base(t, q, v), self.constraint.phase
         rate = float(phase @ v)
         c, dc, ddc = self.correction(float(phase @ q))
-        return ReferencePoint(
-            r.q_d + c,
-            r.dq_d + dc * rate,
-            r.drift + ddc * rate**2,
-            r.H + dc[:, np.newaxis] * phase,
-        )
+        drift, H = r.drift + ddc * rate**2, r.H + dc[:, np.newaxis] * phase
+        return ReferencePoint(r.q_d + c, r.dq_d + dc * rate, drift, H)

@@ -138,13 +138,9 @@ def of_the_paper(biped: Biped) -> bool:
     """Whether phase and relabelling of a robot are those of the conventions, with knees or without."""
     if biped.n not in (3, 5):
         return False
-    ours, theirs = convention("paper", knees=biped.n == 5), own_convention(biped)
-    pairs = (
-        (ours.paper_phase, theirs.paper_phase),
-        (ours.relabelling.A, theirs.relabelling.A),
-        (ours.relabelling.b, theirs.relabelling.b),
-    )
-    return all(np.array_equal(a, b) for a, b in pairs)
+    both = convention("paper", knees=biped.n == 5), own_convention(biped)
+    ours, theirs = ((c.paper_phase, c.relabelling.A, c.relabelling.b) for c in both)
+    return all(map(np.array_equal, ours, theirs))
 
 
 def between(source: Convention, target: Convention) -> AngleMap:

@@ -178,9 +178,8 @@ class Gait(Shown):
         )
         if gap > CLOSES:
             raise GaitError(
-                f"gait '{self.name}' does not close: the end of the step, relabelled, misses its start "
-                f"by {gap:.3g} rad, expected at most {CLOSES:g} rad; check the order and sign of "
-                "the joints"
+                f"gait '{self.name}' does not close: the end of the step, relabelled, misses its start by "
+                f"{gap:.3g} rad, expected at most {CLOSES:g} rad; check the order and sign of the joints"
             )
         return self
 

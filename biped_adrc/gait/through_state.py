@@ -183,9 +183,8 @@ def constraint_through(
             f"the swing foot of the state is {height:.3g} m above the ground; move it with onto_section"
         )
     problem = _problem(biped, q, v, degree, limits or GaitLimits())
-    start = np.zeros(
-        biped.p * (degree - 3)
-    )  # Gauss-Newton, closure and limits as weighted residuals
+    # Gauss-Newton, closure and limits as weighted residuals
+    start = np.zeros(biped.p * (degree - 3))
     options = {"x_scale": 0.1, "ftol": 1e-8, "max_nfev": max_evaluations}
     f = _close(problem, least_squares(problem.residuals, start, **options).x)
     _check_limits(problem, f)

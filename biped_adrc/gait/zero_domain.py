@@ -26,9 +26,9 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from biped_adrc.errors import InputError
+from biped_adrc.errors import check_positive
 from biped_adrc.gait.zero_orbits import ZeroOrbits, grid, series
-from biped_adrc.ground import ground_axes
+from biped_adrc.ground import check_slope, ground_axes
 from biped_adrc.types import Array
 
 LIFT_OFF, FRICTION, TORQUE = "lift-off", "friction", "torque"
@@ -54,10 +54,9 @@ class DomainLimits:
     def __post_init__(self) -> None:
         for name in ("friction", "torque"):
             value = getattr(self, name)
-            if value is not None and not (math.isfinite(value) and value > 0):
-                raise InputError(f"limit of {name} is {value}, expected a positive number or None")
-        if not abs(self.slope) < 0.5 * math.pi:
-            raise InputError(f"the slope is {self.slope} rad, expected less than a right angle")
+            if value is not None:
+                check_positive(value, f"limit of {name} is {value}", " or None")
+        check_slope(self.slope)
 
 
 class Bound(NamedTuple):

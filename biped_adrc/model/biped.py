@@ -178,13 +178,10 @@ class Biped(Shown):
         ]
         if bad:
             raise ModelError(
-                f"robot '{self.description.name}': the motors of {bad} are not exchanged with others "
-                "at impact; "
-                "their angles change sign or are combined as the legs change over, and a controller "
-                "is relabelled "
-                "by exchanging motors. Expected a motor for either leg, as between torso and thighs; "
-                "give the "
-                "robot a torso with two hips, or no motors (--actuated '')"
+                f"robot '{self.description.name}': the motors of {bad} are not exchanged with others at "
+                "impact; their angles change sign or are combined as the legs change over, and a controller is "
+                "relabelled by exchanging motors. Expected a motor for either leg, as between torso and "
+                "thighs; give the robot a torso with two hips, or no motors (--actuated '')"
             )
 
     # -- the two Pinocchio models ----------------------------------------------------------------

@@ -196,15 +196,13 @@ def _check_hip(body: PlanarBase, hip: str, foot: str) -> None:
     """Raise ModelError unless the hip hangs on the trunk and its origin survives re-rooting at the foot."""
     if hip not in body.tree.links:
         raise ModelError(
-            f"URDF '{body.tree.source}': there is no link '{hip}' to be the hip; it has "
-            f"{list(body.tree.links)}"
+            f"URDF '{body.tree.source}': there is no link '{hip}' to be the hip; it has {list(body.tree.links)}"
         )
     _chain(body, hip)
     if not _keeps_its_origin(body.tree, hip, foot):
         raise ModelError(
-            f"URDF '{body.tree.source}': hip '{hip}' carries the stance foot '{foot}', and its "
-            "origin moves when the tree is turned round at that foot; name a link of the swing leg, or one "
-            "fixed at the hip"
+            f"URDF '{body.tree.source}': hip '{hip}' carries the stance foot '{foot}', and its origin moves "
+            "when the tree is turned round at that foot; name a link of the swing leg, or one fixed at the hip"
         )
 
 

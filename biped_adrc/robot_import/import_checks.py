@@ -83,10 +83,8 @@ def _single_support(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]
     yield DEFINITE, np.finfo(float).eps * most / least if least > 0 else np.inf
     places = np.concatenate((b.hip(q), b.swing_foot(q)))
     frames = (b.description.hip, b.description.swing_foot)
-    yield (
-        "hip and swing foot are where the floating model has them",
-        _gap(places, _places(b, q, frames)),
-    )
+    gap = _gap(places, _places(b, q, frames))
+    yield "hip and swing foot are where the floating model has them", gap
     topple = np.zeros(b.n)
     topple[-1] = 1.0
     x, z = b.hip(q)

@@ -51,6 +51,8 @@ from biped_adrc.robots.symmetry import check_alike, pairs
 from biped_adrc.robots.urdf import Joint, Link, Tree, Vector, Visual, to_xml
 from biped_adrc.robots.urdf_reader import UrdfContents, read, tip_of
 
+Colour = tuple[float, float, float, float]
+"""Red, green, blue, opacity, each from 0 to 1."""
 _STEEL = 7800.0  # [kg/m^3]
 _RADIUS = 0.03  # of a stick, as a fraction of its length
 _BEADS = 9
@@ -74,9 +76,8 @@ def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[str, ...]]:
     return replace(tree, links=links), (said,)
 
 
-def _shapes(tree: Tree, link: Link, colour: tuple[float, ...]) -> tuple[Visual, ...]:
+def _shapes(tree: Tree, link: Link, rgba: Colour) -> tuple[Visual, ...]:
     """Sticks from the link's origin to the joints below it, or to its COM, and a ball at the COM."""
-    rgba = (colour[0], colour[1], colour[2], colour[3])
     ends = [joint.origin for joint in tree.joints_below(link.name) if any(joint.origin)]
     if link.inertial is None:
         return tuple(shape for end in ends for shape in _stick(end, rgba))
@@ -86,7 +87,7 @@ def _shapes(tree: Tree, link: Link, colour: tuple[float, ...]) -> tuple[Visual, 
     return (*sticks, Visual("sphere", (radius,), com, rgba))
 
 
-def _stick(end: Vector, rgba: tuple[float, float, float, float]) -> tuple[Visual, ...]:
+def _stick(end: Vector, rgba: Colour) -> tuple[Visual, ...]:
     """A stick from the origin to `end` [m]: upright cylinder, horizontal box, or a row of balls between."""
     x, _, z = end
     length = math.hypot(x, z)

@@ -248,41 +248,36 @@ def description_of(data: RobotRecord, path: Path) -> RobotDescription:
     Raises ModelError that names the key, what was found and what was expected.
     """
     with reading("robot record", path, ModelError):
-        return _description(data, path)
-
-
-def _description(data: RobotRecord, path: Path) -> RobotDescription:
-    """The record; raises KeyError, TypeError or ValueError, which `reading` turns into a ModelError."""
-    friction = data.get("friction", {})
-    description = RobotDescription(
-        name=data["name"],
-        unactuated=data["unactuated"],
-        stance_foot=data["stance_foot"],
-        swing_foot=data["swing_foot"],
-        hip=data["hip"],
-        default_preset=data["default_preset"],
-        urdf=path.parent / data["urdf"],
-        actuated=tuple(data["actuated"]),
-        passive=tuple(data.get("passive", ())),
-        base=(data["base"][0], data["base"][1]),
-        trunk=data.get("trunk", data["hip"]),
-        phase=_numbers(data, "phase", data["phase"]),
-        offset=_numbers(data, "offset", data.get("offset", [0.0] * _count(data))),
-        peak_torque=_positive(data["peak_torque"], "peak_torque"),
-        friction_coefficient=_positive(data["friction_coefficient"], "friction_coefficient"),
-        gravity=_positive(data.get("gravity", GRAVITY), "gravity"),
-        viscous=dict(friction.get("viscous", {})),
-        static=dict(friction.get("static", {})),
-        links={body: tuple(names) for body, names in data["links"].items()},
-        presets={name: _preset(name, record, data) for name, record in data["presets"].items()},
-        ranges={joint: _range(joint, ends) for joint, ends in data.get("ranges", {}).items()},
-    )
-    unknown = sorted(set(description.ranges) - set(description.joints))
-    if unknown:
-        raise ValueError(f"ranges names {unknown}, the joints are {list(description.joints)}")
-    if description.phase[-1] == 0.0:
-        raise ValueError(f"phase is {list(description.phase)}; the last number must not be 0")
-    return description
+        friction = data.get("friction", {})
+        description = RobotDescription(
+            name=data["name"],
+            unactuated=data["unactuated"],
+            stance_foot=data["stance_foot"],
+            swing_foot=data["swing_foot"],
+            hip=data["hip"],
+            default_preset=data["default_preset"],
+            urdf=path.parent / data["urdf"],
+            actuated=tuple(data["actuated"]),
+            passive=tuple(data.get("passive", ())),
+            base=(data["base"][0], data["base"][1]),
+            trunk=data.get("trunk", data["hip"]),
+            phase=_numbers(data, "phase", data["phase"]),
+            offset=_numbers(data, "offset", data.get("offset", [0.0] * _count(data))),
+            peak_torque=_positive(data["peak_torque"], "peak_torque"),
+            friction_coefficient=_positive(data["friction_coefficient"], "friction_coefficient"),
+            gravity=_positive(data.get("gravity", GRAVITY), "gravity"),
+            viscous=dict(friction.get("viscous", {})),
+            static=dict(friction.get("static", {})),
+            links={body: tuple(names) for body, names in data["links"].items()},
+            presets={name: _preset(name, record, data) for name, record in data["presets"].items()},
+            ranges={joint: _range(joint, ends) for joint, ends in data.get("ranges", {}).items()},
+        )
+        unknown = sorted(set(description.ranges) - set(description.joints))
+        if unknown:
+            raise ValueError(f"ranges names {unknown}, the joints are {list(description.joints)}")
+        if description.phase[-1] == 0.0:
+            raise ValueError(f"phase is {list(description.phase)}; the last number must not be 0")
+        return description
 
 
 def _count(data: RobotRecord) -> int:

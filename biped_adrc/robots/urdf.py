@@ -161,12 +161,8 @@ def to_xml(tree: Tree) -> str:
         ET.SubElement(element, "origin", xyz=_text(*joint.origin))
         if joint.type != "fixed":
             ET.SubElement(element, "axis", xyz=_text(*joint.axis))
-            wide = {
-                "lower": -FREE,
-                "upper": FREE,
-                "effort": FREE,
-                "velocity": min(joint.speed, FREE),
-            }
+            speed = min(joint.speed, FREE)
+            wide = {"lower": -FREE, "upper": FREE, "effort": FREE, "velocity": speed}
             ET.SubElement(element, "limit", {key: _text(x) for key, x in wide.items()})
     ET.indent(robot)
     return '<?xml version="1.0"?>\n' + ET.tostring(robot, encoding="unicode") + "\n"

@@ -90,18 +90,6 @@ def load_tree(path: Path | str) -> Tree:
     return _tree(parse(path), str(path), None)[0]
 
 
-def straightened(root: ET.Element, source: str) -> tuple[Tree, tuple[str, ...], tuple[str, ...]]:
-    """The tree of <robot> with parallel frames, and the links without drawing and with completed moments.
-
-    The two tuples are `undrawn` and `flat` of what `read` returns. `source` is the file that
-    messages name. Raises ModelError.
-    """
-    tree, flat = _tree(root, source, _turns(root, source))
-    shapes = ((e.get("name", ""), len(e.findall("visual"))) for e in root.findall("link"))
-    undrawn = tuple(name for name, count in shapes if count > len(tree.links[name].visuals))
-    return tree, undrawn, flat
-
-
 def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> UrdfContents:
     """Read and validate a URDF with frames of any orientation.
 
@@ -112,7 +100,9 @@ def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> UrdfCont
     source, robot = str(path), expanded(path)
     for link, place in (tips or {}).items():
         _add_tip(robot, link, place)
-    tree, undrawn, flat = straightened(robot, source)
+    tree, flat = _tree(robot, source, _turns(robot, source))
+    shapes = ((e.get("name", ""), len(e.findall("visual"))) for e in robot.findall("link"))
+    undrawn = tuple(name for name, count in shapes if count > len(tree.links[name].visuals))
     moving = [j for j in robot.findall("joint") if j.get("type") in _CIRCULAR]
     low, high = (_by_joint(moving, "limit", key, source, -math.inf) for key in ("lower", "upper"))
     return UrdfContents(

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 
@@ -42,6 +43,7 @@ from biped_adrc.soft.walking import stepping_loop
 from biped_adrc.timing import ContinuousTime, SampledTime
 from biped_adrc.types import Array, frozen
 
+_T = TypeVar("_T")
 WALKED = ("robot", "preset", "controller", "impacts", "slope", "friction_limit", "force_window")
 RIGID = "rigid"
 """Name of the plant that is the walker's own."""
@@ -51,11 +53,6 @@ RESOLVED = 0.1
 """Of the ground's time constant: the longest step that resolves contact."""
 OF_GROUND = ("friction", "time_constant", "damping_ratio")
 """What soft ground takes from the scenario's fields."""
-OF_SENSOR = "sensor_"
-"""Before the name of an own value it says that it is the named sensor's: sensor_noise, where noise is the
-encoders'."""
-OF_TOUCHDOWN = "touchdown_"
-"""The same of the part that notices touchdowns: touchdown_delay, where delay is the clock's."""
 OF_WALKER = (
     *("biped", "slope", "h", "ground", "lag", "ground_steps", "first_step"),
     *("max_step_time", "fall_height", *OF_GROUND),
@@ -238,10 +235,7 @@ def sensors(s: Scenario) -> Sensor | None:
     encoders = _encoders(s)
     if s.sensor is None:
         return encoders
-    entry = find("sensor", s.sensor)
-    given = {**_of(OF_SENSOR, s), "seed": drawn(s, "sensor"), **entry.defaults}
-    what = f"sensor '{s.sensor}'"
-    named = construct(what, entry.load(), given, Sensor)  # type: ignore[type-abstract]
+    named = _named("sensor", s, {}, Sensor)  # type: ignore[type-abstract]
     return named if encoders is None else encoders + named
 
 
@@ -265,28 +259,29 @@ def touchdown(s: Scenario, gait: Gait) -> Touchdown | None:
     """
     if s.touchdown is None:
         return None
-    entry, what = find("touchdown", s.touchdown), f"touchdown '{s.touchdown}'"
-    given = {"slope": gait.slope, **_of(OF_TOUCHDOWN, s), "seed": drawn(s, "touchdown")}
-    values = {**given, **entry.defaults}
-    return construct(what, entry.load(), values, Touchdown)  # type: ignore[type-abstract]
+    return _named("touchdown", s, {"slope": gait.slope}, Touchdown)  # type: ignore[type-abstract]
 
 
-def _of(prefix: str, s: Scenario) -> dict[str, object]:
-    """Own values of a scenario, the prefix taken off; what has it goes before what has not."""
+def _named(kind: str, s: Scenario, known: Mapping[str, object], base: type[_T]) -> _T:
+    """The sensor or touchdown that a scenario names, of its own values and of what is known here.
+
+    The kind before the name of an own value says that it is this part's: sensor_noise, where noise is the
+    encoders', and touchdown_delay, where delay is the clock's. What has it goes before what has not.
+    """
+    name, prefix = getattr(s, kind), f"{kind}_"
+    entry = find(kind, name)
     mine = {x.removeprefix(prefix): y for x, y in s.own.items() if x.startswith(prefix)}
-    return {**s.own, **mine}
+    given = {**known, **s.own, **mine, "seed": drawn(s, kind), **entry.defaults}
+    return construct(f"{kind} '{name}'", entry.load(), given, base)
 
 
 def taken_by_hardware(s: Scenario) -> set[str]:
     """Names of own values that sensor and touchdown take, with and without their prefix."""
     taken = set[str]()
-    for kind, name, prefix in (
-        ("sensor", s.sensor, OF_SENSOR),
-        ("touchdown", s.touchdown, OF_TOUCHDOWN),
-    ):
+    for kind, name in (("sensor", s.sensor), ("touchdown", s.touchdown)):
         if name is not None:
             names = set(takes(find(kind, name).load())) - {"seed"}
-            taken |= names | {f"{prefix}{each}" for each in names}
+            taken |= names | {f"{kind}_{each}" for each in names}
     return taken
 
 
@@ -295,20 +290,6 @@ def plant_step(s: Scenario) -> float:
     if s.plant_step is not None:
         return s.plant_step
     return min(LONGEST_PLANT_STEP, RESOLVED * s.time_constant)
-
-
-def soft_plant(s: Scenario, walker: Walker) -> SteppingPlant | None:
-    """The plant of a scenario in whose place the walker's controller is put; None for the rigid one.
-
-    It is made with those of the walker's and the scenario's values that its constructor takes. Raises
-    InputError for one that cannot be made.
-    """
-    if s.plant == RIGID:
-        return None
-    given = {"friction": s.ground_friction, "time_constant": s.time_constant}
-    given |= {"damping_ratio": s.damping_ratio}
-    ground = construct(f"the ground of plant '{s.plant}'", SoftGround, s.own | given, SoftGround)
-    return plant_around(s.plant, walker, s.own | {"ground": ground, "h": plant_step(s)})
 
 
 def plant_around(name: str, walker: Walker, given: Mapping[str, object]) -> SteppingPlant:
@@ -327,9 +308,18 @@ def plant_around(name: str, walker: Walker, given: Mapping[str, object]) -> Step
 
 
 def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
-    """The walker's controller around the plant of a scenario; None for the rigid one. Raises InputError."""
-    plant = soft_plant(s, walker)
-    return None if plant is None else stepping_loop(walker, plant, s.engine, s.first_step)
+    """The walker's controller around the plant of a scenario; None for the rigid one.
+
+    The plant is made with those of the walker's and the scenario's values that its constructor takes. Raises
+    InputError for one that cannot be made.
+    """
+    if s.plant == RIGID:
+        return None
+    numbers = (s.ground_friction, s.time_constant, s.damping_ratio)
+    given = s.own | dict(zip(OF_GROUND, numbers, strict=True))
+    ground = construct(f"the ground of plant '{s.plant}'", SoftGround, given, SoftGround)
+    plant = plant_around(s.plant, walker, s.own | {"ground": ground, "h": plant_step(s)})
+    return stepping_loop(walker, plant, s.engine, s.first_step)
 
 
 def taken_by_plant(s: Scenario) -> set[str]:

@@ -35,7 +35,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.observers.base import Observer, ResetPolicy
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.scenario.registry import REGISTRY, construct, find, lacking, spelled, takes
-from biped_adrc.scenario.scenario import DEFAULTS, FIELDS, Scenario
+from biped_adrc.scenario.scenario import DEFAULTS, FIELDS, NAMED, Scenario
 from biped_adrc.scenario.values import unknown
 
 GAINS = ("K_p", "K_d")
@@ -94,9 +94,8 @@ class ControllerMaker:
         mine = self._own((*CONTEXT, "inner") if outer else BY_ITSELF)
         made = construct(what, make, values | mine, Controller)
         self._seen(make, (), (*mine, "inner") if outer else mine)
-        if (
-            not outer
-        ):  # an outer loop goes around the policies: its state does not begin anew at a touchdown
+        # an outer loop goes around the policies: its state does not begin anew at a touchdown
+        if not outer:
             made = self._across_contact(made)
             for name in REGISTRY["around"]:
                 made = self._around(name, made)
@@ -171,11 +170,8 @@ class ControllerMaker:
         if self.s.poles is None:  # which stand in place of a bandwidth and its order
             given |= {name: x for name, x in defaults.items() if given[name] is None}
         told = {name: x for name, x in given.items() if x is not None}
-        found = {
-            **told,
-            "torque_limit": self.s.torque_limit,
-            "reset": ResetPolicy.named(self.s.reset),
-        }
+        reset = ResetPolicy.named(self.s.reset)
+        found = {**told, "torque_limit": self.s.torque_limit, "reset": reset}
         found.pop("observer", None)
         accepted = takes(make)
         self._seen(make, OF_CONTROLLER, ())
@@ -215,13 +211,8 @@ class ControllerMaker:
 def _takers(name: str) -> str:
     """Which things of the registry, not chosen in the scenario, take an own value of this name; "" for none."""
     found = []
-    for kind, chosen_by in (
-        ("observer", "observer"),
-        ("sensor", "sensor"),
-        ("touchdown", "touchdown"),
-        ("disturbance", "push"),
-    ):
-        for known, entry in REGISTRY[kind].items():
+    for chosen_by in ("observer", "sensor", "touchdown", "push"):
+        for known, entry in REGISTRY[NAMED[chosen_by]].items():
             make = entry.load()
             if any(name in takes(way) for way in (make, *(getattr(make, x) for x in _ways(make)))):
                 found.append(f"{chosen_by} = '{known}'")

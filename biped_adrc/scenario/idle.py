@@ -19,19 +19,16 @@ def idle(s: Scenario) -> tuple[str, ...]:
     """
     pushed = s.push != "none"
     drawn_push = pushed and (s.onset is None or s.push == "noise" or s.on == "random joints")
-    own = "seed" in s.own or "touchdown_missed" in s.own or "missed" in s.own
-    found = {
-        "seed": not drawn_push and not any(map(s.given, RANDOM)) and not own,
-        "pushed_step": not pushed and s.ground_step == 0.0,
-        "fine": not pushed and not s.pushes,
-    }
-    because = {
-        "seed": "nothing in this walk is random",
-        "pushed_step": "there is neither a push nor a step of the ground",
-        "fine": "no push switches",
-    }
+    own = not s.own.keys().isdisjoint(("seed", "touchdown_missed", "missed"))
+    random = drawn_push or own or any(map(s.given, RANDOM))
+    moved = pushed or s.ground_step != 0.0
+    found = (
+        ("seed", random, "nothing in this walk is random"),
+        ("pushed_step", moved, "there is neither a push nor a step of the ground"),
+        ("fine", pushed or s.pushes, "no push switches"),
+    )
     return tuple(
-        f"{name} = {getattr(s, name)} does nothing: {because[name]}"
-        for name, is_so in found.items()
-        if is_so and s.given(name)
+        f"{name} = {getattr(s, name)} does nothing: {because}"
+        for name, acts, because in found
+        if not acts and s.given(name)
     )

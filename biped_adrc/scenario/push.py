@@ -70,12 +70,14 @@ class Push(Shown):
         values["frequency"] = self.frequency
         return on_joints(self.kind, biped, self.torque, values)
 
+    def _groups(self) -> list[tuple[float, list[str]]]:
+        """Torques [N m], each with the joints in a row that have it."""
+        alike = groupby(self.torque.items(), lambda item: item[1])
+        return [(torque, [joint for joint, _ in group]) for torque, group in alike]
+
     def in_words(self) -> str:
         """The push as part of a sentence, such as "30 N m on q1, q2 from 0.1 to 0.3 s in single support 19"."""
-        parts = [
-            f"{torque:g} N m on {', '.join(joint for joint, _ in group)}"
-            for torque, group in groupby(self.torque.items(), lambda item: item[1])
-        ]
+        parts = [f"{torque:g} N m on {', '.join(joints)}" for torque, joints in self._groups()]
         sine = f", a sine of {self.frequency:g} Hz," if self.kind == "sine" else ""
         edges = f", each edge taking {self.rise:g} s" if self.rise else ""
         until = " s on" if self.kind == "step" else f" to {self.stop:g} s"
@@ -86,10 +88,7 @@ class Push(Shown):
 
         A sine ends in :sine=HERTZ, a pulse with sloping edges in :rise=SECONDS.
         """
-        groups = [
-            f"{','.join(joint for joint, _ in group)}={torque:g}"
-            for torque, group in groupby(self.torque.items(), lambda item: item[1])
-        ]
+        groups = [f"{','.join(joints)}={torque:g}" for torque, joints in self._groups()]
         stop = "" if self.kind == "step" else f"{self.stop:g}"
         sine = f":sine={self.frequency:g}" if self.kind == "sine" else ""
         rise = f":rise={self.rise:g}" if self.rise else ""

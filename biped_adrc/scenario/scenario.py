@@ -262,20 +262,19 @@ class Scenario(Shown):
     def _idle(self) -> dict[str, bool]:
         """For each combination of values in which one has no effect, in words: whether it is the case here."""
         pushed, last = self.push != "none", self.first_step + self.impacts - 1
+        rigid, on = self.plant == "rigid", f"with the plant '{self.plant}'"
+        groups = (
+            (not pushed, "without a push", OF_PUSH),
+            (self.period is None, "without a period", OF_SAMPLING),
+            (rigid, "with the plant 'rigid'", OF_PLANT),
+            (not rigid, on, OF_RIGID),
+        )
         return {
             "amplitude or force without a push": not pushed and self.amplitude + self.force > 0.0,
-            **{f"{name} without a push": not pushed and self.given(name) for name in OF_PUSH},
             **{
-                f"{name} without a period": self.period is None and self.given(name)
-                for name in OF_SAMPLING
-            },
-            **{
-                f"{name} with the plant 'rigid'": self.plant == "rigid" and self.given(name)
-                for name in OF_PLANT
-            },
-            **{
-                f"{name} with the plant '{self.plant}'": self.plant != "rigid" and self.given(name)
-                for name in OF_RIGID
+                f"{name} {why}": lacks and self.given(name)
+                for lacks, why, of in groups
+                for name in of
             },
             "friction_error without friction": self.friction_error > 0.0 and not self.friction,
             "filter_time with rates that are measured": self.filter_time > 0.0

@@ -173,36 +173,24 @@ def walk(
     check_count(impacts, f"the walk asks for {impacts} impacts")
     if plant is not None:
         check_part(method, "the method on a plant of its own", NoneType)
-        made = walk_on_plant(plant, walker, gait, impacts, start, first_step, progress, engine)
-        return made if legal is None else made.until_illegal(legal)
-    parts = (
-        default_parts(walker, impacts, first_step, engine)
-        if method is None
-        else (Part(impacts, method),)
-    )
-    made = walk_in_parts(
-        walker, gait, parts, start=start, first_step=first_step, progress=progress, engine=engine
-    )
+        begin = _begin(gait, walker, start, first_step)
+        moved = plant_around(plant, walker, {}) if isinstance(plant, str) else plant
+        loop = stepping_loop(walker, moved, engine, first_step)
+        run = walk_on(loop, walker, begin, Mode(first_step), impacts, progress)
+        made = watched(walker, gait, run)
+    else:
+        given = None if method is None else (Part(impacts, method),)
+        parts = given or default_parts(walker, impacts, first_step, engine)
+        made = walk_in_parts(
+            walker,
+            gait,
+            parts,
+            start=start,
+            first_step=first_step,
+            progress=progress,
+            engine=engine,
+        )
     return made if legal is None else made.until_illegal(legal)
-
-
-def walk_on_plant(
-    plant: str | SteppingPlant,
-    walker: Walker,
-    gait: Gait,
-    impacts: int,
-    start: tuple[Array, Array] | None,
-    first_step: int,
-    progress: Progress | None,
-    engine: str,
-) -> Walk:
-    """As `walk`, on another plant than the rigid one."""
-    check_count(first_step, f"the walk begins in single support {first_step}")
-    begin = _start_of(gait, walker) if start is None else start
-    _check_start(*begin, walker)
-    moved = plant_around(plant, walker, {}) if isinstance(plant, str) else plant
-    loop = stepping_loop(walker, moved, engine, first_step)
-    return watched(walker, gait, walk_on(loop, walker, begin, Mode(first_step), impacts, progress))
 
 
 def walk_in_parts(
@@ -227,13 +215,8 @@ def walk_in_parts(
             f"the walk has {len(parts)} parts, and its clock does not restart at impact; expected one part, or "
             "SampledTime(..., restart=True)"
         )
-    check_count(first_step, f"the walk begins in single support {first_step}")
-    mode = Mode(first_step)
-    if start is None:
-        assert gait is not None
-        start = _start_of(gait, walker)
-    _check_start(*start, walker)
-    x, runs = walker.initial_state(*start, mode), list[Trajectory]()
+    begin, mode = _begin(gait, walker, start, first_step), Mode(first_step)
+    x, runs = walker.initial_state(*begin, mode), list[Trajectory]()
     for part in parts:
         done = sum(len(run.arcs) for run in runs)
         run = simulate_by(
@@ -253,6 +236,18 @@ def walk_in_parts(
             break
         x, mode = event.x_plus, Mode(run.arcs[-1].mode.step + 1, event.t)
     return watched(walker, gait, _joined(runs), scenario)
+
+
+def _begin(
+    gait: Gait | None, walker: Walker, start: tuple[Array, Array] | None, first_step: int
+) -> tuple[Array, Array]:
+    """`start`, or the start of the gait, checked. Raises InputError, also for no number of a single support."""
+    check_count(first_step, f"the walk begins in single support {first_step}")
+    if start is None:
+        assert gait is not None
+        start = _start_of(gait, walker)
+    _check_start(*start, walker)
+    return start
 
 
 def _start_of(gait: Gait, walker: Walker) -> tuple[Array, Array]:

@@ -271,10 +271,9 @@ def _feet(along: Coordinates, biped: Biped, slope: float) -> Misfit | None:
                 f"swing foot at the {when} of the step",
                 f"{height:.4g} m above the ground",
                 f"0 within {CLOSES:g} m",
-                "thigh and shin of the gait's robot have other lengths, or the phase range is another "
-                "gait's or a time, or it walks on another slope; load the robot it was made for, or "
-                "give the "
-                "range of the phase [rad] and the slope",
+                "thigh and shin of the gait's robot have other lengths, or the phase range is another gait's "
+                "or a time, or it walks on another slope; load the robot it was made for, or give the range of "
+                "the phase [rad] and the slope",
             )
     ahead = float(biped.swing_foot(along.curve(1.0)[0])[0])
     if ahead > 0.0:
@@ -308,8 +307,7 @@ def _slopes(record: GaitRecord, along: Coordinates, biped: Biped) -> Misfit | No
         f"slope of the {_joints(record)[joint]} through the impact",
         f"{before[joint]:.5g} rad/rad at the start of the step",
         f"{after[joint]:.5g} rad/rad, that after the impact at its end, within {SLOPES:g}",
-        f"the masses differ (gait for {made_for}; robot {here}), or the constraint is not "
-        "hybrid-invariant; "
+        f"the masses differ (gait for {made_for}; robot {here}), or the constraint is not hybrid-invariant; "
         "load the robot with the gait's preset, or accept the jump with slopes=False",
         geometric=False,
     )

@@ -56,8 +56,7 @@ def write_mat(path: Path | str, entries: Mapping[str, object], units: Mapping[st
             len(name) > LONGEST_NAME
         ):
             raise InputError(
-                f"'{name}' cannot be a variable of a .mat file; expected a letter, then letters, "
-                "digits and "
+                f"'{name}' cannot be a variable of a .mat file; expected a letter, then letters, digits and "
                 f"underscores, at most {LONGEST_NAME}"
             )
         if not isinstance(value, str) and name not in units:

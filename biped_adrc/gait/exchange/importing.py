@@ -89,11 +89,7 @@ def import_gait(
 
 
 def _of_samples(
-    samples: Samples,
-    biped: Biped,
-    name: str | None,
-    fit: tuple[int, float],
-    source: str,
+    samples: Samples, biped: Biped, name: str | None, fit: tuple[int, float], source: str
 ) -> Gait:
     """The gait of samples; they are in the robot's own coordinates where no convention is named."""
     if name is None or name == OWN:

@@ -131,8 +131,7 @@ class GaitRecord(Shown):
         counts = (len(self.own.outputs), n) if self.outputs is None else (len(self.outputs),)
         if n != self.own.n or rows not in counts:
             raise self.error(
-                f"coefficients have {rows} rows for {self.own.source}, expected {counts[0]}, one per "
-                "motor, or "
+                f"coefficients have {rows} rows for {self.own.source}, expected {counts[0]}, one per motor, or "
                 f"{self.own.n}, one per coordinate ({', '.join(self.own.coordinates)}); rows are joints, "
                 "columns k = 0..M"
             )
@@ -186,11 +185,8 @@ class GaitRecord(Shown):
             raise self.error(f"{key} has shape {a.shape}, expected {shape}")
         if not np.all(np.isfinite(a)):
             where = tuple(int(i) for i in np.argwhere(~np.isfinite(a))[0])
-            what = (
-                f"joint {where[0] + 1}, column {where[1] + 1}"
-                if a.ndim == 2
-                else f"entry {where[0] + 1}"
-            )
+            kinds = ("joint", "column") if a.ndim == 2 else ("entry",)
+            what = ", ".join(f"{kind} {i + 1}" for kind, i in zip(kinds, where, strict=True))
             raise self.error(
                 f"{key}: {what} (counted from 1) is {a[where]}, expected finite numbers; was the file "
                 "written by an optimisation that did not converge?"
@@ -215,8 +211,7 @@ class GaitRecord(Shown):
             object.__setattr__(self, key, number)
         if self.theta_plus == self.theta_minus:
             raise self.error(
-                f"theta_plus and theta_minus are both {self.theta_plus} rad, expected two different "
-                "ends; a "
+                f"theta_plus and theta_minus are both {self.theta_plus} rad, expected two different ends; a "
                 "normalised s in [0, 1] needs the phase at s = 0 and at s = 1"
             )
         if self.period is not None and self.period <= 0:

@@ -91,8 +91,7 @@ def _checked(samples: Samples, n: int, degree: int) -> Samples:
     for what, x in (("q", q), ("q'", v)):
         if x is not None and x.shape != (len(np.atleast_1d(t)), n):
             raise InputError(
-                f"{what} of the samples has shape {x.shape}, expected ({t.size}, {n}): a row for each "
-                "time, a "
+                f"{what} of the samples has shape {x.shape}, expected ({t.size}, {n}): a row for each time, a "
                 "column for each coordinate"
             )
     finite = all(np.all(np.isfinite(x)) for x in (t, q, v) if x is not None)
@@ -123,23 +122,18 @@ def _check_closure(s: Samples, biped: Biped) -> None:
     if not np.all(along > 0.0):
         k = int(np.argmin(along))
         raise GaitError(
-            f"the samples: Theta turns back at t = {s.t[k]:.4g} s ({theta[k]:.5g} to "
-            f"{theta[k + 1]:.5g} rad), "
-            "expected one step in which it only grows or falls; leave out samples of other steps, "
-            "and look at "
+            f"the samples: Theta turns back at t = {s.t[k]:.4g} s ({theta[k]:.5g} to {theta[k + 1]:.5g} rad), "
+            "expected one step in which it only grows or falls; leave out samples of other steps, and look at "
             "order and sign of the joints"
         )
     begin, end = s.q[0], biped.relabel(s.q[-1])
     joint = int(np.argmax(np.abs(begin - end)))
     if abs(begin[joint] - end[joint]) > CLOSES:
         raise GaitError(
-            f"the samples do not close: {biped.description.joints[joint]} begins at "
-            f"{begin[joint]:.6g} rad, and "
-            f"the end of the step with the legs changed over is {end[joint]:.6g} rad, expected the "
-            "same within "
-            f"{CLOSES:g}; the first sample has to be just after an impact and the last just before "
-            "the next, in "
-            "the order and signs of the joints of the robot"
+            f"the samples do not close: {biped.description.joints[joint]} begins at {begin[joint]:.6g} rad, "
+            f"and the end of the step with the legs changed over is {end[joint]:.6g} rad, expected the same "
+            f"within {CLOSES:g}; the first sample has to be just after an impact and the last just before the "
+            "next, in the order and signs of the joints of the robot"
         )
 
 
@@ -181,13 +175,11 @@ def _check_slopes(first: Array, slopes: Array | None, biped: Biped) -> None:
     joint = int(np.argmax(np.abs(jump)))
     if abs(jump[joint]) > SLOPES:
         raise GaitError(
-            "the samples do not begin as the impact at their end leaves robot "
-            f"'{biped.description.name}', preset "
-            f"'{biped.preset}': {biped.description.joints[joint]} by {slopes[0][joint] / span:.5g} "
-            "rad/rad over "
-            f"Theta, after the impact it is {first[joint] / span:.5g}, expected the same within "
-            f"{SLOPES:g}; take "
-            "the robot with the masses that the samples were made with, or samples of a periodic step"
+            f"the samples do not begin as the impact at their end leaves robot '{biped.description.name}', "
+            f"preset '{biped.preset}': {biped.description.joints[joint]} by {slopes[0][joint] / span:.5g} "
+            f"rad/rad over Theta, after the impact it is {first[joint] / span:.5g}, expected the same within "
+            f"{SLOPES:g}; take the robot with the masses that the samples were made with, or samples of a "
+            "periodic step"
         )
 
 
@@ -201,15 +193,11 @@ def _missed(h: VirtualConstraint, s: Samples, biped: Biped) -> tuple[int, float,
 def _bad_fit(s: Samples, biped: Biped, degree: int) -> GaitError:
     """What the fit misses, and which degree would do."""
     joint, at, gap = _missed(_fitted(s, biped, degree), s, biped)
-    better = [
-        m
-        for m in DEGREES
-        if degree < m < len(s.t) and _missed(_fitted(s, biped, m), s, biped)[2] <= FITS
-    ]
+    higher = range(degree + 1, min(len(s.t), DEGREES.stop))
+    better = [m for m in higher if _missed(_fitted(s, biped, m), s, biped)[2] <= FITS]
     do = f"degree {better[0]} would do" if better else "no degree up to 12 does; are they smooth?"
     return GaitError(
-        f"the fit is bad: curves of degree {degree} miss the samples of "
-        f"{biped.description.joints[joint]} by "
+        f"the fit is bad: curves of degree {degree} miss the samples of {biped.description.joints[joint]} by "
         f"{gap:.2g} rad at t = {at:.4g} s, expected at most {FITS:g} rad; {do}"
     )
 
@@ -219,12 +207,10 @@ def _check_period(s: Samples, gait: Gait, biped: Biped) -> None:
     lasted = float(s.t[-1] - s.t[0])
     if abs(gait.period - lasted) > LASTS * lasted:
         raise GaitError(
-            f"the samples last {lasted:.4g} s, and robot '{biped.description.name}', preset "
-            f"'{biped.preset}', takes "
-            f"{gait.period:.4g} s for the same curves in its own cycle, expected the same within "
-            f"{100.0 * LASTS:g} %; the fit is good, so the samples are of other masses, another "
-            "gravity, or of no "
-            "periodic step"
+            f"the samples last {lasted:.4g} s, and robot '{biped.description.name}', preset '{biped.preset}', "
+            f"takes {gait.period:.4g} s for the same curves in its own cycle, expected the same within "
+            f"{100.0 * LASTS:g} %; the fit is good, so the samples are of other masses, another gravity, or of "
+            "no periodic step"
         )
 
 
