@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-import pytest
 
 import biped_adrc as ba
 from biped_adrc.paper.push_map import (
     Fate,
     PushCell,
     Tried,
-    apart,
     certain,
     counts,
     push_map,
@@ -34,7 +32,6 @@ def test_marginal_cells_carry_no_claim():
     sure = [cell(MADE, LEGAL), cell(LEGAL, LEGAL), cell(LEGAL, FELL)]
     cells = [*sure, cell(replace(MADE, marginal=True), LEGAL)]
     assert certain(cells) == sure
-    assert apart(cells) == {"p, unlimited": (1, 1)}
     assert counts(cells)["p, unlimited"]["NPD"]["marginal"] == 1
     assert counts(cells)["p, unlimited"]["ADRC"] == {
         "legal": 3,
@@ -54,34 +51,6 @@ def test_a_fall_of_the_polynomial_is_none_of_the_robot():
     (found,) = push_map(Scenario(preset="identified-bare"), [tried])
     assert found.npd.status == "COMPLETED"
     assert found.npd.word != "legal"
-
-
-def test_the_map_of_soft_ground_halves_the_step_of_its_engine(monkeypatch):
-    pytest.importorskip("mujoco")
-    monkeypatch.setattr("biped_adrc.paper.push_map.IMPACTS", 1)
-    base = Scenario(plant="mujoco", period=1e-3, contact="hold", own={"integrator": "leapfrog"})
-    tried = Tried(0.1, 30.0, "all +", 150.0)
-    run = tried.run(base, "LESO")
-    assert (run.h, run.plant, run.first_step) == (None, "mujoco", 19)
-    (found,) = push_map(base, [tried], controllers=("NPD", "LESO"))
-    assert (found.npd.word, found.adrc.word) == ("legal", "legal")
-    expected = execute(run).legality.mean_normal_force
-    assert found.adrc.mean_normal_force == expected
-    assert found.npd.mean_normal_force != expected
-
-
-@pytest.mark.parametrize(
-    ("slip", "word", "why"),
-    [(None, "legal", ()), (4.9e-3, "legal", ()), (5.1e-3, "made", ("slip",))],
-)
-def test_a_walk_whose_foot_slips_is_not_legal(slip, word, why):
-    made = execute(Scenario("NPD", period=1e-3, h=1e-3, impacts=1))
-    assert made.slip is None
-    made = replace(made, slip=slip)
-    fate = Fate.of(replace(made, half=made))
-    assert (fate.word, fate.reasons) == (word, why)
-    marginal = Fate.of(replace(made, half=replace(made, slip=1.0))).marginal
-    assert marginal == (word == "legal")
 
 
 def test_a_continued_constraint_is_the_same_inside(biped, gait):

@@ -41,7 +41,8 @@ def contact_errors(x: Signals) -> ContactErrors:
     """The errors of a walk, at its nodes."""
     since = x.t - starts(x)
     settling = since <= SETTLING + SAME_INSTANT
-    pushed = since_pushed(x) <= AFTER + SAME_INSTANT
+    acted = np.maximum.accumulate(np.where(np.any(x.zeta != 0.0, axis=1), x.t, -np.inf))
+    pushed = x.t - acted <= AFTER + SAME_INSTANT
     lasts = np.append(np.diff(x.t) > 0.0, False)
     return ContactErrors(
         _largest(x.error[settling & (x.step > x.step[0])]),
@@ -56,12 +57,6 @@ def starts(x: Signals) -> Array:
     _, first, places = np.unique(x.step, return_index=True, return_inverse=True)
     begins: Array = x.t[first][places]
     return begins
-
-
-def since_pushed(x: Signals) -> Array:
-    """Time since anything acted from outside (K,) [s]: 0 while it does, infinite before it ever has."""
-    times = np.where(np.any(x.zeta != 0.0, axis=1), x.t, -np.inf)
-    return x.t - np.maximum.accumulate(times)
 
 
 def _largest(error: Array) -> float | None:

@@ -14,7 +14,7 @@ the walker cannot be compiled. dP/ds is by differences here; `variational` has i
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import tan
@@ -39,11 +39,6 @@ if TYPE_CHECKING:
     from biped_adrc.engine.batch import Strides
 
 _CHORD = 0.1  # the residual must fall by this factor with the old dP/ds, else it is taken anew
-
-AfterImpact = tuple[Array, Mode]
-"""State (2 n + c,) [rad, rad/s] just after an impact, and its mode."""
-Mapper = Callable[[Callable[[AfterImpact], Array], Iterable[AfterImpact]], Iterable[Array]]
-"""A function like `map`; a parallel one evaluates the differences of dP/ds at once."""
 
 
 @dataclass(frozen=True)
@@ -137,15 +132,14 @@ class ReturnMap(Shown):
         """
         return self.images([s])[0]
 
-    def images(self, points: Sequence[Array], mapper: Mapper = map) -> list[Array]:
-        """P of several points s (2 n - 1 + c,) [rad, rad/s], in parallel threads where it is compiled,
-        by `mapper` otherwise. Raises as P.
+    def images(self, points: Sequence[Array]) -> list[Array]:
+        """P of several points s (2 n - 1 + c,) [rad, rad/s], in parallel threads where it is compiled.
+        Raises as P.
         """
         starts = [after_impact(self.walker, 0.0, self.lift(s), Mode()) for s in points]
         compiled = self._compiled(len(starts[0][0]))
         if compiled is None:
-            strikes = mapper(lambda start: self.next_impact(self.walker, *start).x_minus, starts)
-            return [self.project(x) for x in strikes]
+            return [self.project(self.next_impact(self.walker, *x).x_minus) for x in starts]
         made = compiled(starts)
         for walked in made:
             if not walked.status.ok:
@@ -186,19 +180,15 @@ class ReturnMap(Shown):
             raise _no_return(run.status, run.detail)
         return run.events(FOOT_STRIKE)[-1]
 
-    def jacobian(self, s: Array, mapper: Mapper = map) -> Array:
+    def jacobian(self, s: Array) -> Array:
         """dP/ds (2 n - 1 + c, 2 n - 1 + c) by central differences of width `difference` [rad, rad/s]."""
         d = self.difference
         points = [s + sign * d * e for e in np.eye(len(s)) for sign in (1.0, -1.0)]
-        images = self.images(points, mapper)
+        images = self.images(points)
         return np.array([(images[2 * i] - images[2 * i + 1]) / (2.0 * d) for i in range(len(s))]).T
 
     def fixed_point(
-        self,
-        guess: Array,
-        tolerance: float = 1e-9,
-        max_iterations: int = 12,
-        mapper: Mapper = map,
+        self, guess: Array, tolerance: float = 1e-9, max_iterations: int = 12
     ) -> PeriodicOrbit:
         """Newton's method on P(s) - s from a state before impact `guess` (2 n + c,) [rad, rad/s].
 
@@ -208,14 +198,14 @@ class ReturnMap(Shown):
         multiplier is 1.
         """
         s = self.project(np.asarray(guess, dtype=float))
-        J, s_J, previous = self.jacobian(s, mapper), s, np.inf
+        J, s_J, previous = self.jacobian(s), s, np.inf
         for iteration in range(1, max_iterations + 1):
             gap = self(s) - s
             residual = float(np.max(np.abs(gap)))
             done = residual < tolerance
             stale = float(np.max(np.abs(s - s_J))) > self.difference
             if stale and (done or residual > _CHORD * previous):
-                J, s_J = self.jacobian(s, mapper), s
+                J, s_J = self.jacobian(s), s
             if done:
                 return PeriodicOrbit(self.lift(s), sorted_eigenvalues(J), residual, iteration)
             s, previous = s + newton_step(J, gap), residual

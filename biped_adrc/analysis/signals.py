@@ -8,7 +8,6 @@ that made them; compiled where the walk was. Plots, metrics, certificates and ex
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -20,7 +19,7 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.outer_loop import OuterLoop, reference_in_force
 from biped_adrc.gait.reference import Reference, ReferencePoint
-from biped_adrc.hybrid.trajectory import Arc, Trajectory
+from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array, freeze
 
@@ -150,7 +149,12 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
     q, v = x[:, :n], x[:, n : 2 * n]
     foot = recorded(trajectory, PLACE)
     if foot is None:
-        foot = np.vstack([np.tile(at, (len(arc.t), 1)) for arc, at in _footholds(walker, arcs)])
+        at, places = np.zeros(2), []
+        for arc in arcs:
+            places.append(np.tile(at, (len(arc.t), 1)))
+            if arc.event is not None and arc.event.x_plus is not None:
+                at = at + walker.plant.swing_foot(arc.event.x_minus[:n])
+        foot = np.vstack(places)
     outside = [walker.resultant(float(t), arc.mode) for arc in arcs for t in arc.seen]
     return Signals(
         t=np.concatenate([arc.t for arc in arcs]),
@@ -168,12 +172,3 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
             "potential": r.potential + walker.plant.weight * foot[:, 1],
         },
     )
-
-
-def _footholds(walker: Walker, arcs: Sequence[Arc]) -> Iterator[tuple[Arc, Array]]:
-    """Every arc with the place (x, z) of its stance foot in the world (2,) [m]."""
-    foot = np.zeros(2)
-    for arc in arcs:
-        yield arc, foot
-        if arc.event is not None and arc.event.x_plus is not None:
-            foot = foot + walker.plant.swing_foot(arc.event.x_minus[: walker.plant.n])

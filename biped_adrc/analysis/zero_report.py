@@ -8,7 +8,7 @@ not leave (hybrid invariant), tracked without error. Where that is in doubt the 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -71,24 +71,16 @@ class ZeroDynamicsReport(Shown):
 
     def text(self) -> str:
         """The report as lines of text."""
-        return "\n".join(
-            columns([*self._robot(), *self._numbers(), *self._range(), *self._doubts()])
-        )
-
-    def _robot(self) -> list[tuple[str, ...]]:
-        b, c = self.orbits.zero.biped, self.orbits.zero.constraint
-        return [
-            (
-                f"robot {b.description.name}, parameters {b.preset}; slope {self.limits.slope:g} rad",
-            ),
-            ("Theta", f"{c.theta_plus:.6f} to {c.theta_minus:.6f} rad"),
-        ]
+        b, slope = self.orbits.zero.biped, self.limits.slope
+        robot = f"robot {b.description.name}, parameters {b.preset}; slope {slope:g} rad"
+        return "\n".join(columns([(robot,), *self._numbers(), *self._range(), *self._doubts()]))
 
     def _numbers(self) -> list[tuple[str, ...]]:
         """Rows of the report about the periodic orbit itself."""
-        o, z = self.orbits, self.zeta_star
+        o, z, c = self.orbits, self.zeta_star, self.orbits.zero.constraint
         inertia = o.inertia(grid(o.zero))
         return [
+            ("Theta", f"{c.theta_plus:.6f} to {c.theta_minus:.6f} rad"),
             ("I(Theta)", f"{np.min(inertia):.4f} to {np.max(inertia):.4f} kg m^2"),
             ("delta^2", f"{o.delta**2:.6f}, the multiplier of the cycle: stable"),
             ("V_zero(Theta-)", f"{o.v_end:.4f} {UNIT}"),
@@ -124,24 +116,17 @@ class ZeroDynamicsReport(Shown):
             found.append(("settled", f"to {CLOSENESS:.1%} of zeta* after {text}"))
         return found
 
-    def _doubts(self) -> list[tuple[str, ...]]:
+    def _doubts(self) -> Iterator[tuple[str]]:
         """Lines that say where these numbers do not hold for the closed loop."""
-        found: list[tuple[str, ...]] = []
         if not self.walkable:
-            found.append(
-                (
-                    f"the periodic orbit does not keep {_show(self.limits)}: zeta* is outside of the domain",
-                )
-            )
+            text = f"the periodic orbit does not keep {_show(self.limits)}"
+            yield (f"{text}: zeta* is outside of the domain",)
         if self.invariance > Tolerances().invariance:
-            found.append(
-                (
-                    f"the impact leaves the constraint by {self.invariance:.2g} rad or rad/s at |Theta'-| = "
-                    "1 rad/s: the closed loop comes back to it in the course of a step only, and these numbers "
-                    "are those of the zero dynamics",
-                )
+            yield (
+                f"the impact leaves the constraint by {self.invariance:.2g} rad or rad/s at |Theta'-| = "
+                "1 rad/s: the closed loop comes back to it in the course of a step only, and these numbers "
+                "are those of the zero dynamics",
             )
-        return found
 
 
 def zero_report(

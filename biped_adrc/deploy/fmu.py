@@ -19,7 +19,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from biped_adrc.deploy.loaded import COMPILERS, compiled, compiler
+from biped_adrc.deploy.loaded import NO_COMPILER, compiled, compiler
 from biped_adrc.deploy.source import Source, rendered
 
 MACHINES = {("Linux", "x86_64"): "linux64"}
@@ -127,9 +127,7 @@ def without_binary() -> str:
     """Why an FMU that is made on this machine has no binary; empty where it has one."""
     if not _machine():
         return f"FMI 2.0 has no name for {platform.system()} on {platform.machine()}"
-    if compiler() is None:
-        return f"there is no C compiler, looked for {', '.join(COMPILERS)}"
-    return ""
+    return NO_COMPILER if compiler() is None else ""
 
 
 def contents() -> str:

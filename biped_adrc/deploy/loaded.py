@@ -37,6 +37,7 @@ FLAGS: tuple[str, ...] = ("-std=c99", "-O2", "-ffp-contract=off", "-Wall", "-Wex
 """How an exported controller is compiled."""
 COMPILERS = ("cc", "gcc", "clang")
 """Names of C compilers, the first one found is taken; the variable CC goes before them."""
+NO_COMPILER = f"there is no C compiler, looked for {', '.join(COMPILERS)}"
 OK, NOT_MEASURED, NO_RESULT, SINGULAR, RAN_AWAY = range(5)
 """What the functions of the C return."""
 ERRORS: Mapping[int, type[BipedError]] = {
@@ -68,9 +69,7 @@ def compiled(
     """
     program = compiler()
     if program is None:
-        raise InputError(
-            f"there is no C compiler, looked for {', '.join(COMPILERS)}; install one, or set CC"
-        )
+        raise InputError(f"{NO_COMPILER}; install one, or set CC")
     try:
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
@@ -92,7 +91,7 @@ def compiled(
 def tried(source: Source) -> str:
     """What a C compiler says of a source, in a sentence; that there is none, where there is none."""
     if (program := compiler()) is None:
-        return f"not compiled: there is no C compiler, looked for {', '.join(COMPILERS)}"
+        return f"not compiled: {NO_COMPILER}"
     with compiled(source.files, ["main.c", f"{source.prefix}.c"]) as (_, said):
         return f"compiled by {Path(program).name}: {said or 'no warnings'}"
 

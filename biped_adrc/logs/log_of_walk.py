@@ -60,7 +60,7 @@ def _ticks(arc: Arc, time: SampledTime, start: float) -> list[tuple[int, int]]:
 
 
 def _row(walker: Walker, arc: Arc, k: int, end: int) -> LoggedRow:
-    """What was sensed at node k, in the labels that the controller believed in, and the torque until `end`."""
+    """What was sensed at node k, in the labels that the controller believed in; the mean torque until `end`."""
     q, v, _, tail = parts(walker, arc.x[k])
     held = walker.held
     assert held is not None
@@ -69,13 +69,8 @@ def _row(walker: Walker, arc: Arc, k: int, end: int) -> LoggedRow:
         b = belief_of(h.b)
         step, other = float(b.step), b.other
     q, v = as_seen(held, h.w, *turned(walker, other, q, v))
-    u = _mean_torque(walker, arc, k, end)
+    nodes = slice(k, end + 1)
+    t, tails = arc.t[nodes], (parts(walker, x)[3] for x in arc.x[nodes])
+    acted = np.array([motor_torque(read(held.sizes, x).line) for x in tails])
+    u = np.trapezoid(acted, t, axis=0) / (t[-1] - t[0])  # also where it is late or lags
     return float(arc.t[k]), step, q, u[walker.swap] if other > 0.5 else u, v
-
-
-def _mean_torque(walker: Walker, arc: Arc, k: int, end: int) -> Array:
-    """Of the motors (p,) [N m] between two nodes, also where it is late or lags."""
-    assert walker.held is not None
-    t, size = arc.t[k : end + 1], walker.held.sizes
-    u = np.array([motor_torque(read(size, parts(walker, x)[3]).line) for x in arc.x[k : end + 1]])
-    return np.trapezoid(u, t, axis=0) / (t[-1] - t[0])

@@ -26,7 +26,6 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Measurement
 from biped_adrc.hardware.sensors import Sensors, seen, sense, sensed_impact, sensor_state
 from biped_adrc.logs.robot_log import RobotLog
-from biped_adrc.observers.base import Estimate
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array, freeze
 
@@ -98,7 +97,7 @@ def replayed(walker: Walker, log: RobotLog, filter_time: float, window: float) -
         s = calls.correct(s, m)
         u = walker.saturate(calls.output(s, m))
         found, terms = calls.estimate(s, m), m.terms
-        xi = _xi(found, terms.xi)
+        xi = np.full(len(terms.xi), np.nan) if found is None else found.disturbance
         beyond = terms.kappa_inverse @ (xi - terms.xi)
         residual = m.q_b - expected.position if expected is not None else np.full(len(xi), np.nan)
         rows.append((m.t_step, m.v, u, residual, xi, terms.xi, beyond))
@@ -109,11 +108,6 @@ def replayed(walker: Walker, log: RobotLog, filter_time: float, window: float) -
     late = (log.step > log.step[0]) & (t_step < window)
     given = log.t, log.step, t_step, log.q, v, log.u
     return ReplaySignals(*given, torque, residual, xi, nominal, beyond, late.astype(float))
-
-
-def _xi(found: Estimate | None, nominal: Array) -> Array:
-    """xi^ (p,) [rad/s^2]; NaN without an observer."""
-    return np.full(len(nominal), np.nan) if found is None else found.disturbance
 
 
 def measurements(

@@ -146,13 +146,6 @@ class ObserverLoop:
         return np.polyval(top, s) / np.polyval(bottom, s)
 
     # -- stability -----------------------------------------------------------------------------------
-    def stable_without_delay(self, known: bool = False) -> bool:
-        """Whether all roots of 1 + L have negative real parts; always so for kappa_ratio 1."""
-        if self.kappa_ratio == 1.0:
-            return True
-        top, bottom = self._broken(known)
-        return bool(np.max(np.roots(np.polyadd(top, bottom)).real) < 0.0)
-
     def crossovers(self, known: bool = False) -> Array:
         """All frequencies [rad/s] at which |L| = 1, in ascending order.
 
@@ -179,8 +172,10 @@ class ObserverLoop:
 
         known: the observer is fed with a(t - d).
         """
-        if not self.stable_without_delay(known):
-            return DelayMargin(np.nan, np.nan)
+        if self.kappa_ratio != 1.0:  # where it is 1 all roots of 1 + L have negative real parts
+            roots = np.roots(np.polyadd(*self._broken(known)))
+            if not np.max(roots.real) < 0.0:
+                return DelayMargin(np.nan, np.nan)
         at = self.crossovers(known)
         if len(at) == 0:
             return DelayMargin(np.inf, np.inf)

@@ -36,7 +36,7 @@ from biped_adrc.hardware.motors import whole_and_part
 from biped_adrc.observer_design.observer_loop import joint_gains
 from biped_adrc.observers.gpi import GPIObserver, SampledGPIObserver, SampledGPIParameters
 from biped_adrc.timing import SampledTime
-from biped_adrc.types import Array, ComplexArray
+from biped_adrc.types import Array
 
 FORMS = ("current", "held")
 SHORTEST, LONGEST = 1e-6, 0.1
@@ -172,14 +172,9 @@ class SampledLoop:
         return M + np.eye(len(M))
 
     @cached_property
-    def eigenvalues(self) -> ComplexArray:
-        """Eigenvalues (s,) of one period, dimensionless: 1 + those of M."""
-        return np.asarray(1.0 + np.linalg.eigvals(self._system[0]), dtype=complex)
-
-    @property
     def spectral_radius(self) -> float:
-        """Largest |eigenvalue|; below 1 for a stable loop."""
-        return float(np.max(np.abs(self.eigenvalues)))
+        """Largest |eigenvalue| of one period, 1 + one of M; below 1 for a stable loop."""
+        return float(np.max(np.abs(1.0 + np.linalg.eigvals(self._system[0]))))
 
     @property
     def stable(self) -> bool:

@@ -8,14 +8,10 @@ polynomial outside of its range.
 Every walk is computed at two integration steps. A cell in which they end differently is marginal, and no claim
 rests on it. Tasks of `paper.plan`; read by `paper.tables`, the claims, and `viz.plots.push_map`.
 
-A base scenario on soft ground makes the same map there; the step that is halved is then that of its engine,
-and a walk in which a foot slips is not legal.
-
 What a walk can be:
 
     legal      makes all steps within friction, torque limits and without scuffing
-    pulled     makes all steps; the mean normal force was negative, a real foot would have left the ground (on
-               soft ground it was zero: the foot has left it)
+    pulled     makes all steps; the mean normal force was negative, a real foot would have left the ground
     made       makes all steps, and breaks another limit
     fell       the robot fell
     ended      ended otherwise, such as a step that takes too long
@@ -26,12 +22,11 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.paper.pair import CONTROLLERS
-from biped_adrc.scenario.build import RIGID
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.run import execute_twice
@@ -58,9 +53,7 @@ PUSHED_STEP = 19
 DURATION = 0.2
 """Of a push [s]."""
 MAP_STEP = 1e-3
-"""Integration step on the rigid plant [s]; each walk is repeated at half of it."""
-SLIPS = 5e-3
-"""Distance that a foot may slip in a step of a legal walk on soft ground [m]."""
+"""Integration step [s]; each walk is repeated at half of it."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +73,7 @@ class Fate:
     impulse_ratio: float | None
     """The largest |F_T| / F_N of the impacts; it makes no walk illegal."""
     reasons: tuple[str, ...] = ()
-    """Why the walk is not legal, by the names of `Legality.reasons`, and "slip"."""
+    """Why the walk is not legal, by the names of `Legality.reasons`."""
     marginal: bool = False
     """Whether its word or its status is another at half of the step."""
 
@@ -99,10 +92,7 @@ class Fate:
             x if math.isfinite(x) else None
             for x in (found.mean_normal_force, found.mean_friction, found.impulse_ratio)
         )
-        slips = o.slip is not None and o.slip > SLIPS
-        outcome = "made" if slips and found.outcome == "legal" else found.outcome
-        reasons = (*found.reasons, "slip") if slips else tuple(found.reasons)
-        return cls(outcome, o.status, normal, friction, impulse, reasons)
+        return cls(found.outcome, o.status, normal, friction, impulse, tuple(found.reasons))
 
     @property
     def word(self) -> str:
@@ -129,7 +119,6 @@ class PushCell:
     """[N m], None for unlimited."""
     npd: Fate
     adrc: Fate
-    """Of the second controller of the map."""
 
     def row(self) -> dict[str, object]:
         """In plain values, for the figure and the summary."""
@@ -167,29 +156,18 @@ class Tried:
             continued=True,
             first_step=PUSHED_STEP,
             impacts=IMPACTS,
-            h=MAP_STEP if base.plant == RIGID else None,
+            h=MAP_STEP,
             engine=COMPILED,
         )
 
 
-def push_map(
-    base: Scenario,
-    tried: Sequence[Tried],
-    progress: Callable[[int], None] | None = None,
-    controllers: tuple[str, str] = CONTROLLERS,
-) -> list[PushCell]:
-    """Both controllers under every push, each at two steps.
-
-    base: robot, plant and all else. progress: called with the number of pushes done. controllers: their names
-    in a scenario; the second stands for ADRC.
-    """
+def push_map(base: Scenario, tried: Sequence[Tried]) -> list[PushCell]:
+    """Both controllers under every push, each at two steps; base: the robot."""
     cells: list[PushCell] = []
     for found in tried:
-        npd, adrc = (Fate.of(execute_twice(found.run(base, c))) for c in controllers)
+        npd, adrc = (Fate.of(execute_twice(found.run(base, c))) for c in CONTROLLERS)
         place = (found.onset, found.amplitude, found.pattern, found.torque_limit)
         cells.append(PushCell(str(base.preset), *place, npd, adrc))
-        if progress is not None:
-            progress(len(cells))
     return cells
 
 
@@ -206,38 +184,20 @@ def pushes(
     return [Tried(onset, amplitude, of, limit) for limit, of, amplitude, onset in every]
 
 
-def settings_of(cells: Sequence[PushCell]) -> Iterator[tuple[str, list[PushCell]]]:
-    """The cells of each preset and torque limit, with a name for a reader."""
-    keys = dict.fromkeys((cell.preset, cell.torque_limit) for cell in cells)
-    for preset, limit in keys:
-        name = f"{preset}, {'unlimited' if limit is None else f'{limit:g} N m'}"
-        yield name, [c for c in cells if (c.preset, c.torque_limit) == (preset, limit)]
-
-
 WORDS = ("legal", "made", "pulled", "fell", "ended", "marginal")
 """What a walk of the map can be, and the columns of its table."""
 
 
 def counts(cells: Sequence[PushCell]) -> dict[str, dict[str, dict[str, int]]]:
     """How many walks are what, by setting, controller and word: the table of the map."""
-    return {
-        name: {
-            c: {word: sum(getattr(cell, c.lower()).word == word for cell in here) for word in WORDS}
-            for c in CONTROLLERS
-        }
-        for name, here in settings_of(cells)
-    }
-
-
-def apart(cells: Sequence[PushCell]) -> dict[str, tuple[int, int]]:
-    """By setting: pushes through which only ADRC walks legally, and only NPD does; marginal cells left out."""
-    return {
-        name: (
-            sum(c.adrc.word == "legal" != c.npd.word for c in certain(here)),
-            sum(c.npd.word == "legal" != c.adrc.word for c in certain(here)),
-        )
-        for name, here in settings_of(cells)
-    }
+    found: dict[str, dict[str, dict[str, int]]] = {}
+    for cell in cells:
+        limit = "unlimited" if cell.torque_limit is None else f"{cell.torque_limit:g} N m"
+        new = {c: dict.fromkeys(WORDS, 0) for c in CONTROLLERS}
+        here = found.setdefault(f"{cell.preset}, {limit}", new)
+        for c, fate in zip(CONTROLLERS, (cell.npd, cell.adrc), strict=True):
+            here[c][fate.word] += 1
+    return found
 
 
 def certain(cells: Sequence[PushCell]) -> list[PushCell]:

@@ -126,14 +126,13 @@ def _ratio(name: str, pair: tuple[Outcome, Outcome]) -> tuple[str, str, float]:
 
 
 def _made(name: str, pair: tuple[Outcome, Outcome]) -> list[Check]:
-    """The checks that both walks make all their impacts."""
-    return [made_check(name, o) for o in pair]
-
-
-def made_check(name: str, o: Outcome) -> Check:
-    """The check that a walk makes all impacts asked for."""
-    label = f"{name}, {o.run.controller}: impacts made of {o.run.impacts}"
-    return at_least(label, "reproduced", o.impacts, o.run.impacts)
+    """The checks that both walks make all impacts asked for."""
+    label = f"{name}, {{}}: impacts made of {{}}"
+    return [
+        at_least(label.format(r.controller, r.impacts), "reproduced", o.impacts, r.impacts)
+        for o in pair
+        for r in [o.run]
+    ]
 
 
 def period_gap(one: Array, other: Array) -> float:

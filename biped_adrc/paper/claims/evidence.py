@@ -212,22 +212,16 @@ def _both(run: Scenario) -> dict[str, Scenario]:
     return {c: replace(run, controller=c, method=method(c), engine=COMPILED) for c in CONTROLLERS}
 
 
-def torso_push(torque: float) -> Push:
-    """A push of `torque` [N m] on q5, which no motor drives, for 0.2 s."""
-    step = declared()["push"]["step"]
-    return Push({"q5": torque}, step=step, start=0.1, stop=0.3)
-
-
 def unmatched(preset: str) -> tuple[Pair, ...]:
-    """Pushes on the torso by amplitude; the last one is chosen large enough to stop a walk.
+    """Pushes on the torso for 0.2 s by amplitude; the last one is chosen large enough to stop a walk.
 
     No controller of the joints can cancel them: they change Theta'' itself, and with it the time of the step.
     """
-    k = declared()["unmatched"]
+    k, step = declared()["unmatched"], declared()["push"]["step"]
     found = []
     for torque in (*k["amplitudes"], k["fatal"]):
-        push = torso_push(torque)
-        runs = _both(Scenario(preset=preset, pushes=(push,), first_step=push.step, impacts=4))
+        push = Push({"q5": torque}, step=step, start=0.1, stop=0.3)
+        runs = _both(Scenario(preset=preset, pushes=(push,), first_step=step, impacts=4))
         found.append(_pair(f"{preset}, {torque:g} N m on the torso", runs))
     return tuple(found)
 

@@ -173,16 +173,11 @@ class Extremes(tuple[float, ...]):
         return cls(f.at_half for f in figures)
 
     def __format__(self, form: str) -> str:
-        return span(self, form or ".3g")
-
-
-def span(values: Sequence[float], form: str = ".3g") -> str:
-    """From the smallest to the largest number, in words; NaN is counted and said."""
-    known = [v for v in values if not math.isnan(v)]
-    if not known:
-        return "none"
-    low, high = f"{min(known):{form}}", f"{max(known):{form}}"
-    text = low if low == high else f"{low} to {high}"
-    return text + (
-        f" ({len(values) - len(known)} are no numbers)" if len(known) < len(values) else ""
-    )
+        """NaN is counted and said."""
+        known = [v for v in self if not math.isnan(v)]
+        if not known:
+            return "none"
+        low, high = (f"{v:{form or '.3g'}}" for v in (min(known), max(known)))
+        text = low if low == high else f"{low} to {high}"
+        unknown = len(self) - len(known)
+        return f"{text} ({unknown} are no numbers)" if unknown else text
