@@ -39,7 +39,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
     help="Underactuated walking with active disturbance rejection control (ADRC with a GPI observer).\n\n"
-    "Exit codes: 0 all is well, 1 a check of 'reproduce', 'robot check' or 'loop' does not hold, "
+    "Exit codes: 0 all is well, 1 a check of 'reproduce' or 'robot check' does not hold, "
     "2 wrong command line, 3 bad input, 4 the robot fell, 5 cannot write, 130 interrupted.",
 )
 gait_app = typer.Typer(

@@ -37,7 +37,8 @@ def play_command(
     values = {"controller": usual(given), **values_of(given, None, sets, scenario)}
     if not {"hardware", "period"} & set(values):
         values["hardware"] = "ideal"
-    others = OTHERS if ghost is None else {ghost: {"controller": ghost}, **OTHERS}
+    ghost = ghost or ("ADRC" if values["controller"] == "NPD" else "NPD")
+    others = {ghost: {"controller": ghost}, **OTHERS}
     path = Path(tempfile.mkdtemp(prefix="biped-adrc-")) / "walk.html" if out is None else out
     play(path, Scenario(**values), others)
     say_written(path)
