@@ -1,4 +1,4 @@
-"""A policy across contact in plain Python: the torque goes smoothly from its last value to the new one.
+"""Policies across contact in plain Python: the last torque goes on, or goes smoothly to the new one.
 
 Run: python examples/policies/ramp_torque.py
 """
@@ -40,11 +40,18 @@ class RampTorque(ba.Controller):
         return np.concatenate((self.inner.predict(s[:-4], m, u), last))
 
 
+class LastTorque(RampTorque):
+    """u = u_0 for t_step < window [s]: every motor keeps its last torque, then gives the controller's."""
+
+    def output(self, s, m):
+        return s[-4:] if m.t_step < self.window - 1e-9 else self.inner.output(s[:-4], m)
+
+
 biped = ba.Biped.load("rabbit")
 gait = ba.load_gait("published", biped)
 npd = ba.NPDController(gait.constraint)
 
-for controller in (npd, RampTorque(npd), RampTorque(npd, 0.015)):
+for controller in (npd, RampTorque(npd), LastTorque(npd), LastTorque(npd, 0.015)):
     walker = ba.Walker(biped, controller, timing=ba.SampledTime(1e-3), torque_limit=150.0)
     walk = ba.walk(walker, gait, impacts=3)
     name = f"{type(controller).__name__} {1e3 * getattr(controller, 'window', 0.0):g} ms"
