@@ -225,24 +225,17 @@ class Controller(Composed):
 
 
 def controller_laws(controller: Controller) -> ControllerLaws:
-    """The laws of a controller, or its methods as laws, which run in Python only and say so.
+    """The laws of a controller: its methods, of which the controller itself is the first argument.
 
-    So the closed loop calls laws whatever the controller is, and `obstacle` says why one does not compile.
+    A class that still gives `laws` has those.
     """
     if not controller._obstacle:
         laws: ControllerLaws = controller._laws
         return laws
-    return ControllerLaws(
-        (),
-        lambda k, s, m: controller.output(s, m),
-        lambda k, m: controller.initial_state(m),
-        lambda k, s, m, u: controller.flow(s, m, u),
-        lambda k, s, after, swap: controller.jump(s, after, swap),
-        lambda k, s, m: controller.correct(s, m),
-        lambda k, s, m, u: controller.predict(s, m, u),
-        lambda k, s, m: controller.estimate(s, m),
-        obstacle=controller._obstacle,
-    )
+    kind = type(controller)
+    methods = {name: getattr(kind, name) for name in Controller._methods}
+    written = {n: f for n, f in methods.items() if f is not getattr(Controller, n)}
+    return ControllerLaws(controller, kind.output)._replace(**written)
 
 
 def check_state(controller: Controller, s: Array, m: Measurement, u: Array) -> None:

@@ -164,14 +164,13 @@ def disturbance_laws(disturbance: Disturbance) -> tuple[DisturbanceLaw, ...]:
     """
     if not disturbance._obstacle:
         return disturbance._laws or ()
-    made = DisturbanceLaw(
-        (),
-        lambda k, *at: disturbance.torque(*at),
-        disturbance.switches,
-        lambda k, *at: disturbance.resultant(*at[:3]),
-        obstacle=disturbance._obstacle,
-    )
+    made = DisturbanceLaw(disturbance, type(disturbance).torque, disturbance.switches, resultant)
     return (made if disturbance.pulls else made._replace(resultant=None),)
+
+
+def resultant(k: Disturbance, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+    """The method `resultant`, which is a function of time alone, as a law."""
+    return k.resultant(t, step, t_start)
 
 
 @dataclass(frozen=True)

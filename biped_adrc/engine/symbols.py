@@ -25,6 +25,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from biped_adrc.errors import InputError
+from biped_adrc.model.biped import Biped
+from biped_adrc.part import content, is_part, with_content
 from biped_adrc.types import Array, frozen
 
 T = TypeVar("T")
@@ -269,6 +271,24 @@ def rebuilt(like: tuple[object, ...] | list[object], parts: list[object]) -> obj
     return like._make(parts) if hasattr(like, "_make") else type(like)(parts)
 
 
+class Hidden:
+    """In place of what has no symbols inside a part: a robot, or complex numbers. Raises Untraceable when used."""
+
+    def __init__(self, what: str):
+        self._what = what
+
+    def __getattr__(self, name: str) -> Any:
+        raise Untraceable(f"the law looks into {self._what}, which has no form on symbols")
+
+    __iter__ = __len__ = __add__ = __radd__ = __mul__ = __rmul__ = __array__ = lambda self, *_: (
+        self.__getattr__("")
+    )
+
+
+HIDDEN = (Biped, complex, np.complexfloating)
+"""What is neither number nor structure in a part; machine code must not depend on it."""
+
+
 class Vector:
     """A flat vector of symbols (size,), taken from the front, one array after the other.
 
@@ -306,6 +326,8 @@ class Vector:
             return rebuilt(tree, [self._like(x) for x in tree])
         if isinstance(tree, np.ndarray):
             return self.take(*tree.shape) if tree.dtype.kind == "f" else tree
+        if is_part(tree) and not isinstance(tree, HIDDEN):
+            return with_content(tree, {name: self._like(x) for name, x in content(tree).items()})
         return self.take() if isinstance(tree, float | np.floating) else tree
 
 
@@ -324,6 +346,8 @@ def _gather(tree: object, found: list[float]) -> None:
     elif isinstance(tree, np.ndarray):
         if tree.dtype.kind == "f":
             found += tree.ravel().tolist()
+    elif is_part(tree) and not isinstance(tree, HIDDEN):
+        _gather(tuple(content(tree).values()), found)
     elif isinstance(tree, float | np.floating):
         found.append(float(tree))
 
@@ -338,6 +362,9 @@ def paths(tree: object, name: str = "") -> Iterator[str]:
     elif isinstance(tree, np.ndarray):
         if tree.dtype.kind == "f":
             yield from (f"{name}[{', '.join(map(str, at))}]" for at in np.ndindex(*tree.shape))
+    elif is_part(tree) and not isinstance(tree, HIDDEN):
+        for inside, x in content(tree).items():
+            yield from paths(x, f"{name}.{inside}" if name else inside)
     elif isinstance(tree, float | np.floating):
         yield name
 

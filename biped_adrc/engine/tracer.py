@@ -6,6 +6,8 @@ error arose. The symbols themselves are in `engine.symbols`.
 
 from __future__ import annotations
 
+import functools
+import inspect
 import math
 import traceback
 import types
@@ -18,9 +20,11 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from biped_adrc import linear
+from biped_adrc import linear, parts
 from biped_adrc.engine import symbols
 from biped_adrc.engine.symbols import (
+    HIDDEN,
+    Hidden,
     Solver,
     T,
     Untraceable,
@@ -32,7 +36,10 @@ from biped_adrc.engine.symbols import (
     solve_positive,
     where,
 )
+from biped_adrc.part import content, derived, is_part, with_content
 
+OWN_BASES = ("biped_adrc.parts", "biped_adrc.shown")
+"""Modules of bases that have no methods for laws."""
 FUNCTIONS = {
     **{name: name for name in ("sin", "cos", "tan", "sqrt", "exp", "log", "sinh", "cosh", "tanh")},
     **{f"arc{name}": f"a{name}" for name in ("sin", "cos", "tan")},
@@ -99,8 +106,12 @@ class Tracer:
             (math, _Substitute(math, scalars)),
             (linear.solve, self.solver),
             (linear.solve_positive, solve_positive),
+            (parts.returned, lambda found, *_, **__: found),
+            (parts.point_returned, lambda found, *_: found),
+            (parts.check_part, lambda *_: None),
         ]
         self._copies: dict[types.FunctionType, Any] = {}
+        self._twins: dict[type, type] = {}
 
     def __call__(self, law: T) -> T:
         """The law for symbols, with every function that it reaches; what is no Python function
@@ -110,8 +121,10 @@ class Tracer:
         replaced. Copies are remembered before their names are replaced, so laws that call each
         other end.
         """
-        if not isinstance(law, types.FunctionType):
-            return law
+        return self._copy(law, {}) if isinstance(law, types.FunctionType) else law
+
+    def _copy(self, law: Any, classes: Mapping[type, type]) -> Any:
+        """The copy of a function; classes: twins of classes whose methods say `super()`."""
         if law not in self._copies:
             scope = {**BUILTINS, **law.__globals__}
             cells = [types.CellType(c.cell_contents) for c in law.__closure__ or ()]
@@ -124,7 +137,9 @@ class Tracer:
                 if name in scope:
                     scope[name] = self._substitute(scope[name])
             for cell in cells:
-                cell.cell_contents = self._substitute(cell.cell_contents)
+                found = cell.cell_contents
+                twin = classes.get(found) if isinstance(found, type) else None
+                cell.cell_contents = self._substitute(found) if twin is None else twin
         return self._copies[law]
 
     def _substitute(self, value: object) -> object:
@@ -134,7 +149,45 @@ class Tracer:
                 return new
         if isinstance(value, tuple | list):
             return rebuilt(value, [self._substitute(part) for part in value])
-        return self(value)
+        if isinstance(value, HIDDEN):
+            return Hidden(f"a {type(value).__name__}")
+        return self.on_symbols(value) if is_part(value) else self(value)
+
+    def on_symbols(self, part: T) -> T:
+        """A part, and the parts in it, with methods for symbols; its content stays as it is."""
+        values = {name: self._substitute(x) for name, x in content(part).items()}
+        return with_content(part, values, self.twin(type(part)))
+
+    def twin(self, cls: type) -> type:
+        """A subclass of cls whose methods run on symbols, `super()` and properties included."""
+        if cls.__module__ in ("builtins", "abc", "typing") or cls.__module__.startswith(OWN_BASES):
+            return cls
+        if cls not in self._twins:
+            bases = [self.twin(base) for base in cls.__bases__]
+            twins = [
+                twin for twin, base in zip(bases, cls.__bases__, strict=True) if twin is not base
+            ]
+            made = types.new_class(cls.__name__, (*twins, cls))
+            made.__module__, made.__qualname__ = cls.__module__, cls.__qualname__
+            self._twins[cls] = made
+            for name, value in vars(cls).items():
+                if name == "__call__" or not name.startswith("__"):
+                    copy = self._member(value, cls, made)
+                    if copy is not value:
+                        setattr(made, name, copy)
+        return self._twins[cls]
+
+    def _member(self, value: Any, cls: type, twin: type) -> Any:
+        """What stands in the twin for a method, property or other member of a class."""
+        if isinstance(value, types.FunctionType):
+            return self._copy(inspect.unwrap(value), {cls: twin})
+        if isinstance(value, property):
+            return property(self._member(value.fget, cls, twin))
+        if isinstance(value, functools.cached_property) and not isinstance(value, derived):
+            return property(self._member(value.func, cls, twin))
+        if isinstance(value, staticmethod):
+            return staticmethod(self(value.__func__))
+        return value
 
 
 def run(trace: Tracer, law: Callable[..., T], *arguments: object) -> T:
@@ -144,14 +197,25 @@ def run(trace: Tracer, law: Callable[..., T], *arguments: object) -> T:
     error arose, since the error itself comes from inside NumPy or CasADi.
     """
     try:
-        return trace(law)(*arguments)
+        return trace(law)(*map(trace._substitute, arguments))
     except Exception as error:  # whatever NumPy says of an object that is no float
-        frames = [frame.f_code for frame, _ in traceback.walk_tb(error.__traceback__)]
-        own = [code for code in frames if not code.co_filename.startswith(LIBRARIES)]
-        where = own[-1] if own else law.__code__
-        place = f"{Path(where.co_filename).stem}.{where.co_qualname}".replace(".<locals>", "")
-        reason = f"law '{place}' cannot be compiled: {error}"
-        raise Untraceable(reason) from error
+        raise Untraceable(f"{_place(error, law)} cannot be compiled: {error}") from error
+
+
+def _place(error: Exception, law: Any) -> str:
+    """The last line of the user's or this package's at which an error arose: PD.output (own.py:12, `if x > 0:`)."""
+    frames = traceback.extract_tb(error.__traceback__)
+    codes = [frame.f_code for frame, _ in traceback.walk_tb(error.__traceback__)]
+    own = [
+        pair
+        for pair in zip(codes, frames, strict=True)
+        if not pair[1].filename.startswith(LIBRARIES)
+    ]
+    if not own:
+        return str(getattr(law, "__qualname__", law))
+    code, frame = own[-1]
+    name = code.co_qualname.replace(".<locals>", "")
+    return f"{name} ({Path(frame.filename).name}:{frame.lineno}, `{frame.line}`)"
 
 
 LIBRARIES = (

@@ -87,11 +87,11 @@ class Reference(Composed):
 
 
 def reference_laws(reference: Reference) -> ReferenceLaws:
-    """The laws of a reference, or its method as a law, which runs in Python only and says so."""
+    """The laws of a reference: its method, of which the reference itself is the first argument."""
     if not reference._obstacle:
         laws: ReferenceLaws = reference._laws
         return laws
-    return ReferenceLaws((), lambda k, t, q, v: reference(t, q, v), reference._obstacle)
+    return ReferenceLaws(reference, type(reference).__call__)
 
 
 def check_point(reference: Reference, r: object, p: int, n: int) -> None:

@@ -237,42 +237,53 @@ class Observer(Composed):
 class MethodParameters(NamedTuple):
     """Of an observer that is written as methods: its state is one row."""
 
+    observer: Observer
     order: int = 1
 
 
+POLICIES = list(ResetPolicy)
+
+
 def observer_laws(observer: Observer) -> ObserverLaws:
-    """The laws of an observer, or its methods as laws, which run in Python only and say so."""
+    """The laws of an observer: its methods, with the flat state as one row."""
     if not observer._obstacle:
         laws: ObserverLaws = observer._laws
         return laws
-    policies = list(ResetPolicy)
-
-    def row(name: str, z: Array | None, *given: Any) -> Array:
-        """Z (1, size) that the method of this name gives from the state z, None at the start."""
-        state = () if z is None else (z,)
-        found = getattr(observer, name)(*state, *given)
-        return returned(found, None if z is None else z.shape, observer, name, finite=False)[
-            np.newaxis
-        ]
-
-    def estimate(k: HasOrder, Z: Array) -> Estimate:
-        found = observer.estimate(Z[0])
-        check_part(found, f"what {type(observer).__name__}.estimate returned", Estimate)
-        return found
-
-    made = ObserverLaws(
-        MethodParameters(),
-        lambda k, x: row("initial_state", None, *x),
-        estimate,
-        lambda k, code, Z, swap, x: row("reset", Z[0], policies[code], swap, *x),
-        obstacle=observer._obstacle,
-    )
+    made = ObserverLaws(MethodParameters(observer), _start, _estimate, _reset)
     discrete = (
         type(observer).predict is not Observer.predict or observer._law("predict") is not None
     )
     if not discrete:
-        return made._replace(flow=lambda k, Z, y, input: row("flow", Z[0], y, input))
-    return made._replace(
-        correct=lambda k, Z, y: row("correct", Z[0], y),
-        predict=lambda k, Z, input: row("predict", Z[0], input),
-    )
+        return made._replace(flow=_flow)
+    return made._replace(correct=_correct, predict=_predict)
+
+
+def _start(k: MethodParameters, x: Estimate) -> Array:
+    return k.observer.initial_state(*x)[np.newaxis]
+
+
+def _estimate(k: MethodParameters, Z: Array) -> Estimate:
+    found = k.observer.estimate(Z[0])
+    check_part(found, f"what {type(k.observer).__name__}.estimate returned", Estimate)
+    return found
+
+
+def _reset(k: MethodParameters, policy: int, Z: Array, swap: Array, x: Estimate) -> Array:
+    return _row(k.observer.reset(Z[0], POLICIES[policy], swap, *x), Z, k, "reset")
+
+
+def _flow(k: MethodParameters, Z: Array, y: Array, input: Array) -> Array:
+    return _row(k.observer.flow(Z[0], y, input), Z, k, "flow")
+
+
+def _correct(k: MethodParameters, Z: Array, y: Array) -> Array:
+    return _row(k.observer.correct(Z[0], y), Z, k, "correct")
+
+
+def _predict(k: MethodParameters, Z: Array, input: Array) -> Array:
+    return _row(k.observer.predict(Z[0], input), Z, k, "predict")
+
+
+def _row(found: Array, Z: Array, k: MethodParameters, name: str) -> Array:
+    """Z (1, size) that the method of this name gives."""
+    return returned(found, Z[0].shape, k.observer, name, finite=False)[np.newaxis]

@@ -1,0 +1,70 @@
+"""Parts of a walker: frozen dataclasses with ordinary methods, which both engines run.
+
+Controllers, observers, references, disturbances, sensors and touchdown detectors are parts, and parts may hold
+parts. Python calls their methods on numbers. The engine calls them once on symbols and writes machine code:
+
+    floats, arrays of floats       numbers, given at run time: new values compile nothing
+    whole numbers, flags, texts    structure: another value is another code
+    derived                        numbers that are computed once from the fields, such as gains from poles
+
+A method that decides by a number (`if x > 0`) has no one form on symbols; it runs in Python. `np.where` decides
+without that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import fields, is_dataclass
+from functools import cached_property, lru_cache
+from typing import Any, TypeVar
+
+from biped_adrc.types import frozen
+
+T = TypeVar("T")
+
+
+class derived(cached_property[T]):
+    """A method whose value is computed once for each object, from its fields, and is read-only.
+
+    For numbers that machine code takes as they are: a pole placement is not run on symbols, its gains are used.
+    """
+
+    def __get__(self, instance: Any, owner: Any = None) -> Any:
+        """The value; the descriptor itself where it is asked of the class."""
+        if instance is None:
+            return self
+        name = self.attrname
+        assert name is not None
+        if name not in vars(instance):
+            vars(instance)[name] = frozen(self.func(instance))
+        return vars(instance)[name]
+
+
+def is_part(x: object) -> bool:
+    """Whether x is an object of a dataclass."""
+    return is_dataclass(x) and not isinstance(x, type)
+
+
+def content(part: Any) -> dict[str, Any]:
+    """The fields of a part, then its derived numbers, by name."""
+    names = [f.name for f in fields(part)]
+    return {name: getattr(part, name) for name in (*names, *derived_names(type(part)))}
+
+
+def with_content(part: T, values: Mapping[str, Any], cls: type | None = None) -> T:
+    """An object of the class of a part, or of `cls`, with this content, to which no check is applied."""
+    made: Any = object.__new__(type(part) if cls is None else cls)
+    for name, value in values.items():
+        object.__setattr__(made, name, value)
+    return made
+
+
+@lru_cache(maxsize=512)
+def derived_names(cls: type) -> tuple[str, ...]:
+    """Names of the derived numbers of a class, those of its bases first."""
+    return tuple(dict.fromkeys(_derived(cls)))
+
+
+def _derived(cls: type) -> Iterator[str]:
+    for base in reversed(cls.__mro__):
+        yield from (name for name, x in vars(base).items() if isinstance(x, derived))
