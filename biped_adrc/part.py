@@ -13,11 +13,14 @@ without that.
 
 from __future__ import annotations
 
+from abc import ABC
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from functools import cached_property, lru_cache
 from typing import Any, TypeVar
 
+from biped_adrc.parts import Checked
+from biped_adrc.shown import Shown
 from biped_adrc.types import frozen
 
 T = TypeVar("T")
@@ -40,6 +43,10 @@ class derived(cached_property[T]):
         return vars(instance)[name]
 
 
+class Part(Checked, Shown, ABC):
+    """Base of all parts; a subclass is a frozen dataclass."""
+
+
 def is_part(x: object) -> bool:
     """Whether x is an object of a dataclass."""
     return is_dataclass(x) and not isinstance(x, type)
@@ -57,6 +64,14 @@ def with_content(part: T, values: Mapping[str, Any], cls: type | None = None) ->
     for name, value in values.items():
         object.__setattr__(made, name, value)
     return made
+
+
+def with_fields(part: T, **values: Any) -> T:
+    """A copy of a part with other fields, to which no check is applied; derived numbers stay.
+
+    For methods that both engines run: `dataclasses.replace` would check symbols as numbers.
+    """
+    return with_content(part, content(part) | values)
 
 
 @lru_cache(maxsize=512)

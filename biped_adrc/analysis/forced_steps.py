@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.analysis.stride_gain import bumped
-from biped_adrc.control.stride import StridePI, stride_jump
+from biped_adrc.control.stride import StridePI
 from biped_adrc.errors import GaitError, InputError, check_positive
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.gait import Gait
@@ -103,7 +103,7 @@ def forced_walk(
     delta2, zeta = zero.delta**2, 0.5 * zero.sigma_minus**2
     length = float(np.hypot(*biped.swing_foot(gait.q_minus)))
     curve = ForcedCurve.of(biped, gait.constraint, force)
-    w, done = np.zeros(3), list[ForcedStep]()  # T, integral and beta, as in `stride_jump`
+    w, done = np.zeros(3), list[ForcedStep]()  # T, integral and beta, as in `StridePI`
     for _ in range(steps):
         if stride is not None:
             h = bumped(gait.constraint, w[2] * np.array(stride.direction))
@@ -114,7 +114,7 @@ def forced_walk(
         zeta = delta2 * zeta - curve.end
         done.append(ForcedStep(length / T, float(w[2]), zeta))
         if stride is not None:
-            w = stride_jump(stride.parameters, np.array((T, w[1], w[2])))
+            w = stride.stepped(np.array((T, w[1], w[2])))
     return tuple(done)
 
 

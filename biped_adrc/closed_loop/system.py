@@ -12,7 +12,7 @@ Every signal of one instant is in `closed_loop.instant_signals`.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import cached_property
 from typing import Generic, TypeVar
 
@@ -21,7 +21,7 @@ import numpy as np
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.protocols import ControlLaw, Mode, Plant
 from biped_adrc.closed_loop.semantics import Instant
-from biped_adrc.control.base import Controller, Measurement, check_state
+from biped_adrc.control.base import Controller, Measurement, check_methods, nested
 from biped_adrc.control.tracking import Gains
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import BipedError, InputError, NotFiniteError
@@ -230,11 +230,10 @@ class ClosedLoop(HybridSystem, Generic[P]):
             m = self.measure(
                 mode.start, np.asarray(q, dtype=float), np.asarray(v, dtype=float), mode
             )
-            for part in _with_inner(self.law):
+            for part in nested(self.law):
                 _check_tracking(part, m, self.plant.p)
             s = returned(self.law.initial_state(m), None, self.law, "initial_state")
-            u = returned(self.law.output(s, m), self.torques, self.controller, "output")
-            check_state(self.law, s, m, u)
+            check_methods(self.law, s, m, self.sampled)
             k = self.held
             given = (self.sensors, self.touchdown, mode)
             tail = np.zeros(0) if k is None else held.at_start(k, m.q, m.v, *given)
@@ -333,13 +332,6 @@ def check_noticing(timing: ContinuousTime | SampledTime, model: object) -> None:
             f"the model is a {type(model).__name__}, which has no feet; a controller that notices touchdowns "
             "needs one with R, relabel and swing_foot, such as Biped.load('rabbit')"
         )
-
-
-def _with_inner(controller: Controller | None) -> Iterator[Controller]:
-    """A controller and the controllers nested in it (`inner`)."""
-    while controller is not None:
-        yield controller
-        controller = getattr(controller, "inner", None)
 
 
 def _check_tracking(controller: Controller, m: Measurement, p: int) -> None:

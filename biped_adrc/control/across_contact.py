@@ -19,30 +19,24 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import NamedTuple
+from typing import Self
 
 import numpy as np
 
-from biped_adrc.control.around import Around, AroundParameters, filled, passed_on
-from biped_adrc.control.base import ControllerLaws, Measurement
+from biped_adrc.control.around import Around
+from biped_adrc.control.base import Measurement
 from biped_adrc.errors import InputError
+from biped_adrc.part import derived
 from biped_adrc.timing import SAME_INSTANT
 from biped_adrc.types import Array
 
 
-class SettlingParameters(NamedTuple):
-    """until: T less round-off [s]."""
-
-    until: float
-
-
 @dataclass(frozen=True)
 class AcrossContact(Around):
-    """Base of the policies: a leaf is given laws of which none is missing but `estimate`, in sampled time."""
+    """Base of the policies, which act at sample instants."""
 
-    def taken(self, inner: ControllerLaws) -> ControllerLaws:
-        return filled(inner)
+    def continuous(self) -> Self:
+        self._only_sampled()
 
 
 @dataclass(frozen=True)
@@ -57,28 +51,16 @@ class ContactWindow(AcrossContact):
                 f"the window after touchdown is {self.window} s, expected 0 or more seconds, such as 0.015"
             )
 
-    @property
-    def own(self) -> SettlingParameters:
-        return SettlingParameters(float(self.window - SAME_INSTANT))
-
-
-@lru_cache(maxsize=64)
-def holding(inner: ControllerLaws) -> ControllerLaws:
-    """The laws of `Hold` around these."""
-    passed = passed_on(inner)
-
-    def correct(k: AroundParameters, s: Array, m: Measurement) -> Array:
-        assert inner.initial_state is not None
-        assert inner.correct is not None
-        fresh, run = inner.initial_state(k.inner, m), inner.correct(k.inner, s, m)
-        return np.where(m.t_step < k.own.until, fresh, run)
-
-    return passed._replace(correct=correct)
+    @derived
+    def until(self) -> float:
+        """T less round-off [s]."""
+        return float(self.window - SAME_INSTANT)
 
 
 @dataclass(frozen=True)
 class Hold(ContactWindow):
     """The observer of `inner` begins anew at each tick for `window` seconds after touchdown, then runs."""
 
-    def around(self, inner: ControllerLaws) -> ControllerLaws:
-        return holding(inner)
+    def correct(self, s: Array, m: Measurement) -> Array:
+        fresh, run = self.inner.initial_state(m), self.inner.correct(s, m)
+        return np.where(m.t_step < self.until, fresh, run)

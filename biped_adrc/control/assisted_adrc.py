@@ -1,4 +1,4 @@
-"""ADRC whose observer is told the nominal model's xi, and estimates what is left of it.
+"""ADRC whose observer knows the nominal model's xi, and estimates what is left of it.
 
     x1' = x2,   x2' = xi + kappa u + d                              d: model error and torques from outside
     u = kappa^-1 (q_d'' - K_d (x2^ - q_d') - K_p (x1^ - q_d) - xi - d^)
@@ -14,48 +14,43 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from biped_adrc.control.adrc import joints_fed, joints_struck
+from biped_adrc.control.adrc import JointObservingController
 from biped_adrc.control.base import Measurement, measured
-from biped_adrc.control.observing import ObservingController, Sight
-from biped_adrc.control.tracking import TABLE_II, Gains, TrackingParameters, tracking_torque
+from biped_adrc.control.tracking import TABLE_II, Gains, tracking_torque
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.types import Array
 
 
-def rest_seen(r: ReferencePoint, m: Measurement) -> Estimate:
-    """q_b, q_b', each (p,), and d = 0: the model explains all that is expected."""
-    x = measured(m)
-    return x._replace(disturbance=np.zeros(len(x.disturbance)))
-
-
-def rest_fed(r: ReferencePoint, m: Measurement, u: Array) -> Array:
-    """kappa u + xi (p,) [rad/s^2]: the acceleration that the model expects."""
-    return joints_fed(r, m, u) + m.terms.xi
-
-
-def rest_told(r: ReferencePoint, x: Estimate, m: Measurement) -> Estimate:
-    """The estimates with xi^ = xi + d^, each (p,)."""
-    return x._replace(disturbance=m.terms.xi + x.disturbance)
-
-
-def assisted_torque(k: TrackingParameters, r: ReferencePoint, x: Estimate, m: Measurement) -> Array:
-    """u (p,) [N m] for the estimates x, of which the disturbance is d^."""
-    return tracking_torque(k, r, rest_told(r, x, m), m.terms)
-
-
 @dataclass(frozen=True)
-class AssistedADRCController(ObservingController):
+class AssistedADRCController(JointObservingController):
     """The module's equations with an observer that is the whole state; m = 1 and Table II by default.
 
     gains: K_p [1/s^2], K_d [1/s]. solve_theta, reset: as in `ADRCController`.
     """
-
-    sight = Sight(rest_seen, rest_fed, assisted_torque, rest_told, joints_struck, False)
 
     reference: Reference
     observer: Observer = field(default_factory=lambda: GPIObserver.from_bandwidth(500.0, 1))
     gains: Gains = TABLE_II
     solve_theta: bool = True
     reset: ResetPolicy = ResetPolicy.MODEL
+
+    def measured_output(self, m: Measurement) -> Estimate:
+        """q_b, q_b', each (p,), and d = 0: the model explains all that is expected."""
+        x = measured(m)
+        return x._replace(disturbance=np.zeros(len(x.disturbance)))
+
+    def observer_input(self, m: Measurement, u: Array) -> Array:
+        """kappa u + xi (p,) [rad/s^2]: the acceleration that the model expects."""
+        return super().observer_input(m, u) + m.terms.xi
+
+    def torque(
+        self, r: ReferencePoint, x: Estimate, m: Measurement, a: Array | None = None
+    ) -> Array:
+        x = self.joint_estimate(x, m)
+        return tracking_torque(self.gains, r, x, m.terms, self.solve_theta, a)
+
+    def joint_estimate(self, x: Estimate, m: Measurement) -> Estimate:
+        """The estimates with xi^ = xi + d^, each (p,)."""
+        return x._replace(disturbance=m.terms.xi + x.disturbance)

@@ -19,65 +19,18 @@ share = 1 is the friction of the robot's record, 0 the controller inside, bit fo
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.control.around import Around, AroundParameters, passed_on
-from biped_adrc.control.base import Controller, ControllerLaws, Measurement
+from biped_adrc.control.around import Around
+from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.errors import InputError
-from biped_adrc.gait.reference import Reference, ReferencePoint, reference_laws
+from biped_adrc.gait.reference import Reference
 from biped_adrc.model.biped import STICTION_SPEED, Biped
 from biped_adrc.observers.base import Estimate
+from biped_adrc.part import derived
 from biped_adrc.types import Array
-
-
-class FrictionParameters(NamedTuple):
-    """h: parameters of the reference's law. viscous (p,) [N m s/rad], static (p,) [N m]: times the share."""
-
-    h: object
-    viscous: Array
-    static: Array
-
-
-def friction(k: FrictionParameters, r: ReferencePoint) -> Array:
-    """F (p,) [N m] at the rates of the reference's point r."""
-    return k.viscous * r.dq_d + k.static * np.tanh(r.dq_d / STICTION_SPEED)
-
-
-@lru_cache(maxsize=64)
-def feeding(inner: ControllerLaws, point: Callable[..., ReferencePoint]) -> ControllerLaws:
-    """The laws of `FrictionFeedforward` around these; point: the law of the reference."""
-
-    def fed(k: AroundParameters, m: Measurement) -> Array:
-        return friction(k.own, point(k.own.h, m.t, m.q, m.v))
-
-    def output(k: AroundParameters, s: Array, m: Measurement) -> Array:
-        return inner.output(k.inner, s, m) + fed(k, m)
-
-    def less(law: Callable[..., Array]) -> Callable[..., Array]:
-        def told(k: AroundParameters, s: Array, m: Measurement, u: Array) -> Array:
-            return law(k.inner, s, m, u - fed(k, m))
-
-        return told
-
-    def estimate(k: AroundParameters, s: Array, m: Measurement) -> Estimate | None:
-        assert inner.estimate is not None
-        x = inner.estimate(k.inner, s, m)
-        if x is None:
-            return None
-        return x._replace(disturbance=x.disturbance - m.terms.kappa @ fed(k, m))
-
-    laws: dict[str, Any] = {"output": output}
-    for name, law in (("flow", inner.flow), ("predict", inner.predict)):
-        if law is not None:
-            laws[name] = less(law)
-    if inner.estimate is not None:
-        laws["estimate"] = estimate
-    return passed_on(inner)._replace(**laws)
 
 
 @dataclass(frozen=True)
@@ -101,19 +54,33 @@ class FrictionFeedforward(Around):
                     f"{self.share}, expected finite numbers, none of them below 0"
                 )
 
-    @property
-    def own(self) -> FrictionParameters:
-        h = reference_laws(self.path).parameters
-        viscous, static = np.array(self.viscous, dtype=float), np.array(self.static, dtype=float)
-        return FrictionParameters(h, self.share * viscous, self.share * static)
+    @derived
+    def coefficients(self) -> tuple[Array, Array]:
+        """Viscous [N m s/rad] and static [N m], each (p,), times the share."""
+        return self.share * np.array(self.viscous), self.share * np.array(self.static)
 
-    @property
-    def laws(self) -> ControllerLaws:
-        laws = super().laws
-        return laws._replace(obstacle=laws.obstacle or reference_laws(self.path).obstacle)
+    def friction(self, m: Measurement) -> Array:
+        """F (p,) [N m] at the rates of the reference."""
+        dq_d, (viscous, static) = self.path(m.t, m.q, m.v).dq_d, self.coefficients
+        return viscous * dq_d + static * np.tanh(dq_d / STICTION_SPEED)
 
-    def around(self, inner: ControllerLaws) -> ControllerLaws:
-        return feeding(inner, reference_laws(self.path).point)
+    def output(self, s: Array, m: Measurement) -> Array:
+        return self.inner.output(s, m) + self.friction(m)
+
+    def projected_output(self, s: Array, m: Measurement, a: Array) -> Array:
+        return self.inner.projected_output(s, m, a) + self.friction(m)
+
+    def flow(self, s: Array, m: Measurement, u: Array) -> Array:
+        return self.inner.flow(s, m, u - self.friction(m))
+
+    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
+        return self.inner.predict(s, m, u - self.friction(m))
+
+    def estimate(self, s: Array, m: Measurement) -> Estimate | None:
+        x = self.inner.estimate(s, m)
+        if x is None:
+            return None
+        return x._replace(disturbance=x.disturbance - m.terms.kappa @ self.friction(m))
 
 
 def friction_feedforward(

@@ -24,85 +24,28 @@ precedent was found, in three searches for observers of disturbances and states 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.control.across_contact import ContactWindow
-from biped_adrc.control.around import AroundParameters, passed_on
-from biped_adrc.control.base import ControllerLaws, Measurement, controller_laws
+from biped_adrc.control.base import Measurement, nested
 from biped_adrc.control.outer_loop import tracked_constraint
 from biped_adrc.control.tracking import body_of
 from biped_adrc.errors import InputError
 from biped_adrc.linear import solve_positive
 from biped_adrc.model.reduction import BodyTerms
+from biped_adrc.part import derived
 from biped_adrc.parts import check_part
 from biped_adrc.types import Array
 
 
-class InvariantParameters(NamedTuple):
-    """until: T less round-off [s]. c (n,): Theta = c q. theta_minus [rad]. rates, innovation: 1 or 0."""
-
-    until: float
-    c: Array
-    theta_minus: float
-    rates: int
-    innovation: int
-
-
-def rates_struck(D: Array, body: BodyTerms, J: Array) -> Array:
+def impulse_response(D: Array, body: BodyTerms, J: Array) -> Array:
     """a (n, 2) [1/(kg m)] of the module, for the Jacobian J (2, n) [m] of the foot that strikes."""
     J_m = body.F_a
     about_com = D - J_m.T @ J_m / body.mass
     return solve_positive(
         about_com, J.T - J_m.T / body.mass, "the inertia about the centre of mass"
     )
-
-
-def landed(k: InvariantParameters, m: Measurement) -> bool:
-    """Whether a touchdown was told of less than T ago; on symbols 1 or 0."""
-    return m.t_step < k.until
-
-
-def expected(k: InvariantParameters, m: Measurement) -> bool:
-    """Whether the phase comes to its end, or has passed it, within T; on symbols 1 or 0."""
-    left, rate = float(k.theta_minus - k.c.dot(m.q)), float(k.c.dot(m.v))
-    return abs(left) < k.until * abs(rate)
-
-
-def directions(k: InvariantParameters, m: Measurement) -> Array:
-    """a (n, 2) for the foot that has struck, or is about to."""
-    body = body_of(m)
-    return rates_struck(m.terms.D, body, np.where(landed(k, m), 0.0 * body.J_2, body.J_2))
-
-
-def near(k: InvariantParameters, m: Measurement, projected: Array, given: Array) -> Array:
-    """`projected` within T of a touchdown, else `given`."""
-    return np.where(landed(k, m), projected, np.where(expected(k, m), projected, given))
-
-
-@lru_cache(maxsize=64)
-def projecting(inner: ControllerLaws) -> ControllerLaws:
-    """The laws of `ImpactInvariant` around these."""
-    blind, corrected, corrected_blind = inner.blind, inner.correct, inner.correct_blind
-    assert blind is not None
-    assert corrected is not None
-
-    def output(k: AroundParameters, s: Array, m: Measurement) -> Array:
-        u = inner.output(k.inner, s, m)
-        if k.own.rates == 0:
-            return u
-        return near(k.own, m, inner.output(blind(k.inner, m, directions(k.own, m)), s, m), u)
-
-    def correct(k: AroundParameters, s: Array, m: Measurement) -> Array:
-        new = corrected(k.inner, s, m)
-        if k.own.innovation == 0:
-            return new
-        assert corrected_blind is not None
-        return near(k.own, m, corrected_blind(k.inner, s, m, directions(k.own, m)), new)
-
-    return passed_on(inner)._replace(output=output, correct=correct)
 
 
 @dataclass(frozen=True)
@@ -124,25 +67,55 @@ class ImpactInvariant(ContactWindow):
         tracked_constraint(
             self.inner, "a touchdown is expected by the phase of a virtual constraint"
         )
-        laws, name = controller_laws(self.inner), type(self.inner).__name__
-        if laws.blind is None:
+        inside, name = list(nested(self.inner)), type(self.inner).__name__
+        if not all(c._writes("projected_output") for c in inside):
             raise InputError(
-                f"{name} has no rate error that could be projected; expected a controller whose laws "
-                "have `blind`, such as NPDController or ADRCController"
+                f"{name} has no rate error that could be projected; expected a controller that writes "
+                "projected_output, such as NPDController or ADRCController"
             )
-        if self.innovation and laws.estimate is None:
+        if self.innovation and not all(c._writes("projected_correct") for c in inside):
             raise InputError(f"{name} has no observer; expected innovation = False, or one with it")
 
-    @property
-    def own(self) -> InvariantParameters:  # type: ignore[override]
+    @derived
+    def phase(self) -> tuple[Array, float]:
+        """c (n,) of Theta = c q, and Theta- [rad]."""
         h = tracked_constraint(self.inner)
-        flags = int(self.rates), int(self.innovation)
-        return InvariantParameters(super().own.until, h.phase, float(h.theta_minus), *flags)
+        return h.phase, float(h.theta_minus)
 
     @property
     def needs_body(self) -> bool:  # type: ignore[override]
         """True: the Jacobian of the swing foot is among the terms of the body."""
         return True
 
-    def around(self, inner: ControllerLaws) -> ControllerLaws:
-        return projecting(inner)
+    def output(self, s: Array, m: Measurement) -> Array:
+        u = self.inner.output(s, m)
+        if not self.rates:
+            return u
+        return self.near(m, self.inner.projected_output(s, m, self.directions(m)), u)
+
+    def correct(self, s: Array, m: Measurement) -> Array:
+        z = self.inner.correct(s, m)
+        if not self.innovation:
+            return z
+        return self.near(m, self.inner.projected_correct(s, m, self.directions(m)), z)
+
+    def landed(self, m: Measurement) -> bool:
+        """Whether the last touchdown is less than T ago; on symbols 1 or 0."""
+        return m.t_step < self.until
+
+    def expected(self, m: Measurement) -> bool:
+        """Whether the phase comes to its end, or has passed it, within T; on symbols 1 or 0."""
+        c, theta_minus = self.phase
+        left, rate = float(theta_minus - c.dot(m.q)), float(c.dot(m.v))
+        return abs(left) < self.until * abs(rate)
+
+    def directions(self, m: Measurement) -> Array:
+        """a (n, 2) for the foot that has struck, or is about to."""
+        body = body_of(m)
+        J = np.where(self.landed(m), 0.0 * body.J_2, body.J_2)
+        return impulse_response(m.terms.D, body, J)
+
+    def near(self, m: Measurement, projected: Array, other: Array) -> Array:
+        """`projected` within T of a touchdown, else the other."""
+        soon = np.where(self.expected(m), projected, other)
+        return np.where(self.landed(m), projected, soon)

@@ -14,8 +14,7 @@ Industrial Electronics 47(4), 2000; Sariyildiz, Oboe, Ohnishi, IEEE Trans. Indus
 
 At impact the momentum jumps, about another foot; r is relabelled and kept, see `momentum_reset`.
 
-The four functions below are this controller's `Sight`: what the observer sees and is fed with is of all n
-coordinates, (n,), where that of ADRC is of the p joints.
+Measurement and input of the observer are of all n coordinates, where those of ADRC are of the p joints.
 """
 
 from __future__ import annotations
@@ -26,14 +25,8 @@ from typing import ClassVar
 import numpy as np
 
 from biped_adrc.control.base import Measurement, measured
-from biped_adrc.control.observing import ObservingController, Sight
-from biped_adrc.control.tracking import (
-    TABLE_II,
-    Gains,
-    TrackingParameters,
-    body_of,
-    tracking_torque,
-)
+from biped_adrc.control.observing import ObservingController
+from biped_adrc.control.tracking import TABLE_II, Gains, body_of, tracking_torque
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.linear import solve_positive
 from biped_adrc.model.reduction import Reduction
@@ -42,43 +35,12 @@ from biped_adrc.observers.momentum import MomentumObserver
 from biped_adrc.types import Array
 
 
-def momentum_seen(r: ReferencePoint, m: Measurement) -> Estimate:
-    """pi = D q' (n,) [kg m^2/s] of the nominal model, and no force from outside."""
-    none = np.zeros(len(m.q))
-    return Estimate(m.terms.D @ m.v, none, none)
-
-
-def momentum_fed(r: ReferencePoint, m: Measurement, u: Array) -> Array:
-    """beta = C' q' - G + B u (n,) [N m] for the applied torque u (p,)."""
-    body, p = body_of(m), m.terms.kappa.shape[0]
-    beta = body.turning - body.G
-    beta[:p] += u
-    return beta
-
-
 def pushed(terms: Reduction, r: Array) -> Reduction:
     """The split of D q'' + Omega = B u + r: with the force r (n,) [N m] in xi and a_N."""
     p = terms.kappa.shape[0]
     xi = terms.xi + terms.kappa @ (r[:p] + terms.A_N.T @ r[p:])
     a_N = terms.a_N + solve_positive(terms.D[p:, p:], r[p:], "D22")
     return Reduction(terms.D, terms.Omega - r, terms.kappa, xi, terms.kappa_inverse, terms.A_N, a_N)
-
-
-def dob_torque(k: TrackingParameters, r: ReferencePoint, x: Estimate, m: Measurement) -> Array:
-    """u (p,) [N m] for an estimated force (n,). Raises SingularError as `tracking_torque`."""
-    terms, joints = pushed(m.terms, x.disturbance), measured(m)
-    return tracking_torque(k, r, Estimate(joints.position, joints.velocity, terms.xi), terms)
-
-
-def momentum_told(r: ReferencePoint, x: Estimate, m: Measurement) -> Estimate:
-    """The measurement, and the total disturbance (14) that the model and the estimated force (n,) make."""
-    joints = measured(m)
-    return Estimate(joints.position, joints.velocity, pushed(m.terms, x.disturbance).xi)
-
-
-def momentum_struck(r: ReferencePoint, m: Measurement, a: Array) -> Array:
-    """What rates a (n, 2) change in pi, D a (n, 2)."""
-    return m.terms.D @ a
 
 
 @dataclass(frozen=True)
@@ -90,10 +52,37 @@ class MomentumDOBController(ObservingController):
     """
 
     needs_body: ClassVar[bool] = True
-    sight = Sight(momentum_seen, momentum_fed, dob_torque, momentum_told, momentum_struck, False)
 
     reference: Reference
     observer: Observer = field(default_factory=lambda: MomentumObserver.from_bandwidth(200.0))
     gains: Gains = TABLE_II
     solve_theta: bool = True
     reset: ResetPolicy = ResetPolicy.MODEL
+
+    def measured_output(self, m: Measurement) -> Estimate:
+        """pi = D q' (n,) [kg m^2/s] of the nominal model, and no force from outside."""
+        none = np.zeros(len(m.q))
+        return Estimate(m.terms.D @ m.v, none, none)
+
+    def observer_input(self, m: Measurement, u: Array) -> Array:
+        """beta = C' q' - G + B u (n,) [N m] for the applied torque u (p,)."""
+        body, p = body_of(m), m.terms.kappa.shape[0]
+        beta = body.turning - body.G
+        beta[:p] += u
+        return beta
+
+    def torque(
+        self, r: ReferencePoint, x: Estimate, m: Measurement, a: Array | None = None
+    ) -> Array:
+        """u (p,) [N m] for an estimated force (n,). Raises SingularError as `tracking_torque`."""
+        terms = pushed(m.terms, x.disturbance)
+        joints = measured(m)._replace(disturbance=terms.xi)
+        return tracking_torque(self.gains, r, joints, terms, self.solve_theta, a)
+
+    def joint_estimate(self, x: Estimate, m: Measurement) -> Estimate:
+        """The measurement, and the total disturbance (14) that the model and the estimated force (n,) make."""
+        return measured(m)._replace(disturbance=pushed(m.terms, x.disturbance).xi)
+
+    def output_change(self, m: Measurement, a: Array) -> Array:
+        """Change of pi, D a (n, 2)."""
+        return m.terms.D @ a

@@ -14,22 +14,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from biped_adrc.control.base import Controller, ControllerLaws, Measurement, measured
-from biped_adrc.control.tracking import (
-    TABLE_II,
-    Gains,
-    TrackingParameters,
-    blind_tracking,
-    tracked_laws,
-    tracking_torque,
-)
-from biped_adrc.gait.reference import Reference, ReferencePoint
+from biped_adrc.control.base import Controller, Measurement, measured
+from biped_adrc.control.tracking import TABLE_II, Gains, tracking_torque
+from biped_adrc.gait.reference import Reference
 from biped_adrc.types import Array
-
-
-def npd_torque(k: TrackingParameters, r: ReferencePoint, s: Array, m: Measurement) -> Array:
-    """u (p,) [N m] of (28) about the point r of the reference."""
-    return tracking_torque(k, r, measured(m), m.terms)
 
 
 @dataclass(frozen=True)
@@ -44,7 +32,10 @@ class NPDController(Controller):
     gains: Gains = TABLE_II
     solve_theta: bool = True
 
-    @property
-    def laws(self) -> ControllerLaws:
-        k = self.gains.parameters(self.solve_theta)
-        return tracked_laws(self.reference, ControllerLaws(k, npd_torque, blind=blind_tracking))
+    def output(self, s: Array, m: Measurement) -> Array:
+        r = self.reference(m.t, m.q, m.v)
+        return tracking_torque(self.gains, r, measured(m), m.terms, self.solve_theta)
+
+    def projected_output(self, s: Array, m: Measurement, a: Array) -> Array:
+        r = self.reference(m.t, m.q, m.v)
+        return tracking_torque(self.gains, r, measured(m), m.terms, self.solve_theta, a)

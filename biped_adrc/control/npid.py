@@ -23,64 +23,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import NamedTuple
-
 import numpy as np
 from scipy.linalg import expm
 
-from biped_adrc.control.base import Controller, ControllerLaws, Measurement, measured
-from biped_adrc.control.tracking import (
-    TABLE_II,
-    Gains,
-    TrackingParameters,
-    solved_acceleration,
-    tracked_laws,
-)
+from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.control.tracking import TABLE_II, Gains, solved_acceleration
 from biped_adrc.errors import InputError, check_positive
-from biped_adrc.gait.reference import Reference, ReferencePoint
+from biped_adrc.gait.reference import Reference
+from biped_adrc.part import derived
 from biped_adrc.parts import check_part
 from biped_adrc.types import Array
-
-
-class PIDParameters(NamedTuple):
-    """Gains, K_i [1/s^3], and M (3, 3), b (3,) of the filter: Z' = M Z + b e, or Z one period later.
-
-    Z (3, p) has the rows e_f, e_f', s; e (p,) [rad] is the error.
-    """
-
-    gains: TrackingParameters
-    K_i: float
-    M: Array
-    b: Array
-
-
-def npid_torque(k: PIDParameters, r: ReferencePoint, s: Array, m: Measurement) -> Array:
-    """u (p,) [N m] for the rows e_f [rad], e_f' [rad/s] and s [rad s] of the filter."""
-    e_f, de_f, total = s.reshape(3, -1)
-    f = -k.gains.K_p * e_f - k.gains.K_d * de_f - k.K_i * total
-    return m.terms.kappa_inverse @ (solved_acceleration(r, m.terms, f) - m.terms.xi)
-
-
-def filtered(k: PIDParameters, r: ReferencePoint, s: Array, m: Measurement, u: Array) -> Array:
-    """The slope of the filter's rows, or the rows one period later (3 p,)."""
-    e = measured(m).position - r.q_d
-    return (k.M @ s.reshape(3, -1) + np.outer(k.b, e)).ravel()
-
-
-def filter_start(k: PIDParameters, r: ReferencePoint, m: Measurement) -> Array:
-    """Rows (3 p,) that agree with the error and its rate, without an integral."""
-    x = measured(m)
-    e, de = x.position - r.q_d, x.velocity - r.dq_d
-    return np.concatenate((e, de, np.zeros(len(e))))
-
-
-def filter_jump(
-    k: PIDParameters, r: ReferencePoint, s: Array, after: Measurement, swap: Array
-) -> Array:
-    """Rows after impact: a new start, with the integral relabelled by swap (p,)."""
-    p = len(swap)
-    return np.concatenate((filter_start(k, r, after)[: 2 * p], s[2 * p :][swap]))
 
 
 @dataclass(frozen=True)
@@ -138,24 +90,49 @@ class NPIDController(Controller):
         w = math.sqrt(w2)
         return cls(reference, Gains(K_p / w2, K_d / w2), K_i / w2, w, 0.5 * (l_1 + k_d) / w)
 
-    @cached_property
-    def parameters(self) -> PIDParameters:
-        """What the laws need."""
+    @derived
+    def filter(self) -> tuple[Array, Array]:
+        """M (3, 3), b (3,): Z' = M Z + b e, or Z one period later, for the rows e_f, e_f', s of Z (3, p)."""
         w, zeta = self.filter_bandwidth, self.damping
         A = np.array([[0.0, 1.0, 0.0], [-w * w, -2.0 * zeta * w, 0.0], [1.0, 0.0, 0.0]])
         b = np.array([0.0, w * w, 0.0])
-        gains = self.gains.parameters(solve_theta=True)
         if self.period is None:
-            return PIDParameters(gains, float(self.K_i), A, b)
+            return A, b
         held = expm(np.block([[A, b[:, np.newaxis]], [np.zeros((1, 4))]]) * self.period)
-        return PIDParameters(gains, float(self.K_i), held[:3, :3].copy(), held[:3, 3].copy())
+        return held[:3, :3].copy(), held[:3, 3].copy()
 
-    @property
-    def laws(self) -> ControllerLaws:
-        own = ControllerLaws(self.parameters, npid_torque, filter_start, jump=filter_jump)
-        if self.period is None:
-            return tracked_laws(self.reference, own._replace(flow=filtered))
-        return tracked_laws(self.reference, own._replace(predict=filtered))
+    def output(self, s: Array, m: Measurement) -> Array:
+        r = self.reference(m.t, m.q, m.v)
+        e_f, de_f, total = s.reshape(3, -1)
+        f = -self.gains.K_p * e_f - self.gains.K_d * de_f - self.K_i * total
+        return m.terms.kappa_inverse @ (solved_acceleration(r, m.terms, f) - m.terms.xi)
+
+    def initial_state(self, m: Measurement) -> Array:
+        """Rows (3 p,) that agree with the error and its rate, without an integral."""
+        r = self.reference(m.t, m.q, m.v)
+        e, de = m.q_b - r.q_d, m.v_b - r.dq_d
+        return np.concatenate((e, de, np.zeros(len(e))))
+
+    def flow(self, s: Array, m: Measurement, u: Array) -> Array:
+        return self._filtered(s, m)
+
+    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
+        return self._filtered(s, m)
+
+    def _filtered(self, s: Array, m: Measurement) -> Array:
+        """The slope of the filter's rows, or the rows one period later (3 p,)."""
+        (M, b), e = self.filter, m.q_b - self.reference(m.t, m.q, m.v).q_d
+        return (M @ s.reshape(3, -1) + np.outer(b, e)).ravel()
+
+    def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
+        """Rows after impact: a new start, with the integral relabelled by swap (p,)."""
+        p = len(swap)
+        return np.concatenate((self.initial_state(after)[: 2 * p], s[2 * p :][swap]))
 
     def sampled(self, period: float) -> NPIDController:
         return replace(self, period=period)
+
+    def continuous(self) -> NPIDController:
+        if self.period is not None:
+            self._only_sampled()
+        return self

@@ -8,7 +8,7 @@ controller, whichever it is, tracks the sum. Outer loops go around outer loops: 
 An inner loop drives q_b - h(Theta) to zero, and cannot change what the zero dynamics do with a push; an outer
 loop does so by changing h. The inner controller is never told: at each call a copy of it tracks the corrected
 constraint. The core, inside all loops, starts and jumps last, when all corrections are known, since an observer
-of outputs starts from the error of what is in force. Outer loops are written as methods and run in Python.
+of outputs starts from the error of what is in force.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import CorrectedConstraint, Correction, VirtualConstraint
 from biped_adrc.observers.base import ErrorSystem, Estimate
+from biped_adrc.part import with_fields
 from biped_adrc.types import Array
 
 Constraint = VirtualConstraint | CorrectedConstraint
@@ -149,12 +150,9 @@ def own_reference(controller: Controller | None) -> Any:
 def tracking(controller: Controller, reference: Constraint) -> Controller:
     """A copy of the controller, or of that inside it (field `inner`), with another reference."""
     here = hasattr(controller, "reference")
-    made: Controller = (
-        replace(controller, reference=reference)  # type: ignore[type-var]
-        if here
-        else replace(controller, inner=tracking(controller.inner, reference))  # type: ignore[attr-defined, type-var]
-    )
-    return made
+    if here:
+        return with_fields(controller, reference=reference)
+    return with_fields(controller, inner=tracking(controller.inner, reference))  # type: ignore[attr-defined]
 
 
 def reference_in_force(controller: Controller, s: Array) -> Constraint:
@@ -195,6 +193,6 @@ def with_correction(controller: Controller, correction: Correction) -> Controlle
     The innermost one is changed: loops between pass the correction on.
     """
     if isinstance(controller, OuterLoop):
-        return replace(controller, inner=with_correction(controller.inner, correction))
+        return with_fields(controller, inner=with_correction(controller.inner, correction))
     h = own_reference(controller) or tracked_constraint(controller)
     return tracking(controller, CorrectedConstraint(h, correction))

@@ -21,8 +21,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from biped_adrc.control.base import Measurement, measured
-from biped_adrc.control.observing import ObservingController, Sight
-from biped_adrc.control.tracking import TABLE_II, Gains, TrackingParameters
+from biped_adrc.control.observing import ObservingController
+from biped_adrc.control.tracking import TABLE_II, Gains, orthogonal_to, rate_error_change
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.linear import solve
 from biped_adrc.model.reduction import Reduction
@@ -37,48 +37,6 @@ def output_matrix(r: ReferencePoint, terms: Reduction) -> Array:
     return np.eye(p) - r.H[:, :p] - r.H[:, p:] @ terms.A_N
 
 
-def output_seen(r: ReferencePoint, m: Measurement) -> Estimate:
-    """y, y' and the nominal model's xi_y, each (p,)."""
-    x = measured(m)
-    p, terms = len(r.q_d), m.terms
-    xi_y = output_matrix(r, terms) @ terms.xi - r.drift - r.H[:, p:] @ terms.a_N
-    return Estimate(x.position - r.q_d, x.velocity - r.dq_d, xi_y)
-
-
-def output_fed(r: ReferencePoint, m: Measurement, u: Array) -> Array:
-    """L u (p,) [rad/s^2]."""
-    return output_matrix(r, m.terms) @ (m.terms.kappa @ u)
-
-
-def output_torque(k: TrackingParameters, r: ReferencePoint, x: Estimate, m: Measurement) -> Array:
-    """u (p,) [N m] for estimates x of the output. Raises SingularError where M is exactly singular.
-
-    That is where a pivot of it is 0.0; near that u grows without bound and without an error.
-    """
-    rate = x.velocity if len(k.P) == 0 else k.P @ x.velocity
-    w = -k.K_p * x.position - k.K_d * rate - x.disturbance
-    a = solve(
-        output_matrix(r, m.terms), w, "L of y'' = L u + xi_y, the output's decoupling matrix,"
-    )
-    return m.terms.kappa_inverse @ a
-
-
-def output_told(r: ReferencePoint, x: Estimate, m: Measurement) -> Estimate:
-    """Estimates x of the output in words of the joints, q_N'' taken from the nominal model."""
-    p, terms = len(r.q_d), m.terms
-    xi = solve(
-        output_matrix(r, terms),
-        x.disturbance + r.drift + r.H[:, p:] @ terms.a_N,
-        "the output's decoupling matrix",
-    )
-    return Estimate(x.position + r.q_d, x.velocity + r.dq_d, xi)
-
-
-def output_struck(r: ReferencePoint, m: Measurement, a: Array) -> Array:
-    """What rates a (n, 2) change in y', (p, 2)."""
-    return a[: len(r.q_d)] - r.H @ a
-
-
 @dataclass(frozen=True)
 class OutputADRCController(ObservingController):
     """The module's equations with an observer of y that is the whole state.
@@ -88,9 +46,47 @@ class OutputADRCController(ObservingController):
     There is no form for the exponential method: in continuous time with Table I take RK4(5e-5).
     """
 
-    sight = Sight(output_seen, output_fed, output_torque, output_told, output_struck, True)
-
     reference: Reference
     observer: Observer = field(default_factory=GPIObserver.from_poles)
     gains: Gains = TABLE_II
     reset: ResetPolicy = ResetPolicy.MODEL
+
+    def measured_output(self, m: Measurement) -> Estimate:
+        """y, y' and the nominal model's xi_y, each (p,)."""
+        r, x, terms = self.point(m), measured(m), m.terms
+        p = len(r.q_d)
+        xi_y = output_matrix(r, terms) @ terms.xi - r.drift - r.H[:, p:] @ terms.a_N
+        return Estimate(x.position - r.q_d, x.velocity - r.dq_d, xi_y)
+
+    def observer_input(self, m: Measurement, u: Array) -> Array:
+        """L u (p,) [rad/s^2]."""
+        return output_matrix(self.point(m), m.terms) @ (m.terms.kappa @ u)
+
+    def torque(
+        self, r: ReferencePoint, x: Estimate, m: Measurement, a: Array | None = None
+    ) -> Array:
+        """u (p,) [N m] for estimates x of the output. Raises SingularError where M is exactly singular.
+
+        That is where a pivot of it is 0.0; near that u grows without bound and without an error.
+        """
+        dy = x.velocity if a is None else orthogonal_to(rate_error_change(r, a)) @ x.velocity
+        w = -self.gains.K_p * x.position - self.gains.K_d * dy - x.disturbance
+        ddq_b = solve(
+            output_matrix(r, m.terms), w, "L of y'' = L u + xi_y, the output's decoupling matrix,"
+        )
+        return m.terms.kappa_inverse @ ddq_b
+
+    def joint_estimate(self, x: Estimate, m: Measurement) -> Estimate:
+        """Estimates of the joints, q_N'' taken from the nominal model."""
+        r, terms = self.point(m), m.terms
+        p = len(r.q_d)
+        xi = solve(
+            output_matrix(r, terms),
+            x.disturbance + r.drift + r.H[:, p:] @ terms.a_N,
+            "the output's decoupling matrix",
+        )
+        return Estimate(x.position + r.q_d, x.velocity + r.dq_d, xi)
+
+    def output_change(self, m: Measurement, a: Array) -> Array:
+        """Change of y' (p, 2)."""
+        return rate_error_change(self.point(m), a)

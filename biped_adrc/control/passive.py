@@ -10,19 +10,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.control.base import Controller, ControllerLaws, Measurement
+from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.types import Array
-
-
-def passive_output(k: tuple[()], s: Array, m: Measurement) -> Array:
-    """u = 0 (p,) [N m]."""
-    return np.zeros(m.terms.kappa.shape[0])
 
 
 @dataclass(frozen=True)
 class Passive(Controller):
     """u = 0 (p,) [N m]."""
 
-    @property
-    def laws(self) -> ControllerLaws:
-        return ControllerLaws((), passive_output)
+    def output(self, s: Array, m: Measurement) -> Array:
+        return np.zeros(m.terms.kappa.shape[0])

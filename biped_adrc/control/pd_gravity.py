@@ -13,9 +13,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from biped_adrc.control.base import Controller, ControllerLaws, Measurement
-from biped_adrc.control.tracking import Gains, TrackingParameters, body_of, feedback, tracked_laws
-from biped_adrc.gait.reference import Reference, ReferencePoint
+from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.control.tracking import Gains, body_of, feedback
+from biped_adrc.gait.reference import Reference
 from biped_adrc.types import Array
 
 
@@ -30,12 +30,6 @@ class JointGains(Gains):
     K_d: Array | float = 250.0
 
 
-def pd_gravity_torque(k: TrackingParameters, r: ReferencePoint, s: Array, m: Measurement) -> Array:
-    """u (p,) [N m] about the point r of the reference."""
-    p = m.terms.kappa.shape[0]
-    return feedback(k, r, m.q[:p], m.v[:p]) + body_of(m).G[:p]
-
-
 @dataclass(frozen=True)
 class PDGravityController(Controller):
     """The module's equation, a controller without a state; `gains` are torques per angle and rate.
@@ -48,7 +42,6 @@ class PDGravityController(Controller):
     reference: Reference
     gains: JointGains = JointGains()
 
-    @property
-    def laws(self) -> ControllerLaws:
-        k = self.gains.parameters(solve_theta=False)
-        return tracked_laws(self.reference, ControllerLaws(k, pd_gravity_torque))
+    def output(self, s: Array, m: Measurement) -> Array:
+        r = self.reference(m.t, m.q, m.v)
+        return feedback(self.gains, r, m.q_b, m.v_b) + body_of(m).G[: len(r.q_d)]

@@ -20,28 +20,20 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import lru_cache
-from typing import NamedTuple, Self
+from typing import Self
 
 import numpy as np
 
-from biped_adrc.control.around import Around, AroundParameters, filled, tick_laws
-from biped_adrc.control.base import ControllerLaws, Measurement
+from biped_adrc.control.around import Around
+from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.errors import InputError
 from biped_adrc.observers.base import Estimate
+from biped_adrc.part import derived
 from biped_adrc.timing import LONGEST_DELAY
 from biped_adrc.types import Array
 
 WHOLE = 1e-9
 """A prediction that is longer than whole periods by less than this fraction of one is of whole periods."""
-
-
-class PredictionParameters(NamedTuple):
-    """d [s], and the weights of U's rows in u_v and u_q, each (N,) with the sum 1."""
-
-    d: float
-    of_rate: Array
-    of_angle: Array
 
 
 def weights(d: float, period: float) -> tuple[Array, Array]:
@@ -52,65 +44,6 @@ def weights(d: float, period: float) -> tuple[Array, Array]:
     )  # from the torque's first instant to t + d
     after = np.append(left[1:], 0.0)
     return (left - after) / d, (left**2 - after**2) / d**2
-
-
-def ahead(k: PredictionParameters, U: Array, m: Measurement) -> Measurement:
-    """The measurement d later, of the nominal model under the torques U (N, p) [N m]."""
-
-    def acceleration(u: Array) -> Array:
-        a = m.terms.kappa @ u + m.terms.xi
-        return np.concatenate((a, m.terms.A_N @ a + m.terms.a_N))
-
-    a_q, a_v = acceleration(k.of_angle @ U), acceleration(k.of_rate @ U)
-    assert m.elsewhere is not None
-    q, v = m.q + k.d * m.v + 0.5 * k.d**2 * a_q, m.v + k.d * a_v
-    return m.elsewhere(q, v)._replace(t=m.t + k.d)
-
-
-@lru_cache(maxsize=64)
-def predicting(inner: ControllerLaws) -> ControllerLaws:
-    """The laws of `Predicted` around these."""
-    start, jumped, corrected, predicted = tick_laws(inner)
-    told = inner.estimate
-
-    def parts(k: AroundParameters, s: Array, p: int) -> tuple[Array, Array]:
-        """The inner state, and U (N, p)."""
-        count = len(k.own.of_rate)
-        end = len(s) - count * p
-        return s[:end], s[end:].reshape(count, p)
-
-    def of(k: AroundParameters, s: Array, m: Measurement) -> tuple[Array, Array, Measurement]:
-        z, U = parts(k, s, m.terms.kappa.shape[0])
-        return z, U, ahead(k.own, U, m)
-
-    def output(k: AroundParameters, s: Array, m: Measurement) -> Array:
-        z, _, m = of(k, s, m)
-        return inner.output(k.inner, z, m)
-
-    def initial_state(k: AroundParameters, m: Measurement) -> Array:
-        U = np.zeros((len(k.own.of_rate), m.terms.kappa.shape[0]))
-        return np.concatenate((start(k.inner, ahead(k.own, U, m)), U.ravel()))
-
-    def jump(k: AroundParameters, s: Array, after: Measurement, swap: Array) -> Array:
-        z, U = parts(k, s, len(swap))
-        U = U[:, swap]
-        return np.concatenate((jumped(k.inner, z, ahead(k.own, U, after), swap), U.ravel()))
-
-    def correct(k: AroundParameters, s: Array, m: Measurement) -> Array:
-        z, U, m = of(k, s, m)
-        return np.concatenate((corrected(k.inner, z, m), U.ravel()))
-
-    def predict(k: AroundParameters, s: Array, m: Measurement, u: Array) -> Array:
-        z, U, m = of(k, s, m)
-        return np.concatenate((predicted(k.inner, z, m, u), U[1:].ravel(), u))
-
-    def estimate(k: AroundParameters, s: Array, m: Measurement) -> Estimate | None:
-        assert told is not None
-        z, _, m = of(k, s, m)
-        return told(k.inner, z, m)
-
-    seen = None if told is None else estimate
-    return ControllerLaws(None, output, initial_state, None, jump, correct, predict, seen)
 
 
 @dataclass(frozen=True)
@@ -131,23 +64,64 @@ class Predicted(Around):
                 f"{LONGEST_DELAY} periods; leave it out for none"
             )
 
-    @property
-    def own(self) -> PredictionParameters:
-        period = self.prediction if self.period is None else self.period
-        return PredictionParameters(float(self.prediction), *weights(self.prediction, period))
+    @derived
+    def weights(self) -> tuple[Array, Array]:
+        """Of U's rows in u_v and in u_q, each (N,)."""
+        return weights(self.prediction, self.period or self.prediction)
 
-    @property
-    def laws(self) -> ControllerLaws:
-        laws = super().laws
-        return laws if self.period is not None else laws._replace(output=unsampled)
+    def parts(self, s: Array, m: Measurement) -> tuple[Array, Array]:
+        """The state of the controller inside, and U (N, p)."""
+        count, p = len(self.weights[0]), m.terms.kappa.shape[0]
+        end = len(s) - count * p
+        return s[:end], s[end:].reshape(count, p)
 
-    def around(self, inner: ControllerLaws) -> ControllerLaws:
-        return predicting(filled(inner))
+    def ahead(self, U: Array, m: Measurement) -> Measurement:
+        """The measurement d later, of the nominal model under the torques U (N, p) [N m].
+
+        Raises InputError for a controller that was not made for sampled time.
+        """
+        if self.period is None:
+            raise InputError("a prediction works at ticks; call sampled(period)")
+
+        def acceleration(u: Array) -> Array:
+            a = m.terms.kappa @ u + m.terms.xi
+            return np.concatenate((a, m.terms.A_N @ a + m.terms.a_N))
+
+        d, (of_rate, of_angle) = self.prediction, self.weights
+        a_q, a_v = acceleration(of_angle @ U), acceleration(of_rate @ U)
+        assert m.elsewhere is not None
+        q, v = m.q + d * m.v + 0.5 * d**2 * a_q, m.v + d * a_v
+        return m.elsewhere(q, v)._replace(t=m.t + d)
+
+    def output(self, s: Array, m: Measurement) -> Array:
+        z, U = self.parts(s, m)
+        return self.inner.output(z, self.ahead(U, m))
+
+    projected_output, projected_correct = Controller.projected_output, Controller.projected_correct
+
+    def initial_state(self, m: Measurement) -> Array:
+        U = np.zeros((len(self.weights[0]), m.terms.kappa.shape[0]))
+        return np.concatenate((self.inner.initial_state(self.ahead(U, m)), U.ravel()))
+
+    def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
+        z, U = self.parts(s, after)
+        U = U[:, swap]
+        return np.concatenate((self.inner.jump(z, self.ahead(U, after), swap), U.ravel()))
+
+    def correct(self, s: Array, m: Measurement) -> Array:
+        z, U = self.parts(s, m)
+        return np.concatenate((self.inner.correct(z, self.ahead(U, m)), U.ravel()))
+
+    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
+        z, U = self.parts(s, m)
+        return np.concatenate((self.inner.predict(z, self.ahead(U, m), u), U[1:].ravel(), u))
+
+    def estimate(self, s: Array, m: Measurement) -> Estimate | None:
+        z, U = self.parts(s, m)
+        return self.inner.estimate(z, self.ahead(U, m))
 
     def sampled(self, period: float) -> Self:
         return replace(self, inner=self.inner.sampled(period), period=period)
 
-
-def unsampled(k: object, s: Array, m: Measurement) -> Array:
-    """Raises InputError: which torques are on their way is known when the period is."""
-    raise InputError("a prediction works at ticks; call sampled(period)")
+    def continuous(self) -> Self:
+        self._only_sampled()

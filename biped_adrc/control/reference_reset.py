@@ -17,65 +17,45 @@ Locomotion, 2007, on transition controllers).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, partial
-from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.control.base import Measurement, measured
+from biped_adrc.control.base import Measurement
 from biped_adrc.control.outer_loop import Constraint, OuterLoop, tracked_constraint
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import Correction
-from biped_adrc.gait.reference import ReferencePoint
+from biped_adrc.part import derived
 from biped_adrc.types import Array
 
 LEAST_REACH = 0.2
 """Least x at impact: nearer to Theta_e, where c would have to fall abruptly, nothing is corrected."""
 
 
-class ResetRange(NamedTuple):
-    """end: Theta_e [rad]. rate: dx/dTheta = -1 / (Theta_e - Theta+) [1/rad], where x is 1 at Theta+."""
+@dataclass(frozen=True)
+class ResetPolynomial:
+    """The correction c(Theta) of the rows a_0, a_1 of a (2, p).
 
+    end: Theta_e [rad]. rate: dx/dTheta = -1 / (Theta_e - Theta+) [1/rad], where x is 1 at Theta+.
+    """
+
+    a: Array
     end: float
     rate: float
 
+    def __call__(self, theta: float) -> tuple[Array, Array, Array]:
+        """c, dc/dTheta, d2c/dTheta2 at theta [rad], each (p,); all are zero past Theta_e."""
+        x, (a_0, a_1) = max(self.rate * (theta - self.end), 0.0), self.a
+        return (
+            x**3 * (a_0 + a_1 * x),
+            self.rate * x**2 * (3.0 * a_0 + 4.0 * a_1 * x),
+            self.rate**2 * x * (6.0 * a_0 + 12.0 * a_1 * x),
+        )
 
-class ResetParameters(NamedTuple):
-    """range: where the correction ends. phase: the row c_q (n,) of Theta = c_q q."""
 
-    range: ResetRange
-    phase: Array
-
-
-def reset_coefficients(k: ResetRange, theta: float, e: Array, slope: Array) -> Array:
-    """a_0, a_1 (2, p) with c = e [rad] and dc/dTheta = slope [rad/rad] at theta."""
-    x = k.rate * (theta - k.end)
-    A, B = e / x**3, slope / (k.rate * x**2)
+def reset_coefficients(x: float, rate: float, e: Array, slope: Array) -> Array:
+    """a_0, a_1 (2, p) with c = e [rad] and dc/dTheta = slope [rad/rad] where (Theta_e - Theta) has this x."""
+    A, B = e / x**3, slope / (rate * x**2)
     return np.vstack((4.0 * A - B, (B - 3.0 * A) / x))
-
-
-def reset_start(k: ResetParameters, r: ReferencePoint, m: Measurement) -> Array:
-    """(a_0, a_1) flat (2 p,) for the reference r in force; zero where there is nothing to correct."""
-    x = measured(m)
-    theta, dtheta = float(k.phase @ m.q), float(k.phase @ m.v)
-    reach = k.range.rate * (theta - k.range.end)
-    if reach < LEAST_REACH or not dtheta * k.range.rate < 0.0:
-        return np.zeros(2 * len(r.q_d))
-    slope = (x.velocity - r.dq_d) / dtheta
-    return reset_coefficients(k.range, theta, x.position - r.q_d, slope).ravel()
-
-
-def reset_polynomial(k: ResetRange, a: Array, theta: float) -> tuple[Array, Array, Array]:
-    """c, dc/dTheta, d2c/dTheta2 at theta [rad], each (p,), for the rows a_0, a_1 of a (2, p).
-
-    All are zero past Theta_e, where x would be negative.
-    """
-    x = max(k.rate * (theta - k.end), 0.0)
-    return (
-        x**3 * (a[0] + a[1] * x),
-        k.rate * x**2 * (3.0 * a[0] + 4.0 * a[1] * x),
-        k.rate**2 * x * (6.0 * a[0] + 12.0 * a[1] * x),
-    )
 
 
 @dataclass(frozen=True)
@@ -96,27 +76,28 @@ class ReferenceReset(OuterLoop):
                 f"the reference is reset over {self.share} of the step, expected a share in (0, 1]"
             )
 
-    @cached_property
-    def range(self) -> ResetRange:
-        """Where the correction ends."""
+    @derived
+    def range(self) -> tuple[float, float]:
+        """Theta_e [rad], where the correction ends, and dx/dTheta [1/rad]."""
         h = tracked_constraint(self.inner)
         reach = self.share * (h.theta_minus - h.theta_plus)
-        return ResetRange(h.theta_plus + reach, -1.0 / reach)
-
-    @cached_property
-    def parameters(self) -> ResetParameters:
-        """What the laws `reset_start` and `reset_polynomial` need."""
-        return ResetParameters(self.range, tracked_constraint(self.inner).phase)
+        return h.theta_plus + reach, -1.0 / reach
 
     @property
     def own_size(self) -> int:
         return 2 * tracked_constraint(self.inner).curve.coefficients.shape[0]
 
     def own_start(self, h: Constraint, m: Measurement) -> Array:
-        return reset_start(self.parameters, h(m.t, m.q, m.v), m)
+        """(a_0, a_1) flat (2 p,) for the reference h in force; zero where there is nothing to correct."""
+        r, c, (end, rate) = h(m.t, m.q, m.v), tracked_constraint(self.inner).phase, self.range
+        dtheta, x = c @ m.v, rate * (c @ m.q - end)
+        bends = (x >= LEAST_REACH) * (dtheta * rate < 0.0)
+        slope = (m.v_b - r.dq_d) / np.where(bends, dtheta, 1.0)
+        a = reset_coefficients(np.where(bends, x, 1.0), rate, m.q_b - r.q_d, slope).ravel()
+        return np.where(bends, a, 0.0)
 
     def own_jump(self, w: Array, h: Constraint, after: Measurement) -> Array:
         return self.own_start(h, after)
 
     def correction(self, w: Array) -> Correction:
-        return partial(reset_polynomial, self.range, w.reshape(2, -1))
+        return ResetPolynomial(w.reshape(2, -1), *self.range)

@@ -21,8 +21,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property, partial
-from typing import NamedTuple
 
 import numpy as np
 
@@ -32,6 +30,7 @@ from biped_adrc.errors import InputError, check_positive
 from biped_adrc.gait.constraint import Correction
 from biped_adrc.gait.gait import Gait
 from biped_adrc.model.biped import Biped
+from biped_adrc.part import derived
 from biped_adrc.types import Array
 
 TORSO_LEAN = (1.0, 1.0, 0.0, 0.0)
@@ -45,39 +44,21 @@ def bump(s: float) -> tuple[float, float, float]:
     return 64.0 * w**3, 192.0 * w**2 * dw, 384.0 * w * (dw**2 - w)
 
 
-class StrideParameters(NamedTuple):
-    """v* [m/s], L [m], d (p,), K_P, K_I [rad s/m], bounds on |beta| [rad] and |I| [m/s], Theta+ [rad] and
-    1 / (Theta- - Theta+) [1/rad]."""
+@dataclass(frozen=True)
+class Bump:
+    """The correction c = shift b(s) of the constraint, for shift = beta d (p,) [rad].
 
-    speed: float
-    step_length: float
-    direction: Array
-    K_P: float
-    K_I: float
-    most_beta: float
-    most_I: float
+    theta_plus: Theta+ [rad]. rate: 1 / (Theta- - Theta+) [1/rad].
+    """
+
+    shift: Array
     theta_plus: float
     rate: float
 
-
-def stride_correction(k: StrideParameters, w: Array, theta: float) -> tuple[Array, Array, Array]:
-    """beta b d and its two derivatives by Theta, each (p,), for w = (tau, I, beta)."""
-    b, db, ddb = bump(k.rate * (theta - k.theta_plus))
-    shift = w[2] * k.direction
-    return b * shift, k.rate * db * shift, k.rate**2 * ddb * shift
-
-
-def stride_jump(k: StrideParameters, w: Array) -> Array:
-    """w = (tau, I, beta) (3,) after impact: the PI of the module's equation, with both bounds.
-
-    One at tau = 0, as when a run starts with it, has timed no step and changes nothing.
-    """
-    if not w[0] > 0.0:
-        return w.copy()
-    e = k.speed - k.step_length / w[0]
-    integral = min(max(w[1] + e, -k.most_I), k.most_I)
-    beta = k.K_P * e + k.K_I * integral
-    return np.array((0.0, integral, min(max(beta, -k.most_beta), k.most_beta)))
+    def __call__(self, theta: float) -> tuple[Array, Array, Array]:
+        """c and its two derivatives by Theta, each (p,)."""
+        b, db, ddb = bump(self.rate * (theta - self.theta_plus))
+        return b * self.shift, self.rate * db * self.shift, self.rate**2 * ddb * self.shift
 
 
 @dataclass(frozen=True)
@@ -155,23 +136,29 @@ class StridePI(OuterLoop):
         return np.array((m.t_step, w[1], w[2]))
 
     def own_jump(self, w: Array, h: Constraint, after: Measurement) -> Array:
-        return stride_jump(self.parameters, w)
+        return self.stepped(w)
 
-    @cached_property
-    def parameters(self) -> StrideParameters:
-        """What the laws `stride_correction` and `stride_jump` need."""
-        h, k = tracked_constraint(self.inner).parameters, self.gains
-        return StrideParameters(
-            float(self.speed),
-            float(self.step_length),
-            np.array(self.direction, dtype=float),
-            float(k.K_P),
-            float(k.K_I),
-            float(k.limit),
-            k.limit / abs(k.K_I) if k.K_I else math.inf,
-            h.theta_plus,
-            h.rate,
-        )
+    def stepped(self, w: Array) -> Array:
+        """w = (tau, I, beta) (3,) after impact: the PI of the module's equation, with both bounds.
+
+        One at tau = 0, as when a run starts with it, has timed no step and changes nothing.
+        """
+        timed, k = w[0] > 0.0, self.gains
+        e = self.speed - self.step_length / np.where(timed, w[0], 1.0)
+        I = np.minimum(np.maximum(w[1] + e, -self.most_I), self.most_I)  # noqa: E741
+        beta = np.minimum(np.maximum(k.K_P * e + k.K_I * I, -k.limit), k.limit)
+        return np.where(timed, np.array((0.0, I, beta)), w)
+
+    @derived
+    def most_I(self) -> float:
+        """Bound on |I| [m/s], by which K_I |I| is bounded as |beta| is."""
+        return self.gains.limit / abs(self.gains.K_I) if self.gains.K_I else math.inf
+
+    @derived
+    def phase(self) -> tuple[float, float]:
+        """Theta+ [rad] and 1 / (Theta- - Theta+) [1/rad]."""
+        h = tracked_constraint(self.inner)
+        return h.theta_plus, 1.0 / (h.theta_minus - h.theta_plus)
 
     def correction(self, w: Array) -> Correction:
-        return partial(stride_correction, self.parameters, w)
+        return Bump(w[2] * np.array(self.direction), *self.phase)

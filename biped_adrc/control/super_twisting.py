@@ -23,72 +23,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import NamedTuple
-
 import numpy as np
 
-from biped_adrc.control.base import Controller, ControllerLaws, Measurement, measured
-from biped_adrc.control.tracking import solved_acceleration, tracked_laws
+from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.control.tracking import solved_acceleration
 from biped_adrc.errors import check_positive
 from biped_adrc.gait.reference import Reference, ReferencePoint
+from biped_adrc.part import derived
 from biped_adrc.types import Array
-
-
-class SuperTwistingParameters(NamedTuple):
-    """The law's numbers.
-
-    slope: lambda [1/s]; k_1 [rad^(1/2) / s^(3/2)]; k_2 [rad/s^3]; layer: delta [rad/s]; period [s], 1 in
-    continuous time, where it is not used.
-    """
-
-    slope: float
-    k_1: float
-    k_2: float
-    layer: float
-    period: float
-
-
-def sliding(k: SuperTwistingParameters, r: ReferencePoint, m: Measurement) -> tuple[Array, Array]:
-    """sigma and e', each (p,) [rad/s]."""
-    x = measured(m)
-    de = x.velocity - r.dq_d
-    return de + k.slope * (x.position - r.q_d), de
-
-
-def twisting_torque(
-    k: SuperTwistingParameters, r: ReferencePoint, s: Array, m: Measurement
-) -> Array:
-    """u (p,) [N m] for the state s = z (p,) [rad/s^2]."""
-    sigma, de = sliding(k, r, m)
-    f = s - k.slope * de - k.k_1 * sigma / np.sqrt(np.abs(sigma) + k.layer)
-    return m.terms.kappa_inverse @ (solved_acceleration(r, m.terms, f) - m.terms.xi)
-
-
-def twisting_start(k: SuperTwistingParameters, r: ReferencePoint, m: Measurement) -> Array:
-    """z = 0 (p,) [rad/s^2] at the start: the model is taken to be right."""
-    return np.zeros(len(r.q_d))
-
-
-def twisting_flow(
-    k: SuperTwistingParameters, r: ReferencePoint, s: Array, m: Measurement, u: Array
-) -> Array:
-    """z' (p,) [rad/s^3], of any torque u: z does not know of a limit, and winds up while one is reached."""
-    sigma, _ = sliding(k, r, m)
-    return -k.k_2 * sigma / (np.abs(sigma) + k.layer)
-
-
-def twisting_predict(
-    k: SuperTwistingParameters, r: ReferencePoint, s: Array, m: Measurement, u: Array
-) -> Array:
-    """z (p,) one period later."""
-    return s + k.period * twisting_flow(k, r, s, m, u)
-
-
-def twisting_jump(
-    k: SuperTwistingParameters, r: ReferencePoint, s: Array, after: Measurement, swap: Array
-) -> Array:
-    """z (p,) after impact: what is wrong with the model belongs to a leg, and is relabelled by swap (p,)."""
-    return s[swap]
 
 
 @dataclass(frozen=True)
@@ -110,19 +52,49 @@ class SuperTwistingController(Controller):
         check_positive(self.lipschitz, f"the Lipschitz constant is {self.lipschitz} rad/s^3")
         check_positive(self.layer, f"the layer of the sliding mode is {self.layer} rad/s")
 
-    @property
-    def laws(self) -> ControllerLaws:
-        k = SuperTwistingParameters(
-            float(self.slope),
-            1.5 * math.sqrt(self.lipschitz),
-            1.1 * self.lipschitz,
-            float(self.layer),
-            1.0 if self.period is None else float(self.period),
-        )
-        own = ControllerLaws(k, twisting_torque, twisting_start, jump=twisting_jump)
-        if self.period is None:
-            return tracked_laws(self.reference, own._replace(flow=twisting_flow))
-        return tracked_laws(self.reference, own._replace(predict=twisting_predict))
+    @derived
+    def k_1(self) -> float:
+        """[rad^(1/2) / s^(3/2)]"""
+        return 1.5 * math.sqrt(self.lipschitz)
+
+    @derived
+    def k_2(self) -> float:
+        """[rad/s^3]"""
+        return 1.1 * self.lipschitz
+
+    def sliding(self, r: ReferencePoint, m: Measurement) -> tuple[Array, Array]:
+        """sigma and e', each (p,) [rad/s]."""
+        de = m.v_b - r.dq_d
+        return de + self.slope * (m.q_b - r.q_d), de
+
+    def output(self, s: Array, m: Measurement) -> Array:
+        """u (p,) [N m] for the state s = z (p,) [rad/s^2]."""
+        r = self.reference(m.t, m.q, m.v)
+        sigma, de = self.sliding(r, m)
+        f = s - self.slope * de - self.k_1 * sigma / np.sqrt(np.abs(sigma) + self.layer)
+        return m.terms.kappa_inverse @ (solved_acceleration(r, m.terms, f) - m.terms.xi)
+
+    def initial_state(self, m: Measurement) -> Array:
+        """z = 0 (p,) [rad/s^2] at the start: the model is taken to be right."""
+        return np.zeros(len(m.q_b))
+
+    def flow(self, s: Array, m: Measurement, u: Array) -> Array:
+        """z' (p,) [rad/s^3], of any torque u: z does not know of a limit, and winds up while one is reached."""
+        sigma, _ = self.sliding(self.reference(m.t, m.q, m.v), m)
+        return -self.k_2 * sigma / (np.abs(sigma) + self.layer)
+
+    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
+        assert self.period is not None
+        return s + self.period * self.flow(s, m, u)
+
+    def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
+        """z (p,) after impact: what is wrong with the model belongs to a leg, and is relabelled by swap (p,)."""
+        return s[swap]
 
     def sampled(self, period: float) -> SuperTwistingController:
         return replace(self, period=period)
+
+    def continuous(self) -> SuperTwistingController:
+        if self.period is not None:
+            self._only_sampled()
+        return self

@@ -10,23 +10,17 @@ q_N'' = A_N q_b'' + a_N of (12) and q_b'' = a,
     (I - H_b - H_N A_N) a = drift + f + H_N a_N
 
 is solved for a. As printed, (20) and (28) drop H q''.
-
-`tracked_laws` puts any reference under the laws of a controller that needs its point alone; `control.observing`
-does so for those with an observer.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
-from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from biped_adrc.control.base import ControllerLaws, Measurement
+from biped_adrc.control.base import Measurement
 from biped_adrc.errors import InputError
-from biped_adrc.gait.reference import Reference, ReferencePoint, reference_laws
+from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.linear import solve, solve_positive
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import Estimate
@@ -34,23 +28,8 @@ from biped_adrc.parts import numbers
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array, frozen
 
-_T = TypeVar("_T")
-
-
 HIGHEST = 1e15
 """Of a gain [1/s^2], [1/s]: beyond it products of gains and poles have no place among the floats."""
-
-
-class TrackingParameters(NamedTuple):
-    """K_p [1/s^2] and K_d [1/s], (p,), or (1,) for one number; loop: 1 solves for Theta'', 0 drops it.
-
-    P (p, p): what of the rate error K_d sees; (0, 0) for all of it.
-    """
-
-    K_p: Array
-    K_d: Array
-    loop: int
-    P: Array = np.zeros((0, 0))
 
 
 @dataclass(frozen=True)
@@ -76,19 +55,12 @@ class Gains(Shown):
 
     def check(self, p: int) -> None:
         """Raise InputError for gains per joint of another number of joints than p."""
-        for name, row in zip(("K_p", "K_d"), self._rows, strict=True):
-            if len(row) not in (1, p):
+        for name in ("K_p", "K_d"):
+            count = np.size(getattr(self, name))
+            if count not in (1, p):
                 raise InputError(
-                    f"gain {name} has {len(row)} numbers, expected 1 or {p}: one for each joint with a motor"
+                    f"gain {name} has {count} numbers, expected 1 or {p}: one for each joint with a motor"
                 )
-
-    @cached_property
-    def _rows(self) -> tuple[Array, Array]:
-        return np.atleast_1d(self.K_p).copy(), np.atleast_1d(self.K_d).copy()
-
-    def parameters(self, solve_theta: bool) -> TrackingParameters:
-        """What the law `tracking_torque` takes; solve_theta: whether the loop through Theta'' is solved."""
-        return TrackingParameters(*self._rows, int(solve_theta))
 
 
 TABLE_II = Gains(5000.0, 50.0)
@@ -96,18 +68,34 @@ TABLE_II = Gains(5000.0, 50.0)
 
 
 def tracking_torque(
-    k: TrackingParameters, r: ReferencePoint, x: Estimate, terms: Reduction
+    gains: Gains,
+    r: ReferencePoint,
+    x: Estimate,
+    terms: Reduction,
+    solve_theta: bool,
+    a: Array | None = None,
 ) -> Array:
-    """u (p,) [N m] of (20) or (28), whichever x is. Raises SingularError as `solved_acceleration`."""
-    x2 = x.velocity if len(k.P) == 0 else r.dq_d + k.P @ (x.velocity - r.dq_d)
-    f = feedback(k, r, x.position, x2)
-    a = solved_acceleration(r, terms, f) if k.loop > 0 else printed_acceleration(r, f)
-    return terms.kappa_inverse @ (a - x.disturbance)
+    """u (p,) [N m] of (20) or (28), whichever x is. Raises SingularError as `solved_acceleration`.
+
+    solve_theta: whether the loop through Theta'' is solved. a (n, 2): K_d sees of the rate error what no change of
+    the rates along a makes, q_b' - q_d' changing by a_b - H a; None: all of it.
+    """
+    x2 = x.velocity
+    if a is not None:
+        x2 = r.dq_d + orthogonal_to(rate_error_change(r, a)) @ (x2 - r.dq_d)
+    f = feedback(gains, r, x.position, x2)
+    ddq_b = solved_acceleration(r, terms, f) if solve_theta else printed_acceleration(r, f)
+    return terms.kappa_inverse @ (ddq_b - x.disturbance)
 
 
-def feedback(k: TrackingParameters | Gains, r: ReferencePoint, x1: Array, x2: Array) -> Array:
+def rate_error_change(r: ReferencePoint, a: Array) -> Array:
+    """Change of q_b' - q_d' (p, 2) when the rates change by a (n, 2): a_b - H a, as q_d' moves with Theta'."""
+    return a[: len(r.q_d)] - r.H @ a
+
+
+def feedback(gains: Gains, r: ReferencePoint, x1: Array, x2: Array) -> Array:
     """-K_d (x2 - q_d') - K_p (x1 - q_d) (p,) [rad/s^2]."""
-    return -k.K_d * (x2 - r.dq_d) - k.K_p * (x1 - r.q_d)
+    return -gains.K_d * (x2 - r.dq_d) - gains.K_p * (x1 - r.q_d)
 
 
 def solved_acceleration(r: ReferencePoint, terms: Reduction, f: Array) -> Array:
@@ -135,56 +123,6 @@ def printed_acceleration(r: ReferencePoint, f: Array) -> Array:
 def orthogonal_to(N: Array) -> Array:
     """P = 1 - N (N' N)^-1 N' (k, k): the part of a vector that is orthogonal to the columns of N (k, 2)."""
     return np.eye(len(N)) - N @ solve_positive(N.T @ N, N.T, "N' N of two impulses")
-
-
-def blind_tracking(k: TrackingParameters, r: ReferencePoint, a: Array) -> TrackingParameters:
-    """With a rate error that no rates a (n, 2) change: q_b' - q_d' changes by a_b - H a."""
-    return k._replace(P=orthogonal_to(a[: len(r.q_d)] - r.H @ a))
-
-
-class TrackedParameters(NamedTuple):
-    """h: parameters of the reference's law. own: those of the controller's own laws."""
-
-    h: object
-    own: object
-
-
-def tracked_laws(reference: Reference, own: ControllerLaws) -> ControllerLaws:
-    """The laws of a controller that tracks any reference.
-
-    own: its laws with the point r of the reference put before the state, such as output(k, r, s, m), and
-    initial_state(k, r, m). A reference without laws makes the controller run in Python, by its obstacle.
-    """
-    r = reference_laws(reference)
-    laws = _tracked(r.point, own.functions)
-    return laws._replace(
-        parameters=TrackedParameters(r.parameters, own.parameters), obstacle=r.obstacle
-    )
-
-
-@lru_cache(maxsize=64)
-def _tracked(point: Callable[..., ReferencePoint], own: ControllerLaws) -> ControllerLaws:
-    """The laws without parameters, cached so that the same functions have the same machine code."""
-
-    def about_the_point(law: Callable[..., _T]) -> Callable[..., _T]:
-        def tracked(k: TrackedParameters, s: Array, m: Measurement, *rest: object) -> _T:
-            return law(k.own, point(k.h, m.t, m.q, m.v), s, m, *rest)
-
-        return tracked
-
-    def initial_state(k: TrackedParameters, m: Measurement) -> Array:
-        assert own.initial_state is not None
-        return own.initial_state(k.own, point(k.h, m.t, m.q, m.v), m)
-
-    def blind(k: TrackedParameters, m: Measurement, a: Array) -> TrackedParameters:
-        assert own.blind is not None
-        return k._replace(own=own.blind(k.own, point(k.h, m.t, m.q, m.v), a))
-
-    given = {name: law for name, law in own._asdict().items() if callable(law)}
-    tracked: dict[str, Any] = {name: about_the_point(law) for name, law in given.items()}
-    laws = own._replace(**tracked)
-    laws = laws if own.blind is None else laws._replace(blind=blind)
-    return laws if own.initial_state is None else laws._replace(initial_state=initial_state)
 
 
 def body_of(m: Measurement) -> BodyTerms:
