@@ -29,16 +29,16 @@ import numpy as np
 from biped_adrc.control.around import Around, AroundParameters, passed_on
 from biped_adrc.control.base import Controller, ControllerLaws, Measurement
 from biped_adrc.errors import InputError
-from biped_adrc.gait.reference import Reference, ReferencePoint, reference_laws
+from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.model.biped import STICTION_SPEED, Biped
 from biped_adrc.observers.base import Estimate
 from biped_adrc.types import Array
 
 
 class FrictionParameters(NamedTuple):
-    """h: parameters of the reference's law. viscous (p,) [N m s/rad], static (p,) [N m]: times the share."""
+    """h: the reference. viscous (p,) [N m s/rad], static (p,) [N m]: times the share."""
 
-    h: object
+    h: Reference
     viscous: Array
     static: Array
 
@@ -49,11 +49,11 @@ def friction(k: FrictionParameters, r: ReferencePoint) -> Array:
 
 
 @lru_cache(maxsize=64)
-def feeding(inner: ControllerLaws, point: Callable[..., ReferencePoint]) -> ControllerLaws:
-    """The laws of `FrictionFeedforward` around these; point: the law of the reference."""
+def feeding(inner: ControllerLaws) -> ControllerLaws:
+    """The laws of `FrictionFeedforward` around these."""
 
     def fed(k: AroundParameters, m: Measurement) -> Array:
-        return friction(k.own, point(k.own.h, m.t, m.q, m.v))
+        return friction(k.own, k.own.h(m.t, m.q, m.v))
 
     def output(k: AroundParameters, s: Array, m: Measurement) -> Array:
         return inner.output(k.inner, s, m) + fed(k, m)
@@ -103,17 +103,11 @@ class FrictionFeedforward(Around):
 
     @property
     def own(self) -> FrictionParameters:
-        h = reference_laws(self.path).parameters
         viscous, static = np.array(self.viscous, dtype=float), np.array(self.static, dtype=float)
-        return FrictionParameters(h, self.share * viscous, self.share * static)
-
-    @property
-    def laws(self) -> ControllerLaws:
-        laws = super().laws
-        return laws._replace(obstacle=laws.obstacle or reference_laws(self.path).obstacle)
+        return FrictionParameters(self.path, self.share * viscous, self.share * static)
 
     def around(self, inner: ControllerLaws) -> ControllerLaws:
-        return feeding(inner, reference_laws(self.path).point)
+        return feeding(inner)
 
 
 def friction_feedforward(

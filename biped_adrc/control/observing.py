@@ -28,7 +28,7 @@ from biped_adrc.control.tracking import (
     orthogonal_to,
 )
 from biped_adrc.errors import check_count
-from biped_adrc.gait.reference import Reference, ReferencePoint, reference_laws
+from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.observers.base import (
     Estimate,
     HasOrder,
@@ -44,7 +44,7 @@ from biped_adrc.types import Array
 class ObservingParameters(NamedTuple):
     """The numbers of the parts: reference, gains with the choice of loop, observer, and `ResetPolicy.code`."""
 
-    h: object
+    h: Reference
     tracking: TrackingParameters
     observer: HasOrder
     policy: int
@@ -71,10 +71,8 @@ class Sight(NamedTuple):
 
 
 @lru_cache(maxsize=128)
-def observing_laws(
-    sight: Sight, point: Callable[..., ReferencePoint], o: ObserverLaws
-) -> ControllerLaws:
-    """The laws around the laws o of any observer and the law of any reference, all without parameters.
+def observing_laws(sight: Sight, o: ObserverLaws) -> ControllerLaws:
+    """The laws around the laws o of any observer, without parameters, and any reference.
 
     Cached, so that controllers which differ in numbers alone share their machine code. The reference's point is
     asked for where it is used only, since each call of it evaluates the curve. Coordinates behind the p joints,
@@ -83,11 +81,11 @@ def observing_laws(
     seen, fed, torque, told, _, of_reference = sight
 
     def at(k: ObservingParameters, m: Measurement) -> Any:
-        return point(k.h, m.t, m.q, m.v) if of_reference else None
+        return k.h(m.t, m.q, m.v) if of_reference else None
 
     def output(k: ObservingParameters, s: Array, m: Measurement) -> Array:
         x = o.estimate(k.observer, rows(k.observer, s))
-        return torque(k.tracking, point(k.h, m.t, m.q, m.v), x, m)
+        return torque(k.tracking, k.h(m.t, m.q, m.v), x, m)
 
     def initial_state(k: ObservingParameters, m: Measurement) -> Array:
         return np.ravel(o.state(k.observer, seen(at(k, m), m)))
@@ -119,20 +117,18 @@ def observing_laws(
         laws = laws._replace(flow=flow)
     if o.correct is not None and o.predict is not None:
         laws = laws._replace(correct=correct, predict=predict)
-    return with_projections(laws, sight, point, o)
+    return with_projections(laws, sight, o)
 
 
-def with_projections(
-    laws: ControllerLaws, sight: Sight, point: Callable[..., ReferencePoint], o: ObserverLaws
-) -> ControllerLaws:
+def with_projections(laws: ControllerLaws, sight: Sight, o: ObserverLaws) -> ControllerLaws:
     """The laws of `observing_laws` with those that `impact_invariant` asks for."""
     seen, struck, of_reference = sight.seen, sight.struck, sight.of_reference
 
     def at(k: ObservingParameters, m: Measurement) -> Any:
-        return point(k.h, m.t, m.q, m.v) if of_reference else None
+        return k.h(m.t, m.q, m.v) if of_reference else None
 
     def blind(k: ObservingParameters, m: Measurement, a: Array) -> ObservingParameters:
-        r = point(k.h, m.t, m.q, m.v)
+        r = k.h(m.t, m.q, m.v)
         return k._replace(tracking=blind_tracking(k.tracking, r, a))
 
     def correct_blind(k: ObservingParameters, s: Array, m: Measurement, a: Array) -> Array:
@@ -170,15 +166,15 @@ class ObservingController(Controller):
 
     @property
     def laws(self) -> ControllerLaws:
-        r, o = reference_laws(self.reference), observer_laws(self.observer)
+        o = observer_laws(self.observer)
         order = getattr(o.parameters, "order", None)
         name = type(self.observer).__name__
         check_count(order, f"the parameters of {name}.laws have order = {order!r} states per joint")
         k = ObservingParameters(
-            r.parameters, self.gains.parameters(self.solve_theta), o.parameters, self.reset.code
+            self.reference, self.gains.parameters(self.solve_theta), o.parameters, self.reset.code
         )
-        laws = observing_laws(self.sight, r.point, o.functions)
-        return laws._replace(parameters=k, obstacle=r.obstacle or o.obstacle)
+        laws = observing_laws(self.sight, o.functions)
+        return laws._replace(parameters=k, obstacle=o.obstacle)
 
     def sampled(self, period: float) -> Self:
         sampled: Self = replace(self, observer=self.observer.sampled(period))  # type: ignore[type-var]

@@ -160,7 +160,7 @@ class StridePI(OuterLoop):
     @cached_property
     def parameters(self) -> StrideParameters:
         """What the laws `stride_correction` and `stride_jump` need."""
-        h, k = tracked_constraint(self.inner).parameters, self.gains
+        h, k = tracked_constraint(self.inner), self.gains
         return StrideParameters(
             float(self.speed),
             float(self.step_length),

@@ -26,7 +26,7 @@ import numpy as np
 
 from biped_adrc.control.base import ControllerLaws, Measurement
 from biped_adrc.errors import InputError
-from biped_adrc.gait.reference import Reference, ReferencePoint, reference_laws
+from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.linear import solve, solve_positive
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import Estimate
@@ -143,9 +143,9 @@ def blind_tracking(k: TrackingParameters, r: ReferencePoint, a: Array) -> Tracki
 
 
 class TrackedParameters(NamedTuple):
-    """h: parameters of the reference's law. own: those of the controller's own laws."""
+    """h: the reference. own: parameters of the controller's own laws."""
 
-    h: object
+    h: Reference
     own: object
 
 
@@ -153,32 +153,28 @@ def tracked_laws(reference: Reference, own: ControllerLaws) -> ControllerLaws:
     """The laws of a controller that tracks any reference.
 
     own: its laws with the point r of the reference put before the state, such as output(k, r, s, m), and
-    initial_state(k, r, m). A reference without laws makes the controller run in Python, by its obstacle.
+    initial_state(k, r, m).
     """
-    r = reference_laws(reference)
-    laws = _tracked(r.point, own.functions)
-    return laws._replace(
-        parameters=TrackedParameters(r.parameters, own.parameters), obstacle=r.obstacle
-    )
+    return _tracked(own.functions)._replace(parameters=TrackedParameters(reference, own.parameters))
 
 
 @lru_cache(maxsize=64)
-def _tracked(point: Callable[..., ReferencePoint], own: ControllerLaws) -> ControllerLaws:
+def _tracked(own: ControllerLaws) -> ControllerLaws:
     """The laws without parameters, cached so that the same functions have the same machine code."""
 
     def about_the_point(law: Callable[..., _T]) -> Callable[..., _T]:
         def tracked(k: TrackedParameters, s: Array, m: Measurement, *rest: object) -> _T:
-            return law(k.own, point(k.h, m.t, m.q, m.v), s, m, *rest)
+            return law(k.own, k.h(m.t, m.q, m.v), s, m, *rest)
 
         return tracked
 
     def initial_state(k: TrackedParameters, m: Measurement) -> Array:
         assert own.initial_state is not None
-        return own.initial_state(k.own, point(k.h, m.t, m.q, m.v), m)
+        return own.initial_state(k.own, k.h(m.t, m.q, m.v), m)
 
     def blind(k: TrackedParameters, m: Measurement, a: Array) -> TrackedParameters:
         assert own.blind is not None
-        return k._replace(own=own.blind(k.own, point(k.h, m.t, m.q, m.v), a))
+        return k._replace(own=own.blind(k.own, k.h(m.t, m.q, m.v), a))
 
     given = {name: law for name, law in own._asdict().items() if callable(law)}
     tracked: dict[str, Any] = {name: about_the_point(law) for name, law in given.items()}
