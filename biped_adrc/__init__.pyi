@@ -53,10 +53,8 @@ from biped_adrc.gait.outputs import LinearOutputs as LinearOutputs
 from biped_adrc.gait.outputs import Outputs as Outputs
 from biped_adrc.gait.published import X_STAR as X_STAR
 from biped_adrc.gait.reference import Reference as Reference
-from biped_adrc.gait.reference import ReferenceLaws as ReferenceLaws
 from biped_adrc.gait.reference import ReferencePoint as ReferencePoint
 from biped_adrc.gait.reference import TimeReference as TimeReference
-from biped_adrc.gait.reference import reference_laws as reference_laws
 from biped_adrc.gait.through_state import GaitLimits as GaitLimits
 from biped_adrc.gait.through_state import constraint_through as constraint_through
 from biped_adrc.gait.through_state import onto_section as onto_section

@@ -9,18 +9,17 @@ from typing import NamedTuple
 import numpy as np
 
 import biped_adrc as ba
-from biped_adrc.gait.constraint import ConstraintParameters, virtual_constraint
 
 
 class GravityPDParameters(NamedTuple):
-    h: ConstraintParameters
+    h: ba.VirtualConstraint
     K_p: float  # [N m/rad]
     K_d: float  # [N m s/rad]
 
 
 def gravity_pd(k, s, m):
     """u = K_p (q_d - q_b) + K_d (q_d' - q_b') + gravity and Coriolis terms of the motors."""
-    r, p = virtual_constraint(k.h, m.q, m.v), len(m.terms.kappa)
+    r, p = k.h(m.t, m.q, m.v), len(m.terms.kappa)
     return k.K_p * (r.q_d - m.q[:p]) + k.K_d * (r.dq_d - m.v[:p]) + m.terms.Omega[:p]
 
 
@@ -32,7 +31,7 @@ class GravityPD(ba.Controller):
 
     @property
     def laws(self):
-        parameters = GravityPDParameters(self.constraint.parameters, self.K_p, self.K_d)
+        parameters = GravityPDParameters(self.constraint, self.K_p, self.K_d)
         return ba.ControllerLaws(parameters, gravity_pd)
 
 

@@ -15,7 +15,7 @@ from peers.chains import Chain, H, Simulate
 
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.observing import ObservingParameters
-from biped_adrc.gait.constraint import ConstraintParameters
+from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.design.step import each, together
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import PlanarTree, inertia_and_bias
@@ -116,17 +116,17 @@ def acceleration(k: ObservingParameters, q: Any, v: Any, Z: Any, A_N: Any, a_N: 
     x1, x2 = Z[0, :].T, Z[1, :].T * k.observer.scale
     f = -k.tracking.K_d * (x2 - dh * dtheta) - k.tracking.K_p * (x1 - h)
     drift = ddh * dtheta**2 + f
-    H = dh @ k.h.c[np.newaxis]
+    H = dh @ k.h.phase[np.newaxis]
     return ca.solve(ca.SX.eye(p) - H[:, :p] - H[:, p] @ A_N, drift + H[:, p] * a_N)
 
 
-def constraint(k: ConstraintParameters, q: Any, v: Any) -> tuple[Any, Any, Any, Any]:
+def constraint(h: VirtualConstraint, q: Any, v: Any) -> tuple[Any, Any, Any, Any]:
     """h, dh/dTheta, d2h/dTheta2, each (p,), and Theta'."""
-    p = k.curve.stacked.shape[0] // 3
-    s = k.rate * (ca.dot(k.c, q) - k.theta_plus)
-    powers = ca.vertcat(*(s ** int(j) for j in k.curve.powers))
-    rows = k.curve.stacked @ powers
-    return rows[:p], k.rate * rows[p : 2 * p], k.rate**2 * rows[2 * p :], ca.dot(k.c, v)
+    p = h.curve.stacked.shape[1] // 3
+    s = h.rate * (ca.dot(h.phase, q) - h.theta_plus)
+    powers = ca.vertcat(*(s ** int(j) for j in h.curve.powers))
+    rows = h.curve.stacked[0] @ powers
+    return rows[:p], h.rate * rows[p : 2 * p], h.rate**2 * rows[2 * p :], ca.dot(h.phase, v)
 
 
 def observer(k: GPIParameters, y: Any, Z: Any, kappa_u: Any) -> Any:

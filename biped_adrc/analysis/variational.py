@@ -42,7 +42,6 @@ from biped_adrc.control.passive import Passive
 from biped_adrc.control.tracking import Gains
 from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.curves import piece
 from biped_adrc.hybrid.system import Guard, HybridSystem
 from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.linear import solve
@@ -118,11 +117,9 @@ def _wanted_derivative(
 
 def third_derivative(h: VirtualConstraint, theta: float) -> Array:
     """d3h/dTheta3 (p,) [1/rad^2] at theta [rad], from the power coefficients of the curve."""
-    k = h.parameters
-    s = k.rate * (theta - k.theta_plus)
-    second = piece(k.curve, s)[-(k.curve.stacked.shape[0] // 3) :, 1:]
-    power = k.curve.powers[1:]
-    return k.rate**3 * (second * power) @ s ** (power - 1.0)
+    s, power = h.rate * (theta - h.theta_plus), h.curve.powers[1:]
+    second = np.split(h.curve.piece(s), 3)[2][:, 1:]
+    return h.rate**3 * (second * power) @ s ** (power - 1.0)
 
 
 def differenced_torque(walker: Walker, i: Instant, difference: float = DIFFERENCE) -> Array:

@@ -43,8 +43,8 @@ from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.closed_loop.semantics import Instant, instant
 from biped_adrc.control.base import Controller
 from biped_adrc.errors import InputError
-from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint, path
-from biped_adrc.gait.curves import CurveParameters, Polynomial, curve
+from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.curves import Curve, Polynomial
 from biped_adrc.hybrid.system import Split
 from biped_adrc.observers.base import ErrorSystem
 from biped_adrc.types import Array
@@ -78,11 +78,11 @@ class LoopParameters(NamedTuple):
     """Observer states per joint."""
     scale: float
     """Factor of velocities in the observer's scaled states [s]."""
-    h: ConstraintParameters
+    h: VirtualConstraint
     """The virtual constraint q_b = h(Theta)."""
     row: Array
     """The row of A that holds the feedback (order + 2,) [1/s]."""
-    r: CurveParameters
+    r: Curve
     """The row r over the phase of h, as a curve of n components [kg m^2]."""
 
 
@@ -140,7 +140,7 @@ def error_remainder(
 # -- the feedback in it too ----------------------------------------------------------------------
 def loop_row(k: LoopParameters, theta: float) -> tuple[Array, Array]:
     """r and dr/dTheta at theta [rad], each (n,)."""
-    r, dr, _ = curve(k.r, k.h.rate * (theta - k.h.theta_plus))
+    r, dr, _ = k.r(k.h.rate * (theta - k.h.theta_plus))
     return r, k.h.rate * dr
 
 
@@ -148,9 +148,9 @@ def loop_to(k: LoopParameters, x: Array) -> tuple[Array, Array]:
     """w (2 + rest,) and E (order + 2, p) of x."""
     n, p, end = k.n, k.p, 2 * k.n + k.order * k.p
     q, v, z = x[:n], x[n : 2 * n], x[2 * n : end]
-    c = k.h.c.reshape(1, -1)
+    c = k.h.phase.reshape(1, -1)
     theta, dtheta = c @ q, c @ v
-    h, dh, _ = path(k.h, theta[0])
+    h, dh, _ = k.h.h(theta[0])
     r, _ = loop_row(k, theta[0])
     eps = (q[:p] - h, k.scale * (v[:p] - dh * dtheta))
     e = (q[:p] - z[:p], k.scale * v[:p] - z[p : 2 * p], -z[2 * p :])
@@ -160,7 +160,7 @@ def loop_to(k: LoopParameters, x: Array) -> tuple[Array, Array]:
 
 def loop_back(k: LoopParameters, w: Array, E: Array) -> Array:
     """x (nx,) of w (2 + rest,) and E (order + 2, p); not linear, since h is not."""
-    h, _, _ = path(k.h, w[0])
+    h, _, _ = k.h.h(w[0])
     q, v = _with_unactuated(k, w[0], h + E[0]), loop_velocity(k, w, E)
     z = (q[: k.p] - E[2], k.scale * v[: k.p] - E[3], -E[4:].ravel())
     return np.concatenate((q, v, *z, w[2:]))
@@ -168,7 +168,7 @@ def loop_back(k: LoopParameters, w: Array, E: Array) -> Array:
 
 def loop_velocity(k: LoopParameters, w: Array, E: Array) -> Array:
     """q' (n,) [rad/s] of (w, E): Theta' is the one for which r q' = w[1], then q_b' = h' Theta' + eps'."""
-    _, dh, _ = path(k.h, w[0])
+    _, dh, _ = k.h.h(w[0])
     r, _ = loop_row(k, w[0])
     along, aside = _with_unactuated(k, 1.0, dh), _with_unactuated(k, 0.0, E[1] / k.scale)
     return along * ((w[1] - r @ aside) / (r @ along)) + aside
@@ -176,7 +176,7 @@ def loop_velocity(k: LoopParameters, w: Array, E: Array) -> Array:
 
 def _with_unactuated(k: LoopParameters, theta: float, q_b: Array) -> Array:
     """(q_b, q_N) (n,) whose phase c q is theta; serves angles, rates and displacements alike."""
-    return np.concatenate((q_b, (theta - k.h.c[: k.p] @ q_b) / k.h.c[k.p :]))
+    return np.concatenate((q_b, (theta - k.h.phase[: k.p] @ q_b) / k.h.phase[k.p :]))
 
 
 def loop_remainder(
@@ -186,8 +186,8 @@ def loop_remainder(
 
     a = q'' (n,) [rad/s^2], kappa_u (p,) [rad/s^2], ds the derivative of the rest.
     """
-    v, c, a_b = loop_velocity(k, w, E), k.h.c.reshape(1, -1), a[: k.p]
-    _, dh, ddh = path(k.h, w[0])
+    v, c, a_b = loop_velocity(k, w, E), k.h.phase.reshape(1, -1), a[: k.p]
+    _, dh, ddh = k.h.h(w[0])
     r, dr = loop_row(k, w[0])
     dtheta = c @ v
     eps = k.scale * (a_b - ddh * (dtheta * dtheta) - dh * (c @ a)) - k.row @ E
@@ -252,14 +252,14 @@ def loop_laws(law: Controller, n: int, p: int, inertia: Callable[[Array], Array]
         p,
         error.A.shape[0],
         float(error.velocity_scale),
-        h.parameters,
+        h,
         A[1].copy(),
         _momentum_row(h, inertia),
     )
     return SplitLaws(k, A, (1, 3), loop_to, loop_back, loop_remainder)
 
 
-def _momentum_row(h: VirtualConstraint, inertia: Callable[[Array], Array]) -> CurveParameters:
+def _momentum_row(h: VirtualConstraint, inertia: Callable[[Array], Array]) -> Curve:
     """D_N on the constraint over its phase s, fitted at Chebyshev's nodes of [-MARGIN, 1 + MARGIN].
 
     The margin keeps the polynomial good where a disturbed step runs past the nominal phase.
@@ -272,7 +272,7 @@ def _momentum_row(h: VirtualConstraint, inertia: Callable[[Array], Array]) -> Cu
         q = np.append(q_b, (theta - c[:-1] @ q_b) / c[-1])
         rows.append(inertia(q)[-1])
     powers = s[:, np.newaxis] ** np.arange(DEGREE + 1)
-    return Polynomial(np.linalg.solve(powers, np.array(rows)).T).parameters
+    return Polynomial(np.linalg.solve(powers, np.array(rows)).T)
 
 
 def _refused(reason: str) -> InputError:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import prod
+from operator import call
 from typing import NamedTuple
 
 import numpy as np
@@ -34,7 +35,7 @@ from biped_adrc.engine.program import NotCompiled, Program
 from biped_adrc.engine.symbols import Untraceable, Vector, floats
 from biped_adrc.engine.tracer import run
 from biped_adrc.errors import ModelError
-from biped_adrc.gait.reference import Reference, ReferenceLaws, ReferencePoint, reference_laws
+from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.types import Array
 
@@ -44,8 +45,7 @@ class SignalNumbers(NamedTuple):
 
     walker: WalkerNumbers
     """All numbers of the walker."""
-    h: object
-    """Parameters of the reference."""
+    h: Reference
 
 
 Reading = Callable[..., tuple[Array, ...]]
@@ -53,11 +53,11 @@ Reading = Callable[..., tuple[Array, ...]]
 
 
 def observe(
-    make: WalkerStructure, example: SignalNumbers, h: ReferenceLaws, read: Reading = signals_at
+    make: WalkerStructure, example: SignalNumbers, read: Reading = signals_at
 ) -> SymbolicFunction:
     """The function for one structure of walker and reference, with symbols for the floats of an example.
 
-    make: structure of the walker; h: laws of the reference. The expressions are those of `read`.
+    make: structure of the walker. The expressions are those of `read`.
     """
     K = Vector("K", count(example))
     watched = K.like(example)
@@ -65,7 +65,7 @@ def observe(
     at = equations.at()
 
     def tracked(s: Array, m: Measurement) -> ReferencePoint:
-        return run(at.trace, h.point, watched.h, m.t, m.q, m.v)
+        return run(at.trace, call, watched.h, m.t, m.q, m.v)
 
     return equations.made(at.inp, *at.does(read, tracked))
 
@@ -79,14 +79,11 @@ def compiled_readings(
     at jumps are read just before them (`Arc.seen`), where the disturbance has its limit from the
     left.
     """
-    h = reference_laws(reference)
-    if h.obstacle:
-        return None
     nx = trajectory.arcs[0].x.shape[1]
     try:
         program = Program.of(walker, walker.controller_size(nx))
-        watched = SignalNumbers(program.numbers, h.parameters)
-        code = reading_code("observe", signals_at, program.make, watched, h)
+        watched = SignalNumbers(program.numbers, reference)
+        code = reading_code("observe", signals_at, program.make, watched)
     except (NotCompiled, Untraceable, ModelError):
         return None
     K = np.array([*floats(watched), 0.0])
@@ -111,15 +108,15 @@ def _inputs(walker: Walker, arc: Arc) -> Array:
 
 
 def reading_code(
-    name: str, read: Reading, make: WalkerStructure, watched: SignalNumbers, h: ReferenceLaws
+    name: str, read: Reading, make: WalkerStructure, watched: SignalNumbers
 ) -> LoadedCode:
     """Machine code of what `read` says, a function of this name as `observe`.
 
-    Under a hash of the walker's structure, its laws, the reference's and `read` itself.
+    Under a hash of the walker's structure, its laws, the reference and `read` itself.
     """
-    laws = law_text(*make.laws[1:], h.point, read)
+    laws = law_text(*make.laws[1:], read)
     key = hash_of(
         *(name, structure_text(make.robot), laws, make.size, make.held),
         *(structure_text(watched), versions_text()),
     )
-    return generated(key, {name: lambda: observe(make, watched, h, read)})
+    return generated(key, {name: lambda: observe(make, watched, read)})

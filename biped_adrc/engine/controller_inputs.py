@@ -12,58 +12,51 @@ replaced by one that returns what is known already.
 
 from __future__ import annotations
 
-from copy import copy
 from dataclasses import fields, is_dataclass, replace
 from math import prod
+from operator import call
+from types import new_class
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from biped_adrc.engine.compiled_biped import Call, CompiledBiped, parts_of
 from biped_adrc.engine.equations import SymbolicFunction, count
-from biped_adrc.engine.fingerprint import hash_of, law_text, structure_text, versions_text
+from biped_adrc.engine.fingerprint import hash_of, structure_text, versions_text
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.mechanics import PlanarRobot
 from biped_adrc.engine.symbols import Untraceable, Vector, column, floats
 from biped_adrc.engine.tracer import Tracer, run
-from biped_adrc.gait.reference import Reference, ReferenceLaws, ReferencePoint
+from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import PlantArrays
+from biped_adrc.part import content, with_content
 from biped_adrc.types import Array
 
 
 class CompiledReference:
-    """The law of a reference for n coordinates in machine code, called as the law itself is.
+    """A reference for n coordinates in machine code, called as the reference itself is.
 
     `now` is (q, v, point): arguments and the reference at them, where `ControllerInputs` has
     computed it already. They are recognised by identity, which is safe since those arrays are
     read-only and made anew each time.
     """
 
-    def __init__(self, laws: ReferenceLaws, n: int):
-        """Compiles the law, whose shapes are found by calling it once at zero. Raises Untraceable."""
-        self.laws, self.n = laws, n
+    def __init__(self, reference: Reference, n: int):
+        """Compiles the reference. Raises Untraceable."""
+        self.reference, self.n = reference, n
         self.now: tuple[Array | None, Array | None, ReferencePoint | None] = (None, None, None)
-        example = laws.point(laws.parameters, 0.0, np.zeros(n), np.zeros(n))
-        self.shapes = [np.shape(part) for part in example]
-        sizes = 1 + 2 * n, sum(map(prod, self.shapes))
-        K = np.array([*floats(laws.parameters), 0.0])
-        key = law_text(laws.point), structure_text(laws.parameters), versions_text()
-        code = generated(hash_of("point", n, *key), {"point": self.function})
-        self.call = Call(code, "point", K, *sizes)
+        K, inp = Vector("K", count(reference)), Vector("inp", 1 + 2 * n)
+        point = traced(K.like(reference), inp.take(), inp.take(n), inp.take(n))
+        self.shapes = [np.shape(part) for part in point]
+        function = SymbolicFunction(K.symbol, inp.symbol, column(*point))
+        key = hash_of("point", n, structure_text(reference), versions_text())
+        numbers = np.array([*floats(reference), 0.0])
+        code = generated(key, {"point": lambda: function})
+        self.call = Call(code, "point", numbers, 1 + 2 * n, sum(map(prod, self.shapes)))
 
-    def function(self) -> SymbolicFunction:
-        """The law on symbols."""
-        K, inp = Vector("K", count(self.laws.parameters)), Vector("inp", 1 + 2 * self.n)
-        k, t, q, v = K.like(self.laws.parameters), inp.take(), inp.take(self.n), inp.take(self.n)
-        return SymbolicFunction(K.symbol, inp.symbol, column(*self.traced(k, t, q, v)))
-
-    def traced(self, k: object, t: float, q: Array, v: Array) -> ReferencePoint:
-        """The reference at symbols of t, q (n,), v (n,). Raises Untraceable."""
-        return run(Tracer(), self.laws.point, k, t, q, v)
-
-    def __call__(self, k: object, t: float, q: Array, v: Array) -> ReferencePoint:
-        """The reference at t [s], q (n,) [rad], v (n,) [rad/s]; k is not needed, its numbers are in K."""
+    def __call__(self, t: float, q: Array, v: Array) -> ReferencePoint:
+        """The reference at t [s], q (n,) [rad], v (n,) [rad/s]."""
         seen_q, seen_v, known = self.now
         if q is seen_q and v is seen_v and known is not None:  # both arrays are read only
             return known
@@ -72,11 +65,16 @@ class CompiledReference:
         return ReferencePoint(*parts_of(self.call(), self.shapes))
 
 
+def traced(reference: Reference, t: float, q: Array, v: Array) -> ReferencePoint:
+    """The reference at symbols of t, q (n,), v (n,). Raises Untraceable."""
+    return run(Tracer(), call, reference, t, q, v)
+
+
 def compiled_references(part: object, n: int, points: list[CompiledReference]) -> Any:
     """A controller, or a part of one, with the references in its fields compiled.
 
     Controllers nest (`inner`), so fields of dataclasses are searched to any depth. `points` is
-    extended by the laws found. What cannot be compiled stays as it is.
+    extended by those. What cannot be compiled stays as it is.
     """
     if isinstance(part, Reference):
         return _compiled(part, n, points)
@@ -89,17 +87,14 @@ def compiled_references(part: object, n: int, points: list[CompiledReference]) -
 
 
 def _compiled(reference: Reference, n: int, points: list[CompiledReference]) -> Reference:
-    """The reference with its law in machine code; itself where it has no law that can be compiled."""
-    laws: ReferenceLaws | None = reference._laws
-    if laws is None or reference._obstacle or laws.obstacle:
-        return reference
+    """The reference, still of its class, called in machine code; itself where it cannot be compiled."""
     try:
-        points.append(CompiledReference(laws, n))
+        points.append(CompiledReference(reference, n))
     except Untraceable:
         return reference
-    made = copy(reference)
-    vars(made)["_laws"] = laws._replace(point=points[-1])
-    return made
+    kind = new_class(type(reference).__name__, (type(reference),))
+    setattr(kind, "__call__", points[-1])  # noqa: B010
+    return with_content(reference, content(reference), kind)
 
 
 class InputNumbers(NamedTuple):
@@ -107,8 +102,8 @@ class InputNumbers(NamedTuple):
 
     robot: PlantArrays
     """Of the model."""
-    k: object
-    """Of the reference, () without one."""
+    k: Any
+    """The reference, () without one."""
 
 
 class ControllerInputs:
@@ -119,23 +114,15 @@ class ControllerInputs:
     """
 
     def __init__(self, model: Biped, point: CompiledReference | None):
-        """Compiles the function for the model's structure and the reference's law; `point` None for
-        no reference.
-        """
+        """Compiles the function for the model's structure and the reference; `point` None for no reference."""
         assert isinstance(model, CompiledBiped)
         assert model.robot is not None
         robot = self.robot = model.robot
         self.point, self.shapes = point, [*model.shapes, *(point.shapes if point else ())]
-        self.numbers = InputNumbers(robot.arrays, () if point is None else point.laws.parameters)
+        self.numbers = InputNumbers(robot.arrays, () if point is None else point.reference)
         self.K = np.array([*floats(self.numbers), 0.0])
-        law = "" if point is None else law_text(point.laws.point)
-        key = (
-            "inputs",
-            structure_text(robot.structure),
-            structure_text(self.numbers),
-            law,
-            versions_text(),
-        )
+        structures = structure_text(robot.structure), structure_text(self.numbers)
+        key = "inputs", *structures, versions_text()
         self.machine = generated(hash_of(*key), {"inputs": self.function})
 
     @property
@@ -149,5 +136,5 @@ class ControllerInputs:
         K, inp = Vector("K", count(self.numbers)), Vector("inp", 1 + 2 * n)
         numbers, t, q, v = K.like(self.numbers), inp.take(), inp.take(n), inp.take(n)
         terms = PlanarRobot.of(self.robot.structure, numbers.robot).reduction(q, v)
-        r = () if self.point is None else self.point.traced(numbers.k, t, q, v)
+        r = () if self.point is None else traced(numbers.k, t, q, v)
         return SymbolicFunction(K.symbol, inp.symbol, column(*terms, *r))

@@ -224,7 +224,7 @@ class Equations:
         assert laws is not None
         assert k
         traced = {name: trace(getattr(laws, name)) for name in ("to", "back", "remainder")}
-        return laws._replace(parameters=k, **traced)
+        return laws._replace(parameters=trace.on_symbols(k), **traced)
 
     def _coordinates(self, y: Array) -> tuple[Array, Array]:
         """w and E (k, p) of the flat vector y."""
@@ -235,14 +235,14 @@ class Equations:
 
     def to(self) -> SymbolicFunction:
         """y = (w, E) of x (nx,)."""
-        inp, trace = Vector("inp", self.make.nx), Tracer()
-        return self.made(inp, *self._split(trace).to(self.numbers.split, inp.take(self.make.nx)))
+        inp, split = Vector("inp", self.make.nx), self._split(Tracer())
+        return self.made(inp, *split.to(split.parameters, inp.take(self.make.nx)))
 
     def back(self) -> SymbolicFunction:
         """x (nx,) of y = (w, E)."""
-        inp, trace = Vector("inp", self.make.nx), Tracer()
+        inp, split = Vector("inp", self.make.nx), self._split(Tracer())
         w, E = self._coordinates(inp.take(self.make.nx))
-        return self.made(inp, self._split(trace).back(self.numbers.split, w, E))
+        return self.made(inp, split.back(split.parameters, w, E))
 
     def remainder(self) -> SymbolicFunction:
         """N_w, N_E in its forced rows, and the least pivot, at y = (w, E) in place of x."""

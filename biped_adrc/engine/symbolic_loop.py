@@ -58,7 +58,8 @@ STATE_LAWS = ("flow", "jump", "correct", "predict")
 
 
 def traced_sensors(trace: Tracer, held: HeldParameters) -> HeldParameters:
-    """With the laws of the sensors, and of the touchdown, for symbols."""
+    """With the laws of the sensors and of the touchdown, and what the meter is given, for symbols."""
+    held = held._replace(meter=trace.on_symbols(held.meter))
     if held.sensors:
         held = held._replace(sensors=held.sensors.traced(trace))
     return held._replace(touchdown=held.touchdown.traced(trace)) if held.touchdown else held

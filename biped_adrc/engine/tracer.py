@@ -121,10 +121,10 @@ class Tracer:
         replaced. Copies are remembered before their names are replaced, so laws that call each
         other end.
         """
-        return self._copy(law, {}) if isinstance(law, types.FunctionType) else law
+        return self._copy(law) if isinstance(law, types.FunctionType) else law
 
-    def _copy(self, law: Any, classes: Mapping[type, type]) -> Any:
-        """The copy of a function; classes: twins of classes whose methods say `super()`."""
+    def _copy(self, law: Any) -> Any:
+        """The copy of a function; in a method that says `super()`, `__class__` is the twin."""
         if law not in self._copies:
             scope = {**BUILTINS, **law.__globals__}
             cells = [types.CellType(c.cell_contents) for c in law.__closure__ or ()]
@@ -135,28 +135,28 @@ class Tracer:
             self._copies[law] = copy
             for name in names_of(law.__code__):
                 if name in scope:
-                    scope[name] = self._substitute(scope[name])
-            for cell in cells:
-                found = cell.cell_contents
-                twin = classes.get(found) if isinstance(found, type) else None
-                cell.cell_contents = self._substitute(found) if twin is None else twin
+                    scope[name] = self.on_symbols(scope[name])
+            for name, cell in zip(law.__code__.co_freevars, cells, strict=True):
+                twin = self.twin if name == "__class__" else self.on_symbols
+                cell.cell_contents = twin(cell.cell_contents)
         return self._copies[law]
 
-    def _substitute(self, value: object) -> object:
-        """The twin of a value that a law names: of a module, a solver, a law, or a tuple of such."""
+    def on_symbols(self, value: Any) -> Any:
+        """The twin of what a law names or is given: a module, a solver, a law, a part, or a tuple of such.
+
+        A part has methods for symbols, as have the parts in it; its content stays as it is.
+        """
         for old, new in self._substitutes:
             if value is old:
                 return new
         if isinstance(value, tuple | list):
-            return rebuilt(value, [self._substitute(part) for part in value])
+            return rebuilt(value, [self.on_symbols(part) for part in value])
         if isinstance(value, HIDDEN):
             return Hidden(f"a {type(value).__name__}")
-        return self.on_symbols(value) if is_part(value) else self(value)
-
-    def on_symbols(self, part: T) -> T:
-        """A part, and the parts in it, with methods for symbols; its content stays as it is."""
-        values = {name: self._substitute(x) for name, x in content(part).items()}
-        return with_content(part, values, self.twin(type(part)))
+        if not is_part(value):
+            return self(value)
+        inside = {name: self.on_symbols(x) for name, x in content(value).items()}
+        return with_content(value, inside, self.twin(type(value)))
 
     def twin(self, cls: type) -> type:
         """A subclass of cls whose methods run on symbols, `super()` and properties included."""
@@ -169,22 +169,22 @@ class Tracer:
             ]
             made = types.new_class(cls.__name__, (*twins, cls))
             made.__module__, made.__qualname__ = cls.__module__, cls.__qualname__
-            self._twins[cls] = made
+            self._twins[cls] = self._twins[made] = made
             for name, value in vars(cls).items():
                 if name == "__call__" or not name.startswith("__"):
-                    copy = self._member(value, cls, made)
+                    copy = self._member(value)
                     if copy is not value:
                         setattr(made, name, copy)
         return self._twins[cls]
 
-    def _member(self, value: Any, cls: type, twin: type) -> Any:
+    def _member(self, value: Any) -> Any:
         """What stands in the twin for a method, property or other member of a class."""
         if isinstance(value, types.FunctionType):
-            return self._copy(inspect.unwrap(value), {cls: twin})
+            return self._copy(inspect.unwrap(value))
         if isinstance(value, property):
-            return property(self._member(value.fget, cls, twin))
+            return property(self._member(value.fget))
         if isinstance(value, functools.cached_property) and not isinstance(value, derived):
-            return property(self._member(value.func, cls, twin))
+            return property(self._member(value.func))
         if isinstance(value, staticmethod):
             return staticmethod(self(value.__func__))
         return value
@@ -197,7 +197,7 @@ def run(trace: Tracer, law: Callable[..., T], *arguments: object) -> T:
     error arose, since the error itself comes from inside NumPy or CasADi.
     """
     try:
-        return trace(law)(*map(trace._substitute, arguments))
+        return trace(law)(*map(trace.on_symbols, arguments))
     except Exception as error:  # whatever NumPy says of an object that is no float
         raise Untraceable(f"{_place(error, law)} cannot be compiled: {error}") from error
 

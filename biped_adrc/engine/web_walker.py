@@ -23,7 +23,7 @@ from biped_adrc.engine.kernels.run_plan import LawAddresses
 from biped_adrc.engine.symbols import floats
 from biped_adrc.engine.webassembly import web_module
 from biped_adrc.errors import InputError
-from biped_adrc.gait.reference import Reference, ReferenceLaws, reference_laws
+from biped_adrc.gait.reference import Reference
 from biped_adrc.types import Array
 
 
@@ -57,8 +57,8 @@ def web_walkers(walkers: Sequence[CompiledWalker], reference: Reference) -> WebW
 
     Raises InputError for the exponential method, whose product with matrices has another form.
     """
-    h, laws = reference_laws(reference), _Laws({}, {}, [])
-    made = [_walker(one, h, laws) for one in walkers]
+    laws = _Laws({}, {}, [])
+    made = [_walker(one, reference, laws) for one in walkers]
     return WebWalkers(web_module(laws.texts), tuple(laws.functions), tuple(made))
 
 
@@ -86,17 +86,17 @@ class _Laws(NamedTuple):
         return 1 + self.functions.index(name)
 
 
-def _walker(one: CompiledWalker, h: ReferenceLaws, laws: _Laws) -> WebWalker:
+def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker:
     """The numbers of one walker, whose functions join the laws. Raises InputError."""
     program, P = one.program, one.plan.P.copy()
     if program.make.split is not None:
         raise InputError("an offline page takes the steps of RK4; leave out the exponential method")
-    watched = SignalNumbers(program.numbers, h.parameters)
+    watched = SignalNumbers(program.numbers, reference)
 
     def text() -> str:
         equations = Equations.of(program.make, program.numbers)
         made = {name: getattr(equations, name)() for name in Equations.names(program.make)}
-        return module_text(made | {"observe": observe(program.make, watched, h)})
+        return module_text(made | {"observe": observe(program.make, watched)})
 
     own = laws.of(program.address("flow"), text)
     for place, name in enumerate(LawAddresses._fields):

@@ -21,68 +21,21 @@ A *corrected* constraint has a correction added to it:
     q_d'' = (h'' + c'') Theta'^2 + (h' + c') c_q q''
 
 Theta = c_q q as in h; ' on h and c is d/dTheta. Corrections of corrections add up.
-
-`path` and `virtual_constraint` are the pure functions, which the engine compiles too; `VirtualConstraint` is
-the `Reference` that controllers, the zero dynamics and the design of gaits take.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.errors import GaitError
-from biped_adrc.gait.curves import Curve, CurveParameters, curve
-from biped_adrc.gait.reference import Reference, ReferenceLaws, ReferencePoint
+from biped_adrc.gait.curves import Curve
+from biped_adrc.gait.reference import Reference, ReferencePoint
+from biped_adrc.part import derived
 from biped_adrc.parts import check_part
 from biped_adrc.types import Array, read_only
-
-
-class ConstraintParameters(NamedTuple):
-    """Numbers of a virtual constraint.
-
-    curve: of h over s. c (n,): phase row, Theta = c q. theta_plus: Theta+ [rad]. rate: 1 / (Theta- - Theta+)
-    [1/rad]. fade: length l of the continuation as a share of the range (1,), or (0,) where there is none.
-    """
-
-    curve: CurveParameters
-    c: Array
-    theta_plus: float
-    rate: float
-    fade: Array
-
-
-def path(k: ConstraintParameters, theta: float) -> tuple[Array, Array, Array]:
-    """h [rad], dh/dTheta and d2h/dTheta2 at the phase theta [rad], each (p,), continued past its ends."""
-    s = k.rate * (theta - k.theta_plus)
-    inside = s if len(k.fade) == 0 else np.minimum(np.maximum(s, 0.0), 1.0)
-    h, dh, ddh = curve(k.curve, inside)
-    if len(k.fade) > 0:
-        y, l = s - inside, k.fade[0]  # noqa: E741
-        left = np.exp(-abs(y) / l)
-        h = h + y * dh + (l * abs(y) - l * l * (1.0 - left)) * ddh
-        dh = dh + np.sign(y) * l * (1.0 - left) * ddh
-        ddh = left * ddh
-    return h, k.rate * dh, k.rate * k.rate * ddh
-
-
-def virtual_constraint(k: ConstraintParameters, q: Array, v: Array) -> ReferencePoint:
-    """The reference at q (n,) [rad], v (n,) [rad/s], by the chain rule.
-
-    H = h' c (p, n) multiplies q''; drift = h'' Theta'^2 (p,) is the rest of q_d''.
-    """
-    theta, dtheta = float(k.c.dot(q)), float(k.c.dot(v))
-    h, dh, ddh = path(k, theta)
-    return ReferencePoint(h, dh * dtheta, dtheta**2 * ddh, dh[:, np.newaxis] * k.c)
-
-
-def constraint_point(k: ConstraintParameters, t: float, q: Array, v: Array) -> ReferencePoint:
-    """`virtual_constraint` in the form of `ReferenceLaws.point`; q, v (n,), the time t [s] is not used."""
-    return virtual_constraint(k, q, v)
-
 
 FADE = 0.01
 """Share of the phase range over which the curvature of a continued constraint fades out past an end."""
@@ -125,31 +78,40 @@ class VirtualConstraint(Reference):
                 f"the fade of the constraint is {self.fade}, expected a positive share of its phase range, or "
                 "None for a curve that goes on as it is"
             )
-        fade = read_only([] if self.fade is None else [self.fade])
         object.__setattr__(self, "phase", c)
-        begin, rate = float(self.theta_plus), float(1.0 / span)
-        k = ConstraintParameters(self.curve.parameters, c, begin, rate, fade)
-        object.__setattr__(self, "_parameters", k)
 
-    @property
-    def parameters(self) -> ConstraintParameters:
-        """The numbers that the pure functions `path` and `virtual_constraint` take."""
-        k: ConstraintParameters = self._parameters  # type: ignore[attr-defined]
-        return k
-
-    @property
-    def laws(self) -> ReferenceLaws:
-        return ReferenceLaws(self.parameters, constraint_point)
+    @derived
+    def rate(self) -> float:
+        """1 / (Theta- - Theta+) [1/rad]."""
+        return float(1.0 / (self.theta_minus - self.theta_plus))
 
     def h(self, theta: float) -> tuple[Array, Array, Array]:
-        """h [rad], dh/dTheta and d2h/dTheta2 at theta [rad], each (p,)."""
-        return path(self.parameters, theta)
+        """h [rad], dh/dTheta and d2h/dTheta2 at theta [rad], each (p,), continued past its ends where it is."""
+        s = self.rate * (theta - self.theta_plus)
+        inside = s if self.fade is None else np.minimum(np.maximum(s, 0.0), 1.0)
+        h, dh, ddh = self.curve(inside)
+        if self.fade is not None:
+            y, l = s - inside, self.fade  # noqa: E741
+            left = np.exp(-abs(y) / l)
+            h = h + y * dh + (l * abs(y) - l * l * (1.0 - left)) * ddh
+            dh = dh + np.sign(y) * l * (1.0 - left) * ddh
+            ddh = left * ddh
+        return h, self.rate * dh, self.rate * self.rate * ddh
+
+    def __call__(self, t: float, q: Array, v: Array) -> ReferencePoint:
+        """The reference at q (n,) [rad], v (n,) [rad/s], by the chain rule; the time is not used.
+
+        H = h' c (p, n) multiplies q''; drift = h'' Theta'^2 (p,) is the rest of q_d''.
+        """
+        theta, dtheta = float(self.phase.dot(q)), float(self.phase.dot(v))
+        h, dh, ddh = self.h(theta)
+        return ReferencePoint(h, dh * dtheta, dtheta**2 * ddh, dh[:, np.newaxis] * self.phase)
 
     def over(self, theta: Array) -> Array:
         """h [rad] at many theta (K,) [rad] at once, (K, p); where it is continued, one by one."""
         if self.fade is not None:
             return np.array([self.h(float(x))[0] for x in theta])
-        return self.curve.over(self.parameters.rate * (theta - self.theta_plus))
+        return self.curve.over(self.rate * (theta - self.theta_plus))
 
 
 def continued(h: VirtualConstraint) -> VirtualConstraint:
@@ -168,10 +130,7 @@ Correction = Callable[[float], tuple[Array, Array, Array]]
 
 @dataclass(frozen=True)
 class CorrectedConstraint(Reference):
-    """The reference h(Theta) + c(Theta): a constraint with a correction over the same phase.
-
-    It has no laws, so a walk with it runs in Python.
-    """
+    """The reference h(Theta) + c(Theta): a constraint with a correction over the same phase."""
 
     base: VirtualConstraint | CorrectedConstraint
     correction: Correction

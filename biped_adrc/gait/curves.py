@@ -15,46 +15,18 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from functools import cached_property
 from importlib import import_module
 from math import comb
-from typing import Any, NamedTuple, Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.errors import GaitError
+from biped_adrc.part import derived
 from biped_adrc.resources import packaged
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array, frozen, read_only
-
-
-class CurveParameters(NamedTuple):
-    """Power coefficients of h, h', h'' stacked, (3 p, K), of the first piece, and the exponents (K,).
-
-    breaks (J - 1,): where the further pieces begin, rising; more (J - 1, 3 p, K): the same of these.
-    One product with the powers of s gives the curve and both derivatives.
-    """
-
-    stacked: Array
-    powers: NDArray[np.int64]
-    breaks: Array
-    more: Array
-
-
-def piece(c: CurveParameters, s: float) -> Array:
-    """The stacked coefficients (3 p, K) that hold at s; at a break those of the later piece."""
-    found = c.stacked
-    for j in range(len(c.breaks)):
-        found = np.where(s >= c.breaks[j], c.more[j], found)
-    return found
-
-
-def curve(c: CurveParameters, s: float) -> tuple[Array, Array, Array]:
-    """h [rad], dh/ds, d2h/ds2 at s, each (p,)."""
-    p = c.stacked.shape[0] // 3
-    values = piece(c, s).dot(s**c.powers)
-    return values[:p], values[p : 2 * p], values[2 * p :]
+from biped_adrc.types import Array, read_only
 
 
 @dataclass(frozen=True)
@@ -115,20 +87,38 @@ class Curve(Shown, ABC):
         whole: Array = a[0]
         return whole
 
-    @cached_property
-    def parameters(self) -> CurveParameters:
-        """The numbers that the law `curve` takes; made once for each object."""
-        breaks, a = self.pieces
+    @derived
+    def breaks(self) -> Array:
+        """Where the further pieces begin (J - 1,), rising."""
+        return self.pieces[0]
+
+    @derived
+    def stacked(self) -> Array:
+        """Power coefficients of h, h', h'' stacked, (J, 3 p, K): one product with the powers of s gives all."""
+        a = self.pieces[1]
         k = np.arange(a.shape[2])
         first, second = np.zeros_like(a), np.zeros_like(a)
         first[..., :-1] = a[..., 1:] * k[1:]
         second[..., :-2] = a[..., 2:] * k[2:] * (k[2:] - 1.0)
-        stacked = np.concatenate((a, first, second), axis=1)
-        return frozen(CurveParameters(stacked[0].copy(), k, breaks, stacked[1:].copy()))
+        return np.concatenate((a, first, second), axis=1)
+
+    @derived
+    def powers(self) -> NDArray[np.int64]:
+        """The exponents (K,)."""
+        return np.arange(self.stacked.shape[2])
+
+    def piece(self, s: float) -> Array:
+        """The stacked coefficients (3 p, K) that hold at s; at a break those of the later piece."""
+        a = self.stacked[0]
+        for j in range(len(self.breaks)):
+            a = np.where(s >= self.breaks[j], self.stacked[j + 1], a)
+        return a
 
     def __call__(self, s: float) -> tuple[Array, Array, Array]:
-        """h, dh/ds, d2h/ds2 at s, each (p,); s may lie outside of [0, 1]."""
-        return curve(self.parameters, s)
+        """h [rad], dh/ds, d2h/ds2 at s, each (p,); s may lie outside of [0, 1]."""
+        p = self.stacked.shape[1] // 3
+        values = self.piece(s).dot(s**self.powers)
+        return values[:p], values[p : 2 * p], values[2 * p :]
 
     def over(self, s: Array) -> Array:
         """h [rad] at many s (K,) at once, (K, p)."""

@@ -162,12 +162,12 @@ class FunctionOutputs(Outputs):
         The step along v is scaled to the length `difference`, whatever the speed.
         """
         speed = math.sqrt(v.dot(v))
-        if speed == 0.0:
-            return np.zeros_like(self.function(q))
-        h = self.difference / speed
+        h = self.difference / np.where(speed > 0.0, speed, 1.0)
         if self.jacobian is None:
-            return _along(self.function, q, h * v, _BEND) / h**2
-        return _along(self.jacobian, q, h * v, _SLOPE) @ v / h
+            drift = _along(self.function, q, h * v, _BEND) / h**2
+        else:
+            drift = _along(self.jacobian, q, h * v, _SLOPE) @ v / h
+        return np.where(speed > 0.0, drift, 0.0)
 
 
 def _along(f: Callable[[Array], Array], q: Array, dq: Array, weights: Array) -> Array:

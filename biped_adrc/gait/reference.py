@@ -7,23 +7,20 @@ acceleration that the controller is about to cause. It is therefore split into
 
 so that a controller can solve for its torque without an algebraic loop. For a function of time H = 0.
 
-Controllers call the reference at each evaluation of the closed loop. A reference given as `laws` (pure
-functions of a NamedTuple of parameters) is also compiled by the engine; one that only writes `__call__` runs in
-Python.
+Controllers call the reference at each evaluation of the closed loop, and the engine compiles it with them.
 """
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.composed import Composed
-from biped_adrc.errors import InputError
-from biped_adrc.parts import called_checked, point_returned
-from biped_adrc.shown import one_line
+from biped_adrc.parts import Checked, called_checked, point_returned
+from biped_adrc.shown import Shown, one_line
 from biped_adrc.types import Array
 
 
@@ -43,55 +40,16 @@ class ReferencePoint(NamedTuple):
         return one_line(self)
 
 
-class ReferenceLaws(NamedTuple):
-    """The pure function behind a reference."""
-
-    parameters: object
-    """k, a NamedTuple of numbers and float64 arrays."""
-    point: Callable[..., ReferencePoint]
-    """point(k, t, q, v) -> q_d, q_d' and q_d'', with t [s], q (n,) [rad], v (n,) [rad/s]."""
-    obstacle: str = ""
-    """Why it runs in Python only; empty where it compiles."""
-
-    def __repr__(self) -> str:
-        return one_line(self)
-
-
-class Reference(Composed):
-    """Base class: q_d as a pure function of (t, q, q'). A subclass gives `laws`, or writes `__call__`."""
-
-    _kind: ClassVar[str] = "reference"
-    _methods: ClassVar[frozenset[str]] = frozenset(("__call__",))
+class Reference(Checked, Shown, ABC):
+    """Base class: q_d as a pure function of (t, q, q')."""
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
         called_checked(cls, ReferencePoint)
 
-    @property
-    def laws(self) -> ReferenceLaws | None:
-        """The pure function that `__call__` calls; None for a reference written as a method."""
-        return None
-
+    @abstractmethod
     def __call__(self, t: float, q: Array, v: Array) -> ReferencePoint:
-        """The reference at time t [s] and state q (n,) [rad], v (n,) [rad/s].
-
-        Raises InputError for a subclass that has neither laws nor this method.
-        """
-        laws: ReferenceLaws | None = self._laws
-        if laws is None:
-            raise InputError(
-                f"{type(self).__name__} has neither laws nor a method __call__(t, q, v); write one of them: a "
-                "ReferencePoint from time and state"
-            )
-        return laws.point(laws.parameters, t, q, v)
-
-
-def reference_laws(reference: Reference) -> ReferenceLaws:
-    """The laws of a reference: its method, of which the reference itself is the first argument."""
-    if not reference._obstacle:
-        laws: ReferenceLaws = reference._laws
-        return laws
-    return ReferenceLaws(reference, type(reference).__call__)
+        """The reference at time t [s] and state q (n,) [rad], v (n,) [rad/s]."""
 
 
 def check_point(reference: Reference, r: object, p: int, n: int) -> None:

@@ -17,7 +17,7 @@ from biped_adrc.engine.equations import WalkerNumbers
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.symbols import floats
-from biped_adrc.gait.reference import Reference, reference_laws
+from biped_adrc.gait.reference import Reference
 from biped_adrc.gym.episode import Episode
 from biped_adrc.gym.view import learner_view
 from biped_adrc.types import Array
@@ -57,7 +57,7 @@ class CompiledWalks:
 
     def __init__(self, count: int, reference: Reference):
         """reference: the curve that errors refer to."""
-        self.h = reference_laws(reference)
+        self.reference = reference
         self.laws = dict[int, LoadedCode]()
         """By the address of the walk's own code, with which they change."""
         self.made: list[LoadedWalk | None] = [None] * count
@@ -86,10 +86,10 @@ class CompiledWalks:
         walker = episode.walker
         x = walker.initial_state(episode.q, episode.v, episode.mode)
         made = CompiledWalker.of(walker, episode.method, walker.controller_size(x))
-        watched = SignalNumbers(made.program.numbers, self.h.parameters)
+        watched = SignalNumbers(made.program.numbers, self.reference)
         of = made.program.address("tick")
         if of not in self.laws:
-            self.laws[of] = reading_code(LAW, learner_view, made.program.make, watched, self.h)
+            self.laws[of] = reading_code(LAW, learner_view, made.program.make, watched)
         K = np.array([*floats(watched), 0.0])
         s = made.plan.start(x, 0.0, *episode.mode, 0.0)
         return LoadedWalk(made, self.laws[of], made.plan.P, made.plan.F, K, made.plan.work(), s)

@@ -34,7 +34,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from biped_adrc.errors import InputError
-from biped_adrc.gait.constraint import ConstraintParameters, VirtualConstraint, virtual_constraint
+from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.ground import ground_axes
 from biped_adrc.hardware.loads import Loads
 from biped_adrc.model.biped import Biped
@@ -67,7 +67,7 @@ class MeterParameters(NamedTuple):
     of it. weight: m g [N]. friction: mu. torque: the limit on a joint [N m].
     """
 
-    h: ConstraintParameters
+    h: VirtualConstraint
     along: Array
     across: Array
     weight: float
@@ -165,7 +165,7 @@ def metered(
     since [s]: of this single support, `step`, from the impact that began it. loads: of the plant.
     """
     p = len(u)
-    e = q[:p] - virtual_constraint(k.h, q, v).q_d
+    e = q[:p] - k.h(t, q, v).q_d
     matched, unmatched = disturbance_parts(terms, unknown)
     at = READINGS + 2 * p
     ground = carried(k, g[at:], loads, t)
@@ -342,7 +342,7 @@ class Meter(Shown):
         """What the law `metered` needs."""
         limits, window = self.limits.of(plant.description), self.window(period)
         return MeterParameters(
-            self.constraint.parameters,
+            self.constraint,
             *ground_axes(slope),
             float(plant.weight),
             limits.friction,

@@ -16,7 +16,6 @@ from biped_adrc.control.npd import npd_torque
 from biped_adrc.engine.batch import Case, simulate_many
 from biped_adrc.engine.run import simulate_by
 from biped_adrc.errors import InputError, NotFiniteError
-from biped_adrc.gait.constraint import virtual_constraint
 from biped_adrc.gait.published import passive_cycle
 
 simulate = partial(simulate_by, "compiled")
@@ -26,19 +25,19 @@ FALL = ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 1, 0.1)
 
 def npd_output(k, s, m):
     """NPD on a virtual constraint; k is `NPDController(...).laws.parameters`."""
-    return npd_torque(k.own, virtual_constraint(k.h, m.q, m.v), s, m)
+    return npd_torque(k.own, k.h(m.t, m.q, m.v), s, m)
 
 
 @dataclass(frozen=True)
 class Raising(Controller):
-    """Without laws; raises after 0.1 s, or where `at_once` in its first instant."""
+    """In Python, as it branches; raises after 0.1 s, or where `at_once` in its first instant."""
 
     npd: ba.NPDController
     error: type | None = None
     at_once: bool = False
 
     def output(self, s, m):
-        if self.error is not None and (self.at_once or m.t > 0.1):
+        if (self.at_once or m.t > 0.1) and self.error is not None:
             raise self.error("what the controller says")
         return self.npd.output(s, m)
 

@@ -15,7 +15,6 @@ from biped_adrc.disturbances.pulse import pulse_torque
 from biped_adrc.engine import program
 from biped_adrc.engine.run import simulate_by
 from biped_adrc.errors import InputError, NotFiniteError, SingularError
-from biped_adrc.gait.constraint import virtual_constraint
 from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid import simulator
 from biped_adrc.linear import solve
@@ -33,7 +32,7 @@ PULSE = (30.0, 0.0, -10.0, 5.0, 3.0)
 
 def npd_output(k, s, m):
     """NPD on a virtual constraint; k is `NPDController(...).laws.parameters`."""
-    return npd_torque(k.own, virtual_constraint(k.h, m.q, m.v), s, m)
+    return npd_torque(k.own, k.h(m.t, m.q, m.v), s, m)
 
 
 def npd(gait, **more):
@@ -299,7 +298,7 @@ PLANT = "compiled plant"
 
 @dataclass(frozen=True)
 class InPython(Controller):
-    """NPD, and from `after` [s] on `factor` times its torque; with a state that counts ticks."""
+    """NPD, and from `after` [s] on, by a branch, `factor` times its torque; with a state that counts ticks."""
 
     npd: ba.NPDController
     after: float = np.inf
@@ -329,7 +328,7 @@ class Falling(Disturbance):
 
 @dataclass(frozen=True)
 class Stateless(Controller):
-    """The torque of another controller, as a method alone."""
+    """The torque of another controller, without its state."""
 
     inner: Controller
 
@@ -358,7 +357,7 @@ def test_tick_by_tick(gait, ticked, restart):
     walker = replace(ticked, timing=ba.SampledTime(1e-3, restart))
     late = {"mode": Mode(3, 0.41237), "every": 2}
     runs_ = runs(walker, gait, ba.RK4(4e-4), **late)
-    in_part(*runs_, TICKS, "controller InPython has no laws")
+    in_part(*runs_, TICKS, "InPython.output")
     s = runs_[1].final_state[10]
     assert s > 800.0
     assert s % 1.0 == 0.0
@@ -374,13 +373,12 @@ def test_tick_by_tick_with_other_methods_pushes_and_ground(biped, gait, ticked):
 
 
 @pytest.mark.parametrize("method", [ba.RK4(2e-3), ba.Stiff(1e-6, 1e-6)], ids=["RK4", "stiff"])
-def test_in_continuous_time(biped, gait, method):
-    npd = ba.NPDController(gait.constraint)
-    walker = ba.Walker(biped, Stateless(npd), torque_limit=90.0)
+def test_in_continuous_time(biped, gait, python, method):
+    walker = ba.Walker(biped, Stateless(python), torque_limit=90.0)
     if isinstance(method, ba.RK4):
-        in_part(*runs(walker, gait, method), SHARP, "controller Stateless has no laws")
+        in_part(*runs(walker, gait, method), SHARP, "InPython.output")
         return
-    python, partly = runs(replace(walker, controller=npd), gait, method)
+    python, partly = runs(replace(walker, controller=python.npd), gait, method)
     assert "method Stiff has no compiled form" in partly.settings["why"]
     near(partly.before(FOOT_STRIKE), python.before(FOOT_STRIKE), 1e-6)
 

@@ -11,7 +11,6 @@ import numpy as np
 import biped_adrc as ba
 from biped_adrc.control.base import ControllerLaws
 from biped_adrc.disturbances.base import DisturbanceLaw, Windowed
-from biped_adrc.gait.constraint import ConstraintParameters, virtual_constraint
 from biped_adrc.observers.base import Estimate, ObserverLaws, rows
 from biped_adrc.observers.chain import ChainObserver, chain_estimate, chain_reset, chain_state
 
@@ -96,14 +95,14 @@ class OwnRaises(OwnPD):
 class OwnParameters(NamedTuple):
     """Of the law."""
 
-    h: ConstraintParameters
+    h: ba.Reference
     K_p: float
     K_d: float
 
 
 def own_output(k: OwnParameters, s: Any, m: Any) -> Any:
     """u (p,) [N m]."""
-    r, p = virtual_constraint(k.h, m.q, m.v), m.terms.kappa.shape[0]
+    r, p = k.h(m.t, m.q, m.v), m.terms.kappa.shape[0]
     soft = np.tanh(r.q_d - m.q[:p])
     return k.K_p * soft + k.K_d * (r.dq_d - m.v[:p]) + m.terms.Omega[:p]
 
@@ -118,7 +117,7 @@ class OwnLaws(ba.Controller):
 
     @property
     def laws(self) -> ControllerLaws:
-        k = OwnParameters(self.reference.parameters, self.K_p, self.K_d)
+        k = OwnParameters(self.reference, self.K_p, self.K_d)
         return ControllerLaws(k, own_output)
 
     def output(self, s: Any, m: Any) -> Any:
