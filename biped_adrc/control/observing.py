@@ -27,27 +27,24 @@ from biped_adrc.control.tracking import (
     blind_tracking,
     orthogonal_to,
 )
-from biped_adrc.errors import check_count
 from biped_adrc.gait.reference import Reference, ReferencePoint, reference_laws
 from biped_adrc.observers.base import (
     Estimate,
-    HasOrder,
     Observer,
     ObserverLaws,
     ResetPolicy,
     observer_laws,
-    rows,
 )
 from biped_adrc.types import Array
 
 
 class ObservingParameters(NamedTuple):
-    """The numbers of the parts: reference, gains with the choice of loop, observer, and `ResetPolicy.code`."""
+    """The numbers of the parts: reference, gains with the choice of loop, observer, and its reset."""
 
     h: object
     tracking: TrackingParameters
-    observer: HasOrder
-    policy: int
+    observer: Observer
+    policy: ResetPolicy
 
 
 class Sight(NamedTuple):
@@ -86,7 +83,7 @@ def observing_laws(
         return point(k.h, m.t, m.q, m.v) if of_reference else None
 
     def output(k: ObservingParameters, s: Array, m: Measurement) -> Array:
-        x = o.estimate(k.observer, rows(k.observer, s))
+        x = o.estimate(k.observer, s)
         return torque(k.tracking, point(k.h, m.t, m.q, m.v), x, m)
 
     def initial_state(k: ObservingParameters, m: Measurement) -> Array:
@@ -95,24 +92,23 @@ def observing_laws(
     def jump(k: ObservingParameters, s: Array, after: Measurement, swap: Array) -> Array:
         x = seen(at(k, after), after)
         every = np.concatenate((swap, np.arange(len(swap), len(x.position))))
-        return np.ravel(o.reset(k.observer, k.policy, rows(k.observer, s), every, x))
+        return np.ravel(o.reset(k.observer, k.policy, s, every, x))
 
     def estimate(k: ObservingParameters, s: Array, m: Measurement) -> Estimate:
-        return told(at(k, m), o.estimate(k.observer, rows(k.observer, s)), m)
+        return told(at(k, m), o.estimate(k.observer, s), m)
 
     def flow(k: ObservingParameters, s: Array, m: Measurement, u: Array) -> Array:
         r = at(k, m)
-        Z = rows(k.observer, s)
         assert o.flow is not None
-        return np.ravel(o.flow(k.observer, Z, seen(r, m).position, fed(r, m, u)))
+        return np.ravel(o.flow(k.observer, s, seen(r, m).position, fed(r, m, u)))
 
     def correct(k: ObservingParameters, s: Array, m: Measurement) -> Array:
         assert o.correct is not None
-        return np.ravel(o.correct(k.observer, rows(k.observer, s), seen(at(k, m), m).position))
+        return np.ravel(o.correct(k.observer, s, seen(at(k, m), m).position))
 
     def predict(k: ObservingParameters, s: Array, m: Measurement, u: Array) -> Array:
         assert o.predict is not None
-        return np.ravel(o.predict(k.observer, rows(k.observer, s), fed(at(k, m), m, u)))
+        return np.ravel(o.predict(k.observer, s, fed(at(k, m), m, u)))
 
     laws = ControllerLaws(None, output, initial_state, jump=jump, estimate=estimate)
     if o.flow is not None:
@@ -137,10 +133,10 @@ def with_projections(
 
     def correct_blind(k: ObservingParameters, s: Array, m: Measurement, a: Array) -> Array:
         assert o.correct is not None
-        r, Z = at(k, m), rows(k.observer, s)
-        told, y = o.estimate(k.observer, Z).position, seen(r, m).position
+        r = at(k, m)
+        told, y = o.estimate(k.observer, s).position, seen(r, m).position
         P = orthogonal_to(struck(r, m, a))
-        return np.ravel(o.correct(k.observer, Z, told + P @ (y - told)))
+        return np.ravel(o.correct(k.observer, s, told + P @ (y - told)))
 
     laws = laws._replace(blind=blind)
     if o.correct is not None and o.predict is not None:
@@ -171,14 +167,11 @@ class ObservingController(Controller):
     @property
     def laws(self) -> ControllerLaws:
         r, o = reference_laws(self.reference), observer_laws(self.observer)
-        order = getattr(o.parameters, "order", None)
-        name = type(self.observer).__name__
-        check_count(order, f"the parameters of {name}.laws have order = {order!r} states per joint")
         k = ObservingParameters(
-            r.parameters, self.gains.parameters(self.solve_theta), o.parameters, self.reset.code
+            r.parameters, self.gains.parameters(self.solve_theta), self.observer, self.reset
         )
-        laws = observing_laws(self.sight, r.point, o.functions)
-        return laws._replace(parameters=k, obstacle=r.obstacle or o.obstacle)
+        laws = observing_laws(self.sight, r.point, o)
+        return laws._replace(parameters=k, obstacle=r.obstacle)
 
     def sampled(self, period: float) -> Self:
         sampled: Self = replace(self, observer=self.observer.sampled(period))  # type: ignore[type-var]

@@ -171,10 +171,8 @@ class Tracer:
             made.__module__, made.__qualname__ = cls.__module__, cls.__qualname__
             self._twins[cls] = made
             for name, value in vars(cls).items():
-                if name == "__call__" or not name.startswith("__"):
-                    copy = self._member(value, cls, made)
-                    if copy is not value:
-                        setattr(made, name, copy)
+                if name == "__call__" or not name.startswith(("__", "_abc_")):
+                    setattr(made, name, self._member(value, cls, made))
         return self._twins[cls]
 
     def _member(self, value: Any, cls: type, twin: type) -> Any:
