@@ -93,7 +93,7 @@ from biped_adrc.observer_design.specification import Specification as Specificat
 from biped_adrc.observer_design.specification import specification as specification
 from biped_adrc.observers.base import Observer as Observer
 from biped_adrc.observers.base import ResetPolicy as ResetPolicy
-from biped_adrc.observers.chain import chain_laws as chain_laws
+from biped_adrc.observers.chain import ChainObserver as ChainObserver
 from biped_adrc.observers.gpi import TABLE_I as TABLE_I
 from biped_adrc.observers.gpi import GPIObserver as GPIObserver
 from biped_adrc.robot_import.import_robot import biped_from_urdf as biped_from_urdf

@@ -23,7 +23,6 @@ from biped_adrc.observer_design.observer_sampled import (
     sampled_loop,
 )
 from biped_adrc.observer_design.observer_tables import of_stable
-from biped_adrc.observers.gpi import gpi_correct, gpi_flow, gpi_predict
 from biped_adrc.studies.observer_check import DelayCase, check_encoders, step_errors
 
 TABLE_I = ba.GPIObserver.from_poles()
@@ -56,7 +55,7 @@ def delayed_loop(observer, delay, known, order=8, g=1.0):
         xi = Z[2] * w**2 if k > 2 else 0.0
         a = -K_P * Z[0] - K_D * w * Z[1] - xi
         late = line_output(line, R)
-        dZ = gpi_flow(observer.parameters, Z, y, late if known else a)
+        dZ = observer.flow(Z.ravel(), y, late if known else a).reshape(Z.shape)
         return np.vstack((w * rate, g * late / w, dZ, line_flow(line, R, a)))
 
     return flow(np.eye(2 + k + order))
@@ -103,7 +102,7 @@ def error_system(observer):
     """A, B of (19) in scaled errors E, with inputs xi and n (measurement error); rows of E: e1, e2, -xi^."""
     A, w, k = observer.error_system().A, observer.scale, observer.order
     B, C = np.zeros((k, 2)), np.zeros((3, k))
-    B[1, 0], B[:, 1] = 1.0 / w, -w * observer.parameters.gains
+    B[1, 0], B[:, 1] = 1.0 / w, -w * observer.scaled_gains
     for i in range(min(k, 3)):
         C[i, i] = w**i
     return A, B, C
@@ -154,15 +153,15 @@ def tick_by_tick(observer, T, delay, known):
     def step(X, noise):
         y, rate, Z, rest = X[0], X[1] / T, X[2 : 2 + k], X[2 + k :] / T**2
         p = X.shape[1]
-        Z = gpi_correct(form.parameters, Z, y + noise)
-        x = form.estimate(Z.ravel())
+        z = form.correct(Z.ravel(), y + noise)
+        x = form.estimate(z)
         a = -K_P * x.position - K_D * x.velocity - x.disturbance
         # what acts is rest[0] where a part of a period is waited for; the queue follows it
         old = rest[0] if f > 0.0 else np.zeros(p)
         waiting = old.copy() if f > 0.0 else np.zeros(0)
         line = sent(motors, Line(rest[int(f > 0.0) :].ravel(), np.zeros(0), waiting, old), a)
         first, then = (line.u, line.waiting) if f > 0.0 else (line.u, line.u)
-        Z = gpi_predict(form.parameters, Z, acting(motors, line) if known else a)
+        Z = form.predict(z, acting(motors, line) if known else a).reshape(k, p)
         for u, h in ((first, f * T), (then, (1.0 - f) * T)):
             y, rate = y + h * rate + 0.5 * h**2 * u, rate + h * u
         held = [then[np.newaxis]] if f > 0.0 else []
@@ -193,7 +192,7 @@ def test_held_form_is_the_continuous_observer_with_a_held_measurement():
         slopes, weights = [], (0.0, 0.5, 0.5, 1.0)
         for weight in weights:
             at = Z + weight * h * slopes[-1] if slopes else Z
-            slopes.append(gpi_flow(FIRST.parameters, at, y, a))
+            slopes.append(FIRST.flow(at.ravel(), y, a).reshape(Z.shape))
         Z = Z + h / 6.0 * (slopes[0] + 2.0 * (slopes[1] + slopes[2]) + slopes[3])
     stepped = np.vstack((y + T * rate + 0.5 * T**2 * a, T * rate + T**2 * a, Z))
     np.testing.assert_allclose(loop.matrix, stepped, atol=1e-9 * np.max(np.abs(stepped)))
@@ -419,12 +418,12 @@ def test_an_observer_for_exact_inertias_alone_cannot_run(biped, gait, observer_,
 def error_after(observer, ratio, ticks, T=1.5e-3):
     """|e| by the laws from e = 1e-3 on, for a robot with that ratio of the model's kappa; it ends at 1e6."""
     form, y, rate = observer.sampled(T), np.array([1e-3]), np.zeros(1)
-    Z = np.zeros((observer.order, 1))
+    z = np.zeros(observer.order)
     for _ in range(ticks):
-        Z = gpi_correct(form.parameters, Z, y)
-        x = form.estimate(Z.ravel())
+        z = form.correct(z, y)
+        x = form.estimate(z)
         a = -K_P * x.position - K_D * x.velocity - x.disturbance
-        Z = gpi_predict(form.parameters, Z, a)
+        z = form.predict(z, a)
         y, rate = y + T * rate + 0.5 * T**2 * ratio * a, rate + T * ratio * a
         if abs(y[0]) > 1e6:
             break

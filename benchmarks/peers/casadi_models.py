@@ -19,7 +19,7 @@ from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.design.step import each, together
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import PlanarTree, inertia_and_bias
-from biped_adrc.observers.gpi import GPIParameters
+from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.types import Array
 
 RTOL, ATOL = 1e-6, 1e-9  # relative, absolute
@@ -80,7 +80,7 @@ class CasADiChain(Chain):
 def closed_loop(biped: Biped, controller: ADRCController) -> Any:
     """CasADi function x -> x'."""
     n, p, k = biped.n, biped.p, controller.laws.parameters
-    assert isinstance(k.observer, GPIParameters)
+    assert isinstance(k.observer, GPIObserver)
     x = ca.SX.sym("x", 2 * n + k.observer.order * p)
     q, v = x[:n], x[n : 2 * n]
     Z = ca.reshape(x[2 * n :], p, k.observer.order).T
@@ -129,10 +129,10 @@ def constraint(h: VirtualConstraint, q: Any, v: Any) -> tuple[Any, Any, Any, Any
     return rows[:p], h.rate * rows[p : 2 * p], h.rate**2 * rows[2 * p :], ca.dot(h.phase, v)
 
 
-def observer(k: GPIParameters, y: Any, Z: Any, kappa_u: Any) -> Any:
+def observer(k: GPIObserver, y: Any, Z: Any, kappa_u: Any) -> Any:
     """Z' (m + 2, p) of (17)."""
     p = y.numel()
     shifted = ca.vertcat(Z[1:, :], ca.SX.zeros(1, p))
-    dZ = k.scale * (k.gains[:, np.newaxis] @ (y.T - Z[0, :]) + shifted)
+    dZ = k.scale * (k.scaled_gains[:, np.newaxis] @ (y.T - Z[0, :]) + shifted)
     dZ[1, :] += kappa_u.T / k.scale
     return dZ

@@ -40,7 +40,7 @@ Solve = Callable[[Flow, Array, Array], Array]
 
 def program_of(walker: Walker) -> Program:
     """The machine code of a walker in continuous time."""
-    return Program.of(walker, walker.controller.laws.parameters.observer.order * walker.plant.p)
+    return Program.of(walker, walker.controller.observer.order * walker.plant.p)
 
 
 def right_hand_side(walker: Walker, program: Program) -> Flow:

@@ -70,7 +70,8 @@ def law_text(*laws: object) -> str:
 def structure_text(tree: object) -> str:
     """Parameters without their floats: names, shapes, and what else there is, which decides the code.
 
-    ints, texts and flags are part of it; floats and float arrays are replaced by their shapes.
+    ints, texts and flags are part of it; floats and float arrays are replaced by their shapes, parts by their
+    class and content.
     """
     if isinstance(tree, HIDDEN):
         return "hidden"
@@ -80,6 +81,10 @@ def structure_text(tree: object) -> str:
         return f"{_class_text(type(tree))}({inside})"
     if isinstance(tree, np.ndarray) and tree.dtype.kind == "f":
         return f"float{tree.shape}"
+    if isinstance(tree, HIDDEN):
+        return type(tree).__qualname__
+    if is_part(tree):
+        return f"{_class_text(type(tree))}({structure_text(tuple(content(tree).items()))})"
     return "float" if isinstance(tree, float | np.floating) else law_text(tree)
 
 

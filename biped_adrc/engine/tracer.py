@@ -171,7 +171,7 @@ class Tracer:
             made.__module__, made.__qualname__ = cls.__module__, cls.__qualname__
             self._twins[cls] = self._twins[made] = made
             for name, value in vars(cls).items():
-                if name == "__call__" or not name.startswith("__"):
+                if name == "__call__" or not name.startswith(("__", "_abc_")):
                     copy = self._member(value)
                     if copy is not value:
                         setattr(made, name, copy)

@@ -79,7 +79,7 @@ class ObserverLoop:
     @cached_property
     def _chi(self) -> Array:
         """chi (m + 3,), from the scaled gains."""
-        return np.concatenate(([1.0], self.observer.parameters.gains))
+        return np.concatenate(([1.0], self.observer.scaled_gains))
 
     @cached_property
     def _feedback(self) -> Array:
@@ -218,7 +218,7 @@ def conditioning(observer: GPIObserver) -> Conditioning:
         return float(np.linalg.norm(A, 2) * np.linalg.norm(inverse, 2))
 
     w = observer.scale
-    return Conditioning(condition(observer.gains, 1.0), condition(w * observer.parameters.gains, w))
+    return Conditioning(condition(observer.gains, 1.0), condition(w * observer.scaled_gains, w))
 
 
 def bandwidth(response: Callable[[Array], ComplexArray], low: float, high: float) -> float:

@@ -34,7 +34,7 @@ from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.errors import InputError, check_positive
 from biped_adrc.hardware.motors import whole_and_part
 from biped_adrc.observer_design.observer_loop import joint_gains
-from biped_adrc.observers.gpi import GPIObserver, SampledGPIObserver, SampledGPIParameters
+from biped_adrc.observers.gpi import GPIObserver, SampledGPIObserver
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
 
@@ -127,13 +127,13 @@ class SampledLoop:
             Z_k = Z + corrected
             return corrected + (k.Phi - np.eye(k.order)) @ Z_k, self._feedback @ Z_k
         A = self.observer.error_system().A
-        injection = self.observer.scale * self.observer.parameters.gains
+        injection = self.observer.scale * self.observer.scaled_gains
         return self._held @ (A @ Z + np.outer(injection, y)), self._feedback @ Z
 
     @cached_property
-    def _current(self) -> SampledGPIParameters:
-        """Phi, Gamma T^2 and L of the current form, those of the observer that walks."""
-        return SampledGPIObserver.from_poles(self.observer.poles, self.period).parameters
+    def _current(self) -> SampledGPIObserver:
+        """The current form, which is the observer that walks."""
+        return SampledGPIObserver.from_poles(self.observer.poles, self.period)
 
     @cached_property
     def _held(self) -> Array:

@@ -118,7 +118,7 @@ def _gains(report: ObserverReport) -> Section:
     names = [f"l_{o.order - 1 - i} [1/s^{i + 1}]" for i in range(o.order)]
     rows = [
         (name, f"{physical:.6g}", f"{scaled:.6g}")
-        for name, physical, scaled in zip(names, o.gains, o.parameters.gains, strict=True)
+        for name, physical, scaled in zip(names, o.gains, o.scaled_gains, strict=True)
     ]
     rows.append(("condition number of (19)", f"{c.physical:.3g}", f"{c.scaled:.3g}"))
     title = f"Gains of the observer; states scaled by w = {o.scale:.6g} rad/s"

@@ -6,26 +6,22 @@
     input = kappa u (p,) [rad/s^2],  y = q_b (p,) [rad]
 
 for the observers under ADRC; those under DOB see the momentum and the known force of all n coordinates.
-States are vectors passed in and handed back; an observer holds only parameters. So one observer object may
-serve many walks at once, and an integrator may evaluate a step twice.
-
-`Observer` has the methods that controllers call, `ObserverLaws` the pure functions behind them, which the
-engine turns into machine code. `control.observing` puts an observer under a controller, `observer_design`
-chooses its poles and judges it alone.
+States are flat vectors passed in and handed back; an observer holds only numbers. So one observer object may
+serve many walks at once, and an integrator may evaluate a step twice. The engine turns the methods into machine
+code. `control.observing` puts an observer under a controller, `observer_design` chooses its poles and judges it
+alone.
 """
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from enum import Enum
-from typing import Any, ClassVar, NamedTuple, Protocol
+from typing import NamedTuple
 
-import numpy as np
-
-from biped_adrc.composed import Composed
 from biped_adrc.errors import InputError
-from biped_adrc.parts import check_part, returned
-from biped_adrc.shown import one_line
+from biped_adrc.parts import Checked, check_part, returned
+from biped_adrc.shown import Shown, one_line
 from biped_adrc.types import Array
 
 
@@ -57,11 +53,6 @@ class ResetPolicy(Enum):
     """As relabel, with x1^ and x2^ from the measurement after impact."""
     MODEL = "model"
     """As at the start: x1^, x2^ measured, xi^ from the nominal model, higher derivatives zero."""
-
-    @property
-    def code(self) -> int:
-        """The policy as a number, for laws: its place in this list, from 0."""
-        return list(ResetPolicy).index(self)
 
     @classmethod
     def named(cls, name: str | ResetPolicy) -> ResetPolicy:
@@ -102,110 +93,46 @@ class ErrorSystem(NamedTuple):
     """Of the controller around the observer; None for an observer alone."""
 
 
-class HasOrder(Protocol):
-    """Parameters of an observer's laws: by `order` the flat state is cut into rows."""
+class Observer(Checked, Shown, ABC):
+    """Base of all observers: a frozen dataclass with `flow`, or with `correct` and `predict`.
 
-    @property
-    def order(self) -> int:
-        """States per joint."""
-
-
-class ObserverLaws(NamedTuple):
-    """The pure functions behind an observer, its state as rows Z (order, p); None for what it has not.
-
-    x is an Estimate taken from the measurement and the model. An observer has `flow`, or `correct` and
-    `predict`: that says in which time base it works.
+    Which of them it has says in which time base it works.
     """
 
-    parameters: Any
-    """k, a NamedTuple of numbers and float64 arrays, one of them `order`."""
-    state: Callable[..., Array]
-    """state(k, x) -> Z that agrees with x."""
-    estimate: Callable[..., Estimate]
-    """estimate(k, Z) -> x."""
-    reset: Callable[..., Array]
-    """reset(k, policy, Z, swap, x) -> Z after impact; policy is `ResetPolicy.code`."""
-    flow: Callable[..., Array] | None = None
-    """flow(k, Z, y, input) -> Z'."""
-    correct: Callable[..., Array] | None = None
-    """correct(k, Z, y) -> Z at the tick."""
-    predict: Callable[..., Array] | None = None
-    """predict(k, Z, input) -> Z one period later."""
-    obstacle: str = ""
-    """Why these run in Python only; empty where they compile."""
-
-    @property
-    def functions(self) -> ObserverLaws:
-        """The laws alone, without their parameters."""
-        return self._replace(parameters=None, obstacle="")
-
-    def __repr__(self) -> str:
-        return one_line(self)
-
-
-def rows(k: HasOrder, z: Array) -> Array:
-    """Z (order, p), the flat state z by rows, for parameters k with `order`; no copy."""
-    return z.reshape(k.order, -1)
-
-
-class Observer(Composed):
-    """Base of all observers, in continuous time unless made by `sampled`.
-
-    Give `laws`, whose parameters have `order`, the states per joint; or write the methods.
-    """
-
-    _kind: ClassVar[str] = "observer"
-    _methods: ClassVar[frozenset[str]] = frozenset(
-        ("initial_state", "estimate", "reset", "flow", "correct", "predict")
-    )
-
-    @property
-    def laws(self) -> ObserverLaws | None:
-        """The pure functions that the methods call; None for an observer written as methods alone."""
-        return None
-
-    @property
-    def order(self) -> int:
-        """States per joint."""
-        return int(self._given.parameters.order)
-
+    @abstractmethod
     def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
-        """z that agrees with position y, velocity dy and disturbance xi, each (p,); z (order p,) is flat."""
-        k = self._given
-        return k.state(k.parameters, Estimate(y, dy, xi)).ravel()
+        """z (size,) that agrees with position y, velocity dy and disturbance xi, each (p,)."""
 
+    @abstractmethod
     def estimate(self, z: Array) -> Estimate:
-        """The estimates in z (order p,), each (p,) [rad], [rad/s], [rad/s^2]."""
-        k = self._given
-        return k.estimate(k.parameters, rows(k.parameters, z))
+        """The estimates in z (size,), each (p,) [rad], [rad/s], [rad/s^2]."""
 
+    @abstractmethod
     def reset(
         self, z: Array, policy: ResetPolicy, swap: Array, y: Array, dy: Array, xi: Array
     ) -> Array:
-        """z (order p,) after impact, from z before it.
+        """z (size,) after impact, from z before it.
 
         `swap` (p,) is the relabelling of joints; y, dy, xi, each (p,), are taken after it.
         """
-        k, x = self._given, Estimate(y, dy, xi)
-        return k.reset(k.parameters, policy.code, rows(k.parameters, z), swap, x).ravel()
 
     def flow(self, z: Array, y: Array, input: Array) -> Array:
-        """z' (order p,) in continuous time, for the measurement y (p,) and the input (p,).
+        """z' (size,) in continuous time, for the measurement y (p,) and the input (p,).
 
         Raises InputError for an observer that was made for sampled time.
         """
-        return self._next("flow", "sampled time only; give a SampledTime", z, y, input)
+        raise InputError(f"{type(self).__name__} works in sampled time only; give a SampledTime")
 
     def correct(self, z: Array, y: Array) -> Array:
-        """Sampled: z (order p,) at a sample instant with the measurement y (p,) taken in.
+        """Sampled: z (size,) at a sample instant with the measurement y (p,) taken in.
 
         Raises InputError for an observer in continuous time, as `predict` does.
         """
-        return self._next("correct", "continuous time; call sampled(period)", z, y)
+        raise self._continuous()
 
     def predict(self, z: Array, input: Array) -> Array:
-        """Sampled: z (order p,) one period later under a constant input (p,)."""
-        return self._next("predict", "continuous time; call sampled(period)", z, input)
+        """Sampled: z (size,) one period later under a constant input (p,)."""
+        raise self._continuous()
 
     def sampled(self, period: float) -> Observer:
         """The discrete form for ticks every `period` [s]. Raises InputError where there is none."""
@@ -215,75 +142,51 @@ class Observer(Composed):
         """The linear error dynamics, for the exponential method; None when there are none."""
         return None
 
-    @property
-    def _given(self) -> ObserverLaws:
-        """The laws. Raises InputError where neither they nor all methods are written."""
-        laws: ObserverLaws | None = self._laws
-        if laws is None:
-            raise InputError(
-                f"{type(self).__name__} has no laws, and does not write all of the methods order, "
-                "initial_state, estimate and reset; write what is missing"
-            )
-        return laws
-
-    def _next(self, name: str, works_in: str, z: Array, *given: Array) -> Array:
-        """z by the law of this name; without that law, the error that says where the observer works."""
-        law = self._law(name)
-        if law is None:
-            raise InputError(f"{type(self).__name__} works in {works_in}")
-        return law(rows(self._laws.parameters, z), *given).ravel()
+    def _continuous(self) -> InputError:
+        """The error for what is asked of an observer in sampled time alone."""
+        return InputError(f"{type(self).__name__} works in continuous time; call sampled(period)")
 
 
-class MethodParameters(NamedTuple):
-    """Of an observer that is written as methods: its state is one row."""
+class ObserverLaws(NamedTuple):
+    """The methods of an observer as functions of it and their arguments; None for what it has not."""
 
-    observer: Observer
-    order: int = 1
-
-
-POLICIES = list(ResetPolicy)
+    state: Callable[..., Array]
+    estimate: Callable[..., Estimate]
+    reset: Callable[..., Array]
+    flow: Callable[..., Array] | None = None
+    correct: Callable[..., Array] | None = None
+    predict: Callable[..., Array] | None = None
 
 
 def observer_laws(observer: Observer) -> ObserverLaws:
-    """The laws of an observer: its methods, with the flat state as one row."""
-    if not observer._obstacle:
-        laws: ObserverLaws = observer._laws
-        return laws
-    made = ObserverLaws(MethodParameters(observer), _start, _estimate, _reset)
-    discrete = (
-        type(observer).predict is not Observer.predict or observer._law("predict") is not None
-    )
-    if not discrete:
-        return made._replace(flow=_flow)
-    return made._replace(correct=_correct, predict=_predict)
+    """The methods of an observer, with what they return checked."""
+    laws = ObserverLaws(_start, _estimate, _reset)
+    if type(observer).predict is Observer.predict:
+        return laws._replace(flow=_flow)
+    return laws._replace(correct=_correct, predict=_predict)
 
 
-def _start(k: MethodParameters, x: Estimate) -> Array:
-    return k.observer.initial_state(*x)[np.newaxis]
+def _start(o: Observer, x: Estimate) -> Array:
+    return o.initial_state(*x)
 
 
-def _estimate(k: MethodParameters, Z: Array) -> Estimate:
-    found = k.observer.estimate(Z[0])
-    check_part(found, f"what {type(k.observer).__name__}.estimate returned", Estimate)
+def _estimate(o: Observer, z: Array) -> Estimate:
+    found = o.estimate(z)
+    check_part(found, f"what {type(o).__name__}.estimate returned", Estimate)
     return found
 
 
-def _reset(k: MethodParameters, policy: int, Z: Array, swap: Array, x: Estimate) -> Array:
-    return _row(k.observer.reset(Z[0], POLICIES[policy], swap, *x), Z, k, "reset")
+def _reset(o: Observer, policy: ResetPolicy, z: Array, swap: Array, x: Estimate) -> Array:
+    return returned(o.reset(z, policy, swap, *x), z.shape, o, "reset", finite=False)
 
 
-def _flow(k: MethodParameters, Z: Array, y: Array, input: Array) -> Array:
-    return _row(k.observer.flow(Z[0], y, input), Z, k, "flow")
+def _flow(o: Observer, z: Array, y: Array, input: Array) -> Array:
+    return returned(o.flow(z, y, input), z.shape, o, "flow", finite=False)
 
 
-def _correct(k: MethodParameters, Z: Array, y: Array) -> Array:
-    return _row(k.observer.correct(Z[0], y), Z, k, "correct")
+def _correct(o: Observer, z: Array, y: Array) -> Array:
+    return returned(o.correct(z, y), z.shape, o, "correct", finite=False)
 
 
-def _predict(k: MethodParameters, Z: Array, input: Array) -> Array:
-    return _row(k.observer.predict(Z[0], input), Z, k, "predict")
-
-
-def _row(found: Array, Z: Array, k: MethodParameters, name: str) -> Array:
-    """Z (1, size) that the method of this name gives."""
-    return returned(found, Z[0].shape, k.observer, name, finite=False)[np.newaxis]
+def _predict(o: Observer, z: Array, input: Array) -> Array:
+    return returned(o.predict(z, input), z.shape, o, "predict", finite=False)

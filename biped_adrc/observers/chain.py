@@ -4,84 +4,36 @@ x_k = z_k scale^(k-1), k = 1..m+2, with x1 position, x2 velocity, x3 disturbance
 itself the observer matrix of Table I has condition number 3e29; scaled it has 5e6.
 
 Here are start, estimates and reset, which do not depend on how the gains were chosen; a leaf (`gpi`,
-`high_gain`, `kalman`) adds its flow, or correct and predict. The checks of poles are shared with the momentum
+`high_gain`, `kalman`) adds its flow. The checks of poles and the discrete form are shared with the momentum
 observer.
+
+In discrete time a chain has its *current* (filtered) form,
+
+    Z <- Phi Z + Gamma input         prediction over one period T
+    Z <- Z + L (y - Z_1)             correction at the tick
+
+Phi is the Taylor matrix of a chain of integrators in states z_k = x_k T^(k-1), Phi_ij = 1/(j - i)!, and
+Gamma = T^2 (1/2, 1, 0, ...).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from abc import abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from math import factorial
 
 import numpy as np
 
 from biped_adrc.errors import InputError, check_positive
-from biped_adrc.observers.base import Estimate, Observer, ObserverLaws, ResetPolicy
+from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
+from biped_adrc.part import derived
 from biped_adrc.types import Array
-
-NONE, RELABEL, MEASURED, MODEL = (policy.code for policy in ResetPolicy)
-
 
 MOST_POLES = 20
 """States per joint: with more, round-off places the poles, and machine code of a step takes minutes to make."""
 SLOWEST, FASTEST = 1e-6, 1e9
 """[rad/s]: beyond these bandwidths products of the gains have no place among the floats."""
-
-
-class Chain(Protocol):
-    """What the laws of the chain need; the parameters of every observer of this kind have it."""
-
-    @property
-    def order(self) -> int:
-        """m + 2."""
-
-    @property
-    def scale(self) -> float:
-        """[rad/s]."""
-
-
-def chain_state(k: Chain, x: Estimate) -> Array:
-    """Z (m + 2, p) that agrees with x, higher derivatives zero."""
-    Z = np.zeros((k.order, len(x.position)))
-    Z[0], Z[1] = x.position, x.velocity / k.scale
-    if k.order > 2:
-        Z[2] = x.disturbance / k.scale**2
-    return Z
-
-
-def chain_estimate(k: Chain, Z: Array) -> Estimate:
-    """x1^, x2^ and xi^ in Z (m + 2, p); xi^ = 0 for m = 0."""
-    xi = Z[2] * k.scale**2 if k.order > 2 else np.zeros(Z.shape[1])
-    return Estimate(Z[0], Z[1] * k.scale, xi)
-
-
-def chain_reset(k: Chain, policy: int, Z: Array, swap: Array, x: Estimate) -> Array:
-    """Z (m + 2, p) after impact under the policy of this code.
-
-    swap (p,) relabels the joints, x is taken after it. MEASURED keeps xi^ and its derivatives, relabelled.
-    """
-    if policy == NONE:
-        return Z
-    if policy == MODEL:
-        return chain_state(k, x)
-    swapped = Z[:, swap]
-    if policy == MEASURED:
-        swapped[0], swapped[1] = x.position, x.velocity / k.scale
-    return swapped
-
-
-def chain_laws(
-    k: Chain,
-    flow: Callable[..., Array] | None = None,
-    correct: Callable[..., Array] | None = None,
-    predict: Callable[..., Array] | None = None,
-) -> ObserverLaws:
-    """The laws of an observer whose state is a chain; its flow, or correct and predict, are its own.
-
-    They take and give Z (m + 2, p), as `ObserverLaws` says.
-    """
-    return ObserverLaws(k, chain_state, chain_estimate, chain_reset, flow, correct, predict)
 
 
 # -- what is asked of poles ----------------------------------------------------------------------
@@ -142,16 +94,14 @@ def check_chain(order: int, scale: float, what: str) -> None:
         )
 
 
-class ChainParameters(NamedTuple):
-    """order: m + 2, states per joint. scale: w [rad/s], by which states are scaled."""
-
-    order: int
-    scale: float
+def scaled_polynomial(poles: Sequence[complex], scale: float) -> Array:
+    """Coefficients (k,) behind the first, 1, of the polynomial of poles (k,) [rad/s] over scale [rad/s]."""
+    return np.ascontiguousarray(np.real(np.poly(np.array(poles) / scale))[1:])
 
 
 @dataclass(frozen=True)
 class ChainObserver(Observer):
-    """m extended states; z is (m + 2, p) flattened. Leaves add their own flow, as a law or a method.
+    """m extended states; z is Z (m + 2, p) row by row. Leaves add their own flow, or correct and predict.
 
     scale [rad/s] is near the bandwidth, so that the scaled states have numbers of one size.
     """
@@ -163,9 +113,72 @@ class ChainObserver(Observer):
         check_chain(self.order, self.scale, type(self).__name__)
 
     @property
-    def laws(self) -> ObserverLaws:
-        return chain_laws(ChainParameters(self.order, self.scale))
+    def order(self) -> int:
+        """m + 2, states per joint."""
+        return self.m + 2
+
+    def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
+        """z that agrees with y, dy and xi, each (p,); higher derivatives are zero."""
+        Z = np.zeros((self.order, len(y)))
+        Z[0], Z[1] = y, dy / self.scale
+        if self.order > 2:
+            Z[2] = xi / self.scale**2
+        return Z.ravel()
+
+    def estimate(self, z: Array) -> Estimate:
+        """x1^, x2^ and xi^ in z, each (p,); xi^ = 0 for m = 0."""
+        Z = z.reshape(self.order, -1)
+        xi = Z[2] * self.scale**2 if self.order > 2 else np.zeros(Z.shape[1])
+        return Estimate(Z[0], Z[1] * self.scale, xi)
+
+    def reset(
+        self, z: Array, policy: ResetPolicy, swap: Array, y: Array, dy: Array, xi: Array
+    ) -> Array:
+        """z after impact; MEASURED keeps xi^ and its derivatives, relabelled."""
+        if policy is ResetPolicy.NONE:
+            return z
+        if policy is ResetPolicy.MODEL:
+            return self.initial_state(y, dy, xi)
+        Z = z.reshape(self.order, -1)[:, swap]
+        if policy is ResetPolicy.MEASURED:
+            Z[0], Z[1] = y, dy / self.scale
+        return Z.ravel()
+
+
+class CurrentForm(Observer):
+    """The module's discrete form. A leaf has `order` and `period`, T [s], and says what L is."""
+
+    period: float
 
     @property
+    @abstractmethod
     def order(self) -> int:
-        return self.m + 2
+        """k, states per joint."""
+
+    @derived
+    def Phi(self) -> Array:
+        """(k, k), dimensionless."""
+        k = range(self.order)
+        return np.array([[1.0 / factorial(j - i) if j >= i else 0.0 for j in k] for i in k])
+
+    @derived
+    def Gamma(self) -> Array:
+        """(k,) [s^2]."""
+        Gamma = np.zeros(self.order)
+        Gamma[0], Gamma[1] = 0.5 * self.period**2, self.period**2
+        return Gamma
+
+    @property
+    @abstractmethod
+    def L(self) -> Array:
+        """(k,), dimensionless."""
+
+    def correct(self, z: Array, y: Array) -> Array:
+        """z at the sample instant with the measurement y (p,) taken in."""
+        Z = z.reshape(self.order, -1)
+        return np.ravel(Z + np.outer(self.L, y - Z[0]))
+
+    def predict(self, z: Array, input: Array) -> Array:
+        """z one period later under a constant input (p,)."""
+        Z = z.reshape(self.order, -1)
+        return np.ravel(self.Phi @ Z + np.outer(self.Gamma, input))

@@ -10,18 +10,13 @@ Its error obeys (19) with the poles chosen. States are scaled by w, the geometri
 z_k = x_k / w^(k-1), and the gains are the coefficients of the polynomial of the poles divided by w. The
 injection is written l (y - x1^), never l y - l x1^: with gains up to 1e29 that form is lost in round-off.
 
-In discrete time it has its *current* (filtered) form,
-
-    Z- <- Phi Z + Gamma T^2 kappa u          prediction over one period
-    Z  <- Z- + L (y - Z-_1)                  correction at the tick
-
-Phi is the Taylor matrix of a chain of integrators in states z_k = x_k T^(k-1), Phi_ij = 1/(j - i)!, and
-Gamma = (1/2, 1, 0, ...). L places the eigenvalues of (I - L C) Phi at exp(s T) by Ackermann's formula.
-The held-measurement observer with the same poles is unstable at 1 kHz; this form is stable there.
+In discrete time it has the current form of `chain`, whose L places the eigenvalues of (I - L C) Phi at exp(s T)
+by Ackermann's formula. The held-measurement observer with the same poles is unstable at 1 kHz; this form is
+stable there.
 
 m = 0 estimates position and velocity alone, m = 1 is the linear extended state observer, and m extended states
 follow a disturbance that is a polynomial of degree m - 1 in time without a steady error. `high_gain` and
-`kalman` are the same observer with gains from other considerations, and run by the laws of this module.
+`kalman` are the same observer with gains from other considerations.
 """
 
 from __future__ import annotations
@@ -29,36 +24,24 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from math import factorial
-from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.errors import InputError, check_positive
-from biped_adrc.observers.base import ErrorSystem, ObserverLaws
-from biped_adrc.observers.chain import ChainObserver, chain_laws, equal_poles, stable_poles, whole
+from biped_adrc.observers.base import ErrorSystem
+from biped_adrc.observers.chain import (
+    ChainObserver,
+    CurrentForm,
+    equal_poles,
+    scaled_polynomial,
+    stable_poles,
+    whole,
+)
+from biped_adrc.part import derived
 from biped_adrc.types import Array
 
 TABLE_I = tuple(-180.0 * 1.8**k for k in range(9))
 """Table I [rad/s]; the paper rounds them ("-11.020" and "-19.836" use the dot for thousands)."""
-
-
-class GPIParameters(NamedTuple):
-    """gains (m + 2,), dimensionless: l_(m+1)/w, l_m/w^2, ...; scale: w [rad/s]; order: m + 2."""
-
-    gains: Array
-    scale: float
-    order: int
-
-
-def gpi_flow(k: GPIParameters, Z: Array, y: Array, input: Array) -> Array:
-    """Z' (m + 2, p) for scaled states Z, measurement y (p,) and input kappa u (p,)."""
-    w = k.scale
-    dZ = w * np.outer(k.gains, y - Z[0])
-    dZ[:-1] += w * Z[1:]
-    dZ[1] += input / w
-    return dZ
 
 
 @dataclass(frozen=True)
@@ -70,20 +53,23 @@ class InjectedChain(ChainObserver):
     def poles(self) -> tuple[complex, ...]:
         """(m + 2,) [rad/s]."""
 
-    @cached_property
-    def parameters(self) -> GPIParameters:
-        """What the laws `gpi_flow` and `chain_...` need: the polynomial of the poles over w has these gains."""
-        gains = np.real(np.poly(np.array(self.poles) / self.scale))[1:]
-        return GPIParameters(np.ascontiguousarray(gains), float(self.scale), self.order)
-
-    @property
-    def laws(self) -> ObserverLaws:
-        return chain_laws(self.parameters, gpi_flow)
+    @derived
+    def scaled_gains(self) -> Array:
+        """l_(m+1)/w, l_m/w^2, ... (m + 2,), dimensionless: the polynomial of the poles over w has them."""
+        return scaled_polynomial(self.poles, self.scale)
 
     @property
     def gains(self) -> Array:
         """l_(m+1), l_m, ..., l_0 of (17) in physical units (m + 2,): [1/s], [1/s^2], ..., [1/s^(m+2)]."""
-        return self.parameters.gains * self.scale ** np.arange(1, self.order + 1)
+        return self.scaled_gains * self.scale ** np.arange(1, self.order + 1)
+
+    def flow(self, z: Array, y: Array, input: Array) -> Array:
+        """z' for scaled states, the measurement y (p,) [rad] and the input kappa u (p,) [rad/s^2]."""
+        Z, w = z.reshape(self.order, -1), self.scale
+        dZ = w * np.outer(self.scaled_gains, y - Z[0])
+        dZ[:-1] += w * Z[1:]
+        dZ[1] += input / w
+        return dZ.ravel()
 
     def sampled(self, period: float) -> ChainObserver:
         """The current (filtered) discrete observer with poles exp(s T)."""
@@ -92,7 +78,7 @@ class InjectedChain(ChainObserver):
     def error_system(self) -> ErrorSystem:
         """(19) in scaled states: e' = A e + b (q_b'' - kappa u)."""
         A = self.scale * np.eye(self.order, k=1)
-        A[:, 0] = -self.scale * self.parameters.gains
+        A[:, 0] = -self.scale * self.scaled_gains
         return ErrorSystem(A, 1.0 / self.scale)
 
 
@@ -123,41 +109,8 @@ class GPIObserver(InjectedChain):
         return cls.from_poles(equal_poles(bandwidth, whole(m, 0, "m", "observer order") + 2))
 
 
-class SampledGPIParameters(NamedTuple):
-    """Of the discrete form: Phi (k, k), Gamma T^2 (k,), L (k,); scale: 1/T [1/s]; order: k = m + 2.
-
-    Also those of the sampled Kalman and momentum observers, whose Phi is the same.
-    """
-
-    Phi: Array
-    Gamma: Array
-    L: Array
-    scale: float
-    order: int
-
-
-def gpi_correct(k: SampledGPIParameters, Z: Array, y: Array) -> Array:
-    """Z (k, p) at the sample instant with y (p,) [rad] taken in."""
-    return Z + np.outer(k.L, y - Z[0])
-
-
-def gpi_predict(k: SampledGPIParameters, Z: Array, input: Array) -> Array:
-    """Z (k, p) one period later under constant input kappa u (p,) [rad/s^2]."""
-    return k.Phi @ Z + np.outer(k.Gamma, input)
-
-
-def held_chain(order: int, period: float) -> tuple[Array, Array]:
-    """Phi (k, k) and Gamma T^2 (k,) of the module's equation, for k = order states per joint and T [s]."""
-    Phi = np.array(
-        [[1.0 / factorial(j - i) if j >= i else 0.0 for j in range(order)] for i in range(order)]
-    )
-    Gamma = np.zeros(order)
-    Gamma[0], Gamma[1] = 0.5 * period**2, period**2
-    return Phi, Gamma
-
-
 @dataclass(frozen=True)
-class SampledGPIObserver(ChainObserver):
+class SampledGPIObserver(ChainObserver, CurrentForm):
     """The discrete observer for one period T [s]; `scale` is 1/T, so that Phi has no T in it."""
 
     period: float = 0.0
@@ -173,11 +126,10 @@ class SampledGPIObserver(ChainObserver):
         check_positive(period, f"the sampling period is {period} s")
         return cls(len(poles) - 2, 1.0 / period, period, poles)
 
-    @cached_property
-    def parameters(self) -> SampledGPIParameters:
-        """What the laws `gpi_correct`, `gpi_predict` and `chain_...` need."""
-        k = self.order
-        Phi, Gamma = held_chain(k, self.period)
+    @derived
+    def L(self) -> Array:
+        """(m + 2,), dimensionless, by Ackermann's formula."""
+        k, Phi = self.order, self.Phi
         N = Phi - np.eye(k)
         roots = np.exp(np.array(self.poles) * self.period)
         p_of_Phi = np.eye(k, dtype=complex)
@@ -187,9 +139,4 @@ class SampledGPIObserver(ChainObserver):
         for _ in range(k - 1):
             rows.append(rows[-1] @ Phi)
         last = np.linalg.solve(np.array(rows), np.eye(k)[-1])
-        L = np.ascontiguousarray(np.real(p_of_Phi @ last))
-        return SampledGPIParameters(Phi, Gamma, L, float(self.scale), k)
-
-    @property
-    def laws(self) -> ObserverLaws:
-        return chain_laws(self.parameters, correct=gpi_correct, predict=gpi_predict)
+        return np.ascontiguousarray(np.real(p_of_Phi @ last))

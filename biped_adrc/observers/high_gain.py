@@ -9,7 +9,7 @@ s^(m+2) + alpha_1 s^(m+1) + ... + alpha_(m+2) is Hurwitz; its roots divided by e
 the loop recovers what it does with the state and the disturbance known, and the peaking of the estimates
 after a jump grows as eps^-(k-1): limit the torque, and start again at impact. Freidovich, Khalil, IEEE TAC
 53(10), 2008; Khalil, High-Gain Observers in Nonlinear Feedback Control, SIAM, 2017. It is the GPI observer (17)
-in another parametrisation, and runs by its laws, with states scaled by 1 / eps.
+in another parametrisation, with states scaled by 1 / eps.
 """
 
 from __future__ import annotations
@@ -23,7 +23,9 @@ import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.observers.chain import whole
-from biped_adrc.observers.gpi import GPIParameters, InjectedChain
+from biped_adrc.observers.gpi import InjectedChain
+from biped_adrc.part import derived
+from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)
@@ -58,10 +60,10 @@ class HighGainObserver(InjectedChain):
         """Of the error dynamics (m + 2,) [rad/s]; m + 2 equal ones come out scattered by round-off."""
         return tuple(complex(root) * self.scale for root in np.roots([1.0, *self.alpha]))
 
-    @cached_property
-    def parameters(self) -> GPIParameters:
-        """What the laws `gpi_flow` and `chain_...` need."""
-        return GPIParameters(np.array(self.alpha), float(self.scale), self.order)
+    @derived
+    def scaled_gains(self) -> Array:
+        """alpha (m + 2,)."""
+        return np.array(self.alpha)
 
 
 def _hurwitz(alpha: Sequence[float], m: int) -> tuple[float, ...]:

@@ -27,15 +27,9 @@ import numpy as np
 from scipy.linalg import solve_discrete_are
 
 from biped_adrc.errors import check_positive
-from biped_adrc.observers.base import ObserverLaws
-from biped_adrc.observers.chain import ChainObserver, chain_laws, whole
-from biped_adrc.observers.gpi import (
-    InjectedChain,
-    SampledGPIParameters,
-    gpi_correct,
-    gpi_predict,
-    held_chain,
-)
+from biped_adrc.observers.chain import ChainObserver, CurrentForm, whole
+from biped_adrc.observers.gpi import InjectedChain
+from biped_adrc.part import derived
 from biped_adrc.types import Array
 
 
@@ -77,30 +71,24 @@ class KalmanObserver(InjectedChain):
 
 
 @dataclass(frozen=True)
-class SampledKalmanObserver(ChainObserver):
+class SampledKalmanObserver(ChainObserver, CurrentForm):
     """The discrete filter for one period T [s]; `scale` is 1/T. Made by `KalmanObserver.sampled`."""
 
     period: float
     continuous: KalmanObserver
 
-    @cached_property
-    def parameters(self) -> SampledGPIParameters:
-        """What the laws `gpi_correct`, `gpi_predict` and `chain_...` need.
+    @derived
+    def L(self) -> Array:
+        """(m + 2,), dimensionless.
 
         The Riccati equation is solved with Q / R in scaled states: in physical ones its numbers cover so many
         decades that the solver fails.
         """
         k, T = self.order, self.period
-        Phi, Gamma = held_chain(k, T)
         R = self.continuous.measurement / T
         Q = accumulated(k) * self.continuous.intensity * T ** (2 * k - 1) / R
-        C = np.eye(1, k)
-        P = solve_discrete_are(Phi.T, C.T, Q, np.ones((1, 1)))
-        return SampledGPIParameters(Phi, Gamma, P[:, 0] / (P[0, 0] + 1.0), float(self.scale), k)
-
-    @property
-    def laws(self) -> ObserverLaws:
-        return chain_laws(self.parameters, correct=gpi_correct, predict=gpi_predict)
+        P = solve_discrete_are(self.Phi.T, np.eye(1, k).T, Q, np.ones((1, 1)))
+        return P[:, 0] / (P[0, 0] + 1.0)
 
 
 def accumulated(order: int) -> Array:

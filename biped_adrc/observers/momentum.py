@@ -27,81 +27,23 @@ The rows of zeta are all n coordinates, the unactuated q_N among them, so r has 
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.observers.base import Estimate, Observer, ObserverLaws
+from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
 from biped_adrc.observers.chain import (
-    MODEL,
     MOST_POLES,
-    NONE,
-    RELABEL,
-    Chain,
+    CurrentForm,
     equal_poles,
+    scaled_polynomial,
     stable_poles,
     whole,
 )
-from biped_adrc.observers.gpi import (
-    GPIObserver,
-    SampledGPIObserver,
-    SampledGPIParameters,
-    gpi_correct,
-    gpi_predict,
-)
+from biped_adrc.observers.gpi import GPIObserver, SampledGPIObserver
+from biped_adrc.part import derived
 from biped_adrc.types import Array
-
-
-class MomentumParameters(NamedTuple):
-    """Gains l_i / scale^i (k,), dimensionless, the scale [rad/s] of the states, and the number k of poles."""
-
-    gains: Array
-    scale: float
-    order: int
-
-
-def momentum_flow(k: MomentumParameters, Z: Array, y: Array, input: Array) -> Array:
-    """dZ/dt (k, n) by the module's equations, in scaled states Z (k, n).
-
-    y = pi (n,) is the momentum [kg m^2/s], input = beta (n,) the known force [N m].
-    """
-    w = k.scale
-    dZ = w * np.outer(k.gains, y - Z[0])
-    dZ[:-1] += w * Z[1:]
-    dZ[0] += input
-    return dZ
-
-
-def momentum_state(k: Chain, x: Estimate) -> Array:
-    """Z (k, n) with pi^ = x.position and r = x.disturbance, each (n,); the derivatives of r are zero."""
-    Z = np.zeros((k.order, len(x.position)))
-    Z[0], Z[1] = x.position, x.disturbance / k.scale
-    return Z
-
-
-def momentum_estimate(k: Chain, Z: Array) -> Estimate:
-    """The estimate in Z (k, n): position pi^ [kg m^2/s], disturbance r [N m], each (n,); velocity 0, unused."""
-    return Estimate(Z[0], np.zeros(Z.shape[1]), Z[1] * k.scale)
-
-
-def momentum_reset(k: Chain, policy: int, Z: Array, swap: Array, x: Estimate) -> Array:
-    """Z (k, n) after impact; the impact does not end the force that r estimates, so every policy keeps r.
-
-    NONE changes nothing. The others relabel the coordinates by swap (n,), as the legs swap; MEASURED and MODEL
-    also set pi^ to x.position, the momentum after impact, and MODEL sets the derivatives of r to zero.
-    """
-    if policy == NONE:
-        return Z
-    swapped = Z[:, swap]
-    if policy != RELABEL:
-        swapped[0] = x.position
-    if policy == MODEL:
-        swapped[2:] = 0.0
-    return swapped
 
 
 @dataclass(frozen=True)
@@ -116,13 +58,37 @@ class MomentumChain(Observer):
     scale: float
 
     @property
-    @abstractmethod
-    def parameters(self) -> Chain:
-        """What the laws need, a NamedTuple."""
-
-    @property
     def order(self) -> int:
+        """k, states per coordinate."""
         return len(self.poles)
+
+    def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
+        """z with pi^ = y and r = xi, each (n,); the derivatives of r are zero, dy is not used."""
+        Z = np.zeros((self.order, len(y)))
+        Z[0], Z[1] = y, xi / self.scale
+        return Z.ravel()
+
+    def estimate(self, z: Array) -> Estimate:
+        """In z: position pi^ [kg m^2/s], disturbance r [N m], each (n,); velocity 0, unused."""
+        Z = z.reshape(self.order, -1)
+        return Estimate(Z[0], np.zeros(Z.shape[1]), Z[1] * self.scale)
+
+    def reset(
+        self, z: Array, policy: ResetPolicy, swap: Array, y: Array, dy: Array, xi: Array
+    ) -> Array:
+        """z after impact; the impact does not end the force that r estimates, so every policy keeps r.
+
+        NONE changes nothing. The others relabel the coordinates by swap (n,), as the legs swap; MEASURED and
+        MODEL also set pi^ to y, the momentum after impact, and MODEL sets the derivatives of r to zero.
+        """
+        if policy is ResetPolicy.NONE:
+            return z
+        Z = z.reshape(self.order, -1)[:, swap]
+        if policy is not ResetPolicy.RELABEL:
+            Z[0] = y
+        if policy is ResetPolicy.MODEL:
+            Z[2:] = 0.0
+        return Z.ravel()
 
 
 @dataclass(frozen=True)
@@ -144,21 +110,21 @@ class MomentumObserver(MomentumChain):
         number = whole(order, 2, "k", "the number of poles of a momentum observer", MOST_POLES)
         return cls.from_poles(equal_poles(bandwidth, number))
 
-    @cached_property
-    def parameters(self) -> MomentumParameters:
-        """What the functions `momentum_...` of this module need."""
-        gains = np.real(np.poly(np.array(self.poles) / self.scale))[1:]
-        return MomentumParameters(np.ascontiguousarray(gains), float(self.scale), self.order)
+    @derived
+    def scaled_gains(self) -> Array:
+        """l_i / scale^i (k,), dimensionless."""
+        return scaled_polynomial(self.poles, self.scale)
 
-    @property
-    def laws(self) -> ObserverLaws:
-        return ObserverLaws(
-            self.parameters,
-            momentum_state,
-            momentum_estimate,
-            momentum_reset,
-            flow=momentum_flow,
-        )
+    def flow(self, z: Array, y: Array, input: Array) -> Array:
+        """z' by the module's equations, in scaled states.
+
+        y = pi (n,) is the momentum [kg m^2/s], input = beta (n,) the known force [N m].
+        """
+        Z, w = z.reshape(self.order, -1), self.scale
+        dZ = w * np.outer(self.scaled_gains, y - Z[0])
+        dZ[:-1] += w * Z[1:]
+        dZ[0] += input
+        return dZ.ravel()
 
     def sampled(self, period: float) -> SampledMomentumObserver:
         """The discrete observer with period T [s] and poles exp(s T), in its current form.
@@ -169,7 +135,7 @@ class MomentumObserver(MomentumChain):
 
 
 @dataclass(frozen=True)
-class SampledMomentumObserver(MomentumChain):
+class SampledMomentumObserver(MomentumChain, CurrentForm):
     """The discrete observer for one sampling period [s]: a chain of integrators with beta in its first row.
 
     beta is held between ticks. Where it changes within a period T this looks like a part of zeta, so that r has
@@ -184,24 +150,17 @@ class SampledMomentumObserver(MomentumChain):
         chain = SampledGPIObserver.from_poles(_stable(poles), period)
         return cls(chain.poles, chain.scale, period)
 
-    @cached_property
-    def parameters(self) -> SampledGPIParameters:
-        """What the functions `gpi_correct`, `gpi_predict` and `momentum_...` need."""
-        chain = SampledGPIObserver.from_poles(self.poles, self.period).parameters
+    @derived
+    def Gamma(self) -> Array:
+        """(k,) [s]."""
         Gamma = np.zeros(self.order)
         Gamma[0] = self.period
-        return chain._replace(Gamma=Gamma)
+        return Gamma
 
-    @property
-    def laws(self) -> ObserverLaws:
-        return ObserverLaws(
-            self.parameters,
-            momentum_state,
-            momentum_estimate,
-            momentum_reset,
-            correct=gpi_correct,
-            predict=gpi_predict,
-        )
+    @derived
+    def L(self) -> Array:
+        """(k,), dimensionless: that of the GPI observer with these poles."""
+        return SampledGPIObserver.from_poles(self.poles, self.period).L
 
 
 def _stable(poles: Sequence[complex]) -> tuple[complex, ...]:

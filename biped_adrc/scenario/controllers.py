@@ -205,7 +205,7 @@ class ControllerMaker:
         best = max(fitting, key=lambda way: len(set(offered) & set(takes(way))))
         self._seen(best, offered, mine)
         self.used |= {"order"} if "m" in takes(best) else set()
-        return construct(f"the observer of {what}", best, offered, Observer)
+        return construct(f"the observer of {what}", best, offered, Observer)  # type: ignore[type-abstract]
 
 
 def _takers(name: str) -> str:

@@ -266,7 +266,7 @@ def test_the_high_gain_observer_is_gpi_with_the_same_poles(alpha):
     assert physical[0] == pytest.approx(physical[1], rel=1e-3)
     A = observer.error_system().A
     assert np.poly(A * epsilon) == pytest.approx([1.0, *observer.alpha], rel=1e-9)
-    made, expected = (o.sampled(1e-3).parameters.L for o in (observer, gpi))
+    made, expected = (o.sampled(1e-3).L for o in (observer, gpi))
     assert made == pytest.approx(expected, rel=1e-4)
 
 

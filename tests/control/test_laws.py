@@ -1,6 +1,6 @@
 """Laws of one's own: observers and references that compile under every controller, and others."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -8,16 +8,16 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.closed_loop.walker import Mode
-from biped_adrc.control.base import controller_laws
 from biped_adrc.control.delayed import Delayed
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.passive import Passive
 from biped_adrc.disturbances.base import Disturbance, disturbance_laws
+from biped_adrc.engine.fingerprint import structure_text
 from biped_adrc.gait.reference import Reference
-from biped_adrc.observers.base import Observer, ObserverLaws
-from biped_adrc.observers.chain import chain_estimate, chain_reset, chain_state
-from biped_adrc.observers.gpi import GPIObserver
+from biped_adrc.observers.base import Estimate
+from biped_adrc.observers.chain import ChainObserver
+from biped_adrc.part import derived
 from biped_adrc.types import Array
 
 
@@ -31,51 +31,47 @@ def measurements(biped, gait, count=5):
         yield m._replace(body=biped.body_terms(*x)), random
 
 
-class Squared(NamedTuple):
-    """Gains [1/s], [1/s^2], [1/s^3], and what sets in past an error of one."""
+@dataclass(frozen=True)
+class SquaredObserver(ChainObserver):
+    """An observer of one's own: a chain whose injection grows with the error."""
 
-    gains: Array
-    bend: float
+    m: int = 1
     scale: float = 1.0
-    order: int = 3
-
-
-def squared_flow(k, Z, y, input):
-    """A chain whose injection grows with the error."""
-    e = (y - Z[0]) * (1.0 + k.bend * (y - Z[0]) ** 2)
-    dZ = np.outer(k.gains, e)
-    dZ[:-1] += Z[1:]
-    dZ[1] += input
-    return dZ
-
-
-@dataclass(frozen=True)
-class SquaredObserver(Observer):
-    """An observer of one's own, as laws."""
-
-    @property
-    def laws(self):
-        k = Squared(np.array([600.0, 1.2e5, 8e6]), 0.1)
-        return ObserverLaws(k, chain_state, chain_estimate, chain_reset, flow=squared_flow)
-
-
-@dataclass(frozen=True)
-class SquaredInPython(Observer):
-    """The same as methods."""
-
-    order = 3
-
-    def initial_state(self, y, dy, xi):
-        return SquaredObserver().initial_state(y, dy, xi)
-
-    def estimate(self, z):
-        return SquaredObserver().estimate(z)
-
-    def reset(self, z, policy, swap, y, dy, xi):
-        return SquaredObserver().reset(z, policy, swap, y, dy, xi)
+    bend: float = 0.1
 
     def flow(self, z, y, input):
-        return SquaredObserver().flow(z, y, input)
+        Z = z.reshape(3, -1)
+        e = (y - Z[0]) * (1.0 + self.bend * (y - Z[0]) ** 2)
+        dZ = np.outer([600.0, 1.2e5, 8e6], e)
+        dZ[:-1] += Z[1:]
+        dZ[1] += input
+        return dZ.ravel()
+
+
+@dataclass(frozen=True)
+class Luenberger(ba.Observer):
+    """One from nothing but the base: x1^ and x2^ of each joint, with xi^ from the poles' third."""
+
+    bandwidth: float
+
+    @derived
+    def gains(self):
+        return np.poly([-self.bandwidth] * 3)[1:]
+
+    def initial_state(self, y, dy, xi):
+        return np.concatenate((y, dy, xi))
+
+    def estimate(self, z):
+        return Estimate(*z.reshape(3, -1))
+
+    def reset(self, z, policy, swap, y, dy, xi):
+        return self.initial_state(y, dy, xi)
+
+    def flow(self, z, y, input):
+        l1, l2, l3 = self.gains
+        position, velocity, xi = self.estimate(z)
+        e = y - position
+        return np.concatenate((velocity + l1 * e, xi + input + l2 * e, l3 * e))
 
 
 @dataclass(frozen=True)
@@ -114,33 +110,28 @@ def test_observers_and_references_of_ones_own_compile(biped, gait, name):
     assert np.max(np.abs(fast.final_state - x)) <= 1e-8 * np.max(np.abs(x))
 
 
-def test_methods_do_what_laws_do(biped, gait):
-    one, other = (
-        ba.ADRCController(gait.constraint, observer)
-        for observer in (SquaredObserver(), SquaredInPython())
+def test_an_observer_in_plain_python_compiles(biped, gait):
+    ends = []
+    for observer in (Luenberger(300.0), ba.GPIObserver.from_bandwidth(300.0)):
+        controller = ba.ADRCController(gait.constraint, observer)
+        fast, slow = (walked(biped, gait, controller, e) for e in ("compiled", "pinocchio"))
+        assert fast.settings["engine"] == "compiled"
+        x = slow.final_state
+        assert np.max(np.abs(fast.final_state - x)) <= 1e-9 * np.max(np.abs(x))
+        ends.append(x[:10])
+    assert ends[0] == pytest.approx(ends[1], rel=1e-9, abs=1e-9)
+
+
+def test_new_numbers_of_an_observer_compile_nothing():
+    one, other, third = (
+        structure_text(ba.GPIObserver.from_poles(poles))
+        for poles in ((-3.0, -5.0), (-4.0, -6.0), (-3.0, -4.0, -5.0))
     )
-    assert "observer SquaredInPython has no laws" in controller_laws(other).obstacle
-    runs = [walked(biped, gait, controller, "pinocchio") for controller in (one, other)]
-    assert np.array_equal(runs[0].final_state, runs[1].final_state)
+    assert one == other
+    assert one != third
 
 
 def test_what_has_no_law_says_so(biped, gait):
-    class Plain(GPIObserver):
-        """Under another name."""
-
-    class Own(GPIObserver):
-        """One that writes a method over the laws."""
-
-        def flow(self, z, y, input):
-            return 0.0 * z
-
-    adrc = ba.ADRCController(gait.constraint)
-    assert replace(adrc, observer=Plain.from_poles()).laws.obstacle == ""
-    own = replace(adrc, observer=Own.from_poles()).laws
-    assert own.obstacle == "observer Own writes flow over the laws that it inherits"
-    (m, _), *_ = measurements(biped, gait)
-    s = adrc.initial_state(m)
-    assert not np.any(own.flow(own.parameters, s, m, np.zeros(4)))
 
     class Brake(Disturbance):
         """A torque of which nothing is known."""

@@ -10,10 +10,7 @@ from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.momentum_dob import MomentumDOBController, momentum_fed, momentum_seen
 from biped_adrc.control.npd import NPDController
 from biped_adrc.errors import InputError
-from biped_adrc.observers.momentum import (
-    MomentumObserver,
-    momentum_flow,
-)
+from biped_adrc.observers.momentum import MomentumObserver
 
 NO_STATE = np.zeros(0)
 
@@ -34,13 +31,12 @@ def test_the_force_is_found_with_the_poles_chosen(biped, gait):
 
 @pytest.mark.parametrize("poles", [(-40.0, -60.0), (-30 + 20j, -30 - 20j, -50.0)])
 def test_the_error_has_the_transfer_function_of_the_module(poles):
-    """zeta - r = s^(k-1) (s + l_1) / chi(s) zeta, from the law's own matrices at s = i w."""
-    observer = MomentumObserver.from_poles(poles)
-    k, w = observer.parameters, 37.0
+    """zeta - r = s^(k-1) (s + l_1) / chi(s) zeta, from the matrices of its flow at s = i w."""
+    observer, w = MomentumObserver.from_poles(poles), 37.0
     order, l_1 = observer.order, -float(np.sum(poles).real)
     zero, unit = np.zeros((order, order)), np.eye(order)
-    A = momentum_flow(k, unit, zero[0], zero[0])
-    by_y = momentum_flow(k, np.zeros((order, 1)), np.ones(1), np.zeros(1))[:, 0]
+    A = observer.flow(unit.ravel(), zero[0], zero[0]).reshape(order, order)
+    by_y = observer.flow(zero[0], np.ones(1), np.zeros(1))
     s = 1j * w
     Z = np.linalg.solve(s * unit - A, by_y / s)  # pi = zeta / s, with beta = 0
     error = 1.0 - Z[1] * observer.scale
@@ -51,7 +47,7 @@ def test_the_error_has_the_transfer_function_of_the_module(poles):
 @pytest.mark.parametrize("poles", [(-40.0, -60.0), (-30 + 20j, -30 - 20j, -50.0)])
 def test_in_discrete_time_the_error_has_the_poles_exp_s_T(poles):
     T = 2e-3
-    k = MomentumObserver.from_poles(poles).sampled(T).parameters
+    k = MomentumObserver.from_poles(poles).sampled(T)
     found = np.linalg.eigvals((np.eye(k.order) - np.outer(k.L, np.eye(k.order)[0])) @ k.Phi)
     expected = np.exp(T * np.array(poles))
     assert np.allclose(np.sort_complex(found), np.sort_complex(expected), rtol=1e-9)

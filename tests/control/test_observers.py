@@ -77,7 +77,7 @@ def test_polynomial_disturbances_up_to_degree_m_minus_one_are_found_exactly(m):
 @pytest.mark.parametrize("period", [1e-3, 2e-2])
 @pytest.mark.parametrize("poles", [(-10.0, -20.0, -35.0), (-10 + 5j, -10 - 5j, -40.0)])
 def test_discrete_form_has_the_poles_exp_sT(poles, period):
-    k = GPIObserver.from_poles(poles).sampled(period).parameters
+    k = GPIObserver.from_poles(poles).sampled(period)
     closed = (np.eye(len(poles)) - np.outer(k.L, np.eye(len(poles))[0])) @ k.Phi
     expected = np.exp(np.array(poles) * period)
     found = np.linalg.eigvals(closed)
@@ -85,7 +85,7 @@ def test_discrete_form_has_the_poles_exp_sT(poles, period):
 
 
 def test_table_one_sampled_at_1_khz_is_stable_and_has_its_polynomial():
-    k = GPIObserver.from_poles().sampled(1e-3).parameters
+    k = GPIObserver.from_poles().sampled(1e-3)
     closed = (np.eye(9) - np.outer(k.L, np.eye(9)[0])) @ k.Phi
     assert np.max(np.abs(np.linalg.eigvals(closed))) == pytest.approx(np.exp(-0.18), abs=1e-6)
     assert np.allclose(np.poly(closed), np.poly(np.exp(np.array(TABLE_I) * 1e-3)), atol=1e-8)

@@ -11,8 +11,7 @@ import numpy as np
 import biped_adrc as ba
 from biped_adrc.control.base import ControllerLaws
 from biped_adrc.disturbances.base import DisturbanceLaw, Windowed
-from biped_adrc.observers.base import Estimate, ObserverLaws, rows
-from biped_adrc.observers.chain import ChainObserver, chain_estimate, chain_reset, chain_state
+from biped_adrc.observers.chain import ChainObserver
 
 
 # -- controllers -----------------------------------------------------------------------------------
@@ -168,42 +167,22 @@ class OwnSampledObserver(OwnObserver):
         return np.concatenate((Z[0] + T * Z[1], Z[1] + T * (Z[2] + input), Z[2]))
 
 
-class OwnGains(NamedTuple):
-    """w [rad/s], the scale, and three states."""
-
-    w: float
-    scale: float
-    order: int
-
-
-def own_flow(k: OwnGains, Z: Any, y: Any, input: Any) -> Any:
-    """Z' (3, p) of an observer whose injection is soft."""
-    e = np.tanh(50.0 * (y - Z[0])) / 50.0
-    dZ = np.zeros(Z.shape)
-    dZ[0] = Z[1] + 3.0 * k.w * e
-    dZ[1] = Z[2] + 3.0 * k.w**2 * e + input
-    dZ[2] = k.w**3 * e
-    return dZ
-
-
 @dataclass(frozen=True)
 class OwnLawObserver(ChainObserver):
-    """An observer with laws that is none of the package's."""
+    """An observer that is none of the package's, whose injection is soft."""
 
     m: int = 1
     scale: float = 1.0
     w: float = 200.0
 
-    @property
-    def laws(self) -> ObserverLaws:
-        k = OwnGains(self.w, self.scale, 3)
-        return ObserverLaws(k, chain_state, chain_estimate, chain_reset, flow=own_flow)
-
     def flow(self, z: Any, y: Any, input: Any) -> Any:
-        return own_flow(self.laws.parameters, rows(self, z), y, input).ravel()
-
-    def estimate(self, z: Any) -> Estimate:
-        return chain_estimate(self, rows(self, z))
+        Z = z.reshape(3, -1)
+        e = np.tanh(50.0 * (y - Z[0])) / 50.0
+        dZ = np.zeros(Z.shape)
+        dZ[0] = Z[1] + 3.0 * self.w * e
+        dZ[1] = Z[2] + 3.0 * self.w**2 * e + input
+        dZ[2] = self.w**3 * e
+        return dZ.ravel()
 
 
 # -- disturbances and references -------------------------------------------------------------------
