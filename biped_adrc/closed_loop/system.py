@@ -236,8 +236,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
             u = returned(self.law.output(s, m), self.torques, self.controller, "output")
             check_state(self.law, s, m, u)
             k = self.held
-            given = (self.sensors, self.touchdown, mode)
-            tail = np.zeros(0) if k is None else held.at_start(k, m.q, m.v, *given)
+            tail = np.zeros(0) if k is None else held.at_start(k, m.q, m.v, mode)
         return np.concatenate((m.q, m.v, s, tail))
 
     # -- what it does --------------------------------------------------------------------------------
@@ -248,7 +247,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
         """
         if self.sensors is not None:
             shape = (self.plant.n,)
-            q, v = (returned(x, shape, self.sensors, "seen") for x in (q, v))
+            q, v = (returned(x, shape, self.sensors, "reading") for x in (q, v))
         return semantics.measurement(self, t, q, v, mode, self.law.needs_body)
 
     def saturate(self, u: Array) -> Array:

@@ -29,8 +29,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.engine.symbols import Untraceable
+from biped_adrc.engine.symbols import HIDDEN, Untraceable
 from biped_adrc.engine.tracer import names_of
+from biped_adrc.part import content, is_part
 from biped_adrc.versions import NEVER_TRACED, packages, source_text
 
 _PACKAGE = __name__.partition(".")[0]
@@ -71,6 +72,9 @@ def structure_text(tree: object) -> str:
 
     ints, texts and flags are part of it; floats and float arrays are replaced by their shapes.
     """
+    if is_part(tree):
+        inside = "hidden" if isinstance(tree, HIDDEN) else structure_text((*content(tree).items(),))
+        return f"{_class_text(type(tree))}({inside})"
     if isinstance(tree, tuple | list):
         names = getattr(tree, "_fields", range(len(tree)))
         inside = ", ".join(

@@ -57,13 +57,6 @@ STATE_LAWS = ("flow", "jump", "correct", "predict")
 """Those that give the controller's state or its slope."""
 
 
-def traced_sensors(trace: Tracer, held: HeldParameters) -> HeldParameters:
-    """With the laws of the sensors, and of the touchdown, for symbols."""
-    if held.sensors:
-        held = held._replace(sensors=held.sensors.traced(trace))
-    return held._replace(touchdown=held.touchdown.traced(trace)) if held.touchdown else held
-
-
 class SymbolicLoop(NamedTuple):
     """A `protocols.Loop` of symbols; zeta (n,) [N m] and `given` (OUTSIDE,), for the meter, are inputs."""
 

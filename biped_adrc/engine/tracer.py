@@ -135,27 +135,27 @@ class Tracer:
             self._copies[law] = copy
             for name in names_of(law.__code__):
                 if name in scope:
-                    scope[name] = self._substitute(scope[name])
+                    scope[name] = self.dressed(scope[name])
             for cell in cells:
                 found = cell.cell_contents
                 twin = classes.get(found) if isinstance(found, type) else None
-                cell.cell_contents = self._substitute(found) if twin is None else twin
+                cell.cell_contents = self.dressed(found) if twin is None else twin
         return self._copies[law]
 
-    def _substitute(self, value: object) -> object:
-        """The twin of a value that a law names: of a module, a solver, a law, or a tuple of such."""
+    def dressed(self, value: object) -> Any:
+        """The twin of an argument or name of a law: of a module, solver, law or part, or a tuple of such."""
         for old, new in self._substitutes:
             if value is old:
                 return new
         if isinstance(value, tuple | list):
-            return rebuilt(value, [self._substitute(part) for part in value])
+            return rebuilt(value, [self.dressed(part) for part in value])
         if isinstance(value, HIDDEN):
             return Hidden(f"a {type(value).__name__}")
         return self.on_symbols(value) if is_part(value) else self(value)
 
     def on_symbols(self, part: T) -> T:
         """A part, and the parts in it, with methods for symbols; its content stays as it is."""
-        values = {name: self._substitute(x) for name, x in content(part).items()}
+        values = {name: self.dressed(x) for name, x in content(part).items()}
         return with_content(part, values, self.twin(type(part)))
 
     def twin(self, cls: type) -> type:
@@ -197,7 +197,7 @@ def run(trace: Tracer, law: Callable[..., T], *arguments: object) -> T:
     error arose, since the error itself comes from inside NumPy or CasADi.
     """
     try:
-        return trace(law)(*map(trace._substitute, arguments))
+        return trace(law)(*map(trace.dressed, arguments))
     except Exception as error:  # whatever NumPy says of an object that is no float
         raise Untraceable(f"{_place(error, law)} cannot be compiled: {error}") from error
 
