@@ -11,7 +11,8 @@ import inspect
 import math
 import traceback
 import types
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -169,12 +170,10 @@ class Tracer:
             ]
             made = types.new_class(cls.__name__, (*twins, cls))
             made.__module__, made.__qualname__ = cls.__module__, cls.__qualname__
-            self._twins[cls] = made
+            self._twins[cls] = self._twins[made] = made
             for name, value in vars(cls).items():
-                if name == "__call__" or not name.startswith("__"):
-                    copy = self._member(value, cls, made)
-                    if copy is not value:
-                        setattr(made, name, copy)
+                if name == "__call__" or not name.startswith(("__", "_abc_")):
+                    setattr(made, name, self._member(value, cls, made))
         return self._twins[cls]
 
     def _member(self, value: Any, cls: type, twin: type) -> Any:
@@ -193,13 +192,26 @@ class Tracer:
 def run(trace: Tracer, law: Callable[..., T], *arguments: object) -> T:
     """What a law gives on symbols, at these arguments.
 
-    Raises Untraceable that names the last function of the user's or this package's in which the
-    error arose, since the error itself comes from inside NumPy or CasADi.
+    Raises Located that names the last function of the user's or this package's in which the error
+    arose, since the error itself comes from inside NumPy or CasADi.
     """
-    try:
+    with located(law):
         return trace(law)(*map(trace.dressed, arguments))
-    except Exception as error:  # whatever NumPy says of an object that is no float
-        raise Untraceable(f"{_place(error, law)} cannot be compiled: {error}") from error
+
+
+class Located(Untraceable):
+    """One whose text says where."""
+
+
+@contextmanager
+def located(law: object) -> Iterator[None]:
+    """Raise Located in place of any error, whatever NumPy says of an object that is no float."""
+    try:
+        yield
+    except Located:
+        raise
+    except Exception as error:
+        raise Located(f"{_place(error, law)} cannot be compiled: {error}") from error
 
 
 def _place(error: Exception, law: Any) -> str:
