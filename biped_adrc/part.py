@@ -6,6 +6,7 @@ parts. Python calls their methods on numbers. The engine calls them once on symb
     floats, arrays of floats       numbers, given at run time: new values compile nothing
     whole numbers, flags, texts    structure: another value is another code
     derived                        numbers that are computed once from the fields, such as gains from poles
+    setup                          fields for derived numbers and the start alone, such as a seed
 
 A method that decides by a number (`if x > 0`) has no one form on symbols; it runs in Python. `np.where` decides
 without that.
@@ -15,7 +16,7 @@ from __future__ import annotations
 
 from abc import ABC
 from collections.abc import Iterator, Mapping
-from dataclasses import fields, is_dataclass
+from dataclasses import field, fields, is_dataclass
 from functools import cached_property, lru_cache
 from typing import Any, TypeVar
 
@@ -47,6 +48,15 @@ class Part(Checked, Shown, ABC):
     """Base of all parts; a subclass is a frozen dataclass."""
 
 
+class Setup:
+    """In place of a field of `setup` where laws run."""
+
+
+def setup(default: Any) -> Any:
+    """A field with this default that no law reads, such as a seed: new values compile nothing."""
+    return field(default=default, metadata={"setup": True})
+
+
 def is_part(x: object) -> bool:
     """Whether x is an object of a dataclass."""
     return is_dataclass(x) and not isinstance(x, type)
@@ -54,8 +64,10 @@ def is_part(x: object) -> bool:
 
 def content(part: Any) -> dict[str, Any]:
     """The fields of a part, then its derived numbers, by name."""
-    names = [f.name for f in fields(part)]
-    return {name: getattr(part, name) for name in (*names, *derived_names(type(part)))}
+    found = {
+        f.name: Setup() if f.metadata.get("setup") else getattr(part, f.name) for f in fields(part)
+    }
+    return found | {name: getattr(part, name) for name in derived_names(type(part))}
 
 
 def with_content(part: T, values: Mapping[str, Any], cls: type | None = None) -> T:

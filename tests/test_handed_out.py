@@ -12,7 +12,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.errors import InputError
-from biped_adrc.hardware.sensing import Sensor, SensorLaws
+from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.observers.base import Estimate
 from biped_adrc.types import Array
 
@@ -331,26 +331,20 @@ class Blind(Sensor):
     name: str
     bad: object
 
-    def start(self, k, q, v):
+    size = 1
+
+    def start(self, q, v):
         return self.bad if self.name == "start" else np.zeros(1)
 
-    def laws(self, n, p, period):
-        seen, bad = self.name == "seen", self.bad
+    def sense(self, w, q, v):
+        return self.bad if self.name == "sense" else w
 
-        def sense(k, w, q, v):
-            return self.bad if self.name == "sense" else w
-
-        return SensorLaws(
-            (),
-            1,
-            sense,
-            lambda k, w, q, v, v_model: w,
-            lambda k, w, q, v: (bad, v) if seen else (q, v),
-        )
+    def reading(self, w, q, v):
+        return (self.bad, v) if self.name == "reading" else (q, v)
 
 
 @pytest.mark.parametrize(
-    ("name", "bad"), [("start", None), ("sense", 1j * np.ones(5)), ("seen", np.zeros(4))]
+    ("name", "bad"), [("start", None), ("sense", 1j * np.ones(5)), ("reading", np.zeros(4))]
 )
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_sensor_that_shows_something_else(engine, name, bad, biped, gait):

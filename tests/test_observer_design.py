@@ -10,7 +10,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.delayed import Delayed, line_flow, line_output, line_state, pade
-from biped_adrc.hardware.motors import IDEAL, Line, acting, sent, whole_and_part
+from biped_adrc.hardware.motors import IDEAL, Line, whole_and_part
 from biped_adrc.observer_design.observer_choice import count_error, recommend
 from biped_adrc.observer_design.observer_impact import ImpactStates, impact_peak, orbit_impact
 from biped_adrc.observer_design.observer_loop import conditioning, observer_loop
@@ -148,7 +148,7 @@ def tick_by_tick(observer, T, delay, known):
     """One period of the loop by the laws of observer and line, for columns of (e, T e', Z, torques T^2)."""
     k, form = observer.order, observer.sampled(T)
     queue, f = whole_and_part(delay, T)
-    motors = IDEAL.parameters(T, f)
+    motors = IDEAL.sampled(T, f)
 
     def step(X, noise):
         y, rate, Z, rest = X[0], X[1] / T, X[2 : 2 + k], X[2 + k :] / T**2
@@ -159,9 +159,9 @@ def tick_by_tick(observer, T, delay, known):
         # what acts is rest[0] where a part of a period is waited for; the queue follows it
         old = rest[0] if f > 0.0 else np.zeros(p)
         waiting = old.copy() if f > 0.0 else np.zeros(0)
-        line = sent(motors, Line(rest[int(f > 0.0) :].ravel(), np.zeros(0), waiting, old), a)
+        line = motors.send(Line(rest[int(f > 0.0) :].ravel(), np.zeros(0), waiting, old), a)
         first, then = (line.u, line.waiting) if f > 0.0 else (line.u, line.u)
-        Z = form.predict(z, acting(motors, line) if known else a).reshape(k, p)
+        Z = form.predict(z, motors.mean_command(line) if known else a).reshape(k, p)
         for u, h in ((first, f * T), (then, (1.0 - f) * T)):
             y, rate = y + h * rate + 0.5 * h**2 * u, rate + h * u
         held = [then[np.newaxis]] if f > 0.0 else []

@@ -206,11 +206,11 @@ def test_a_hidden_delay_is_as_one_of_the_clock_that_the_controller_does_not_know
 def test_errors_of_sensors_are_those_of_what_they_show():
     n, p = 5, 4
     sensors = Sensors(counts=1000.0, noise=1e-3, velocity="gyro", rate_noise=0.1)
-    k = sensors.parameters(n, p, 1e-3)
-    random, w = np.random.default_rng(0), sensors.start(k, np.zeros(n), np.zeros(n))
+    sampled = sensors.sampled(n, p, 1e-3)
+    random, w = np.random.default_rng(0), sampled.start(np.zeros(n), np.zeros(n))
     rows = []
     for q in random.uniform(-1.0, 1.0, (3000, n)):
-        w = sensors.laws(n, p, 1e-3).sense(k, w, q, np.zeros(n))
+        w = sampled.sense(w, q, np.zeros(n))
         rows.append(np.append(w[:n] - q, w[2 * n - 1]))
     errors = sensors.errors(n, p, np.zeros(2 * n))
     np.testing.assert_allclose(np.std(rows, axis=0), errors[[0, 1, 2, 3, 4, 9]], rtol=0.06)

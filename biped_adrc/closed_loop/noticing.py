@@ -17,8 +17,8 @@ import numpy as np
 
 from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.control.base import Measurement
-from biped_adrc.hardware.motors import Line, relabelled
-from biped_adrc.hardware.sample_hold import HeldParameters, as_seen, read
+from biped_adrc.hardware.motors import Line
+from biped_adrc.hardware.sample_hold import HeldParameters, read
 from biped_adrc.hardware.touchdown import Belief, Look, belief_of, numbers_of
 from biped_adrc.types import Array
 
@@ -33,13 +33,14 @@ def noticed(
     """
     k = loop.held
     assert k is not None
-    h, laws = read(k.sizes, tail), k.touchdown
+    assert k.touchdown is not None
+    h = read(k.sizes, tail)
     old, force = belief_of(h.b), 0.0
     q_b, v_b = turned(loop, old.other, q, v)
-    if laws.needs_force > 0:
+    if k.touchdown.needs_force:
         force = chosen(old.other, *loop.foot_forces(t, q, v, tail, mode))
-    w = k.sensors.sense(k.sensors.parameters, h.w, q_b, v_b) if k.sizes.sensors > 0 else h.w
-    q_seen, v_seen = as_seen(k, w, q_b, v_b)
+    w = k.sense(h.w, q_b, v_b)
+    q_seen, v_seen = k.reading(w, q_b, v_b)
     look = Look(
         t,
         t - old.start,
@@ -49,14 +50,14 @@ def noticed(
         mode.step,
         t - mode.start,
     )
-    d, fires = laws.notice(laws.parameters, old.d, look)
-    other, step = old.other + fires * (1.0 - 2.0 * old.other), old.step + fires
+    d, fires = k.touchdown.notice(old.d, look)
+    other = old.other + fires * (1.0 - 2.0 * old.other)
+    step: Any = old.step + fires
     start = chosen(fires, t, old.start)
     q_b, v_b = turned(loop, other, q, v)
-    if k.sizes.sensors > 0:
-        given = (q_b, v_b, loop.nominal.R @ v_seen)
-        w = chosen(fires, k.sensors.impact(k.sensors.parameters, w, *given), w)
-    m = loop.measure(t, *as_seen(k, w, q_b, v_b), mode._replace(step=step, start=start))
+    if k.sensors is not None:
+        w = chosen(fires, k.sensors.impact(w, q_b, v_b, loop.nominal.R @ v_seen), w)
+    m = loop.measure(t, *k.reading(w, q_b, v_b), mode._replace(step=step, start=start))
     return m, loop.jumped(fires, s, m), w, numbers_of(Belief(other, step, start, d))
 
 
@@ -73,7 +74,7 @@ def chosen(which: float, one: Any, other: Any) -> Any:
 
 def labelled(loop: Loop, b: Array, line: Line) -> Line:
     """Torques of the plant's joints in the labels of a belief b, and back: the same exchange of the legs."""
-    pairs = zip(relabelled(line, loop.swap), line, strict=True)
+    pairs = zip(line.relabelled(loop.swap), line, strict=True)
     return Line(*(chosen(belief_of(b).other, *pair) for pair in pairs))
 
 
@@ -83,7 +84,7 @@ def estimated(loop: Loop, s: Array, tail: Array, m: Measurement, mode: Mode) -> 
     None without an observer.
     """
     k = loop.held
-    if k is None or k.sizes.told == 0:
+    if k is None or k.touchdown is None:
         estimate = loop.calls.estimate(s, m)
         return None if estimate is None else estimate.disturbance
     b = belief_of(read(k.sizes, tail).b)
@@ -98,6 +99,7 @@ def estimated(loop: Loop, s: Array, tail: Array, m: Measurement, mode: Mode) -> 
 
 def unnoticed(k: HeldParameters, b: Array, t: float) -> Array:
     """A belief b after a true touchdown at t [s] of which the controller knows nothing."""
-    old, laws = belief_of(b), k.touchdown
+    assert k.touchdown is not None
+    old = belief_of(b)
     other = 1.0 - old.other
-    return numbers_of(old._replace(other=other, d=laws.struck(laws.parameters, old.d, other, t)))
+    return numbers_of(old._replace(other=other, d=k.touchdown.touchdown(old.d, other, t)))

@@ -28,12 +28,11 @@ from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.control.base import Measurement
 from biped_adrc.hardware.loads import loads
 from biped_adrc.hardware.meter import Hit, metered
-from biped_adrc.hardware.motors import Line, acting, limited, mean_torque, sent
+from biped_adrc.hardware.motors import Line
 from biped_adrc.hardware.sample_hold import (
     Held,
     HeldParameters,
     after_impact,
-    as_seen,
     lagged,
     motor_torque,
     read,
@@ -155,18 +154,18 @@ def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
     (q, v, s, tail), k = parts(loop, x), loop.held
     assert k is not None
     h = read(k.sizes, tail)
-    if k.sizes.told > 0:
+    if k.touchdown is not None:
         m, s, w, b = noticed(loop, t, s, tail, q, v, mode)
         s, line = decided(loop, k, s, m, labelled(loop, b, h.line))
         line = labelled(loop, b, line)
     else:
         b = h.b
-        w = k.sensors.sense(k.sensors.parameters, h.w, q, v) if k.sizes.sensors > 0 else h.w
-        m = loop.measure(t, *as_seen(k, w, q, v), mode)
+        w = k.sense(h.w, q, v)
+        m = loop.measure(t, *k.reading(w, q, v), mode)
         s, line = decided(loop, k, s, m, h.line)
     g = h.g
     if k.sizes.meter > 0:
-        exact = k.sizes.sensors + k.sizes.told == 0
+        exact = k.sensors is None and k.touchdown is None
         terms = m.terms if exact else loop.nominal.reduction(q, v)
         g = measured_by_meter(loop, t, g, q, v, line, terms, mode)
     return np.concatenate((q, v, s, written(Held(w, g, line, h.own, b))))
@@ -198,13 +197,13 @@ def decided(
     are (p,) [N m].
 
     Order: correct, output, saturation, rate limit, queue, predict. With a known computation delay
-    the observer is fed the torque that acts in the coming period, otherwise the one just asked for.
+    the observer's input is the torque that acts in the coming period, otherwise the one just asked for.
     """
     s, u = asked(loop, s, m)
     if k.sizes.rate > 0:
-        u = limited(k.motors, line, u)
-    line = sent(k.motors, line, u)
-    return loop.calls.predict(s, m, acting(k.motors, line) if k.sizes.known > 0 else u), line
+        u = k.motors.limit(line, u)
+    line = k.motors.send(line, u)
+    return loop.calls.predict(s, m, k.motors.mean_command(line) if k.sizes.known > 0 else u), line
 
 
 def measured_by_meter(
@@ -221,7 +220,7 @@ def measured_by_meter(
     a = acceleration(loop, terms, q, v, applied(u, zeta))
     asked = loads(loop.plant, loop.outside(t, mode), q, v, a)
     xi = unknown(loop, terms, a, u, zeta)
-    given = (q, v, u, mean_torque(k.motors, line), xi, terms, t, mode.step, t - mode.start, asked)
+    given = (q, v, u, k.motors.mean_torque(line), xi, terms, t, mode.step, t - mode.start, asked)
     return metered(k.meter, g, *given)
 
 
@@ -272,15 +271,15 @@ def landed(
     seen = q_plus, v_plus
     if k is not None:
         h, expected, hit = read(k.sizes, tail), v_plus, None
-        if k.sizes.sensors > 0 and k.sizes.told == 0:
-            expected = loop.nominal.impact(*as_seen(k, h.w, q, v)).v
+        if k.sensors is not None and k.touchdown is None:
+            expected = loop.nominal.impact(*k.reading(h.w, q, v)).v
         if k.sizes.meter > 0:
             hit = Hit(t, after.step - 1.0, loop.plant.momentum(q, v), impulse)
         h = after_impact(k, h, loop.swap, q, q_plus, v_plus, expected, hit)
-        if k.sizes.told > 0:
+        if k.touchdown is not None:
             h = h._replace(b=unnoticed(k, h.b, t))
             return np.concatenate((q_plus, v_plus, s, written(h)))
-        seen = as_seen(k, h.w, q_plus, v_plus)
+        seen = k.reading(h.w, q_plus, v_plus)
         tail = written(h)
     s = loop.calls.jump(s, loop.measure(t, *seen, after), loop.swap)
     return np.concatenate((q_plus, v_plus, s, tail))

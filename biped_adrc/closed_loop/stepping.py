@@ -93,7 +93,7 @@ class SteppingLoop(ClosedLoop[Any]):
         if (limit := self.torque_limit) is not None:
             check_positive(limit, f"the torque limit is {limit} N m", " or None")
         check_swap(self.plant)
-        felt = self.touchdown is not None and self.touchdown.laws().needs_force
+        felt = self.touchdown is not None and self.touchdown.needs_force
         if felt and not hasattr(self.plant, "footing"):
             raise InputError(
                 f"{type(self.plant).__name__} does not say what its feet carry (footing), and "

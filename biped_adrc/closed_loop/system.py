@@ -235,8 +235,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
             s = returned(self.law.initial_state(m), None, self.law, "initial_state")
             check_methods(self.law, s, m, self.sampled)
             k = self.held
-            given = (self.sensors, self.touchdown, mode)
-            tail = np.zeros(0) if k is None else held.at_start(k, m.q, m.v, *given)
+            tail = np.zeros(0) if k is None else held.at_start(k, m.q, m.v, mode)
         return np.concatenate((m.q, m.v, s, tail))
 
     # -- what it does --------------------------------------------------------------------------------
@@ -247,7 +246,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
         """
         if self.sensors is not None:
             shape = (self.plant.n,)
-            q, v = (returned(x, shape, self.sensors, "seen") for x in (q, v))
+            q, v = (returned(x, shape, self.sensors, "reading") for x in (q, v))
         return semantics.measurement(self, t, q, v, mode, self.law.needs_body)
 
     def saturate(self, u: Array) -> Array:

@@ -24,7 +24,6 @@ from biped_adrc.engine.symbols import Scalar, Vector, column, where
 from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.hardware.motors import Line
 from biped_adrc.hardware.sample_hold import read
-from biped_adrc.hardware.sensors import sensor_state
 from biped_adrc.timing import SAME_INSTANT
 from biped_adrc.types import Array
 
@@ -72,10 +71,8 @@ def init(computer: Computer) -> SymbolicFunction:
     at, law = given.at, computer.laws.initial_state
     m = at.loop.measure(at.t, q, v, at.mode)
     s = np.zeros(0) if law is None else run(at.trace, law, given.equations.numbers.k, m)
-    w = np.zeros(0)
-    if k.sizes.sensors > 0:
-        w = at.trace(sensor_state)(k.sensors.parameters, q, v, np.zeros(0))
-        w = np.concatenate((w, np.zeros(k.sizes.sensors - len(w))))
+    held = at.loop.held
+    w = np.zeros(0) if held is None or held.sensors is None else held.sensors.start(q, v)
     return given.function(s, w, np.zeros(k.sizes.total - k.sizes.sensors))
 
 

@@ -7,24 +7,21 @@ nothing again. The state is that of the sensors inside, and 1 between touchdown 
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from biped_adrc.engine.mechanics import RobotStructure
 from biped_adrc.errors import InputError
-from biped_adrc.hardware.sensing import Sensor, SensorLaws
-from biped_adrc.hardware.sensors import Sensors
-from biped_adrc.types import Array, Indices
+from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)
 class Noticed(Sensor):
     """`inner` on a robot with this structure. Raises InputError where labels do not exchange in pairs."""
 
-    inner: Sensors
+    inner: Sensor
     robot: RobotStructure
 
     def __post_init__(self) -> None:
@@ -35,31 +32,26 @@ class Noticed(Sensor):
                 "measured has no old labels; leave out touchdown"
             )
 
-    def start(self, k: Any, q: Array, v: Array) -> Array:
-        return np.concatenate((self.inner.start(k, q, v), np.zeros(1)))
+    def sampled(self, n: int, p: int, period: float) -> Noticed:
+        return replace(self, inner=self.inner.sampled(n, p, period))
 
-    def laws(self, n: int, p: int, period: float) -> SensorLaws:
-        inner = self.inner.laws(n, p, period)
-        sense, impact, seen = _around(inner, self.robot.R, self.robot.offset)
-        return SensorLaws(inner.parameters, inner.size + 1, sense, impact, seen)
+    @property
+    def size(self) -> int:
+        return self.inner.size + 1
 
+    def start(self, q: Array, v: Array) -> Array:
+        return np.concatenate((self.inner.start(q, v), np.zeros(1)))
 
-def _around(inner: SensorLaws, R: Indices, offset: Array) -> tuple[Callable[..., Any], ...]:
-    """sense, impact and seen of the module, around those of the sensors inside."""
-    sensed, struck, sight = inner.sense, inner.impact, inner.seen
-
-    def sense(k: Any, w: Array, q: Array, v: Array) -> Array:
-        after = np.where(w[-1] > 0.5, w[:-1], sensed(k, w[:-1], q, v))
+    def sense(self, w: Array, q: Array, v: Array) -> Array:
+        after = np.where(w[-1] > 0.5, w[:-1], self.inner.sense(w[:-1], q, v))
         return np.concatenate((after, np.zeros(1)))
 
-    def impact(k: Any, w: Array, q: Array, v: Array, v_model: Array) -> Array:
-        q_old, v_old = R @ q + offset, R @ v
-        before = sensed(k, w[:-1], q_old, v_old)
-        rates = sight(k, before, q_old, v_old)[1]
-        return np.concatenate((struck(k, before, q, v, R @ rates), np.ones(1)))
+    def impact(self, w: Array, q: Array, v: Array, v_model: Array) -> Array:
+        R = self.robot.R
+        q_old, v_old = R @ q + self.robot.offset, R @ v
+        before = self.inner.sense(w[:-1], q_old, v_old)
+        rates = self.inner.reading(before, q_old, v_old)[1]
+        return np.concatenate((self.inner.impact(before, q, v, R @ rates), np.ones(1)))
 
-    def seen(k: Any, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
-        found: tuple[Array, Array] = sight(k, w[:-1], q, v)
-        return found
-
-    return sense, impact, seen
+    def reading(self, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
+        return self.inner.reading(w[:-1], q, v)

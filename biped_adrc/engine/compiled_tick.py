@@ -25,6 +25,7 @@ from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.mechanics import robot_of
 from biped_adrc.engine.program import NotCompiled, laws_of
 from biped_adrc.engine.symbols import floats
+from biped_adrc.engine.tracer import located
 from biped_adrc.errors import InputError, ModelError
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
@@ -91,7 +92,8 @@ class CompiledTick:
             )
 
             def sample() -> SymbolicFunction:
-                return Equations.of(make, numbers).sample()
+                with located("sample"):
+                    return Equations.of(make, numbers).sample()
 
             return generated(key, {"sample": sample})
         except InputError as reason:

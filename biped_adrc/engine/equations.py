@@ -33,12 +33,7 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.control.base import ControllerLaws
 from biped_adrc.engine.kernels.layout import OUTSIDE
 from biped_adrc.engine.mechanics import PlanarRobot, RobotStructure
-from biped_adrc.engine.symbolic_loop import (
-    SymbolicInstant,
-    SymbolicLoop,
-    laws_on,
-    traced_sensors,
-)
+from biped_adrc.engine.symbolic_loop import SymbolicInstant, SymbolicLoop, laws_on
 from biped_adrc.engine.symbols import Scalar, Vector, column, floats
 from biped_adrc.engine.tracer import Tracer
 from biped_adrc.hardware.sample_hold import HeldParameters, HeldSizes
@@ -148,7 +143,7 @@ class Equations:
             nominal=PlanarRobot.of(make.robot, model),
             exact=K.model is None and not K.friction,
             calls=laws_on(trace, make.laws, K.k, make.robot.p, make.size),
-            held=traced_sensors(trace, K.held) if K.held else None,
+            held=trace.on_symbols(K.held) if K.held else None,
             swap=make.robot.swap,
             gain=K.impact_gain,
             limit=K.torque_limit,

@@ -26,6 +26,7 @@ from biped_adrc.engine.ir import generated
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.mechanics import RobotData, RobotStructure, robot_of
 from biped_adrc.engine.symbols import Vector, column, floats
+from biped_adrc.engine.tracer import located
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
 
@@ -163,8 +164,9 @@ def _machine(make: WalkerStructure, numbers: WalkerNumbers) -> LoadedCode:
     """
 
     def traced(name: str) -> SymbolicFunction:
-        made: SymbolicFunction = getattr(Equations.of(make, numbers), name)()
-        return made
+        with located(name):
+            made: SymbolicFunction = getattr(Equations.of(make, numbers), name)()
+            return made
 
     functions = {name: partial(traced, name) for name in Equations.names(make)}
     try:

@@ -14,8 +14,7 @@ from biped_adrc.closed_loop.protocols import ControlLaw, Mode
 from biped_adrc.control.base import ControllerLaws, Measurement
 from biped_adrc.engine.mechanics import PlanarRobot
 from biped_adrc.engine.symbols import Scalar, Vector, maximum, minimum, where
-from biped_adrc.engine.tracer import Tracer, run
-from biped_adrc.errors import InputError
+from biped_adrc.engine.tracer import Located, Tracer, run
 from biped_adrc.hardware.loads import Outside
 from biped_adrc.hardware.sample_hold import HeldParameters
 from biped_adrc.observers.base import Estimate
@@ -27,7 +26,7 @@ T = TypeVar("T")
 def laws_on(trace: Tracer, laws: ControllerLaws, k: object, p: int, size: int) -> ControlLaw:
     """The laws on symbols with parameters k; a law of the state that is not there leaves it as it is.
 
-    Raises InputError for a law that gives another number than p torques or `size` numbers of the
+    Raises Located for a law that gives another number than p torques or `size` numbers of the
     state, since generated code could not notice.
     """
 
@@ -39,7 +38,7 @@ def laws_on(trace: Tracer, laws: ControllerLaws, k: object, p: int, size: int) -
         def called(*arguments: object) -> Array:
             found = run(trace, law, k, *arguments)
             if np.shape(found) != (expected,):
-                raise InputError(
+                raise Located(
                     f"law {name} gives an array of shape {np.shape(found)}, expected ({expected},)"
                 )
             return found
@@ -55,14 +54,6 @@ def laws_on(trace: Tracer, laws: ControllerLaws, k: object, p: int, size: int) -
 
 STATE_LAWS = ("flow", "jump", "correct", "predict")
 """Those that give the controller's state or its slope."""
-
-
-def traced_sensors(trace: Tracer, held: HeldParameters) -> HeldParameters:
-    """With the laws of the sensors and of the touchdown, and what the meter is given, for symbols."""
-    held = held._replace(meter=trace.on_symbols(held.meter))
-    if held.sensors:
-        held = held._replace(sensors=held.sensors.traced(trace))
-    return held._replace(touchdown=held.touchdown.traced(trace)) if held.touchdown else held
 
 
 class SymbolicLoop(NamedTuple):

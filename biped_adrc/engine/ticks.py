@@ -71,7 +71,7 @@ def run_ticks(
     assert walker.held is not None
     sizes = walker.held.sizes
     system: HybridSystem = TicksWithHardware(walker, plant, flowing(sizes, len(x0)))
-    if sizes.total == sizes.p and not sizes.rate:
+    if sizes.total == sizes.p and not sizes.rate and walker.sensors is None:
         inputs = ControllerInputs(walker.nominal, points[0] if points else None)
         system = TicksWithoutHardware(walker, plant, inputs, options.t0)
     return simulator.run(system, x0, mode, method, options)

@@ -11,7 +11,9 @@ import inspect
 import math
 import traceback
 import types
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import is_dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -153,6 +155,8 @@ class Tracer:
             return rebuilt(value, [self.on_symbols(part) for part in value])
         if isinstance(value, HIDDEN):
             return Hidden(f"a {type(value).__name__}")
+        if isinstance(value, type) and is_dataclass(value) and value not in HIDDEN:
+            return self.twin(value)
         if not is_part(value):
             return self(value)
         inside = {name: self.on_symbols(x) for name, x in content(value).items()}
@@ -193,13 +197,26 @@ class Tracer:
 def run(trace: Tracer, law: Callable[..., T], *arguments: object) -> T:
     """What a law gives on symbols, at these arguments.
 
-    Raises Untraceable that names the last function of the user's or this package's in which the
-    error arose, since the error itself comes from inside NumPy or CasADi.
+    Raises Located that names the last function of the user's or this package's in which the error
+    arose, since the error itself comes from inside NumPy or CasADi.
     """
-    try:
+    with located(law):
         return trace(law)(*map(trace.on_symbols, arguments))
-    except Exception as error:  # whatever NumPy says of an object that is no float
-        raise Untraceable(f"{_place(error, law)} cannot be compiled: {error}") from error
+
+
+class Located(Untraceable):
+    """One whose text says where."""
+
+
+@contextmanager
+def located(law: object) -> Iterator[None]:
+    """Raise Located in place of any error, whatever NumPy says of an object that is no float."""
+    try:
+        yield
+    except Located:
+        raise
+    except Exception as error:
+        raise Located(f"{_place(error, law)} cannot be compiled: {error}") from error
 
 
 def _place(error: Exception, law: Any) -> str:

@@ -20,7 +20,7 @@ from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.control.base import Measurement
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.hardware.meter import Reading
-from biped_adrc.hardware.sample_hold import as_seen, motor_torque, read
+from biped_adrc.hardware.sample_hold import motor_torque, read
 from biped_adrc.types import Array
 
 LEGALITY = tuple(
@@ -67,12 +67,11 @@ def learner_view(
     assert k is not None
     h = read(k.sizes, tail)
     true = loop.measure(t, q, v, mode)
-    if k.sizes.told > 0:
+    if k.touchdown is not None:
         seen, _, _, b = noticed(loop, t, s, tail, q, v, mode)
         line = labelled(loop, b, h.line)
     else:
-        w = k.sensors.sense(k.sensors.parameters, h.w, q, v) if k.sizes.sensors > 0 else h.w
-        q_seen, v_seen = as_seen(k, w, q, v)
+        q_seen, v_seen = k.reading(k.sense(h.w, q, v), q, v)
         seen, line = true._replace(q=q_seen, v=v_seen), h.line
     r, e, u = reference(s, seen), q[:p] - reference(s, true).q_d, motor_torque(h.line)
     return LearnerView(

@@ -9,8 +9,8 @@ are relabelled with the joints. Where the clock restarts there, a tick comes ear
 as much as any other, the queue moves up, and what is waiting for a fraction of a period is replaced.
 
 The delay is the clock's, `SampledTime(period, delay)`; rate limit and lag are `Motors`. A saturation,
-`Walker.torque_limit`, comes before all of this. An observer is told the torque after the rate limit, and that
-which acts where the delay is known: `acting`, the mean over the period.
+`Walker.torque_limit`, comes before all of this. An observer's input is the torque after the rate limit, and
+where the delay is known that which acts: `mean_command`.
 """
 
 from __future__ import annotations
@@ -30,18 +30,6 @@ WHOLE = 1e-9
 """A delay that differs from whole periods by less than this fraction is one of whole periods."""
 
 
-class MotorParameters(NamedTuple):
-    """What the laws take.
-
-    change: the largest of torque in a period [N m], infinite without limit. speed: 1 / tau [1/s], 0 without
-    lag. fraction: f, the part of a period by which the delay is longer than whole ones.
-    """
-
-    change: float
-    speed: float
-    fraction: float
-
-
 class Line(NamedTuple):
     """The torques of one instant, each (p,) [N m]; empty for what this walker has not."""
 
@@ -54,50 +42,54 @@ class Line(NamedTuple):
     u: Array
     """Asked of the motor now."""
 
-
-def limited(k: MotorParameters, line: Line, u: Array) -> Array:
-    """u (p,) [N m] within the rate limit, after the torque that was sent before it.
-
-    That is the last of the queue, or what was asked of the motor now: what waited has acted, or never will.
-    """
-    p = len(line.u)
-    last = line.u
-    if len(line.queue) > 0:
-        last = line.queue[len(line.queue) - p :]
-    return np.minimum(np.maximum(u, last - k.change), last + k.change)
+    def relabelled(self, swap: Indices) -> Line:
+        """The line after an impact; swap (p,) relabels the joints."""
+        p = len(self.u)
+        return Line(*(x.reshape(-1, p)[:, swap].ravel() if len(x) > 0 else x for x in self))
 
 
-def sent(k: MotorParameters, line: Line, u: Array) -> Line:
-    """The line after a tick that sends u (p,) [N m]: it goes to the end of the queue, the first one acts."""
-    queue, next_one = line.queue, u
-    if len(queue) > 0:
-        p = len(u)
-        next_one = queue[:p]
-        queue = np.concatenate((queue[p:], u))
-    if len(line.waiting) > 0:
-        return Line(queue, line.u_m, next_one, line.u)
-    return Line(queue, line.u_m, line.waiting, next_one)
+@dataclass(frozen=True)
+class TorqueLine:
+    """Motors with ticks every T, and the delay's part f of a period."""
 
+    change: float
+    """The largest of torque in a period [N m], infinite without limit."""
+    speed: float
+    """1 / tau [1/s], 0 without lag."""
+    fraction: float
+    """f"""
 
-def acting(k: MotorParameters, line: Line) -> Array:
-    """Mean (p,) [N m] of the torque asked of the motors until the next tick.
+    def limit(self, line: Line, u: Array) -> Array:
+        """u (p,) [N m] within the rate limit, after the torque that was sent before it.
 
-    It is what the observer of a controller that knows the delay is fed with.
-    """
-    if len(line.waiting) > 0:
-        return k.fraction * line.u + (1.0 - k.fraction) * line.waiting
-    return line.u
+        That is the last of the queue, or what was asked of the motor now: what waited has acted, or never will.
+        """
+        p = len(line.u)
+        last = line.u
+        if len(line.queue) > 0:
+            last = line.queue[len(line.queue) - p :]
+        return np.minimum(np.maximum(u, last - self.change), last + self.change)
 
+    def send(self, line: Line, u: Array) -> Line:
+        """The line after a tick that sends u (p,) [N m]: it joins the queue's end, the first one acts."""
+        queue, next_one = line.queue, u
+        if len(queue) > 0:
+            p = len(u)
+            next_one = queue[:p]
+            queue = np.concatenate((queue[p:], u))
+        if len(line.waiting) > 0:
+            return Line(queue, line.u_m, next_one, line.u)
+        return Line(queue, line.u_m, line.waiting, next_one)
 
-def mean_torque(k: MotorParameters, line: Line) -> Array:
-    """Of the motors until the next tick (p,) [N m], with lag by what they give now; for the meter."""
-    return line.u_m if len(line.u_m) > 0 else acting(k, line)
+    def mean_command(self, line: Line) -> Array:
+        """Mean (p,) [N m] of the torque asked of the motors until the next tick."""
+        if len(line.waiting) > 0:
+            return self.fraction * line.u + (1.0 - self.fraction) * line.waiting
+        return line.u
 
-
-def relabelled(line: Line, swap: Indices) -> Line:
-    """The line after an impact; swap (p,) relabels the joints."""
-    p = len(line.u)
-    return Line(*(x.reshape(-1, p)[:, swap].ravel() if len(x) > 0 else x for x in line))
+    def mean_torque(self, line: Line) -> Array:
+        """Of the motors until the next tick (p,) [N m], with lag by what they give now; for the meter."""
+        return line.u_m if len(line.u_m) > 0 else self.mean_command(line)
 
 
 def check_lag(lag: float) -> None:
@@ -122,10 +114,10 @@ class Motors(Checked, Shown):
             raise InputError(f"the motors' rate_limit is {rate} N m/s, expected a positive number")
         check_lag(self.lag)
 
-    def parameters(self, period: float, fraction: float) -> MotorParameters:
-        """What the laws take, for ticks every `period` [s] and the delay's part f of a period."""
+    def sampled(self, period: float, fraction: float) -> TorqueLine:
+        """The line with ticks every `period` [s] and the delay's part f of a period."""
         change = math.inf if self.rate_limit is None else self.rate_limit * period
-        return MotorParameters(change, 0.0 if self.lag == 0.0 else 1.0 / self.lag, fraction)
+        return TorqueLine(change, 0.0 if self.lag == 0.0 else 1.0 / self.lag, fraction)
 
 
 IDEAL = Motors()

@@ -16,41 +16,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.errors import InputError, check_whole
-from biped_adrc.hardware.sensing import Sensor, SensorLaws, Sight
-from biped_adrc.hardware.sensors import SIZE, Sensors, normals, seeded
+from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.hardware.sensors import Sensors, normals, seeded
 from biped_adrc.types import Array
-
-
-class PitchParameters(NamedTuple):
-    """tick: d T [rad]; rate: d [rad/s]; bias: b [rad]; noise: standard deviation [rad]; noisy: 1 with noise."""
-
-    tick: float
-    rate: float
-    bias: float
-    noise: float
-    noisy: int
-
-
-def pitch_sense(k: PitchParameters, w: Array, q: Array, v: Array) -> Array:
-    """w (3,) or (9,) with noise, at a tick at q (n,) [rad], v (n,) [rad/s]: the offset grows by d T."""
-    r, g = normals(w[3:], 1) if k.noisy > 0 else (w[3:], np.zeros(1))
-    off = np.array([w[2] + k.tick])
-    return np.concatenate((q[-1:] + w[2] + k.noise * g, v[-1:] + k.rate, off, r))
-
-
-def pitch_impact(k: PitchParameters, w: Array, q: Array, v: Array, v_model: Array) -> Array:
-    """w (3,) or (9,) after an impact to q, v (n,): the rate jumps, the angle as last seen stays."""
-    return np.concatenate((w[:1], v[-1:] + k.rate, w[2:]))
-
-
-def pitch_seen(k: PitchParameters, w: Array, q: Array, v: Array) -> Sight:
-    """q^ [rad] and v^ [rad/s], each (n,): the pitch and its rate of w, all else as it comes."""
-    return np.concatenate((q[:-1], w[:1])), np.concatenate((v[:-1], w[1:2]))
 
 
 @dataclass(frozen=True)
@@ -96,12 +68,41 @@ class PitchSensor(Sensor):
         own[n - 1], own[-1] = self.noise, 0.0
         return own
 
-    def laws(self, n: int, p: int, period: float) -> SensorLaws:
-        d, b, noise = float(self.drift), float(self.bias), float(self.noise)
-        k = PitchParameters(d * period, d, b, noise, int(self.noisy))
-        size = 3 + (SIZE if self.noisy else 0)
-        return SensorLaws(k, size, pitch_sense, pitch_impact, pitch_seen)
+    def sampled(self, n: int, p: int, period: float) -> SampledPitchSensor:
+        d, r = float(self.drift), seeded(self.seed) if self.noisy else np.zeros(0)
+        return SampledPitchSensor(d * period, d, float(self.bias), float(self.noise), r)
 
-    def start(self, k: PitchParameters, q: Array, v: Array) -> Array:
-        r = seeded(self.seed) if self.noisy else np.zeros(0)
-        return np.concatenate(([q[-1] + k.bias, v[-1] + k.rate, k.bias], r))
+
+@dataclass(frozen=True)
+class SampledPitchSensor(Sensor):
+    """`PitchSensor` with ticks every T: the module's equations."""
+
+    tick: float
+    """d T [rad]."""
+    drift: float
+    """d [rad/s]."""
+    bias: float
+    """b [rad]."""
+    noise: float
+    """[rad]"""
+    random: Array
+    """r at the start of a run: (6,), or none without noise."""
+
+    @property
+    def size(self) -> int:
+        return 3 + len(self.random)
+
+    def start(self, q: Array, v: Array) -> Array:
+        at = np.array([q[-1] + self.bias, v[-1] + self.drift, self.bias])
+        return np.concatenate((at, self.random))
+
+    def sense(self, w: Array, q: Array, v: Array) -> Array:
+        r, g = normals(w[3:], 1) if len(self.random) > 0 else (w[3:], np.zeros(1))
+        off = np.array([w[2] + self.tick])
+        return np.concatenate((q[-1:] + w[2] + self.noise * g, v[-1:] + self.drift, off, r))
+
+    def impact(self, w: Array, q: Array, v: Array, v_model: Array) -> Array:
+        return np.concatenate((w[:1], v[-1:] + self.drift, w[2:]))
+
+    def reading(self, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
+        return np.concatenate((q[:-1], w[:1])), np.concatenate((v[:-1], w[1:2]))

@@ -21,14 +21,7 @@ import numpy as np
 from biped_adrc.errors import InputError
 from biped_adrc.hardware import meter
 from biped_adrc.hardware.meter import Hit, Meter, MeterParameters, metered_impact
-from biped_adrc.hardware.motors import (
-    IDEAL,
-    Line,
-    MotorParameters,
-    Motors,
-    relabelled,
-    whole_and_part,
-)
+from biped_adrc.hardware.motors import IDEAL, Line, Motors, TorqueLine, whole_and_part
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import HEAD, Belief, Touchdown, numbers_of
 from biped_adrc.parts import returned
@@ -68,16 +61,23 @@ class HeldSizes(NamedTuple):
 
 
 class HeldParameters(NamedTuple):
-    """What the laws of all parts take; an empty tuple stands for a part that the walker has not."""
+    """The parts at the ticks of a walker; None, and for the meter an empty tuple, where it has not one."""
 
-    sensors: Any
-    """`SensorLaws`."""
-    motors: MotorParameters
+    sensors: Sensor | None
+    """Sampled for its robot and period."""
+    motors: TorqueLine
     meter: Any
     """`MeterParameters`."""
     sizes: HeldSizes
-    touchdown: Any = ()
-    """`TouchdownLaws`."""
+    touchdown: Touchdown | None = None
+
+    def sense(self, w: Array, q: Array, v: Array) -> Array:
+        """w of the sensors after a tick at q (n,) [rad], v (n,) [rad/s]."""
+        return w if self.sensors is None else self.sensors.sense(w, q, v)
+
+    def reading(self, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
+        """(q, v) as the sensors in their state w show it, each (n,)."""
+        return (q, v) if self.sensors is None else self.sensors.reading(w, q, v)
 
 
 class Held(NamedTuple):
@@ -134,13 +134,12 @@ def held_parameters(
     the plant keeps for itself.
     """
     motors, period = IDEAL if motors is None else motors, timing.period
-    sensing = None if sensors is None else sensors.laws(n, p, period)
-    noticing = None if touchdown is None else touchdown.laws()
+    sampled = None if sensors is None else sensors.sampled(n, p, period)
     queue, fraction = whole_and_part(timing.delay, period)
     sizes = HeldSizes(
         n,
         p,
-        0 if sensing is None else sensing.size,
+        0 if sampled is None else sampled.size,
         0 if metered is None else meter.size(p, metered.window),
         queue,
         int(motors.lag > 0.0),
@@ -148,16 +147,10 @@ def held_parameters(
         int(motors.rate_limit is not None),
         int(timing.delay_known and timing.delay > 0.0),
         own,
-        0 if noticing is None else HEAD + noticing.size,
+        0 if touchdown is None else HEAD + touchdown.size,
     )
-    made = HeldParameters(
-        () if sensing is None else sensing,
-        motors.parameters(period, fraction),
-        () if metered is None else metered,
-        sizes,
-        () if noticing is None else noticing,
-    )
-    return frozen(made)
+    line, g = motors.sampled(period, fraction), () if metered is None else metered
+    return frozen(HeldParameters(sampled, line, g, sizes, touchdown))
 
 
 def read(k: HeldSizes, tail: Array) -> Held:
@@ -190,43 +183,29 @@ def lagged(k: HeldParameters, tail: Array) -> Array:
     return rate
 
 
-def at_start(
-    k: HeldParameters,
-    q: Array,
-    v: Array,
-    sensors: Sensor | None,
-    touchdown: Touchdown | None,
-    support: tuple[int, float],
-) -> Array:
+def at_start(k: HeldParameters, q: Array, v: Array, support: tuple[int, float]) -> Array:
     """What is held (total,) at the start of a run in q (n,), v (n,): no torque, a first look of the sensors.
 
     support: number and start [s] of the single support, which the controller knows at first.
     """
     sizes = k.sizes
-    w = np.zeros(0) if sensors is None else _tried(k, q, v, sensors)
+    w = np.zeros(0) if k.sensors is None else _tried(k.sensors, q, v)
     b = np.zeros(0)
-    if touchdown is not None:
-        d = returned(touchdown.start(), (sizes.told - HEAD,), touchdown, "start")
+    if k.touchdown is not None:
+        d = returned(k.touchdown.start(), (k.touchdown.size,), k.touchdown, "start")
         b = numbers_of(Belief(0.0, *support, d))
     rest = np.zeros(sizes.total - sizes.own - sizes.told - sizes.sensors)
     return np.concatenate((np.zeros(sizes.own), b, w, rest))
 
 
-def _tried(k: HeldParameters, q: Array, v: Array, sensors: Sensor) -> Array:
+def _tried(sensors: Sensor, q: Array, v: Array) -> Array:
     """w (size,) of the sensors at the start; raises InputError where it, or one more sample, is no such row."""
-    law = k.sensors
-    w = returned(sensors.start(law.parameters, q, v), (law.size,), sensors, "start")
-    sensed = law.sense(law.parameters, frozen(w), q, v)
-    returned(sensed, (law.size,), sensors, "sense")
-    for x in law.seen(law.parameters, frozen(w), q, v):
-        returned(x, q.shape, sensors, "seen")
+    size = (sensors.size,)
+    w = returned(sensors.start(q, v), size, sensors, "start")
+    returned(sensors.sense(frozen(w), q, v), size, sensors, "sense")
+    for x in sensors.reading(frozen(w), q, v):
+        returned(x, q.shape, sensors, "reading")
     return w
-
-
-def as_seen(k: HeldParameters, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
-    """(q, v) as the sensors in their state w show it, each (n,)."""
-    sight: tuple[Array, Array] = q, v
-    return k.sensors.seen(k.sensors.parameters, w, q, v) if k.sizes.sensors > 0 else sight
 
 
 def after_impact(
@@ -245,8 +224,8 @@ def after_impact(
     without one. Sensors show no impact to a controller that has yet to notice it.
     """
     w, g, p = held.w, held.g, k.sizes.p
-    if k.sizes.sensors > 0 and k.sizes.told == 0:
-        w = k.sensors.impact(k.sensors.parameters, w, q, v, v_model)
+    if k.sensors is not None and k.touchdown is None:
+        w = k.sensors.impact(w, q, v, v_model)
     if hit is not None:
         g = metered_impact(k.meter, g, q_minus[:p], q[:p], swap, hit)
-    return Held(w, g, relabelled(held.line, swap), held.own, held.b)
+    return Held(w, g, held.line.relabelled(swap), held.own, held.b)

@@ -1,23 +1,20 @@
 """What a sensor is: a state w that ticks and impacts change, and what it makes of (q, q') for the controller.
 
-    w <- sense(k, w, q, v)                      at a tick at (q, v)
-    w <- impact(k, w, q, v, v_model)            after an impact to (q, v)
-    (q^, v^) = seen(k, w, q, v)                 (q, v) as the sensors before it see them
+    w <- sense(w, q, v)                   at a tick at (q, v)
+    w <- impact(w, q, v, v_model)         after an impact to (q, v)
+    (q^, v^) = reading(w, q, v)           (q, v) as the sensors before it read them
 
 `a + b` puts b behind a: both sense the true (q, v), and b changes what a lets through.
 
-Sensors work in sampled time: between ticks the controller sees what was read at the last one. A leaf gives
-`laws` for a robot and a period, pure functions that run in both engines, and `start`; randomness is a part of
-w, so that a walk is repeated by its seed. `closed_loop.walker` calls them through `hardware.sample_hold`.
+Sensors work in sampled time: between ticks the controller sees what was read at the last one. Both engines run
+these methods, which are pure functions; randomness is a part of w, so that a walk is repeated by its seed.
+`closed_loop.semantics` calls them, `hardware.sample_hold` keeps w.
 """
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -25,38 +22,36 @@ from biped_adrc.errors import InputError
 from biped_adrc.parts import Checked, check_part
 from biped_adrc.types import Array
 
-Sight = tuple[Array, Array]
-"""q^ (n,) [rad] and v^ (n,) [rad/s]."""
 
+class Sensor(Checked):
+    """Base of all sensors: frozen dataclasses with a `reading`; those with a memory have `size` and `sense`."""
 
-class SensorLaws(NamedTuple):
-    """The pure functions of a sensor for one robot and period, and how many numbers w (size,) has."""
+    @property
+    def size(self) -> int:
+        """Numbers in w."""
+        return 0
 
-    parameters: object
-    """k, a NamedTuple of numbers and float64 arrays."""
-    size: int
-    sense: Callable[..., Array]
-    """sense(k, w, q, v) -> w at a tick."""
-    impact: Callable[..., Array]
-    """impact(k, w, q, v, v_model) -> w; v_model (n,) is v^ taken through the nominal model's impact."""
-    seen: Callable[..., Sight]
-    """seen(k, w, q, v) -> q^, v^."""
+    def start(self, q: Array, v: Array) -> Array:
+        """w (size,) at the start of a run in q (n,) [rad], v (n,) [rad/s]."""
+        return np.zeros(self.size)
 
-    def traced(self, trace: Callable[[Callable[..., Any]], Callable[..., Any]]) -> SensorLaws:
-        """With other functions in place of these: those that the engine traces into machine code."""
-        return SensorLaws(*self[:2], *map(trace, self[2:]))
+    def sense(self, w: Array, q: Array, v: Array) -> Array:
+        """w (size,) after a tick at q (n,) [rad], v (n,) [rad/s]."""
+        return w
 
+    def impact(self, w: Array, q: Array, v: Array, v_model: Array) -> Array:
+        """w (size,) after an impact to q, v (n,); v_model (n,): v^ through the nominal model's impact."""
+        return w
 
-class Sensor(Checked, ABC):
-    """Base of all sensors: frozen parameters, with laws for a robot and a period."""
+    def reading(self, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
+        """q^ (n,) [rad] and v^ (n,) [rad/s], from w and from q, v (n,) as the sensors before it read them."""
+        raise InputError(
+            f"{type(self).__name__} has no reading(w, q, v); write it, or take sampled(n, p, period)"
+        )
 
-    @abstractmethod
-    def laws(self, n: int, p: int, period: float) -> SensorLaws:
-        """For n coordinates, p of them joints, and ticks every `period` [s]."""
-
-    @abstractmethod
-    def start(self, k: Any, q: Array, v: Array) -> Array:
-        """w (size,) at the start of a run in q (n,) [rad], v (n,) [rad/s], for the parameters k of its laws."""
+    def sampled(self, n: int, p: int, period: float) -> Sensor:
+        """The sensor on n coordinates, p of them joints, with ticks every `period` [s]."""
+        return self
 
     @property
     def noisy(self) -> bool:
@@ -98,15 +93,33 @@ class Sensing(Sensor):
 
     parts: tuple[Sensor, ...]
 
-    def laws(self, n: int, p: int, period: float) -> SensorLaws:
-        """Those of all parts in one, for n coordinates, p joints and `period` [s]."""
-        laws = tuple(part.laws(n, p, period) for part in self.parts)
-        functions = _chained(tuple(law._replace(parameters=None) for law in laws))
-        return functions._replace(parameters=tuple(law.parameters for law in laws))
+    @property
+    def size(self) -> int:
+        return sum(part.size for part in self.parts)
 
-    def start(self, k: tuple[object, ...], q: Array, v: Array) -> Array:
-        each = zip(self.parts, k, strict=True)
-        return np.concatenate([part.start(own, q, v) for part, own in each])
+    def start(self, q: Array, v: Array) -> Array:
+        return np.concatenate([part.start(q, v) for part in self.parts])
+
+    def sense(self, w: Array, q: Array, v: Array) -> Array:
+        return np.concatenate([part.sense(own, q, v) for part, own in self._each(w)])
+
+    def impact(self, w: Array, q: Array, v: Array, v_model: Array) -> Array:
+        return np.concatenate([part.impact(own, q, v, v_model) for part, own in self._each(w)])
+
+    def reading(self, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
+        for part, own in self._each(w):
+            q, v = part.reading(own, q, v)
+        return q, v
+
+    def sampled(self, n: int, p: int, period: float) -> Sensor:
+        return Sensing(tuple(part.sampled(n, p, period) for part in self.parts))
+
+    def _each(self, w: Array) -> Iterator[tuple[Sensor, Array]]:
+        """Each sensor with its own slice of w."""
+        at = 0
+        for part in self.parts:
+            yield part, w[at : at + part.size]
+            at += part.size
 
     @property
     def noisy(self) -> bool:
@@ -124,38 +137,3 @@ class Sensing(Sensor):
         for part in self.parts:
             before = part.on_computer(before)
         return before
-
-
-@lru_cache(maxsize=64)
-def _chained(laws: tuple[SensorLaws, ...]) -> SensorLaws:
-    """The laws of sensors one behind the other, without parameters; theirs are a tuple k of all parameters.
-
-    Cached, so that two walks with the same kinds of sensors have the same functions and one machine code.
-    """
-    ends = [sum(law.size for law in laws[: i + 1]) for i in range(len(laws))]
-    places = [(end - law.size, end) for end, law in zip(ends, laws, strict=True)]
-    sensed = [law.sense for law in laws]
-    jumped = [law.impact for law in laws]
-    sights = [law.seen for law in laws]
-    count = range(len(laws))
-
-    def each(w: Array) -> Iterator[Array]:
-        """The state of each sensor, as a part of w."""
-        for first, end in places:
-            yield w[first:end]
-
-    def sense(k: tuple[object, ...], w: Array, q: Array, v: Array) -> Array:
-        own = list(each(w))
-        return np.concatenate([sensed[i](k[i], own[i], q, v) for i in count])
-
-    def impact(k: tuple[object, ...], w: Array, q: Array, v: Array, v_model: Array) -> Array:
-        own = list(each(w))
-        return np.concatenate([jumped[i](k[i], own[i], q, v, v_model) for i in count])
-
-    def seen(k: tuple[object, ...], w: Array, q: Array, v: Array) -> Sight:
-        own = list(each(w))
-        for i in count:
-            q, v = sights[i](k[i], own[i], q, v)
-        return q, v
-
-    return SensorLaws(None, ends[-1], sense, impact, seen)

@@ -23,70 +23,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.errors import InputError
-from biped_adrc.hardware.sensing import Sensor, SensorLaws
+from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array, Indices
-
-
-class SensorParameters(NamedTuple):
-    """resolution, noise (n,) [rad], rate_noise (n,) [rad/s], the share 1 - exp(-T / tau) and T [s].
-
-    differences (n,) of ints: 1 where the rate comes from differences; rounds (n,) of ints: 1 where angles are
-    counts; noisy: 1 with noise.
-    """
-
-    resolution: Array
-    noise: Array
-    rate_noise: Array
-    share: float
-    period: float
-    differences: Indices
-    rounds: Indices
-    noisy: int
-
-
-def sensor_state(k: SensorParameters, q: Array, v: Array, r: Array) -> Array:
-    """w at the start of a run and after an impact, in q, v (n,): there no difference can be taken."""
-    fresh = np.ones(1)
-    return np.concatenate((rounded(k, q), v, fresh, r))
-
-
-def rounded(k: SensorParameters, y: Array) -> Array:
-    """The nearest count to y (n,) [rad], as an angle (n,) [rad]; y itself where angles are exact."""
-    return np.where(k.rounds > 0, k.resolution * np.floor(y / k.resolution + 0.5), y)
-
-
-def sense(k: SensorParameters, w: Array, q: Array, v: Array) -> Array:
-    """w at a tick at q (n,) [rad], v (n,) [rad/s]: the module's equations."""
-    n = len(q)
-    before, rate, fresh, r = w[:n], w[n : 2 * n], w[2 * n], w[2 * n + 1 :]
-    y, dy = q, v
-    if k.noisy > 0:
-        r, g = normals(r, 2 * n)
-        y, dy = q + k.noise * g[:n], v + k.rate_noise * g[n:]
-    seen = rounded(k, y)
-    difference = rate + k.share * ((seen - before) / k.period - rate)
-    difference = np.where(fresh > 0.5, rate, difference)
-    seen_rate = np.where(k.differences > 0, difference, dy)
-    return np.concatenate((seen, seen_rate, np.zeros(1), r))
-
-
-def seen(k: SensorParameters, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
-    """q^ [rad] and v^ [rad/s] of w, each (n,); none of the true (q, v) gets by."""
-    n = len(q)
-    return w[:n], w[n : 2 * n]
-
-
-def sensed_impact(k: SensorParameters, w: Array, q: Array, v: Array, v_model: Array) -> Array:
-    """w after an impact to (q, v), each (n,); v_model (n,) is v^ taken through the nominal model's impact."""
-    n = len(q)
-    return sensor_state(k, q, np.where(k.differences > 0, v_model, v), w[2 * n + 1 :])
 
 
 @dataclass(frozen=True)
@@ -143,11 +86,6 @@ class Sensors(Shown, Sensor):
         """Whether anything is random."""
         return self.noise > 0.0 or self.pitch_noise > 0.0 or self.rate_noise > 0.0
 
-    @cached_property
-    def random(self) -> Array:
-        """r at the start of a run: (6,), or none without noise."""
-        return seeded(self.seed) if self.noisy else np.zeros(0)
-
     def smooth(self) -> Sensors:
         exact = replace(self, noise=0.0, pitch_noise=0.0, rate_noise=0.0)
         return replace(exact, counts=None, pitch_resolution=None)
@@ -156,30 +94,19 @@ class Sensors(Shown, Sensor):
         return before if self.velocity == "measured" else self.smooth()
 
     def errors(self, n: int, p: int, before: Array) -> Array:
-        k = self.parameters(n, p, 1.0)
+        k = self.sampled(n, p, 1.0)
         counts = np.where(k.rounds > 0, k.resolution, 0.0)
         rates = np.where(k.differences > 0, 0.0, k.rate_noise)
         return np.concatenate((np.hypot(k.noise, counts / math.sqrt(12.0)), rates))
 
-    def start(self, k: SensorParameters, q: Array, v: Array) -> Array:
-        return sensor_state(k, q, v, self.random)
-
-    def laws(self, n: int, p: int, period: float) -> SensorLaws:
-        return SensorLaws(self.parameters(n, p, period), self.size(n), sense, sensed_impact, seen)
-
-    def size(self, n: int) -> int:
-        """Numbers in w, for n coordinates."""
-        return 2 * n + 1 + (SIZE if self.noisy else 0)
-
-    def parameters(self, n: int, p: int, period: float) -> SensorParameters:
-        """What the laws need, for p joints among n coordinates and ticks every `period` [s]."""
+    def sampled(self, n: int, p: int, period: float) -> SampledSensors:
         joints = np.arange(n) < p
         step = 0.0 if self.counts is None else 2.0 * math.pi / self.counts
         pitch = step if self.pitch_resolution is None else self.pitch_resolution
         share = 1.0 if self.filter_time == 0.0 else -math.expm1(-period / self.filter_time)
         gyro = joints if self.velocity == "gyro" else np.full(n, self.velocity == "differences")
         resolution = np.where(joints, step, pitch)
-        return SensorParameters(
+        return SampledSensors(
             np.where(resolution > 0.0, resolution, 1.0),
             np.where(joints, self.noise, self.pitch_noise),
             np.full(n, float(self.rate_noise)),
@@ -187,8 +114,69 @@ class Sensors(Shown, Sensor):
             float(period),
             gyro.astype(int),
             (resolution > 0.0).astype(int),
-            int(self.noisy),
+            seeded(self.seed) if self.noisy else np.zeros(0),
         )
+
+
+@dataclass(frozen=True)
+class SampledSensors(Sensor):
+    """`Sensors` on n coordinates, with ticks every `period` [s]: the module's equations."""
+
+    resolution: Array
+    """(n,) [rad]"""
+    noise: Array
+    """(n,) [rad]"""
+    rate_noise: Array
+    """(n,) [rad/s]"""
+    share: float
+    """1 - exp(-T / tau)."""
+    period: float
+    """T [s]."""
+    differences: Indices
+    """(n,), 1 where the rate comes from differences, else 0."""
+    rounds: Indices
+    """(n,), 1 where angles are counts, else 0."""
+    random: Array
+    """r at the start of a run: (6,), or none without noise."""
+
+    @property
+    def noisy(self) -> bool:
+        return len(self.random) > 0
+
+    @property
+    def size(self) -> int:
+        return 2 * len(self.noise) + 1 + len(self.random)
+
+    def start(self, q: Array, v: Array) -> Array:
+        return self.anew(q, v, self.random)
+
+    def sense(self, w: Array, q: Array, v: Array) -> Array:
+        n = len(q)
+        before, rate, fresh, r = w[:n], w[n : 2 * n], w[2 * n], w[2 * n + 1 :]
+        y, dy = q, v
+        if self.noisy:
+            r, g = normals(r, 2 * n)
+            y, dy = q + self.noise * g[:n], v + self.rate_noise * g[n:]
+        angle = self.rounded(y)
+        difference = rate + self.share * ((angle - before) / self.period - rate)
+        difference = np.where(fresh > 0.5, rate, difference)
+        rate = np.where(self.differences > 0, difference, dy)
+        return np.concatenate((angle, rate, np.zeros(1), r))
+
+    def impact(self, w: Array, q: Array, v: Array, v_model: Array) -> Array:
+        return self.anew(q, np.where(self.differences > 0, v_model, v), w[2 * len(q) + 1 :])
+
+    def reading(self, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
+        n = len(q)
+        return w[:n], w[n : 2 * n]
+
+    def anew(self, q: Array, v: Array, r: Array) -> Array:
+        """w in q, v (n,) at the start of a run and after an impact: there no difference can be taken."""
+        return np.concatenate((self.rounded(q), v, np.ones(1), r))
+
+    def rounded(self, y: Array) -> Array:
+        """The nearest count to y (n,) [rad], as an angle (n,) [rad]; y itself where angles are exact."""
+        return np.where(self.rounds > 0, self.resolution * np.floor(y / self.resolution + 0.5), y)
 
 
 VELOCITIES = ("differences", "measured", "gyro")

@@ -1,7 +1,7 @@
 """How a controller is told of a touchdown: late, early, not at all, or of one that was none.
 
-    d <- struck(k, d, other, t)               at a true touchdown
-    (d, fires) = notice(k, d, look)           at a tick, fires 0 or 1
+    d <- touchdown(d, other, t)               at a true touchdown
+    (d, fires) = notice(d, look)              at a tick, fires 0 or 1
 
 Without such a part a controller, its observer and the labels of its measurement change at the true touchdown.
 With one they change at the tick at which `notice` fires, and what the controller holds for true meanwhile, its
@@ -10,8 +10,8 @@ belief, is a part of the walker's state:
     b = (other, step, start, d)       other: 1 where its legs have the labels of the other foot, else 0
 
 A touchdown and a notice each turn `other`. So a notice before its touchdown is an early one, and a touchdown
-that is not noticed before the next one leaves the labels right again and the belief two steps behind. A leaf
-gives `laws`, pure functions that run in both engines, and `start`; randomness is a part of d.
+that is not noticed before the next one leaves the labels right again and the belief two steps behind. Both
+engines run these methods, which are pure functions; randomness is a part of d.
 
 Leaves: `touchdown_told` has errors that are asked for; `touchdown_by_foot` goes by the measured angles, or
 by the force on the foot that the controller takes for the swing foot.
@@ -21,8 +21,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -66,34 +65,28 @@ class Look(NamedTuple):
     """Since the last true touchdown [s]; for errors that are asked for."""
 
 
-class TouchdownLaws(NamedTuple):
-    """The pure functions of a leaf, and how many numbers d (size,) has."""
-
-    parameters: Any
-    """k, a NamedTuple of numbers and float64 arrays."""
-    size: int
-    needs_force: int
-    """1 where `Look.force` is needed."""
-    struck: Callable[..., Array]
-    """struck(k, d, other, t) -> d at a true touchdown, `other` after it."""
-    notice: Callable[..., tuple[Array, float]]
-    """notice(k, d, look) -> d, and 1 where a touchdown is noticed, else 0."""
-
-    def traced(self, trace: Callable[[Callable[..., Any]], Callable[..., Any]]) -> TouchdownLaws:
-        """With other functions in place of these: those that the engine traces into machine code."""
-        return TouchdownLaws(*self[:3], *map(trace, self[3:]))
-
-
 class Touchdown(Checked, ABC):
-    """Base of all leaves: frozen parameters, with laws."""
+    """Base of all leaves: frozen dataclasses that `notice` touchdowns; one with a memory has a `size` too."""
 
-    @abstractmethod
-    def laws(self) -> TouchdownLaws:
-        """The pure functions with their parameters."""
+    needs_force: ClassVar[bool] = False
+    """Whether `Look.force` is needed."""
 
-    @abstractmethod
+    @property
+    def size(self) -> int:
+        """Numbers in d."""
+        return 0
+
     def start(self) -> Array:
         """d (size,) at the start of a run."""
+        return np.zeros(self.size)
+
+    def touchdown(self, d: Array, other: float, t: float) -> Array:
+        """d (size,) after a true touchdown at t [s]; `other` is that after it."""
+        return d
+
+    @abstractmethod
+    def notice(self, d: Array, look: Look) -> tuple[Array, float]:
+        """d (size,) after a tick, and 1 where a touchdown is noticed, else 0."""
 
     @property
     def noisy(self) -> bool:
@@ -109,11 +102,6 @@ def belief_of(b: Array) -> Belief:
 def numbers_of(belief: Belief) -> Array:
     """b of its parts, the inverse of `belief_of`."""
     return np.concatenate((np.array([belief.other, belief.step, belief.start]), belief.d))
-
-
-def unchanged(k: object, d: Array, other: float, t: float) -> Array:
-    """d (size,) as it is, of a leaf that a true touchdown says nothing."""
-    return d
 
 
 def check_finite(x: float, name: str) -> None:

@@ -10,50 +10,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.errors import InputError
-from biped_adrc.hardware.touchdown import (
-    Look,
-    Touchdown,
-    TouchdownLaws,
-    check_finite,
-    check_time,
-    unchanged,
-)
+from biped_adrc.hardware.touchdown import Look, Touchdown, check_finite, check_time
+from biped_adrc.part import derived
 from biped_adrc.shown import Shown
 from biped_adrc.timing import SAME_INSTANT
 from biped_adrc.types import Array
-
-
-class GateParameters(NamedTuple):
-    """ahead [m], after [s]: the gate on the phase. tangent [1]: of the slope that the controller takes."""
-
-    ahead: float
-    after: float
-    tangent: float
-
-
-def open_gate(gate: GateParameters, look: Look) -> float:
-    """1 where a touchdown may come: the swing foot is ahead and the last notice long ago; else 0."""
-    ahead = 1.0 * (look.foot[0] > gate.ahead)
-    return ahead * (look.t_step >= gate.after - SAME_INSTANT)
-
-
-class KinematicsParameters(NamedTuple):
-    """height [m], and the gate."""
-
-    height: float
-    gate: GateParameters
-
-
-def kinematics_notice(k: KinematicsParameters, d: Array, look: Look) -> tuple[Array, float]:
-    """d = (height before,) [m]: below the height, lower than at the tick before, and the gate open."""
-    height = look.foot[1] + k.gate.tangent * look.foot[0]
-    low = 1.0 * (height < k.height) * (height < d[0])
-    return np.array([height]), low * open_gate(k.gate, look)
 
 
 @dataclass(frozen=True)
@@ -77,10 +42,15 @@ class Gated(Shown, Touchdown):
         for name in ("ahead", "slope"):
             check_finite(getattr(self, name), name)
 
-    @property
-    def gate(self) -> GateParameters:
-        """What `open_gate` takes."""
-        return GateParameters(float(self.ahead), float(self.after), math.tan(self.slope))
+    @derived
+    def tangent(self) -> float:
+        """tan(slope) [1]."""
+        return math.tan(self.slope)
+
+    def gate(self, look: Look) -> float:
+        """1 where a touchdown may come: the swing foot is ahead and the last notice long ago; else 0."""
+        ahead = 1.0 * (look.foot[0] > self.ahead)
+        return ahead * (look.t_step >= self.after - SAME_INSTANT)
 
 
 @dataclass(frozen=True)
@@ -98,37 +68,13 @@ class ByKinematics(Gated):
         super().__post_init__()
         check_finite(self.height, "height")
 
-    def laws(self) -> TouchdownLaws:
-        k = KinematicsParameters(float(self.height), self.gate)
-        return TouchdownLaws(k, 1, 0, unchanged, kinematics_notice)
+    size = 1
 
-    def start(self) -> Array:
-        return np.zeros(1)
-
-
-class ForceParameters(NamedTuple):
-    """on, off [N], debounce, delay [s], and the gate."""
-
-    on: float
-    off: float
-    debounce: float
-    delay: float
-    gate: GateParameters
-
-
-def force_notice(k: ForceParameters, d: Array, look: Look) -> tuple[Array, float]:
-    """d = (free, loaded, since, waits, due): a foot that was free is loaded for long enough, then the delay."""
-    t, gate = look.t, open_gate(k.gate, look)
-    free = np.maximum(d[0], 1.0 * (look.force < k.off))
-    stays = d[1] * (look.force >= k.off)
-    loaded = np.maximum(stays, 1.0 * (look.force > k.on) * free * gate)
-    since = np.where(d[1] > 0.5, d[2], t)
-    sure = loaded * (t - since >= k.debounce - SAME_INSTANT) * (1.0 - d[3])
-    due = np.where(sure > 0.5, t + k.delay, d[4])
-    waits = np.maximum(d[3], sure)
-    fires = waits * (t >= due - SAME_INSTANT)
-    left = 1.0 - fires
-    return np.array([free * left, loaded * left, since, waits * left, due]), fires
+    def notice(self, d: Array, look: Look) -> tuple[Array, float]:
+        """d = (height before,) [m]: below the height, lower than at the tick before, and the gate open."""
+        height = look.foot[1] + self.tangent * look.foot[0]
+        low = 1.0 * (height < self.height) * (height < d[0])
+        return np.array([height]), low * self.gate(look)
 
 
 @dataclass(frozen=True)
@@ -157,10 +103,19 @@ class ByForce(Gated):
                 f"the touchdown's forces are off = {self.off} N and on = {self.on} N, expected 0 <= off <= on"
             )
 
-    def laws(self) -> TouchdownLaws:
-        times = float(self.debounce), float(self.delay)
-        k = ForceParameters(float(self.on), float(self.off), *times, self.gate)
-        return TouchdownLaws(k, 5, 1, unchanged, force_notice)
+    size = 5
+    needs_force = True
 
-    def start(self) -> Array:
-        return np.zeros(5)
+    def notice(self, d: Array, look: Look) -> tuple[Array, float]:
+        """d = (free, loaded, since, waits, due): a free foot is loaded for long enough, then the delay."""
+        t = look.t
+        free = np.maximum(d[0], 1.0 * (look.force < self.off))
+        stays = d[1] * (look.force >= self.off)
+        loaded = np.maximum(stays, 1.0 * (look.force > self.on) * free * self.gate(look))
+        since = np.where(d[1] > 0.5, d[2], t)
+        sure = loaded * (t - since >= self.debounce - SAME_INSTANT) * (1.0 - d[3])
+        due = np.where(sure > 0.5, t + self.delay, d[4])
+        waits = np.maximum(d[3], sure)
+        fires = waits * (t >= due - SAME_INSTANT)
+        left = 1.0 - fires
+        return np.array([free * left, loaded * left, since, waits * left, due]), fires

@@ -9,47 +9,17 @@ false notice has been given, and the state r of the random numbers (`hardware.se
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.errors import InputError, check_whole
-from biped_adrc.hardware.sensors import SIZE, seeded, uniforms
-from biped_adrc.hardware.touchdown import Look, Touchdown, TouchdownLaws, check_time
+from biped_adrc.hardware.sensors import seeded, uniforms
+from biped_adrc.hardware.touchdown import Look, Touchdown, check_time
+from biped_adrc.part import derived, setup
 from biped_adrc.parts import check_part
 from biped_adrc.shown import Shown
 from biped_adrc.timing import SAME_INSTANT
 from biped_adrc.types import Array
-
-
-class ToldParameters(NamedTuple):
-    """late [s], missed [1], the step and the time in it [s] of a false notice; noisy: 1 with missed ones."""
-
-    late: float
-    missed: float
-    step: float
-    time: float
-    noisy: int
-
-
-def told_struck(k: ToldParameters, d: Array, other: float, t: float) -> Array:
-    """d = (waits, due, done, r): it is told late, if the labels differ now and it is not missed."""
-    missed, r = 0.0, d[3:]
-    if k.noisy > 0:
-        r, u = uniforms(r, 1)
-        missed = 1.0 * (u[0] < k.missed)
-    waits = np.where(other > 0.5, 1.0 - missed, 0.0)
-    return np.concatenate((np.array([waits, t + k.late, d[2]]), r))
-
-
-def told_notice(k: ToldParameters, d: Array, look: Look) -> tuple[Array, float]:
-    """When it is due and the labels still differ; and once at the false time."""
-    due = 1.0 * (d[0] * look.other > 0.5) * (look.t >= d[1] - SAME_INSTANT)
-    at_step = 1.0 * (abs(look.step - k.step) < 0.5) * (d[2] < 0.5)
-    false = at_step * (look.age >= k.time - SAME_INSTANT)
-    fires = np.maximum(due, false)
-    kept = np.array([d[0] * (1.0 - fires), d[1], np.maximum(d[2], false)])
-    return np.concatenate((kept, d[3:])), fires
 
 
 @dataclass(frozen=True)
@@ -66,9 +36,9 @@ class Told(Shown, Touchdown):
     """[s]"""
     missed: float = 0.0
     """[1]"""
-    false_at: tuple[int, float] | None = None
+    false_at: tuple[int, float] | None = setup(None)
     """Step, and time in it [s]."""
-    seed: int = 0
+    seed: int = setup(0)
     """A whole number from 0."""
 
     def __post_init__(self) -> None:
@@ -91,12 +61,37 @@ class Told(Shown, Touchdown):
     def noisy(self) -> bool:
         return self.missed > 0.0
 
-    def laws(self) -> TouchdownLaws:
-        step, time = (0, 0.0) if self.false_at is None else self.false_at
-        given = float(self.late), float(self.missed), float(step), float(time)
-        k = ToldParameters(*given, int(self.noisy))
-        return TouchdownLaws(k, 3 + SIZE * k.noisy, 0, told_struck, told_notice)
+    @derived
+    def random(self) -> Array:
+        """r at the start of a run: (6,), or none where no touchdown is missed."""
+        return seeded(self.seed) if self.noisy else np.zeros(0)
+
+    @derived
+    def false(self) -> Array:
+        """Step, and time in it [s], of the false notice (2,); step 0 for none."""
+        return np.array((0, 0.0) if self.false_at is None else self.false_at, dtype=float)
+
+    @property
+    def size(self) -> int:
+        return 3 + len(self.random)
 
     def start(self) -> Array:
-        r = seeded(self.seed) if self.noisy else np.zeros(0)
-        return np.concatenate((np.zeros(2), [float(self.false_at is None)], r))
+        return np.concatenate((np.zeros(2), [float(self.false_at is None)], self.random))
+
+    def touchdown(self, d: Array, other: float, t: float) -> Array:
+        """It is told late, if the labels differ now and it is not missed."""
+        missed, r = 0.0, d[3:]
+        if len(r) > 0:
+            r, u = uniforms(r, 1)
+            missed = 1.0 * (u[0] < self.missed)
+        waits = np.where(other > 0.5, 1.0 - missed, 0.0)
+        return np.concatenate((np.array([waits, t + self.late, d[2]]), r))
+
+    def notice(self, d: Array, look: Look) -> tuple[Array, float]:
+        """When it is due and the labels still differ; and once at the false time."""
+        due = 1.0 * (d[0] * look.other > 0.5) * (look.t >= d[1] - SAME_INSTANT)
+        at_step = 1.0 * (abs(look.step - self.false[0]) < 0.5) * (d[2] < 0.5)
+        false = at_step * (look.age >= self.false[1] - SAME_INSTANT)
+        fires = np.maximum(due, false)
+        left = np.array([d[0] * (1.0 - fires), d[1], np.maximum(d[2], false)])
+        return np.concatenate((left, d[3:])), fires

@@ -11,7 +11,7 @@ from biped_adrc.closed_loop.noticing import turned
 from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.errors import InputError
-from biped_adrc.hardware.sample_hold import as_seen, motor_torque, read
+from biped_adrc.hardware.sample_hold import motor_torque, read
 from biped_adrc.hardware.touchdown import belief_of
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.logs.robot_log import RobotLog
@@ -68,7 +68,7 @@ def _row(walker: Walker, arc: Arc, k: int, end: int) -> LoggedRow:
     if held.sizes.told > 0:
         b = belief_of(h.b)
         step, other = float(b.step), b.other
-    q, v = as_seen(held, h.w, *turned(walker, other, q, v))
+    q, v = held.reading(h.w, *turned(walker, other, q, v))
     nodes = slice(k, end + 1)
     t, tails = arc.t[nodes], (parts(walker, x)[3] for x in arc.x[nodes])
     acted = np.array([motor_torque(read(held.sizes, x).line) for x in tails])

@@ -17,14 +17,14 @@ go through the nominal impact (7) at a touchdown, as there.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Measurement
-from biped_adrc.hardware.sensors import Sensors, seen, sense, sensed_impact, sensor_state
+from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.logs.robot_log import RobotLog
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array, freeze
@@ -115,16 +115,17 @@ def measurements(
 ) -> Iterator[tuple[Measurement, Measurement | None]]:
     """Of each row what the controller is given, and at a touchdown what it jumps to."""
     n, p, period = walker.plant.n, walker.plant.p, log.period
-    k = Sensors(velocity="differences", filter_time=filter_time).parameters(n, p, period)
-    k = k._replace(differences=(~log.has_rate).astype(int))
+    sensors = Sensors(velocity="differences", filter_time=filter_time).sampled(n, p, period)
+    sensors = replace(sensors, differences=(~log.has_rate).astype(int))
     q, v = log.q, log.rates
-    start = np.where(k.differences > 0, (q[1] - q[0]) / (log.t[1] - log.t[0]), v[0])
-    w, mode = sensor_state(k, q[0], start, np.zeros(0)), Mode(int(log.step[0]), float(log.t[0]))
+    start = np.where(log.has_rate, v[0], (q[1] - q[0]) / (log.t[1] - log.t[0]))
+    w, mode = sensors.start(q[0], start), Mode(int(log.step[0]), float(log.t[0]))
     for i, t in enumerate(log.t.tolist()):
         struck = None
         if log.step[i] != mode.step:
             mode = Mode(int(log.step[i]), t)
-            w = sensed_impact(k, w, q[i], v[i], walker.nominal.impact(w[:n], w[n : 2 * n]).v)
-            struck = walker.measure(t, *seen(k, w, q[i], v[i]), mode)
-        w = sense(k, w, q[i], v[i])
-        yield walker.measure(t, *seen(k, w, q[i], v[i]), mode), struck
+            expected = walker.nominal.impact(*sensors.reading(w, q[i], v[i])).v
+            w = sensors.impact(w, q[i], v[i], expected)
+            struck = walker.measure(t, *sensors.reading(w, q[i], v[i]), mode)
+        w = sensors.sense(w, q[i], v[i])
+        yield walker.measure(t, *sensors.reading(w, q[i], v[i]), mode), struck

@@ -235,7 +235,7 @@ def sensors(s: Scenario) -> Sensor | None:
     encoders = _encoders(s)
     if s.sensor is None:
         return encoders
-    named = _named("sensor", s, {}, Sensor)  # type: ignore[type-abstract]
+    named = _named("sensor", s, {}, Sensor)
     return named if encoders is None else encoders + named
 
 

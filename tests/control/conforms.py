@@ -32,9 +32,8 @@ from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.gait.curves import Curve
 from biped_adrc.gait.outputs import Outputs
 from biped_adrc.gait.reference import check_point
-from biped_adrc.hardware import motors as torque_line
 from biped_adrc.hardware.meter import Meter
-from biped_adrc.hardware.motors import Line, Motors, whole_and_part
+from biped_adrc.hardware.motors import Line, Motors, TorqueLine, whole_and_part
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Look, Touchdown
 from biped_adrc.hybrid.integrators import OneStepMethod
@@ -132,18 +131,18 @@ def _(disturbance: ba.Disturbance):
 @conforms.register
 def _(sensor: Sensor):
     """Pure, of the size that it says, at ticks and impacts, in Python, as laws and in the loop."""
-    laws, random = sensor.laws(5, 4, PERIOD), np.random.default_rng(6)
-    k, (q, v, dv) = laws.parameters, random.normal(size=(3, 5))
-    w = sensor.start(k, q, v)
-    assert w.shape == (laws.size,)
-    assert np.array_equal(w, sensor.start(k, q, v))
+    sampled, random = sensor.sampled(5, 4, PERIOD), np.random.default_rng(6)
+    (q, v, dv), law = random.normal(size=(3, 5)), type(sampled)
+    w = agree(law.start, sampled, q, v)
+    assert w.shape == (sampled.size,)
+    assert np.array_equal(w, sampled.start(q, v))
     for _ in range(5):
-        kept, at = (w.copy(), q.copy(), v.copy()), (k, w, q, v)
-        after = [agree(laws.sense, *at), agree(laws.impact, *at, v + dv)]
-        assert np.array_equal(after[0], laws.sense(*at))
+        kept, at = (w.copy(), q.copy(), v.copy()), (sampled, w, q, v)
+        after = [agree(law.sense, *at), agree(law.impact, *at, v + dv)]
+        assert np.array_equal(after[0], law.sense(*at))
         assert all(x.shape == w.shape and np.all(np.isfinite(x)) for x in after)
-        sight = agree(laws.seen, *at)
-        assert [x.shape for x in sight] == [(5,), (5,)]
+        reading = agree(law.reading, *at)
+        assert [x.shape for x in reading] == [(5,), (5,)]
         assert all(np.array_equal(a, b) for a, b in zip(kept, (w, q, v), strict=True))
         w, q, v = after[0], q + 0.01 * v, v + 0.1 * dv
     timing = ba.SampledTime(PERIOD)
@@ -155,26 +154,25 @@ def _(sensor: Sensor):
         runaway_torque=np.inf,
     )
     loop_compiles(replace(walker, model=robot()))
-    assert walker.held.sizes.sensors == laws.size
+    assert walker.held.sizes.sensors == sampled.size
     assert pickle.loads(pickle.dumps(walker)).sensors == sensor
 
 
 @conforms.register
 def _(touchdown: Touchdown):
     """Pure, of the size that it says, at ticks and at touchdowns, in Python, as laws and in the loop."""
-    laws = touchdown.laws()
-    k, d, fired = laws.parameters, touchdown.start(), 0.0
+    law, d, fired = type(touchdown), touchdown.start(), 0.0
     for i in range(60):
-        assert d.shape == (laws.size,)
+        assert d.shape == (touchdown.size,)
         foot, kept = np.array([0.3, 0.02 * np.sin(0.5 * i)]), d.copy()
         force = 80.0 * (np.sin(0.3 * i) > 0.0)
         look = Look(PERIOD * i, 0.2, foot, force, float(i > 45), 1.0, PERIOD * i)
-        after, fires = agree(laws.notice, k, d, look)
+        after, fires = agree(law.notice, touchdown, d, look)
         assert fires in (0.0, 1.0)
         assert np.array_equal(d, kept)
         d, fired = np.asarray(after), fired + fires
         if i == 45:
-            d = np.asarray(agree(laws.struck, k, d, 1.0, look.t))
+            d = np.asarray(agree(law.touchdown, touchdown, d, 1.0, look.t))
     assert fired
     timing = ba.SampledTime(PERIOD, restart=False)
     law = ba.NPDController(gait().constraint)
@@ -247,18 +245,18 @@ def _(motors: Motors):
     random = np.random.default_rng(7)
     for delay in (0.0, 1.3 * PERIOD):
         j, f = whole_and_part(delay, PERIOD)
-        k = motors.parameters(PERIOD, f)
+        k = motors.sampled(PERIOD, f)
         sizes = (4 * j, 4 * (motors.lag > 0.0), 4 * (f > 0.0), 4)
         for _ in range(3):
             line, u = Line(*(20.0 * random.normal(size=n) for n in sizes)), random.normal(size=4)
             kept = [x.copy() for x in line]
             last = line.queue[-4:] if j else line.u
-            limited = agree(torque_line.limited, k, line, u)
+            limited = agree(TorqueLine.limit, k, line, u)
             assert np.array_equal(limited, np.clip(u, last - k.change, last + k.change))
-            sent = agree(torque_line.sent, k, line, limited)
-            after = agree(torque_line.relabelled, sent, SWAP)
+            sent = agree(TorqueLine.send, k, line, limited)
+            after = agree(Line.relabelled, sent, SWAP)
             assert [len(x) for x in sent] == [len(x) for x in after] == list(sizes)
-            for law in (torque_line.acting, torque_line.mean_torque):
+            for law in (TorqueLine.mean_command, TorqueLine.mean_torque):
                 assert agree(law, k, sent).shape == (4,)
             assert all(np.array_equal(a, b) for a, b in zip(kept, line, strict=True))
     for delay, known in ((2.0 * PERIOD, False), (1.3 * PERIOD, True)):

@@ -260,6 +260,7 @@ def test_every_leaf_has_a_row_and_a_name():
     assert set(acted) == {x.name for x in fields(Motors)}
     listed = {type(thing) for thing in things}
     listed |= {type(x.sampled(PERIOD)) for x in things if isinstance(x, ba.Observer)}
+    listed |= {type(x.sampled(5, 4, PERIOD)) for x in things if isinstance(x, Sensor)}
     for base, (room, parts) in BASES.items():
         package = importlib.import_module(f"biped_adrc.{room}")
         for module in pkgutil.iter_modules(package.__path__):

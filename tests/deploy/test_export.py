@@ -91,14 +91,14 @@ def test_a_noticed_touchdown_is_seen_in_the_old_labels_with_the_offset_of_the_an
     """q+ = R q- + r, R R = 1, R r = -r: no robot of the package has an r."""
     R, r = np.array([[0, 1, 0], [1, 0, 0], [0, 0, 1]]), np.array([0.3, -0.3, 0.0])
     inner, robot = ba.Sensors(filter_time=2e-3), partial(RobotStructure, 3, 2, np.eye(3), R)
-    around = Noticed(inner, robot(r, np.array([1, 0]), ())).laws(3, 2, 1e-3)
-    laws = inner.laws(3, 2, 1e-3)
-    k, q, v = laws.parameters, np.array([0.1, -0.4, 0.7]), np.array([1.0, 2.0, -3.0])
-    w = laws.sense(k, inner.start(k, q, v), q + 1e-3 * v, v)
+    around = Noticed(inner, robot(r, np.array([1, 0]), ())).sampled(3, 2, 1e-3)
+    sampled = inner.sampled(3, 2, 1e-3)
+    q, v = np.array([0.1, -0.4, 0.7]), np.array([1.0, 2.0, -3.0])
+    w = sampled.sense(sampled.start(q, v), q + 1e-3 * v, v)
     old = q + 2e-3 * v
-    before = laws.sense(k, w, old, v)
-    wanted = laws.impact(k, before, R @ old + r, R @ v, R @ laws.seen(k, before, old, v)[1])
-    found = around.impact(k, np.append(w, 0.0), R @ old + r, R @ v, np.zeros(3))
+    before = sampled.sense(w, old, v)
+    wanted = sampled.impact(before, R @ old + r, R @ v, R @ sampled.reading(before, old, v)[1])
+    found = around.impact(np.append(w, 0.0), R @ old + r, R @ v, np.zeros(3))
     np.testing.assert_allclose(found, np.append(wanted, 1.0), rtol=1e-12)
     with pytest.raises(InputError, match="do not exchange in pairs"):
         Noticed(inner, robot(np.abs(r), np.array([1, 0]), ()))
@@ -107,11 +107,8 @@ def test_a_noticed_touchdown_is_seen_in_the_old_labels_with_the_offset_of_the_an
 class Own(Sensor):
     """A sensor of the user's own."""
 
-    def laws(self, n, p, period):
-        return ba.Sensors().laws(n, p, period)
-
-    def start(self, k, q, v):
-        return ba.Sensors().start(k, q, v)
+    def reading(self, w, q, v):
+        return q, v
 
 
 def test_what_stands_in_the_way_is_named(tmp_path):

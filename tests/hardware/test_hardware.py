@@ -9,17 +9,10 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.closed_loop import semantics
 from biped_adrc.hardware.meter import Meter, reading
-from biped_adrc.hardware.motors import (
-    Line,
-    MotorParameters,
-    Motors,
-    acting,
-    limited,
-    sent,
-)
+from biped_adrc.hardware.motors import Line, Motors, TorqueLine
 from biped_adrc.hardware.pitch_sensor import PitchSensor
 from biped_adrc.hardware.sample_hold import motor_torque
-from biped_adrc.hardware.sensors import Sensors, rounded, sense, sensed_impact, sensor_state
+from biped_adrc.hardware.sensors import Sensors
 
 T = 1e-3
 RANDOM = np.random.default_rng(11)
@@ -27,12 +20,12 @@ RANDOM = np.random.default_rng(11)
 
 def ticks(sensors, path, count, n=2, p=1, period=T):
     """(q^, v^) at each tick along path(t) -> (q, v)."""
-    k = sensors.parameters(n, p, period)
-    w = sensor_state(k, *path(0.0), sensors.random)
+    sampled = sensors.sampled(n, p, period)
+    w = sampled.start(*path(0.0))
     seen = []
     for i in range(count):
-        w = sense(k, w, *path(i * period))
-        assert len(w) == sensors.size(n)
+        w = sampled.sense(w, *path(i * period))
+        assert len(w) == sampled.size
         seen.append(w[: 2 * n])
     return np.array(seen)
 
@@ -42,13 +35,13 @@ def steady(rate):
 
 
 def test_a_count_is_never_further_off_than_half_of_one():
-    k = Sensors(counts=100.0).parameters(3, 3, T)
+    rounded = Sensors(counts=100.0).sampled(3, 3, T).rounded
     y = RANDOM.uniform(-7.0, 7.0, (1000, 3))
     for row in y:
-        assert np.max(np.abs(rounded(k, row) - row)) <= np.pi / 100 * (1 + 1e-12)
-        counts = rounded(k, row) / (2 * np.pi / 100)
+        assert np.max(np.abs(rounded(row) - row)) <= np.pi / 100 * (1 + 1e-12)
+        counts = rounded(row) / (2 * np.pi / 100)
         assert np.allclose(counts, np.round(counts), atol=1e-9)
-    assert np.array_equal(rounded(Sensors(None).parameters(3, 3, T), y[0]), y[0])
+    assert np.array_equal(Sensors(None).sampled(3, 3, T).rounded(y[0]), y[0])
 
 
 def test_differences_of_a_steady_motion_are_its_rate():
@@ -81,27 +74,28 @@ def test_noise_has_its_deviation_and_its_seed():
 
 
 def test_at_impact_differences_start_anew():
-    sensors = Sensors(counts=8192.0)
-    k = sensors.parameters(2, 1, T)
-    w = sense(k, sensor_state(k, np.zeros(2), np.ones(2), sensors.random), np.zeros(2), np.ones(2))
+    sensors = Sensors(counts=8192.0).sampled(2, 1, T)
+    w = sensors.sense(sensors.start(np.zeros(2), np.ones(2)), np.zeros(2), np.ones(2))
     q, v, expected = np.array([5.0, 6.0]), np.array([-3.0, -4.0]), np.array([-2.5, -4.5])
-    w = sensed_impact(k, w, q, v, expected)
+    w = sensors.impact(w, q, v, expected)
     assert np.array_equal(w[2:4], expected)
-    assert np.array_equal(sense(k, w, q, v)[2:4], expected)  # nothing of the jump from 0 to 5 rad
+    assert np.array_equal(
+        sensors.sense(w, q, v)[2:4], expected
+    )  # nothing of the jump from 0 to 5 rad
 
 
 def test_a_pitch_sensor_is_off_by_a_bias_and_a_drift_and_sees_nothing_else():
-    bias, drift, sensor = 0.02, -0.3, PitchSensor(0.02, -0.3)
-    law, (q, v, hit) = sensor.laws(3, 2, T), np.random.default_rng(5).normal(size=(3, 3))
-    k, off = law.parameters, np.array([0.0, 0.0, 1.0])
-    w = sensor.start(k, q, v)
+    bias, drift, sensor = 0.02, -0.3, PitchSensor(0.02, -0.3).sampled(3, 2, T)
+    q, v, hit = np.random.default_rng(5).normal(size=(3, 3))
+    off = np.array([0.0, 0.0, 1.0])
+    w = sensor.start(q, v)
     for i in range(4):
-        seen = law.seen(k, w, q, v)
+        seen = sensor.reading(w, q, v)
         assert np.allclose(seen, (q + (bias + max(i - 1, 0) * drift * T) * off, v + drift * off))
-        w = law.sense(k, w, q, v)
-    last, w = law.seen(k, w, q, v)[0], law.impact(k, w, q + 1.0, hit, v)
-    assert np.allclose(law.seen(k, w, q, hit), (last, hit + drift * off))
-    after = law.seen(k, law.sense(k, w, q, hit), q, hit)[0]
+        w = sensor.sense(w, q, v)
+    last, w = sensor.reading(w, q, v)[0], sensor.impact(w, q + 1.0, hit, v)
+    assert np.allclose(sensor.reading(w, q, hit), (last, hit + drift * off))
+    after = sensor.reading(sensor.sense(w, q, hit), q, hit)[0]
     assert np.allclose(after, q + (bias + 4 * drift * T) * off)
 
 
@@ -112,31 +106,31 @@ def line(j, waiting, lag=0):
 @pytest.mark.parametrize("j", [0, 1, 3])
 @pytest.mark.parametrize("f", [0.0, 0.4])
 def test_a_torque_acts_when_its_delay_is_over(j, f):
-    k = Motors().parameters(T, f)
+    k = Motors().sampled(T, f)
     at = line(j, int(f > 0))
     asked = RANDOM.normal(size=(10, 2))
     nothing = np.zeros(2)
     for i, u in enumerate(asked):
-        at = sent(k, at, u)
+        at = k.send(at, u)
         acts = asked[i - j] if i >= j else nothing
         before = asked[i - j - 1] if i > j else nothing
         now = at.u if f == 0 else at.waiting
         assert np.array_equal(now, acts)
         mean = acts if f == 0 else f * before + (1 - f) * acts
-        assert np.allclose(acting(k, at), mean)
+        assert np.allclose(k.mean_command(at), mean)
         if f > 0:
             assert np.array_equal(at.u, before)
             at = at._replace(u=at.waiting)  # what the loop does f T later
 
 
 def test_the_rate_limit_follows_what_was_sent_last():
-    k = Motors(rate_limit=2000.0).parameters(T, 0.0)
+    k = Motors(rate_limit=2000.0).sampled(T, 0.0)
     for j in (0, 2):
         at, last = line(j, 0), np.zeros(2)
         for _ in range(20):
-            u = limited(k, at, RANDOM.normal(0.0, 30.0, 2))
+            u = k.limit(at, RANDOM.normal(0.0, 30.0, 2))
             assert np.max(np.abs(u - last)) <= 2.0 + 1e-12
-            at, last = sent(k, at, u), u
+            at, last = k.send(at, u), u
 
 
 class Clocked(ba.Controller):
@@ -338,7 +332,7 @@ def test_an_observer_that_knows_the_delay_is_fed_the_mean_of_what_acts(known, sh
         predict=lambda s, m, u: fed.append(u) or s,
     )
     loop = SimpleNamespace(law=law, calls=law, saturate=lambda u: u, bounded=lambda u: u)
-    motors = MotorParameters(np.inf, 0.0, 0.3)
+    motors = TorqueLine(np.inf, 0.0, 0.3)
     k = SimpleNamespace(sizes=SimpleNamespace(rate=0, known=known), motors=motors)
     none = np.zeros(0)
     _, line = semantics.decided(loop, k, none, None, Line(none, none, np.zeros(2), old))

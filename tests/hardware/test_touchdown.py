@@ -172,12 +172,12 @@ def test_a_false_notice_comes_once_and_an_early_one_is_counted_as_early(biped, g
 
 def test_missed_ones_come_with_their_probability():
     leaf = Told(missed=0.2, seed=3)
-    laws, d, waits = leaf.laws(), leaf.start(), []
+    d, waits = leaf.start(), []
     for k in range(2000):
-        d = laws.struck(laws.parameters, d, 1.0, float(k))
+        d = leaf.touchdown(d, 1.0, float(k))
         waits.append(d[0])
     assert np.mean(waits) == pytest.approx(0.8, abs=4.0 * np.sqrt(0.16 / 2000))
-    assert laws.struck(laws.parameters, d, 0.0, 0.0)[0] == 0.0
+    assert leaf.touchdown(d, 0.0, 0.0)[0] == 0.0
 
 
 def test_by_kinematics_a_height_is_early_by_height_over_speed(biped, gait):
@@ -207,10 +207,10 @@ def test_by_force_debounce_and_delay_add_up_after_the_first_tick(biped, gait):
 
 def notices(leaf, forces, foot=(0.3, 0.0), other=0.0, t_step=0.5):
     """Times [ms] at which a row of forces, one a millisecond, is taken for a touchdown."""
-    laws, d, found = leaf.laws(), leaf.start(), []
+    d, found = leaf.start(), []
     for k, force in enumerate(forces):
         look = Look(T * k, t_step, np.array(foot), force, other, 1.0, 0.0)
-        d, fires = laws.notice(laws.parameters, d, look)
+        d, fires = leaf.notice(d, look)
         found += [k] if fires > 0.5 else []
     return found
 

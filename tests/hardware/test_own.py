@@ -1,0 +1,122 @@
+"""Sensors and a touchdown detector of one's own, in plain Python: compiled, they walk as in Python."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.engine.program import Program, structure_key
+from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.hardware.touchdown_by_foot import ByKinematics
+from biped_adrc.hardware.touchdown_told import Told
+
+CLOCK = ba.SampledTime(1e-3, restart=False)
+
+
+@dataclass(frozen=True)
+class Slow(Sensor):
+    """Angles behind a low-pass, in 1/rate seconds; the rates are true."""
+
+    rate: float = 500.0
+
+    size = 5
+
+    def start(self, q, v):
+        return q
+
+    def sense(self, w, q, v):
+        share = min(1.0, self.rate * CLOCK.period)
+        return w + share * (q - w)
+
+    def impact(self, w, q, v, v_model):
+        return q
+
+    def reading(self, w, q, v):
+        return w, v
+
+
+@dataclass(frozen=True)
+class Tilted(Sensor):
+    """The pitch off by a bias; it has no memory."""
+
+    bias: float = 1e-3
+
+    def reading(self, w, q, v):
+        off = np.zeros(len(q))
+        off[-1] = self.bias
+        return q + off, v
+
+
+@dataclass(frozen=True)
+class Twice(ba.Touchdown):
+    """The foot below `height` at two ticks, one after the other, and not shortly after a touchdown."""
+
+    height: float = 2e-3
+
+    size = 1
+
+    def notice(self, d, look):
+        low = np.where((look.foot[1] < self.height) * (look.t_step > 0.1), 1.0, 0.0)
+        fires = low * d[0]
+        return np.array([low - fires]), fires
+
+
+@dataclass(frozen=True)
+class Undecided(Tilted):
+    """Looks at a number."""
+
+    def reading(self, w, q, v):
+        if q[0] > 10.0:
+            return q, v
+        return super().reading(w, q, v)
+
+
+def walked(biped, gait, engine, **hardware):
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=CLOCK, **hardware)
+    run = ba.walk(walker, gait, impacts=2, engine=engine).trajectory
+    assert run.status is ba.Status.COMPLETED
+    return run
+
+
+@pytest.mark.parametrize(
+    "hardware",
+    [
+        {"sensors": Slow()},
+        {"sensors": Tilted()},
+        {"sensors": ba.Sensors(2e5, noise=1e-6) + Tilted()},
+        {"touchdown": Twice()},
+    ],
+    ids=["slow", "tilted", "both", "twice"],
+)
+def test_one_s_own_hardware_is_compiled_as_it_is(biped, gait, hardware):
+    code, python = (walked(biped, gait, each, **hardware) for each in ("compiled", "pinocchio"))
+    assert code.settings["engine"] == "compiled"
+    assert abs(code.t_end - python.t_end) < 1e-9
+    np.testing.assert_allclose(code.final_state, python.final_state, rtol=1e-7, atol=1e-7)
+
+
+def test_a_sensor_that_decides_by_a_number_runs_in_python_and_its_line_is_named(biped, gait):
+    run = walked(biped, gait, "compiled", sensors=Undecided())
+    assert run.settings["engine"] == "compiled plant"
+    assert "Undecided.reading (test_own.py" in run.settings["why"]
+    expected = walked(biped, gait, "compiled", sensors=Tilted())
+    np.testing.assert_allclose(run.final_state, expected.final_state, rtol=1e-7, atol=1e-7)
+
+
+def test_other_numbers_compile_nothing(biped, gait):
+    """Seeds, errors and times are data of the machine code."""
+
+    def key(sensors, touchdown):
+        law = ba.NPDController(gait.constraint)
+        walker = ba.Walker(biped, law, timing=CLOCK, sensors=sensors, touchdown=touchdown)
+        x = walker.initial_state(*gait.start(biped))
+        program = Program.of(walker, walker.controller_size(x))
+        return structure_key(program.make, program.numbers)
+
+    noisy, told = ba.Sensors(8192, noise=1e-4, seed=1) + Slow(), Told(missed=0.1, seed=1)
+    other = ba.Sensors(4096.5, noise=1e-3, filter_time=1e-3, seed=2) + Slow(100.0)
+    usual = key(noisy, told)
+    assert usual == key(other, Told(0.01, 0.2, (3, 0.2), 5))
+    assert usual == key(noisy, replace(told, seed=4))
+    assert usual != key(noisy, ByKinematics())
