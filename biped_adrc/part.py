@@ -83,7 +83,9 @@ def with_fields(part: T, **values: Any) -> T:
 
     For methods that both engines run: `dataclasses.replace` would check symbols as numbers.
     """
-    return with_content(part, content(part) | values)
+    made: Any = object.__new__(type(part))
+    vars(made).update(vars(part) | values)
+    return made
 
 
 @lru_cache(maxsize=512)

@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.control.base import ControllerLaws, controller_laws
 from biped_adrc.deploy.noticed import Noticed
 from biped_adrc.engine.equations import WalkerNumbers
 from biped_adrc.engine.mechanics import RobotData, robot_of
@@ -42,19 +41,12 @@ class Computer:
             )
         if self.walker.plant.p == 0:
             raise InputError("the robot has no motors, so there is no torque to compute")
-        if self.laws.obstacle:
-            raise InputError(f"{self.laws.obstacle}, so there is no C of it; choose one with laws")
 
     @property
     def timing(self) -> SampledTime:
         """Period and delay."""
         assert isinstance(self.walker.timing, SampledTime)
         return self.walker.timing
-
-    @cached_property
-    def laws(self) -> ControllerLaws:
-        """The controller's laws in sampled time."""
-        return controller_laws(self.walker.law)
 
     @cached_property
     def robot(self) -> RobotData:
@@ -123,7 +115,7 @@ class Computer:
         return WalkerNumbers(
             self.robot.arrays,
             None,
-            self.laws.parameters,
+            self.walker.law,
             math.inf if limit is None else float(limit),
             tan_slope=0.0,
             lowest_hip=0.0,

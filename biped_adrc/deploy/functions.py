@@ -42,8 +42,8 @@ class Given:
     @cached_property
     def equations(self) -> Equations:
         """The computer's laws, with symbols for its numbers."""
-        laws, held = self.computer.laws.functions, self.computer.held.sizes
-        make = WalkerStructure(self.computer.robot.structure, laws, self.size, held)
+        held = self.computer.held.sizes
+        make = WalkerStructure(self.computer.robot.structure, self.size, held)
         return Equations.of(make, self.computer.numbers)
 
     @cached_property
@@ -68,9 +68,10 @@ def init(computer: Computer) -> SymbolicFunction:
     """x_c at the start of a single support at (t, q, v); no torque is on its way."""
     given, k = Given(computer, 0), computer.held
     q, v = given.parts[:2]
-    at, law = given.at, computer.laws.initial_state
+    at = given.at
     m = at.loop.measure(at.t, q, v, at.mode)
-    s = np.zeros(0) if law is None else run(at.trace, law, given.equations.numbers.k, m)
+    controller = at.trace.on_symbols(given.equations.numbers.controller)
+    s = run(at.trace, controller.initial_state, m)
     held = at.loop.held
     w = np.zeros(0) if held is None or held.sensors is None else held.sensors.start(q, v)
     return given.function(s, w, np.zeros(k.sizes.total - k.sizes.sensors))

@@ -112,11 +112,11 @@ def reading_code(
 ) -> LoadedCode:
     """Machine code of what `read` says, a function of this name as `observe`.
 
-    Under a hash of the walker's structure, its laws, the reference and `read` itself.
+    Under a hash of the walker's structure, the reference and `read` itself.
     """
-    laws = law_text(*make.laws[1:], read)
+    reads = law_text(read)
     key = hash_of(
-        *(name, structure_text(make.robot), laws, make.size, make.held),
+        *(name, structure_text(make.robot), reads, make.size, make.held),
         *(structure_text(watched), versions_text()),
     )
     return generated(key, {name: lambda: observe(make, watched, read)})

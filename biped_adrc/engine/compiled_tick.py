@@ -37,7 +37,7 @@ _SAMPLE = ctypes.PYFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_voi
 class CompiledTick:
     """The function `sample` of a loop whose controller has `size` states, with room for what it is given.
 
-    Not to be shared between threads. Raises NotCompiled where a part has no laws, with the reason.
+    Not to be shared between threads. Raises NotCompiled where a part cannot be traced, with the reason.
     """
 
     def __init__(self, loop: SteppingLoop, size: int):
@@ -45,16 +45,15 @@ class CompiledTick:
             raise NotCompiled(f"the model is a {type(loop.model).__name__}, expected a Biped")
         assert loop.held is not None
         try:
-            robot, laws = robot_of(loop.model), laws_of(loop.law)
+            robot = robot_of(loop.model)
         except ModelError as reason:
             raise NotCompiled(str(reason)) from reason
         limit = math.inf if loop.limit is None else loop.limit
-        bare = laws._replace(parameters=None)
-        self.make = WalkerStructure(robot.structure, bare, size, loop.held.sizes)
+        self.make = WalkerStructure(robot.structure, size, loop.held.sizes)
         self.numbers = WalkerNumbers(
             robot.arrays,
             None,
-            laws.parameters,
+            loop.law,
             limit,
             tan_slope=0.0,
             lowest_hip=0.0,
@@ -83,11 +82,10 @@ class CompiledTick:
 
     def _code(self) -> LoadedCode:
         """The function in memory, under a hash of all that decides it."""
-        laws = law_text(*self.make.laws[1:])
         make, numbers = self.make, self.numbers
         try:
             key = hash_of(
-                *("sample", structure_text(make.robot), laws, make.size, make.held),
+                *("sample", structure_text(make.robot), make.size, make.held),
                 *(structure_text(numbers), versions_text()),
             )
 

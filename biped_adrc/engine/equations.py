@@ -30,10 +30,10 @@ from numpy.typing import ArrayLike
 from biped_adrc.closed_loop import exponential_form, noticing, semantics
 from biped_adrc.closed_loop.exponential_form import ErrorParameters, LoopParameters, SplitLaws
 from biped_adrc.closed_loop.protocols import Mode
-from biped_adrc.control.base import ControllerLaws
+from biped_adrc.control.base import Controller
 from biped_adrc.engine.kernels.layout import OUTSIDE
 from biped_adrc.engine.mechanics import PlanarRobot, RobotStructure
-from biped_adrc.engine.symbolic_loop import SymbolicInstant, SymbolicLoop, laws_on
+from biped_adrc.engine.symbolic_loop import SymbolicInstant, SymbolicLoop, on_symbols
 from biped_adrc.engine.symbols import Scalar, Vector, column, floats
 from biped_adrc.engine.tracer import Tracer
 from biped_adrc.hardware.sample_hold import HeldParameters, HeldSizes
@@ -50,8 +50,8 @@ class WalkerNumbers(NamedTuple):
     """Numbers of the robot that moves."""
     model: PlantArrays | None
     """Numbers of the controller's model, None where it is the plant."""
-    k: object
-    """Parameters of the controller's laws."""
+    controller: Controller
+    """In the time base of the walker."""
     torque_limit: float
     """[N m], infinite without one."""
     tan_slope: float
@@ -77,8 +77,6 @@ class WalkerStructure(NamedTuple):
 
     robot: RobotStructure
     """Links, signs and sparsity."""
-    laws: ControllerLaws
-    """The controller's laws, without parameters."""
     size: int
     """Numbers in the controller's state."""
     held: HeldSizes | None
@@ -142,7 +140,7 @@ class Equations:
             plant=PlanarRobot.of(make.robot, K.plant, K.friction),
             nominal=PlanarRobot.of(make.robot, model),
             exact=K.model is None and not K.friction,
-            calls=laws_on(trace, make.laws, K.k, make.robot.p, make.size),
+            calls=on_symbols(trace, K.controller, make.robot.p, make.size),
             held=trace.on_symbols(K.held) if K.held else None,
             swap=make.robot.swap,
             gain=K.impact_gain,

@@ -19,7 +19,6 @@ import numpy as np
 
 from biped_adrc.closed_loop.exponential_form import SplitLaws
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.control.base import Controller, ControllerLaws, controller_laws
 from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers, WalkerStructure
 from biped_adrc.engine.fingerprint import hash_of, law_text, structure_text, versions_text
 from biped_adrc.engine.ir import generated
@@ -58,9 +57,9 @@ class Program:
         """The program of a walker whose controller has `size` states; split: coordinates of the
         exponential method.
 
-        Takes the laws of the controller in its time base, the data of plant and model, and puts all
-        floats into K in the order of `WalkerNumbers`. Raises NotCompiled for a part without laws,
-        or ModelError for a robot that is no planar tree.
+        Takes the controller in its time base, the data of plant and model, and puts all
+        floats into K in the order of `WalkerNumbers`. Raises NotCompiled for a part that
+        cannot be traced, or ModelError for a robot that is no planar tree.
         """
         make, numbers = structure_of(walker, size, split)
         K = np.array([*floats(numbers), 0.0])
@@ -88,28 +87,19 @@ def structure_of(
 ) -> tuple[WalkerStructure, WalkerNumbers]:
     """What decides the code of a walker whose controller has `size` states, and its numbers.
 
-    Raises NotCompiled for a part without laws, or ModelError for a robot that is no planar tree.
+    Raises NotCompiled for links joined in another way, ModelError for a robot that is no planar tree.
     """
-    plant, laws = robot_of(walker.plant), laws_of(walker.law)
+    plant = robot_of(walker.plant)
     model = None if walker.model is None else robot_of(walker.model)
     sizes = None if walker.held is None else walker.held.sizes
     make = WalkerStructure(
         _common(plant, model),
-        laws._replace(parameters=None),
         size,
         sizes,
         split,
         bool(walker.impact_gain),
     )
-    return make, _numbers(walker, plant, model, laws, split)
-
-
-def laws_of(controller: Controller) -> ControllerLaws:
-    """The laws of a controller. Raises NotCompiled where a part of it has none."""
-    laws = controller_laws(controller)
-    if laws.obstacle:
-        raise NotCompiled(f"{laws.obstacle}; it runs in Python on the compiled plant")
-    return laws
+    return make, _numbers(walker, plant, model, split)
 
 
 def _common(plant: RobotData, model: RobotData | None) -> RobotStructure:
@@ -135,7 +125,6 @@ def _numbers(
     walker: Walker,
     plant: RobotData,
     model: RobotData | None,
-    laws: ControllerLaws,
     split: SplitLaws | None,
 ) -> WalkerNumbers:
     """All numbers of a walker by name, as K lists them; what a walker has not is empty and takes no place."""
@@ -144,7 +133,7 @@ def _numbers(
     return WalkerNumbers(
         plant.arrays,
         None if model is None else model.arrays,
-        laws.parameters,
+        walker.law,
         limit,
         math.tan(walker.slope),
         float(walker.lowest_hip),
@@ -181,7 +170,7 @@ def structure_key(make: WalkerStructure, numbers: WalkerNumbers) -> str:
     Parameters count by their names and shapes alone.
     """
     split = () if make.split is None else make.split[3:]
-    laws = law_text(*make.laws[1:], *split)
+    laws = law_text(*split)
     return hash_of(
         "walker",
         structure_text(make.robot),

@@ -11,7 +11,7 @@ import numpy as np
 
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.protocols import ControlLaw, Mode
-from biped_adrc.control.base import ControllerLaws, Measurement
+from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.engine.mechanics import PlanarRobot
 from biped_adrc.engine.symbols import Scalar, Vector, maximum, minimum, where
 from biped_adrc.engine.tracer import Located, Tracer, run
@@ -23,37 +23,33 @@ from biped_adrc.types import Array, Indices
 T = TypeVar("T")
 
 
-def laws_on(trace: Tracer, laws: ControllerLaws, k: object, p: int, size: int) -> ControlLaw:
-    """The laws on symbols with parameters k; a law of the state that is not there leaves it as it is.
+def on_symbols(trace: Tracer, controller: Controller, p: int, size: int) -> ControlLaw:
+    """The methods of a controller on symbols.
 
-    Raises Located for a law that gives another number than p torques or `size` numbers of the
+    Raises Located for a method that gives another number than p torques or `size` numbers of the
     state, since generated code could not notice.
     """
+    twin = trace.on_symbols(controller)
 
-    def traced(name: str, expected: int) -> Callable[..., Array]:
-        law: Callable[..., Array] | None = getattr(laws, name)
-        if law is None:
-            return lambda s, *rest: s
-
+    def checked(name: str, expected: int) -> Callable[..., Array]:
         def called(*arguments: object) -> Array:
-            found = run(trace, law, k, *arguments)
+            found = run(trace, getattr(twin, name), *arguments)
             if np.shape(found) != (expected,):
                 raise Located(
-                    f"law {name} gives an array of shape {np.shape(found)}, expected ({expected},)"
+                    f"{type(controller).__name__}.{name} gives an array of shape {np.shape(found)}, "
+                    f"expected ({expected},)"
                 )
             return found
 
         return called
 
     def estimate(s: Array, m: Measurement) -> Estimate | None:
-        return None if laws.estimate is None else run(trace, laws.estimate, k, s, m)
+        return run(trace, twin.estimate, s, m)
 
-    flow, jump, correct, predict = (traced(name, size) for name in STATE_LAWS)
-    return ControlLaw(traced("output", p), flow, jump, correct, predict, estimate)
-
-
-STATE_LAWS = ("flow", "jump", "correct", "predict")
-"""Those that give the controller's state or its slope."""
+    flow, jump, correct, predict = (
+        checked(name, size) for name in ("flow", "jump", "correct", "predict")
+    )
+    return ControlLaw(checked("output", p), flow, jump, correct, predict, estimate)
 
 
 class SymbolicLoop(NamedTuple):

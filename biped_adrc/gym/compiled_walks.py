@@ -48,7 +48,7 @@ class LoadedWalk(NamedTuple):
 
 def place_of_torque(numbers: WalkerNumbers) -> int:
     """Where the learner's torque is among the numbers of a walker under an `AddedTorque`."""
-    inner = numbers.k.inner  # type: ignore[attr-defined]
+    inner = numbers.controller.inner  # type: ignore[attr-defined]
     return len(floats((numbers.plant, numbers.model, inner)))
 
 

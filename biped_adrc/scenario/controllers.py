@@ -242,10 +242,8 @@ def controller(s: Scenario, gait: Gait, biped: Biped, others: set[str] | None = 
     """
     maker = ControllerMaker(s, gait, biped)
     made = maker.made(s.controller)
-    if type(made).output is Controller.output and made.laws is None:
-        raise InputError(
-            f"controller '{s.controller}' has neither a method output(s, m) nor laws; write one of them"
-        )
+    if type(made).output is Controller.output:
+        raise InputError(f"controller '{s.controller}' has no method output(s, m); write it")
     known = sorted(maker.known - {*BY_ITSELF, "m", "window"})
     for name in s.own:
         if name not in maker.mine and name not in (others or ()):

@@ -25,7 +25,6 @@ import numpy as np
 
 from biped_adrc.closed_loop.stepping_plant import SteppingPlant
 from biped_adrc.closed_loop.walker import Mode, Walker
-from biped_adrc.control.base import controller_laws
 from biped_adrc.engine.run import COMPILED, simulate_by
 from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.gait import Gait
@@ -94,11 +93,11 @@ def rate_of_friction(plant: Biped) -> float:
 
 
 def rate_of_law(walker: Walker) -> float:
-    """Largest |eigenvalue| [1/s] of ds'/ds of a controller with laws, by differences at q = q' = 0; 0 for none.
+    """Largest |eigenvalue| [1/s] of ds'/ds of a controller, by differences at q = q' = 0; 0 for none.
 
     In sampled time no state of a controller flows.
     """
-    if walker.sampled or controller_laws(walker.controller).obstacle:
+    if walker.sampled:
         return 0.0
     still = np.zeros(walker.plant.n)
     try:
