@@ -6,6 +6,7 @@ parts. Python calls their methods on numbers. The engine calls them once on symb
     floats, arrays of floats       numbers, given at run time: new values compile nothing
     whole numbers, flags, texts    structure: another value is another code
     derived                        numbers that are computed once from the fields, such as gains from poles
+    setup                          fields for derived numbers and the start alone, such as a seed
 
 A method that decides by a number (`if x > 0`) has no one form on symbols; it runs in Python. `np.where` decides
 without that.
@@ -14,7 +15,7 @@ without that.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import fields, is_dataclass
+from dataclasses import Field, field, fields, is_dataclass
 from functools import cached_property, lru_cache
 from typing import Any, TypeVar
 
@@ -40,6 +41,19 @@ class derived(cached_property[T]):
         return vars(instance)[name]
 
 
+class Setup:
+    """In place of a field of `setup` where laws run."""
+
+
+SETUP = {"setup": True}
+"""Metadata of a field that no law reads."""
+
+
+def setup(default: Any) -> Any:
+    """A field with this default that no law reads, such as a seed: new values compile nothing."""
+    return field(default=default, metadata=SETUP)
+
+
 def is_part(x: object) -> bool:
     """Whether x is an object of a dataclass."""
     return is_dataclass(x) and not isinstance(x, type)
@@ -47,8 +61,21 @@ def is_part(x: object) -> bool:
 
 def content(part: Any) -> dict[str, Any]:
     """The fields of a part, then its derived numbers, by name."""
-    names = [f.name for f in fields(part)]
-    return {name: getattr(part, name) for name in (*names, *derived_names(type(part)))}
+    found = {f.name: _value(f, getattr(part, f.name)) for f in fields(part)}
+    return found | {name: getattr(part, name) for name in derived_names(type(part))}
+
+
+def _value(f: Field[Any], x: Any) -> Any:
+    """What laws find in a field: floats where the annotation says so and whole numbers were written."""
+    if f.metadata.get("setup"):
+        return Setup()
+    return _as_floats(x) if "float" in str(f.type) else x
+
+
+def _as_floats(x: Any) -> Any:
+    if type(x) in (tuple, list):
+        return type(x)(map(_as_floats, x))
+    return float(x) if type(x) is int else x
 
 
 def with_content(part: T, values: Mapping[str, Any], cls: type | None = None) -> T:

@@ -25,12 +25,13 @@ from collections.abc import Mapping
 from enum import Enum
 from functools import lru_cache
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.engine.symbols import Untraceable
+from biped_adrc.engine.symbols import HIDDEN, Untraceable
 from biped_adrc.engine.tracer import names_of
+from biped_adrc.part import content, is_part
 from biped_adrc.versions import NEVER_TRACED, packages, source_text
 
 _PACKAGE = __name__.partition(".")[0]
@@ -71,15 +72,20 @@ def structure_text(tree: object) -> str:
 
     ints, texts and flags are part of it; floats and float arrays are replaced by their shapes.
     """
-    if isinstance(tree, tuple | list):
-        names = getattr(tree, "_fields", range(len(tree)))
-        inside = ", ".join(
-            f"{name}={structure_text(x)}" for name, x in zip(names, tree, strict=True)
-        )
+    if isinstance(tree, HIDDEN):
+        return "hidden"
+    if isinstance(tree, tuple | list) or is_part(tree):
+        whole = content(tree) if is_part(tree) else _items(tree)
+        inside = ", ".join(f"{name}={structure_text(x)}" for name, x in whole.items())
         return f"{_class_text(type(tree))}({inside})"
     if isinstance(tree, np.ndarray) and tree.dtype.kind == "f":
         return f"float{tree.shape}"
     return "float" if isinstance(tree, float | np.floating) else law_text(tree)
+
+
+def _items(tree: Any) -> dict[object, object]:
+    """What is in a tuple or list, by name or place."""
+    return dict(zip(getattr(tree, "_fields", range(len(tree))), tree, strict=True))
 
 
 def _class_text(cls: type) -> str:

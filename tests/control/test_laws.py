@@ -13,7 +13,6 @@ from biped_adrc.control.delayed import Delayed
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.passive import Passive
-from biped_adrc.disturbances.base import Disturbance, disturbance_laws
 from biped_adrc.gait.constraint import CorrectedConstraint
 from biped_adrc.gait.reference import Reference, ReferenceLaws
 from biped_adrc.observers.base import Observer, ObserverLaws
@@ -164,12 +163,3 @@ def test_what_has_no_law_says_so(biped, gait):
     (m, _), *_ = measurements(biped, gait)
     s = adrc.initial_state(m)
     assert not np.any(own.flow(own.parameters, s, m, np.zeros(4)))
-
-    class Brake(Disturbance):
-        """A torque of which nothing is known."""
-
-        def torque(self, t, step, t_start, q, v):
-            return -v
-
-    last = disturbance_laws(ba.TorquePulse([1.0] * 5) + Brake())[-1]
-    assert last.obstacle == "disturbance Brake has no laws of arrays"

@@ -10,7 +10,7 @@ import numpy as np
 
 import biped_adrc as ba
 from biped_adrc.control.base import ControllerLaws
-from biped_adrc.disturbances.base import DisturbanceLaw, Windowed
+from biped_adrc.disturbances.base import Windowed
 from biped_adrc.gait.constraint import ConstraintParameters, virtual_constraint
 from biped_adrc.observers.base import Estimate, ObserverLaws, rows
 from biped_adrc.observers.chain import ChainObserver, chain_estimate, chain_reset, chain_state
@@ -219,31 +219,15 @@ class OwnPush(ba.Disturbance):
         return self.amplitude * math.exp(-self.rate * t) - 0.2 * v
 
 
-class OwnPushParameters(NamedTuple):
-    """Of the law."""
-
-    amplitude: Any
-    rate: float
-
-
-def own_push(k: OwnPushParameters, t: float, step: int, t_start: float, q: Any, v: Any) -> Any:
-    """zeta (n,) [N m]."""
-    return k.amplitude * math.exp(-k.rate * (t - t_start)) - 0.2 * v
-
-
 @dataclass(frozen=True)
 class OwnLawPush(ba.Disturbance):
-    """The same with a law."""
+    """The same from the start of each single support."""
 
     amplitude: Any
     rate: float
 
     def torque(self, t: float, step: int, t_start: float, q: Any, v: Any) -> Any:
-        return own_push(OwnPushParameters(self.amplitude, self.rate), t, step, t_start, q, v)
-
-    @property
-    def laws(self) -> tuple[DisturbanceLaw, ...]:
-        return (DisturbanceLaw(OwnPushParameters(self.amplitude, self.rate), own_push),)
+        return self.amplitude * math.exp(-self.rate * (t - t_start)) - 0.2 * v
 
 
 @dataclass(frozen=True)
