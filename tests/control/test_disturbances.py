@@ -1,6 +1,7 @@
 """Forces on links and band-limited noise: by Pinocchio's frames, by virtual work, by spectra, and compiled."""
 
 import itertools
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pinocchio as pin
@@ -12,6 +13,8 @@ from biped_adrc.disturbances.base import Sum
 from biped_adrc.disturbances.hip_force import HipForce
 from biped_adrc.disturbances.link import OnLink
 from biped_adrc.disturbances.noise import TorqueNoise
+from biped_adrc.disturbances.recorded import RecordedTorque
+from biped_adrc.engine.compiled_walker import term_code
 from biped_adrc.errors import InputError
 from biped_adrc.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.model.pinned import frame_index
@@ -135,6 +138,75 @@ def test_pure_moments_leave_the_ground_alone_and_forces_do_not(robot):
         expected = biped.mass * (com + np.array([0.0, biped.description.gravity])) - f[:2]
         found = walker.ground_reaction(i, ba.Mode())
         assert found == pytest.approx(expected, rel=1e-5, abs=1e-4 * biped.weight)
+
+
+# -- machine code ----------------------------------------------------------------------------------
+@dataclass(frozen=True)
+class Wind(ba.Disturbance):
+    """A torque on the torso and drag on all coordinates, in plain Python."""
+
+    amplitude: float = 5.0
+
+    def torque(self, t, step, t_start, q, v):
+        on_torso = np.array([0.0, 0.0, 0.0, 0.0, 1.0])
+        return self.amplitude * on_torso * np.sin(t + q[4]) - 0.1 * v
+
+
+@dataclass(frozen=True)
+class Gust(Wind):
+    """The same from a single support on."""
+
+    since: float = 2.0
+
+    def acts(self, t, step, t_start):
+        return 1.0 * (step >= self.since)
+
+
+@dataclass(frozen=True)
+class Bump(ba.WindowedTorque):
+    """Half a sine wave over [start, stop)."""
+
+    def profile(self, s):
+        return np.sin(np.pi * s / (self.stop - self.start))
+
+
+@pytest.mark.parametrize(
+    "own", [Wind(), Gust(), Gust() + Bump([0.0, 0.0, 0.0, 0.0, 9.0], 1, 0.1, 0.2)]
+)
+def test_a_disturbance_in_plain_python_is_compiled(biped, gait, own):
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), own)
+    one, other = (
+        ba.walk(walker, gait, 2, ba.RK4(2e-3), engine=engine).trajectory
+        for engine in ("compiled", "pinocchio")
+    )
+    assert one.settings["engine"] == "compiled"
+    np.testing.assert_allclose(one.final_state, other.final_state, rtol=0.0, atol=1e-9)
+    plain = replace(walker, disturbance=None)
+    still = ba.walk(plain, gait, 2, ba.RK4(2e-3)).trajectory.final_state
+    assert np.max(np.abs(one.final_state - still)) > 1e-4
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda biped: [
+            ba.TorquePulse([1.0] * 5),
+            ba.TorquePulse([2.0] * 5, step=3, start=1, stop=2, rise=0.1),
+        ],
+        lambda biped: [ba.TorqueStep([1.0] * 5), ba.TorqueStep([2.0] * 5, step=3, start=0.1)],
+        lambda biped: [
+            TorqueNoise([1.0] * 5, bandwidth=10, seed=seed, step=seed) for seed in (1, 2)
+        ],
+        lambda biped: [HipForce(biped, (-3, 1)), HipForce(biped, (2.0, 0.5), steps=(2, 3))],
+        lambda biped: [
+            OnLink(biped, "torso", PULSE),
+            OnLink(biped, "right_shin", replace(PULSE, step=None), (0.1, 0.2)),
+        ],
+        lambda biped: RecordedTorque(np.arange(40.0), np.zeros((40, 5))).terms,
+    ],
+)
+def test_disturbances_that_differ_in_numbers_share_one_machine_code(biped, make):
+    assert len({term_code(term, 5).addresses["torque"] for term in make(biped)}) == 1
 
 
 # -- noise -----------------------------------------------------------------------------------------
