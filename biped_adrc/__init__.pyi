@@ -26,7 +26,6 @@ from biped_adrc.control.tracking import tracked_laws as tracked_laws
 from biped_adrc.deploy.export import export_c as export_c
 from biped_adrc.deploy.loaded import ExportedController as ExportedController
 from biped_adrc.disturbances.base import Disturbance as Disturbance
-from biped_adrc.disturbances.base import DisturbanceLaw as DisturbanceLaw
 from biped_adrc.disturbances.base import WindowedTorque as WindowedTorque
 from biped_adrc.disturbances.hip_force import HipForce as HipForce
 from biped_adrc.disturbances.link import OnLink as OnLink

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from abc import ABC
 from collections.abc import Iterator, Mapping
-from dataclasses import field, fields, is_dataclass
+from dataclasses import Field, field, fields, is_dataclass
 from functools import cached_property, lru_cache
 from typing import Any, TypeVar
 
@@ -52,9 +52,13 @@ class Setup:
     """In place of a field of `setup` where laws run."""
 
 
+SETUP = {"setup": True}
+"""Metadata of a field that no law reads."""
+
+
 def setup(default: Any) -> Any:
     """A field with this default that no law reads, such as a seed: new values compile nothing."""
-    return field(default=default, metadata={"setup": True})
+    return field(default=default, metadata=SETUP)
 
 
 def is_part(x: object) -> bool:
@@ -64,10 +68,21 @@ def is_part(x: object) -> bool:
 
 def content(part: Any) -> dict[str, Any]:
     """The fields of a part, then its derived numbers, by name."""
-    found = {
-        f.name: Setup() if f.metadata.get("setup") else getattr(part, f.name) for f in fields(part)
-    }
+    found = {f.name: _value(f, getattr(part, f.name)) for f in fields(part)}
     return found | {name: getattr(part, name) for name in derived_names(type(part))}
+
+
+def _value(f: Field[Any], x: Any) -> Any:
+    """What laws find in a field: floats where the annotation says so and whole numbers were written."""
+    if f.metadata.get("setup"):
+        return Setup()
+    return _as_floats(x) if "float" in str(f.type) else x
+
+
+def _as_floats(x: Any) -> Any:
+    if type(x) in (tuple, list):
+        return type(x)(map(_as_floats, x))
+    return float(x) if type(x) is int else x
 
 
 def with_content(part: T, values: Mapping[str, Any], cls: type | None = None) -> T:

@@ -36,7 +36,7 @@ def test_the_power_of_the_force_is_force_times_the_velocity_of_the_hip(bare):
         q, v = random.uniform(-3, 3, 5), random.uniform(-1, 1, 5)
         hip_velocity = (bare.hip(q + d * v) - bare.hip(q - d * v)) / (2 * d)
         F = random.uniform(-50, 50, 2)
-        zeta = HipForce(bare, tuple(F)).torque(0.0, 1, 0.0, q, v)
+        zeta = HipForce(bare, tuple(F)).zeta(0.0, 1, 0.0, q, v)
         assert zeta @ v == pytest.approx(F @ hip_velocity, rel=1e-7)
 
 

@@ -179,14 +179,13 @@ class ClosedLoop(HybridSystem, Generic[P]):
         """
         if self.disturbance is None:
             return np.zeros(self.plant.n)
-        zeta = self.disturbance.torque(t, mode.step, mode.start, q, v)
-        return returned(zeta, q.shape, self.disturbance, "torque")
+        return self.disturbance.zeta(t, mode.step, mode.start, q, v)
 
     def resultant(self, t: float, mode: Mode) -> Array:
         """Force from outside on the robot as a whole (2,) [N] at t [s]; needed for the ground reaction."""
         if self.disturbance is None:
             return np.zeros(2)
-        return self.disturbance.resultant(t, mode.step, mode.start)
+        return self.disturbance.net_force(t, mode.step, mode.start)
 
     def switching_times(self, mode: Mode) -> tuple[float, ...]:
         """Times [s] at which the disturbance is not smooth; no step of the integrator goes across one."""

@@ -4,60 +4,26 @@
 amplitude (3,). The force has the world's axes, not the link's. It enters the unactuated row too, and the ground
 carries m (p_com'' - g) - F.
 
-The wave is a function of time that knows nothing of links: its law gives three numbers in place of n torques,
-and `link_law` multiplies them by J(q)'. So every wave of the package, and one of the user's own, pushes a link
-without code here, in both engines.
+The wave is a function of time that knows nothing of links: its `torque` gives three numbers in place of n
+torques, which are multiplied by J(q)'. So every wave of the package, and one of the user's own, pushes a link.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from functools import cached_property, lru_cache
-from typing import NamedTuple
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw, Windowed, disturbance_laws
+from biped_adrc.disturbances.base import Disturbance, Windowed
 from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import LinkPoint, link_point, wrench_torque
+from biped_adrc.part import SETUP, derived, setup
 from biped_adrc.types import Array
-
-
-class LinkParameters(NamedTuple):
-    """point: p(q) of the link and its J in closed form. wave: the parameters of the wave's own law."""
-
-    point: LinkPoint
-    wave: object
-
 
 AT_REST = np.zeros(3), np.zeros(3)
 """What a wave is given for q and q', each (3,): it is a function of time."""
-
-
-@lru_cache(maxsize=64)
-def link_law(wave: DisturbanceLaw) -> DisturbanceLaw:
-    """The law of a force and a moment that go as a wave does, both without their parameters.
-
-    Cached by the wave's functions: pushes that differ in numbers alone have the same law, hence one machine
-    code.
-    """
-    torque, active = wave.torque, wave.active
-
-    def on_coordinates(
-        k: LinkParameters, t: float, step: int, t_start: float, q: Array, v: Array
-    ) -> Array:
-        """J(q)' (F_x, F_z, M) (n,) [N m]."""
-        return wrench_torque(k.point, q, torque(k.wave, t, step, t_start, *AT_REST))
-
-    def force(k: LinkParameters, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        return torque(k.wave, t, step, t_start, *AT_REST)[:2]
-
-    def acts(k: LinkParameters, t: float, step: int, t_start: float) -> float:
-        return 1.0 if active is None else active(k.wave, t, step, t_start)
-
-    return DisturbanceLaw(None, on_coordinates, resultant=force, active=acts)
 
 
 @dataclass(frozen=True)
@@ -71,9 +37,9 @@ class OnLink(Disturbance):
     """
 
     biped: Biped
-    link: str
+    link: str = field(metadata=SETUP)
     wave: Windowed
-    at: tuple[float, float] | None = None
+    at: tuple[float, float] | None = setup(None)
 
     def __post_init__(self) -> None:
         if not isinstance(self.wave, Windowed):
@@ -93,23 +59,21 @@ class OnLink(Disturbance):
             )
         _ = self.point
 
-    @cached_property
+    @derived
     def point(self) -> LinkPoint:
         """Where it acts, in closed form: p(q) (2,) [m] and its Jacobian."""
         return link_point(self.biped, self.link, self.at)
 
-    def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
-        """Those of the wave [s]."""
-        return self.wave.switching_times(step, t_start)
-
     @property
-    def laws(self) -> tuple[DisturbanceLaw, ...]:
-        """A law for each of the wave's, which says itself why it does not compile where it does not."""
-        return tuple(
-            link_law(law._replace(parameters=None, switches=(), obstacle=""))._replace(
-                parameters=LinkParameters(self.point, law.parameters),
-                switches=law.switches,
-                obstacle=law.obstacle,
-            )
-            for law in disturbance_laws(self.wave)
-        )
+    def switches(self) -> tuple[tuple[int, float], ...]:
+        return self.wave.switches
+
+    def acts(self, t: float, step: int, t_start: float) -> float:
+        return self.wave.acts(t, step, t_start)
+
+    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        """J(q)' (F_x, F_z, M) (n,) [N m]."""
+        return wrench_torque(self.point, q, self.wave.torque(t, step, t_start, *AT_REST))
+
+    def resultant(self, t: float, step: int, t_start: float) -> Array:
+        return self.wave.torque(t, step, t_start, *AT_REST)[:2]

@@ -13,37 +13,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.disturbances.base import (
-    DisturbanceLaw,
-    Windowed,
-    WindowParameters,
-    onset,
-    window_acts,
-)
+from biped_adrc.disturbances.base import Windowed
 from biped_adrc.errors import check_positive, check_whole
+from biped_adrc.part import SETUP, derived
 from biped_adrc.types import Array
-
-
-class NoiseParameters(NamedTuple):
-    """The window, and f [Hz] and phi [rad] of the sines, each (n, K): a row for each coordinate."""
-
-    window: WindowParameters
-    frequencies: Array
-    phases: Array
-
-
-def noise_torque(
-    k: NoiseParameters, t: float, step: int, t_start: float, q: Array, v: Array
-) -> Array:
-    """zeta (n,) [N m] of the module's equation at t [s], asked for in the window alone."""
-    s, count = t - onset(k.window, t_start), k.frequencies.shape[1]
-    total = np.sin(2.0 * math.pi * k.frequencies * s + k.phases).sum(axis=1)
-    return k.window.amplitude * math.sqrt(2.0 / count) * total
 
 
 @dataclass(frozen=True)
@@ -57,7 +33,7 @@ class TorqueNoise(Windowed):
 
     bandwidth: float = field(kw_only=True)
     """[Hz]; the spectrum is flat below it, and zero above."""
-    seed: int = field(kw_only=True)
+    seed: int = field(kw_only=True, metadata=SETUP)
     """Of frequencies and phases; trials of a study have seeds of their own."""
     sines: int = field(default=32, kw_only=True)
     """K, per coordinate."""
@@ -68,14 +44,14 @@ class TorqueNoise(Windowed):
         check_whole(self.seed, f"noise seed is {self.seed}")
         check_whole(self.sines, f"noise sines is {self.sines}", 1)
 
-    @cached_property
-    def parameters(self) -> NoiseParameters:
-        """What the law `noise_torque` takes: frequencies and phases drawn once, from the seed."""
+    @derived
+    def drawn(self) -> tuple[Array, Array]:
+        """f [Hz] and phi [rad] of the sines, each (n, K): a row for each coordinate."""
         random, shape = np.random.default_rng(self.seed), (len(self.amplitude), self.sines)
         part = np.arange(self.sines) + random.uniform(size=shape)
-        frequencies = self.bandwidth * part / self.sines
-        return NoiseParameters(self.window, frequencies, random.uniform(0.0, 2.0 * math.pi, shape))
+        return self.bandwidth * part / self.sines, random.uniform(0.0, 2.0 * math.pi, shape)
 
-    @property
-    def windowed(self) -> DisturbanceLaw:
-        return DisturbanceLaw(self.parameters, noise_torque, active=window_acts)
+    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        s, (frequencies, phases) = t - self.onset(t_start), self.drawn
+        total = np.sin(2.0 * math.pi * frequencies * s + phases).sum(axis=1)
+        return self.amplitude * math.sqrt(2.0 / self.sines) * total

@@ -11,42 +11,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.disturbances.base import (
-    DisturbanceLaw,
-    Windowed,
-    WindowParameters,
-    onset,
-    window_acts,
-)
+from biped_adrc.disturbances.base import Windowed
 from biped_adrc.errors import InputError
+from biped_adrc.part import derived
 from biped_adrc.types import Array
-
-
-class PulseParameters(NamedTuple):
-    """window: when the torque is not zero, rise included. rise [s] of an edge, width [s] from edge to edge."""
-
-    window: WindowParameters
-    rise: float
-    width: float
-
-
-def pulse_torque(
-    k: PulseParameters, t: float, step: int, t_start: float, q: Array, v: Array
-) -> Array:
-    """zeta (n,) [N m] at t [s], asked for in the window alone.
-
-    Both forms, with edges and with a rise, are computed and one is taken: machine code has no branch here.
-    """
-    s = t - onset(k.window, t_start)
-    sloping = k.rise > 0.0
-    rise = np.where(sloping, k.rise, 1.0)
-    up, down = np.minimum(s / rise, 1.0), np.clip((s - k.width) / rise, 0.0, 1.0)
-    return np.where(sloping, up - down, 1.0) * k.window.amplitude
 
 
 @dataclass(frozen=True)
@@ -64,15 +35,30 @@ class TorquePulse(Windowed):
         if not (math.isfinite(self.rise) and self.rise >= 0):
             raise InputError(f"pulse rise is {self.rise} s, expected a finite number >= 0")
 
-    @cached_property
-    def parameters(self) -> PulseParameters:
-        """What the law `pulse_torque` takes; its window ends when the falling edge has come to zero."""
-        rise, width = float(self.rise), float(self.stop) - float(self.start)
-        return PulseParameters(self.window._replace(stop=float(self.stop) + rise), rise, width)
+    @derived
+    def width(self) -> float:
+        """[s] from edge to edge."""
+        return float(self.stop) - float(self.start)
+
+    @derived
+    def end(self) -> float:
+        """When the falling edge has come to zero [s], counted as `start`."""
+        return float(self.stop) + float(self.rise)
+
+    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        """The module's equation.
+
+        Both forms, with edges and with a rise, are computed and one is taken: machine code has no branch here.
+        """
+        s = t - self.onset(t_start)
+        sloping = self.rise > 0.0
+        rise = np.where(sloping, self.rise, 1.0)
+        up, down = np.minimum(s / rise, 1.0), np.clip((s - self.width) / rise, 0.0, 1.0)
+        return np.where(sloping, up - down, 1.0) * self.amplitude
 
     @property
     def switches(self) -> tuple[tuple[int, float], ...]:
-        """As `DisturbanceLaw.switches`: the four corners, two where the edges are vertical.
+        """The four corners, two where the edges are vertical.
 
         With a rise the torque has corners and no jumps; integrators stop there too, since rises are short.
         """
@@ -80,7 +66,3 @@ class TorquePulse(Windowed):
         rises = (0.0, float(self.rise)) if self.rise > 0 else (0.0,)
         corners = (end + rise for end in (float(self.start), float(self.stop)) for rise in rises)
         return tuple((step, s) for s in corners if math.isfinite(s))
-
-    @property
-    def windowed(self) -> DisturbanceLaw:
-        return DisturbanceLaw(self.parameters, pulse_torque, active=window_acts)

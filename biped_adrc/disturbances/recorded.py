@@ -5,28 +5,22 @@
 A corner at a row is no switching time: a step of integration may go across it, since zeta does not jump there.
 Where it does jump, at the first row and at the last, none does.
 
-A recording may have thousands of rows, while machine code has arrays of a fixed length. So it is cut into parts
-of `PIECES` straight pieces, one law each, of which one acts at a time; all parts share one machine code.
+A recording may have thousands of rows, while machine code has arrays of a fixed length. So it is cut into terms
+of `PIECES` straight pieces each, of which one acts at a time; all of them share one machine code.
 """
 
 from __future__ import annotations
 
 import csv
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.disturbances.base import (
-    Disturbance,
-    DisturbanceLaw,
-    WindowParameters,
-    onset,
-    window_acts,
-)
+from biped_adrc.disturbances.base import Disturbance, Windowed
 from biped_adrc.errors import InputError, check_count
 from biped_adrc.files import number_in, reading
 from biped_adrc.model.biped import Biped
@@ -34,28 +28,25 @@ from biped_adrc.parts import check_part, numbers
 from biped_adrc.types import Array, read_only
 
 PIECES = 16
-"""Straight pieces in one law; a recording has as many laws as it needs, of which one acts at a time."""
+"""Straight pieces in one term of a recording."""
 
 
-class RecordedParameters(NamedTuple):
-    """One part of the recording.
+@dataclass(frozen=True)
+class Lines(Windowed):
+    """One term of a recording, in its window; amplitude (n,) [N m] is the torque where it opens.
 
-    window: its time, and as amplitude (n,) [N m] the torque where it opens. begin, width (PIECES,) [s]: of its
-    pieces, counted from where it opens; slopes (n, PIECES) [N m/s]. Pieces that it has not are of width 0.
+    begin, width (PIECES,) [s]: of its pieces, counted from where it opens; slopes (n, PIECES) [N m/s]. Pieces
+    that it has not are of width 0.
     """
 
-    window: WindowParameters
-    begin: Array
-    width: Array
-    slopes: Array
+    begin: Array = field(kw_only=True)
+    width: Array = field(kw_only=True)
+    slopes: Array = field(kw_only=True)
 
-
-def recorded_torque(
-    k: RecordedParameters, t: float, step: int, t_start: float, q: Array, v: Array
-) -> Array:
-    """zeta (n,) [N m] in the window: the torque where it opens, and what each piece passed has added."""
-    s = t - onset(k.window, t_start)
-    return k.window.amplitude + k.slopes @ np.clip(s - k.begin, 0.0, k.width)
+    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        """zeta (n,) [N m]: the torque where it opens, and what each piece passed has added."""
+        s = t - self.onset(t_start)
+        return self.amplitude + self.slopes @ np.clip(s - self.begin, 0.0, self.width)
 
 
 @dataclass(frozen=True)
@@ -126,27 +117,27 @@ class RecordedTorque(Disturbance):
 
     @property
     def switches(self) -> tuple[tuple[int, float], ...]:
-        """As `DisturbanceLaw.switches`: where it begins and ends."""
+        """Where it begins and ends."""
         return tuple((self.step or 0, float(self.start + t)) for t in self.times[[0, -1]])
 
-    @property
-    def laws(self) -> tuple[DisturbanceLaw, ...]:
-        """One for each part of `PIECES` pieces; the first one knows where the whole begins and ends."""
+    @cached_property
+    def terms(self) -> tuple[Disturbance, ...]:
+        """`Lines` of `PIECES` pieces each."""
         ends = [*range(0, len(self.times) - 1, PIECES), len(self.times) - 1]
-        laws = [DisturbanceLaw(self._part(*part), recorded_torque) for part in pairwise(ends)]
-        first, *rest = (law._replace(active=window_acts) for law in laws)
-        return (first._replace(switches=self.switches), *rest)
+        return tuple(self._lines(*part) for part in pairwise(ends))
 
-    def _part(self, first: int, last: int) -> RecordedParameters:
-        """The parameters of the pieces from one row to another."""
+    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        return self.zeta(t, step, t_start, q, v)
+
+    def _lines(self, first: int, last: int) -> Lines:
+        """The pieces from one row to another."""
         t, zeta = self.times[first : last + 1], self.torques[first : last + 1]
         begin, width = np.zeros(PIECES), np.zeros(PIECES)
         slopes = np.zeros((zeta.shape[1], PIECES))
         begin[: len(t) - 1], width[: len(t) - 1] = t[:-1] - t[0], np.diff(t)
         slopes[:, : len(t) - 1] = (np.diff(zeta, axis=0) / np.diff(t)[:, np.newaxis]).T
         opens, closes = float(self.start + t[0]), float(self.start + t[-1])
-        window = WindowParameters(zeta[0].copy(), float(self.step or 0), opens, closes)
-        return RecordedParameters(window, begin, width, slopes)
+        return Lines(zeta[0], self.step, opens, closes, begin=begin, width=width, slopes=slopes)
 
 
 def check_rows(times: Array, torques: Array, names: list[str]) -> None:

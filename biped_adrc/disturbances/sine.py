@@ -9,34 +9,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.disturbances.base import (
-    DisturbanceLaw,
-    Windowed,
-    WindowParameters,
-    onset,
-    window_acts,
-)
+from biped_adrc.disturbances.base import Windowed
 from biped_adrc.errors import check_positive
 from biped_adrc.types import Array
-
-
-class SineParameters(NamedTuple):
-    """window: when it acts, and its amplitude (n,) [N m]. frequency: f [Hz]."""
-
-    window: WindowParameters
-    frequency: float
-
-
-def sine_torque(
-    k: SineParameters, t: float, step: int, t_start: float, q: Array, v: Array
-) -> Array:
-    """zeta (n,) [N m] of the module's equation at t [s], asked for in the window alone."""
-    s = t - onset(k.window, t_start)
-    return k.window.amplitude * np.sin(2.0 * math.pi * k.frequency * s)
 
 
 @dataclass(frozen=True)
@@ -52,11 +30,6 @@ class TorqueSine(Windowed):
         super().__post_init__()
         check_positive(self.frequency, f"sine frequency is {self.frequency} Hz")
 
-    @property
-    def parameters(self) -> SineParameters:
-        """What the law `sine_torque` takes."""
-        return SineParameters(self.window, float(self.frequency))
-
-    @property
-    def windowed(self) -> DisturbanceLaw:
-        return DisturbanceLaw(self.parameters, sine_torque, active=window_acts)
+    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        s = t - self.onset(t_start)
+        return self.amplitude * np.sin(2.0 * math.pi * self.frequency * s)

@@ -9,22 +9,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from biped_adrc.disturbances.base import DisturbanceLaw, Windowed, WindowParameters, within
+from biped_adrc.disturbances.base import Windowed
 from biped_adrc.errors import InputError
 from biped_adrc.types import Array
-
-
-def step_torque(
-    k: WindowParameters, t: float, step: int, t_start: float, q: Array, v: Array
-) -> Array:
-    """zeta (n,) [N m]: the amplitude, asked for from onset on alone."""
-    return 1.0 * k.amplitude
-
-
-def step_acts(k: WindowParameters, t: float, step: int, t_start: float) -> float:
-    """Above 0 from onset on, in all later steps too, whose windows `within` does not know."""
-    later: float = 1.0 * (k.step > 0) * (step > k.step)
-    return later + within(k, t, step, t_start)
 
 
 @dataclass(frozen=True)
@@ -39,7 +26,10 @@ class TorqueStep(Windowed):
         if self.stop != float("inf"):
             raise InputError("a torque step has no stop; use TorquePulse for a window")
 
-    @property
-    def windowed(self) -> DisturbanceLaw:
-        """The law, whose own `active` goes on past the end of the step."""
-        return DisturbanceLaw(self.window, step_torque, active=step_acts)
+    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        return 1.0 * self.amplitude
+
+    def acts(self, t: float, step: int, t_start: float) -> float:
+        """Above 0 from onset on, in all later steps too."""
+        later = 1.0 * (self.support > 0) * (step > self.support)
+        return later + super().acts(t, step, t_start)

@@ -1,6 +1,6 @@
 """What acts from outside on a plant that moves by itself, asked for in one state or at many.
 
-`PythonPush` asks the loop's disturbance, `CompiledPush` its laws in machine code (`engine.compiled_walker`);
+`PythonPush` asks the loop's disturbance, `CompiledPush` its terms in machine code (`engine.compiled_walker`);
 both give the same.
 """
 
@@ -16,10 +16,9 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import Load
-from biped_adrc.disturbances.base import Disturbance, disturbance_laws
+from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.compiled_biped import pointer_call
-from biped_adrc.engine.compiled_walker import disturbance_code
-from biped_adrc.engine.program import NotCompiled
+from biped_adrc.engine.compiled_walker import term_code
 from biped_adrc.engine.symbols import floats
 from biped_adrc.types import Array
 
@@ -54,19 +53,17 @@ class PythonPush:
 
 
 class CompiledPush:
-    """By the laws of a disturbance. Raises NotCompiled for one without.
+    """By the machine code of a disturbance. Raises NotCompiled for one without.
 
-    law(K, inp, out) is called for each torque and each resultant; the rows of `out` are (zeta, force) (n + 2,).
+    f(K, inp, out) is called for each torque and each resultant; the rows of `out` are (zeta, force) (n + 2,).
     """
 
     def __init__(self, loop: SteppingLoop, disturbance: Disturbance):
-        n, laws = loop.plant.n, disturbance_laws(disturbance)
-        if why := next((law.obstacle for law in laws if law.obstacle), ""):
-            raise NotCompiled(why)
+        n, terms = loop.plant.n, disturbance.terms
         self.loop, self.inp = loop, np.zeros(3 + 2 * n)
-        self.codes = [disturbance_code(law, n) for law in laws]
-        self.K = [np.array([*floats(law.parameters), 0.0]) for law in laws]
-        self.out = np.zeros((len(laws), n + 2))
+        self.codes = [term_code(term, n) for term in terms]
+        self.K = [np.array([*floats(term), 0.0]) for term in terms]
+        self.out = np.zeros((len(terms), n + 2))
         given, places = self.inp.ctypes.data, {"torque": 0, "resultant": n}
         self.calls = [
             (_LAW(code.addresses[name]), (K.ctypes.data, given, row[at:].ctypes.data))

@@ -1,14 +1,14 @@
 """A walker, a one-step method and a disturbance, made ready for the compiled loops.
 
 Three things come together here: the program of the walker (`engine.program`: flow, tick, strike,
-..), the matrices or tolerances of the method (`engine.kernels.methods`), and the laws of the
+..), the matrices or tolerances of the method (`engine.kernels.methods`), and the terms of the
 disturbance, which are compiled by themselves so that another disturbance does not recompile the
 walker. The result is a `RunPlan`, which the kernels take.
 
-The laws of disturbances are functions `void f(double* K, double* inp, double* out)`: inp is (t,
-step, t_start, q, v), out zeta (n,) [N m] or the force (2,) [N]. A law's `active` is evaluated
-first: where it is not above 0, out is zero and the rest is not computed, since most pushes act for
-a small part of a walk.
+The methods `torque` and `resultant` of a term become functions `void f(double* K, double* inp,
+double* out)`: K its numbers, inp (t, step, t_start, q, v), out zeta (n,) [N m] or the force (2,)
+[N]. Its method `acts` is evaluated first: where it is not above 0, out is zero and the rest is not
+computed, since most pushes act for a small part of a walk.
 
 What cannot be compiled raises `NotCompiled` with the reason; `engine.simulate` then runs in Python
 on the compiled plant.
@@ -20,18 +20,18 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from operator import methodcaller
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from biped_adrc.closed_loop.exponential_form import SplitLaws
 from biped_adrc.closed_loop.walker import LEAST_STEP, Walker
 from biped_adrc.composed import written_over
 from biped_adrc.control.passive import Passive
-from biped_adrc.disturbances.base import Disturbance, DisturbanceLaw, disturbance_laws
+from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.equations import SymbolicFunction, count
-from biped_adrc.engine.fingerprint import hash_of, law_text, structure_text, versions_text
+from biped_adrc.engine.fingerprint import hash_of, structure_text, versions_text
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.kernels import methods
 from biped_adrc.engine.kernels.run_plan import (
@@ -48,7 +48,6 @@ from biped_adrc.engine.machine import LoadedCode, ModuleText, remembered
 from biped_adrc.engine.program import NotCompiled, Program
 from biped_adrc.engine.symbols import Untraceable, Vector, column, floats
 from biped_adrc.engine.tracer import Tracer, run
-from biped_adrc.errors import InputError
 from biped_adrc.hybrid.exponential import no_coordinates
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.timing import LONGEST_PERIOD, SampledTime
@@ -188,23 +187,19 @@ def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, Me
 
 
 def _push(disturbance: Disturbance | None, n: int) -> DisturbanceTable:
-    """The laws of a disturbance as addresses and numbers; none without a disturbance.
+    """The terms of a disturbance as addresses and numbers; none without a disturbance.
 
-    Raises NotCompiled for a part that is a method in plain Python, with its obstacle.
+    Raises NotCompiled, with the reason, where one has no machine code.
     """
     if disturbance is None:
         return DisturbanceTable()
-    laws = disturbance_laws(disturbance)
-    for law in laws:
-        if law.obstacle:
-            raise NotCompiled(f"{law.obstacle}; the run goes on in Python on the compiled plant")
-    codes = [disturbance_code(law, n) for law in laws]
-    numbers = [np.array([*floats(law.parameters), 0.0]) for law in laws]
+    codes = [term_code(term, n) for term in disturbance.terms]
+    numbers = [np.array([*floats(term), 0.0]) for term in disturbance.terms]
     return DisturbanceTable(
         np.array([code.addresses["torque"] for code in codes], dtype=np.int64),
         np.concatenate([np.zeros(0), *numbers]),
         np.cumsum([0, *(len(k) for k in numbers)]),
-        np.array([switch for law in laws for switch in law.switches]).reshape(-1, 2),
+        np.array(disturbance.switches).reshape(-1, 2),
         tuple(code.addresses.get("resultant", 0) for code in codes),
     )
 
@@ -212,7 +207,7 @@ def _push(disturbance: Disturbance | None, n: int) -> DisturbanceTable:
 GUARDED = """
 define void @{name}(ptr %K, ptr %inp, ptr %out) nounwind {{
   %flag = alloca double
-  call void @active(ptr %K, ptr %inp, ptr %flag)
+  call void @acts(ptr %K, ptr %inp, ptr %flag)
   %a = load double, ptr %flag
   %acts = fcmp ogt double %a, 0.0
   br i1 %acts, label %act, label %rest
@@ -224,69 +219,57 @@ rest:
   ret void
 }}
 """
-"""A function that looks at `active` first."""
+"""A function that looks at `acts` first."""
 
 
-Part = tuple[Callable[..., Array], int]
-"""A law, and how many numbers it gives."""
+def term_code(term: Disturbance, n: int) -> LoadedCode:
+    """Machine code with the functions `torque` and, where the class writes it, `resultant`, for n coordinates.
 
-
-def disturbance_code(law: DisturbanceLaw, n: int) -> LoadedCode:
-    """Machine code with the functions `torque` and, where there is one, `resultant`, for n coordinates.
-
-    Raises NotCompiled for a law that cannot be traced, with the reason.
+    Raises NotCompiled for a term that cannot be traced, with the reason.
     """
-    given = _given(law, n)
     try:
-        texts = [law_text(part[0]) for part in given.values()]
-        texts += [law_text(law.active), structure_text(law.parameters), versions_text()]
-        key = hash_of("disturbance", n, *given, *texts)
-        return remembered(key, list(given), lambda: _text(law, given, n))
+        if _writes(term, "switching_times"):
+            raise Untraceable(f"{type(term).__name__} writes switching_times in place of switches")
+        key = hash_of("disturbance", n, structure_text(term), versions_text())
+        return remembered(key, list(_sizes(term, n)), lambda: ModuleText(term_text(term, n)))
     except Untraceable as error:
         raise NotCompiled(f"{error}; the run goes on in Python on the compiled plant") from error
 
 
-def _given(law: DisturbanceLaw, n: int) -> dict[str, Part]:
-    """The functions of a disturbance."""
-    given: dict[str, Part] = {"torque": (law.torque, n)}
-    return given if law.resultant is None else given | {"resultant": (law.resultant, 2)}
+def term_text(term: Disturbance, n: int) -> str:
+    """What `term_code` is made from, in LLVM's language.
 
-
-def disturbance_text(law: DisturbanceLaw, n: int) -> str:
-    """What `disturbance_code` is made from, in LLVM's language. Raises InputError."""
-    return _text(law, _given(law, n), n).text
-
-
-def _text(law: DisturbanceLaw, parts: dict[str, Part], n: int) -> ModuleText:
-    """The module of a disturbance's functions.
-
-    A law with `active` gets three: `active`, the function proper, and one that calls it only where
-    the first is above 0.
+    A class that writes `acts` gets three functions: `acts`, the function proper, and one that calls it only
+    where the first is above 0. Raises Untraceable.
     """
-    if law.active is None:
-        return ModuleText(
-            module_text({name: _function(law, n, *part) for name, part in parts.items()})
-        )
-    functions = {"active": _function(law, n, law.active, 1, timed=True)}
-    functions |= {f"{name}_acting": _function(law, n, *part) for name, part in parts.items()}
-    guarded = [GUARDED.format(name=name, bytes=8 * size) for name, (_, size) in parts.items()]
+    sizes = _sizes(term, n)
+    if not _writes(term, "acts"):
+        return module_text({name: _function(term, n, name, size) for name, size in sizes.items()})
+    functions = {"acts": _function(term, n, "acts", 1)}
+    functions |= {f"{name}_acting": _function(term, n, name, sizes[name]) for name in sizes}
+    guarded = [GUARDED.format(name=name, bytes=8 * size) for name, size in sizes.items()]
     clear = "declare void @llvm.memset.p0.i64(ptr, i8, i64, i1)"
-    return ModuleText("\n".join([module_text(functions), clear, *guarded]))
+    return "\n".join([module_text(functions), clear, *guarded])
 
 
-def _function(
-    law: DisturbanceLaw, n: int, part: Callable[..., ArrayLike], size: int, timed: bool = False
-) -> SymbolicFunction:
-    """A law for n coordinates on symbols; timed: it takes no q and v.
+def _writes(term: Disturbance, name: str) -> bool:
+    return getattr(type(term), name) is not getattr(Disturbance, name)
 
-    Raises InputError where it gives another number of numbers than `size`.
-    """
-    K, inp = Vector("K", count(law.parameters)), Vector("inp", 3 + 2 * n)
-    k, at = K.like(law.parameters), (inp.take(), inp.take(), inp.take())
-    state = () if timed else (inp.take(n), inp.take(n))
-    found = column(run(Tracer(), part, k, *at, *state))
-    if found.numel() != size:
-        raise InputError(
-            f"law '{part.__qualname__}' of a disturbance gives {found.numel()} numbers, expected {size}"
-        )
-    return SymbolicFunction(K.symbol, inp.symbol, found)
+
+def _sizes(term: Disturbance, n: int) -> dict[str, int]:
+    """The functions of a term, and how many numbers each gives."""
+    return {"torque": n, "resultant": 2} if term.pulls else {"torque": n}
+
+
+def _function(term: Disturbance, n: int, name: str, size: int) -> SymbolicFunction:
+    """A method of a term on symbols. Raises Untraceable, also where it gives other than `size` numbers."""
+    K, inp = Vector("K", count(term)), Vector("inp", 3 + 2 * n)
+    k, at = K.like(term), (inp.take(), inp.take(), inp.take(), inp.take(n), inp.take(n))
+    method = methodcaller(name, *(at if name == "torque" else at[:3]))
+    try:
+        out = column(run(Tracer(), method, k))
+    except TypeError:  # no numbers
+        out = column()
+    if out.numel() != size:
+        raise Untraceable(f"{type(term).__name__}.{name} gives no {size} numbers")
+    return SymbolicFunction(K.symbol, inp.symbol, out)

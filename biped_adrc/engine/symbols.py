@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike
 
 from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
-from biped_adrc.part import content, is_part, with_content
+from biped_adrc.part import Setup, content, is_part, with_content
 from biped_adrc.types import Array, frozen
 
 T = TypeVar("T")
@@ -285,7 +285,7 @@ class Hidden:
     )
 
 
-HIDDEN = (Biped, complex, np.complexfloating)
+HIDDEN = (Biped, complex, np.complexfloating, Setup)
 """What is neither number nor structure in a part; machine code must not depend on it."""
 
 

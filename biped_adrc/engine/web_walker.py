@@ -12,9 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.disturbances.base import disturbance_laws
 from biped_adrc.engine.compiled_signals import SignalNumbers, observe
-from biped_adrc.engine.compiled_walker import CompiledWalker, disturbance_text
+from biped_adrc.engine.compiled_walker import CompiledWalker, term_text
 from biped_adrc.engine.equations import Equations
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.kernels import layout
@@ -102,9 +101,9 @@ def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker
     for place, name in enumerate(LawAddresses._fields):
         P[place] = laws.number(f"{own}.{name}") if P[place] else 0
     parts = P[P[layout.PARTS_AT] :].reshape(-1, layout.PART_SIZE)
-    given = disturbance_laws(one.walker.disturbance) if one.walker.disturbance else ()
-    for part, law in zip(parts, given, strict=True):
-        push = laws.of(int(part[0]), partial(disturbance_text, law, one.walker.plant.n))
+    terms = one.walker.disturbance.terms if one.walker.disturbance else ()
+    for part, term in zip(parts, terms, strict=True):
+        push = laws.of(int(part[0]), partial(term_text, term, one.walker.plant.n))
         part[0] = laws.number(f"{push}.torque")
         part[2] = laws.number(f"{push}.resultant") if part[2] else 0
     K = np.array([*floats(watched), 0.0])

@@ -10,7 +10,7 @@ their slopes along x and z are given, for each link that is drawn.
 from __future__ import annotations
 
 import base64
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Self, cast
 
@@ -19,15 +19,15 @@ import numpy as np
 from biped_adrc.closed_loop.instant_signals import signals_at
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.disturbances.base import Sum, disturbance_laws
-from biped_adrc.disturbances.link import LinkParameters, OnLink
+from biped_adrc.disturbances.base import Sum
+from biped_adrc.disturbances.link import OnLink
 from biped_adrc.disturbances.step import TorqueStep
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.engine.program import NotCompiled
 from biped_adrc.engine.simulate import starting
-from biped_adrc.engine.symbols import floats
+from biped_adrc.engine.symbols import paths
 from biped_adrc.engine.web_walker import WebWalker, web_walkers
 from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
@@ -176,31 +176,17 @@ def hand_places(made: CompiledWalker) -> dict[str, Any]:
     """Where in F torque (n,) and force (2,) of the hand are, and re, im and turn of its point begin."""
     P, n, hand = made.plan.P, made.walker.plant.n, made.walker.disturbance
     assert hand is not None
-    torque, force = (cast(Any, law.parameters) for law in disturbance_laws(hand))
     parts = P[P[layout.PARTS_AT] :].reshape(-1, layout.PART_SIZE)
-    first, second = parts[:, 1].tolist()
 
-    def forces(c: float) -> LinkParameters:
-        return LinkParameters(force.point, force.wave._replace(amplitude=np.array([c, c, 0.0])))
-
-    def begins(name: str) -> int:
-        vectors = marked(
-            lambda c: force._replace(point=force.point._replace(**{name: np.full(n, c)}))
-        )
-        return int(second + vectors[0])
+    def places(term: int, name: str, size: int) -> list[int]:
+        first = int(parts[term, 1]) + list(paths(hand.terms[term])).index(f"{name}[0]")
+        return list(range(first, first + size))
 
     return {
-        "torque": [first + k for k in marked(lambda c: torque._replace(amplitude=np.full(n, c)))],
-        "force": [second + k for k in marked(forces)],
-        **{name: begins(name) for name in ("re", "im", "turn")},
+        "torque": places(0, "amplitude", n),
+        "force": places(1, "wave.amplitude", 2),
+        **{name: places(1, f"point.{name}", 1)[0] for name in ("re", "im", "turn")},
     }
-
-
-def marked(make: Callable[[float], object]) -> list[int]:
-    """The places in a vector of numbers that a value goes to."""
-    zero, other = (np.array(floats(make(c))) for c in (0.0, 1.0))
-    places: list[int] = np.flatnonzero(zero != other).tolist()
-    return places
 
 
 def link_numbers(plant: Biped, links: list[str]) -> dict[str, Any]:

@@ -164,7 +164,7 @@ def disturbance(
     values = {**values, "amplitude": amplitude, "biped": biped, **entry.defaults}
     if values.get("rise") and "rise" not in takes(make):
         raise InputError(f"a push of kind '{kind}' has no rise; only a pulse has one")
-    made = construct(f"disturbance '{kind}'", make, values, Disturbance)
+    made = construct(f"disturbance '{kind}'", make, values, Disturbance)  # type: ignore[type-abstract]
     return OnLink(biped, link, cast(Windowed, made)) if link else made
 
 

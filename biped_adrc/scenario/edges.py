@@ -17,7 +17,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
-from biped_adrc.disturbances.base import Disturbance, terms
+from biped_adrc.disturbances.base import Disturbance, summands
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 
 NEAR = 1e-3
@@ -35,7 +35,7 @@ def edge_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
     """
     if walker.disturbance is None:
         return ()
-    parts = (_edges(part) for part in terms(walker.disturbance))
+    parts = (_edges(part) for part in summands(walker.disturbance))
     found = [remark for edges in parts for remark in _remarks(edges, trajectory)]
     return tuple(dict.fromkeys(found))
 
@@ -53,7 +53,7 @@ def step_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
     split = walker.split(Mode())
     if split is None:
         return ()
-    edges = {step for part in terms(walker.disturbance) for step in _edges(part)}
+    edges = {step for part in summands(walker.disturbance) for step in _edges(part)}
     constant = 1.0 / float(np.max(np.abs(np.linalg.eigvals(split.A))))
     # an edge of step 0 is in time of the walk: it may be in any single support
     beside = [a for a in trajectory.arcs if edges & {0, a.mode.step, a.mode.step - 1}]

@@ -20,8 +20,8 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.control.base import controller_laws
 from biped_adrc.control.momentum_dob import MomentumDOBController
-from biped_adrc.disturbances.base import Windowed, disturbance_laws
-from biped_adrc.engine.compiled_walker import disturbance_code
+from biped_adrc.disturbances.base import Windowed
+from biped_adrc.engine.compiled_walker import term_code
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.fingerprint import hash_of
 from biped_adrc.engine.ir import module_text
@@ -113,14 +113,14 @@ def _(disturbance: ba.Disturbance):
         for t in (1.0, 1.15, 1.3, *edges, *before):
             q, v = random.normal(size=(2, n))
             kept, at = (q.copy(), v.copy()), (float(t), step, 1.0, q, v)
-            one = disturbance.torque(*at)
+            one = disturbance.zeta(*at)
             assert one.shape == (n,)
             assert np.all(np.isfinite(one))
             seen.append(np.array(one))
             one += 1.0  # what is handed out is the caller's
-            assert np.array_equal(seen[-1], disturbance.torque(*at))
+            assert np.array_equal(seen[-1], disturbance.zeta(*at))
             assert np.array_equal(kept, (q, v))
-            assert disturbance.resultant(*at[:3]).shape == (2,)
+            assert disturbance.net_force(*at[:3]).shape == (2,)
             torque_compiles(disturbance, at)
     if isinstance(disturbance, Windowed) and len(disturbance.amplitude) > 3:
         wave = replace(disturbance, amplitude=np.array([3.0, -2.0, 1.0]))
@@ -473,20 +473,16 @@ def walked_alike(walker, method):
 
 
 def torque_compiles(disturbance, at):
-    """Torque and force of a disturbance whose laws compile."""
-    laws = disturbance_laws(disturbance)
-    if any(law.obstacle for law in laws):
-        return
+    """Torque and force of a disturbance as machine code."""
     inp, n = np.concatenate([np.ravel(x) for x in at]), len(at[3])
     zeta, force = np.zeros(n), np.zeros(2)
-    for law in laws:
-        code, K = disturbance_code(law, n), np.array([*floats(law.parameters), 0.0])
+    for term in disturbance.terms:
+        code, K = term_code(term, n), np.array([*floats(term), 0.0])
         zeta += call(code, "torque", K, inp, n)
-        if law.resultant is not None:
+        if term.pulls:
             force += call(code, "resultant", K, inp, 2)
-    assert np.max(np.abs(zeta - disturbance.torque(*at))) <= 1e-13
-    assert np.max(np.abs(force - disturbance.resultant(*at[:3]))) <= 1e-14
-    assert {switch for law in laws for switch in law.switches} == set(disturbance.switches)
+    assert np.max(np.abs(zeta - disturbance.zeta(*at))) <= 1e-13
+    assert np.max(np.abs(force - disturbance.net_force(*at[:3]))) <= 1e-14
 
 
 # -- machine code ----------------------------------------------------------------------------------

@@ -156,7 +156,7 @@ BASES = {
     ba.Observer: ("observers", {"ChainObserver", "InjectedChain", "MomentumChain"}),
     ba.Disturbance: (
         "disturbances",
-        {"Windowed", "WindowedTorque", "AbsentDisturbance"},
+        {"Windowed", "WindowedTorque", "Lines", "AbsentDisturbance"},
     ),
     ba.Reference: ("gait", set()),
     Outputs: ("gait", set()),
@@ -198,7 +198,7 @@ def made(kind, name):
 @pytest.mark.parametrize(("kind", "name"), EACH)
 def test_every_leaf(kind, name):
     for thing in made(kind, name):
-        if kind in ("controller", "contact", "around", "observer", "disturbance"):
+        if kind in ("controller", "contact", "around", "observer"):
             said = (
                 thing._obstacle or "it has laws: give it a row of laws alone, and none of IN_PYTHON"
             )

@@ -1,6 +1,7 @@
 """Forces on links and band-limited noise: by Pinocchio's frames, by virtual work, by spectra, and compiled."""
 
 import itertools
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pinocchio as pin
@@ -12,6 +13,8 @@ from biped_adrc.disturbances.base import Sum
 from biped_adrc.disturbances.hip_force import HipForce
 from biped_adrc.disturbances.link import OnLink
 from biped_adrc.disturbances.noise import TorqueNoise
+from biped_adrc.disturbances.recorded import RecordedTorque
+from biped_adrc.engine.compiled_walker import term_code
 from biped_adrc.errors import InputError
 from biped_adrc.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.model.pinned import frame_index
@@ -50,18 +53,18 @@ def placement(biped, q, link):
 def test_windows_close_where_they_say():
     pulse = ba.TorquePulse([1.0, 2.0, 3.0, 4.0, 5.0], step=2, start=0.1, stop=0.2)
     q = np.zeros(5)
-    assert not np.any(pulse.torque(1.05, 2, 1.0, q, q))
+    assert not np.any(pulse.zeta(1.05, 2, 1.0, q, q))
     start, stop = pulse.switching_times(2, 1.0)
-    assert np.array_equal(pulse.torque(start, 2, 1.0, q, q), pulse.amplitude)
-    assert not np.any(pulse.torque(stop, 2, 1.0, q, q))
-    assert np.any(pulse.torque(np.nextafter(stop, 0.0), 2, 1.0, q, q))
-    assert not np.any(pulse.torque(1.15, 1, 1.0, q, q))
+    assert np.array_equal(pulse.zeta(start, 2, 1.0, q, q), pulse.amplitude)
+    assert not np.any(pulse.zeta(stop, 2, 1.0, q, q))
+    assert np.any(pulse.zeta(np.nextafter(stop, 0.0), 2, 1.0, q, q))
+    assert not np.any(pulse.zeta(1.15, 1, 1.0, q, q))
     stays = ba.TorqueStep([1.0] * 5, step=2, start=0.1)
-    assert np.any(stays.torque(9.0, 7, 8.9, q, q))
+    assert np.any(stays.zeta(9.0, 7, 8.9, q, q))
     total = pulse + ba.TorqueSine([1.0] * 5, frequency=2.0)
     assert isinstance(total, Sum)
-    expected = pulse.torque(1.15, 2, 1.0, q, q) + total.parts[1].torque(1.15, 2, 1.0, q, q)
-    assert np.array_equal(total.torque(1.15, 2, 1.0, q, q), expected)
+    expected = pulse.zeta(1.15, 2, 1.0, q, q) + total.parts[1].zeta(1.15, 2, 1.0, q, q)
+    assert np.array_equal(total.zeta(1.15, 2, 1.0, q, q), expected)
 
 
 # -- a pulse with sloping edges ---------------------------------------------------------------------
@@ -71,7 +74,7 @@ def test_the_area_of_a_pulse_is_amplitude_times_width_whatever_its_rise(rise):
     corners = sorted({1.0, *pulse.switching_times(2, 1.0), 1.6})
     still, area = np.zeros(3), np.zeros(3)
     for a, b in itertools.pairwise(corners):  # straight between corners: the midpoint rule is exact
-        area += (b - a) * pulse.torque(0.5 * (a + b), 2, 1.0, still, still)
+        area += (b - a) * pulse.zeta(0.5 * (a + b), 2, 1.0, still, still)
     assert area == pytest.approx(0.1 * np.array(F), rel=1e-12)
 
 
@@ -81,13 +84,13 @@ def test_the_edges_of_a_pulse_are_straight_and_its_corners_are_told():
     assert len(ba.TorquePulse(F, step=2, start=0.1, stop=0.2).switching_times(2, 1.0)) == 2
     still = np.zeros(3)
     for quarter in (0.25, 0.5, 0.75):
-        up = pulse.torque(1.1 + 0.04 * quarter, 2, 1.0, still, still)
-        down = pulse.torque(1.2 + 0.04 * quarter, 2, 1.0, still, still)
+        up = pulse.zeta(1.1 + 0.04 * quarter, 2, 1.0, still, still)
+        down = pulse.zeta(1.2 + 0.04 * quarter, 2, 1.0, still, still)
         assert up == pytest.approx(quarter * np.array(F), abs=1e-11)
         assert down == pytest.approx((1.0 - quarter) * np.array(F), abs=1e-11)
     for t, level in ((1.0999, 0.0), (1.141, 1.0), (1.1999, 1.0), (1.2401, 0.0)):
-        assert pulse.torque(t, 2, 1.0, still, still) == pytest.approx(level * np.array(F))
-    assert not np.any(pulse.torque(1.15, 3, 1.0, still, still))
+        assert pulse.zeta(t, 2, 1.0, still, still) == pytest.approx(level * np.array(F))
+    assert not np.any(pulse.zeta(1.15, 3, 1.0, still, still))
 
 
 # -- a force and a moment on a link ----------------------------------------------------------------
@@ -107,18 +110,16 @@ def test_the_torque_is_that_of_pinocchios_frame_jacobian(robot):
             arm = placement(biped, q, link).rotation @ np.array([at[0], 0.0, at[1]])
             angular = np.array([0.0, -F[2], 0.0]) + np.cross(arm, [F[0], 0.0, F[1]])
             expected = (J @ Z).T @ np.array([F[0], 0.0, F[1], *angular])
-            assert push.torque(0.0, 1, 0.0, q, v) == pytest.approx(expected, rel=1e-11, abs=1e-11)
+            assert push.zeta(0.0, 1, 0.0, q, v) == pytest.approx(expected, rel=1e-11, abs=1e-11)
 
 
 def test_a_force_at_the_hip_is_a_hip_force(biped):
     q, v = np.random.default_rng(5).uniform(-1.0, 1.0, (2, 5))
     hip = HipForce(biped, F[:2])
     link = OnLink(biped, "torso", ba.TorquePulse((*F[:2], 0.0)))
-    expected = hip.torque(0.0, 1, 0.0, q, v)
-    assert link.torque(0.0, 1, 0.0, q, v) == pytest.approx(expected, abs=1e-12)
-    assert np.array_equal(link.resultant(0.0, 1, 0.0), hip.resultant(0.0, 1, 0.0))
-    (law,) = hip.laws
-    assert law.torque(law.parameters, 0.0, 1, 0.0, q, v) == pytest.approx(expected, abs=1e-12)
+    expected = hip.zeta(0.0, 1, 0.0, q, v)
+    assert link.zeta(0.0, 1, 0.0, q, v) == pytest.approx(expected, abs=1e-12)
+    assert np.array_equal(link.net_force(0.0, 1, 0.0), hip.net_force(0.0, 1, 0.0))
 
 
 @pytest.mark.parametrize("robot", ["rabbit", "compass"])
@@ -139,10 +140,79 @@ def test_pure_moments_leave_the_ground_alone_and_forces_do_not(robot):
         assert found == pytest.approx(expected, rel=1e-5, abs=1e-4 * biped.weight)
 
 
+# -- machine code ----------------------------------------------------------------------------------
+@dataclass(frozen=True)
+class Wind(ba.Disturbance):
+    """A torque on the torso and drag on all coordinates, in plain Python."""
+
+    amplitude: float = 5.0
+
+    def torque(self, t, step, t_start, q, v):
+        on_torso = np.array([0.0, 0.0, 0.0, 0.0, 1.0])
+        return self.amplitude * on_torso * np.sin(t + q[4]) - 0.1 * v
+
+
+@dataclass(frozen=True)
+class Gust(Wind):
+    """The same from a single support on."""
+
+    since: float = 2.0
+
+    def acts(self, t, step, t_start):
+        return 1.0 * (step >= self.since)
+
+
+@dataclass(frozen=True)
+class Bump(ba.WindowedTorque):
+    """Half a sine wave over [start, stop)."""
+
+    def profile(self, s):
+        return np.sin(np.pi * s / (self.stop - self.start))
+
+
+@pytest.mark.parametrize(
+    "own", [Wind(), Gust(), Gust() + Bump([0.0, 0.0, 0.0, 0.0, 9.0], 1, 0.1, 0.2)]
+)
+def test_a_disturbance_in_plain_python_is_compiled(biped, gait, own):
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), own)
+    one, other = (
+        ba.walk(walker, gait, 2, ba.RK4(2e-3), engine=engine).trajectory
+        for engine in ("compiled", "pinocchio")
+    )
+    assert one.settings["engine"] == "compiled"
+    np.testing.assert_allclose(one.final_state, other.final_state, rtol=0.0, atol=1e-9)
+    plain = replace(walker, disturbance=None)
+    still = ba.walk(plain, gait, 2, ba.RK4(2e-3)).trajectory.final_state
+    assert np.max(np.abs(one.final_state - still)) > 1e-4
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda biped: [
+            ba.TorquePulse([1.0] * 5),
+            ba.TorquePulse([2.0] * 5, step=3, start=1, stop=2, rise=0.1),
+        ],
+        lambda biped: [ba.TorqueStep([1.0] * 5), ba.TorqueStep([2.0] * 5, step=3, start=0.1)],
+        lambda biped: [
+            TorqueNoise([1.0] * 5, bandwidth=10, seed=seed, step=seed) for seed in (1, 2)
+        ],
+        lambda biped: [HipForce(biped, (-3, 1)), HipForce(biped, (2.0, 0.5), steps=(2, 3))],
+        lambda biped: [
+            OnLink(biped, "torso", PULSE),
+            OnLink(biped, "right_shin", replace(PULSE, step=None), (0.1, 0.2)),
+        ],
+        lambda biped: RecordedTorque(np.arange(40.0), np.zeros((40, 5))).terms,
+    ],
+)
+def test_disturbances_that_differ_in_numbers_share_one_machine_code(biped, make):
+    assert len({term_code(term, 5).addresses["torque"] for term in make(biped)}) == 1
+
+
 # -- noise -----------------------------------------------------------------------------------------
 def sampled(noise, T, h):
     q = np.zeros(len(noise.amplitude))
-    return np.array([noise.torque(h * k, 1, 0.0, q, q) for k in range(int(T / h))])
+    return np.array([noise.zeta(h * k, 1, 0.0, q, q) for k in range(int(T / h))])
 
 
 def test_noise_has_its_power_evenly_below_its_bandwidth_and_none_above():
@@ -162,7 +232,7 @@ def test_noise_has_its_power_evenly_below_its_bandwidth_and_none_above():
 def test_noise_repeats_by_its_seed_only():
     q = np.zeros(3)
     kept = [
-        TorqueNoise([1.0] * 3, bandwidth=5.0, seed=seed).torque(0.3, 1, 0.0, q, q)
+        TorqueNoise([1.0] * 3, bandwidth=5.0, seed=seed).zeta(0.3, 1, 0.0, q, q)
         for seed in (1, 1, 2)
     ]
     assert np.array_equal(kept[0], kept[1])
@@ -217,7 +287,7 @@ def test_a_sine_is_its_amplitude_after_a_quarter_of_its_period(biped):
     )
     for one, (step, begin) in zip(made, ((4, 0.0), (4, 0.0), (1, 0.0)), strict=True):
         for s, share in ((0.1, 0.0), (0.225, 1.0), (0.35 - 1e-12, 0.0), (0.475, -1.0)):
-            zeta = one.torque(begin + s, step, begin, rest, rest)
+            zeta = one.zeta(begin + s, step, begin, rest, rest)
             if s <= one.stop:
                 np.testing.assert_allclose(zeta, share * amplitude, atol=1e-9)
 

@@ -12,7 +12,6 @@ from biped_adrc.control.delayed import Delayed
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.passive import Passive
-from biped_adrc.disturbances.base import Disturbance, disturbance_laws
 from biped_adrc.engine.fingerprint import structure_text
 from biped_adrc.gait.reference import Reference
 from biped_adrc.observers.base import Estimate
@@ -129,15 +128,3 @@ def test_new_numbers_of_an_observer_compile_nothing():
     )
     assert one == other
     assert one != third
-
-
-def test_what_has_no_law_says_so(biped, gait):
-
-    class Brake(Disturbance):
-        """A torque of which nothing is known."""
-
-        def torque(self, t, step, t_start, q, v):
-            return -v
-
-    last = disturbance_laws(ba.TorquePulse([1.0] * 5) + Brake())[-1]
-    assert last.obstacle == "disturbance Brake has no laws of arrays"

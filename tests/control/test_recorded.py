@@ -16,25 +16,25 @@ def test_it_is_the_files_lines_and_its_impulse_that_of_trapezoids(biped):
     torques = 20.0 * random.normal(size=(len(times), 5))
     recorded, still = RecordedTorque(times, torques, step=2, start=0.01), np.zeros(5)
     inside = np.linspace(times[0], times[-1] - 1e-9, 400)
-    found = [recorded.torque(1.01 + t, 2, 1.0, still, still) for t in inside]
+    found = [recorded.zeta(1.01 + t, 2, 1.0, still, still) for t in inside]
     expected = np.array([np.interp(inside, times, column) for column in torques.T]).T
     assert np.max(np.abs(found - expected)) < 1e-11
     middles = [
-        recorded.torque(1.01 + t, 2, 1.0, still, still) for t in 0.5 * (times[1:] + times[:-1])
+        recorded.zeta(1.01 + t, 2, 1.0, still, still) for t in 0.5 * (times[1:] + times[:-1])
     ]
     impulse = np.diff(times) @ np.array(middles)
     assert impulse == pytest.approx(
         np.diff(times) @ (0.5 * (torques[1:] + torques[:-1])), rel=1e-12
     )
     for t, step in ((1.01 + times[0] - 1e-9, 2), (1.01 + times[-1], 2), (1.1, 1)):
-        assert not np.any(recorded.torque(t, step, 1.0, still, still))
+        assert not np.any(recorded.zeta(t, step, 1.0, still, still))
 
 
 def test_columns_are_joints_by_either_name(biped):
     file, still = written("q5,t,right_hip\n1,0,-2\n5,.4,-2\n\n5,.5,6"), np.zeros(5)
     made = RecordedTorque.read(file, biped, 3, 0.2)
     for t, expected in ((0.2, (1.0, -2.0)), (0.3, (2.0, -2.0)), (0.65, (5.0, 2.0))):
-        zeta = made.torque(7.0 + t, 3, 7.0, still, still)
+        zeta = made.zeta(7.0 + t, 3, 7.0, still, still)
         assert zeta[[4, 1]] == pytest.approx(expected)
         assert np.count_nonzero(zeta) == 2
     assert np.array(made.switches) == pytest.approx(np.array([[3, 0.2], [3, 0.7]]))

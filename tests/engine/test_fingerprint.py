@@ -13,7 +13,6 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.disturbances.base import DisturbanceLaw
 from biped_adrc.engine.fingerprint import law_text, structure_text
 from biped_adrc.errors import InputError
 from biped_adrc.versions import NEVER_TRACED, source_text
@@ -87,22 +86,18 @@ def ends(walker: ba.Walker, gait: ba.Gait) -> list[np.ndarray]:
     return [walk.trajectory.final_state for walk in walks]
 
 
-def wave(k, t, step, t_start, q, v):
-    return np.array([k.pair[0] * np.sin(k.pair[1] * t), 0.0, 0.0, 0.0, 0.0])
-
-
-def short(k, t, step, t_start, q, v):
-    return np.array([k.pair[0]])
-
-
 @dataclass(frozen=True)
 class Wave(ba.Disturbance):
     pair: tuple[float, float]
-    law: object = wave
 
-    @property
-    def laws(self):
-        return (DisturbanceLaw(Pair(self.pair), self.law),)
+    def torque(self, t, step, t_start, q, v):
+        return np.array([self.pair[0] * np.sin(self.pair[1] * t), 0.0, 0.0, 0.0, 0.0])
+
+
+@dataclass(frozen=True)
+class Short(Wave):
+    def torque(self, t, step, t_start, q, v):
+        return super().torque(t, step, t_start, q, v)[:1]
 
 
 def test_two_pairs_in_one_process(biped, gait) -> None:
@@ -113,7 +108,7 @@ def test_two_pairs_in_one_process(biped, gait) -> None:
 
 @pytest.mark.parametrize("engine", ["compiled", "pinocchio"])
 def test_a_law_of_the_wrong_length_is_refused(biped, gait, engine: str) -> None:
-    walker = ba.Walker(biped, ba.NPDController(gait.constraint), Wave((5.0, 9.0), short))
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), Short((5.0, 9.0)))
     with pytest.raises(InputError, match=r"expected (5|\(5,\))"):
         ba.walk(walker, gait, 1, ba.RK4(2e-3), engine=engine)
 

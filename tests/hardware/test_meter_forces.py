@@ -261,7 +261,7 @@ def last_mean(walker, step, t, ticks, F):
     before, after, end = integral(t, F, np.array([ticks[-6], ticks[-5], t[-1]]))
     whole = before + since / T * (after - before), end
     push = walker.disturbance
-    held = since * push.resultant(ticks[-1], step, t[0])
+    held = since * push.net_force(ticks[-1], step, t[0])
     given = push.impulse(ticks[-1], t[-1], step, t[0])
     return (whole[1] - whole[0] + given - held) / length
 

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 import biped_adrc as ba
-from biped_adrc.control.base import ControllerLaws
-from biped_adrc.disturbances.base import DisturbanceLaw, Windowed
+from biped_adrc.disturbances.base import Windowed
 from biped_adrc.observers.chain import ChainObserver
 
 
@@ -91,36 +90,18 @@ class OwnRaises(OwnPD):
         return super().output(s, m)
 
 
-class OwnParameters(NamedTuple):
-    """Of the law."""
-
-    h: ba.Reference
-    K_p: float
-    K_d: float
-
-
-def own_output(k: OwnParameters, s: Any, m: Any) -> Any:
-    """u (p,) [N m]."""
-    r, p = k.h(m.t, m.q, m.v), m.terms.kappa.shape[0]
-    soft = np.tanh(r.q_d - m.q[:p])
-    return k.K_p * soft + k.K_d * (r.dq_d - m.v[:p]) + m.terms.Omega[:p]
-
-
 @dataclass(frozen=True)
 class OwnLaws(ba.Controller):
-    """As `OwnPD` with a soft spring, written as a law."""
+    """As `OwnPD` with a soft spring."""
 
     reference: Any
     K_p: float = 2500.0
     K_d: float = 120.0
 
-    @property
-    def laws(self) -> ControllerLaws:
-        k = OwnParameters(self.reference, self.K_p, self.K_d)
-        return ControllerLaws(k, own_output)
-
     def output(self, s: Any, m: Any) -> Any:
-        return own_output(self.laws.parameters, s, m)
+        r, p = self.reference(m.t, m.q, m.v), m.terms.kappa.shape[0]
+        soft = np.tanh(r.q_d - m.q[:p])
+        return self.K_p * soft + self.K_d * (r.dq_d - m.v[:p]) + m.terms.Omega[:p]
 
 
 # -- observers -------------------------------------------------------------------------------------
@@ -197,31 +178,15 @@ class OwnPush(ba.Disturbance):
         return self.amplitude * math.exp(-self.rate * t) - 0.2 * v
 
 
-class OwnPushParameters(NamedTuple):
-    """Of the law."""
-
-    amplitude: Any
-    rate: float
-
-
-def own_push(k: OwnPushParameters, t: float, step: int, t_start: float, q: Any, v: Any) -> Any:
-    """zeta (n,) [N m]."""
-    return k.amplitude * math.exp(-k.rate * (t - t_start)) - 0.2 * v
-
-
 @dataclass(frozen=True)
 class OwnLawPush(ba.Disturbance):
-    """The same with a law."""
+    """The same from the start of each single support."""
 
     amplitude: Any
     rate: float
 
     def torque(self, t: float, step: int, t_start: float, q: Any, v: Any) -> Any:
-        return own_push(OwnPushParameters(self.amplitude, self.rate), t, step, t_start, q, v)
-
-    @property
-    def laws(self) -> tuple[DisturbanceLaw, ...]:
-        return (DisturbanceLaw(OwnPushParameters(self.amplitude, self.rate), own_push),)
+        return self.amplitude * math.exp(-self.rate * (t - t_start)) - 0.2 * v
 
 
 @dataclass(frozen=True)
