@@ -5,8 +5,8 @@
 xi^ lumps model error and external torques into one signal per joint; the nominal model gives kappa alone
 (and, through Theta'' in q_d'', the unactuated row).
 
-Any observer of the chain x1' = x2, x2' = xi + kappa u fits: it measures q_b, its input is kappa u for the torque
-applied, and xi^ is what remains.
+Any observer of the chain x1' = x2, x2' = xi + kappa u fits: it measures q_b, its input is kappa u for the
+torque applied, and xi^ is what remains.
 """
 
 from __future__ import annotations

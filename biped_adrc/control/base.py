@@ -9,8 +9,8 @@ both time bases. `u` handed to `flow` and `predict` is the torque applied, after
 At a sample instant `output` comes between `correct` and `predict`: the torque uses the measurement of this
 instant, and the observer inside is told that torque and no other, so it does not wind up at a limit.
 
-A leaf is a frozen dataclass that writes these methods. Python calls them, and the engine turns them into machine
-code (`biped_adrc.part`).
+A leaf is a frozen dataclass that writes these methods. Python calls them, and the engine turns them into
+machine code (`biped_adrc.part`).
 """
 
 from __future__ import annotations
@@ -83,10 +83,10 @@ class Controller(Part):
     """Whether `Measurement.body` has to be there."""
 
     def output(self, s: Array, m: Measurement) -> Array:
-        """u (p,) [N m] asked of the motors, before any limit. Raises InputError where a class does not write it."""
+        """u (p,) [N m] asked of the motors, before any limit. Raises InputError where no class writes it."""
         raise InputError(
-            f"{type(self).__name__} has no method output(s, m); write it: u (p,) [N m] from its state s and the "
-            "Measurement m"
+            f"{type(self).__name__} has no method output(s, m); write it: u (p,) [N m] from its state s and "
+            "the Measurement m"
         )
 
     def initial_state(self, m: Measurement) -> Array:
@@ -114,14 +114,14 @@ class Controller(Part):
         return None
 
     def projected_output(self, s: Array, m: Measurement, a: Array) -> Array:
-        """u (p,) [N m] as `output`, of the part of the rate error that no change of the rates along a (n, 2) makes.
+        """u (p,) [N m] as `output`, blind to changes of the rates along a (n, 2) in the rate error.
 
         For `impact_invariant`. Raises InputError for a controller that has no such form.
         """
         self._has_no("rate error that could be projected")
 
     def projected_correct(self, s: Array, m: Measurement, a: Array) -> Array:
-        """s (size,) as `correct`, from the part of the innovation that no change of the rates along a (n, 2) makes."""
+        """s (size,) as `correct`, blind to changes of the rates along a (n, 2) in the innovation."""
         self._has_no("innovation that could be projected")
 
     def sampled(self, period: float) -> Controller:
@@ -157,7 +157,7 @@ class Controller(Part):
 
     def _has_no(self, what: str) -> NoReturn:
         raise InputError(
-            f"{type(self).__name__} has no {what}; expected a controller such as NPDController or ADRCController"
+            f"{type(self).__name__} has no {what}; expected one such as NPDController or ADRCController"
         )
 
 
@@ -169,7 +169,7 @@ def nested(controller: Controller | None) -> Iterator[Controller]:
 
 
 def check_methods(controller: Controller, s: Array, m: Measurement, sampled: bool) -> None:
-    """Raise InputError for methods that give arrays of another shape, or another torque when they are asked again.
+    """Raise InputError for arrays of another shape, and for a torque that is another one when asked again.
 
     It is asked once, at the start: machine code would write past the end of the state.
     """
@@ -177,7 +177,7 @@ def check_methods(controller: Controller, s: Array, m: Measurement, sampled: boo
     u = returned(controller.output(s, m), shape, controller, "output")
     if not np.array_equal(u, controller.output(s, m)):
         raise InputError(
-            f"{type(controller).__name__}.output gave another torque when it was asked again at the same instant; "
+            f"{type(controller).__name__}.output gave another torque when asked again at the same instant; "
             "expected no memory in the object: return a state from initial_state, and flow or predict"
         )
     calls = {"correct": (s, m), "predict": (s, m, u)} if sampled else {"flow": (s, m, u)}

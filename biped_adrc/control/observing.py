@@ -6,8 +6,8 @@
 r is the point of the reference, x^ the observer's estimate. A controller of this kind says what its observer
 measures, y, what its input is, and the torque; observer and reference may be any.
 
-`adrc` measures the joints, `output_adrc` the output y = q_b - q_d, `momentum_dob` the momentum. All else, resets
-and time bases included, is here once.
+`adrc` measures the joints, `output_adrc` the output y = q_b - q_d, `momentum_dob` the momentum. All else,
+resets and time bases included, is here once.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ class ObservingController(Controller):
     def torque(
         self, r: ReferencePoint, x: Estimate, m: Measurement, a: Array | None = None
     ) -> Array:
-        """u (p,) [N m] for the estimates x. a (n, 2): of the part of the rate error that no rates along a change."""
+        """u (p,) [N m] for the estimates x, where a is given blind to changes of the rates along it (n, 2)."""
 
     @abstractmethod
     def output_change(self, m: Measurement, a: Array) -> Array:

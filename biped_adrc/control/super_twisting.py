@@ -23,6 +23,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+
 import numpy as np
 
 from biped_adrc.control.base import Controller, Measurement
@@ -88,7 +89,7 @@ class SuperTwistingController(Controller):
         return s + self.period * self.flow(s, m, u)
 
     def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
-        """z (p,) after impact: what is wrong with the model belongs to a leg, and is relabelled by swap (p,)."""
+        """z (p,) after impact: what is wrong with the model belongs to a leg, and is relabelled."""
         return s[swap]
 
     def sampled(self, period: float) -> SuperTwistingController:

@@ -272,7 +272,7 @@ def rebuilt(like: tuple[object, ...] | list[object], parts: list[object]) -> obj
 
 
 class Hidden:
-    """In place of what has no symbols inside a part: a robot, or complex numbers. Raises Untraceable when used."""
+    """In place of what has no symbols in a part: a robot, complex numbers. Raises Untraceable when used."""
 
     def __init__(self, what: str):
         self._what = what

@@ -220,7 +220,7 @@ def located(law: object) -> Iterator[None]:
 
 
 def _place(error: Exception, law: Any) -> str:
-    """The last line of the user's or this package's at which an error arose: PD.output (own.py:12, `if x > 0:`)."""
+    """The last line of the user or of this package where an error arose: PD.output (own.py:12, `if x > 0:`)."""
     frames = traceback.extract_tb(error.__traceback__)
     codes = [frame.f_code for frame, _ in traceback.walk_tb(error.__traceback__)]
     own = [

@@ -1,7 +1,6 @@
 """Laws of one's own: observers and references that compile under every controller, and others."""
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -17,7 +16,6 @@ from biped_adrc.gait.reference import Reference
 from biped_adrc.observers.base import Estimate
 from biped_adrc.observers.chain import ChainObserver
 from biped_adrc.part import derived
-from biped_adrc.types import Array
 
 
 def measurements(biped, gait, count=5):
