@@ -77,8 +77,8 @@ def tracking_torque(
 ) -> Array:
     """u (p,) [N m] of (20) or (28), whichever x is. Raises SingularError as `solved_acceleration`.
 
-    solve_theta: whether the loop through Theta'' is solved. a (n, 2): the rate error is taken blind to changes of
-    the rates along a; None: as it is.
+    solve_theta: whether the loop through Theta'' is solved. a (n, 2): the rate error is taken blind to changes
+    of the rates along a; None: as it is.
     """
     x2 = x.velocity
     if a is not None:

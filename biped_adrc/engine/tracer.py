@@ -68,6 +68,8 @@ def _filled(value: float) -> Callable[..., NDArray[np.object_]]:
     return lambda shape, *_, **__: np.full(shape, value, dtype=object)
 
 
+COPIED = "__on_symbols__"
+"""Name of the tracer among the globals of its copies."""
 BUILTINS: Mapping[str, Callable[..., object]] = {
     "float": lambda x: x,
     "abs": np.abs,
@@ -127,8 +129,10 @@ class Tracer:
 
     def _copy(self, law: Any) -> Any:
         """The copy of a function; in a method that says `super()`, `__class__` is the twin."""
+        if law.__globals__.get(COPIED) is self:  # defined inside a copy
+            return law
         if law not in self._copies:
-            scope = {**BUILTINS, **law.__globals__}
+            scope = {**BUILTINS, **law.__globals__, COPIED: self}
             cells = [types.CellType(c.cell_contents) for c in law.__closure__ or ()]
             copy = types.FunctionType(
                 law.__code__, scope, law.__name__, law.__defaults__, tuple(cells) or None
@@ -176,9 +180,8 @@ class Tracer:
             self._twins[cls] = self._twins[made] = made
             for name, value in vars(cls).items():
                 if name == "__call__" or not name.startswith(("__", "_abc_")):
-                    copy = self._member(value)
-                    if copy is not value:
-                        setattr(made, name, copy)
+                    setattr(made, name, self._member(value))
+            made.__abstractmethods__ = frozenset()  # which was asked before its members were there
         return self._twins[cls]
 
     def _member(self, value: Any) -> Any:
