@@ -40,8 +40,6 @@ from biped_adrc.engine.symbols import (
 )
 from biped_adrc.part import content, derived, is_part, with_content
 
-OWN_BASES = ("biped_adrc.parts", "biped_adrc.shown")
-"""Modules of bases that have no methods for laws."""
 FUNCTIONS = {
     **{name: name for name in ("sin", "cos", "tan", "sqrt", "exp", "log", "sinh", "cosh", "tanh")},
     **{f"arc{name}": f"a{name}" for name in ("sin", "cos", "tan")},
@@ -68,6 +66,10 @@ def _filled(value: float) -> Callable[..., NDArray[np.object_]]:
     return lambda shape, *_, **__: np.full(shape, value, dtype=object)
 
 
+ENGINE = "biped_adrc.engine"
+"""Its own functions and classes work on symbols as they are."""
+NO_METHODS = (ENGINE, "biped_adrc.parts", "biped_adrc.shown")
+"""Modules of classes that have no methods to be copied."""
 COPIED = "__on_symbols__"
 """Name of the tracer among the globals of its copies."""
 BUILTINS: Mapping[str, Callable[..., object]] = {
@@ -129,8 +131,8 @@ class Tracer:
 
     def _copy(self, law: Any) -> Any:
         """The copy of a function; in a method that says `super()`, `__class__` is the twin."""
-        if law.__globals__.get(COPIED) is self:  # defined inside a copy
-            return law
+        if law.__globals__.get(COPIED) is self or law.__module__.startswith(ENGINE):
+            return law  # defined inside a copy, or for symbols as it is
         if law not in self._copies:
             scope = {**BUILTINS, **law.__globals__, COPIED: self}
             cells = [types.CellType(c.cell_contents) for c in law.__closure__ or ()]
@@ -168,7 +170,7 @@ class Tracer:
 
     def twin(self, cls: type) -> type:
         """A subclass of cls whose methods run on symbols, `super()` and properties included."""
-        if cls.__module__ in ("builtins", "abc", "typing") or cls.__module__.startswith(OWN_BASES):
+        if cls.__module__ in ("builtins", "abc", "typing") or cls.__module__.startswith(NO_METHODS):
             return cls
         if cls not in self._twins:
             bases = [self.twin(base) for base in cls.__bases__]
