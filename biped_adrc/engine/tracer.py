@@ -38,6 +38,8 @@ from biped_adrc.engine.symbols import (
 )
 from biped_adrc.part import content, derived, is_part, with_content
 
+ENGINE = __name__.rpartition(".")[0] + "."
+"""What its modules define is for symbols already."""
 OWN_BASES = ("biped_adrc.parts", "biped_adrc.shown")
 """Modules of bases that have no methods for laws."""
 FUNCTIONS = {
@@ -121,7 +123,8 @@ class Tracer:
         replaced. Copies are remembered before their names are replaced, so laws that call each
         other end.
         """
-        return self._copy(law) if isinstance(law, types.FunctionType) else law
+        ours = isinstance(law, types.FunctionType) and not str(law.__module__).startswith(ENGINE)
+        return self._copy(law) if ours else law
 
     def _copy(self, law: Any) -> Any:
         """The copy of a function; in a method that says `super()`, `__class__` is the twin."""
@@ -132,7 +135,7 @@ class Tracer:
                 law.__code__, scope, law.__name__, law.__defaults__, tuple(cells) or None
             )
             copy.__kwdefaults__ = law.__kwdefaults__
-            self._copies[law] = copy
+            self._copies[law] = self._copies[copy] = copy
             for name in names_of(law.__code__):
                 if name in scope:
                     scope[name] = self.on_symbols(scope[name])
@@ -153,7 +156,7 @@ class Tracer:
             return rebuilt(value, [self.on_symbols(part) for part in value])
         if isinstance(value, HIDDEN):
             return Hidden(f"a {type(value).__name__}")
-        if not is_part(value):
+        if not is_part(value) or type(value).__module__.startswith(ENGINE):
             return self(value)
         inside = {name: self.on_symbols(x) for name, x in content(value).items()}
         return with_content(value, inside, self.twin(type(value)))
