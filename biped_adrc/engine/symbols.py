@@ -43,8 +43,13 @@ Number = Union["Scalar", float]
 
 
 def expression(x: Number) -> ca.SX | float:
-    """The CasADi expression behind a Scalar, or the number itself as a float."""
-    return x.e if isinstance(x, Scalar) else float(x)
+    """The CasADi expression behind a Scalar, or the number itself as a float. Raises Untraceable for others."""
+    if isinstance(x, Scalar):
+        return x.e
+    try:
+        return float(x)
+    except (TypeError, ValueError) as error:
+        raise Untraceable(f"a law gives {x!r}, expected a real number") from error
 
 
 def _binary(code: int, reflected: bool = False) -> Callable[[Scalar, Number], Scalar]:

@@ -127,7 +127,8 @@ class Tracer:
         replaced. Copies are remembered before their names are replaced, so laws that call each
         other end.
         """
-        return self._copy(law) if isinstance(law, types.FunctionType) else law
+        ours = isinstance(law, types.FunctionType) and not str(law.__module__).startswith(ENGINE)
+        return self._copy(law) if ours else law
 
     def _copy(self, law: Any) -> Any:
         """The copy of a function; in a method that says `super()`, `__class__` is the twin."""
@@ -140,7 +141,7 @@ class Tracer:
                 law.__code__, scope, law.__name__, law.__defaults__, tuple(cells) or None
             )
             copy.__kwdefaults__ = law.__kwdefaults__
-            self._copies[law] = copy
+            self._copies[law] = self._copies[copy] = copy
             for name in names_of(law.__code__):
                 if name in scope:
                     scope[name] = self.on_symbols(scope[name])
@@ -163,7 +164,7 @@ class Tracer:
             return Hidden(f"a {type(value).__name__}")
         if isinstance(value, type) and is_dataclass(value) and value not in HIDDEN:
             return self.twin(value)
-        if not is_part(value):
+        if not is_part(value) or type(value).__module__.startswith(ENGINE):
             return self(value)
         inside = {name: self.on_symbols(x) for name, x in content(value).items()}
         return with_content(value, inside, self.twin(type(value)))

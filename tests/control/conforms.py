@@ -221,6 +221,7 @@ def _(outputs: Outputs):
         ahead, behind = (moved(outputs, m, a, s) for s in (d, -d))
         slopes = [(one - other) / (2.0 * d) for one, other in zip(ahead, behind, strict=True)]
         assert np.max(np.abs(slopes[0] - o.dy)) <= 1e-6 * (1.0 + np.max(np.abs(o.dy)))
+        agree(called, outputs, m.t, m.q, m.v)
         ddy = o.J @ a + o.drift
         assert np.max(np.abs(slopes[1] - ddy)) <= 1e-5 * (1.0 + np.max(np.abs(ddy)))
     conforms(ba.OutputNPDController(outputs))

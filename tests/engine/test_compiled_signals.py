@@ -85,10 +85,10 @@ def test_columns_on_a_slope_with_a_wrong_model_and_friction(biped, gait):
 
 
 def test_what_has_no_compiled_form_is_left_to_python(biped, gait):
-    """Another kind of reference, or a robot that has none to track."""
+    """A reference that branches on the time."""
     walker = ba.Walker(biped, controllers(gait)["NPD"])
     run = walked(walker, gait, impacts=1)
-    flat = ba.TimeReference(lambda t: (np.zeros(4), np.zeros(4), np.zeros(4)))
+    flat = ba.TimeReference(lambda t: (np.zeros(4) if t < 9.0 else np.ones(4),) * 3)
     assert see(walker, run, flat) is None
     assert np.array_equal(signals(walker, run, flat).error, signals(walker, run, flat).q[:, :4])
 
