@@ -6,6 +6,7 @@ A row says how a thing of the registry is made; a thing without a row, or a clas
 import importlib
 import inspect
 import pkgutil
+import sys
 from dataclasses import fields, is_dataclass, replace
 
 import numpy as np
@@ -152,7 +153,7 @@ PARTS_OF_CONTROL = {"OuterLoop", "ObservingController", "AbsentController"}
 PARTS_OF_CONTROL |= {"Around", "AcrossContact", "ContactWindow", "DoubleSupport"}
 BASES = {
     ba.Controller: ("control", PARTS_OF_CONTROL),
-    ba.Observer: ("observers", {"ChainObserver", "InjectedChain", "MomentumChain"}),
+    ba.Observer: ("observers", {"ChainObserver", "CurrentForm", "InjectedChain", "MomentumChain"}),
     ba.Disturbance: (
         "disturbances",
         {"Windowed", "WindowedTorque", "AbsentDisturbance"},
@@ -197,7 +198,7 @@ def made(kind, name):
 @pytest.mark.parametrize(("kind", "name"), EACH)
 def test_every_leaf(kind, name):
     for thing in made(kind, name):
-        if kind in ("controller", "contact", "around", "observer", "disturbance"):
+        if kind in ("controller", "contact", "around", "disturbance"):
             said = (
                 thing._obstacle or "it has laws: give it a row of laws alone, and none of IN_PYTHON"
             )
@@ -264,6 +265,7 @@ def test_every_leaf_has_a_row_and_a_name():
         for module in pkgutil.iter_modules(package.__path__):
             importlib.import_module(f"biped_adrc.{room}.{module.name}")
         own = [cls for cls in below(base) if cls.__module__.startswith("biped_adrc.")]
+        own = [cls for cls in own if getattr(sys.modules[cls.__module__], cls.__name__) is cls]
         own = [cls for cls in own if ".deploy." not in cls.__module__]  # what stands for another
         leaves = {cls for cls in own if cls.__name__ not in parts}
         assert not [cls for cls in leaves if inspect.isabstract(cls)]
