@@ -6,6 +6,7 @@ error arose. The symbols themselves are in `engine.symbols`.
 
 from __future__ import annotations
 
+import abc
 import functools
 import inspect
 import math
@@ -173,6 +174,7 @@ class Tracer:
             for name, value in vars(cls).items():
                 if name == "__call__" or not name.startswith(("__", "_abc_")):
                     setattr(made, name, self._member(value, cls, made))
+            abc.update_abstractmethods(made)
         return self._twins[cls]
 
     def _member(self, value: Any, cls: type, twin: type) -> Any:
