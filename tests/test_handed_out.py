@@ -296,10 +296,6 @@ class Watching(ba.Observer):
     def _or_bad(self, name, found):
         return self.bad if name == self.name else found
 
-    @property
-    def order(self):
-        return 3
-
     def initial_state(self, y, dy, xi):
         return self._or_bad("initial_state", np.concatenate((y, dy, xi)))
 

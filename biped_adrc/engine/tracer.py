@@ -6,6 +6,7 @@ error arose. The symbols themselves are in `engine.symbols`.
 
 from __future__ import annotations
 
+import abc
 import functools
 import inspect
 import math
@@ -184,7 +185,7 @@ class Tracer:
             for name, value in vars(cls).items():
                 if name == "__call__" or not name.startswith(("__", "_abc_")):
                     setattr(made, name, self._member(value))
-            made.__abstractmethods__ = frozenset()  # which was asked before its members were there
+            abc.update_abstractmethods(made)
         return self._twins[cls]
 
     def _member(self, value: Any) -> Any:

@@ -167,7 +167,7 @@ def observer_laws(observer: Observer) -> ObserverLaws:
 
 
 def _start(o: Observer, x: Estimate) -> Array:
-    return o.initial_state(*x)
+    return returned(o.initial_state(*x), None, o, "initial_state", finite=False)
 
 
 def _estimate(o: Observer, z: Array) -> Estimate:

@@ -47,7 +47,7 @@ class SquaredObserver(ChainObserver):
 
 @dataclass(frozen=True)
 class Luenberger(ba.Observer):
-    """One from nothing but the base: x1^ and x2^ of each joint, with xi^ from the poles' third."""
+    """Position, velocity and a constant disturbance of each joint, from three equal poles."""
 
     bandwidth: float
 
