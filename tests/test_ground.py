@@ -51,7 +51,7 @@ def test_the_work_of_the_force_and_of_the_joints_is_the_energy_gained(bare, publ
 
 def test_the_force_acts_in_its_steps_only(bare):
     force, q = HipForce(bare, (-5.0, 0.0), steps=(2, 3)), np.full(5, 0.3)
-    acts = [bool(np.any(force.torque(0.0, step, 0.0, q, q))) for step in (1, 2, 3, 4)]
+    acts = [bool(np.any(force.zeta(0.0, step, 0.0, q, q))) for step in (1, 2, 3, 4)]
     assert acts == [False, True, True, False]
 
 
