@@ -8,7 +8,6 @@ from biped_adrc.closed_loop.stepping import SteppingLoop as SteppingLoop
 from biped_adrc.closed_loop.walker import Walker as Walker
 from biped_adrc.control.adrc import ADRCController as ADRCController
 from biped_adrc.control.base import Controller as Controller
-from biped_adrc.control.base import ControllerLaws as ControllerLaws
 from biped_adrc.control.base import Measurement as Measurement
 from biped_adrc.control.finite_time import FiniteTimeController as FiniteTimeController
 from biped_adrc.control.npd import NPDController as NPDController
@@ -22,7 +21,6 @@ from biped_adrc.control.tracking import TABLE_II as TABLE_II
 from biped_adrc.control.tracking import Gains as Gains
 from biped_adrc.control.tracking import feedback as feedback
 from biped_adrc.control.tracking import solved_acceleration as solved_acceleration
-from biped_adrc.control.tracking import tracked_laws as tracked_laws
 from biped_adrc.deploy.export import export_c as export_c
 from biped_adrc.deploy.loaded import ExportedController as ExportedController
 from biped_adrc.disturbances.base import Disturbance as Disturbance

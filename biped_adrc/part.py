@@ -69,7 +69,7 @@ def is_part(x: object) -> bool:
 def content(part: Any) -> dict[str, Any]:
     """The fields of a part, then its derived numbers, by name."""
     found = {f.name: _value(f, getattr(part, f.name)) for f in fields(part)}
-    return found | {name: getattr(part, name) for name in derived_names(type(part))}
+    return found | {name: getattr(part, name) for name in derived_names(type(part))}  # type: ignore[arg-type]
 
 
 def _value(f: Field[Any], x: Any) -> Any:
@@ -109,6 +109,6 @@ def derived_names(cls: type) -> tuple[str, ...]:
     return tuple(dict.fromkeys(_derived(cls)))
 
 
-def _derived(cls: type) -> Iterator[str]:
+def _derived(cls: Any) -> Iterator[str]:
     for base in reversed(cls.__mro__):
         yield from (name for name, x in vars(base).items() if isinstance(x, derived))

@@ -22,6 +22,7 @@ from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.tracking import Gains, orthogonal_to
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
+from biped_adrc.parts import check_part
 from biped_adrc.types import Array
 
 
@@ -63,11 +64,17 @@ class ObservingController(Controller):
         """The reference at a measurement."""
         return self.reference(m.t, m.q, m.v)
 
+    def estimated(self, s: Array) -> Estimate:
+        """The observer's estimates. Raises InputError for an observer that returns something else."""
+        x = self.observer.estimate(s)
+        check_part(x, f"what {type(self.observer).__name__}.estimate returned", Estimate)
+        return x
+
     def output(self, s: Array, m: Measurement) -> Array:
-        return self.torque(self.point(m), self.observer.estimate(s), m)
+        return self.torque(self.point(m), self.estimated(s), m)
 
     def projected_output(self, s: Array, m: Measurement, a: Array) -> Array:
-        return self.torque(self.point(m), self.observer.estimate(s), m, a)
+        return self.torque(self.point(m), self.estimated(s), m, a)
 
     def initial_state(self, m: Measurement) -> Array:
         return self.observer.initial_state(*self.measured_output(m))
@@ -75,7 +82,7 @@ class ObservingController(Controller):
     def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
         """As the observer's reset; coordinates behind the p joints, as of a momentum, keep their place."""
         x = self.measured_output(after)
-        every = np.concatenate((swap, np.arange(len(swap), len(x.position))))
+        every: Array = np.concatenate((swap, np.arange(len(swap), len(x.position))))
         return self.observer.reset(s, self.reset, every, *x)
 
     def flow(self, s: Array, m: Measurement, u: Array) -> Array:
@@ -93,7 +100,7 @@ class ObservingController(Controller):
         return self.observer.predict(s, self.observer_input(m, u))
 
     def estimate(self, s: Array, m: Measurement) -> Estimate:
-        return self.joint_estimate(self.observer.estimate(s), m)
+        return self.joint_estimate(self.estimated(s), m)
 
     def sampled(self, period: float) -> Self:
         sampled: Self = replace(self, observer=self.observer.sampled(period))  # type: ignore[type-var]

@@ -52,7 +52,7 @@ class ResetPolynomial:
         )
 
 
-def reset_coefficients(x: float, rate: float, e: Array, slope: Array) -> Array:
+def reset_coefficients(x: Array | float, rate: float, e: Array, slope: Array) -> Array:
     """a_0, a_1 (2, p) with c = e [rad] and dc/dTheta = slope [rad/rad] where (Theta_e - Theta) has this x."""
     A, B = e / x**3, slope / (rate * x**2)
     return np.vstack((4.0 * A - B, (B - 3.0 * A) / x))

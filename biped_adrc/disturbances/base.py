@@ -16,23 +16,22 @@ It stands below `closed_loop.walker`, which evaluates it, and `scenario.disturba
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
 from biped_adrc.errors import InputError, check_count
-from biped_adrc.part import derived, setup
-from biped_adrc.parts import Checked, check_part, numbers, returned
-from biped_adrc.shown import Shown
+from biped_adrc.part import Part, derived, setup
+from biped_adrc.parts import check_part, numbers, returned
 from biped_adrc.types import Array
 
 GAUSS = 0.5773502691896257
 """1 / sqrt(3): nodes of Gauss's rule on [-1, 1], both of weight 1."""
 
 
-class Disturbance(Checked, Shown, ABC):
+class Disturbance(Part):
     """A pure function of time, step and state: write `torque`. `a + b` adds two of them up.
 
     A class may also write `acts`, the times where it jumps in `switches`, and `resultant` for a force from

@@ -27,7 +27,6 @@ import numpy as np
 
 from biped_adrc.closed_loop.exponential_form import SplitLaws
 from biped_adrc.closed_loop.walker import LEAST_STEP, Walker
-from biped_adrc.composed import written_over
 from biped_adrc.control.passive import Passive
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.equations import SymbolicFunction, count
@@ -161,6 +160,19 @@ def _matrices(h: float, A: bytes, rows: tuple[int, ...]) -> MethodTable:
     """The table of the exponential method for a step h [s], A (k, k) as bytes, and forced rows."""
     k = math.isqrt(len(A) // 8)
     return methods.etd(h, np.frombuffer(A).reshape(k, k), np.array(rows, dtype=np.int64))
+
+
+def written_over(part: object, given: str, methods: frozenset[str]) -> str:
+    """Name of a method that a subclass writes anew below the class that defines `given`; empty for none.
+
+    A subclass that overrides `steps` and inherits `compiled_form` would run its own steps in Python alone.
+    """
+    for cls in type(part).__mro__:
+        if given in vars(cls):
+            break
+        if written := methods.intersection(vars(cls)):
+            return min(written)
+    return ""
 
 
 def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, MethodTable]:

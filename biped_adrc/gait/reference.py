@@ -12,15 +12,16 @@ Controllers call the reference at each evaluation of the closed loop, and the en
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.parts import Checked, called_checked, point_returned
-from biped_adrc.shown import Shown, one_line
+from biped_adrc.part import Part
+from biped_adrc.parts import called_checked, point_returned
+from biped_adrc.shown import one_line
 from biped_adrc.types import Array
 
 
@@ -40,7 +41,7 @@ class ReferencePoint(NamedTuple):
         return one_line(self)
 
 
-class Reference(Checked, Shown, ABC):
+class Reference(Part):
     """Base class: q_d as a pure function of (t, q, q')."""
 
     def __init_subclass__(cls, **kwargs: Any) -> None:

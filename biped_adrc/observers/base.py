@@ -14,14 +14,13 @@ alone.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Callable
+from abc import abstractmethod
 from enum import Enum
 from typing import NamedTuple
 
 from biped_adrc.errors import InputError
-from biped_adrc.parts import Checked, check_part, returned
-from biped_adrc.shown import Shown, one_line
+from biped_adrc.part import Part
+from biped_adrc.shown import one_line
 from biped_adrc.types import Array
 
 
@@ -93,7 +92,7 @@ class ErrorSystem(NamedTuple):
     """Of the controller around the observer; None for an observer alone."""
 
 
-class Observer(Checked, Shown, ABC):
+class Observer(Part):
     """Base of all observers: a frozen dataclass with `flow`, or with `correct` and `predict`.
 
     Which of them it has says in which time base it works.
@@ -145,48 +144,3 @@ class Observer(Checked, Shown, ABC):
     def _continuous(self) -> InputError:
         """The error for what is asked of an observer in sampled time alone."""
         return InputError(f"{type(self).__name__} works in continuous time; call sampled(period)")
-
-
-class ObserverLaws(NamedTuple):
-    """The methods of an observer as functions of it and their arguments; None for what it has not."""
-
-    state: Callable[..., Array]
-    estimate: Callable[..., Estimate]
-    reset: Callable[..., Array]
-    flow: Callable[..., Array] | None = None
-    correct: Callable[..., Array] | None = None
-    predict: Callable[..., Array] | None = None
-
-
-def observer_laws(observer: Observer) -> ObserverLaws:
-    """The methods of an observer, with what they return checked."""
-    laws = ObserverLaws(_start, _estimate, _reset)
-    if type(observer).predict is Observer.predict:
-        return laws._replace(flow=_flow)
-    return laws._replace(correct=_correct, predict=_predict)
-
-
-def _start(o: Observer, x: Estimate) -> Array:
-    return returned(o.initial_state(*x), None, o, "initial_state", finite=False)
-
-
-def _estimate(o: Observer, z: Array) -> Estimate:
-    found = o.estimate(z)
-    check_part(found, f"what {type(o).__name__}.estimate returned", Estimate)
-    return found
-
-
-def _reset(o: Observer, policy: ResetPolicy, z: Array, swap: Array, x: Estimate) -> Array:
-    return returned(o.reset(z, policy, swap, *x), z.shape, o, "reset", finite=False)
-
-
-def _flow(o: Observer, z: Array, y: Array, input: Array) -> Array:
-    return returned(o.flow(z, y, input), z.shape, o, "flow", finite=False)
-
-
-def _correct(o: Observer, z: Array, y: Array) -> Array:
-    return returned(o.correct(z, y), z.shape, o, "correct", finite=False)
-
-
-def _predict(o: Observer, z: Array, input: Array) -> Array:
-    return returned(o.predict(z, input), z.shape, o, "predict", finite=False)

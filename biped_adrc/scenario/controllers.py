@@ -123,7 +123,7 @@ class ControllerMaker:
             self.used |= {"contact_window"} if "window" in takes(make) else set()
         self._seen(make, (), own)
         what = f"contact '{name}'"
-        return construct(what, make, given, AcrossContact)  # type: ignore[type-abstract]
+        return construct(what, make, given, AcrossContact)
 
     def _own(self, given: Container[str]) -> dict[str, object]:
         """Own values by name, without those whose names are in `given`."""

@@ -230,7 +230,6 @@ def step_errors(gait: Gait, trajectory: Trajectory) -> Array:
 
 def _step(observer: GPIObserver, controller: Delayed) -> float:
     """Step h of RK4 [s], from the fastest pole of the observer and of the delay line."""
-    line = controller.line
-    rates = np.abs(np.roots(line.denominator[::-1])) * line.rate
+    rates = np.abs(np.roots(controller.pade[1][::-1])) / controller.delay
     fastest = max(float(np.max(rates)), float(np.max(np.abs(observer.poles))))
     return min(LONGEST_STEP, REACH / fastest)

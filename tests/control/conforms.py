@@ -161,7 +161,7 @@ def _(sensor: Sensor):
 
 @conforms.register
 def _(touchdown: Touchdown):
-    """Pure, of the size that it says, at ticks and at touchdowns, in Python, as machine code and in the loop."""
+    """Pure, of the size that it says, at ticks and touchdowns, in Python, machine code and the loop."""
     law, d, fired = type(touchdown), touchdown.start(), 0.0
     for i in range(60):
         assert d.shape == (touchdown.size,)
@@ -377,13 +377,9 @@ def methods_compile(law, sampled):
         calls |= {"initial_state": (m,), "jump": (s, m, SWAP)}
         if law.estimate(s, m) is not None:
             calls["estimate"] = (s, m)
-        if unless("could be projected", lambda: law.projected_output(s, m, a)) is not None:  # noqa: B023
-            calls["projected_output"] = (s, m, a)
-        if (
-            sampled
-            and unless("could be projected", lambda: law.projected_correct(s, m, a)) is not None
-        ):  # noqa: B023
-            calls["projected_correct"] = (s, m, a)
+        for name in ("projected_output", "projected_correct")[: 1 + sampled]:
+            if unless("be projected", partial(getattr(law, name), s, m, a)) is not None:
+                calls[name] = (s, m, a)
         for name, rest in calls.items():
             agree(getattr(kind, name), law, *rest)
     return True
