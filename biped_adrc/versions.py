@@ -1,10 +1,8 @@
 """Versions of all that decides the numbers of a run: Python, packages, and this package's own source.
 
-Three uses: a report lists versions for the reader (`versions`); a store of results refuses to mix
-runs of different versions (`numerical_versions`, `differences`); the cache of compiled code is
-discarded when what it was generated from changes (`source_text`, called by `engine.fingerprint`). A
-version number alone is not enough for the last two, as a checkout is edited between releases: the
-source is hashed.
+A report lists versions for the reader (`versions`), and a store of results refuses to mix runs of different
+versions (`numerical_versions`, `differences`). A version number alone is not enough for that, as a checkout is
+edited between releases: the source is hashed.
 """
 
 from __future__ import annotations
@@ -34,30 +32,6 @@ NUMERICAL = (
 """Packages on which the digits of a run depend."""
 SOURCE = "source of biped-adrc"
 """Name under which the hash of this package's source stands among the versions."""
-NEVER_TRACED = (
-    "analysis",
-    "bench",
-    "campaign",
-    "cli",
-    "deploy",
-    "gym",
-    "logs",
-    "observer_design",
-    "paper",
-    "live",
-    "scenario",
-    "soft",
-    "studies",
-    "tuning",
-    "viz",
-)
-"""Folders whose source has no part in compiled code, as the engine can reach nothing in them.
-
-They are the rooms above the engine. An edit there keeps the cache of compiled code. Laws that a
-user passes in are hashed on their own.
-"""
-
-
 def packages(names: Iterable[str]) -> dict[str, str]:
     """Installed version by name of package; "none" for one that is not installed.
 
@@ -92,19 +66,14 @@ def numerical_versions() -> Mapping[str, str]:
     Two runs with equal values of this mapping, on any machine of the same architecture, are
     comparable. Computed once for each process.
     """
-    source = source_text(Path(__file__).parent)[:12]
+    source = source_hash(Path(__file__).parent)[:12]
     found = {"python": platform.python_version(), "machine": platform.machine(), SOURCE: source}
     return found | packages(NUMERICAL)
 
 
-def source_text(root: Path, without: tuple[str, ...] = ()) -> str:
-    """SHA-256 in hexadecimal digits over names and contents of all Python files below `root`, in sorted order.
-
-    without: names of folders directly below `root` that are left out.
-    """
+def source_hash(root: Path) -> str:
+    """SHA-256 in hexadecimal digits over names and contents of all Python files below `root`, in sorted order."""
     digest = hashlib.sha256()
     for path in sorted(root.rglob("*.py")):
-        name = path.relative_to(root)
-        if name.parts[0] not in without:
-            digest.update(str(name).encode() + b"\0" + path.read_bytes())
+        digest.update(str(path.relative_to(root)).encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()

@@ -25,10 +25,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from biped_adrc.engine.equations import SymbolicFunction, count
-from biped_adrc.engine.fingerprint import hash_of, structure_text, versions_text
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.mechanics import PlanarRobot, RobotData, RobotStructure, once_each, robot_of
+from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import Vector, column, floats
 from biped_adrc.errors import ModelError
 from biped_adrc.model.biped import Biped
@@ -140,9 +140,7 @@ class CompiledBiped(Biped):
         """The four functions by name, compiled on first use."""
         robot = self.robot
         assert robot is not None
-        key = hash_of(
-            "plant", structure_text(robot.structure), structure_text(robot.arrays), versions_text()
-        )
+        key = "plant", structure(robot.structure, exact=True), structure(robot.arrays)
         code = generated(key, plant_functions(robot.structure, robot.arrays))
         K, n = np.array([*floats(robot.arrays), 0.0]), self.n
         sizes = {

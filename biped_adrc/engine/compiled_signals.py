@@ -27,11 +27,11 @@ from biped_adrc.engine.equations import (
     WalkerStructure,
     count,
 )
-from biped_adrc.engine.fingerprint import hash_of, law_text, structure_text, versions_text
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.kernels.layout import OUTSIDE
 from biped_adrc.engine.machine import LoadedCode
-from biped_adrc.engine.program import NotCompiled, Program
+from biped_adrc.engine.program import NotCompiled, Program, structure_of_walker
+from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import Untraceable, Vector, floats
 from biped_adrc.engine.tracer import run
 from biped_adrc.errors import ModelError
@@ -114,9 +114,5 @@ def reading_code(
 
     Under a hash of the walker's structure, the reference and `read` itself.
     """
-    reads = law_text(read)
-    key = hash_of(
-        *(name, structure_text(make.robot), reads, make.size, make.held),
-        *(structure_text(watched), versions_text()),
-    )
+    key = name, read, structure_of_walker(make), structure(watched)
     return generated(key, {name: lambda: observe(make, watched, read)})

@@ -18,12 +18,12 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers, WalkerStructure
-from biped_adrc.engine.fingerprint import hash_of, structure_text, versions_text
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.kernels.layout import OUTSIDE
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.mechanics import robot_of
-from biped_adrc.engine.program import NotCompiled
+from biped_adrc.engine.program import NotCompiled, structure_of_walker
+from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import floats
 from biped_adrc.engine.tracer import located
 from biped_adrc.errors import InputError, ModelError
@@ -84,10 +84,7 @@ class CompiledTick:
         """The function in memory, under a hash of all that decides it."""
         make, numbers = self.make, self.numbers
         try:
-            key = hash_of(
-                *("sample", structure_text(make.robot), make.size, make.held),
-                *(structure_text(numbers), versions_text()),
-            )
+            key = "sample", structure_of_walker(make), structure(numbers)
 
             def sample() -> SymbolicFunction:
                 with located("sample"):

@@ -30,8 +30,7 @@ from biped_adrc.closed_loop.walker import LEAST_STEP, Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.equations import SymbolicFunction, count
-from biped_adrc.engine.fingerprint import hash_of, structure_text, versions_text
-from biped_adrc.engine.ir import module_text
+from biped_adrc.engine.ir import in_memory, module_text
 from biped_adrc.engine.kernels import methods
 from biped_adrc.engine.kernels.run_plan import (
     ClockTable,
@@ -43,8 +42,9 @@ from biped_adrc.engine.kernels.run_plan import (
     StateSizes,
     plan,
 )
-from biped_adrc.engine.machine import LoadedCode, ModuleText, remembered
+from biped_adrc.engine.machine import LoadedCode, ModuleText
 from biped_adrc.engine.program import NotCompiled, Program
+from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import Untraceable, Vector, column, floats
 from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.hybrid.exponential import no_coordinates
@@ -242,8 +242,8 @@ def term_code(term: Disturbance, n: int) -> LoadedCode:
     try:
         if _writes(term, "switching_times"):
             raise Untraceable(f"{type(term).__name__} writes switching_times in place of switches")
-        key = hash_of("disturbance", n, structure_text(term), versions_text())
-        return remembered(key, list(_sizes(term, n)), lambda: ModuleText(term_text(term, n)))
+        key = "disturbance", n, structure(term)
+        return in_memory(key, list(_sizes(term, n)), lambda: ModuleText(term_text(term, n)))
     except Untraceable as error:
         raise NotCompiled(f"{error}; the run goes on in Python on the compiled plant") from error
 

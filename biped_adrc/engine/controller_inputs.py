@@ -22,9 +22,9 @@ import numpy as np
 
 from biped_adrc.engine.compiled_biped import Call, CompiledBiped, parts_of
 from biped_adrc.engine.equations import SymbolicFunction, count
-from biped_adrc.engine.fingerprint import hash_of, structure_text, versions_text
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.mechanics import PlanarRobot
+from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import Untraceable, Vector, column, floats
 from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.gait.reference import Reference, ReferencePoint
@@ -50,7 +50,7 @@ class CompiledReference:
         point = traced(K.like(reference), inp.take(), inp.take(n), inp.take(n))
         self.shapes = [np.shape(part) for part in point]
         function = SymbolicFunction(K.symbol, inp.symbol, column(*point))
-        key = hash_of("point", n, structure_text(reference), versions_text())
+        key = "point", n, structure(reference)
         numbers = np.array([*floats(reference), 0.0])
         code = generated(key, {"point": lambda: function})
         self.call = Call(code, "point", numbers, 1 + 2 * n, sum(map(prod, self.shapes)))
@@ -121,9 +121,8 @@ class ControllerInputs:
         self.point, self.shapes = point, [*model.shapes, *(point.shapes if point else ())]
         self.numbers = InputNumbers(robot.arrays, () if point is None else point.reference)
         self.K = np.array([*floats(self.numbers), 0.0])
-        structures = structure_text(robot.structure), structure_text(self.numbers)
-        key = "inputs", *structures, versions_text()
-        self.machine = generated(hash_of(*key), {"inputs": self.function})
+        key = "inputs", structure(robot.structure, exact=True), structure(self.numbers)
+        self.machine = generated(key, {"inputs": self.function})
 
     @property
     def address(self) -> int:

@@ -8,13 +8,14 @@ same whatever function is compiled beside.
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping, Sequence
 
 import casadi as ca
 
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.instructions import CHOICE, FUNCTIONS, Patterns, Writer, straight_line
-from biped_adrc.engine.machine import LoadedCode, ModuleText, remembered
+from biped_adrc.engine.machine import LoadedCode, ModuleText, load_or_compile
+from biped_adrc.engine.structure import Unchanged, reaching
 
 COMPARISONS = {ca.OP_LT: "olt", ca.OP_LE: "ole", ca.OP_EQ: "oeq", ca.OP_NE: "une"}
 """Comparisons by LLVM's conditions; a result is 0.0 or 1.0."""
@@ -59,12 +60,11 @@ DECLARATIONS = "\n".join(
 
 
 def generated(
-    key: str, functions: Mapping[str, Callable[[], SymbolicFunction]], vectors: bool = False
+    key: Hashable, functions: Mapping[str, Callable[[], SymbolicFunction]], vectors: bool = False
 ) -> LoadedCode:
-    """These functions in memory, by name; traced and written only where no object code is stored
-    under `key`.
+    """These functions in memory, by name; traced once per process and structure.
 
-    - key: a hash of all that the functions depend on (`engine.fingerprint`).
+    - key: the structure of what they are made from (`engine.structure`).
     - functions: by name, each to be called for its expression.
     - vectors: as of `ModuleText`.
     """
@@ -72,7 +72,21 @@ def generated(
     def text() -> ModuleText:
         return ModuleText(module_text({name: f() for name, f in functions.items()}), vectors)
 
-    return remembered(key, list(functions), text)
+    return in_memory((key, vectors), list(functions), text)
+
+
+_IN_MEMORY: dict[Hashable, tuple[LoadedCode, list[Unchanged]]] = {}
+"""Code by structure, with what it reached; a function is a value, so this is no state."""
+
+
+def in_memory(key: Hashable, names: Sequence[str], text: Callable[[], ModuleText]) -> LoadedCode:
+    """The functions `names` of a module; its text is asked for where this structure is not in memory."""
+    code, reached = _IN_MEMORY.get(key, (None, []))
+    if code is None or not all(unchanged() for unchanged in reached):
+        with reaching() as reached:
+            code = load_or_compile(text(), names)
+        _IN_MEMORY[key] = code, reached
+    return code
 
 
 def module_text(functions: dict[str, SymbolicFunction]) -> str:

@@ -2,8 +2,8 @@
 
 Last stage of the compiler. Two kinds of code are kept in `cache_folder()`:
 
-Functions (from `engine.ir`): object code is stored under a hash of what it was made from and of
-what makes it; a damaged file is made again, and where nothing can be written it is made in memory
+Functions (from `engine.ir`): object code is stored under the hash of their text and of what compiles
+it; a damaged file is made again, and where nothing can be written it is made in memory
 each time.
 
 Modules (the loops of `engine.kernels`, compiled by numba): one folder per hash of the source and of
@@ -23,7 +23,7 @@ import shutil
 import sys
 import tempfile
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
@@ -56,10 +56,6 @@ class LoadedCode:
     """LLVM's engine."""
 
 
-_LOADED: dict[str, LoadedCode] = {}
-"""What is in memory, by key, for the whole process: laws are few and small."""
-
-
 class ModuleText(NamedTuple):
     """A module in LLVM's language."""
 
@@ -69,25 +65,20 @@ class ModuleText(NamedTuple):
     """Whether to look for operations that go together in vectors, which takes its time."""
 
 
-def load_or_compile(key: str, names: Sequence[str], text: Callable[[], ModuleText]) -> LoadedCode:
-    """The functions `names` stored under `key`, or compiled from `text()` and stored.
+def load_or_compile(text: ModuleText, names: Sequence[str]) -> LoadedCode:
+    """The functions `names` of a module, from the disk where its object code is, or compiled and stored.
 
     One thread at a time, so that no two of them compile the same; other processes may, and write
     the same file.
     """
+    made_from = "\0".join((text.text, str(text.vectors), processor()))
+    key = hashlib.sha256(made_from.encode()).hexdigest()[:32]
     with _LOCK:
         code = stored(key)
         if code is None:
-            code = compiled(*text())
+            code = compiled(*text)
             keep(key, code)
         return loaded(code, names)
-
-
-def remembered(key: str, names: Sequence[str], text: Callable[[], ModuleText]) -> LoadedCode:
-    """As `load_or_compile`, once per process and key."""
-    if key not in _LOADED:
-        _LOADED[key] = load_or_compile(key, names, text)
-    return _LOADED[key]
 
 
 def processor() -> str:

@@ -1,7 +1,7 @@
 """A walker as machine code: addresses of its functions, and the vector K of its numbers.
 
-One compilation serves every robot, gain and gait of the same structure: the hash has no floats in
-it (`fingerprint.structure_text`). So a program is made in microseconds where its functions are in
+One compilation serves every robot, gain and gait of the same structure, which has no floats in it
+(`engine.structure`). So a program is made in microseconds where its functions are in
 memory, in milliseconds where they are on disk; only for a new structure is anything traced and
 compiled.
 
@@ -12,6 +12,7 @@ for a matrix M (k, k) in the place of K and E (k, p).
 from __future__ import annotations
 
 import math
+from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import partial
 
@@ -20,10 +21,10 @@ import numpy as np
 from biped_adrc.closed_loop.exponential_form import SplitLaws
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers, WalkerStructure
-from biped_adrc.engine.fingerprint import hash_of, law_text, structure_text, versions_text
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.mechanics import RobotData, RobotStructure, robot_of
+from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import Vector, column, floats
 from biped_adrc.engine.tracer import located
 from biped_adrc.errors import InputError
@@ -159,29 +160,15 @@ def _machine(make: WalkerStructure, numbers: WalkerNumbers) -> LoadedCode:
 
     functions = {name: partial(traced, name) for name in Equations.names(make)}
     try:
-        return generated(structure_key(make, numbers), functions)
+        return generated((structure_of_walker(make), structure(numbers)), functions)
     except InputError as reason:
         raise NotCompiled(f"{reason}; it runs in Python on the compiled plant") from reason
 
 
-def structure_key(make: WalkerStructure, numbers: WalkerNumbers) -> str:
-    """Hash of all that decides the code: laws, structure, versions; no float is in it.
-
-    Parameters count by their names and shapes alone.
-    """
-    split = () if make.split is None else make.split[3:]
-    laws = law_text(*split)
-    return hash_of(
-        "walker",
-        structure_text(make.robot),
-        laws,
-        make.size,
-        make.held,
-        make.gained,
-        () if make.split is None else (make.split.A.shape, make.split.rows),
-        structure_text(numbers),
-        versions_text(),
-    )
+def structure_of_walker(make: WalkerStructure) -> Hashable:
+    """What decides the code of a walker beside the structure of its numbers."""
+    robot, *rest = make
+    return structure(robot, exact=True), structure(rest)
 
 
 def product(k: int, p: int) -> LoadedCode:
@@ -195,4 +182,4 @@ def product(k: int, p: int) -> LoadedCode:
         M, E = Vector("M", k * k), Vector("E", k * p)
         return SymbolicFunction(M.symbol, E.symbol, column(M.take(k, k) @ E.take(k, p)))
 
-    return generated(hash_of("turn", k, p, versions_text()), {"turn": turn}, vectors=True)
+    return generated(("turn", k, p), {"turn": turn}, vectors=True)

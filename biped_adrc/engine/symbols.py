@@ -277,16 +277,16 @@ def rebuilt(like: tuple[object, ...] | list[object], parts: list[object]) -> obj
 
 
 class Hidden:
-    """In place of what has no symbols in a part: a robot, complex numbers. Raises Untraceable when used."""
+    """In place of what has no symbols: a robot, complex or random numbers. Raises Untraceable when used."""
 
     def __init__(self, what: str):
         self._what = what
 
     def __getattr__(self, name: str) -> Any:
-        raise Untraceable(f"the law looks into {self._what}, which has no form on symbols")
+        raise Untraceable(f"the law uses {self._what}, which has no form on symbols")
 
-    __iter__ = __len__ = __add__ = __radd__ = __mul__ = __rmul__ = __array__ = lambda self, *_: (
-        self.__getattr__("")
+    __iter__ = __len__ = __add__ = __radd__ = __mul__ = __rmul__ = __array__ = __call__ = (
+        lambda self, *_: self.__getattr__("")
     )
 
 

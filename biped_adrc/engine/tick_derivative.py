@@ -10,7 +10,7 @@ central differences in its place.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from functools import partial
 
 import casadi as ca
@@ -19,7 +19,8 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.engine.equations import Equations, WalkerNumbers, WalkerStructure
-from biped_adrc.engine.program import NotCompiled, structure_key, structure_of
+from biped_adrc.engine.program import NotCompiled, structure_of, structure_of_walker
+from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import Untraceable, floats
 from biped_adrc.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.types import Array
@@ -71,13 +72,13 @@ class _Evaluated:
         return _finite(self.after.copy(), self.columns.T.copy())
 
 
-_FUNCTIONS: dict[str, ca.Function] = {}
+_FUNCTIONS: dict[Hashable, ca.Function] = {}
 """Made in this process, by the key of their structure; a function is a value, so this is no state."""
 
 
 def _function(make: WalkerStructure, numbers: WalkerNumbers) -> ca.Function:
     """(K, inp) -> (x+, J) of a structure; the values of `numbers` do not matter."""
-    key = structure_key(make, numbers)
+    key = structure_of_walker(make), structure(numbers)
     if key not in _FUNCTIONS:
         while len(_FUNCTIONS) >= REMEMBERED:
             _FUNCTIONS.pop(next(iter(_FUNCTIONS)))

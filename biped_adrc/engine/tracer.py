@@ -10,6 +10,7 @@ import abc
 import functools
 import inspect
 import math
+import sys
 import traceback
 import types
 from collections.abc import Callable, Iterator, Mapping
@@ -25,6 +26,7 @@ from numpy.typing import NDArray
 
 from biped_adrc import linear, parts
 from biped_adrc.engine import symbols
+from biped_adrc.engine.structure import changes, note
 from biped_adrc.engine.symbols import (
     HIDDEN,
     Hidden,
@@ -87,7 +89,7 @@ class Tracer:
 
     def __init__(self) -> None:
         """The replacements, by identity of what laws name: NumPy, math, and the two functions of `linear`."""
-        self.solver = Solver()
+        self.solver, random = Solver(), Hidden("random numbers")
         functions = {name: elementwise(function_of(theirs)) for name, theirs in FUNCTIONS.items()}
         numpy = {
             **functions,
@@ -104,10 +106,15 @@ class Tracer:
             "where": elementwise(where),
             "abs": np.abs,
             "float64": lambda x: x,
+            "random": random,
             "linalg": _Substitute(np.linalg, {"solve": self.solver}),
         }
         scalars = {name: function_of(theirs) for name, theirs in FUNCTIONS.items()}
         scalars |= {f"a{name}": function_of(f"a{name}") for name in ("sin", "cos", "tan")}
+        self._functions = {
+            getattr(math, name): f for name, f in scalars.items() if hasattr(math, name)
+        }
+        self._functions |= {getattr(np, name): f for name, f in functions.items()}
         self._substitutes: list[tuple[object, object]] = [
             (np, _Substitute(np, numpy)),
             (math, _Substitute(math, scalars)),
@@ -116,6 +123,8 @@ class Tracer:
             (parts.returned, lambda found, *_, **__: found),
             (parts.point_returned, lambda found, *_: found),
             (parts.check_part, lambda *_: None),
+            (np.random, random),
+            (np.random.default_rng, random),
         ]
         self._copies: dict[types.FunctionType, Any] = {}
         self._twins: dict[type, type] = {}
@@ -143,9 +152,12 @@ class Tracer:
             )
             copy.__kwdefaults__ = law.__kwdefaults__
             self._copies[law] = self._copies[copy] = copy
+            own = changes(law.__module__, law.__globals__.get("__file__"))
             for name in names_of(law.__code__):
                 if name in scope:
                     scope[name] = self.on_symbols(scope[name])
+                    if own and name in law.__globals__:
+                        note(law.__globals__, name)
             for name, cell in zip(law.__code__.co_freevars, cells, strict=True):
                 twin = self.twin if name == "__class__" else self.on_symbols
                 cell.cell_contents = twin(cell.cell_contents)
@@ -159,12 +171,20 @@ class Tracer:
         for old, new in self._substitutes:
             if value is old:
                 return new
+        if isinstance(
+            value, np.ufunc | types.BuiltinFunctionType
+        ):  # such as of `from math import sin`
+            return self._functions.get(value, value)
         if isinstance(value, tuple | list):
             return rebuilt(value, [self.on_symbols(part) for part in value])
         if isinstance(value, HIDDEN):
             return Hidden(f"a {type(value).__name__}")
         if isinstance(value, type) and is_dataclass(value) and value not in HIDDEN:
             return self.twin(value)
+        if isinstance(value, types.ModuleType) and changes(
+            value.__name__, getattr(value, "__file__", None)
+        ):
+            return _Named(self, value)
         if not is_part(value) or type(value).__module__.startswith(ENGINE):
             return self(value)
         inside = {name: self.on_symbols(x) for name, x in content(value).items()}
@@ -182,8 +202,13 @@ class Tracer:
             made = types.new_class(cls.__name__, (*twins, cls))
             made.__module__, made.__qualname__ = cls.__module__, cls.__qualname__
             self._twins[cls] = self._twins[made] = made
+            own = changes(
+                cls.__module__, getattr(sys.modules.get(cls.__module__), "__file__", None)
+            )
             for name, value in vars(cls).items():
                 if name == "__call__" or not name.startswith(("__", "_abc_")):
+                    if own:
+                        note(vars(cls), name)
                     setattr(made, name, self._member(value))
             abc.update_abstractmethods(made)
         return self._twins[cls]
@@ -199,6 +224,17 @@ class Tracer:
         if isinstance(value, staticmethod):
             return staticmethod(self(value.__func__))
         return value
+
+
+class _Named:
+    """A module of the user's: what a law names in it is for symbols."""
+
+    def __init__(self, trace: Tracer, module: types.ModuleType):
+        self._trace, self._module = trace, module
+
+    def __getattr__(self, name: str) -> object:
+        note(vars(self._module), name)
+        return self._trace.on_symbols(getattr(self._module, name))
 
 
 def run(trace: Tracer, law: Callable[..., T], *arguments: object) -> T:

@@ -11,7 +11,7 @@ from biped_adrc.control.delayed import Delayed
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.passive import Passive
-from biped_adrc.engine.fingerprint import structure_text
+from biped_adrc.engine.structure import structure
 from biped_adrc.gait.reference import Reference
 from biped_adrc.observers.base import Estimate
 from biped_adrc.observers.chain import ChainObserver
@@ -121,7 +121,7 @@ def test_an_observer_in_plain_python_compiles(biped, gait):
 
 def test_new_numbers_of_an_observer_compile_nothing():
     one, other, third = (
-        structure_text(ba.GPIObserver.from_poles(poles))
+        structure(ba.GPIObserver.from_poles(poles))
         for poles in ((-3.0, -5.0), (-4.0, -6.0), (-3.0, -4.0, -5.0))
     )
     assert one == other

@@ -8,10 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from biped_adrc.engine import machine
 from biped_adrc.engine.machine import (
     VARIABLE,
     ModuleText,
-    _path,
+    compiled,
     load_or_compile,
     load_source,
     stored,
@@ -45,27 +46,40 @@ def result(code):
     return out[0]
 
 
-def make(key="some-key", text=TEXT):
+@pytest.fixture
+def make(monkeypatch):
+    """Loads or compiles the text; what its function gives, and how often it was compiled."""
     made = []
-    code = load_or_compile(key, ["f"], lambda: (made.append(1), ModuleText(text))[1])
-    return result(code), len(made)
+
+    def counted(*text):
+        made.append(1)
+        return compiled(*text)
+
+    def load():
+        made.clear()
+        return result(load_or_compile(ModuleText(TEXT), ["f"])), len(made)
+
+    monkeypatch.setattr(machine, "compiled", counted)
+    return load
 
 
-def test_machine_code_is_made_once():
+def test_machine_code_is_made_once(make, tmp_path, monkeypatch):
+    monkeypatch.setenv(VARIABLE, str(tmp_path))
     assert make() == (42.0, 1)
     assert make() == (42.0, 0)
 
 
 @pytest.mark.parametrize("damage", [b"", b"broken", None])
-def test_damaged_machine_code_is_made_again(damage):
-    make("damaged")
-    path = _path("damaged")
+def test_damaged_machine_code_is_made_again(make, damage, tmp_path, monkeypatch):
+    monkeypatch.setenv(VARIABLE, str(tmp_path))
+    make()
+    (path,) = tmp_path.glob("code/*.bin")
     data = bytearray(path.read_bytes())
     data[-7] ^= 1
     path.write_bytes(bytes(data) if damage is None else damage)
-    assert stored("damaged") is None
-    assert make("damaged") == (42.0, 1)
-    assert stored("damaged") is not None
+    assert stored(path.stem) is None
+    assert make() == (42.0, 1)
+    assert stored(path.stem) is not None
 
 
 DOUBLED = """
@@ -109,7 +123,7 @@ def test_a_damaged_module_is_written_again(cache):
     assert path.read_text() == source
 
 
-def test_what_cannot_be_written_is_kept_elsewhere(tmp_path, monkeypatch):
+def test_what_cannot_be_written_is_kept_elsewhere(make, tmp_path, monkeypatch):
     """A file in place of the folder, and a folder below the working directory, which may hold planted code."""
     blocked = tmp_path / "file"
     blocked.write_text("no folder")
@@ -121,8 +135,8 @@ def test_what_cannot_be_written_is_kept_elsewhere(tmp_path, monkeypatch):
         assert tmp_path not in Path(str(module.__file__)).parents
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
     monkeypatch.setenv(VARIABLE, str(blocked))
-    assert make("elsewhere") == (42.0, 1)
-    assert make("elsewhere") == (42.0, 1)
+    assert make() == (42.0, 1)
+    assert make() == (42.0, 1)
 
 
 def test_several_processes_make_the_same_code(cache):

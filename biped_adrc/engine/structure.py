@@ -1,0 +1,91 @@
+"""What decides generated code, to be found again within a process; on disk it is under the hash of its text.
+
+Tracing takes a tenth of a second, and a study makes thousands of walkers with other numbers. So code in memory
+is found by the structure of what it was made from, floats replaced by their shapes, and by what its methods
+reached outside of this package: a class, function or constant that was defined anew makes other code.
+"""
+
+from __future__ import annotations
+
+import sysconfig
+import types
+from collections.abc import Callable, Hashable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.engine.symbols import HIDDEN, Untraceable
+from biped_adrc.part import content, is_part
+
+LIBRARIES = tuple(sysconfig.get_paths()[kind] for kind in ("stdlib", "purelib", "platlib"))
+"""Folders whose modules do not change while a process runs."""
+
+
+def structure(tree: Any, exact: bool = False) -> Hashable:
+    """All that decides the code of a tree of parts, tuples, arrays and numbers; exact: floats by value too.
+
+    Raises Untraceable for an object whose content cannot be compared.
+    """
+    if isinstance(tree, HIDDEN):
+        return "hidden", type(tree)
+    if is_part(tree):
+        return type(tree), *((name, structure(x, exact)) for name, x in content(tree).items())
+    if isinstance(tree, tuple | list):
+        return type(tree), *(structure(x, exact) for x in tree)
+    if isinstance(tree, dict):
+        return dict, *((name, structure(x, True)) for name, x in tree.items())
+    if isinstance(tree, np.ndarray):
+        numbers = tree.dtype.kind == "f" and not exact
+        return tree.dtype.str, tree.shape, None if numbers else tree.tobytes()
+    if isinstance(tree, float | np.floating) and not exact:
+        return float
+    try:
+        hash(tree)
+    except TypeError:
+        raise Untraceable(
+            f"a part holds {tree!r}, a {type(tree).__name__} whose content cannot be compared"
+        ) from None
+    known = isinstance(tree, type | types.FunctionType | types.ModuleType)
+    inside = {} if known else getattr(tree, "__dict__", {})
+    return type(tree), tree, structure(inside, True) if inside else None
+
+
+Unchanged = Callable[[], bool]
+"""Whether something that a traced method reached is still what it was."""
+_REACHED: ContextVar[list[Unchanged] | None] = ContextVar("reached", default=None)
+
+
+@contextmanager
+def reaching() -> Iterator[list[Unchanged]]:
+    """What is traced within the block notes here what it reaches outside of this package and of libraries."""
+    found: list[Unchanged] = []
+    token = _REACHED.set(found)
+    try:
+        yield found
+    finally:
+        _REACHED.reset(token)
+
+
+def note(names: dict[str, Any] | types.MappingProxyType[str, Any], name: str) -> None:
+    """Note the value of a name in the globals of a function, or in a class."""
+    reached, value = _REACHED.get(), names[name]
+    if reached is None:
+        return
+    kept = _snapshot(value)
+    reached.append(lambda: name in names and names[name] is value and _snapshot(value) == kept)
+
+
+def _snapshot(value: Any) -> object:
+    """What can change in place of a constant."""
+    if isinstance(value, np.ndarray):
+        return value.tobytes()
+    return repr(value) if isinstance(value, list | dict | set) else None
+
+
+def changes(module: str | None, file: str | None) -> bool:
+    """Whether a module is one of the user's, and no library's or this package's."""
+    if module is None or module.partition(".")[0] == "biped_adrc":
+        return False
+    return file is None or not file.startswith(LIBRARIES)

@@ -1,0 +1,139 @@
+"""Code in memory is found by structure: new numbers compile nothing, what a method reaches counts."""
+
+import sys
+import types
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.engine.compiled_walker import term_code
+from biped_adrc.engine.ir import in_memory
+from biped_adrc.engine.machine import ModuleText
+from biped_adrc.engine.structure import structure
+from biped_adrc.engine.symbols import floats
+from biped_adrc.errors import InputError
+from tests.control.conforms import call
+
+HEAD = """
+from dataclasses import dataclass
+import numpy as np
+import biped_adrc as ba
+@dataclass(frozen=True)
+class Own(ba.Disturbance):
+    C = 1.25
+    def torque(self, t, step, t_start, q, v):
+        return {torque}
+"""
+REACHED = {
+    "a constant": ("C * v", "C = 1.25", "C = 1.75"),
+    "a function": ("f(v)", "def f(x): return 1.25 * x", "def f(x): return 1.75 * x"),
+    "an array changed in place": ("C[0] * v", "C = np.array([1.25])", "C[0] = 1.75"),
+    "a list changed in place": ("C[0] * v", "C = [1.25]", "C[0] = 1.75"),
+    "a constant of the class": ("self.C * v", "", "Own.C = 1.75"),
+    "another method": (
+        "self.f(v)",
+        "Own.f = lambda self, x: 1.25 * x",
+        "Own.f = lambda self, x: 1.75 * x",
+    ),
+}
+
+
+def value(term):
+    """The torque of a term by its machine code, and by Python."""
+    q, v = np.zeros(5), np.arange(1.0, 6.0)
+    inp, K = np.concatenate(([0.1, 1.0, 0.0], q, v)), np.array([*floats(term), 0.0])
+    code = term_code(term, 5)
+    return call(code, "torque", K, inp, 5), term.torque(0.1, 1, 0.0, q, v)
+
+
+@pytest.mark.parametrize(("torque", "before", "after"), REACHED.values(), ids=REACHED)
+def test_what_a_method_reaches_may_change(torque, before, after):
+    own = types.ModuleType("own")
+    exec(HEAD.format(torque=torque), vars(own))
+    exec(before, vars(own))
+    for change, factor in (("", 1.25), (after, 1.75)):
+        exec(change, vars(own))
+        compiled, python = value(own.Own())
+        assert np.array_equal(compiled, python)
+        assert compiled[0] == factor
+
+
+def test_modules_are_followed(tmp_path, monkeypatch):
+    folder = tmp_path / "tools"
+    folder.mkdir()
+    (folder / "__init__.py").write_text("")
+    (folder / "shapes.py").write_text(
+        "import numpy as np\nC = 1.25\ndef f(x): return C * np.tanh(x)\n"
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    own = types.ModuleType("own")
+    exec("import tools.shapes" + HEAD.format(torque="tools.shapes.f(v)"), vars(own))
+    before = value(own.Own())
+    assert before[0] == pytest.approx(before[1], rel=1e-15)
+    monkeypatch.setattr(sys.modules["tools.shapes"], "C", 1.75)
+    assert value(own.Own())[0] == pytest.approx(1.4 * before[0], rel=1e-15)
+    for name in ("tools", "tools.shapes"):
+        del sys.modules[name]
+
+
+@pytest.mark.parametrize("make", [tuple, list, np.array])
+def test_numbers_are_no_structure(make):
+    one, other, shorter = (structure((make(x),)) for x in ([1.5, 2.0], [2.5, 3.0], [2.5]))
+    assert one == other
+    assert one != shorter
+    assert structure((make([1.5]),), exact=True) != structure((make([2.5]),), exact=True)
+    assert len({structure(x) for x in (1, True, "1", None, 1.0)}) == 5
+
+
+def test_the_same_structure_is_compiled_once():
+    text = "define void @f(ptr %K, ptr %inp, ptr %out) {\nret void\n}"
+    made = []
+    for _ in range(2):
+        in_memory(("once",), ["f"], lambda: made.append(1) or ModuleText(text))
+    assert made == [1]
+
+
+@dataclass(frozen=True)
+class Wave(ba.Disturbance):
+    pair: tuple[float, float]
+
+    def torque(self, t, step, t_start, q, v):
+        return np.array([self.pair[0] * np.sin(self.pair[1] * t), 0.0, 0.0, 0.0, 0.0])
+
+
+@dataclass(frozen=True)
+class Short(Wave):
+    def torque(self, t, step, t_start, q, v):
+        return super().torque(t, step, t_start, q, v)[:1]
+
+
+@dataclass(frozen=True)
+class Random(Wave):
+    def torque(self, t, step, t_start, q, v):
+        return np.random.default_rng(1).normal(size=5)
+
+
+def test_two_pairs_in_one_process(biped, gait):
+    for pair in ((5.0, 9.0), (9.0, 40.0)):
+        walker = ba.Walker(biped, ba.NPDController(gait.constraint), Wave(pair))
+        one, two = (
+            ba.walk(walker, gait, 1, ba.RK4(2e-3), engine=engine).trajectory
+            for engine in ("compiled", "pinocchio")
+        )
+        assert one.settings["engine"] == "compiled"
+        np.testing.assert_allclose(one.final_state, two.final_state, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("engine", ["compiled", "pinocchio"])
+def test_a_torque_of_the_wrong_length_is_refused(biped, gait, engine):
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), Short((5.0, 9.0)))
+    with pytest.raises(InputError, match=r"expected (5|\(5,\))"):
+        ba.walk(walker, gait, 1, ba.RK4(2e-3), engine=engine)
+
+
+def test_a_draw_of_random_numbers_is_not_compiled(biped, gait):
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), Random((5.0, 9.0)))
+    walk = ba.walk(walker, gait, 1, ba.RK4(2e-3))
+    assert "random numbers" in walk.trajectory.settings["why"]
