@@ -1,4 +1,4 @@
-"""Base of controllers, observers, references and disturbances: parts that are written as laws.
+"""Base of controllers, observers and references: parts that are written as laws.
 
 A law is a pure function of arrays whose first argument k holds the numbers (gains, poles,
 amplitudes). A part gives all its laws and k together as one NamedTuple, its property `laws`. From

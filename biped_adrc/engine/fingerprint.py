@@ -135,8 +135,9 @@ class _Reach:
 
         A library's function is known by its name; its version is in `versions_text`.
         """
-        self.texts.append(f"{x.__module__}.{x.__qualname__}")
-        if _known(x.__module__) and not x.__module__.startswith(_PACKAGE):
+        module = str(x.__module__)  # None for what dataclasses write outside of modules
+        self.texts.append(f"{module}.{x.__qualname__}")
+        if _known(module) and not module.startswith(_PACKAGE):
             return
         names = names_of(x.__code__) | _words(x.__code__)
         self.texts.append(_code_text(x.__code__))
