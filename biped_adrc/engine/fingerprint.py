@@ -43,6 +43,8 @@ _NAMED = (
     *(types.GetSetDescriptorType, types.MethodWrapperType, types.ClassMethodDescriptorType),
 )
 """Methods of built-in classes, known by their names."""
+_HEAP = 1 << 9
+"""Among the flags of a class that it was made by Python code."""
 _BARE = vars(NamedTuple("_Bare", [])) | {
     "__firstlineno__": 0,
     "_abc_impl": 0,
@@ -90,7 +92,7 @@ def _items(tree: Any) -> dict[object, object]:
 
 def _class_text(cls: type) -> str:
     """The text of a class; kept for those of libraries and of this package, whose text never changes."""
-    return _kept_text(cls) if all(_known(x.__module__) for x in cls.__mro__) else law_text(cls)
+    return _kept_text(cls) if all(map(_known_class, cls.__mro__)) else law_text(cls)
 
 
 class _Reach:
@@ -136,7 +138,8 @@ class _Reach:
         A library's function is known by its name; its version is in `versions_text`.
         """
         self.texts.append(f"{x.__module__}.{x.__qualname__}")
-        if _known(x.__module__) and not x.__module__.startswith(_PACKAGE):
+        module = x.__module__ or "__main__"
+        if _known(module) and not module.startswith(_PACKAGE):
             return
         names = names_of(x.__code__) | _words(x.__code__)
         self.texts.append(_code_text(x.__code__))
@@ -155,7 +158,7 @@ class _Reach:
         """A class by its name and fields; one of the user's with all that it and its bases hold."""
         self.texts.append(f"{x.__module__}.{x.__qualname__}{getattr(x, '_fields', '')}")
         for cls in x.__mro__:
-            if not _known(cls.__module__):
+            if not _known_class(cls):
                 self.texts.append(cls.__qualname__)
                 self.named({k: v for k, v in vars(cls).items() if k not in _BARE})
 
@@ -194,7 +197,7 @@ class _Reach:
         Raises Untraceable where there is neither.
         """
         inside = _inside(x)
-        if inside or not _known(type(x).__module__):
+        if inside or not _known_class(type(x)):
             self.class_(type(x))
             self.named(inside)
             return
@@ -241,6 +244,11 @@ def _untold(x: object) -> Untraceable:
     return Untraceable(
         f"a law reaches {x!r}, a {type(x).__name__}, whose content cannot be told from outside"
     )
+
+
+def _known_class(cls: type) -> bool:
+    """As `_known`; a class that was written where `__name__` is missing says that it is built in, and is not."""
+    return _known(cls.__module__) and (cls.__module__ != "builtins" or not cls.__flags__ & _HEAP)
 
 
 @lru_cache(maxsize=4096)
