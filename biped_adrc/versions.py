@@ -32,6 +32,8 @@ NUMERICAL = (
 """Packages on which the digits of a run depend."""
 SOURCE = "source of biped-adrc"
 """Name under which the hash of this package's source stands among the versions."""
+
+
 def packages(names: Iterable[str]) -> dict[str, str]:
     """Installed version by name of package; "none" for one that is not installed.
 
@@ -72,7 +74,7 @@ def numerical_versions() -> Mapping[str, str]:
 
 
 def source_hash(root: Path) -> str:
-    """SHA-256 in hexadecimal digits over names and contents of all Python files below `root`, in sorted order."""
+    """SHA-256 in hexadecimal digits over names and contents of all Python files below `root`, sorted."""
     digest = hashlib.sha256()
     for path in sorted(root.rglob("*.py")):
         digest.update(str(path.relative_to(root)).encode() + b"\0" + path.read_bytes())
