@@ -7,11 +7,13 @@ A dataclass calls `check_fields` and has each field held against its own annotat
 from __future__ import annotations
 
 import math
+import sysconfig
 import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import fields, is_dataclass
 from functools import lru_cache, wraps
+from inspect import unwrap
 from numbers import Real
 from pathlib import Path
 from types import NoneType, UnionType
@@ -119,9 +121,20 @@ def returned(
 
 
 def _said(part: object, method: str, field: bool) -> str:
-    """How a sentence about what a class gave begins: X.output returned, X gives q_d =."""
+    """How a sentence about what a class gave begins: X.output (own.py:12) returned, X gives q_d =."""
     name = spoken(part)
-    return f"{name} gives {method} =" if field else f"{name}.{method} returned"
+    return (
+        f"{name} gives {method} =" if field else f"{name}.{method}{line_of(part, method)} returned"
+    )
+
+
+def line_of(part: object, method: str) -> str:
+    """Where a user's class writes a method: " (own.py:12)"; empty for a class of this package."""
+    written: Any = getattr(type(part), method, None)
+    code = getattr(unwrap(written), "__code__", None)
+    if code is None or not is_users(code.co_filename):
+        return ""
+    return f" ({Path(code.co_filename).name}:{code.co_firstlineno})"
 
 
 def _numbers_returned(
@@ -184,17 +197,43 @@ def spoken(part: object) -> str:
 
 @contextmanager
 def handing_out() -> Iterator[None]:
-    """Raises InputError with the place in a user's code that writes into an array which was handed to it."""
+    """Raises InputError, with class, method and line, in place of what a user's code raises in the block."""
     try:
         yield
-    except ValueError as error:
-        if isinstance(error, BipedError) or "read-only" not in str(error):
+    except BipedError:
+        raise
+    except Exception as error:
+        if not (told := sentence_of(error)):
             raise
-        at = traceback.extract_tb(error.__traceback__)[-1]
-        raise InputError(
-            f"`{at.line}` ({at.name}, {Path(at.filename).name}:{at.lineno}) writes into an array that it was "
-            "handed and that others read; write into a copy, such as v = m.v_b.copy()"
-        ) from error
+        raise InputError(told) from error
+
+
+def sentence_of(error: Exception) -> str:
+    """What a user's code raised, and where: PD.output (own.py:12, `x = 1 / 0`); empty for other code."""
+    frames = traceback.walk_tb(error.__traceback__)
+    lines = zip(frames, traceback.extract_tb(error.__traceback__), strict=True)
+    own = [(frame.f_code, line) for (frame, _), line in lines if is_users(line.filename)]
+    if not own:
+        return ""
+    code, line = own[-1]
+    name = code.co_qualname.rpartition("<locals>.")[2]
+    where = f"{name} ({Path(line.filename).name}:{line.lineno}, `{line.line}`)"
+    if isinstance(error, ValueError) and "read-only" in str(error):
+        return (
+            f"{where} writes into an array that it was handed and that others read; write into a copy, such as "
+            "v = m.v_b.copy()"
+        )
+    return f"{where} raised {type(error).__name__}: {error}"
+
+
+LIBRARIES = tuple(sysconfig.get_paths()[kind] for kind in ("stdlib", "purelib", "platlib"))
+"""Folders of Python and of installed packages."""
+PACKAGE = str(Path(__file__).parent)
+
+
+def is_users(file: str) -> bool:
+    """Whether a file of Python is the user's, and no library's or this package's."""
+    return not file.startswith((PACKAGE, *LIBRARIES, "<frozen"))
 
 
 @lru_cache(maxsize=256)

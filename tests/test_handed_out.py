@@ -219,7 +219,7 @@ class Gives(NPD):
 def test_a_torque_that_is_none(engine, timing, case, biped, gait):
     bad, said = BAD[case]
     walker = ba.Walker(biped, Gives(gait.constraint, still, bad, 0.01), timing=TIMINGS[timing])
-    with pytest.raises(InputError, match=rf"^Gives\.output returned .*{said}"):
+    with pytest.raises(InputError, match=rf"^Gives\.output .*returned .*{said}"):
         ba.walk(walker, gait, 1, engine=engine)
 
 
@@ -264,7 +264,7 @@ def test_a_state_that_is_none(engine, name, bad, biped, gait):
     timing = TIMINGS["ticks" if name in ("correct", "predict") else "continuous"]
     controller = Remembers(gait.constraint, still, name, bad)
     mode = ba.Stiff(1e-2) if name == "jump" else ba.RK4(1e-3)
-    with pytest.raises(InputError, match=rf"^Remembers\.{name} returned .*expected"):
+    with pytest.raises(InputError, match=rf"^Remembers\.{name} .*returned .*expected"):
         ba.walk(ba.Walker(biped, controller, timing=timing), gait, 1, engine=engine, method=mode)
 
 
@@ -282,7 +282,7 @@ class Wind(ba.Disturbance):
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_disturbance_that_is_none(engine, bad, biped, gait):
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), Wind(bad))
-    with pytest.raises(InputError, match=r"^Wind\.torque returned .*expected \(5,\)"):
+    with pytest.raises(InputError, match=r"^Wind\.torque .*returned .*expected \(5,\)"):
         ba.walk(walker, gait, 1, engine=engine)
 
 
@@ -316,7 +316,7 @@ class Watching(ba.Observer):
 @pytest.mark.parametrize("engine", ENGINES)
 def test_an_observer_that_gives_something_else(engine, name, bad, biped, gait):
     walker = ba.Walker(biped, ba.ADRCController(gait.constraint, Watching(name, bad)))
-    with pytest.raises(InputError, match=rf"Watching\.{name} returned"):
+    with pytest.raises(InputError, match=rf"Watching\.{name}.* returned"):
         ba.walk(walker, gait, 1, engine=engine)
 
 
@@ -347,5 +347,5 @@ def test_a_sensor_that_shows_something_else(engine, name, bad, biped, gait):
     walker = ba.Walker(
         biped, NPD(gait.constraint, still), timing=TIMINGS["ticks"], sensors=Blind(name, bad)
     )
-    with pytest.raises(InputError, match=re.escape(f"Blind.{name} returned")):
+    with pytest.raises(InputError, match=rf"Blind\.{name}.* returned"):
         ba.walk(walker, gait, 1, engine=engine)

@@ -24,7 +24,7 @@ from biped_adrc.closed_loop.semantics import Instant
 from biped_adrc.control.base import Controller, Measurement, check_methods, nested
 from biped_adrc.control.tracking import Gains
 from biped_adrc.disturbances.base import Disturbance
-from biped_adrc.errors import BipedError, InputError, NotFiniteError
+from biped_adrc.errors import BipedError, InputError
 from biped_adrc.gait.reference import Reference, check_point
 from biped_adrc.hardware import sample_hold as held
 from biped_adrc.hardware.loads import Outside
@@ -258,7 +258,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
             u = np.minimum(np.maximum(u, -limit), limit)
         # one product tests all of them, at every stage of every step
         if not math.isfinite(u.dot(u)):
-            raise NotFiniteError(f"{type(self.controller).__name__}.output returned {u} N m")
+            returned(u, self.torques, self.controller, "output")
         return u
 
     def jumped(self, fires: float, s: Array, m: Measurement) -> Array:

@@ -24,7 +24,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import ErrorSystem, Estimate
 from biped_adrc.part import Part
-from biped_adrc.parts import returned
+from biped_adrc.parts import line_of, returned, spoken
 from biped_adrc.shown import one_line
 from biped_adrc.types import Array
 
@@ -177,8 +177,8 @@ def check_methods(controller: Controller, s: Array, m: Measurement, sampled: boo
     u = returned(controller.output(s, m), shape, controller, "output")
     if not np.array_equal(u, controller.output(s, m)):
         raise InputError(
-            f"{type(controller).__name__}.output gave another torque when asked again at the same instant; "
-            "expected no memory in the object: return a state from initial_state, and flow or predict"
+            f"{spoken(controller)}.output{line_of(controller, 'output')} gave another torque when asked again "
+            "at the same instant; expected no memory in the object: return a state from initial_state, and flow or predict"
         )
     calls = {"correct": (s, m), "predict": (s, m, u)} if sampled else {"flow": (s, m, u)}
     for name, arguments in calls.items():

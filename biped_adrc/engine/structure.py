@@ -7,7 +7,6 @@ reached outside of this package: a class, function or constant that was defined 
 
 from __future__ import annotations
 
-import sysconfig
 import types
 from collections.abc import Callable, Hashable, Iterator
 from contextlib import contextmanager
@@ -18,9 +17,7 @@ import numpy as np
 
 from biped_adrc.engine.symbols import HIDDEN, Untraceable
 from biped_adrc.part import content, is_part
-
-LIBRARIES = tuple(sysconfig.get_paths()[kind] for kind in ("stdlib", "purelib", "platlib"))
-"""Folders whose modules do not change while a process runs."""
+from biped_adrc.parts import LIBRARIES, is_users
 
 
 def structure(tree: Any, exact: bool = False) -> Hashable:
@@ -84,8 +81,14 @@ def _snapshot(value: Any) -> object:
     return repr(value) if isinstance(value, list | dict | set) else None
 
 
+def is_library(module: types.ModuleType) -> bool:
+    """Whether a module is neither the user's nor of this package."""
+    file = getattr(module, "__file__", None)
+    return file is None or file.startswith(LIBRARIES)
+
+
 def changes(module: str | None, file: str | None) -> bool:
     """Whether a module is one of the user's, and no library's or this package's."""
     if module is None or module.partition(".")[0] == "biped_adrc":
         return False
-    return file is None or not file.startswith(LIBRARIES)
+    return file is None or is_users(file)

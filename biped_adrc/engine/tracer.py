@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from biped_adrc import linear, parts
 from biped_adrc.engine import symbols
-from biped_adrc.engine.structure import changes, note
+from biped_adrc.engine.structure import changes, is_library, note
 from biped_adrc.engine.symbols import (
     HIDDEN,
     Hidden,
@@ -181,9 +181,7 @@ class Tracer:
             return Hidden(f"a {type(value).__name__}")
         if isinstance(value, type) and is_dataclass(value) and value not in HIDDEN:
             return self.twin(value)
-        if isinstance(value, types.ModuleType) and changes(
-            value.__name__, getattr(value, "__file__", None)
-        ):
+        if isinstance(value, types.ModuleType) and not is_library(value):
             return _Named(self, value)
         if not is_part(value) or type(value).__module__.startswith(ENGINE):
             return self(value)
@@ -227,14 +225,16 @@ class Tracer:
 
 
 class _Named:
-    """A module of the user's: what a law names in it is for symbols."""
+    """A module of the user's or of this package: what a law names in it is for symbols."""
 
     def __init__(self, trace: Tracer, module: types.ModuleType):
         self._trace, self._module = trace, module
 
     def __getattr__(self, name: str) -> object:
-        note(vars(self._module), name)
-        return self._trace.on_symbols(getattr(self._module, name))
+        value = getattr(self._module, name)
+        if name in vars(self._module):
+            note(vars(self._module), name)
+        return self._trace.on_symbols(value)
 
 
 def run(trace: Tracer, law: Callable[..., T], *arguments: object) -> T:

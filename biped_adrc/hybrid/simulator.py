@@ -26,7 +26,7 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Clock, FoundEvent, HybridSystem, Mode, Outcome, Split
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 from biped_adrc.hybrid.watch import Watch, interior
-from biped_adrc.parts import handing_out
+from biped_adrc.parts import handing_out, sentence_of
 from biped_adrc.types import Array
 
 Progress = Callable[[float, int], None]
@@ -254,6 +254,11 @@ def flow_arc(
     except tuple(FAILURES.values()) as error:
         status = next(s for s, kind in FAILURES.items() if isinstance(error, kind))
         detail = str(error)
+    except Exception as error:
+        detail = str(error) if isinstance(error, InputError) else sentence_of(error)
+        if not (detail and record.t):
+            raise
+        status = Status.RAISED
     if not record.t:
         record.add(t, x, np.zeros_like(x))
     if found is None:

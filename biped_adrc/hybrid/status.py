@@ -41,8 +41,8 @@ class Status(Enum):
     """A matrix of the controller was singular: in compiled code, a pivot of exactly zero."""
     STEP_FAILED = "the one-step method could not go on; try another method or a looser tolerance"
     """The integration method could not go on: no acceptable step, or too many steps."""
-    RAISED = "a part in plain Python raised an exception of its own; the detail says which"
-    """In a batch only: an exception in a class of the user's, written in plain Python."""
+    RAISED = "a class of your own raised an exception; the detail says where"
+    """An exception in a class of the user's, or an array of another shape from it, in the middle of a run."""
     ILLEGAL = (
         "the ground or the motors could not have carried this step; push less, walk slower, or change the gait "
         "or the controller"
