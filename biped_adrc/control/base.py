@@ -178,7 +178,8 @@ def check_methods(controller: Controller, s: Array, m: Measurement, sampled: boo
     if not np.array_equal(u, controller.output(s, m)):
         raise InputError(
             f"{spoken(controller)}.output{line_of(controller, 'output')} gave another torque when asked again "
-            "at the same instant; expected no memory in the object: return a state from initial_state, and flow or predict"
+            "at the same instant; expected no memory in the object: return a state from initial_state, and "
+            "flow or predict"
         )
     calls = {"correct": (s, m), "predict": (s, m, u)} if sampled else {"flow": (s, m, u)}
     for name, arguments in calls.items():
