@@ -27,15 +27,14 @@ that belongs to q_N, is the angular momentum about the stance foot, in whose der
 acts. So r is D_N on the constraint, a polynomial fitted once: fast parts of the size of eps are
 left, and what the fit misses costs accuracy alone.
 
-The laws are pure functions of (parameters, arrays): `Walker.split` binds them for the Python
-method, `engine.equations` traces them for the compiled one.
+`Walker.split` hands their methods to the Python method, `engine.equations` traces them for the compiled one.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -55,52 +54,45 @@ MARGIN = 0.05
 """Share of the phase range by which the fit of r goes past both ends."""
 
 
-class ErrorParameters(NamedTuple):
-    """Sizes for the form with the observer alone in A.
-
-    n coordinates, p of them actuated, `order` observer states per joint, `scale` [s] of velocities.
-    """
-
-    n: int
-    p: int
-    order: int
-    scale: float
-
-
-class LoopParameters(NamedTuple):
-    """Numbers for the form with the feedback in A too."""
+@dataclass(frozen=True)
+class ErrorForm:
+    """The form with the observer alone in A."""
 
     n: int
     """Coordinates."""
     p: int
-    """Actuated joints; n = p + 1."""
+    """Actuated joints."""
     order: int
     """Observer states per joint."""
     scale: float
     """Factor of velocities in the observer's scaled states [s]."""
-    h: VirtualConstraint
-    """The virtual constraint q_b = h(Theta)."""
-    row: Array
-    """The row of A that holds the feedback (order + 2,) [1/s]."""
-    r: Curve
-    """The row r over the phase of h, as a curve of n components [kg m^2]."""
-
-
-class SplitLaws(NamedTuple):
-    """The pure functions behind a split, and its linear part as data."""
-
-    parameters: ErrorParameters | LoopParameters
-    """First argument k of the three functions."""
     A: Array
     """Linear part (k, k) [1/s], the same for every joint."""
-    rows: tuple[int, ...]
+    rows: ClassVar[tuple[int, ...]] = (1,)
     """Rows of E that N_E enters; it is zero in all others."""
-    to: Callable[..., tuple[Array, Array]]
-    """to(k, x) -> (w, E)."""
-    back: Callable[..., Array]
-    """back(k, w, E) -> x."""
-    remainder: Callable[..., tuple[Array, Array]]
-    """remainder(k, w, E, q'', kappa u, rest') -> (N_w, the forced rows of N_E)."""
+
+    def to(self, x: Array) -> tuple[Array, Array]:
+        """w (2 n + rest,) and E (order, p) of x: the observer's state is replaced by its error."""
+        n, p, end = self.n, self.p, 2 * self.n + self.order * self.p
+        z = x[2 * n : end]
+        e = np.concatenate((x[:p] - z[:p], self.scale * x[n : n + p] - z[p : 2 * p], -z[2 * p :]))
+        return np.concatenate((x[: 2 * n], x[end:])), e.reshape(self.order, p)
+
+    def back(self, w: Array, E: Array) -> Array:
+        """x (nx,), linear in w (2 n + rest,) and E (order, p)."""
+        n, p = self.n, self.p
+        z = (w[:p] - E[0], self.scale * w[n : n + p] - E[1], -E[2:].ravel())
+        return np.concatenate((w[: 2 * n], *z, w[2 * n :]))
+
+    def remainder(
+        self, w: Array, E: Array, a: Array, kappa_u: Array, ds: Array
+    ) -> tuple[Array, Array]:
+        """N_w (2 n + rest,), and the forced rows of N_E: scale xi_total (1, p).
+
+        a = q'' (n,) [rad/s^2], kappa_u (p,) [rad/s^2], ds the derivative of the rest.
+        """
+        forced = self.scale * (a[: self.p] - kappa_u)
+        return np.concatenate((w[self.n : 2 * self.n], a, ds)), forced.reshape(1, -1)
 
     def spread(self, forced: Array) -> Array:
         """N_E (k, p) from its forced rows (r, p), zero elsewhere."""
@@ -110,90 +102,66 @@ class SplitLaws(NamedTuple):
         return N
 
 
-# -- the observer in the linear part -------------------------------------------------------------
-def error_to(k: ErrorParameters, x: Array) -> tuple[Array, Array]:
-    """w (2 n + rest,) and E (order, p) of x: the observer's state is replaced by its error."""
-    n, p, end = k.n, k.p, 2 * k.n + k.order * k.p
-    z = x[2 * n : end]
-    e = np.concatenate((x[:p] - z[:p], k.scale * x[n : n + p] - z[p : 2 * p], -z[2 * p :]))
-    return np.concatenate((x[: 2 * n], x[end:])), e.reshape(k.order, p)
+@dataclass(frozen=True)
+class FeedbackForm(ErrorForm):
+    """The form with the feedback in A too; n = p + 1."""
 
+    h: VirtualConstraint
+    """The virtual constraint q_b = h(Theta)."""
+    r: Curve
+    """The row r over the phase of h, as a curve of n components [kg m^2]."""
+    rows: ClassVar[tuple[int, ...]] = (1, 3)
 
-def error_back(k: ErrorParameters, w: Array, E: Array) -> Array:
-    """x (nx,), linear in w (2 n + rest,) and E (order, p)."""
-    n, p = k.n, k.p
-    z = (w[:p] - E[0], k.scale * w[n : n + p] - E[1], -E[2:].ravel())
-    return np.concatenate((w[: 2 * n], *z, w[2 * n :]))
+    def momentum_row(self, theta: float) -> tuple[Array, Array]:
+        """r and dr/dTheta at theta [rad], each (n,)."""
+        r, dr, _ = self.r(self.h.rate * (theta - self.h.theta_plus))
+        return r, self.h.rate * dr
 
+    def to(self, x: Array) -> tuple[Array, Array]:
+        """w (2 + rest,) and E (order + 2, p) of x."""
+        n, p, end = self.n, self.p, 2 * self.n + self.order * self.p
+        q, v, z = x[:n], x[n : 2 * n], x[2 * n : end]
+        c = self.h.phase.reshape(1, -1)
+        theta, dtheta = c @ q, c @ v
+        h, dh, _ = self.h.h(theta[0])
+        r, _ = self.momentum_row(theta[0])
+        eps = (q[:p] - h, self.scale * (v[:p] - dh * dtheta))
+        e = (q[:p] - z[:p], self.scale * v[:p] - z[p : 2 * p], -z[2 * p :])
+        E = np.concatenate((*eps, *e)).reshape(self.order + 2, p)
+        return np.concatenate((theta, r.reshape(1, -1) @ v, x[end:])), E
 
-def error_remainder(
-    k: ErrorParameters, w: Array, E: Array, a: Array, kappa_u: Array, ds: Array
-) -> tuple[Array, Array]:
-    """N_w (2 n + rest,) and scale xi_total (1, p).
+    def back(self, w: Array, E: Array) -> Array:
+        """x (nx,) of w (2 + rest,) and E (order + 2, p); not linear, since h is not."""
+        h, _, _ = self.h.h(w[0])
+        q, v = self._with_unactuated(w[0], h + E[0]), self.velocity(w, E)
+        z = (q[: self.p] - E[2], self.scale * v[: self.p] - E[3], -E[4:].ravel())
+        return np.concatenate((q, v, *z, w[2:]))
 
-    a = q'' (n,) [rad/s^2], kappa_u (p,) [rad/s^2], ds the derivative of the rest.
-    """
-    forced = k.scale * (a[: k.p] - kappa_u)
-    return np.concatenate((w[k.n : 2 * k.n], a, ds)), forced.reshape(1, -1)
+    def velocity(self, w: Array, E: Array) -> Array:
+        """q' (n,) [rad/s] of (w, E): Theta' is the one for which r q' = w[1], then q_b' = h' Theta' + eps'."""
+        _, dh, _ = self.h.h(w[0])
+        r, _ = self.momentum_row(w[0])
+        along = self._with_unactuated(1.0, dh)
+        aside = self._with_unactuated(0.0, E[1] / self.scale)
+        return along * ((w[1] - r @ aside) / (r @ along)) + aside
 
+    def _with_unactuated(self, theta: float, q_b: Array) -> Array:
+        """(q_b, q_N) (n,) whose phase c q is theta; serves angles, rates and displacements alike."""
+        c = self.h.phase
+        return np.concatenate((q_b, (theta - c[: self.p] @ q_b) / c[self.p :]))
 
-# -- the feedback in it too ----------------------------------------------------------------------
-def loop_row(k: LoopParameters, theta: float) -> tuple[Array, Array]:
-    """r and dr/dTheta at theta [rad], each (n,)."""
-    r, dr, _ = k.r(k.h.rate * (theta - k.h.theta_plus))
-    return r, k.h.rate * dr
-
-
-def loop_to(k: LoopParameters, x: Array) -> tuple[Array, Array]:
-    """w (2 + rest,) and E (order + 2, p) of x."""
-    n, p, end = k.n, k.p, 2 * k.n + k.order * k.p
-    q, v, z = x[:n], x[n : 2 * n], x[2 * n : end]
-    c = k.h.phase.reshape(1, -1)
-    theta, dtheta = c @ q, c @ v
-    h, dh, _ = k.h.h(theta[0])
-    r, _ = loop_row(k, theta[0])
-    eps = (q[:p] - h, k.scale * (v[:p] - dh * dtheta))
-    e = (q[:p] - z[:p], k.scale * v[:p] - z[p : 2 * p], -z[2 * p :])
-    E = np.concatenate((*eps, *e)).reshape(k.order + 2, p)
-    return np.concatenate((theta, r.reshape(1, -1) @ v, x[end:])), E
-
-
-def loop_back(k: LoopParameters, w: Array, E: Array) -> Array:
-    """x (nx,) of w (2 + rest,) and E (order + 2, p); not linear, since h is not."""
-    h, _, _ = k.h.h(w[0])
-    q, v = _with_unactuated(k, w[0], h + E[0]), loop_velocity(k, w, E)
-    z = (q[: k.p] - E[2], k.scale * v[: k.p] - E[3], -E[4:].ravel())
-    return np.concatenate((q, v, *z, w[2:]))
-
-
-def loop_velocity(k: LoopParameters, w: Array, E: Array) -> Array:
-    """q' (n,) [rad/s] of (w, E): Theta' is the one for which r q' = w[1], then q_b' = h' Theta' + eps'."""
-    _, dh, _ = k.h.h(w[0])
-    r, _ = loop_row(k, w[0])
-    along, aside = _with_unactuated(k, 1.0, dh), _with_unactuated(k, 0.0, E[1] / k.scale)
-    return along * ((w[1] - r @ aside) / (r @ along)) + aside
-
-
-def _with_unactuated(k: LoopParameters, theta: float, q_b: Array) -> Array:
-    """(q_b, q_N) (n,) whose phase c q is theta; serves angles, rates and displacements alike."""
-    return np.concatenate((q_b, (theta - k.h.phase[: k.p] @ q_b) / k.h.phase[k.p :]))
-
-
-def loop_remainder(
-    k: LoopParameters, w: Array, E: Array, a: Array, kappa_u: Array, ds: Array
-) -> tuple[Array, Array]:
-    """N_w (2 + rest,), and scale N and scale xi_total (2, p).
-
-    a = q'' (n,) [rad/s^2], kappa_u (p,) [rad/s^2], ds the derivative of the rest.
-    """
-    v, c, a_b = loop_velocity(k, w, E), k.h.phase.reshape(1, -1), a[: k.p]
-    _, dh, ddh = k.h.h(w[0])
-    r, dr = loop_row(k, w[0])
-    dtheta = c @ v
-    eps = k.scale * (a_b - ddh * (dtheta * dtheta) - dh * (c @ a)) - k.row @ E
-    forced = np.concatenate((eps, k.scale * (a_b - kappa_u))).reshape(2, -1)
-    dy = r.reshape(1, -1) @ a + (dr @ v) * dtheta
-    return np.concatenate((dtheta, dy, ds)), forced
+    def remainder(
+        self, w: Array, E: Array, a: Array, kappa_u: Array, ds: Array
+    ) -> tuple[Array, Array]:
+        """N_w (2 + rest,), and the forced rows of N_E: scale N and scale xi_total (2, p)."""
+        v, c, a_b = self.velocity(w, E), self.h.phase.reshape(1, -1), a[: self.p]
+        _, dh, ddh = self.h.h(w[0])
+        r, dr = self.momentum_row(w[0])
+        dtheta = c @ v
+        eps = self.scale * (a_b - ddh * (dtheta * dtheta) - dh * (c @ a)) - self.A[1] @ E
+        forced = np.concatenate((eps, self.scale * (a_b - kappa_u))).reshape(2, -1)
+        dy = r.reshape(1, -1) @ a + (dr @ v) * dtheta
+        return np.concatenate((dtheta, dy, ds)), forced
 
 
 def loop_matrix(error: ErrorSystem, K_p: float, K_d: float) -> Array:
@@ -212,16 +180,17 @@ def loop_matrix(error: ErrorSystem, K_p: float, K_d: float) -> Array:
 
 
 # -- of a controller -----------------------------------------------------------------------------
-def error_laws(law: Controller, n: int, p: int) -> SplitLaws | None:
+def error_form(law: Controller, n: int, p: int) -> ErrorForm | None:
     """The form with the observer in the linear part; None for a controller without a linear observer."""
     error = law.error_system()
     if error is None:
         return None
-    k = ErrorParameters(n, p, error.A.shape[0], float(error.velocity_scale))
-    return SplitLaws(k, error.A, (1,), error_to, error_back, error_remainder)
+    return ErrorForm(n, p, error.A.shape[0], float(error.velocity_scale), error.A)
 
 
-def loop_laws(law: Controller, n: int, p: int, inertia: Callable[[Array], Array]) -> SplitLaws:
+def feedback_form(
+    law: Controller, n: int, p: int, inertia: Callable[[Array], Array]
+) -> FeedbackForm:
     """The form with the feedback in the linear part too.
 
     inertia: D_s(q) (n, n) [kg m^2] of the plant, to take r from; other rows would do, with less
@@ -247,16 +216,8 @@ def loop_laws(law: Controller, n: int, p: int, inertia: Callable[[Array], Array]
     if h.phase[p] == 0.0:
         raise _refused(f"the phase row {h.phase} has no part of the unactuated coordinate")
     A = loop_matrix(error, float(np.mean(error.feedback.K_p)), float(np.mean(error.feedback.K_d)))
-    k = LoopParameters(
-        n,
-        p,
-        error.A.shape[0],
-        float(error.velocity_scale),
-        h,
-        A[1].copy(),
-        _momentum_row(h, inertia),
-    )
-    return SplitLaws(k, A, (1, 3), loop_to, loop_back, loop_remainder)
+    order, scale = error.A.shape[0], float(error.velocity_scale)
+    return FeedbackForm(n, p, order, scale, A, h, _momentum_row(h, inertia))
 
 
 def _momentum_row(h: VirtualConstraint, inertia: Callable[[Array], Array]) -> Curve:
@@ -285,37 +246,36 @@ def _refused(reason: str) -> InputError:
 
 # -- of a closed loop ----------------------------------------------------------------------------
 def remainder(
-    loop: Loop, laws: SplitLaws, t: float, w: Array, E: Array, mode: Mode
+    loop: Loop, form: ErrorForm, t: float, w: Array, E: Array, mode: Mode
 ) -> tuple[Array, Array]:
     """N_w, and N_E in its forced rows (r, p), of the closed loop at (t, w, E), t in [s]."""
-    i = instant(loop, t, laws.back(laws.parameters, w, E), mode)
-    rest, u = len(i.s) > laws.parameters.order * laws.parameters.p, loop.bounded(i.u)
+    i = instant(loop, t, form.back(w, E), mode)
+    rest, u = len(i.s) > form.order * form.p, loop.bounded(i.u)
     ds = loop.calls.flow(i.s, i.measurement, u) if rest else i.s
-    return forcing(laws, w, E, i, ds)
+    return forcing(form, w, E, i, ds)
 
 
-def forcing(laws: SplitLaws, w: Array, E: Array, i: Instant, ds: Array) -> tuple[Array, Array]:
+def forcing(form: ErrorForm, w: Array, E: Array, i: Instant, ds: Array) -> tuple[Array, Array]:
     """As `remainder`, for what acts at the instant i and s' = ds: N_w, and N_E in its forced rows (r, p)."""
-    k = laws.parameters
-    return laws.remainder(k, w, E, i.a, i.measurement.terms.kappa @ i.u, ds[k.order * k.p :])
+    kappa_u = i.measurement.terms.kappa @ i.u
+    return form.remainder(w, E, i.a, kappa_u, ds[form.order * form.p :])
 
 
-def split_of(loop: Loop, laws: SplitLaws, mode: Mode) -> Split:
+def split_of(loop: Loop, form: ErrorForm, mode: Mode) -> Split:
     """The closed loop in these coordinates, as the Python integrator takes it.
 
     `node` gives remainder, x and x' from a single evaluation of the dynamics.
     """
-    k = laws.parameters
 
     def on_all_rows(t: float, w: Array, E: Array) -> tuple[Array, Array]:
-        N_w, forced = remainder(loop, laws, t, w, E, mode)
-        return N_w, laws.spread(forced)
+        N_w, forced = remainder(loop, form, t, w, E, mode)
+        return N_w, form.spread(forced)
 
     def node(t: float, w: Array, E: Array) -> tuple[tuple[Array, Array], Array, Array]:
-        x = laws.back(k, w, E)
+        x = form.back(w, E)
         i = instant(loop, t, x, mode)
         ds = loop.calls.flow(i.s, i.measurement, loop.bounded(i.u))
-        N_w, forced = forcing(laws, w, E, i, ds)
-        return (N_w, laws.spread(forced)), x, np.concatenate((i.measurement.v, i.a, ds))
+        N_w, forced = forcing(form, w, E, i, ds)
+        return (N_w, form.spread(forced)), x, np.concatenate((i.measurement.v, i.a, ds))
 
-    return Split(partial(laws.to, k), partial(laws.back, k), laws.A, on_all_rows, node)
+    return Split(form.to, form.back, form.A, on_all_rows, node)

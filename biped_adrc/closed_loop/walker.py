@@ -19,7 +19,7 @@ import numpy as np
 
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.bounds import Bounds
-from biped_adrc.closed_loop.exponential_form import SplitLaws, error_laws, loop_laws, split_of
+from biped_adrc.closed_loop.exponential_form import ErrorForm, error_form, feedback_form, split_of
 from biped_adrc.closed_loop.protocols import Mode as Mode
 from biped_adrc.closed_loop.semantics import Instant as Instant
 from biped_adrc.closed_loop.system import ClosedLoop
@@ -224,22 +224,22 @@ class Walker(ClosedLoop[Biped]):
             ),
         )
 
-    def split_laws(self, feedback: bool = False) -> SplitLaws | None:
-        """The laws of the coordinates in which the exponential method steps.
+    def split_form(self, feedback: bool = False) -> ErrorForm | None:
+        """The coordinates in which the exponential method steps.
 
         Without `feedback`: observer error only; None for sampled time or no linear observer. With
         it: tracking error too; raises InputError and says why such coordinates do not exist.
-        Compiled code takes these laws, Python `split` and `feedback_split`.
+        Compiled code takes their methods, Python `split` and `feedback_split`.
         """
         n, p = self.plant.n, self.plant.p
         if not feedback:
-            return None if self.sampled else error_laws(self.law, n, p)
+            return None if self.sampled else error_form(self.law, n, p)
         if self.sampled:
             raise InputError(
                 "feedback=True needs a controller that acts at every instant, and this one acts at ticks; "
                 "use ContinuousTime(), or RK4, Adaptive or Stiff"
             )
-        return loop_laws(self.law, n, p, self.plant.inertia)
+        return feedback_form(self.law, n, p, self.plant.inertia)
 
     def split(self, mode: Mode) -> Split | None:
         """Error coordinates of the observer: e' = A e + b (q_b'' - kappa u), independent of u itself.
@@ -247,8 +247,8 @@ class Walker(ClosedLoop[Biped]):
         The observer's states are the first of s; what follows them is integrated with (q, q'). None
         where the controller has no linear observer. `back` is linear here, so no `node` is needed.
         """
-        laws = self.split_laws()
-        return None if laws is None else replace(split_of(self, laws, mode), node=None)
+        form = self.split_form()
+        return None if form is None else replace(split_of(self, form, mode), node=None)
 
     def feedback_split(self, mode: Mode) -> Split | None:
         """As `split`, with the tracking error q_b - h(Theta) in the linear part too.
@@ -256,5 +256,5 @@ class Walker(ClosedLoop[Biped]):
         The remaining coordinates are the phase Theta and the angular momentum about the stance
         foot. Raises InputError for a walker without such coordinates.
         """
-        laws = self.split_laws(feedback=True)
-        return None if laws is None else split_of(self, laws, mode)
+        form = self.split_form(feedback=True)
+        return None if form is None else split_of(self, form, mode)

@@ -25,7 +25,7 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.closed_loop.exponential_form import SplitLaws
+from biped_adrc.closed_loop.exponential_form import ErrorForm
 from biped_adrc.closed_loop.walker import LEAST_STEP, Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.disturbances.base import Disturbance
@@ -113,7 +113,7 @@ class CompiledWalker:
 def _plan(
     walker: Walker,
     program: Program,
-    split: SplitLaws | None,
+    split: ErrorForm | None,
     clock: ClockTable,
     method: MethodTable,
 ) -> RunPlan:
@@ -175,7 +175,7 @@ def written_over(part: object, given: str, methods: frozenset[str]) -> str:
     return ""
 
 
-def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, MethodTable]:
+def _method(walker: Walker, method: OneStepMethod) -> tuple[ErrorForm | None, MethodTable]:
     """The coordinates that a method needs, if any, and its table.
 
     Raises NotCompiled for a method of the user's own, which has no compiled form or writes over the
@@ -192,7 +192,7 @@ def _method(walker: Walker, method: OneStepMethod) -> tuple[SplitLaws | None, Me
         )
     if (make := FORMS[method.compiled_form]) is not None:
         return None, make(form)
-    split = walker.split_laws(form.feedback)
+    split = walker.split_form(form.feedback)
     if split is None:
         raise no_coordinates()
     return split, _matrices(form.h, split.A.tobytes(), split.rows)

@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from biped_adrc.closed_loop import exponential_form, noticing, semantics
-from biped_adrc.closed_loop.exponential_form import ErrorParameters, LoopParameters, SplitLaws
+from biped_adrc.closed_loop.exponential_form import ErrorForm
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.control.base import Controller
 from biped_adrc.engine.kernels.layout import OUTSIDE
@@ -68,12 +68,12 @@ class WalkerNumbers(NamedTuple):
     """Parameters of what is held between sample instants, empty in continuous time."""
     impact_gain: Array = NONE
     """Relative errors of v+ (n,) [1], empty without."""
-    split: ErrorParameters | LoopParameters | tuple[()] = ()
-    """Parameters of the split's laws, empty without a split."""
+    split: ErrorForm | None = None
+    """Coordinates of the exponential method."""
 
 
 class WalkerStructure(NamedTuple):
-    """What decides the generated code: sizes, laws, and which parts there are. Numbers are in WalkerNumbers."""
+    """What decides the generated code beside the structure of `WalkerNumbers`."""
 
     robot: RobotStructure
     """Links, signs and sparsity."""
@@ -81,10 +81,6 @@ class WalkerStructure(NamedTuple):
     """Numbers in the controller's state."""
     held: HeldSizes | None
     """Sizes of what is held between sample instants, None in continuous time."""
-    split: SplitLaws | None = None
-    """Coordinates of the exponential method."""
-    gained: bool = False
-    """Whether there is an error of the impact map."""
 
     @property
     def nx(self) -> int:
@@ -127,10 +123,10 @@ class Equations:
         return cls(make, K.symbol, K.like(example))
 
     @staticmethod
-    def names(make: WalkerStructure) -> list[str]:
-        """Names of the functions that this structure has; each is a method of this class."""
-        split = [] if make.split is None else ["to", "back", "remainder"]
-        return ["flow", "strike", "watch", *(["tick"] if make.held is not None else []), *split]
+    def names(numbers: WalkerNumbers) -> list[str]:
+        """Names of the functions that this walker has; each is a method of this class."""
+        split = [] if numbers.split is None else ["to", "back", "remainder"]
+        return ["flow", "strike", "watch", *(["tick"] if numbers.held else []), *split]
 
     def loop(self, trace: Tracer, zeta: Array = NONE, given: Array = NONE) -> SymbolicLoop:
         """The closed loop on symbols, with zeta (n,) [N m] and what the meter needs from outside (OUTSIDE,)."""
@@ -210,38 +206,34 @@ class Equations:
         hip = semantics.hip_margin(K.lowest_hip, plant.hip(q))
         return self.made(inp, clearance, hip, semantics.time_left(K.longest, start, t), foot[0])
 
-    def _split(self, trace: Tracer) -> SplitLaws:
-        """The split's laws on symbols."""
-        laws = self.make.split
-        k = self.numbers.split
-        assert laws is not None
-        assert k
-        traced = {name: trace(getattr(laws, name)) for name in ("to", "back", "remainder")}
-        return laws._replace(parameters=trace.on_symbols(k), **traced)
+    def _split(self, trace: Tracer) -> ErrorForm:
+        """The coordinates of the exponential method on symbols."""
+        form: ErrorForm | None = trace.on_symbols(self.numbers.split)
+        assert form is not None
+        return form
 
     def _coordinates(self, y: Array) -> tuple[Array, Array]:
         """w and E (k, p) of the flat vector y."""
-        assert self.make.split is not None
+        assert self.numbers.split is not None
         p = self.make.robot.p
-        stiff = len(self.make.split.A) * p
+        stiff = len(self.numbers.split.A) * p
         return y[: len(y) - stiff], y[len(y) - stiff :].reshape(-1, p)
 
     def to(self) -> SymbolicFunction:
         """y = (w, E) of x (nx,)."""
-        inp, split = Vector("inp", self.make.nx), self._split(Tracer())
-        return self.made(inp, *split.to(split.parameters, inp.take(self.make.nx)))
+        inp = Vector("inp", self.make.nx)
+        return self.made(inp, *self._split(Tracer()).to(inp.take(self.make.nx)))
 
     def back(self) -> SymbolicFunction:
         """x (nx,) of y = (w, E)."""
-        inp, split = Vector("inp", self.make.nx), self._split(Tracer())
+        inp = Vector("inp", self.make.nx)
         w, E = self._coordinates(inp.take(self.make.nx))
-        return self.made(inp, split.back(split.parameters, w, E))
+        return self.made(inp, self._split(Tracer()).back(w, E))
 
     def remainder(self) -> SymbolicFunction:
         """N_w, N_E in its forced rows, and the least pivot, at y = (w, E) in place of x."""
         at = self.at()
         w, E = self._coordinates(at.x)
-        N = at.trace(exponential_form.remainder)(
-            at.loop, self._split(at.trace), at.t, w, E, at.mode
-        )
+        form = self._split(at.trace)
+        N = at.trace(exponential_form.remainder)(at.loop, form, at.t, w, E, at.mode)
         return self.made(at.inp, *N, at.lost)

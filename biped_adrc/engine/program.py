@@ -18,7 +18,7 @@ from functools import partial
 
 import numpy as np
 
-from biped_adrc.closed_loop.exponential_form import SplitLaws
+from biped_adrc.closed_loop.exponential_form import ErrorForm
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers, WalkerStructure
 from biped_adrc.engine.ir import generated
@@ -54,7 +54,7 @@ class Program:
         return self.make.nx
 
     @classmethod
-    def of(cls, walker: Walker, size: int, split: SplitLaws | None = None) -> Program:
+    def of(cls, walker: Walker, size: int, split: ErrorForm | None = None) -> Program:
         """The program of a walker whose controller has `size` states; split: coordinates of the
         exponential method.
 
@@ -77,14 +77,14 @@ class Program:
         The kernels never call an address of 0: `run_plan.plan` checks what the method and the clock
         need.
         """
-        split = self.make.split
+        split = self.numbers.split
         if name == "turn" and split is not None:
             return product(len(split.A), self.make.robot.p).addresses[name]
         return self.machine.addresses.get(name, 0)
 
 
 def structure_of(
-    walker: Walker, size: int, split: SplitLaws | None = None
+    walker: Walker, size: int, split: ErrorForm | None = None
 ) -> tuple[WalkerStructure, WalkerNumbers]:
     """What decides the code of a walker whose controller has `size` states, and its numbers.
 
@@ -93,13 +93,7 @@ def structure_of(
     plant = robot_of(walker.plant)
     model = None if walker.model is None else robot_of(walker.model)
     sizes = None if walker.held is None else walker.held.sizes
-    make = WalkerStructure(
-        _common(plant, model),
-        size,
-        sizes,
-        split,
-        bool(walker.impact_gain),
-    )
+    make = WalkerStructure(_common(plant, model), size, sizes)
     return make, _numbers(walker, plant, model, split)
 
 
@@ -126,7 +120,7 @@ def _numbers(
     walker: Walker,
     plant: RobotData,
     model: RobotData | None,
-    split: SplitLaws | None,
+    split: ErrorForm | None,
 ) -> WalkerNumbers:
     """All numbers of a walker by name, as K lists them; what a walker has not is empty and takes no place."""
     biped = walker.plant
@@ -143,7 +137,7 @@ def _numbers(
         float(walker.bounds.strongest),
         () if walker.held is None else walker.held,
         walker.gain,
-        () if split is None else split.parameters,
+        split,
     )
 
 
@@ -158,7 +152,7 @@ def _machine(make: WalkerStructure, numbers: WalkerNumbers) -> LoadedCode:
             made: SymbolicFunction = getattr(Equations.of(make, numbers), name)()
             return made
 
-    functions = {name: partial(traced, name) for name in Equations.names(make)}
+    functions = {name: partial(traced, name) for name in Equations.names(numbers)}
     try:
         return generated((structure_of_walker(make), structure(numbers)), functions)
     except InputError as reason:

@@ -88,13 +88,13 @@ class _Laws(NamedTuple):
 def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker:
     """The numbers of one walker, whose functions join the laws. Raises InputError."""
     program, P = one.program, one.plan.P.copy()
-    if program.make.split is not None:
+    if program.numbers.split is not None:
         raise InputError("an offline page takes the steps of RK4; leave out the exponential method")
     watched = SignalNumbers(program.numbers, reference)
 
     def text() -> str:
         equations = Equations.of(program.make, program.numbers)
-        made = {name: getattr(equations, name)() for name in Equations.names(program.make)}
+        made = {name: getattr(equations, name)() for name in Equations.names(program.numbers)}
         return module_text(made | {"observe": observe(program.make, watched)})
 
     own = laws.of(program.address("flow"), text)

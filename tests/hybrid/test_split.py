@@ -89,14 +89,14 @@ def test_linear_part_and_remainder_are_the_derivative_along_the_flow(biped, gait
 def test_the_linear_part_is_the_law_where_the_model_is_right(biped, gait):
     """On the constraint, with the observer's error in e_1 alone: eps'' = K_p e_1, whatever the state."""
     walker = WALKERS["nominal"](biped, gait.constraint)
-    split, laws = split_of(walker, True), walker.split_laws(feedback=True)
+    split, form = split_of(walker, True), walker.split_form(feedback=True)
     x = walker.initial_state(*gait.start(biped))
     w, E = split.to(x)
     e = 1e-3 * np.arange(1.0, 5.0)
     at_rest, moved = E.copy(), E.copy()
     moved[2] += e
     change = split.A @ (moved - at_rest)
-    assert change[1] == pytest.approx(laws.parameters.scale * 5000.0 * e)
+    assert change[1] == pytest.approx(form.scale * 5000.0 * e)
     a = [walker.instant(0.0, split.back(w, F), ba.Mode()).a for F in (at_rest, moved)]
     r = gait.constraint(0.0, x[:5], x[5:10])
     true = (a[1] - a[0])[:4] - r.H @ (a[1] - a[0])
