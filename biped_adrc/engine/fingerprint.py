@@ -247,7 +247,7 @@ def _untold(x: object) -> Untraceable:
 
 
 def _known_class(cls: type) -> bool:
-    """As `_known`; a class that was written where `__name__` is missing says that it is built in, and is not."""
+    """As `_known`; a class written where `__name__` is missing says that it is built in, and is not."""
     return _known(cls.__module__) and (cls.__module__ != "builtins" or not cls.__flags__ & _HEAP)
 
 
