@@ -16,6 +16,7 @@ from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.instructions import CHOICE, FUNCTIONS, Patterns, Writer, straight_line
 from biped_adrc.engine.machine import LoadedCode, ModuleText, load_or_compile
 from biped_adrc.engine.structure import Unchanged, reaching
+from biped_adrc.engine.symbols import Untraceable
 
 COMPARISONS = {ca.OP_LT: "olt", ca.OP_LE: "ole", ca.OP_EQ: "oeq", ca.OP_NE: "une"}
 """Comparisons by LLVM's conditions; a result is 0.0 or 1.0."""
@@ -75,17 +76,25 @@ def generated(
     return in_memory((key, vectors), list(functions), text)
 
 
-_IN_MEMORY: dict[Hashable, tuple[LoadedCode, list[Unchanged]]] = {}
-"""Code by structure, with what it reached; a function is a value, so this is no state."""
+_IN_MEMORY: dict[Hashable, tuple[LoadedCode | str, list[Unchanged]]] = {}
+"""Code by structure, or why there is none, with what it reached; a function is a value, so this is no state."""
 
 
 def in_memory(key: Hashable, names: Sequence[str], text: Callable[[], ModuleText]) -> LoadedCode:
-    """The functions `names` of a module; its text is asked for where this structure is not in memory."""
+    """The functions `names` of a module; its text is asked for where this structure is not in memory.
+
+    Raises Untraceable, each time without tracing anew.
+    """
     code, reached = _IN_MEMORY.get(key, (None, []))
     if code is None or not all(unchanged() for unchanged in reached):
         with reaching() as reached:
-            code = load_or_compile(text(), names)
+            try:
+                code = load_or_compile(text(), names)
+            except Untraceable as error:
+                code = str(error)
         _IN_MEMORY[key] = code, reached
+    if isinstance(code, str):
+        raise Untraceable(code)
     return code
 
 
