@@ -141,7 +141,8 @@ class _Reach:
         A library's function is known by its name; its version is in `versions_text`.
         """
         self.texts.append(f"{x.__module__}.{x.__qualname__}")
-        if _known(x.__module__) and not x.__module__.startswith(_PACKAGE):
+        home = x.__module__ or ""  # None for the methods that dataclasses add in code that no file holds
+        if _known(home) and not home.startswith(_PACKAGE):
             return
         names = names_of(x.__code__) | _words(x.__code__)
         self.texts.append(_code_text(x.__code__))
