@@ -53,8 +53,8 @@ NEVER_TRACED = (
 )
 """Folders whose source has no part in compiled code, as the engine can reach nothing in them.
 
-They are the rooms above the engine. An edit there keeps the cache of compiled code. Laws that a
-user passes in are hashed on their own.
+They are the rooms above the engine. An edit there keeps the cache of compiled code. Classes of
+a user's are hashed on their own.
 """
 
 

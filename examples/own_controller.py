@@ -47,5 +47,5 @@ cases = (
 walked = [w.status.ok for w in ba.simulate_many(cases)]
 print("gains that walk ten steps:", [f"{K:.0f}" for K in gains[walked]])
 
-# To try: let `output` branch on a number, as `if m.v_b[0] > 5.0:`. What does walk.trajectory.settings["why"] say,
-# and how much slower is it? `np.where` compiles.
+# To try: let `output` branch on a number, as `if m.v_b[0] > 5.0:`. What does walk.trajectory.settings["why"]
+# say, and how much slower is it? `np.where` compiles.

@@ -1,8 +1,8 @@
-"""What generated code depends on, as one hash: the laws' code, the structure of robot and
-parameters, versions.
+"""What generated code depends on, as one hash: the code of methods, the structure of robot and
+parts, versions.
 
 Object code is kept on disk between sessions, so a change of anything that it was made from has to
-give another name. A law is followed into everything that it can reach: functions, classes, objects,
+give another name. A method is followed into everything that it can reach: functions, classes, objects,
 constants and, in modules, the attributes that it names. Libraries are represented by their names
 and versions, this package by a hash of its source. What cannot be followed, such as an object of a
 compiled extension, raises Untraceable: it is better not to compile than to run old code.
@@ -57,9 +57,10 @@ def hash_of(*parts: object) -> str:
 
 
 def law_text(*laws: object) -> str:
-    """The code of laws and all that they reach, as text. Raises Untraceable where its content is hidden.
+    """The code of functions or parts and all that they reach, as text.
 
-    Two rows of laws with the same text compile to the same code. What several of them reach is told once.
+    Two rows of them with the same text compile to the same code. What several of them reach is told once.
+    Raises Untraceable where content is hidden.
     """
     reach = _Reach()
     for law in laws:
@@ -141,7 +142,7 @@ class _Reach:
         A library's function is known by its name; its version is in `versions_text`.
         """
         self.texts.append(f"{x.__module__}.{x.__qualname__}")
-        home = x.__module__ or ""  # None for the methods that dataclasses add in code that no file holds
+        home = x.__module__ or ""  # None for what dataclasses add to a class that no file holds
         if _known(home) and not home.startswith(_PACKAGE):
             return
         names = names_of(x.__code__) | _words(x.__code__)
@@ -251,7 +252,7 @@ def _untold(x: object) -> Untraceable:
 
 @lru_cache(maxsize=4096)
 def _known(module: str) -> bool:
-    """Whether a module belongs to a library, or to this package where laws may come from.
+    """Whether a module belongs to a library, or to this package where what is traced may come from.
 
     Those are covered by versions and by the source's hash, so they are not followed.
     """

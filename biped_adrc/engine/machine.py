@@ -57,7 +57,7 @@ class LoadedCode:
 
 
 _LOADED: dict[str, LoadedCode] = {}
-"""What is in memory, by key, for the whole process: laws are few and small."""
+"""What is in memory, by key, for the whole process: its functions are few and small."""
 
 
 class ModuleText(NamedTuple):

@@ -31,7 +31,7 @@ from biped_adrc.types import Array
 
 
 class NotCompiled(InputError):
-    """A part of the walker has no laws to be compiled from; the text says which, and what is used instead."""
+    """A part of the walker cannot be compiled; the text says which, and what is used instead."""
 
 
 @dataclass(frozen=True)
@@ -149,7 +149,7 @@ def _numbers(
 def _machine(make: WalkerStructure, numbers: WalkerNumbers) -> LoadedCode:
     """The functions of a structure in memory, traced one by one where there is no code on disk.
 
-    Raises NotCompiled for a law that cannot be traced or an operation without machine code.
+    Raises NotCompiled for a method that cannot be traced or an operation without machine code.
     """
 
     def traced(name: str) -> SymbolicFunction:
@@ -165,9 +165,9 @@ def _machine(make: WalkerStructure, numbers: WalkerNumbers) -> LoadedCode:
 
 
 def structure_key(make: WalkerStructure, numbers: WalkerNumbers) -> str:
-    """Hash of all that decides the code: laws, structure, versions; no float is in it.
+    """Hash of all that decides the code: methods, structure, versions; no float is in it.
 
-    Parameters count by their names and shapes alone.
+    Floats count by their names and shapes alone.
     """
     split = () if make.split is None else make.split[3:]
     laws = law_text(*split)

@@ -61,11 +61,11 @@ def run_ticks(
     options: RunOptions,
     points: Sequence[CompiledReference] = (),
 ) -> Trajectory:
-    """A run from x0 (nx,) of a walker with compiled dynamics whose controller is plain Python.
+    """A run from x0 (nx,) of a walker with compiled dynamics whose controller runs in Python.
 
-    points: laws of the controller's references, compiled. The faster way is taken where nothing but
+    points: the controller's references, compiled. The faster way is taken where nothing but
     the torque is held between sample instants. Raises NotCompiled for a disturbance or method
-    without laws.
+    that cannot be compiled.
     """
     plant = CompiledWalker.held(walker, method)
     assert walker.held is not None
