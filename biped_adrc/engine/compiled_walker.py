@@ -93,7 +93,7 @@ class CompiledWalker:
     def held(cls, walker: Walker, method: OneStepMethod) -> CompiledWalker:
         """The plant alone under a torque that is held; x = (q, q', u), with lagging motors (q, q', u_m, u).
 
-        For controllers in plain Python (`engine.ticks`). A period longer than any run takes the
+        For controllers that run in Python (`engine.ticks`). A period longer than any run takes the
         place of the clock. Raises as `of`.
         """
         bare = replace(

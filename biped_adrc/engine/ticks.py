@@ -1,4 +1,4 @@
-"""Sampled control in plain Python on the compiled plant: the controller is called once per sample instant.
+"""Sampled control in Python on the compiled plant: the controller is called once per sample instant.
 
 Between sample instants the plant is (q, q', u) with the torque held, or (q, q', u_m, u) where the
 motors lag; it moves by itself in compiled code, disturbance and events included. There are two

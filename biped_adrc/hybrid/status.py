@@ -42,7 +42,7 @@ class Status(Enum):
     STEP_FAILED = "the one-step method could not go on; try another method or a looser tolerance"
     """The integration method could not go on: no acceptable step, or too many steps."""
     RAISED = "a part in plain Python raised an exception of its own; the detail says which"
-    """In a batch only: an exception in a class of the user's, written in plain Python."""
+    """In a batch only: an exception in a class of the user's, which runs in Python."""
     ILLEGAL = (
         "the ground or the motors could not have carried this step; push less, walk slower, or change the gait "
         "or the controller"
