@@ -4,7 +4,7 @@ Run: python benchmarks/sampled_walks.py [OUT] [--quick]
 
 RABBIT, 25 impacts from the gait's start, one RK4 step per tick. A row keeps the strikes alone, as walks of a
 batch do, or every node. Error: largest difference of an angle or rate before impacts to the same walk at a
-fifth of its step [rad, rad/s]. "Plain Python" is a controller that branches on a number, called once per tick. Gymnasium's
+fifth of its step [rad, rad/s]. "Plain Python" branches on a number, so it is called once per tick. Gymnasium's
 walks get small random torques beside those of ADRC.
 """
 
