@@ -93,6 +93,7 @@ from biped_adrc.observers.base import ResetPolicy as ResetPolicy
 from biped_adrc.observers.chain import ChainObserver as ChainObserver
 from biped_adrc.observers.gpi import TABLE_I as TABLE_I
 from biped_adrc.observers.gpi import GPIObserver as GPIObserver
+from biped_adrc.part import derived as derived
 from biped_adrc.robot_import.import_robot import biped_from_urdf as biped_from_urdf
 from biped_adrc.robots.limits import Limits as Limits
 from biped_adrc.scenario.push import Push as Push

@@ -1,8 +1,8 @@
 """Small dense linear systems A X = B, solved by LAPACK directly.
 
 For matrices of a few rows `numpy.linalg.solve` spends most of its time on checks; dgesv (LU factors
-with partial pivoting) is called without them. Laws call these two functions by name: the tracer of
-the engine knows them and generates unrolled code in their place.
+with partial pivoting) is called without them. Methods call these two functions by name: the tracer
+of the engine knows them and generates unrolled code in their place.
 """
 
 from __future__ import annotations

@@ -49,15 +49,15 @@ class Part(Checked, Shown, ABC):
 
 
 class Setup:
-    """In place of a field of `setup` where laws run."""
+    """In place of a field of `setup` where methods run on symbols."""
 
 
 SETUP = {"setup": True}
-"""Metadata of a field that no law reads."""
+"""Metadata of a field that no method reads on symbols."""
 
 
 def setup(default: Any) -> Any:
-    """A field with this default that no law reads, such as a seed: new values compile nothing."""
+    """A field with this default that no method reads on symbols, such as a seed: new values compile nothing."""
     return field(default=default, metadata=SETUP)
 
 
@@ -73,7 +73,7 @@ def content(part: Any) -> dict[str, Any]:
 
 
 def _value(f: Field[Any], x: Any) -> Any:
-    """What laws find in a field: floats where the annotation says so and whole numbers were written."""
+    """What methods on symbols find in a field: floats where the annotation says so, even for whole numbers."""
     if f.metadata.get("setup"):
         return Setup()
     return _as_floats(x) if "float" in str(f.type) else x

@@ -15,8 +15,8 @@ ROOT = Path(__file__).resolve().parents[1]
 LEAVES = {"control", "hardware", "observers", "disturbances", "gait"}
 """Where a research idea is one file."""
 PAGE = Path(__file__).resolve().parent / "architecture.md"
-WORDS = dict(re.findall(r"^\| \*\*(\w+)\*\* \| (.+?) \|", PAGE.read_text("utf-8"), re.MULTILINE))
-"""What a room is for, from the table of the page."""
+WORDS = dict(re.findall(r"^- \*\*(\w+)\*\*: (.+)$", PAGE.read_text("utf-8"), re.MULTILINE))
+"""What a room is for, from the list of the page."""
 
 
 def layers() -> list[list[str]]:

@@ -27,7 +27,7 @@ def rooms():
     return found | {"validation"}
 
 
-def test_every_room_is_in_the_contract_and_in_the_table_of_the_page():
+def test_every_room_is_in_the_contract_and_in_the_list_of_the_page():
     drawn = script()
     layered = {name for row in drawn.layers() for name in row}
     assert layered == rooms() == set(drawn.WORDS)

@@ -14,7 +14,6 @@ import numpy as np
 from peers.chains import Chain, H, Simulate
 
 from biped_adrc.control.adrc import ADRCController
-from biped_adrc.control.observing import ObservingParameters
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.design.step import each, together
 from biped_adrc.model.biped import Biped
@@ -79,18 +78,18 @@ class CasADiChain(Chain):
 
 def closed_loop(biped: Biped, controller: ADRCController) -> Any:
     """CasADi function x -> x'."""
-    n, p, k = biped.n, biped.p, controller.laws.parameters
-    assert isinstance(k.observer, GPIObserver)
-    x = ca.SX.sym("x", 2 * n + k.observer.order * p)
+    n, p, chain = biped.n, biped.p, controller.observer
+    assert isinstance(chain, GPIObserver)
+    x = ca.SX.sym("x", 2 * n + chain.order * p)
     q, v = x[:n], x[n : 2 * n]
-    Z = ca.reshape(x[2 * n :], p, k.observer.order).T
+    Z = ca.reshape(x[2 * n :], p, chain.order).T
     D, Omega = terms(PlanarTree.of(biped), q, v)
     A_N, a_N = -D[p, :p] / D[p, p], -Omega[p] / D[p, p]
-    kappa_u = acceleration(k, q, v, Z, A_N, a_N) - Z[2, :].T * k.observer.scale**2
+    kappa_u = acceleration(controller, q, v, Z, A_N, a_N) - Z[2, :].T * chain.scale**2
     u = (D[:p, :p] + D[:p, p] @ A_N) @ kappa_u
     a = solve_symmetric(D, ca.vertcat(u, 0.0) - Omega)
     return ca.Function(
-        "flow", [x], [ca.vertcat(v, a, ca.vec(observer(k.observer, q[:p], Z, kappa_u).T))]
+        "flow", [x], [ca.vertcat(v, a, ca.vec(observer(chain, q[:p], Z, kappa_u).T))]
     )
 
 
@@ -109,14 +108,16 @@ def cvodes(flow: Any, times: Array) -> Callable[[Array], Array]:
     return solve
 
 
-def acceleration(k: ObservingParameters, q: Any, v: Any, Z: Any, A_N: Any, a_N: Any) -> Any:
+def acceleration(k: ADRCController, q: Any, v: Any, Z: Any, A_N: Any, a_N: Any) -> Any:
     """a (p,), the acceleration asked for, solved through Theta''."""
-    p = A_N.numel()
-    h, dh, ddh, dtheta = constraint(k.h, q, v)
+    p, reference = A_N.numel(), k.reference
+    assert isinstance(reference, VirtualConstraint)
+    assert isinstance(k.observer, GPIObserver)
+    h, dh, ddh, dtheta = constraint(reference, q, v)
     x1, x2 = Z[0, :].T, Z[1, :].T * k.observer.scale
-    f = -k.tracking.K_d * (x2 - dh * dtheta) - k.tracking.K_p * (x1 - h)
+    f = -k.gains.K_d * (x2 - dh * dtheta) - k.gains.K_p * (x1 - h)
     drift = ddh * dtheta**2 + f
-    H = dh @ k.h.phase[np.newaxis]
+    H = dh @ reference.phase[np.newaxis]
     return ca.solve(ca.SX.eye(p) - H[:, :p] - H[:, p] @ A_N, drift + H[:, p] * a_N)
 
 

@@ -66,7 +66,7 @@ def _recorded(s: Scenario, made: Case) -> WalkRow:
         walk = walk_scenario(s)
     except BipedError:
         raise
-    except Exception as error:  # whatever a controller in plain Python may raise
+    except Exception as error:  # whatever a controller in Python may raise
         return {
             "status": Status.RAISED.name,
             "detail": f"{type(error).__name__}: {error}",

@@ -90,7 +90,7 @@ class WalkingPlant(Plant, Protocol):
 class ControlLaw(NamedTuple):
     """The functions of a controller in its time base that a closed loop calls, parameters filled in.
 
-    On arrays the methods of `control.base.Controller`, and what they give is checked; on symbols its laws.
+    On arrays the methods of `control.base.Controller`, and what they give is checked; on symbols its twin's.
     """
 
     output: Callable[[Array, Measurement], Array]

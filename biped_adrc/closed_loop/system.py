@@ -220,7 +220,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
     def initial_state(self, q: Array, v: Array, mode: Mode | None = None) -> Array:
         """x (nx,) at the start of a single support in q (n,) [rad], v (n,) [rad/s].
 
-        Here, once, the controller's first output, its state's laws and its reference are tried:
+        Here, once, the controller's first output, its state's methods and its reference are tried:
         raises InputError for shapes that do not fit, NotFiniteError for a first torque that is NaN.
         """
         mode = Mode() if mode is None else mode

@@ -115,7 +115,7 @@ def affine(r: ReferencePoint, m: Measurement) -> Affine:
 
 @dataclass(frozen=True)
 class CLFQPController(Controller):
-    """The module's program; it has no laws and runs in Python.
+    """The module's program; it calls a solver, so it runs in Python.
 
     epsilon [s]: V falls with c / eps outside the dead zone; 1 / eps^2 and sqrt 3 / eps are like K_p and K_d.
     torque_limit [N m], friction (of a flat ground) and least_force, F_min [N]: None for no such limit.

@@ -41,7 +41,7 @@ class Given:
 
     @cached_property
     def equations(self) -> Equations:
-        """The computer's laws, with symbols for its numbers."""
+        """The computer's parts, with symbols for its numbers."""
         held = self.computer.held.sizes
         make = WalkerStructure(self.computer.robot.structure, self.size, held)
         return Equations.of(make, self.computer.numbers)

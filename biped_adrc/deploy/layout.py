@@ -50,7 +50,7 @@ class Functions:
 
 
 def functions(computer: Computer) -> Functions:
-    """Traces the functions of a computer. Raises InputError for a law that cannot be traced."""
+    """Traces the functions of a computer. Raises InputError for a method that cannot be traced."""
     sizes = computer.held.sizes
     first = init(computer)
     size = first.out.shape[0] - sizes.total

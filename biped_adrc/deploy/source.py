@@ -73,7 +73,7 @@ def source_of(
     prefix: of all names, a word of small letters. real: "float64" or "float32", which
     -DCONTROLLER_REAL=float overrides. scenario: lines for the comment.
 
-    Raises InputError for a prefix or a type that is none, NaN among the numbers, or a law that
+    Raises InputError for a prefix or a type that is none, NaN among the numbers, or a method that
     cannot be traced.
     """
     if not re.fullmatch("[a-z][a-z0-9_]{0,40}", prefix):

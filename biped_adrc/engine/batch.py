@@ -2,7 +2,7 @@
 any result.
 
 For return maps, basins and sweeps, where thousands of walks are made and only their impacts matter.
-What touches Python (checks, controllers in plain Python, Pinocchio) is done in the caller's thread,
+What touches Python (checks, controllers that run in Python, Pinocchio) is done in the caller's thread,
 when a case is prepared; the threads then run kernels without the GIL, each on arrays of its own.
 What a run needs is made when it starts and given up when it ends: memory does not grow with the
 number of runs, but for the few numbers that each of them leaves.
@@ -181,7 +181,7 @@ def run_case(case: Case) -> Callable[[], BatchWalk]:
         return _ended(case, Status.SINGULAR, str(error))
     except InputError:
         raise
-    except Exception as error:  # whatever a controller or a disturbance in plain Python may raise
+    except Exception as error:  # whatever a controller or a disturbance in Python may raise
         return _ended(case, Status.RAISED, f"{type(error).__name__}: {error}")
 
 

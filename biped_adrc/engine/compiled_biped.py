@@ -1,4 +1,4 @@
-"""A robot whose dynamics are compiled, for controllers in plain Python.
+"""A robot whose dynamics are compiled, for controllers that run in Python.
 
     terms      (q, v) -> D, Omega, kappa, xi, ... of (11)-(15)
     body       (q, v) -> G, C' q', F_a, F_0, J_2, mass

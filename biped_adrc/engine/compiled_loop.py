@@ -4,9 +4,9 @@ What ran is in the settings of the trajectory:
 
     engine    "compiled"; "compiled model" where the controller runs in Python, with the reason as "why"
 
-A controller without laws still gets the model's terms and its references from machine code. A plant that does
-not stride (`closed_loop.stepping_plant.StridingPlant`), and motors that wait for a fraction of a period, are
-run by `hybrid.simulator` as always, around compiled sample instants.
+A controller that cannot be compiled still gets the model's terms and its references from machine code. A plant
+that does not stride (`closed_loop.stepping_plant.StridingPlant`), and motors that wait for a fraction of a
+period, are run by `hybrid.simulator` as always, around compiled sample instants.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class Compiled(NamedTuple):
     loop: SteppingLoop
     """For what runs in Python."""
     tick: CompiledTick | None
-    """Its sample instants; None where a part of it has no laws."""
+    """Its sample instants; None where a part of it cannot be compiled."""
     why: str
     """The reason then."""
 
@@ -112,7 +112,7 @@ def on_compiled_model(loop: SteppingLoop) -> SteppingLoop:
 
 
 def _push(loop: SteppingLoop) -> PythonPush | CompiledPush:
-    """What acts from outside, in machine code where it has laws."""
+    """What acts from outside, in machine code where it can be compiled."""
     try:
         return (
             PythonPush(loop) if loop.disturbance is None else CompiledPush(loop, loop.disturbance)

@@ -4,7 +4,7 @@
 
 Signals are not stored with a run but computed again from the states, at tens of thousands of nodes.
 `analysis.signals` does that with this function, and in Python where a part has no compiled form.
-The disturbance zeta is an input, since it may be a function in plain Python.
+The disturbance zeta is an input, since it may run in Python.
 """
 
 from __future__ import annotations

@@ -76,7 +76,7 @@ class CompiledWalker:
         """For a controller with `size` states and a run that begins at t_first [s].
 
         Compiles the walker's functions where they are not in memory or on disk, and makes the plan.
-        Raises NotCompiled where a part has no laws or the method no compiled form, InputError for a
+        Raises NotCompiled where a part or the method cannot be compiled, InputError for a
         method without the coordinates that it needs.
         """
         split, made = _method(walker, method)
@@ -93,7 +93,7 @@ class CompiledWalker:
     def held(cls, walker: Walker, method: OneStepMethod) -> CompiledWalker:
         """The plant alone under a torque that is held; x = (q, q', u), with lagging motors (q, q', u_m, u).
 
-        For controllers in plain Python (`engine.ticks`). A period longer than any run takes the
+        For controllers that run in Python (`engine.ticks`). A period longer than any run takes the
         place of the clock. Raises as `of`.
         """
         bare = replace(

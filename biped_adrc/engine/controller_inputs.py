@@ -1,4 +1,4 @@
-"""The inputs of a controller in plain Python, in machine code: the model's terms, and its reference
+"""The inputs of a controller that runs in Python, in machine code: the model's terms, and its reference
 beside them.
 
     inputs (t, q, v) -> the parts of a `Reduction`, then those of a `ReferencePoint`

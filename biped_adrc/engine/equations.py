@@ -1,4 +1,4 @@
-"""The equations of a walker on symbols, one straight-line function each, traced from the laws' own lines.
+"""The equations of a walker on symbols, one straight-line function each, traced from the parts' own methods.
 
     flow      (t, step, t_start, x, zeta) -> x'               (10); in sampled time the torque is held
     tick      (t, step, t_start, x, zeta, outside) -> x, q''  sensors, controller, motors, meter

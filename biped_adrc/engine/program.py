@@ -32,7 +32,7 @@ from biped_adrc.types import Array
 
 
 class NotCompiled(InputError):
-    """A part of the walker has no laws to be compiled from; the text says which, and what is used instead."""
+    """A part of the walker cannot be compiled; the text says which, and what is used instead."""
 
 
 @dataclass(frozen=True)
@@ -144,7 +144,7 @@ def _numbers(
 def _machine(make: WalkerStructure, numbers: WalkerNumbers) -> LoadedCode:
     """The functions of a structure in memory, traced one by one where there is no code on disk.
 
-    Raises NotCompiled for a law that cannot be traced or an operation without machine code.
+    Raises NotCompiled for a method that cannot be traced or an operation without machine code.
     """
 
     def traced(name: str) -> SymbolicFunction:

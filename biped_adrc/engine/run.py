@@ -19,7 +19,7 @@ from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.types import Array
 
 PINOCCHIO, COMPILED, COMPILED_PLANT = "pinocchio", "compiled", "compiled plant"
-"""Names of the engines in settings and records; "compiled plant" is what ran where a part is plain Python."""
+"""Names of the engines in settings and records; "compiled plant" is what ran where a part does not compile."""
 ENGINES = (PINOCCHIO, COMPILED)
 """Those that can be asked for."""
 

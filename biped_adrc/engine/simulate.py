@@ -2,9 +2,9 @@
 
 Three ways, the fastest that fits is taken:
 
-- all compiled: controller, observer, disturbance and method have laws; an arc is one call of a
-  kernel;
-- compiled plant, sampled time: the controller is plain Python, called once per sample instant, and
+- all compiled: controller, observer, disturbance and method of integration can be compiled; an arc
+  is one call of a kernel;
+- compiled plant, sampled time: the controller runs in Python, called once per sample instant, and
   the plant moves in between in compiled code (`engine.ticks`);
 - compiled plant otherwise: the Python loop of `hybrid.simulator` on compiled dynamics.
 """
@@ -69,14 +69,14 @@ def run_made(
 def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:
     """The detail of a run, with what Python says of its next steps where compiled code lost its numbers.
 
-    Compiled laws give NaN without a name; the methods in Python name the class that gave it.
+    Machine code gives NaN without a name; the methods in Python name the class that gave it.
     """
     if run.status not in (Status.NOT_FINITE, Status.SINGULAR, Status.RAN_AWAY):
         return run.detail
     options = RunOptions(run.t_end + ONWARD, run.t_end, store_every=STORE)
     try:
         found = simulator.run(walker, run.final_state, run.arcs[-1].mode, method, options)
-    except Exception as error:  # what a law raises in Python, such as a division by zero
+    except Exception as error:  # what a method raises in Python, such as a division by zero
         return f"{run.detail}: {type(error).__name__}: {error}"
     if found.status is not run.status or not found.detail:
         return run.detail

@@ -62,7 +62,7 @@ class SymbolicLoop(NamedTuple):
     exact: bool
     """Whether the controller's model is the plant."""
     calls: ControlLaw
-    """The controller's laws in its time base."""
+    """The controller's methods in its time base."""
     held: HeldParameters | None
     """Parameters of what is held between sample instants, None in continuous time."""
     swap: Indices
@@ -81,8 +81,8 @@ class SymbolicLoop(NamedTuple):
     """Whether the plant moves by itself: then the first of `given` are the forces on its feet [N]."""
 
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
-        """With the body's terms always, at q (n,) [rad], v (n,) [rad/s]: what no law asks for
-        leaves no code.
+        """With the body's terms always, at q (n,) [rad], v (n,) [rad/s]: what no method asks
+        for leaves no code.
         """
         return semantics.measurement(self, t, q, v, mode, body=True)
 
@@ -132,7 +132,7 @@ class SymbolicInstant(NamedTuple):
     inp: Vector
     """All inputs, as one vector."""
     trace: Tracer
-    """Makes copies of laws for symbols, and keeps the pivots."""
+    """Makes copies of functions for symbols, and keeps the pivots."""
     loop: SymbolicLoop
     t: float
     x: Array

@@ -1,13 +1,13 @@
-"""Laws on symbols: run once on CasADi's scalars in NumPy's object arrays, a law leaves an expression.
+"""Functions on symbols: run once on CasADi's scalars in NumPy's object arrays, a function leaves an expression.
 
-This is the first stage of the compiler: law -> expression (here) -> LLVM text (`engine.ir`) ->
-machine code (`engine.machine`). A law is an ordinary Python function on NumPy arrays. `engine.tracer`
+This is the first stage of the compiler: method -> expression (here) -> LLVM text (`engine.ir`) ->
+machine code (`engine.machine`). It is an ordinary method or function on NumPy arrays. `engine.tracer`
 makes a copy of it, and of every function that it reaches, in which `np`, `math` and `linear.solve`
-are replaced by twins that make no float arrays and decide nothing by the numbers. The law's own
+are replaced by twins that make no float arrays and decide nothing by the numbers. Its own
 lines are not rewritten.
 
 Numbers of type int decide (sizes, flags) and are part of the expression's structure; floats are
-symbols, to be given at run time, so that one compilation serves all values. A law that branches on
+symbols, to be given at run time, so that one compilation serves all values. What branches on
 a symbol raises `Untraceable`; np.where is the way to write such a choice.
 
 Symbols are typed as the numbers and arrays that they stand for, since the functions that take them
@@ -33,7 +33,7 @@ T = TypeVar("T")
 
 
 class Untraceable(InputError):
-    """The law looks at a number to decide what to do, or does what has no symbol. The text names
+    """A method looks at a number to decide what to do, or does what has no symbol. The text names
     the function.
     """
 
@@ -72,7 +72,7 @@ class Scalar:
     """One number of an expression; arithmetic with another Scalar or a float gives another Scalar.
 
     e: the CasADi expression. Turning it into a bool or a float raises Untraceable, since that is
-    where a law would decide by a number. Comparisons give Scalars that are 0 or 1, for np.where.
+    where a method would decide by a number. Comparisons give Scalars that are 0 or 1, for np.where.
     """
 
     __slots__ = ("e",)
@@ -132,7 +132,7 @@ def _compare(name: str) -> Callable[..., Any]:
 class Symbols(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
     """An object array of Scalars; comparisons give Scalars too, for `np.where`.
 
-    Typed as the array of float64 that it stands for, so that laws take it.
+    Typed as the array of float64 that it stands for, so that methods take it.
     """
 
     __lt__, __le__ = _compare("less"), _compare("less_equal")
@@ -322,7 +322,7 @@ class Vector:
         return frozen(out)
 
     def like(self, tree: T) -> T:
-        """The parameters of a law with their floats as symbols; ints stay what they are."""
+        """A tree of parts, tuples and arrays with its floats as symbols; ints stay what they are."""
         return self._like(tree)
 
     def _like(self, tree: object) -> Any:

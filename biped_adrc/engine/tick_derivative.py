@@ -3,9 +3,8 @@
     x+ = tick(t, x),   J = d x+ / d x                 x = (q, q', s, held)
 
 `tick` is `closed_loop.semantics.tick`, traced as for machine code (`engine.equations`) and
-differentiated by CasADi, so that J is exact for every controller with laws. The expression is made
-once for a structure and evaluated in about 0.1 ms. A controller whose methods are plain Python has
-central differences in its place.
+differentiated by CasADi, so that J is exact for every controller that compiles. The expression is made
+once for a structure and evaluated in about 0.1 ms. Any other has central differences in its place.
 """
 
 from __future__ import annotations

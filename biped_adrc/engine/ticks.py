@@ -1,4 +1,4 @@
-"""Sampled control in plain Python on the compiled plant: the controller is called once per sample instant.
+"""Sampled control in Python on the compiled plant: the controller is called once per sample instant.
 
 Between sample instants the plant is (q, q', u) with the torque held, or (q, q', u_m, u) where the
 motors lag; it moves by itself in compiled code, disturbance and events included. There are two
@@ -61,11 +61,11 @@ def run_ticks(
     options: RunOptions,
     points: Sequence[CompiledReference] = (),
 ) -> Trajectory:
-    """A run from x0 (nx,) of a walker with compiled dynamics whose controller is plain Python.
+    """A run from x0 (nx,) of a walker with compiled dynamics whose controller runs in Python.
 
-    points: laws of the controller's references, compiled. The faster way is taken where nothing but
+    points: the controller's references, compiled. The faster way is taken where nothing but
     the torque is held between sample instants. Raises NotCompiled for a disturbance or method
-    without laws.
+    that cannot be compiled.
     """
     plant = CompiledWalker.held(walker, method)
     assert walker.held is not None

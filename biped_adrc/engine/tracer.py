@@ -1,7 +1,8 @@
-"""Copies of laws that run on symbols: NumPy, math and the linear solves are replaced by their twins.
+"""Methods and functions that run on symbols: NumPy, math and the linear solves are replaced by their twins.
 
-`Tracer` copies a law and every function that it reaches; `run` calls the copy and says in which function an
-error arose. The symbols themselves are in `engine.symbols`.
+`Tracer` copies a function and every function that it reaches, and makes twins of parts, whose methods are such
+copies; `run` calls the copy and says in which function an error arose. The symbols themselves are in
+`engine.symbols`.
 """
 
 from __future__ import annotations
@@ -81,11 +82,11 @@ BUILTINS: Mapping[str, Callable[..., object]] = {
     "min": minimum,
     "max": maximum,
 }
-"""What laws find under these names in place of Python's: no float(), and no choice by a number."""
+"""What functions find under these names in place of Python's: no float(), and no choice by a number."""
 
 
 class Tracer:
-    """Copies of laws that run on symbols, with one solver for all, so that `solver.least` covers them all."""
+    """Copies of functions for symbols, with one solver for all, so that `solver.least` covers them all."""
 
     def __init__(self) -> None:
         """The replacements, by identity of what laws name: NumPy, math, and the two functions of `linear`."""
@@ -130,12 +131,12 @@ class Tracer:
         self._twins: dict[type, type] = {}
 
     def __call__(self, law: T) -> T:
-        """The law for symbols, with every function that it reaches; what is no Python function
+        """The function for symbols, with every function that it reaches; what is no Python function
         stays as it is.
 
         A copy shares the code object and has its own globals and closure, in which names are
-        replaced. Copies are remembered before their names are replaced, so laws that call each
-        other end.
+        replaced. Copies are remembered before their names are replaced, so functions that call
+        each other end.
         """
         ours = isinstance(law, types.FunctionType) and not str(law.__module__).startswith(ENGINE)
         return self._copy(law) if ours else law
@@ -164,7 +165,7 @@ class Tracer:
         return self._copies[law]
 
     def on_symbols(self, value: Any) -> Any:
-        """The twin of what a law names or is given: a module, a solver, a law, a part, or a tuple of such.
+        """The twin of what a function names or takes: a module, a function, a part, or a tuple of such.
 
         A part has methods for symbols, as have the parts in it; its content stays as it is.
         """
@@ -238,7 +239,7 @@ class _Named:
 
 
 def run(trace: Tracer, law: Callable[..., T], *arguments: object) -> T:
-    """What a law gives on symbols, at these arguments.
+    """The result of a function or method on symbols, at these arguments.
 
     Raises Located that names the last function of the user's or this package's in which the error
     arose, since the error itself comes from inside NumPy or CasADi.
@@ -284,9 +285,7 @@ LIBRARIES = (
     str(Path(np.__file__).parent),
     str(Path(ca.__file__).parent),
 )
-"""Folders of the functions that laws call and that are no laws themselves; errors there are put
-down to the law.
-"""
+"""Folders of functions that are called in traced code and not traced; errors there are of the caller."""
 
 
 @lru_cache(maxsize=1024)

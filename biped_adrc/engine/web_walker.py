@@ -65,14 +65,14 @@ class _Laws(NamedTuple):
     """What the walkers share, filled by one after the other."""
 
     texts: dict[str, str]
-    """Laws in LLVM's language, by a name for them."""
+    """Functions of walkers in LLVM's language, by a name for them."""
     names: dict[int, str]
     """That name by the address of one of the functions here."""
     functions: list[str]
     """Names of those that are called by their number."""
 
     def of(self, address: int, text: Callable[[], str]) -> str:
-        """The name of the laws to which a function belongs; their text is made where it is not there yet."""
+        """The name of the text to which a function belongs; it is made where it is not there yet."""
         if address not in self.names:
             self.names[address] = f"laws{len(self.names)}"
             self.texts[self.names[address]] = text()
@@ -86,7 +86,7 @@ class _Laws(NamedTuple):
 
 
 def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker:
-    """The numbers of one walker, whose functions join the laws. Raises InputError."""
+    """The numbers of one walker, whose functions join those of the others. Raises InputError."""
     program, P = one.program, one.plan.P.copy()
     if program.numbers.split is not None:
         raise InputError("an offline page takes the steps of RK4; leave out the exponential method")

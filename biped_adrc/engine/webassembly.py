@@ -1,9 +1,9 @@
-"""The compiled loops and the laws of walkers as one WebAssembly module, for a page that needs no server.
+"""The compiled loops and the functions of walkers as one WebAssembly module, for a page that needs no server.
 
 It is made from the same text as the machine code: the loops of `engine.kernels` as numba gives them to LLVM,
-and the laws as `engine.ir` writes them. LLVM makes an object file, whose functions call each other by their
-numbers already; what it lacks to be a module that a browser starts are the names of those that are called from
-outside, which `_with_exports` adds.
+and the functions as `engine.ir` writes them. LLVM makes an object file, whose functions call each other by
+their numbers already; what it lacks to be a module that a browser starts are the names of those that are
+called from outside, which `_with_exports` adds.
 
 What the module does not have it imports from `env`: its memory, the table of the functions that the loops call
 by address (their number in that table), the stack's end, and `sin`, `pow` and the like.
@@ -35,9 +35,9 @@ SYMBOLS, FUNCTION, DATA, SECTION, UNDEFINED, NAMED = 8, 0, 1, 3, 0x10, 0x40
 
 
 def web_module(laws: Mapping[str, str]) -> bytes:
-    """The loops and these laws as WebAssembly; the laws of a walker are text for LLVM, by a name for them.
+    """The loops and these functions as WebAssembly; those of a walker are text for LLVM, by a name for them.
 
-    A page finds the functions of LOOPS by their names, and function `f` of the laws `name` as `name.f`.
+    A page finds the functions of LOOPS by their names, and function `f` of the text `name` as `name.f`.
     """
     binding.initialize_all_targets()
     binding.initialize_all_asmprinters()

@@ -31,7 +31,7 @@ class LoadedWalk(NamedTuple):
 
     walker: CompiledWalker
     code: LoadedCode
-    """Of the law LAW."""
+    """Of the function LAW."""
     P: NDArray[np.int64]
     F: Array
     K: Array
@@ -53,7 +53,7 @@ def place_of_torque(numbers: WalkerNumbers) -> int:
 
 
 class CompiledWalks:
-    """N walks. Raises NotCompiled, when one begins, for a part without laws."""
+    """N walks. Raises NotCompiled, when one begins, for a part that cannot be compiled."""
 
     def __init__(self, count: int, reference: Reference):
         """reference: the curve that errors refer to."""

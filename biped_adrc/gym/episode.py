@@ -39,7 +39,7 @@ class Episode:
     v: Array
     """At the start (n,) [rad/s]."""
     torque: Array
-    """The learner's (p,) [N m], to be written before each sample where the controller is plain Python."""
+    """The learner's (p,) [N m], to be written before each sample where the controller runs in Python."""
     loop: SteppingLoop | None
     """Around another plant than the rigid one."""
 

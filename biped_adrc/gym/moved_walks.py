@@ -1,10 +1,10 @@
 """N walks of learners moved on sample by sample, one after the other: plants that move by themselves, such as
-MuJoCo, and controllers in plain Python.
+MuJoCo, and controllers that run in Python.
 
 A sample goes from one sample instant, or impact, to the next sample instant or impact. `Now` is all that a walk
 is made of. The samples are those of `ba.walk_scenario`, bit for bit.
 
-The walker's controller is plain Python around a compiled plant, or the plant moves by itself. On soft ground
+The walker's controller runs in Python around a compiled plant, or the plant moves by itself. On soft ground
 friction and the direction of the force are what the simulator makes them, so legality is another thing there: a
 single support is illegal where a foot slips, by the numbers of `soft.meters`, or where a torque is beyond the
 limit.

@@ -1,7 +1,7 @@
 """N walks of one task side by side: what a learner is given of them, and how they go on.
 
 `env` is one of them, `vector` N; both are this class, so that a walk among many is the same as alone, bit for
-bit. Walks are moved on in machine code where all their parts have laws, else one by one.
+bit. Walks are moved on in machine code where all their parts compile, else one by one.
 """
 
 from __future__ import annotations

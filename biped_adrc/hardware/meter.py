@@ -21,8 +21,8 @@ foot slides by what acts over some milliseconds. `Limits.window` says how long. 
 comes from momentum, and needs nothing between the ticks.
 
 A campaign runs thousands of walks, whose trajectories nobody keeps; their readings are all there is. So the
-meter is a part of the state, and its law `metered` runs in both engines. `closed_loop.walker` calls it behind
-the controller at each tick, `hardware.sample_hold` keeps g, and `scenario.outcome` reads it at the end.
+meter is a part of the state, and its function `metered` runs in both engines. `closed_loop.walker` calls it
+behind the controller at each tick, `hardware.sample_hold` keeps g, and `scenario.outcome` reads it at the end.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ SUPPORT = 7
 
 
 class MeterParameters(NamedTuple):
-    """What the law `metered` takes.
+    """What `metered` takes.
 
     h: the constraint that errors are measured from. along, across (2,): unit vectors along the ground and out
     of it. weight: m g [N]. friction: mu. torque: the limit on a joint [N m].
@@ -339,7 +339,7 @@ class Meter(Shown):
         return ticks
 
     def parameters(self, plant: Biped, period: float, slope: float) -> MeterParameters:
-        """What the law `metered` needs."""
+        """What `metered` needs."""
         limits, window = self.limits.of(plant.description), self.window(period)
         return MeterParameters(
             self.constraint,

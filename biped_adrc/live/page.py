@@ -2,9 +2,9 @@
 
     ba.play("walk.html", ba.Scenario("ADRC", hardware="ideal"))
 
-The page has laws and loops as WebAssembly (`engine.web_walker`); its scripts (viz/play) do samples, pushes and
-springs, steps back, and a ghost. It walks what it was made with, on the rigid plant: the scenario, OTHERS, and
-the stations of the tour. A walk that is chosen begins anew from the start.
+The page has methods and loops as WebAssembly (`engine.web_walker`); its scripts (viz/play) do samples, pushes
+and springs, steps back, and a ghost. It walks what it was made with, on the rigid plant: the scenario, OTHERS,
+and the stations of the tour. A walk that is chosen begins anew from the start.
 
 The walk has no end and its ground is not known beforehand: the page moves the ground and a few footprints along
 with it.

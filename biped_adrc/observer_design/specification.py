@@ -133,7 +133,7 @@ def specification(walker: Walker, gait: Gait | FrozenGait) -> Specification:
 
     For many candidates on one robot and gait give a `FrozenGait`, which is made once. Raises InputError for
     a walker in continuous time or one that has to notice touchdowns, GaitError for a gait without a
-    periodic orbit, NotFiniteError where a law has no finite derivative on the gait.
+    periodic orbit, NotFiniteError where a method has no finite derivative on the gait.
     """
     twin = linear_twin(walker)
     assert isinstance(twin.timing, SampledTime)

@@ -3,8 +3,9 @@
     z+ = Z z + Y (q, q'),     u = C z + E (q, q')                   d z+ / d(z, q, q')
 
 z is all that the walker keeps from tick to tick: controller, observer, sensors with their filter, and the
-torques that the controller knows of. The derivative is taken of the laws themselves (`engine.tick_derivative`),
-so that the path of an encoder's error through Theta and Theta' is in it, and no controller has a formula here.
+torques that the controller knows of. The derivative is taken of the methods themselves
+(`engine.tick_derivative`), so that the path of an encoder's error through Theta and Theta' is in it, and no
+controller has a formula here.
 
 Torque and rate limits are left out, and counts are an error that is independent from tick to tick.
 """

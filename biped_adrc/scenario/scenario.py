@@ -58,8 +58,8 @@ method: of integration. rk4: fixed step. exponential: ETD-RK4 with the observer'
 feedback: the same with the controller's feedback in the linear part. adaptive: explicit with step control.
 stiff: Radau IIA of order 5, implicit.
 
-engine: compiled runs machine code made from the laws; pinocchio runs the Python methods, with Pinocchio's
-model.
+engine: compiled runs machine code made from the methods; pinocchio runs the methods in Python, with
+Pinocchio's model.
 """
 NAMED = {
     "controller": "controller",

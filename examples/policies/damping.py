@@ -1,39 +1,25 @@
-"""A policy across contact as a law: for some ms after a touchdown the joints are damped, and nothing else.
+"""A policy across contact: for some ms after a touchdown the joints are damped, and nothing else.
 
 Run: python examples/policies/damping.py
 """
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 import biped_adrc as ba
 from biped_adrc.control.across_contact import ContactWindow
-from biped_adrc.control.around import passed_on
-
-
-class DampingParameters(NamedTuple):
-    until: float  # [s]
-    damping: float  # [N m s/rad]
 
 
 @dataclass(frozen=True)
 class Damping(ContactWindow):
-    """u = -damping q_b' for t_step < window [s]; the controller inside runs, and is told this torque."""
+    """u = -damping q_b' for t_step < window [s]; the controller inside runs, and receives this torque."""
 
-    damping: float = 5.0
+    damping: float = 5.0  # [N m s/rad]
 
-    @property
-    def own(self):
-        return DampingParameters(super().own.until, self.damping)
-
-    def around(self, inner):
-        def output(k, s, m):
-            u = inner.output(k.inner, s, m)
-            return np.where(m.t_step < k.own.until, -k.own.damping * m.v[: len(u)], u)
-
-        return passed_on(inner)._replace(output=output)
+    def output(self, s, m):
+        u = self.inner.output(s, m)
+        return np.where(m.t_step < self.until, -self.damping * m.v_b, u)
 
 
 ba.register("contact", "damping", Damping, "the joints are damped while contact settles")

@@ -1,39 +1,26 @@
-"""A policy across contact in plain Python: after a touchdown the observer's part of the torque grows from none.
+"""A policy across contact: after a touchdown the observer's part of the torque grows from none.
 
 Run: python examples/policies/fade.py
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+
+import numpy as np
 
 import biped_adrc as ba
+from biped_adrc.control.across_contact import ContactWindow
 
 
 @dataclass(frozen=True)
-class Fade(ba.Controller):
+class Fade(ContactWindow):
     """u_0 + w (u - u_0), w = x^2 (3 - 2 x), x = t_step / window [s]; u_0: of an observer that begins anew."""
 
-    inner: ba.ADRCController
     window: float = 0.03
 
-    def sampled(self, period):
-        return replace(self, inner=self.inner.sampled(period))
-
-    def initial_state(self, m):
-        return self.inner.initial_state(m)
-
-    def jump(self, s, after, swap):
-        return self.inner.jump(s, after, swap)
-
-    def correct(self, s, m):
-        return self.inner.correct(s, m)
-
     def output(self, s, m):
-        x = min(m.t_step / self.window, 1.0)
+        x = np.minimum(m.t_step / self.window, 1.0)
         fresh = self.inner.output(self.inner.initial_state(m), m)
         return fresh + x**2 * (3.0 - 2.0 * x) * (self.inner.output(s, m) - fresh)
-
-    def predict(self, s, m, u):
-        return self.inner.predict(s, m, u)
 
 
 biped = ba.Biped.load("rabbit")

@@ -1,4 +1,4 @@
-"""A policy across contact as a law: the estimated disturbance is frozen for some ms after a touchdown.
+"""A policy across contact : the estimated disturbance is frozen for some ms after a touchdown.
 
 Run: python examples/policies/freeze.py
 """
@@ -9,7 +9,6 @@ import numpy as np
 
 import biped_adrc as ba
 from biped_adrc.control.across_contact import ContactWindow
-from biped_adrc.control.around import passed_on
 
 
 @dataclass(frozen=True)
@@ -19,18 +18,16 @@ class Freeze(ContactWindow):
     For an observer whose state is x1^, x2^, then xi^ and its derivatives, each of p joints.
     """
 
-    def around(self, inner):
-        def frozen(k, s, m, new):
-            p = len(m.terms.kappa)
-            return np.where(m.t_step < k.own.until, np.concatenate((new[: 2 * p], s[2 * p :])), new)
+    def correct(self, s, m):
+        return self._frozen(s, m, self.inner.correct(s, m))
 
-        def correct(k, s, m):
-            return frozen(k, s, m, inner.correct(k.inner, s, m))
+    def predict(self, s, m, u):
+        return self._frozen(s, m, self.inner.predict(s, m, u))
 
-        def predict(k, s, m, u):
-            return frozen(k, s, m, inner.predict(k.inner, s, m, u))
-
-        return passed_on(inner)._replace(correct=correct, predict=predict)
+    def _frozen(self, s, m, new):
+        """`new` with what stands in s behind x1^ and x2^."""
+        p = len(m.q_b)
+        return np.where(m.t_step < self.until, np.concatenate((new[: 2 * p], s[2 * p :])), new)
 
 
 biped = ba.Biped.load("rabbit")

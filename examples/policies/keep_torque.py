@@ -1,23 +1,19 @@
-"""A policy across contact in plain Python: what the model does not know goes on over a touchdown as a torque.
+"""A policy across contact: what the model does not know goes on over a touchdown as a torque.
 
 Run: python examples/policies/keep_torque.py
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 import biped_adrc as ba
+from biped_adrc.control.across_contact import AcrossContact
 
 
 @dataclass(frozen=True)
-class KeepTorque(ba.Controller):
+class KeepTorque(AcrossContact):
     """w = kappa^-1 (xi^ - xi) of the last tick ends the state; after impact xi^ = xi + kappa w, w swapped."""
-
-    inner: ba.ADRCController
-
-    def sampled(self, period):
-        return replace(self, inner=self.inner.sampled(period))
 
     def initial_state(self, m):
         return np.concatenate((self.inner.initial_state(m), np.zeros(4)))
@@ -30,10 +26,13 @@ class KeepTorque(ba.Controller):
     def correct(self, s, m):
         z = self.inner.correct(s[:-4], m)
         unknown = self.inner.estimate(z, m).disturbance - m.terms.xi
-        return np.concatenate((z, np.linalg.solve(m.terms.kappa, unknown)))
+        return np.concatenate((z, m.terms.kappa_inverse @ unknown))
 
     def output(self, s, m):
         return self.inner.output(s[:-4], m)
+
+    def estimate(self, s, m):
+        return self.inner.estimate(s[:-4], m)
 
     def predict(self, s, m, u):
         return np.concatenate((self.inner.predict(s[:-4], m, u), s[-4:]))

@@ -1,25 +1,22 @@
-"""Policies across contact in plain Python: the last torque goes on, or goes smoothly to the new one.
+"""Policies across contact: the last torque goes on, or goes smoothly to the new one.
 
 Run: python examples/policies/ramp_torque.py
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 import biped_adrc as ba
+from biped_adrc.control.across_contact import ContactWindow
 
 
 @dataclass(frozen=True)
-class RampTorque(ba.Controller):
+class RampTorque(ContactWindow):
     """u = u_0 + w (u - u_0), w = x^2 (3 - 2 x), x = t_step / window; u_0 (p,), the last torque with its legs
     swapped, ends the state."""
 
-    inner: ba.Controller
     window: float = 0.005
-
-    def sampled(self, period):
-        return replace(self, inner=self.inner.sampled(period))
 
     def initial_state(self, m):
         z = self.inner.initial_state(m)
@@ -32,11 +29,11 @@ class RampTorque(ba.Controller):
         return np.concatenate((self.inner.correct(s[:-4], m), s[-4:]))
 
     def output(self, s, m):
-        x = min(m.t_step / self.window, 1.0)
+        x = np.minimum(m.t_step / self.window, 1.0)
         return s[-4:] + x**2 * (3.0 - 2.0 * x) * (self.inner.output(s[:-4], m) - s[-4:])
 
     def predict(self, s, m, u):
-        last = s[-4:] if m.t_step < self.window - 1e-9 else u
+        last = np.where(m.t_step < self.until, s[-4:], u)
         return np.concatenate((self.inner.predict(s[:-4], m, u), last))
 
 
@@ -44,7 +41,7 @@ class LastTorque(RampTorque):
     """u = u_0 for t_step < window [s]: every motor keeps its last torque, then gives the controller's."""
 
     def output(self, s, m):
-        return s[-4:] if m.t_step < self.window - 1e-9 else self.inner.output(s[:-4], m)
+        return np.where(m.t_step < self.until, s[-4:], self.inner.output(s[:-4], m))
 
 
 biped = ba.Biped.load("rabbit")

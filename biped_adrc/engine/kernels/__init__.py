@@ -1,1 +1,1 @@
-"""Integrators, event location and the hybrid walk in compiled loops that call laws by their addresses."""
+"""Integrators, event location and the hybrid walk in compiled loops that call functions by their addresses."""

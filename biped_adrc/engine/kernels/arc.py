@@ -155,9 +155,9 @@ def arc(ints: Ints, floats: Array, numbers: Array, work: Rows, run: Array, kept:
 
 @unit
 def hold(given: Ints, seen: Array) -> int:
-    """As `arc`; then in `seen` (t, q, q') there, and behind them what a law says of these.
+    """As `arc`; then in `seen` (t, q, q') there, and behind them what a function says of these.
 
-    given (8,): addresses of P, F, K, W, s and R, of the law, and of its numbers. By addresses, so
+    given (8,): addresses of P, F, K, W, s and R, of the function, and of its numbers. By addresses, so
     that Python passes two pointers and no arrays.
     """
     P, F, K, W = ints_at(given[0]), floats_at(given[1]), floats_at(given[2]), floats_at(given[3])

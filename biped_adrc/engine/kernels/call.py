@@ -1,7 +1,7 @@
 """Pointers, calls of C functions by their addresses at run time, and how the loops are compiled.
 
 The loops work on pointers, written and read as arrays are; a vector is a pointer to its first
-number. Generated laws are called by an address that is data of the run, so the loops are compiled
+number. Generated functions are called by an address that is data of the run, so the loops are compiled
 once for all walkers.
 
 There are three decorators. `inner` functions are compiled into each of their callers, those of `unit` once

@@ -73,15 +73,15 @@ def regular(dx: Array, size: int) -> bool:
 
 @inner
 def broken(W: Array) -> int:
-    """The status of a run whose state (nx,) or slope is not finite: what a law has asked for, else
-    NOT_FINITE.
+    """The status of a run whose state (nx,) or slope is not finite: what a function has asked
+    for, else NOT_FINITE.
     """
     return NOT_FINITE if W[LOST] == 0.0 else int(W[LOST])
 
 
 @inner
 def note(W: Array, out: Array, pivot: float) -> None:
-    """Make a law's result NaN where its last output says that it means nothing, and note the status."""
+    """Make a function's result NaN where its last output says that it means nothing, and note the status."""
     if pivot <= 0.0:
         W[LOST], out[0] = SINGULAR if pivot == 0.0 else RAN_AWAY, math.nan
 

@@ -4,7 +4,7 @@ Every kernel function takes some of these vectors:
 
     P   integers of the plan: addresses, sizes, places in F     read only
     F   floats of the plan: clock, tolerances, matrices         read only
-    K   parameters that the called laws read                    read only
+    K   numbers that the called functions read                   read only
     W   work rows (ROWS, width); row 0 is the head of the run   one per run
     s   the run vector: head, then x                            one per run
     R   nodes kept (rows, 1 + 2 nx): t, x, x'                   one per run
@@ -74,8 +74,8 @@ that ended the last arc, -1 for none; every how many steps a node is kept, 0 for
 whether the event functions have values; their values (3); start of the arc [s].
 """
 DROP, LIMIT, LOST, EVENT = 12, 13, 14, 15
-"""Head of W: drop of the ground [m]; laws are asked for no later time than this [s]; the
-status that a law's last output asks for, 0 for none; time of the event [s].
+"""Head of W: drop of the ground [m]; functions are asked for no later time than this [s]; the
+status that a function's last output asks for, 0 for none; time of the event [s].
 """
 ROOM, REACHED, TRY, LANDED, FAR, FAR_VALUE = 16, 17, 18, 19, 20, 21
 """Head of W: rows of R; of an adaptive step the time reached and the next length to try [s]; of
@@ -85,7 +85,7 @@ SLOPED, HEAD = 22, 23
 """Head of W: 1 where row DX0 has the slope at row X0 already; length of the head."""
 
 INP, OUT, ZETA, PART, AFTER, TRIED = 1, 2, 3, 4, 5, 6
-"""Rows of W behind the head: inputs and outputs of a law; zeta and one part of it; event functions at
+"""Rows of W behind the head: inputs and outputs of a function; zeta and one part of it; event functions at
 the end of a step, and at a time tried in it.
 """
 X0, DX0, X1, DX1, STAGE, K2, K3, K4 = 7, 8, 9, 10, 11, 12, 13, 14

@@ -271,6 +271,6 @@ def _joined(parts: Sequence[Array | Ints], dtype: type[T]) -> tuple[NDArray[T], 
 
 
 def _width(sizes: StateSizes) -> int:
-    """Numbers of the longest row: a law's input or output, or the head of a run."""
+    """Numbers of the longest row: a function's input or output, or the head of a run."""
     states = max(sizes.nx, sizes.nw + sizes.k * sizes.p)
     return max(layout.HEAD, 3 + states + max(sizes.n, 2) + layout.OUTSIDE)

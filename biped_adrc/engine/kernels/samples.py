@@ -4,7 +4,7 @@ A sample goes from one sample instant to the next. An impact within it is made o
 restarts with it, a sample instant is due there, and the sample ends. So a walk is the same as in `arc`, and the
 torques may be others at every sample instant.
 
-At the end of a sample a law says what is to be seen there, such as what a learner is given
+At the end of a sample a function says what is to be seen there, such as what a learner is given
 (`biped_adrc.gym.view`).
 """
 
@@ -17,7 +17,7 @@ from biped_adrc.engine.kernels.layout import *
 from biped_adrc.types import Array
 
 GIVEN = 7
-"""Numbers in `given` for a walk: addresses of P, F, K, W, s, place of the torques in K, address of the law."""
+"""Numbers in `given` for a walk: addresses of P, F, K, W, s, place of the torques in K, that function's."""
 MOST_ARCS = 100
 """In one sample (EVENT_LIMIT)."""
 
@@ -60,8 +60,8 @@ def look(P: Ints, F: Array, K: Array, W: Array, s: Array, law: int, out: Array) 
 def samples(given: Ints, torques: Rows, seen: Rows, codes: Ints) -> None:
     """One sample of each of N walks whose code is 0, under its row of torques (N, p) [N m].
 
-    given (N GIVEN,), in the order of GIVEN. Codes (N,) become those of `sample`, rows of `seen` what the law
-    says after it; those of a walk that has ended stay as they are.
+    given (N GIVEN,), in the order of GIVEN. Codes (N,) become those of `sample`, rows of `seen` what
+    that function says after it; those of a walk that has ended stay as they are.
     """
     rows, shown, p = data(torques), data(seen), torques.shape[1]
     for i in range(codes.shape[0]):
@@ -77,6 +77,6 @@ def samples(given: Ints, torques: Rows, seen: Rows, codes: Ints) -> None:
 
 @kernel
 def looks(given: Ints, seen: Rows) -> None:
-    """In seen (1, k) what the law says of a walk where it is; given (GIVEN,)."""
+    """In seen (1, k) what the function says of a walk where it is; given (GIVEN,)."""
     P, F, K = ints_at(given[0]), floats_at(given[1]), floats_at(given[2])
     look(P, F, K, floats_at(given[3]), floats_at(given[4]), given[6], data(seen))

@@ -88,7 +88,7 @@ def begin(P: Ints, F: Array, K: Array, W: Array, t: float, h: float) -> None:
 def fixed(P: Ints, F: Array, K: Array, W: Array, t: float, t1: float, last: int) -> int:
     """X1 (nx,) and what the next step starts from, at t1 [s], by RK4 or ETD-RK4; a status.
 
-    last: 1 for the step before a break, after which the laws change and slope and remainder would
+    last: 1 for the step before a break, after which the forces change and slope and remainder would
     be wasted. A step of ETD-RK4 that is not h long is made of sub-steps and one classical step.
     """
     sloped, x1, y1 = W[EVERY] > 0.0, row(P, W, X1), row(P, W, Y1)
