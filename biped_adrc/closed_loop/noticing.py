@@ -18,7 +18,7 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.control.base import Measurement
 from biped_adrc.hardware.motors import Line
-from biped_adrc.hardware.sample_hold import HeldParameters, read
+from biped_adrc.hardware.sample_hold import HeldParts, read
 from biped_adrc.hardware.touchdown import Belief, Look, belief_of, numbers_of
 from biped_adrc.types import Array
 
@@ -97,7 +97,7 @@ def estimated(loop: Loop, s: Array, tail: Array, m: Measurement, mode: Mode) -> 
     return chosen(b.other, xi[loop.swap], xi)
 
 
-def unnoticed(k: HeldParameters, b: Array, t: float) -> Array:
+def unnoticed(k: HeldParts, b: Array, t: float) -> Array:
     """A belief b after a true touchdown at t [s] of which the controller knows nothing."""
     assert k.touchdown is not None
     old = belief_of(b)

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, Protocol
 
 from biped_adrc.control.base import Measurement
 from biped_adrc.hardware.loads import Outside
-from biped_adrc.hardware.sample_hold import HeldParameters
+from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import Estimate
 from biped_adrc.types import Array, Indices
@@ -130,7 +130,7 @@ class Loop(Protocol):
         """The functions of the controller in its time base."""
 
     @property
-    def held(self) -> HeldParameters | None:
+    def held(self) -> HeldParts | None:
         """Parameters of what is held between sample instants; None in continuous time."""
 
     @property

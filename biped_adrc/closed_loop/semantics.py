@@ -27,11 +27,11 @@ from biped_adrc.closed_loop.noticing import labelled, noticed, unnoticed
 from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.control.base import Measurement
 from biped_adrc.hardware.loads import loads
-from biped_adrc.hardware.meter import Hit, metered
+from biped_adrc.hardware.meter import Hit
 from biped_adrc.hardware.motors import Line
 from biped_adrc.hardware.sample_hold import (
     Held,
-    HeldParameters,
+    HeldParts,
     after_impact,
     lagged,
     motor_torque,
@@ -96,7 +96,7 @@ def applied(u: Array, zeta: Array) -> Array:
     return force
 
 
-def torque_held(k: HeldParameters, tail: Array) -> Array:
+def torque_held(k: HeldParts, tail: Array) -> Array:
     """The torque that the motors give between sample instants (p,) [N m], read from the held tail of x."""
     return motor_torque(read(k.sizes, tail).line)
 
@@ -190,9 +190,7 @@ def asked(loop: Loop, s: Array, m: Measurement) -> tuple[Array, Array]:
     return s, loop.bounded(loop.saturate(loop.calls.output(s, m)))
 
 
-def decided(
-    loop: Loop, k: HeldParameters, s: Array, m: Measurement, line: Line
-) -> tuple[Array, Line]:
+def decided(loop: Loop, k: HeldParts, s: Array, m: Measurement, line: Line) -> tuple[Array, Line]:
     """The controller's state and the queue of torques after it has acted on a measurement; torques
     are (p,) [N m].
 
@@ -221,7 +219,7 @@ def measured_by_meter(
     asked = loads(loop.plant, loop.outside(t, mode), q, v, a)
     xi = unknown(loop, terms, a, u, zeta)
     given = (q, v, u, k.motors.mean_torque(line), xi, terms, t, mode.step, t - mode.start, asked)
-    return metered(k.meter, g, *given)
+    return k.meter.measure(g, *given)
 
 
 def release(loop: Loop, x: Array) -> Array:

@@ -28,9 +28,9 @@ from biped_adrc.errors import BipedError, InputError
 from biped_adrc.gait.reference import Reference, check_point
 from biped_adrc.hardware import sample_hold as held
 from biped_adrc.hardware.loads import Outside
-from biped_adrc.hardware.meter import MeterParameters
+from biped_adrc.hardware.meter import SampledMeter
 from biped_adrc.hardware.motors import Motors
-from biped_adrc.hardware.sample_hold import Held, HeldParameters
+from biped_adrc.hardware.sample_hold import Held, HeldParts
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.hybrid.system import Clock, HybridSystem, Relaxing
@@ -129,7 +129,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
         return isinstance(self.timing, SampledTime)
 
     @cached_property
-    def held(self) -> HeldParameters | None:
+    def held(self) -> HeldParts | None:
         """Parameters of what is held between sample instants (`hardware.sample_hold`); None in
         continuous time.
         """
@@ -148,8 +148,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
         """How many numbers of x a plant that moves by itself keeps for its own use; 0 for all others."""
         return 0
 
-    def metering(self, timing: SampledTime) -> MeterParameters | None:
-        """Parameters of the meter for these sample instants; None without a meter."""
+    def metering(self, timing: SampledTime) -> SampledMeter | None:
+        """The meter for these sample instants; None without a meter."""
         return None
 
     @property

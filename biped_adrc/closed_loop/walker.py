@@ -28,7 +28,7 @@ from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError
 from biped_adrc.ground import StepDown, StepUp, check_slope, check_steps, drop_of
 from biped_adrc.hardware.loads import Outside
-from biped_adrc.hardware.meter import Meter, MeterParameters
+from biped_adrc.hardware.meter import Meter, SampledMeter
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import check_parts
 from biped_adrc.hardware.sensing import Sensor
@@ -135,10 +135,10 @@ class Walker(ClosedLoop[Biped]):
             return np.zeros(0, dtype=int)
         return self.plant.relabelling[: self.plant.p]
 
-    def metering(self, timing: SampledTime) -> MeterParameters | None:
+    def metering(self, timing: SampledTime) -> SampledMeter | None:
         if self.meter is None:
             return None
-        return self.meter.parameters(self.plant, timing.period, self.slope)
+        return self.meter.sampled(self.plant, timing.period, self.slope)
 
     # -- from outside ------------------------------------------------------------------------------
     def outside(self, t: float, mode: Mode) -> Outside:

@@ -18,7 +18,7 @@ from biped_adrc.engine.equations import WalkerNumbers
 from biped_adrc.engine.mechanics import RobotData, robot_of
 from biped_adrc.errors import InputError, ModelError
 from biped_adrc.hardware.motors import Motors
-from biped_adrc.hardware.sample_hold import HeldParameters
+from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.timing import SampledTime
@@ -100,7 +100,7 @@ class Computer:
         )
 
     @property
-    def held(self) -> HeldParameters:
+    def held(self) -> HeldParts:
         """What the computer holds between sample instants."""
         assert self.alone.held is not None
         return self.alone.held

@@ -36,7 +36,7 @@ from biped_adrc.engine.mechanics import PlanarRobot, RobotStructure
 from biped_adrc.engine.symbolic_loop import SymbolicInstant, SymbolicLoop, on_symbols
 from biped_adrc.engine.symbols import Scalar, Vector, column, floats
 from biped_adrc.engine.tracer import Tracer
-from biped_adrc.hardware.sample_hold import HeldParameters, HeldSizes
+from biped_adrc.hardware.sample_hold import HeldParts, HeldSizes
 from biped_adrc.model.planar import PlantArrays
 from biped_adrc.types import Array
 
@@ -64,7 +64,7 @@ class WalkerNumbers(NamedTuple):
     """Viscous [N m s] and static [N m] of the coordinates, each (n,); empty without."""
     strongest: float
     """Torque beyond which the run ends [N m], infinite without such a bound."""
-    held: HeldParameters | tuple[()] = ()
+    held: HeldParts | tuple[()] = ()
     """Parameters of what is held between sample instants, empty in continuous time."""
     impact_gain: Array = NONE
     """Relative errors of v+ (n,) [1], empty without."""

@@ -16,7 +16,7 @@ from biped_adrc.engine.mechanics import PlanarRobot
 from biped_adrc.engine.symbols import Scalar, Vector, maximum, minimum, where
 from biped_adrc.engine.tracer import Located, Tracer, run
 from biped_adrc.hardware.loads import Outside
-from biped_adrc.hardware.sample_hold import HeldParameters
+from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.observers.base import Estimate
 from biped_adrc.types import Array, Indices
 
@@ -63,7 +63,7 @@ class SymbolicLoop(NamedTuple):
     """Whether the controller's model is the plant."""
     calls: ControlLaw
     """The controller's methods in its time base."""
-    held: HeldParameters | None
+    held: HeldParts | None
     """Parameters of what is held between sample instants, None in continuous time."""
     swap: Indices
     """Relabelling of the actuated joints (p,), numbers of the structure."""

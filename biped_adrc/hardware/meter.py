@@ -60,32 +60,6 @@ SUPPORT = 7
 """Numbers kept of a single support, in front of the P_k."""
 
 
-class MeterParameters(NamedTuple):
-    """What `metered` takes.
-
-    h: the constraint that errors are measured from. along, across (2,): unit vectors along the ground and out
-    of it. weight: m g [N]. friction: mu. torque: the limit on a joint [N m].
-    """
-
-    h: VirtualConstraint
-    along: Array
-    across: Array
-    weight: float
-    friction: float
-    """Largest |F_T| / F_N at which a foot does not slide."""
-    torque: float
-    tan_slope: float
-    """Of the ground, which falls or rises in the direction of walking."""
-    period: float
-    """[s]"""
-    rate: float
-    """1 / (W T) [1/s]."""
-    lifting: float
-    """How long after an impact the swing foot may be in the ground [s]."""
-    window: int
-    """W, in ticks."""
-
-
 def size(p: int, window: int) -> int:
     """Numbers in g, for p joints and a window of W ticks."""
     return READINGS + 2 * p + SUPPORT + 2 * (window + 1)
@@ -145,144 +119,10 @@ class Hit(NamedTuple):
     """Of the ground on the foot that strikes (2,) [N s]."""
 
 
-def metered(
-    k: MeterParameters,
-    g: Array,
-    q: Array,
-    v: Array,
-    u: Array,
-    mean: Array,
-    unknown: Array,
-    terms: Reduction,
-    t: float,
-    step: float,
-    since: float,
-    loads: Loads,
-) -> Array:
-    """g after a tick at t [s] in q (n,), v (n,); u (p,) acts now, `mean` (p,) in the mean until the next tick.
-
-    terms: of the nominal model there. unknown (n,) [N m]: the generalised force that it does not know.
-    since [s]: of this single support, `step`, from the impact that began it. loads: of the plant.
-    """
-    p = len(u)
-    e = q[:p] - k.h(t, q, v).q_d
-    matched, unmatched = disturbance_parts(terms, unknown)
-    at = READINGS + 2 * p
-    ground = carried(k, g[at:], loads, t)
-    F_T, F_N = k.along @ loads.force, k.across @ loads.force
-    means = (ground[-2:] - ground[SUPPORT : SUPPORT + 2]) * k.rate + weight(k)
-    N = k.across @ means
-    judged = np.where(g[at] >= k.window, 1.0, 0.0)
-    slides = judged * outside(k, k.along @ means, N)
-    depth = np.where(since > k.lifting, ground[2] * greater(-height(k, loads), 0.0), 0.0)
-    peak = largest(u)
-    broken = greater(slides, np.where(peak > k.torque, 1.0, 0.0))
-    broken = greater(broken, np.where(depth > 0.0, 1.0, 0.0))
-    out = worked(g, q[:p])
-    out[0] = g[0] + 1.0
-    out[1], out[2] = greater(g[1], largest(e)), g[2] + e @ e
-    out[3], out[4] = greater(g[3], peak), g[4] + u @ u
-    out[7] = greater(g[7], largest(matched))
-    out[8] = greater(g[8], largest(unmatched))
-    out[9] = np.where(g[0] > 0.0, -greater(-g[9], -F_N), F_N)
-    out[10] = greater(g[10], ratio(F_T, F_N))
-    out[11] = g[11] + outside(k, F_T, F_N)
-    judge(k, out, g, judged, means)
-    out[15] = greater(g[15], depth)
-    out[17] = np.where(g[17] > 0.0, g[17], broken * step)
-    return np.concatenate((out, q[:p], mean, ground))
-
-
-def carried(k: MeterParameters, g: Array, loads: Loads, t: float) -> Array:
-    """What is kept of this single support after a tick at t [s], (SUPPORT + 2 (W + 1),), from g of that shape.
-
-    At its first tick all P_k are the same, so a window that reaches behind it begins there.
-    """
-    first = g[0] < 1.0
-    J = g[3:5] + np.minimum(g[0], 1.0) * loads.outside.impulse
-    P = loads.momentum - J
-    out = np.zeros(len(g))
-    out[0], out[1] = g[0] + 1.0, t
-    out[2] = greater(g[2], np.where(height(k, loads) > 0.0, 1.0, 0.0))
-    out[3:5], out[5:7] = J, loads.outside.force
-    for i in range(k.window):
-        out[SUPPORT + 2 * i] = np.where(first, P[0], g[SUPPORT + 2 * i + 2])
-        out[SUPPORT + 2 * i + 1] = np.where(first, P[1], g[SUPPORT + 2 * i + 3])
-    out[len(g) - 2 :] = P
-    return out
-
-
-def weight(k: MeterParameters) -> Array:
-    """m g e_z (2,) [N]."""
-    return k.weight * np.array([0.0, 1.0])
-
-
-def last_mean(k: MeterParameters, g: Array, hit: Hit) -> tuple[Array, Number]:
-    """Mean force of the ground (2,) [N] up to an impact, and 1, or 0 where there is no time to judge.
-
-    g: what is kept of the single support. The window has W periods as all others, and ends between two ticks:
-    P where it begins is interpolated between the P_k.
-    """
-    since, periods = hit.t - g[1], g[0] - 1.0
-    P = hit.momentum - g[3:5] - since * g[5:7]
-    part = np.where(periods >= k.window, since / k.period, 0.0)
-    base = (1.0 - part) * g[SUPPORT : SUPPORT + 2] + part * g[SUPPORT + 2 : SUPPORT + 4]
-    length = (np.minimum(periods, 1.0 * k.window) - part) * k.period + since
-    judged = np.where(g[0] > 0.0, np.where(length > SHORTEST, 1.0, 0.0), 0.0)
-    return (P - base) / greater(length, SHORTEST) + weight(k), judged
-
-
-def judge(k: MeterParameters, out: Array, g: Array, judged: Number, means: Array) -> None:
-    """Write a mean force `means` (2,) [N] into the readings `out` (READINGS,) where `judged` is 1.
-
-    g: the readings before.
-    """
-    N = k.across @ means
-    least = np.where(g[12] > 0.0, -greater(-g[13], -N), N)
-    out[12] = g[12] + judged
-    out[13] = np.where(judged > 0.0, least, g[13])
-    out[14] = greater(g[14], judged * ratio(k.along @ means, N))
-
-
 def ratio(F_T: Number, F_N: Number) -> Number:
     """|F_T| / F_N of forces [N] or impulses [N s], 0 where the ground does not push; at most LARGEST_RATIO."""
     found = np.minimum(np.abs(F_T) / greater(F_N, LEAST_FORCE), LARGEST_RATIO)
     return np.where(F_N > 0.0, found, 0.0)
-
-
-def outside(k: MeterParameters, F_T: Number, F_N: Number) -> Number:
-    """1 outside the friction cone, where the ground would have to pull too, 0 inside."""
-    edge = k.friction * (1.0 + ROUND_OFF)
-    return np.where(F_N > 0.0, np.where(np.abs(F_T) > edge * F_N, 1.0, 0.0), 1.0)
-
-
-def height(k: MeterParameters, loads: Loads) -> Number:
-    """Of the swing foot above the lower of the footholds, measured along the vertical [m]."""
-    return loads.foot[1] + k.tan_slope * loads.foot[0] + greater(loads.outside.drop, 0.0)
-
-
-def metered_impact(
-    k: MeterParameters,
-    g: Array,
-    q_minus: Array,
-    q_plus: Array,
-    swap: Indices,
-    hit: Hit,
-) -> Array:
-    """g after an impact between the joints' angles q_minus and q_plus (p,) [rad], which `swap` (p,) relabels.
-
-    The last window of the single support is judged here, and what is kept of it is emptied for the next one.
-    """
-    p = len(q_minus)
-    out = worked(g, q_minus)
-    means, judged = last_mean(k, g[READINGS + 2 * p :], hit)
-    judge(k, out, g, judged, means)
-    broken = judged * outside(k, k.along @ means, k.across @ means)
-    out[17] = np.where(g[17] > 0.0, g[17], broken * hit.step)
-    found = np.abs(k.along @ hit.impulse) / greater(k.across @ hit.impulse, LEAST_FORCE)
-    out[16] = greater(out[16], np.minimum(found, LARGEST_RATIO))
-    behind = g[READINGS + p : READINGS + 2 * p]
-    return np.concatenate((out, q_plus, behind[swap], np.zeros(SUPPORT + 2 * (k.window + 1))))
 
 
 def worked(g: Array, q_b: Array) -> Array:
@@ -312,6 +152,161 @@ def greater(a: Number, b: Number) -> Number:
 
 
 @dataclass(frozen=True)
+class SampledMeter:
+    """The meter on a plant, for ticks every `period` [s].
+
+    h: the constraint that errors are measured from. along, across (2,): unit vectors along the ground and out
+    of it. weight: m g [N]. friction: mu. torque: the limit on a joint [N m].
+    """
+
+    h: VirtualConstraint
+    along: Array
+    across: Array
+    weight: float
+    friction: float
+    """Largest |F_T| / F_N at which a foot does not slide."""
+    torque: float
+    tan_slope: float
+    """Of the ground, which falls or rises in the direction of walking."""
+    period: float
+    """[s]"""
+    rate: float
+    """1 / (W T) [1/s]."""
+    lifting: float
+    """How long after an impact the swing foot may be in the ground [s]."""
+    window: int
+    """W, in ticks."""
+
+    def measure(
+        self,
+        g: Array,
+        q: Array,
+        v: Array,
+        u: Array,
+        mean: Array,
+        unknown: Array,
+        terms: Reduction,
+        t: float,
+        step: float,
+        since: float,
+        loads: Loads,
+    ) -> Array:
+        """g after a tick at t [s] in q (n,), v (n,); u (p,) acts now, `mean` (p,) on average until the next.
+
+        terms: of the nominal model there. unknown (n,) [N m]: the generalised force that it does not know.
+        since [s]: of this single support, `step`, from the impact that began it. loads: of the plant.
+        """
+        p = len(u)
+        e = q[:p] - self.h(t, q, v).q_d
+        matched, unmatched = disturbance_parts(terms, unknown)
+        at = READINGS + 2 * p
+        ground = self.carried(g[at:], loads, t)
+        F_T, F_N = self.along @ loads.force, self.across @ loads.force
+        means = (ground[-2:] - ground[SUPPORT : SUPPORT + 2]) * self.rate + self.weight_force()
+        N = self.across @ means
+        judged = np.where(g[at] >= self.window, 1.0, 0.0)
+        slides = judged * self.outside(self.along @ means, N)
+        depth = np.where(since > self.lifting, ground[2] * greater(-self.height(loads), 0.0), 0.0)
+        peak = largest(u)
+        broken = greater(slides, np.where(peak > self.torque, 1.0, 0.0))
+        broken = greater(broken, np.where(depth > 0.0, 1.0, 0.0))
+        out = worked(g, q[:p])
+        out[0] = g[0] + 1.0
+        out[1], out[2] = greater(g[1], largest(e)), g[2] + e @ e
+        out[3], out[4] = greater(g[3], peak), g[4] + u @ u
+        out[7] = greater(g[7], largest(matched))
+        out[8] = greater(g[8], largest(unmatched))
+        out[9] = np.where(g[0] > 0.0, -greater(-g[9], -F_N), F_N)
+        out[10] = greater(g[10], ratio(F_T, F_N))
+        out[11] = g[11] + self.outside(F_T, F_N)
+        self.judge(out, g, judged, means)
+        out[15] = greater(g[15], depth)
+        out[17] = np.where(g[17] > 0.0, g[17], broken * step)
+        return np.concatenate((out, q[:p], mean, ground))
+
+    def carried(self, g: Array, loads: Loads, t: float) -> Array:
+        """What is kept of this single support after a tick at t [s], (SUPPORT + 2 (W + 1),), as g before.
+
+        At its first tick all P_k are the same, so a window that reaches behind it begins there.
+        """
+        first = g[0] < 1.0
+        J = g[3:5] + np.minimum(g[0], 1.0) * loads.outside.impulse
+        P = loads.momentum - J
+        out = np.zeros(len(g))
+        out[0], out[1] = g[0] + 1.0, t
+        out[2] = greater(g[2], np.where(self.height(loads) > 0.0, 1.0, 0.0))
+        out[3:5], out[5:7] = J, loads.outside.force
+        for i in range(self.window):
+            out[SUPPORT + 2 * i] = np.where(first, P[0], g[SUPPORT + 2 * i + 2])
+            out[SUPPORT + 2 * i + 1] = np.where(first, P[1], g[SUPPORT + 2 * i + 3])
+        out[len(g) - 2 :] = P
+        return out
+
+    def weight_force(self) -> Array:
+        """m g e_z (2,) [N]."""
+        return self.weight * np.array([0.0, 1.0])
+
+    def last_mean(self, g: Array, hit: Hit) -> tuple[Array, Number]:
+        """Mean force of the ground (2,) [N] up to an impact, and 1, or 0 where there is no time to judge.
+
+        g: what is kept of the single support. The window has W periods as all others, and ends between two
+        ticks: P where it begins is interpolated between the P_k.
+        """
+        since, periods = hit.t - g[1], g[0] - 1.0
+        P = hit.momentum - g[3:5] - since * g[5:7]
+        part = np.where(periods >= self.window, since / self.period, 0.0)
+        base = (1.0 - part) * g[SUPPORT : SUPPORT + 2] + part * g[SUPPORT + 2 : SUPPORT + 4]
+        length = (np.minimum(periods, 1.0 * self.window) - part) * self.period + since
+        judged = np.where(g[0] > 0.0, np.where(length > SHORTEST, 1.0, 0.0), 0.0)
+        return (P - base) / greater(length, SHORTEST) + self.weight_force(), judged
+
+    def judge(self, out: Array, g: Array, judged: Number, means: Array) -> None:
+        """Write a mean force `means` (2,) [N] into the readings `out` (READINGS,) where `judged` is 1.
+
+        g: the readings before.
+        """
+        N = self.across @ means
+        least = np.where(g[12] > 0.0, -greater(-g[13], -N), N)
+        out[12] = g[12] + judged
+        out[13] = np.where(judged > 0.0, least, g[13])
+        out[14] = greater(g[14], judged * ratio(self.along @ means, N))
+
+    def outside(self, F_T: Number, F_N: Number) -> Number:
+        """1 outside the friction cone, where the ground would have to pull too, 0 inside."""
+        edge = self.friction * (1.0 + ROUND_OFF)
+        return np.where(F_N > 0.0, np.where(np.abs(F_T) > edge * F_N, 1.0, 0.0), 1.0)
+
+    def height(self, loads: Loads) -> Number:
+        """Of the swing foot above the lower of the footholds, measured along the vertical [m]."""
+        return loads.foot[1] + self.tan_slope * loads.foot[0] + greater(loads.outside.drop, 0.0)
+
+    def impact(
+        self,
+        g: Array,
+        q_minus: Array,
+        q_plus: Array,
+        swap: Indices,
+        hit: Hit,
+    ) -> Array:
+        """g after an impact between the joints' angles q_minus, q_plus (p,) [rad], which `swap` (p,) relabels.
+
+        The last window of the single support is judged here, and what is kept of it is emptied for the next.
+        """
+        p = len(q_minus)
+        out = worked(g, q_minus)
+        means, judged = self.last_mean(g[READINGS + 2 * p :], hit)
+        self.judge(out, g, judged, means)
+        broken = judged * self.outside(self.along @ means, self.across @ means)
+        out[17] = np.where(g[17] > 0.0, g[17], broken * hit.step)
+        found = np.abs(self.along @ hit.impulse) / greater(self.across @ hit.impulse, LEAST_FORCE)
+        out[16] = greater(out[16], np.minimum(found, LARGEST_RATIO))
+        behind = g[READINGS + p : READINGS + 2 * p]
+        return np.concatenate(
+            (out, q_plus, behind[swap], np.zeros(SUPPORT + 2 * (self.window + 1)))
+        )
+
+
+@dataclass(frozen=True)
 class Meter(Shown):
     """Measures the error from this constraint, and forces against `limits` on the plant's own ground.
 
@@ -338,10 +333,10 @@ class Meter(Shown):
             )
         return ticks
 
-    def parameters(self, plant: Biped, period: float, slope: float) -> MeterParameters:
-        """What `metered` needs."""
+    def sampled(self, plant: Biped, period: float, slope: float) -> SampledMeter:
+        """The meter on this plant, for ticks every `period` [s]."""
         limits, window = self.limits.of(plant.description), self.window(period)
-        return MeterParameters(
+        return SampledMeter(
             self.constraint,
             *ground_axes(slope),
             float(plant.weight),

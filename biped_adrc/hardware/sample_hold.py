@@ -20,7 +20,7 @@ import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.hardware import meter
-from biped_adrc.hardware.meter import Hit, Meter, MeterParameters, metered_impact
+from biped_adrc.hardware.meter import Hit, Meter, SampledMeter
 from biped_adrc.hardware.motors import IDEAL, Line, Motors, TorqueLine, whole_and_part
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import HEAD, Belief, Touchdown, numbers_of
@@ -60,14 +60,14 @@ class HeldSizes(NamedTuple):
         return self.own + self.told + self.sensors + self.meter + self.p * torques
 
 
-class HeldParameters(NamedTuple):
+class HeldParts(NamedTuple):
     """The parts at the ticks of a walker; None, and for the meter an empty tuple, where it has not one."""
 
     sensors: Sensor | None
     """Sampled for its robot and period."""
     motors: TorqueLine
     meter: Any
-    """`MeterParameters`."""
+    """`SampledMeter`."""
     sizes: HeldSizes
     touchdown: Touchdown | None = None
 
@@ -124,10 +124,10 @@ def held_parameters(
     timing: SampledTime,
     sensors: Sensor | None = None,
     motors: Motors | None = None,
-    metered: MeterParameters | None = None,
+    metered: SampledMeter | None = None,
     own: int = 0,
     touchdown: Touchdown | None = None,
-) -> HeldParameters:
+) -> HeldParts:
     """What a walker's tail is laid out by, and the numbers of its parts.
 
     For n coordinates, p motors and the ticks of `timing`, whose delay makes the queue; own: how many numbers
@@ -150,7 +150,7 @@ def held_parameters(
         0 if touchdown is None else HEAD + touchdown.size,
     )
     line, g = motors.sampled(period, fraction), () if metered is None else metered
-    return frozen(HeldParameters(sampled, line, g, sizes, touchdown))
+    return frozen(HeldParts(sampled, line, g, sizes, touchdown))
 
 
 def read(k: HeldSizes, tail: Array) -> Held:
@@ -174,7 +174,7 @@ def motor_torque(line: Line) -> Array:
     return line.u_m if len(line.u_m) > 0 else line.u
 
 
-def lagged(k: HeldParameters, tail: Array) -> Array:
+def lagged(k: HeldParts, tail: Array) -> Array:
     """The slope of the tail (total,): tau u_m' = u - u_m [N m], and zero for all else."""
     line, rate = read(k.sizes, tail).line, np.zeros(len(tail))
     if k.sizes.lag > 0:
@@ -183,7 +183,7 @@ def lagged(k: HeldParameters, tail: Array) -> Array:
     return rate
 
 
-def at_start(k: HeldParameters, q: Array, v: Array, support: tuple[int, float]) -> Array:
+def at_start(k: HeldParts, q: Array, v: Array, support: tuple[int, float]) -> Array:
     """What is held (total,) at the start of a run in q (n,), v (n,): no torque, a first look of the sensors.
 
     support: number and start [s] of the single support, which the controller knows at first.
@@ -209,7 +209,7 @@ def _tried(sensors: Sensor, q: Array, v: Array) -> Array:
 
 
 def after_impact(
-    k: HeldParameters,
+    k: HeldParts,
     held: Held,
     swap: Indices,
     q_minus: Array,
@@ -227,5 +227,5 @@ def after_impact(
     if k.sensors is not None and k.touchdown is None:
         w = k.sensors.impact(w, q, v, v_model)
     if hit is not None:
-        g = metered_impact(k.meter, g, q_minus[:p], q[:p], swap, hit)
+        g = k.meter.impact(g, q_minus[:p], q[:p], swap, hit)
     return Held(w, g, held.line.relabelled(swap), held.own, held.b)

@@ -13,8 +13,6 @@ from biped_adrc.hardware.meter import (
     Hit,
     Meter,
     greater,
-    metered,
-    metered_impact,
     reading,
     size,
 )
@@ -28,7 +26,7 @@ class Ground:
 
     def __init__(self, biped, gait, slope=0.0, **limits):
         self.meter = Meter(gait.constraint, ba.Limits(**limits))
-        self.k = self.meter.parameters(biped, T, slope)
+        self.k = self.meter.sampled(biped, T, slope)
         self.terms = biped.reduction(*gait.start(biped))
         self.g, self.biped = np.zeros(size(4, self.k.window)), biped
         self.v = np.zeros(5)
@@ -46,7 +44,7 @@ class Ground:
         loads = Loads(momentum, force, given["foot"], outside)
         q, u = np.zeros(5), given["u"]
         told = (np.zeros(5), self.terms, self.t, step, since, loads)
-        self.g = metered(self.k, self.g, q, self.v, u, u, *told)
+        self.g = self.k.measure(self.g, q, self.v, u, u, *told)
         assert len(self.g) == size(4, self.k.window)
 
     def walk(self, F, ticks, pushed=None, step=1):
@@ -67,7 +65,7 @@ class Ground:
         p = self.p + (t - self.t) * (F - gravity)
         swap = np.array([1, 0, 3, 2])
         made = Hit(t, step, p, np.array(impulse))
-        self.g = metered_impact(self.k, self.g, np.zeros(4), np.zeros(4), swap, made)
+        self.g = self.k.impact(self.g, np.zeros(4), np.zeros(4), swap, made)
         assert len(self.g) == size(4, self.k.window)
 
     @property
