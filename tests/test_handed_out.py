@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -88,48 +87,40 @@ def test_a_controller_that_writes_into_what_it_is_given(engine, timing, does, af
     assert "test_handed_out.py" in str(caught.value)
 
 
-class Numbers(NamedTuple):
-    """Parameters of the laws below."""
-
-    K: Array
-
-
-def doubles_its_gain(k, s, m):
-    k.K[:] = 2.0 * k.K
-    return k.K * m.q[:4]
-
-
 @dataclass(frozen=True)
-class Lawful(ba.Controller):
-    """A controller of one law, which writes into its arguments."""
+class Doubles(ba.Controller):
+    """Writes into its own gain."""
 
-    law: Callable[..., Array]
     K: Array = field(default_factory=lambda: np.ones(4))
 
-    @property
-    def laws(self):
-        return ba.ControllerLaws(Numbers(self.K), self.law)
+    def output(self, s, m):
+        self.K[:] = 2.0 * self.K
+        return self.K * m.q[:4]
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_a_law_that_writes_into_its_arguments(engine, biped, gait):
-    controller = Lawful(doubles_its_gain)
+def test_a_controller_that_writes_into_its_fields(engine, biped, gait):
+    controller = Doubles()
     with pytest.raises(InputError, match=WRITES):
         ba.walk(ba.Walker(biped, controller), gait, 1, engine=engine)
     controller.K[0] = 3.0  # the user's own array stays the user's
 
 
-def ends_at_ten_ms(k, s, m):
-    return k.K * np.sqrt(0.0105 - m.t) * m.q[:4]
+@dataclass(frozen=True)
+class EndsAtTenMs(ba.Controller):
+    K: float = 1.0
+
+    def output(self, s, m):
+        return self.K * np.sqrt(0.0105 - m.t) * m.q[:4]
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_a_law_without_numbers_is_named_in_compiled_code_too(engine, biped, gait):
-    walker = ba.Walker(biped, Lawful(ends_at_ten_ms), timing=TIMINGS["ticks"])
+def test_a_method_without_numbers_is_named_in_compiled_code_too(engine, biped, gait):
+    walker = ba.Walker(biped, EndsAtTenMs(), timing=TIMINGS["ticks"])
     run = ba.walk(walker, gait, 1, engine=engine).trajectory
     assert run.settings["engine"] == engine
     assert run.status.name == "NOT_FINITE"
-    assert "Lawful.output returned [nan nan nan nan]" in run.detail
+    assert "EndsAtTenMs.output returned [nan nan nan nan]" in run.detail
     assert 0.01 <= run.t_end < 0.0115
 
 

@@ -169,18 +169,30 @@ def nested(controller: Controller | None) -> Iterator[Controller]:
 
 
 def check_methods(controller: Controller, s: Array, m: Measurement, sampled: bool) -> None:
-    """Raise InputError for arrays of another shape, and for a torque that is another one when asked again.
+    """Raise InputError for arrays of another shape, and for a user's method with a memory or noise of its own.
 
-    It is asked once, at the start: machine code would write past the end of the state.
+    It is asked at the start: machine code would write past the end of the state, and keep nothing in an object.
     """
-    shape = (m.terms.kappa.shape[0],)
-    u = returned(controller.output(s, m), shape, controller, "output")
-    if not np.array_equal(u, controller.output(s, m)):
-        raise InputError(
-            f"{spoken(controller)}.output{line_of(controller, 'output')} gave another torque when asked again "
-            "at the same instant; expected no memory in the object: return a state from initial_state, and "
-            "flow or predict"
-        )
-    calls = {"correct": (s, m), "predict": (s, m, u)} if sampled else {"flow": (s, m, u)}
-    for name, arguments in calls.items():
-        returned(getattr(controller, name)(*arguments), s.shape, controller, name, finite=False)
+    u = returned(controller.output(s, m), (m.terms.kappa.shape[0],), controller, "output")
+    calls = {"correct": (m,), "predict": (m, u)} if sampled else {"flow": (m, u)}
+    first = {"output": u}
+    for name, given in calls.items():
+        found = getattr(controller, name)(s, *given)
+        first[name] = returned(found, s.shape, controller, name, finite=False)
+    if not _is_own(controller):
+        return
+    calls, other = {"output": (m,), **calls}, m._replace(v=m.v + 1e-3)
+    for name, given in calls.items():
+        getattr(controller, name)(s, other, *given[1:])  # which a memory takes in
+        if not np.array_equal(first[name], getattr(controller, name)(s, *given), equal_nan=True):
+            raise InputError(
+                f"{spoken(controller)}.{name}{line_of(controller, name)} gave another result when asked again "
+                "at the same instant; expected no memory in the object: return a state from initial_state, and "
+                "flow or predict"
+            )
+
+
+def _is_own(part: Part) -> bool:
+    """Whether the class of a part, or of one in it, is a user's."""
+    inside = (x for x in vars(part).values() if isinstance(x, Part))
+    return not type(part).__module__.startswith("biped_adrc.") or any(map(_is_own, inside))

@@ -17,6 +17,7 @@ are typed for numbers.
 from __future__ import annotations
 
 import math
+import random
 from collections.abc import Callable, Iterator
 from typing import Any, TypeVar, Union, overload
 
@@ -103,12 +104,8 @@ class Scalar:
     def __pos__(self) -> Scalar:
         return self
 
-    def cos(self) -> Scalar:
-        """NumPy asks each entry of an object array for its `cos`, and for its `sin`."""
-        return Scalar(ca.SX.unary(ca.OP_COS, self.e))
-
-    def sin(self) -> Scalar:
-        return Scalar(ca.SX.unary(ca.OP_SIN, self.e))
+    def __hash__(self) -> int:
+        raise Untraceable("the law looks a number up in a dictionary or a set")
 
     __add__, __radd__ = _binary(ca.OP_ADD), _binary(ca.OP_ADD, reflected=True)
     __sub__, __rsub__ = _binary(ca.OP_SUB), _binary(ca.OP_SUB, reflected=True)
@@ -116,7 +113,6 @@ class Scalar:
     __truediv__, __rtruediv__ = _binary(ca.OP_DIV), _binary(ca.OP_DIV, reflected=True)
     __lt__, __le__ = _binary(ca.OP_LT), _binary(ca.OP_LE)
     __gt__, __ge__ = _binary(ca.OP_LT, reflected=True), _binary(ca.OP_LE, reflected=True)
-    __hash__ = object.__hash__
 
 
 setattr(Scalar, "__eq__", _binary(ca.OP_EQ))  # noqa: B010
@@ -155,6 +151,17 @@ def elementwise(function: Callable[..., Any]) -> Callable[..., Any]:
     vectorised = np.frompyfunc(function, function.__code__.co_argcount, 1)
     return lambda *arguments: vectorised(*arguments)
 
+
+FUNCTIONS = {
+    **{name: name for name in ("sin", "cos", "tan", "sqrt", "exp", "log", "sinh", "cosh", "tanh")},
+    **{f"arc{name}": f"a{name}" for name in ("sin", "cos", "tan")},
+    "fabs": "fabs",
+    "floor": "floor",
+    "sign": "sign",
+}
+"""Functions of one number that can be traced: NumPy's names and CasADi's."""
+for _name, _theirs in FUNCTIONS.items():  # which NumPy asks each entry of an object array for
+    setattr(Scalar, _name, function_of(_theirs))
 
 tanh = elementwise(function_of("tanh"))
 
@@ -290,7 +297,8 @@ class Hidden:
     )
 
 
-HIDDEN = (Biped, complex, np.complexfloating, Setup)
+RANDOM = (np.random.Generator, np.random.RandomState, random.Random)
+HIDDEN = (Biped, complex, np.complexfloating, Setup, *RANDOM)
 """What is neither number nor structure in a part; machine code must not depend on it."""
 
 

@@ -11,6 +11,7 @@ import abc
 import functools
 import inspect
 import math
+import random as stdlib_random
 import sys
 import traceback
 import types
@@ -21,7 +22,6 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
@@ -29,6 +29,7 @@ from biped_adrc import linear, parts
 from biped_adrc.engine import symbols
 from biped_adrc.engine.structure import changes, is_library, note
 from biped_adrc.engine.symbols import (
+    FUNCTIONS,
     HIDDEN,
     Hidden,
     Solver,
@@ -42,16 +43,8 @@ from biped_adrc.engine.symbols import (
     solve_positive,
     where,
 )
-from biped_adrc.part import content, derived, is_part, with_content
-
-FUNCTIONS = {
-    **{name: name for name in ("sin", "cos", "tan", "sqrt", "exp", "log", "sinh", "cosh", "tanh")},
-    **{f"arc{name}": f"a{name}" for name in ("sin", "cos", "tan")},
-    "fabs": "fabs",
-    "floor": "floor",
-    "sign": "sign",
-}
-"""Functions of one number that can be traced: NumPy's names and CasADi's."""
+from biped_adrc.part import Part, content, derived, is_part, with_content
+from biped_adrc.types import frozen
 
 
 class _Substitute:
@@ -76,8 +69,27 @@ NO_METHODS = (ENGINE, "biped_adrc.parts", "biped_adrc.shown")
 """Modules of classes that have no methods to be copied."""
 COPIED = "__on_symbols__"
 """Name of the tracer among the globals of its copies."""
+
+
+class Float:
+    """In place of `float`: a number stays what it is, and an array of this type holds symbols."""
+
+    def __new__(cls, x: Any = 0.0) -> Any:
+        return float(x) if isinstance(x, str) else x
+
+
+class Unchangeable(list[Any]):
+    """In place of a list that a law finds: machine code keeps nothing."""
+
+    def _refuse(self, *_: object, **__: object) -> Any:
+        raise Untraceable("the law changes a list")
+
+    append = extend = insert = pop = remove = clear = reverse = sort = _refuse
+    __setitem__ = __delitem__ = __iadd__ = __imul__ = _refuse
+
+
 BUILTINS: Mapping[str, Callable[..., object]] = {
-    "float": lambda x: x,
+    "float": Float,
     "abs": np.abs,
     "min": minimum,
     "max": maximum,
@@ -106,7 +118,7 @@ class Tracer:
             "clip": elementwise(lambda x, low, high: minimum(maximum(x, low), high)),
             "where": elementwise(where),
             "abs": np.abs,
-            "float64": lambda x: x,
+            "float64": Float,
             "random": random,
             "linalg": _Substitute(np.linalg, {"solve": self.solver}),
         }
@@ -126,6 +138,7 @@ class Tracer:
             (parts.check_part, lambda *_: None),
             (np.random, random),
             (np.random.default_rng, random),
+            (stdlib_random, random),
         ]
         self._copies: dict[types.FunctionType, Any] = {}
         self._twins: dict[type, type] = {}
@@ -177,17 +190,30 @@ class Tracer:
         ):  # such as of `from math import sin`
             return self._functions.get(value, value)
         if isinstance(value, tuple | list):
-            return rebuilt(value, [self.on_symbols(part) for part in value])
+            inside = [self.on_symbols(part) for part in value]
+            return Unchangeable(inside) if type(value) is list else rebuilt(value, inside)
         if isinstance(value, HIDDEN):
             return Hidden(f"a {type(value).__name__}")
+        if type(value) is dict:
+            return types.MappingProxyType({k: self.on_symbols(x) for k, x in value.items()})
+        if isinstance(value, np.ndarray):
+            return frozen(value.view())
         if isinstance(value, type) and is_dataclass(value) and value not in HIDDEN:
             return self.twin(value)
         if isinstance(value, types.ModuleType) and not is_library(value):
             return _Named(self, value)
-        if not is_part(value) or type(value).__module__.startswith(ENGINE):
+        if not (isinstance(value, Part) or is_part(value)) or type(value).__module__.startswith(
+            ENGINE
+        ):
             return self(value)
-        inside = {name: self.on_symbols(x) for name, x in content(value).items()}
-        return with_content(value, inside, self.twin(type(value)))
+        if not is_part(value) and vars(value):
+            raise Located(
+                f"{type(value).__name__} cannot be compiled: it is no dataclass; write @dataclass(frozen=True) "
+                "above it"
+            )
+        fields = content(value) if is_part(value) else {}
+        fields = {name: self.on_symbols(x) for name, x in fields.items()}
+        return with_content(value, fields, self.twin(type(value)))
 
     def twin(self, cls: type) -> type:
         """A subclass of cls whose methods run on symbols, `super()` and properties included."""
@@ -267,10 +293,11 @@ def _place(error: Exception, law: Any) -> str:
     """The last line of the user or of this package where an error arose: PD.output (own.py:12, `if x > 0:`)."""
     frames = traceback.extract_tb(error.__traceback__)
     codes = [frame.f_code for frame, _ in traceback.walk_tb(error.__traceback__)]
-    own = [
+    pairs = list(zip(codes, frames, strict=True))
+    own = [pair for pair in pairs if parts.is_users(pair[1].filename)] or [
         pair
-        for pair in zip(codes, frames, strict=True)
-        if not pair[1].filename.startswith(LIBRARIES)
+        for pair in pairs
+        if pair[1].filename.startswith(parts.PACKAGE) and pair[1].filename not in MACHINERY
     ]
     if not own:
         return str(getattr(law, "__qualname__", law))
@@ -279,13 +306,8 @@ def _place(error: Exception, law: Any) -> str:
     return f"{name} ({Path(frame.filename).name}:{frame.lineno}, `{frame.line}`)"
 
 
-LIBRARIES = (
-    __file__,
-    symbols.__file__,
-    str(Path(np.__file__).parent),
-    str(Path(ca.__file__).parent),
-)
-"""Folders of functions that are called in traced code and not traced; errors there are of the caller."""
+MACHINERY = (__file__, symbols.__file__)
+"""Files of the functions that laws call and that are no laws themselves; errors there are put down to the law."""
 
 
 @lru_cache(maxsize=1024)

@@ -12,9 +12,8 @@ from biped_adrc.analysis.stride_gain import BUMP, StrideResponse, stride_respons
 from biped_adrc.control.outer_loop import reference_in_force
 from biped_adrc.control.reference_reset import (
     ReferenceReset,
-    ResetRange,
+    ResetPolynomial,
     reset_coefficients,
-    reset_polynomial,
 )
 from biped_adrc.control.stride import TORSO_LEAN, StrideGains, StridePI, bump
 from biped_adrc.disturbances.hip_force import HipForce
@@ -55,18 +54,19 @@ def stride(law, gait, biped, **options):
 
 # -- reference reset -------------------------------------------------------------------------------
 def test_the_correction_starts_at_the_error_and_ends_with_two_derivatives():
-    k, e, slope = ResetRange(3.1, 5.0), np.array([0.02, -0.01]), np.array([-0.3, 2.0])
-    a = reset_coefficients(k, 3.31, e, slope)
-    at_start, d = reset_polynomial(k, a, 3.31), 1e-6
+    end, start, e, slope = 3.1, 3.31, np.array([0.02, -0.01]), np.array([-0.3, 2.0])
+    rate = 5.0
+    c = ResetPolynomial(reset_coefficients(rate * (start - end), rate, e, slope), end, rate)
+    at_start, d = c(start), 1e-6
     np.testing.assert_allclose(at_start[0], e, rtol=1e-12)
     np.testing.assert_allclose(at_start[1], slope, rtol=1e-12)
-    up, down = reset_polynomial(k, a, 3.25 + d), reset_polynomial(k, a, 3.25 - d)
+    up, down = c(3.25 + d), c(3.25 - d)
     for i in (0, 1):
         slope = (up[i] - down[i]) / (2 * d)
-        np.testing.assert_allclose(reset_polynomial(k, a, 3.25)[i + 1], slope, rtol=1e-6)
+        np.testing.assert_allclose(c(3.25)[i + 1], slope, rtol=1e-6)
     for theta in (3.1, 3.0):
-        assert not np.any(reset_polynomial(k, a, theta))
-    assert np.max(np.abs(reset_polynomial(k, a, 3.1 + 1e-9))) < 1e-5
+        assert not np.any(c(theta))
+    assert np.max(np.abs(c(3.1 + 1e-9))) < 1e-5
 
 
 @pytest.mark.parametrize("law", list(LAWS))
@@ -93,7 +93,7 @@ def test_on_a_hybrid_invariant_constraint_there_is_nothing_to_correct(bare, publ
     run = ba.walk(ba.Walker(bare, law), published, 2, ba.RK4(5e-4)).trajectory
     for arc in run.arcs:
         c = law.correction(arc.x[0][10:])
-        phases = np.linspace(published.constraint.theta_plus, law.range.end, 9)
+        phases = np.linspace(published.constraint.theta_plus, law.range[0], 9)
         assert max(np.max(np.abs(c(theta)[0])) for theta in phases) < 1e-8
 
 

@@ -10,7 +10,7 @@ from biped_adrc.control.across_contact import Hold
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.friction_feedforward import FrictionFeedforward
 from biped_adrc.control.momentum_dob import MomentumDOBController
-from biped_adrc.control.predicted import Predicted, PredictionParameters, ahead, weights
+from biped_adrc.control.predicted import Predicted
 from biped_adrc.errors import InputError
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.hardware.motors import whole_and_part
@@ -82,9 +82,8 @@ def test_on_the_robot_what_is_missed_goes_with_the_second_power_of_the_time(bipe
     u, missed = np.array([30.0, -20.0, 10.0, 5.0]), []
     for d in (8e-3, 4e-3, 2e-3):
         m = walker.measure(0.0, q, v, ba.Mode())
-        found = ahead(
-            PredictionParameters(d, *weights(d, 1e-3)), np.tile(u, (round(d / 1e-3), 1)), m
-        )
+        law = Predicted(ba.Passive(), d, period=1e-3)
+        found = law.ahead(np.tile(u, (round(d / 1e-3), 1)), m)
         x, n = np.concatenate((q, v)), 50
         for _ in range(n):
             x = rk4(biped, x, np.append(u, 0.0), d / n)
@@ -117,7 +116,7 @@ def test_torques_on_their_way_are_relabelled_at_an_impact_and_move_up_at_a_tick(
     assert np.array_equal(law.jump(s, m, swap)[-12:], U[:, swap].ravel())
     assert np.array_equal(law.correct(s, m)[-12:], U.ravel())
     assert np.array_equal(law.predict(s, m, u)[-12:], [*U[1:].ravel(), *u])
-    by_hand = law.inner.output(s[:-12], ahead(law.own, U, m))
+    by_hand = law.inner.output(s[:-12], law.ahead(U, m))
     assert np.array_equal(law.output(s, m), by_hand)
 
 
@@ -144,11 +143,11 @@ def test_the_clock_of_a_walker_has_the_torques_on_their_way_that_are_predicted_w
     walker = ba.Walker(biped, law, timing=clock)
     start = walker.initial_state(q, 1.02 * v)
     arc = ba.simulate(walker, start, ba.Mode(), ba.RK4(T / 5), t_end=0.03).arcs[0]
-    count, worst, least = len(walker.law.own.of_rate), 0.0, np.inf
+    count, worst, least = len(walker.law.weights[0]), 0.0, np.inf
     for k in range(5, 25):
         before, later = (np.searchsorted(arc.t, x - 1e-9) for x in (k * T, k * T + d))
         x, m = arc.x[before], walker.measure(k * T, *np.split(arc.x[before, :10], 2), ba.Mode())
-        found = ahead(walker.law.own, x[10 : 10 + 4 * count].reshape(count, 4), m)
+        found = walker.law.ahead(x[10 : 10 + 4 * count].reshape(count, 4), m)
         worst = max(worst, np.max(np.abs(found.v - arc.x[later, 5:10])))
         least = min(least, np.max(np.abs(m.v - arc.x[later, 5:10])))
     assert worst < 0.02 * least

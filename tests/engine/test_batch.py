@@ -11,8 +11,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
-from biped_adrc.control.base import Controller, ControllerLaws
-from biped_adrc.control.npd import npd_torque
+from biped_adrc.control.base import Controller
 from biped_adrc.engine.batch import Case, simulate_many
 from biped_adrc.engine.run import simulate_by
 from biped_adrc.errors import InputError, NotFiniteError
@@ -21,11 +20,6 @@ from biped_adrc.gait.published import passive_cycle
 simulate = partial(simulate_by, "compiled")
 
 FALL = ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 1, 0.1)
-
-
-def npd_output(k, s, m):
-    """NPD on a virtual constraint; k is `NPDController(...).laws.parameters`."""
-    return npd_torque(k.own, k.h(m.t, m.q, m.v), s, m)
 
 
 @dataclass(frozen=True)
@@ -42,21 +36,14 @@ class Raising(Controller):
         return self.npd.output(s, m)
 
 
-def rooted(k, s, m):
-    """NaN after 0.1 s."""
-    return npd_output(k, s, m) * np.sqrt(0.1 - m.t)
-
-
 @dataclass(frozen=True)
 class Rooted(Controller):
+    """NaN after 0.1 s."""
+
     npd: ba.NPDController
 
     def output(self, s, m):
-        return rooted(self.npd.laws.parameters, s, m)
-
-    @property
-    def laws(self):
-        return ControllerLaws(self.npd.laws.parameters, rooted)
+        return self.npd.output(s, m) * np.sqrt(0.1 - m.t)
 
 
 @pytest.fixture(scope="module")

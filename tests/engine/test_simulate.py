@@ -1,15 +1,18 @@
 """Compiled runs against the Python engine's: the same arcs, nodes, events and statuses."""
 
-from dataclasses import dataclass, replace
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from functools import partial
+from inspect import getsourcelines
 
 import numpy as np
 import pytest
+from scipy.linalg import expm
 
 import biped_adrc as ba
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
-from biped_adrc.control.base import Controller, ControllerLaws
-from biped_adrc.control.npd import npd_torque
+from biped_adrc.control.base import Controller
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine import program
 from biped_adrc.engine.run import simulate_by
@@ -17,6 +20,7 @@ from biped_adrc.errors import InputError, NotFiniteError, SingularError
 from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid import simulator
 from biped_adrc.linear import solve
+from biped_adrc.types import Array
 
 simulate = partial(simulate_by, "compiled")
 
@@ -27,11 +31,6 @@ TICKS = 1e-10
 LANDED = 1e-6
 """Methods that land on an event, or choose their steps, in ways of their own."""
 PULSE = (30.0, 0.0, -10.0, 5.0, 3.0)
-
-
-def npd_output(k, s, m):
-    """NPD on a virtual constraint; k is `NPDController(...).laws.parameters`."""
-    return npd_torque(k.own, k.h(m.t, m.q, m.v), s, m)
 
 
 def npd(gait, **more):
@@ -198,33 +197,28 @@ def test_falls_stalls_and_time_outs(biped, gait, sampled):
 
 
 @dataclass(frozen=True)
-class Written(Controller):
-    """A law with NPD's parameters."""
+class Stateless(Controller):
+    """The torque of another controller, without its state."""
 
-    law: object
-    k: object
+    inner: Controller
 
     def output(self, s, m):
-        return self.law(self.k, s, m)
-
-    @property
-    def laws(self):
-        return ControllerLaws(self.k, self.law)
+        return self.inner.output(s, m)
 
 
-def written(gait, law, k=None):
-    return Written(law, npd(gait).laws.parameters if k is None else k)
-
-
-def rooted(k, s, m):
+class Rooted(Stateless):
     """NaN after 0.1 s."""
-    return npd_output(k, s, m) * np.sqrt(0.1 - m.t)
+
+    def output(self, s, m):
+        return super().output(s, m) * np.sqrt(0.1 - m.t)
 
 
-def closing(k, s, m):
+class Closing(Stateless):
     """Singular from 0.05 s on, and larger than any limit just before."""
-    A = np.eye(1) * np.maximum(0.05 - m.t, 0.0)
-    return npd_output(k, s, m) + 1e-3 * solve(A, np.ones(1), "the matrix")[0]
+
+    def output(self, s, m):
+        A = np.eye(1) * np.maximum(0.05 - m.t, 0.0)
+        return super().output(s, m) + 1e-3 * solve(A, np.ones(1), "the matrix")[0]
 
 
 @pytest.mark.parametrize("limit", [None, 100.0])
@@ -232,8 +226,8 @@ def closing(k, s, m):
 def test_torques_without_numbers_and_singular_laws_under_a_limit(biped, gait, sampled, limit):
     """A torque limit must not make a number of what is none."""
     time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
-    for law, status in ((rooted, ba.Status.NOT_FINITE), (closing, ba.Status.SINGULAR)):
-        walker = ba.Walker(biped, written(gait, law), timing=time, torque_limit=limit)
+    for cls, status in ((Rooted, ba.Status.NOT_FINITE), (Closing, ba.Status.SINGULAR)):
+        walker = ba.Walker(biped, cls(npd(gait)), timing=time, torque_limit=limit)
         python, compiled = runs(walker, gait, ba.RK4(2e-3))
         assert python.status is status
         assert compiled.status is status
@@ -245,17 +239,24 @@ def test_torques_without_numbers_and_singular_laws_under_a_limit(biped, gait, sa
 
 
 def scaled(factor):
-    def law(k, s, m):
-        return factor * npd_output(k, s, m)
+    return lambda u: factor * u
 
-    return law
+
+@dataclass(frozen=True)
+class Shaped(Stateless):
+    """A torque that a function changes."""
+
+    shape: Callable[[Array], Array]
+
+    def output(self, s, m):
+        return self.shape(super().output(s, m))
 
 
 def test_what_a_law_has_around_it_is_part_of_it(biped, gait):
     """Closures with other values are other code."""
     ends = []
     for factor in (1.0, 0.9):
-        walker = ba.Walker(biped, written(gait, scaled(factor)))
+        walker = ba.Walker(biped, Shaped(npd(gait), scaled(factor)))
         python, compiled = runs(walker, gait, ba.RK4(2e-3), impacts=1)
         same(python, compiled, SHARP)
         ends.append(compiled.final_state)
@@ -323,16 +324,6 @@ class Falling(Disturbance):
 
     def torque(self, t, step, t_start, q, v):
         return np.array((3.0, 0.0, -2.0, 0.0, 1.0)) * np.exp(-np.interp(t, (0.0, 9.0), (0.0, 9.0)))
-
-
-@dataclass(frozen=True)
-class Stateless(Controller):
-    """The torque of another controller, without its state."""
-
-    inner: Controller
-
-    def output(self, s, m):
-        return self.inner.output(s, m)
 
 
 def in_part(python, partly, tolerance, why):
@@ -447,20 +438,10 @@ def test_an_exception_of_the_controller_s_own_comes_out(gait, ticked):
         simulate(walker, x0, Mode(), ba.RK4(1e-3), t_end=4.0, impacts=1)
 
 
-# -- laws that cannot be compiled ------------------------------------------------------------------
-branching = lambda k, s, m: npd_output(k, s, m) * (1.0 if m.t < 0.1 else 0.9)  # noqa: E731
-
-
-@dataclass(frozen=True)
+# -- methods that cannot be compiled ---------------------------------------------------------------
 class Branching(Stateless):
-    """Its law branches, so that it is no expression."""
-
     def output(self, s, m):
-        return branching(self.inner.laws.parameters, s, m)
-
-    @property
-    def laws(self):
-        return ControllerLaws(self.inner.laws.parameters, branching)
+        return super().output(s, m) * (1.0 if m.t < 0.1 else 0.9)
 
 
 @dataclass(frozen=True)
@@ -471,8 +452,121 @@ class BranchingPulse(ba.TorquePulse):
         return super().torque(t, step, t_start, q, v) * (1.0 if t < 0.15 else 0.9)
 
 
+class Equals(Stateless):
+    def output(self, s, m):
+        return super().output(s, m) * (0.9 if m.step == 2 else 1.0)
+
+
+class LooksUp(Stateless):
+    def output(self, s, m):
+        return super().output(s, m) * {1: 0.9}.get(m.step, 1.0)
+
+
+class Rounds(Stateless):
+    def output(self, s, m):
+        return super().output(s, m) * (1.0 + 0.1 * int(10.0 * m.t))
+
+
+class WithSciPy(Stateless):
+    def output(self, s, m):
+        return super().output(s, m) * expm(np.eye(2) * m.t)[0, 0]
+
+
+class Interpolates(Stateless):
+    def output(self, s, m):
+        return super().output(s, m) * np.interp(m.t, (0.0, 1.0), (1.0, 0.9))
+
+
+class WithTheRobot(Stateless):
+    def output(self, s, m):
+        return super().output(s, m) + 0.1 * ROBOT.gravity(m.q)[:4]
+
+
+@dataclass(frozen=True)
+class Logs(Stateless):
+    kept: list = field(default_factory=list)
+
+    def output(self, s, m):
+        self.kept.append(m.t)
+        return super().output(s, m)
+
+
+@dataclass(frozen=True)
+class Noisy(Stateless):
+    noise: np.random.Generator = field(default_factory=np.random.default_rng)
+
+    def output(self, s, m):
+        return super().output(s, m) + 0.0 * self.noise.normal()
+
+
+class Undecorated(Controller):
+    def __init__(self, inner):
+        self.inner = inner
+
+    def output(self, s, m):
+        return self.inner.output(s, m)
+
+
+ROBOT = ba.Biped.load("rabbit")
+IN_PYTHON = {
+    Branching: "branches on the value of a number",
+    Equals: "branches on the value of a number",
+    LooksUp: "looks a number up",
+    Rounds: "int()",
+    WithSciPy: "turns a number into a float",
+    Interpolates: "turns a number into a float",
+    WithTheRobot: "uses a Biped",
+    Logs: "changes a list",
+    Noisy: "uses a Generator",
+}
+
+
+@pytest.mark.parametrize("cls", IN_PYTHON)
+def test_what_cannot_be_compiled_runs_in_python_and_names_class_line_and_code(biped, gait, cls):
+    walker = ba.Walker(biped, cls(npd(gait)), timing=ba.SampledTime(1e-3))
+    python, partly = runs(walker, gait, ba.RK4(1e-3), t_end=0.05, impacts=None)
+    in_part(python, partly, TICKS, IN_PYTHON[cls])
+    lines, first = getsourcelines(cls.output)
+    place = (
+        rf"{cls.__name__}.output \(test_simulate.py:{first + 1}, `{re.escape(lines[1].strip())}`\)"
+    )
+    assert re.match(place + " cannot be compiled: ", partly.settings["why"])
+
+
+def test_a_class_that_is_no_dataclass_runs_in_python(biped, gait):
+    walker = ba.Walker(biped, Undecorated(npd(gait)), timing=ba.SampledTime(1e-3))
+    in_part(
+        *runs(walker, gait, ba.RK4(1e-3), impacts=1),
+        TICKS,
+        "Undecorated cannot be compiled: it is no ",
+    )
+
+
+class Plain(Stateless):
+    """What users write without a thought of symbols."""
+
+    def output(self, s, m):
+        gains = {"left": 0.9, "right": 0.9}
+        u = np.asarray(super().output(s, m), dtype=float)
+        rows = [gains["left"] * float(x) for x in u]
+        size = np.linalg.norm(np.array(rows, float).astype(float))
+        return u / (1.0 + 1e-6 * max(size, 1.0)) + 0.0 * np.hypot(u, abs(u))
+
+
+class Fieldless(Controller):
+    def output(self, s, m):
+        return m.terms.Omega[:4] - 3.0 * np.tanh(m.v_b)
+
+
+@pytest.mark.parametrize("cls", [Plain, Fieldless])
+def test_what_can_be_compiled(biped, gait, cls):
+    controller = cls() if cls is Fieldless else cls(npd(gait))
+    walker = ba.Walker(biped, controller, timing=ba.SampledTime(1e-3))
+    same(*runs(walker, gait, ba.RK4(1e-3), t_end=0.05, impacts=None), TICKS)
+
+
 @pytest.mark.parametrize("sampled", [False, True], ids=["continuous", "sampled"])
-def test_laws_that_cannot_be_compiled_run_in_python(biped, gait, sampled):
+def test_methods_that_cannot_be_compiled_in_either_time_base(biped, gait, sampled):
     time = ba.SampledTime(1e-3) if sampled else ba.ContinuousTime()
     npd = ba.NPDController(gait.constraint)
     pulse = BranchingPulse((3.0, 0.0, 0.0, 1.0, 0.0), 1, 0.1003, 0.2)
