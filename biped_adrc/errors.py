@@ -31,6 +31,10 @@ class NotFiniteError(InputError):
     """A state, torque or parameter is NaN or infinite (exit code 3)."""
 
 
+class RaisedError(InputError):
+    """A class of the user's raised an exception; the text says where (exit code 3)."""
+
+
 class ModelError(InputError):
     """A URDF, robot, joint, frame or parameter preset is missing or not physical (exit code 3)."""
 

@@ -21,7 +21,7 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from biped_adrc.errors import BipedError, InputError, NotFiniteError
+from biped_adrc.errors import BipedError, InputError, NotFiniteError, RaisedError
 from biped_adrc.types import Array
 
 SUCH_AS = {
@@ -197,7 +197,7 @@ def spoken(part: object) -> str:
 
 @contextmanager
 def handing_out() -> Iterator[None]:
-    """Raises InputError, with class, method and line, in place of what a user's code raises in the block."""
+    """Raises RaisedError, with class, method and line, in place of what a user's code raises in the block."""
     try:
         yield
     except BipedError:
@@ -205,7 +205,7 @@ def handing_out() -> Iterator[None]:
     except Exception as error:
         if not (told := sentence_of(error)):
             raise
-        raise InputError(told) from error
+        raise RaisedError(told) from error
 
 
 def sentence_of(error: Exception) -> str:

@@ -145,7 +145,7 @@ def test_what_is_not_finite_ends_a_run_and_is_not_kept(system, method):
 def test_a_controller_faster_than_the_usual_step_gets_a_shorter_one(biped, gait):
     observer = ba.GPIObserver.from_bandwidth(300.0)
     walker = ba.Walker(biped, Delayed(ba.ADRCController(gait.constraint, observer), 2e-4))
-    line = np.abs(np.roots(walker.controller.line.denominator[::-1])).max() / 2e-4
+    line = np.abs(np.roots(walker.controller.pade[1][::-1])).max() / 2e-4
     assert rate_of_law(walker) == pytest.approx(line, rel=1e-3)
     assert default_method(walker).h == pytest.approx(1.0 / line, rel=1e-3)
     assert not ba.walk(walker, gait, impacts=1, method=RK4(1e-3)).trajectory.status.ok

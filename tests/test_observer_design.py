@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import biped_adrc as ba
 from biped_adrc.control.base import Measurement
-from biped_adrc.control.delayed import Delayed, line_flow, line_output, line_state, pade
+from biped_adrc.control.delayed import Delayed, pade
 from biped_adrc.hardware.motors import IDEAL, Line, whole_and_part
 from biped_adrc.observer_design.observer_choice import count_error, recommend
 from biped_adrc.observer_design.observer_impact import ImpactStates, impact_peak, orbit_impact
@@ -41,20 +43,35 @@ def observer(request):
     return request.param
 
 
+@dataclass(frozen=True)
+class Asks(ba.Controller):
+    """The torque that stands in place of the angles."""
+
+    def output(self, s, m):
+        return m.q
+
+
+def asking(u):
+    """A measurement at which `Asks` asks for u (p,)."""
+    return Measurement(0.0, 1, 0.0, u, np.zeros_like(u), SimpleNamespace(kappa=np.eye(len(u))))
+
+
+def line_flow(line, R, u):
+    """R' (order, p) while u (p,) is asked for."""
+    return line.flow(R.ravel(), asking(u), u).reshape(R.shape)
+
+
 # -- the loop in continuous time ---------------------------------------------------------------------
 def delayed_loop(observer, delay, known, order=8, g=1.0):
     """The loop with an approximant of the delay, column by column from the laws that the robot runs."""
     w, k = observer.scale, observer.order
-    N, D = pade(order)
-    line = Delayed(ba.Passive(), delay, order).line
-    np.testing.assert_array_equal(line.numerator, N)
-    np.testing.assert_array_equal(line.denominator, D)
+    line = Delayed(Asks(), delay, order)
 
     def flow(X):
         y, rate, Z, R = X[0], X[1], X[2 : 2 + k], X[2 + k :]  # rate in units of w
         xi = Z[2] * w**2 if k > 2 else 0.0
         a = -K_P * Z[0] - K_D * w * Z[1] - xi
-        late = line_output(line, R)
+        late = line.output(R.ravel(), asking(R[0]))
         dZ = observer.flow(Z.ravel(), y, late if known else a).reshape(Z.shape)
         return np.vstack((w * rate, g * late / w, dZ, line_flow(line, R, a)))
 
@@ -256,19 +273,19 @@ def test_approximant_is_of_order_2k(k):
 
 
 def test_line_hands_out_what_went_in_a_delay_before():
-    k = Delayed(ba.Passive(), 0.1, 6).line
-    h, w = 1e-3, 7.0
-    R = line_state(k, np.array([1.0]))
-    assert line_output(k, R)[0] == pytest.approx(1.0)
+    line = Delayed(Asks(), 0.1, 6)
+    h, w, one = 1e-3, 7.0, asking(np.ones(1))
+    R = line.initial_state(one).reshape(6, 1)
+    assert line.output(R.ravel(), one)[0] == pytest.approx(1.0)
     for i in range(2000):
         t = i * h
         asked = [np.array([math.cos(w * (t + c * h))]) for c in (0.0, 0.5, 1.0)]
-        a = line_flow(k, R, asked[0])
-        b = line_flow(k, R + 0.5 * h * a, asked[1])
-        c = line_flow(k, R + 0.5 * h * b, asked[1])
-        d = line_flow(k, R + h * c, asked[2])
+        a = line_flow(line, R, asked[0])
+        b = line_flow(line, R + 0.5 * h * a, asked[1])
+        c = line_flow(line, R + 0.5 * h * b, asked[1])
+        d = line_flow(line, R + h * c, asked[2])
         R = R + h / 6.0 * (a + 2.0 * b + 2.0 * c + d)
-    assert line_output(k, R)[0] == pytest.approx(math.cos(w * (2.0 - 0.1)), abs=1e-8)
+    assert line.output(R.ravel(), one)[0] == pytest.approx(math.cos(w * (2.0 - 0.1)), abs=1e-8)
 
 
 @pytest.mark.parametrize("known", [False, True], ids=["hidden", "known"])

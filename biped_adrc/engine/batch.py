@@ -28,7 +28,14 @@ from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.engine.program import NotCompiled
 from biped_adrc.engine.run import COMPILED, COMPILED_PLANT, PINOCCHIO
 from biped_adrc.engine.simulate import on_compiled_plant, run_made
-from biped_adrc.errors import BipedError, InputError, ModelError, NotFiniteError, SingularError
+from biped_adrc.errors import (
+    BipedError,
+    InputError,
+    ModelError,
+    NotFiniteError,
+    RaisedError,
+    SingularError,
+)
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import RunOptions
@@ -179,6 +186,8 @@ def run_case(case: Case) -> Callable[[], BatchWalk]:
         return _ended(case, Status.NOT_FINITE, str(error))
     except SingularError as error:
         return _ended(case, Status.SINGULAR, str(error))
+    except RaisedError as error:
+        return _ended(case, Status.RAISED, str(error))
     except InputError:
         raise
     except Exception as error:  # whatever a controller or a disturbance in Python may raise

@@ -217,7 +217,9 @@ class Tracer:
 
     def twin(self, cls: type) -> type:
         """A subclass of cls whose methods run on symbols, `super()` and properties included."""
-        if cls.__module__ in ("builtins", "abc", "typing") or cls.__module__.startswith(NO_METHODS):
+        home = sys.modules.get(cls.__module__)  # "abc" also for what type(name, bases, {}) makes
+        known = cls.__module__ in ("builtins", "abc", "typing") and hasattr(home, cls.__name__)
+        if known or cls.__module__.startswith(NO_METHODS):
             return cls
         if cls not in self._twins:
             bases = [self.twin(base) for base in cls.__bases__]
@@ -227,9 +229,7 @@ class Tracer:
             made = types.new_class(cls.__name__, (*twins, cls))
             made.__module__, made.__qualname__ = cls.__module__, cls.__qualname__
             self._twins[cls] = self._twins[made] = made
-            own = changes(
-                cls.__module__, getattr(sys.modules.get(cls.__module__), "__file__", None)
-            )
+            own = changes(cls.__module__, getattr(home, "__file__", None))
             for name, value in vars(cls).items():
                 if name == "__call__" or not name.startswith(("__", "_abc_")):
                     if own:
@@ -307,7 +307,7 @@ def _place(error: Exception, law: Any) -> str:
 
 
 MACHINERY = (__file__, symbols.__file__)
-"""Files of the functions that laws call and that are no laws themselves; errors there are put down to the law."""
+"""Files of functions that laws call and that are no laws; errors there are put down to the law."""
 
 
 @lru_cache(maxsize=1024)

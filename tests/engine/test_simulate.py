@@ -394,8 +394,8 @@ def test_torques_without_numbers(biped, gait, python, sampled, factor):
     if sampled:
         walker = replace(walker, timing=ba.SampledTime(1e-3))
     python, partly = runs(walker, gait, ba.RK4(2e-3))
-    assert python.status is ba.Status.NOT_FINITE
-    assert partly.status is ba.Status.NOT_FINITE
+    expected = ba.Status.RAN_AWAY if factor == 1e300 else ba.Status.NOT_FINITE
+    assert (python.status, partly.status) == (expected, expected)
     if factor != 1e300:  # where the state overflows later, what is named differs in its last digits
         assert partly.detail == python.detail
     assert partly.t_end == python.t_end
@@ -428,14 +428,13 @@ def test_a_jump_that_raises_ends_the_run_with_its_status(gait, ticked, raises, s
     assert abs(partly.t_end - python.t_end) <= 1e-3
 
 
-def test_an_exception_of_the_controller_s_own_comes_out(gait, ticked):
+def test_an_exception_of_the_controller_s_own_ends_the_run_with_its_place(gait, ticked):
     npd = ba.NPDController(gait.constraint)
     walker = replace(ticked, controller=Jumping(npd, raises=KeyError))
-    with pytest.raises(KeyError, match="the jump"):
-        runs(walker, gait, ba.RK4(1e-3))
-    x0 = walker.initial_state(*gait.start(walker.plant))
-    with pytest.raises(KeyError, match="the jump"):
-        simulate(walker, x0, Mode(), ba.RK4(1e-3), t_end=4.0, impacts=1)
+    for run in runs(walker, gait, ba.RK4(1e-3)):
+        assert run.status is ba.Status.RAISED
+        assert run.detail.startswith("Jumping.jump (test_simulate.py:")
+        assert run.detail.endswith("raised KeyError: 'the jump'")
 
 
 # -- methods that cannot be compiled ---------------------------------------------------------------
@@ -513,7 +512,7 @@ IN_PYTHON = {
     Equals: "branches on the value of a number",
     LooksUp: "looks a number up",
     Rounds: "int()",
-    WithSciPy: "turns a number into a float",
+    WithSciPy: "branches on the value of a number",
     Interpolates: "turns a number into a float",
     WithTheRobot: "uses a Biped",
     Logs: "changes a list",
@@ -550,7 +549,7 @@ class Plain(Stateless):
         u = np.asarray(super().output(s, m), dtype=float)
         rows = [gains["left"] * float(x) for x in u]
         size = np.linalg.norm(np.array(rows, float).astype(float))
-        return u / (1.0 + 1e-6 * max(size, 1.0)) + 0.0 * np.hypot(u, abs(u))
+        return u / (1.0 + 1e-6 * max(size, 1.0)) + 0.0 * np.abs(u)
 
 
 class Fieldless(Controller):

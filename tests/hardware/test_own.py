@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.engine.program import Program, structure_key
+from biped_adrc.engine.program import structure_of
+from biped_adrc.engine.structure import structure
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown_by_foot import ByKinematics
 from biped_adrc.hardware.touchdown_told import Told
@@ -111,8 +112,7 @@ def test_other_numbers_compile_nothing(biped, gait):
         law = ba.NPDController(gait.constraint)
         walker = ba.Walker(biped, law, timing=CLOCK, sensors=sensors, touchdown=touchdown)
         x = walker.initial_state(*gait.start(biped))
-        program = Program.of(walker, walker.controller_size(x))
-        return structure_key(program.make, program.numbers)
+        return structure(structure_of(walker, walker.controller_size(x)))
 
     noisy, told = ba.Sensors(8192, noise=1e-4, seed=1) + Slow(), Told(missed=0.1, seed=1)
     other = ba.Sensors(4096.5, noise=1e-3, filter_time=1e-3, seed=2) + Slow(100.0)
