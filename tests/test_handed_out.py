@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
@@ -17,6 +18,16 @@ from biped_adrc.types import Array
 ENGINES = ("pinocchio", "compiled")
 TIMINGS = {"ticks": ba.SampledTime(1e-3), "continuous": ba.ContinuousTime()}
 WRITES = "writes into an array that it was handed"
+
+
+def sentence(*walk, **options):
+    """What is said of a user's code, by which a walk is refused or ends with what it had."""
+    try:
+        run = ba.walk(*walk, **options).trajectory
+    except InputError as error:
+        return str(error)
+    assert run.status is ba.Status.RAISED
+    return run.detail
 
 
 @dataclass(frozen=True)
@@ -81,10 +92,10 @@ def wound_up(s, m):
 def test_a_controller_that_writes_into_what_it_is_given(engine, timing, does, after, biped, gait):
     controller = NPD(gait.constraint, Late(does, after))
     walker = ba.Walker(biped, controller, timing=TIMINGS[timing])
-    with pytest.raises(InputError, match=WRITES) as caught:
-        ba.walk(walker, gait, 1, engine=engine)
-    assert does.__name__ in str(caught.value)
-    assert "test_handed_out.py" in str(caught.value)
+    found = sentence(walker, gait, 1, engine=engine)
+    assert re.search(WRITES, found)
+    assert does.__name__ in found
+    assert "test_handed_out.py" in found
 
 
 @dataclass(frozen=True)
@@ -101,8 +112,9 @@ class Doubles(ba.Controller):
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_controller_that_writes_into_its_fields(engine, biped, gait):
     controller = Doubles()
-    with pytest.raises(InputError, match=WRITES):
-        ba.walk(ba.Walker(biped, controller), gait, 1, engine=engine)
+    assert "no memory in the object" in sentence(
+        ba.Walker(biped, controller), gait, 1, engine=engine
+    )
     controller.K[0] = 3.0  # the user's own array stays the user's
 
 
@@ -120,7 +132,7 @@ def test_a_method_without_numbers_is_named_in_compiled_code_too(engine, biped, g
     run = ba.walk(walker, gait, 1, engine=engine).trajectory
     assert run.settings["engine"] == engine
     assert run.status.name == "NOT_FINITE"
-    assert "EndsAtTenMs.output returned [nan nan nan nan]" in run.detail
+    assert re.search(r"EndsAtTenMs\.output .*returned \[nan nan nan nan\]", run.detail)
     assert 0.01 <= run.t_end < 0.0115
 
 
@@ -150,11 +162,9 @@ def still(s, m):
 def test_other_parts_that_write(engine, biped, gait):
     sampled = TIMINGS["ticks"]
     relabels = ba.Walker(biped, Relabels(gait.constraint, still), timing=sampled)
-    with pytest.raises(InputError, match=r"swap\[::-1\].*" + WRITES):
-        ba.walk(relabels, gait, 1, engine=engine)
+    assert re.search(r"swap\[::-1\].*" + WRITES, sentence(relabels, gait, 1, engine=engine))
     pushed = ba.Walker(biped, ba.NPDController(gait.constraint), Pushes())
-    with pytest.raises(InputError, match=r"v \*= 0\.5.*" + WRITES):
-        ba.walk(pushed, gait, 1, engine=engine)
+    assert re.search(r"v \*= 0\.5.*" + WRITES, sentence(pushed, gait, 1, engine=engine))
 
 
 def test_what_is_stored_cannot_be_written_to(biped, gait):
@@ -209,8 +219,9 @@ class Gives(NPD):
 def test_a_torque_that_is_none(engine, timing, case, biped, gait):
     bad, said = BAD[case]
     walker = ba.Walker(biped, Gives(gait.constraint, still, bad, 0.01), timing=TIMINGS[timing])
-    with pytest.raises(InputError, match=rf"^Gives\.output .*returned .*{said}"):
-        ba.walk(walker, gait, 1, engine=engine)
+    assert re.search(
+        rf"^Gives\.output .*returned .*{said}", sentence(walker, gait, 1, engine=engine)
+    )
 
 
 @dataclass(frozen=True)
@@ -254,8 +265,10 @@ def test_a_state_that_is_none(engine, name, bad, biped, gait):
     timing = TIMINGS["ticks" if name in ("correct", "predict") else "continuous"]
     controller = Remembers(gait.constraint, still, name, bad)
     mode = ba.Stiff(1e-2) if name == "jump" else ba.RK4(1e-3)
-    with pytest.raises(InputError, match=rf"^Remembers\.{name} .*returned .*expected"):
-        ba.walk(ba.Walker(biped, controller, timing=timing), gait, 1, engine=engine, method=mode)
+    assert re.search(
+        rf"^Remembers\.{name} .*returned .*expected",
+        sentence(ba.Walker(biped, controller, timing=timing), gait, 1, engine=engine, method=mode),
+    )
 
 
 @dataclass(frozen=True)
@@ -272,8 +285,9 @@ class Wind(ba.Disturbance):
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_disturbance_that_is_none(engine, bad, biped, gait):
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), Wind(bad))
-    with pytest.raises(InputError, match=r"^Wind\.torque .*returned .*expected \(5,\)"):
-        ba.walk(walker, gait, 1, engine=engine)
+    assert re.search(
+        r"^Wind\.torque .*returned .*expected \(5,\)", sentence(walker, gait, 1, engine=engine)
+    )
 
 
 @dataclass(frozen=True)
@@ -306,8 +320,7 @@ class Watching(ba.Observer):
 @pytest.mark.parametrize("engine", ENGINES)
 def test_an_observer_that_gives_something_else(engine, name, bad, biped, gait):
     walker = ba.Walker(biped, ba.ADRCController(gait.constraint, Watching(name, bad)))
-    with pytest.raises(InputError, match=rf"Watching\.{name}.* returned"):
-        ba.walk(walker, gait, 1, engine=engine)
+    assert re.search(rf"Watching.*\.{name}.* returned", sentence(walker, gait, 1, engine=engine))
 
 
 @dataclass(frozen=True)
@@ -337,5 +350,4 @@ def test_a_sensor_that_shows_something_else(engine, name, bad, biped, gait):
     walker = ba.Walker(
         biped, NPD(gait.constraint, still), timing=TIMINGS["ticks"], sensors=Blind(name, bad)
     )
-    with pytest.raises(InputError, match=rf"Blind\.{name}.* returned"):
-        ba.walk(walker, gait, 1, engine=engine)
+    assert re.search(rf"Blind\.{name}.* returned", sentence(walker, gait, 1, engine=engine))

@@ -174,13 +174,13 @@ def check_methods(controller: Controller, s: Array, m: Measurement, sampled: boo
     It is asked at the start: machine code would write past the end of the state, and keep nothing in an object.
     """
     u = returned(controller.output(s, m), (m.terms.kappa.shape[0],), controller, "output")
+    if not _is_own(controller):
+        return
     calls = {"correct": (m,), "predict": (m, u)} if sampled else {"flow": (m, u)}
     first = {"output": u}
     for name, given in calls.items():
         found = getattr(controller, name)(s, *given)
         first[name] = returned(found, s.shape, controller, name, finite=False)
-    if not _is_own(controller):
-        return
     calls, other = {"output": (m,), **calls}, m._replace(v=m.v + 1e-3)
     for name, given in calls.items():
         getattr(controller, name)(s, other, *given[1:])  # which a memory takes in

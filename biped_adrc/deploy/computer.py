@@ -41,6 +41,7 @@ class Computer:
             )
         if self.walker.plant.p == 0:
             raise InputError("the robot has no motors, so there is no torque to compute")
+        _ = self.walker.law  # raises where the controller has no form for sample instants
 
     @property
     def timing(self) -> SampledTime:

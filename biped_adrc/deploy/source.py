@@ -17,9 +17,10 @@ from markupsafe import Markup
 from biped_adrc.deploy.computer import Computer
 from biped_adrc.deploy.layout import Field, Functions, functions
 from biped_adrc.engine.c_text import Written, c_text, decimal, used_numbers
-from biped_adrc.engine.symbols import floats, paths
+from biped_adrc.engine.symbols import Untraceable, floats, paths
 from biped_adrc.errors import InputError
 from biped_adrc.files import c_comment, one_line
+from biped_adrc.parts import spoken
 from biped_adrc.versions import packages
 
 REALS = {"float64": "double", "float32": "float"}
@@ -84,7 +85,10 @@ def source_of(
         raise InputError(f"the prefix '{prefix}' is taken: {TAKEN[prefix]}; choose another one")
     if real not in REALS:
         raise InputError(f"the type of numbers is {real!r}, expected one of {list(REALS)}")
-    made, k = functions(computer), computer.held.sizes
+    try:
+        made, k = functions(computer), computer.held.sizes
+    except Untraceable as error:
+        raise InputError(f"there is no C of {spoken(computer.walker.law)}: {error}") from error
     used = used_numbers(made.all)
     values, names = list(floats(computer.numbers)), list(paths(computer.numbers))
     bad = [names[i] for i in used if values[i] != values[i]]
