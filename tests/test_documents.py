@@ -12,12 +12,14 @@ that of the checkout. What a fence says of its block:
 from __future__ import annotations
 
 import ast
+import csv
 import json
 import re
 import shlex
 import sys
 import tomllib
 import xml.etree.ElementTree as ET
+from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
 
@@ -202,6 +204,32 @@ def test_a_study_has_as_many_walks_as_it_says(name):
     path = ROOT / "examples" / name
     said = re.search(r"(\d+) walks\.", path.read_text())[1]
     assert load_study(path).count == int(said)
+
+
+def test_results_are_counts_and_numbers_of_the_stored_rows():
+    """Checks and claims by their words; largest errors and impacts of both walks under the push."""
+    with (ROOT / "docs" / "findings" / "reproduction.csv").open(
+        encoding="utf-8", newline=""
+    ) as file:
+        rows = list(csv.DictReader(file))
+    page = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
+    told = Counter((row["row"], row["word or verdict"]) for row in rows)
+    claims = [n for (kind, _), n in told.items() if kind == "claim"]
+    checks = [n for (kind, _), n in told.items() if kind == "check"]
+    holding, of, all_claims, *words = map(
+        int, re.findall(r"\d+", re.search(r"\*\*.+\*\*", page)[0])
+    )
+    assert (holding, of, all_claims) == (told["check", "holds"], sum(checks), sum(claims))
+    assert sorted(words) == sorted(claims)
+    cells = {tuple(row.values())[:3]: row["value"] for row in rows}
+    names = [("Runs", f"push {name}") for name in ("NPD", "ADRC")]
+    made = [cells[*name, "impacts"] for name in names]
+    claim = next(row["value"] for row in rows if row["row"] == "claim")
+    assert re.findall(r"(\d+) of", claim) == made
+    *_, npd, adrc, steps = re.findall(r"[\d.]*\d", re.search(r"^- .+$", page, re.MULTILINE)[0])
+    errors = [1e3 * float(cells[*name, "peak error [rad]"]) for name in names]
+    assert [float(npd), float(adrc)] == pytest.approx(errors, rel=0.02)
+    assert [steps, steps] == made
 
 
 def test_the_package_claims_the_platforms_it_is_tested_on():

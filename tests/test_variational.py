@@ -9,11 +9,14 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.regression import regress_multipliers
 from biped_adrc.analysis.stability import (
+    MethodRow,
     StabilityMethod,
+    StabilityTable,
     Tolerances,
     central_row,
     invariance_gap,
     stability_table,
+    variational_row,
     zero_dynamics_row,
 )
 from biped_adrc.analysis.variational import (
@@ -29,6 +32,7 @@ from biped_adrc.analysis.variational import (
     third_derivative,
     torque_derivative,
 )
+from biped_adrc.errors import InputError
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.derivatives import (
     acceleration_derivatives,
@@ -343,6 +347,50 @@ def test_table_of_the_published_gait(published, biped, gait):
     lines = table.text(3).splitlines()
     assert len(lines) == 5
     assert lines[0].split()[2] == f"{step.multipliers[0].real:.6e}"
+
+
+EQUATION = np.array([0.7, 0.5 + 0.1j, 0.5 - 0.1j, 1e-3])
+LARGEST, LEAST = np.eye(4)[[0, 3]]
+NOISE = {"noise": np.array([1e-9, 1e-9, 1e-9, 2e-6])}
+DELTA2, REGRESSION = StabilityMethod.ZERO_DYNAMICS, StabilityMethod.REGRESSION
+
+
+def row(values, method=StabilityMethod.CENTRAL, **more):
+    return MethodRow(method, np.array(values, dtype=complex), **more)
+
+
+@pytest.mark.parametrize(
+    ("agree", "other"),
+    [
+        (True, row(EQUATION + 6e-7 * LARGEST - 9e-8 * LEAST)),
+        (False, row(EQUATION + 8e-7 * LARGEST)),  # 1e-6 relative
+        (False, row(EQUATION + 2e-7 * LEAST)),  # 1e-7 absolute
+        (True, row(EQUATION + 1e-6 * LEAST, **NOISE)),
+        (False, row(EQUATION + 3e-6 * LEAST, **NOISE)),
+        (False, row(EQUATION + 1e-6 * LARGEST, **NOISE)),  # the noise of another multiplier
+        (False, row([*EQUATION, 1e-4])),
+        (True, row(EQUATION[[0, 2, 1, 3]])),
+        (False, row(np.abs(EQUATION))),
+        (True, row([1e-3], DELTA2)),
+        (False, row([0.71], DELTA2)),
+        (True, row(5 * EQUATION, REGRESSION, doubt="too few samples")),
+        (False, row(5 * EQUATION, REGRESSION)),
+    ],
+)
+def test_methods_agree_within_tolerance_or_noise_in_any_order(agree, other):
+    table = StabilityTable((row(EQUATION, StabilityMethod.VARIATIONAL), other), Tolerances())
+    assert table.agree == agree
+    assert ("agrees within" in table.verdict) == (agree and not other.doubt)
+
+
+@pytest.mark.parametrize("residual", [1e-2, math.nan])
+def test_an_equation_that_misses_the_flow_hands_the_trust_over(published, residual):
+    equation = variational_row(replace(published[1], flow_residual=residual), Tolerances())
+    table = StabilityTable((equation, row([1.2, 1e-3])), Tolerances())
+    assert table.trusted.method is StabilityMethod.CENTRAL
+    assert not table.stable
+    with pytest.raises(InputError):
+        _ = StabilityTable((equation, row([0.7], DELTA2)), Tolerances()).trusted
 
 
 def test_delta_squared_only_where_it_is_a_multiplier(biped, gait):

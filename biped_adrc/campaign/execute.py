@@ -244,9 +244,9 @@ class _Flight:
     def abandon(self) -> None:
         """Stop the workers, and store what they had finished: on an error or Ctrl-C, which waits for that."""
         with held_back():
-            for future in self.pending:
-                future.cancel()
             self.crew.close(now=True)
+            for future in self.pending:  # after: a pool reports the death of its workers to each future
+                future.cancel()
             wait([future for future in self.pending if not future.cancelled()], PATIENCE)
             for future in self.pending:
                 if future.done() and not future.cancelled() and future.exception() is None:

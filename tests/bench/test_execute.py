@@ -144,6 +144,14 @@ def test_a_worker_that_is_killed_once_changes_nothing(tmp_path, expected):
     assert [row for *_, row in found] == [row for *_, row in expected]
 
 
+def test_a_record_alone_in_its_chunk_is_tried_twice(tmp_path, expected):
+    """Its worker may have died of something else."""
+    (given,) = records(1)
+    dies = {**given, "once": str(tmp_path / "died")}
+    found, summary = run(tmp_path / "r.sqlite", [dies], Processes(1, LIGHT), chunk=1)
+    assert (summary.deaths, found[0][3]) == (1, expected[0][3])
+
+
 def test_a_record_that_kills_its_worker_is_named(tmp_path, expected):
     given = [{**r, "kill": 1} if r["x"] == 30 else r for r in records(40)]
     found, summary = run(tmp_path / "r.sqlite", given, Processes(2, LIGHT), chunk=4)

@@ -147,6 +147,16 @@ def test_the_innovation_is_blind_to_what_impulses_move(gait, h, seen):
         assert np.array_equal(law.output(s, away), law.inner.output(s, away))
 
 
+def test_the_innovation_that_no_impulse_makes_is_taken_whole(gait, h, seen):
+    law = ImpactInvariant(ba.ADRCController(h, FAST), rates=False, innovation=True).sampled(PERIOD)
+    m = at_the_end(seen, gait, 0.4)
+    s, a = law.initial_state(m), struck(m, np.eye(2), landed=False) - m.v[:, np.newaxis]
+    across = np.append(np.linalg.svd(a[:4])[0][:, -1], 0.0)
+    x = m._replace(q=m.q + 1e-4 * across)
+    whole = law.inner.correct(s, x)
+    assert np.max(np.abs(law.correct(s, x) - whole)) < 1e-9 * np.max(np.abs(whole - s))
+
+
 def test_the_window_is_that_of_the_phase_and_of_the_touchdown(h, seen):
     law = ImpactInvariant(ba.NPDController(h), 0.02)
     s, m = np.zeros(0), seen(0.3)

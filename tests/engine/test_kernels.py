@@ -28,7 +28,9 @@ from biped_adrc.engine.kernels.run_plan import (
     plan,
 )
 from biped_adrc.errors import InputError
+from biped_adrc.hybrid import integrators
 from biped_adrc.hybrid.status import Status
+from biped_adrc.hybrid.watch import ITERATIONS, RESOLUTION, T_RTOL, T_XTOL
 
 GRAVITY, ALPHA, A0, A1, ZERO_PIVOT_AT, NAN_AT, LOWEST_HIP, LONGEST = range(8)
 NUMBERS = np.array([9.81, 0.3, 400.0, 50.0, math.inf, math.inf, 0.5, 3.0])
@@ -234,6 +236,11 @@ def test_how_a_run_ends(address, status, method):
 
 
 # -- tables --------------------------------------------------------------------------------------
+def test_numbers_that_are_written_once_per_engine_are_equal():
+    assert (layout.RESOLUTION, layout.LANDING) == (RESOLUTION, integrators.LANDING)
+    crowded = integrators.CROWDED, integrators.CROWDED_STEP
+    assert crowded == (layout.CROWDED, layout.CROWDED_STEP)
+    assert (layout.XTOL, layout.XRTOL, layout.ITERATIONS) == (T_XTOL, T_RTOL, ITERATIONS)
 
 
 def fitted(tick, period, method):

@@ -577,6 +577,25 @@ def test_methods_that_cannot_be_compiled_in_either_time_base(biped, gait, sample
         in_part(*runs(walker, gait, ba.RK4(2e-3), impacts=1), TICKS, why)
 
 
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda step: step == 2,
+        lambda step: step != 1,
+        lambda step: step in (2, 4),
+        lambda step: np.array_equal(np.array([step]), np.array([2])),
+    ],
+)
+def test_a_law_that_asks_whether_numbers_are_equal_runs_in_python(biped, gait, ask):
+    """Taken for an expression its symbol would never be equal to a number."""
+
+    def law(k, s, m):
+        return (0.9 if ask(m.step) else 1.0) * npd_output(k, s, m)
+
+    walker = ba.Walker(biped, written(gait, law), timing=ba.SampledTime(1e-3))
+    in_part(*runs(walker, gait, ba.RK4(2e-3)), TICKS, "branches on the value of a number")
+
+
 def test_progress_and_the_engine_asked_for(gait, ticked):
     x0 = ticked.initial_state(*gait.start(ticked.plant))
     told = []

@@ -121,6 +121,34 @@ def test_walker_without_knees(name):
     )
 
 
+def energies(p, bodies):
+    """Kinetic and potential energy [J] of five links, whose pose is q + 1e-30 i v."""
+    kinetic = potential = 0.0
+    for name, joint, direction in (
+        ("torso", p.hip, p.torso),
+        ("thigh", p.hip, (p.stance_knee - p.hip) / L),
+        ("thigh", p.hip, (p.swing_knee - p.hip) / L),
+        ("shin", p.stance_knee, -p.stance_knee / L),
+        ("shin", p.swing_knee, (p.swing_foot - p.swing_knee) / L),
+    ):
+        body, com = bodies[name], joint + bodies[name].com * direction
+        velocity, turning = 1e30 * com.imag, 1e30 * direction.imag
+        kinetic += 0.5 * (body.mass * velocity @ velocity + body.inertia * turning @ turning)
+        potential += 9.81 * body.mass * com.real[1]
+    return kinetic, potential
+
+
+@pytest.mark.parametrize("name", CONVENTIONS)
+def test_energies_are_those_of_the_definition(name, bare):
+    """Which, unlike hip, knees and feet, know where the torso points."""
+    to_paper, bodies = convention(name).to_paper, bare.description.preset("identified-bare").bodies
+    for q_own, v_own in zip(*random_states(5, 5), strict=True):
+        kinetic, potential = energies(POSES[name](q_own + 1e-30j * v_own), bodies)
+        q, v = to_paper.angles(q_own), to_paper.rates(v_own)
+        assert bare.kinetic_energy(q, v) == pytest.approx(kinetic, rel=1e-12)
+        assert bare.potential_energy(q) == pytest.approx(potential, abs=1e-11)
+
+
 @pytest.mark.parametrize("name", CONVENTIONS)
 def test_phase_and_relabelling(name, biped):
     c = convention(name)

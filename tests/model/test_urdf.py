@@ -55,6 +55,13 @@ def test_stored_pinned_urdf_is_the_floating_one_rerooted():
     assert stored.joints == derived.joints
 
 
+def test_the_default_preset_is_what_the_urdf_says(biped):
+    for name, link in load_tree(FLOATING).links.items():
+        if link.inertial is not None:
+            one, other = link.inertial, biped.description.tree().links[name].inertial
+            assert (one.mass, one.com, one.inertia[3]) == (other.mass, other.com, other.inertia[3])
+
+
 def test_unknown_names_are_answered_with_the_known_ones(biped):
     for make, known in (
         (lambda: ba.Biped.load("atlas"), "rabbit"),
