@@ -245,7 +245,7 @@ class _Flight:
         """Stop the workers, and store what they had finished: on an error or Ctrl-C, which waits for that."""
         with held_back():
             self.crew.close(now=True)
-            for future in self.pending:  # after: a pool reports the death of its workers to each future
+            for future in self.pending:  # a pool has told each of the death of its workers by now
                 future.cancel()
             wait([future for future in self.pending if not future.cancelled()], PATIENCE)
             for future in self.pending:

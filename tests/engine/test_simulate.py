@@ -589,10 +589,11 @@ def test_methods_that_cannot_be_compiled_in_either_time_base(biped, gait, sample
 def test_a_law_that_asks_whether_numbers_are_equal_runs_in_python(biped, gait, ask):
     """Taken for an expression its symbol would never be equal to a number."""
 
-    def law(k, s, m):
-        return (0.9 if ask(m.step) else 1.0) * npd_output(k, s, m)
+    class Asking(Stateless):
+        def output(self, s, m):
+            return (0.9 if ask(m.step) else 1.0) * super().output(s, m)
 
-    walker = ba.Walker(biped, written(gait, law), timing=ba.SampledTime(1e-3))
+    walker = ba.Walker(biped, Asking(npd(gait)), timing=ba.SampledTime(1e-3))
     in_part(*runs(walker, gait, ba.RK4(2e-3)), TICKS, "branches on the value of a number")
 
 
