@@ -290,15 +290,13 @@ def located(law: object) -> Iterator[None]:
 
 
 def _place(error: Exception, law: Any) -> str:
-    """The last line of the user or of this package where an error arose: PD.output (own.py:12, `if x > 0:`)."""
+    """The last line of the user, or method of this package, where an error arose: PD.output (own.py:12, `if x > 0:`)."""
     frames = traceback.extract_tb(error.__traceback__)
     codes = [frame.f_code for frame, _ in traceback.walk_tb(error.__traceback__)]
     pairs = list(zip(codes, frames, strict=True))
-    own = [pair for pair in pairs if parts.is_users(pair[1].filename)] or [
-        pair
-        for pair in pairs
-        if pair[1].filename.startswith(parts.PACKAGE) and pair[1].filename not in MACHINERY
-    ]
+    package = [x for x in pairs if x[1].filename.startswith(parts.PACKAGE)]
+    methods = [x for x in package if "." in x[0].co_qualname and not x[1].filename.startswith(HERE)]
+    own = [x for x in pairs if parts.is_users(x[1].filename)] or methods or package
     if not own:
         return str(getattr(law, "__qualname__", law))
     code, frame = own[-1]
@@ -306,8 +304,7 @@ def _place(error: Exception, law: Any) -> str:
     return f"{name} ({Path(frame.filename).name}:{frame.lineno}, `{frame.line}`)"
 
 
-MACHINERY = (__file__, symbols.__file__)
-"""Files of functions that laws call and that are no laws; errors there are put down to the law."""
+HERE = str(Path(__file__).parent)
 
 
 @lru_cache(maxsize=1024)
