@@ -54,7 +54,10 @@ PYTHON = {
         "expected 5 finite numbers",
     ),
     "a URDF as the robot": (lambda r: ba.Biped.load("x.urdf"), "biped_from_urdf"),
-    "an output without return": (lambda r: r.walk(Silent()), "Silent.output (test_mistakes.py:20) returned None"),
+    "an output without return": (
+        lambda r: r.walk(Silent()),
+        "Silent.output (test_mistakes.py:20) returned None",
+    ),
     "a period in words": (lambda r: ba.SampledTime("1ms"), "'1ms'"),
     "a number as the timing": (
         lambda r: ba.Walker(r.biped, ba.NPDController(r.h), timing=1e-3),

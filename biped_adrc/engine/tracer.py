@@ -26,7 +26,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc import linear, parts
-from biped_adrc.engine import symbols
 from biped_adrc.engine.structure import changes, is_library, note
 from biped_adrc.engine.symbols import (
     FUNCTIONS,
@@ -290,7 +289,7 @@ def located(law: object) -> Iterator[None]:
 
 
 def _place(error: Exception, law: Any) -> str:
-    """The last line of the user, or method of this package, where an error arose: PD.output (own.py:12, `if x > 0:`)."""
+    """Last line of the user, or method of this package, where an error arose: PD.output (own.py:12, `x`)."""
     frames = traceback.extract_tb(error.__traceback__)
     codes = [frame.f_code for frame, _ in traceback.walk_tb(error.__traceback__)]
     pairs = list(zip(codes, frames, strict=True))
