@@ -8,6 +8,7 @@ copies; `run` calls the copy and says in which function an error arose. The symb
 from __future__ import annotations
 
 import abc
+import dis
 import functools
 import inspect
 import math
@@ -31,6 +32,7 @@ from biped_adrc.engine.symbols import (
     FUNCTIONS,
     HIDDEN,
     Hidden,
+    Scalar,
     Solver,
     T,
     Untraceable,
@@ -59,7 +61,7 @@ class _Substitute:
 
 def _filled(value: float) -> Callable[..., NDArray[np.object_]]:
     """A function like np.zeros or np.ones that makes object arrays, whose entries may become Scalars."""
-    return lambda shape, *_, **__: np.full(shape, value, dtype=object)
+    return lambda shape, dtype=Float, **_: np.full(shape, value, dtype=dtype)
 
 
 ENGINE = "biped_adrc.engine"
@@ -70,7 +72,12 @@ COPIED = "__on_symbols__"
 """Name of the tracer among the globals of its copies."""
 
 
-class Float:
+class _OfFloat(type):
+    def __instancecheck__(cls, x: object) -> bool:
+        return isinstance(x, float | Scalar)
+
+
+class Float(metaclass=_OfFloat):
     """In place of `float`: a number stays what it is, and an array of this type holds symbols."""
 
     def __new__(cls, x: Any = 0.0) -> Any:
@@ -164,8 +171,10 @@ class Tracer:
                 law.__code__, scope, law.__name__, law.__defaults__, tuple(cells) or None
             )
             copy.__kwdefaults__ = law.__kwdefaults__
-            self._copies[law] = self._copies[copy] = copy
             own = changes(law.__module__, law.__globals__.get("__file__"))
+            if own and catches(law.__code__):
+                copy = _refused(law.__code__)
+            self._copies[law] = self._copies[copy] = copy
             for name in names_of(law.__code__):
                 if name in scope:
                     scope[name] = self.on_symbols(scope[name])
@@ -304,6 +313,23 @@ def _place(error: Exception, law: Any) -> str:
 
 
 HERE = str(Path(__file__).parent)
+
+
+def catches(code: types.CodeType) -> bool:
+    """Whether a piece of code has a `try`: on symbols other exceptions arise than on numbers."""
+    names = [x.opname for x in dis.get_instructions(code)]
+    return names.count("PUSH_EXC_INFO") > names.count("WITH_EXCEPT_START")
+
+
+def _refused(code: types.CodeType) -> Any:
+    """In place of a method that catches exceptions."""
+
+    def refuse(*_: object, **__: object) -> Any:
+        name = code.co_qualname.replace(".<locals>", "")
+        place = f"{name} ({Path(code.co_filename).name}:{code.co_firstlineno})"
+        raise Located(f"{place} cannot be compiled: it catches exceptions")
+
+    return refuse
 
 
 @lru_cache(maxsize=1024)
