@@ -20,10 +20,10 @@ TIMINGS = {"ticks": ba.SampledTime(1e-3), "continuous": ba.ContinuousTime()}
 WRITES = "writes into an array that it was handed"
 
 
-def sentence(*walk, **options):
-    """What is said of a user's code, by which a walk is refused or ends with what it had."""
+def said(walker, gait, **more):
+    """What a walk is refused with at its start, or raised later on."""
     try:
-        run = ba.walk(*walk, **options).trajectory
+        run = ba.walk(walker, gait, 1, **more).trajectory
     except InputError as error:
         return str(error)
     assert run.status is ba.Status.RAISED
@@ -92,30 +92,64 @@ def wound_up(s, m):
 def test_a_controller_that_writes_into_what_it_is_given(engine, timing, does, after, biped, gait):
     controller = NPD(gait.constraint, Late(does, after))
     walker = ba.Walker(biped, controller, timing=TIMINGS[timing])
-    found = sentence(walker, gait, 1, engine=engine)
-    assert re.search(WRITES, found)
-    assert does.__name__ in found
-    assert "test_handed_out.py" in found
+    sentence = said(walker, gait, engine=engine)
+    assert WRITES in sentence
+    assert sentence.startswith(f"{does.__name__} (test_handed_out.py:")
+
+
+class LowPass:
+    """y follows what it is called with, and is kept."""
+
+    y = None
+
+    def __call__(self, u):
+        self.y = u if self.y is None else 0.5 * (self.y + u)
+        return self.y
 
 
 @dataclass(frozen=True)
-class Doubles(ba.Controller):
-    """Writes into its own gain."""
+class Forgetful(NPD):
+    """Keeps in objects what belongs into its state, each method in one."""
 
+    where: str = ""
     K: Array = field(default_factory=lambda: np.ones(4))
+    last: dict = field(default_factory=dict)
+    smooth: LowPass = field(default_factory=LowPass)
+    noise: np.random.Generator = field(default_factory=np.random.default_rng)
+
+    def _kept(self, where, x):
+        if where != self.where:
+            return x
+        match where:
+            case "an array":
+                self.K[:] = 2.0 * self.K
+                return x * self.K
+            case "a dictionary":
+                self.last["x"] = 0.5 * (self.last.get("x", x) + x)
+                return self.last["x"]
+            case "an object":
+                return self.smooth(x)
+        return x + self.noise.normal()
 
     def output(self, s, m):
-        self.K[:] = 2.0 * self.K
-        return self.K * m.q[:4]
+        u = super().output(s, m)
+        for where in ("an array", "a dictionary", "an object"):
+            u = self._kept(where, u)
+        return u
+
+    def predict(self, s, m, u):
+        return self._kept("noise", s)
 
 
+@pytest.mark.parametrize("where", ["an array", "a dictionary", "an object", "noise"])
 @pytest.mark.parametrize("engine", ENGINES)
-def test_a_controller_that_writes_into_its_fields(engine, biped, gait):
-    controller = Doubles()
-    assert "no memory in the object" in sentence(
-        ba.Walker(biped, controller), gait, 1, engine=engine
-    )
-    controller.K[0] = 3.0  # the user's own array stays the user's
+def test_a_controller_that_keeps_its_state_in_itself_is_refused(engine, where, biped, gait):
+    """A memory would be lost in machine code, and noise would be one number for ever."""
+    controller = Forgetful(gait.constraint, still, where)
+    method = "predict" if where == "noise" else "output"
+    said = rf"^Forgetful\.{method} \(test_handed_out.py:\d+\) gave another result when asked again"
+    with pytest.raises(InputError, match=said):
+        ba.walk(ba.Walker(biped, controller, timing=TIMINGS["ticks"]), gait, 1, engine=engine)
 
 
 @dataclass(frozen=True)
@@ -132,7 +166,7 @@ def test_a_method_without_numbers_is_named_in_compiled_code_too(engine, biped, g
     run = ba.walk(walker, gait, 1, engine=engine).trajectory
     assert run.settings["engine"] == engine
     assert run.status.name == "NOT_FINITE"
-    assert re.search(r"EndsAtTenMs\.output .*returned \[nan nan nan nan\]", run.detail)
+    assert re.search(r"EndsAtTenMs\.output \(.*\) returned \[nan nan nan nan\]", run.detail)
     assert 0.01 <= run.t_end < 0.0115
 
 
@@ -162,9 +196,9 @@ def still(s, m):
 def test_other_parts_that_write(engine, biped, gait):
     sampled = TIMINGS["ticks"]
     relabels = ba.Walker(biped, Relabels(gait.constraint, still), timing=sampled)
-    assert re.search(r"swap\[::-1\].*" + WRITES, sentence(relabels, gait, 1, engine=engine))
+    assert re.search(r"swap\[::-1\].*" + WRITES, said(relabels, gait, engine=engine))
     pushed = ba.Walker(biped, ba.NPDController(gait.constraint), Pushes())
-    assert re.search(r"v \*= 0\.5.*" + WRITES, sentence(pushed, gait, 1, engine=engine))
+    assert re.search(r"v \*= 0\.5.*" + WRITES, said(pushed, gait, engine=engine))
 
 
 def test_what_is_stored_cannot_be_written_to(biped, gait):
@@ -192,6 +226,41 @@ def test_an_array_that_is_handed_in_stays_its_owners(biped, gait):
     assert all(array.flags.writeable for array in (x, q, v))
 
 
+class Typo(ba.Controller):
+    def output(self, s, m):
+        return m.terms.Omga[:4]
+
+
+class Misnamed(ba.Controller):
+    def ouput(self, s, m):
+        return m.terms.Omega[:4]
+
+
+class Short(ba.Controller):
+    def output(self, s, m):
+        return m.terms.Omega[:3]
+
+
+class NotANumber(ba.Controller):
+    def output(self, s, m):
+        return np.nan * m.terms.Omega[:4]
+
+
+MISTAKES = {
+    Typo: r"Typo\.output \(test_handed_out\.py:\d+, `return m\.terms\.Omga\[:4\]`\) raised Attrib",
+    Misnamed: r"Misnamed has no method output\(s, m\); write it",
+    Short: r"Short\.output \(test_handed_out\.py:\d+\) returned an array of shape \(3,\), expected \(4,\)",
+    NotANumber: r"NotANumber\.output \(test_handed_out\.py:\d+\) returned \[nan nan nan nan\]",
+}
+
+
+@pytest.mark.parametrize("cls", MISTAKES)
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_mistake_in_a_controller_is_one_sentence_at_the_start(engine, cls, biped, gait):
+    with pytest.raises(InputError, match=rf"^{MISTAKES[cls]}[^\n]*$"):
+        ba.walk(ba.Walker(biped, cls()), gait, 1, engine=engine)
+
+
 # -- what comes back -------------------------------------------------------------------------------
 BAD = {
     "complex": (lambda u: u + 1j, r"expected \(4,\), real numbers"),
@@ -217,11 +286,10 @@ class Gives(NPD):
 )
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_torque_that_is_none(engine, timing, case, biped, gait):
-    bad, said = BAD[case]
+    bad, expected = BAD[case]
     walker = ba.Walker(biped, Gives(gait.constraint, still, bad, 0.01), timing=TIMINGS[timing])
-    assert re.search(
-        rf"^Gives\.output .*returned .*{said}", sentence(walker, gait, 1, engine=engine)
-    )
+    sentence = said(walker, gait, engine=engine)
+    assert re.match(rf"Gives\.output .*returned .*{expected}", sentence)
 
 
 @dataclass(frozen=True)
@@ -265,10 +333,8 @@ def test_a_state_that_is_none(engine, name, bad, biped, gait):
     timing = TIMINGS["ticks" if name in ("correct", "predict") else "continuous"]
     controller = Remembers(gait.constraint, still, name, bad)
     mode = ba.Stiff(1e-2) if name == "jump" else ba.RK4(1e-3)
-    assert re.search(
-        rf"^Remembers\.{name} .*returned .*expected",
-        sentence(ba.Walker(biped, controller, timing=timing), gait, 1, engine=engine, method=mode),
-    )
+    sentence = said(ba.Walker(biped, controller, timing=timing), gait, engine=engine, method=mode)
+    assert re.match(rf"Remembers\.{name} .*returned .*expected", sentence)
 
 
 @dataclass(frozen=True)
@@ -285,9 +351,8 @@ class Wind(ba.Disturbance):
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_disturbance_that_is_none(engine, bad, biped, gait):
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), Wind(bad))
-    assert re.search(
-        r"^Wind\.torque .*returned .*expected \(5,\)", sentence(walker, gait, 1, engine=engine)
-    )
+    sentence = said(walker, gait, engine=engine)
+    assert re.match(r"Wind\.torque .*returned .*expected \(5,\)", sentence)
 
 
 @dataclass(frozen=True)
@@ -320,7 +385,8 @@ class Watching(ba.Observer):
 @pytest.mark.parametrize("engine", ENGINES)
 def test_an_observer_that_gives_something_else(engine, name, bad, biped, gait):
     walker = ba.Walker(biped, ba.ADRCController(gait.constraint, Watching(name, bad)))
-    assert re.search(rf"Watching.*\.{name}.* returned", sentence(walker, gait, 1, engine=engine))
+    with pytest.raises(InputError, match=rf"Watching\)?\.{name}.* returned"):
+        ba.walk(walker, gait, 1, engine=engine)
 
 
 @dataclass(frozen=True)
@@ -350,4 +416,5 @@ def test_a_sensor_that_shows_something_else(engine, name, bad, biped, gait):
     walker = ba.Walker(
         biped, NPD(gait.constraint, still), timing=TIMINGS["ticks"], sensors=Blind(name, bad)
     )
-    assert re.search(rf"Blind\.{name}.* returned", sentence(walker, gait, 1, engine=engine))
+    with pytest.raises(InputError, match=rf"Blind\.{name}.* returned"):
+        ba.walk(walker, gait, 1, engine=engine)

@@ -8,6 +8,7 @@ copies; `run` calls the copy and says in which function an error arose. The symb
 from __future__ import annotations
 
 import abc
+import dis
 import functools
 import inspect
 import math
@@ -26,12 +27,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc import linear, parts
-from biped_adrc.engine import symbols
 from biped_adrc.engine.structure import changes, is_library, note
 from biped_adrc.engine.symbols import (
     FUNCTIONS,
     HIDDEN,
     Hidden,
+    Scalar,
     Solver,
     T,
     Untraceable,
@@ -60,7 +61,7 @@ class _Substitute:
 
 def _filled(value: float) -> Callable[..., NDArray[np.object_]]:
     """A function like np.zeros or np.ones that makes object arrays, whose entries may become Scalars."""
-    return lambda shape, *_, **__: np.full(shape, value, dtype=object)
+    return lambda shape, dtype=Float, **_: np.full(shape, value, dtype=dtype)
 
 
 ENGINE = "biped_adrc.engine"
@@ -71,7 +72,12 @@ COPIED = "__on_symbols__"
 """Name of the tracer among the globals of its copies."""
 
 
-class Float:
+class _OfFloat(type):
+    def __instancecheck__(cls, x: object) -> bool:
+        return isinstance(x, float | Scalar)
+
+
+class Float(metaclass=_OfFloat):
     """In place of `float`: a number stays what it is, and an array of this type holds symbols."""
 
     def __new__(cls, x: Any = 0.0) -> Any:
@@ -165,8 +171,10 @@ class Tracer:
                 law.__code__, scope, law.__name__, law.__defaults__, tuple(cells) or None
             )
             copy.__kwdefaults__ = law.__kwdefaults__
-            self._copies[law] = self._copies[copy] = copy
             own = changes(law.__module__, law.__globals__.get("__file__"))
+            if own and catches(law.__code__):
+                copy = _refused(law.__code__)
+            self._copies[law] = self._copies[copy] = copy
             for name in names_of(law.__code__):
                 if name in scope:
                     scope[name] = self.on_symbols(scope[name])
@@ -290,15 +298,13 @@ def located(law: object) -> Iterator[None]:
 
 
 def _place(error: Exception, law: Any) -> str:
-    """The last line of the user or of this package where an error arose: PD.output (own.py:12, `if x > 0:`)."""
+    """Last line of the user, or method of this package, where an error arose: PD.output (own.py:12, `x`)."""
     frames = traceback.extract_tb(error.__traceback__)
     codes = [frame.f_code for frame, _ in traceback.walk_tb(error.__traceback__)]
     pairs = list(zip(codes, frames, strict=True))
-    own = [pair for pair in pairs if parts.is_users(pair[1].filename)] or [
-        pair
-        for pair in pairs
-        if pair[1].filename.startswith(parts.PACKAGE) and pair[1].filename not in MACHINERY
-    ]
+    package = [x for x in pairs if x[1].filename.startswith(parts.PACKAGE)]
+    methods = [x for x in package if "." in x[0].co_qualname and not x[1].filename.startswith(HERE)]
+    own = [x for x in pairs if parts.is_users(x[1].filename)] or methods or package
     if not own:
         return str(getattr(law, "__qualname__", law))
     code, frame = own[-1]
@@ -306,8 +312,24 @@ def _place(error: Exception, law: Any) -> str:
     return f"{name} ({Path(frame.filename).name}:{frame.lineno}, `{frame.line}`)"
 
 
-MACHINERY = (__file__, symbols.__file__)
-"""Files of functions that laws call and that are no laws; errors there are put down to the law."""
+HERE = str(Path(__file__).parent)
+
+
+def catches(code: types.CodeType) -> bool:
+    """Whether a piece of code has a `try`: on symbols other exceptions arise than on numbers."""
+    names = [x.opname for x in dis.get_instructions(code)]
+    return names.count("PUSH_EXC_INFO") > names.count("WITH_EXCEPT_START")
+
+
+def _refused(code: types.CodeType) -> Any:
+    """In place of a method that catches exceptions."""
+
+    def refuse(*_: object, **__: object) -> Any:
+        name = code.co_qualname.replace(".<locals>", "")
+        place = f"{name} ({Path(code.co_filename).name}:{code.co_firstlineno})"
+        raise Located(f"{place} cannot be compiled: it catches exceptions")
+
+    return refuse
 
 
 @lru_cache(maxsize=1024)

@@ -23,7 +23,7 @@ class Call(NamedTuple):
 
 
 class Recorder(Loaded):
-    """The functions of the C, which keeps the first call of a kind at an instant."""
+    """The functions of the C, which keeps the last call of a kind at an instant: at the start it is tried."""
 
     @cached_property
     def calls(self):
@@ -31,7 +31,7 @@ class Recorder(Loaded):
 
     def noted(self, kind, m, u=None):
         call = Call(kind, float(m["t"]), m["q"].copy(), m["v"].astype(float), u)
-        self.calls.setdefault((kind, call.t), call)
+        self.calls[kind, call.t] = call
 
     def init(self, m):
         self.noted("init", m)

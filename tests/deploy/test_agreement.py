@@ -27,7 +27,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.observers.momentum import MomentumChain
 from tests.control.conforms import PERIOD, gait, heavy, robot
-from tests.control.test_conformance import IN_PYTHON, ROWS, UNNAMED, made
+from tests.control.test_conformance import ROWS, UNNAMED, made
 
 TOLERANCE, OF_TABLE_I = 4e-10, 1e-6
 IN_FLOAT = 1e-3
@@ -36,6 +36,8 @@ KINDS = ("controller", "contact", "around", "observer", "sensor", "touchdown")
 """Kinds of the registry of which the computer has a part, or which decide how it is called."""
 PUSH = [40.0, -30.0, 20.0, 10.0, 5.0]
 """Torques of a push [N m]."""
+NOT_EXPORTED = ("CLF-QP", "output NPD", "finite time", "delayed")
+"""Controllers that run in Python or in continuous time only."""
 ENCODERS = ba.Sensors(1e5, filter_time=1e-3)
 HARDWARE = {
     "ideal": {},
@@ -124,14 +126,13 @@ def difference(walker, source, so_long=0.03):
 @pytest.mark.parametrize(("kind", "name", "thing", "hardware"), cases())
 def test_a_walk_over_a_touchdown_is_that_of_python(kind, name, thing, hardware):
     walker = walker_of(kind, thing, hardware)
-    if name in {*IN_PYTHON, "delayed"}:
+    if name in NOT_EXPORTED:
         with pytest.raises(InputError, match=type(thing).__name__):
             source_of(Computer(walker))
         return
     found = difference(walker, source_of(Computer(walker)), 0.11 if kind == "touchdown" else 0.03)
-    assert found <= (
-        OF_TABLE_I if name in ("ADRC", "GPI", "reference reset") else TOLERANCE
-    )  # of Table I
+    of_table = ("ADRC", "GPI", "reference reset")  # whose first is Table I
+    assert found <= (OF_TABLE_I if name in of_table else TOLERANCE)
 
 
 @pytest.mark.parametrize("name", ["NPD", "DOB"])

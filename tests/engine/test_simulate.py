@@ -498,6 +498,14 @@ class Noisy(Stateless):
         return super().output(s, m) + 0.0 * self.noise.normal()
 
 
+class Catches(Stateless):
+    def output(self, s, m):
+        try:
+            return super().output(s, m) * (1.0 if m.t < 0.02 else 0.9)
+        except Exception:
+            return np.zeros(4)
+
+
 class Undecorated(Controller):
     def __init__(self, inner):
         self.inner = inner
@@ -532,13 +540,16 @@ def test_what_cannot_be_compiled_runs_in_python_and_names_class_line_and_code(bi
     assert re.match(place + " cannot be compiled: ", partly.settings["why"])
 
 
-def test_a_class_that_is_no_dataclass_runs_in_python(biped, gait):
-    walker = ba.Walker(biped, Undecorated(npd(gait)), timing=ba.SampledTime(1e-3))
-    in_part(
-        *runs(walker, gait, ba.RK4(1e-3), impacts=1),
-        TICKS,
-        "Undecorated cannot be compiled: it is no ",
-    )
+@pytest.mark.parametrize(
+    ("cls", "why"),
+    [
+        (Undecorated, "Undecorated cannot be compiled: it is no dataclass"),
+        (Catches, "cannot be compiled: it catches exceptions"),
+    ],
+)
+def test_other_classes_run_in_python(biped, gait, cls, why):
+    walker = ba.Walker(biped, cls(npd(gait)), timing=ba.SampledTime(1e-3))
+    in_part(*runs(walker, gait, ba.RK4(1e-3), impacts=1), TICKS, why)
 
 
 class Plain(Stateless):
@@ -549,7 +560,8 @@ class Plain(Stateless):
         u = np.asarray(super().output(s, m), dtype=float)
         rows = [gains["left"] * float(x) for x in u]
         size = np.linalg.norm(np.array(rows, float).astype(float))
-        return u / (1.0 + 1e-6 * max(size, 1.0)) + 0.0 * np.abs(u)
+        share = max(size, 1.0) if isinstance(m.t, float) else 0.0
+        return u / (1.0 + 1e-6 * share)
 
 
 class Fieldless(Controller):
