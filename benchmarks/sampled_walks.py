@@ -43,7 +43,7 @@ class ByHand(ba.Controller):
         r, terms = self.constraint(m.t, m.q, m.v), m.terms
         a = r.drift + 5e3 * (r.q_d - m.q_b) + 100.0 * (r.dq_d - m.v_b)
         u: Array = terms.kappa_inverse @ (a - terms.xi)
-        return u if np.abs(u).max() < STRONGEST else np.zeros_like(u)
+        return u if u[0] < STRONGEST else np.zeros_like(u)
 
 
 Method = RK4 | Exponential
