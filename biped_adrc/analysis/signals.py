@@ -112,11 +112,12 @@ class Signals(Shown):
 def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Signals:
     """The signals of a walk; `reference` gives q_d (usually the controller's own).
 
-    Where outer loops correct the reference, q_d is the corrected one. For a compiled run, and for a
-    long one, they are computed in compiled code where that is possible.
+    Where outer loops correct the reference, q_d is the corrected one, in NumPy. For any other compiled
+    run, and for a long one, they are computed in compiled code where that is possible.
     """
-    nodes = sum(len(arc.t) for arc in trajectory.arcs)
-    if trajectory.settings.get("engine") == "compiled" or nodes >= LONG:
+    many = sum(len(arc.t) for arc in trajectory.arcs) >= LONG
+    compiled = trajectory.settings.get("engine") == "compiled"
+    if (compiled or many) and not isinstance(walker.law, OuterLoop):
         from biped_adrc.engine.compiled_signals import compiled_readings
 
         found = compiled_readings(walker, trajectory, reference)
