@@ -85,7 +85,7 @@ class Float(metaclass=_OfFloat):
 
 
 class Unchangeable(list[Any]):
-    """In place of a list that a law finds: machine code keeps nothing."""
+    """In place of a list that a function finds: machine code keeps nothing."""
 
     def _refuse(self, *_: object, **__: object) -> Any:
         raise Untraceable("the law changes a list")
@@ -107,7 +107,7 @@ class Tracer:
     """Copies of functions for symbols, with one solver for all, so that `solver.least` covers them all."""
 
     def __init__(self) -> None:
-        """The replacements, by identity of what laws name: NumPy, math, and the two functions of `linear`."""
+        """The replacements, by identity of what methods name: NumPy, math, two functions of `linear`."""
         self.solver, random = Solver(), Hidden("random numbers")
         functions = {name: elementwise(function_of(theirs)) for name, theirs in FUNCTIONS.items()}
         numpy = {
@@ -149,7 +149,7 @@ class Tracer:
         self._copies: dict[types.FunctionType, Any] = {}
         self._twins: dict[type, type] = {}
 
-    def __call__(self, law: T) -> T:
+    def __call__(self, f: T) -> T:
         """The function for symbols, with every function that it reaches; what is no Python function
         stays as it is.
 
@@ -157,33 +157,33 @@ class Tracer:
         replaced. Copies are remembered before their names are replaced, so functions that call
         each other end.
         """
-        ours = isinstance(law, types.FunctionType) and not str(law.__module__).startswith(ENGINE)
-        return self._copy(law) if ours else law
+        ours = isinstance(f, types.FunctionType) and not str(f.__module__).startswith(ENGINE)
+        return self._copy(f) if ours else f
 
-    def _copy(self, law: Any) -> Any:
+    def _copy(self, f: Any) -> Any:
         """The copy of a function; in a method that says `super()`, `__class__` is the twin."""
-        if law.__globals__.get(COPIED) is self or law.__module__.startswith(ENGINE):
-            return law  # defined inside a copy, or for symbols as it is
-        if law not in self._copies:
-            scope = {**BUILTINS, **law.__globals__, COPIED: self}
-            cells = [types.CellType(c.cell_contents) for c in law.__closure__ or ()]
+        if f.__globals__.get(COPIED) is self or f.__module__.startswith(ENGINE):
+            return f  # defined inside a copy, or for symbols as it is
+        if f not in self._copies:
+            scope = {**BUILTINS, **f.__globals__, COPIED: self}
+            cells = [types.CellType(c.cell_contents) for c in f.__closure__ or ()]
             copy = types.FunctionType(
-                law.__code__, scope, law.__name__, law.__defaults__, tuple(cells) or None
+                f.__code__, scope, f.__name__, f.__defaults__, tuple(cells) or None
             )
-            copy.__kwdefaults__ = law.__kwdefaults__
-            own = changes(law.__module__, law.__globals__.get("__file__"))
-            if own and catches(law.__code__):
-                copy = _refused(law.__code__)
-            self._copies[law] = self._copies[copy] = copy
-            for name in names_of(law.__code__):
+            copy.__kwdefaults__ = f.__kwdefaults__
+            own = changes(f.__module__, f.__globals__.get("__file__"))
+            if own and catches(f.__code__):
+                copy = _refused(f.__code__)
+            self._copies[f] = self._copies[copy] = copy
+            for name in names_of(f.__code__):
                 if name in scope:
                     scope[name] = self.on_symbols(scope[name])
-                    if own and name in law.__globals__:
-                        note(law.__globals__, name)
-            for name, cell in zip(law.__code__.co_freevars, cells, strict=True):
+                    if own and name in f.__globals__:
+                        note(f.__globals__, name)
+            for name, cell in zip(f.__code__.co_freevars, cells, strict=True):
                 twin = self.twin if name == "__class__" else self.on_symbols
                 cell.cell_contents = twin(cell.cell_contents)
-        return self._copies[law]
+        return self._copies[f]
 
     def on_symbols(self, value: Any) -> Any:
         """The twin of what a function names or takes: a module, a function, a part, or a tuple of such.
@@ -193,9 +193,8 @@ class Tracer:
         for old, new in self._substitutes:
             if value is old:
                 return new
-        if isinstance(
-            value, np.ufunc | types.BuiltinFunctionType
-        ):  # such as of `from math import sin`
+        # such as of `from math import sin`
+        if isinstance(value, np.ufunc | types.BuiltinFunctionType):
             return self._functions.get(value, value)
         if isinstance(value, tuple | list):
             inside = [self.on_symbols(part) for part in value]
@@ -260,7 +259,7 @@ class Tracer:
 
 
 class _Named:
-    """A module of the user's or of this package: what a law names in it is for symbols."""
+    """A module of the user's or of this package: what a function names in it is for symbols."""
 
     def __init__(self, trace: Tracer, module: types.ModuleType):
         self._trace, self._module = trace, module
@@ -272,14 +271,14 @@ class _Named:
         return self._trace.on_symbols(value)
 
 
-def run(trace: Tracer, law: Callable[..., T], *arguments: object) -> T:
+def run(trace: Tracer, f: Callable[..., T], *arguments: object) -> T:
     """The result of a function or method on symbols, at these arguments.
 
     Raises Located that names the last function of the user's or this package's in which the error
     arose, since the error itself comes from inside NumPy or CasADi.
     """
-    with located(law):
-        return trace(law)(*map(trace.on_symbols, arguments))
+    with located(f):
+        return trace(f)(*map(trace.on_symbols, arguments))
 
 
 class Located(Untraceable):
@@ -287,17 +286,17 @@ class Located(Untraceable):
 
 
 @contextmanager
-def located(law: object) -> Iterator[None]:
+def located(f: object) -> Iterator[None]:
     """Raise Located in place of any error, whatever NumPy says of an object that is no float."""
     try:
         yield
     except Located:
         raise
     except Exception as error:
-        raise Located(f"{_place(error, law)} cannot be compiled: {error}") from error
+        raise Located(f"{_place(error, f)} cannot be compiled: {error}") from error
 
 
-def _place(error: Exception, law: Any) -> str:
+def _place(error: Exception, f: Any) -> str:
     """Last line of the user, or method of this package, where an error arose: PD.output (own.py:12, `x`)."""
     frames = traceback.extract_tb(error.__traceback__)
     codes = [frame.f_code for frame, _ in traceback.walk_tb(error.__traceback__)]
@@ -306,7 +305,7 @@ def _place(error: Exception, law: Any) -> str:
     methods = [x for x in package if "." in x[0].co_qualname and not x[1].filename.startswith(HERE)]
     own = [x for x in pairs if parts.is_users(x[1].filename)] or methods or package
     if not own:
-        return str(getattr(law, "__qualname__", law))
+        return str(getattr(f, "__qualname__", f))
     code, frame = own[-1]
     name = code.co_qualname.replace(".<locals>", "")
     return f"{name} ({Path(frame.filename).name}:{frame.lineno}, `{frame.line}`)"
