@@ -179,7 +179,7 @@ def base_runs(plan: Plan) -> dict[str, Scenario]:
 
 
 def stepped(run: Scenario) -> Scenario:
-    """The run with the steps of the reproduction; for ADRC the feedback is in the linear part of the method."""
+    """The run with the method and the steps of the reproduction."""
     h, fine = STEPS[run.controller]
     return replace(run, method=method(run.controller), h=h, fine=fine)
 

@@ -86,8 +86,8 @@ class Member:
 
 
 def method(controller: str) -> str:
-    """The integration method of a controller's walks: ADRC's observer is stiff, and its feedback is linear."""
-    return "feedback" if controller == "ADRC" else "rk4"
+    """The integration method of a controller's walks: ADRC's observer is stiff."""
+    return "exponential" if controller == "ADRC" else "rk4"
 
 
 def members() -> tuple[Member, ...]:
