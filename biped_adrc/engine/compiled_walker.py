@@ -165,8 +165,8 @@ def _method(walker: Walker, method: OneStepMethod) -> tuple[ErrorForm | None, Me
         return None, methods.rk4(method.h)
     if not _steps_as(method, Exponential):
         raise NotCompiled(
-            f"method {type(method).__name__} has no compiled form, which RK4 and Exponential alone have; the run "
-            "goes on in Python on the compiled plant"
+            f"method {type(method).__name__} has no compiled form, as RK4 and Exponential have; the run goes "
+            "on in Python on the compiled plant"
         )
     split = walker.split_form()
     if split is None:
