@@ -265,9 +265,9 @@ def start(d: Draw, n: int) -> Part:
 # -- methods ---------------------------------------------------------------------------------------
 def method(d: Draw, stiff: bool) -> Part | None:
     """A one-step method; None for the default."""
-    weights = {"default": 40.0, "rk4": 30.0, "adaptive": 12.0, "exponential": 6.0}
+    weights = {"default": 40.0, "rk4": 30.0, "adaptive": 12.0, "exponential": 3.0, "feedback": 3.0}
     if stiff:
-        weights |= {"exponential": 34.0, "rk4": 8.0, "stiff": 8.0}
+        weights |= {"exponential": 22.0, "feedback": 12.0, "rk4": 8.0, "stiff": 8.0}
     kind = d.weighted(weights)
     if kind == "default":
         return None

@@ -198,8 +198,8 @@ def run(d: Draw) -> Scenario:
 
 def run_method(d: Draw, controller: str) -> Scenario:
     """How it is integrated."""
-    method = d.one(None, None, "rk4", "exponential", "exponential", "adaptive", "stiff")
-    if controller == "NPD" and method == "exponential" and d.chance(0.8):
+    method = d.one(None, None, "rk4", "exponential", "feedback", "adaptive", "stiff")
+    if controller == "NPD" and method in ("exponential", "feedback") and d.chance(0.8):
         method = "rk4"
     fields: Scenario = {} if method is None else {"method": method}
     if method in ("adaptive", "stiff"):
