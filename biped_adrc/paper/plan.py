@@ -60,7 +60,7 @@ MAP_ONSETS = tuple(round(0.05 * k, 2) for k in range(8))
 """Onsets of the map of pushes [s] after an impact; a single support takes about 0.4 s."""
 MAP_AMPLITUDES = (30.0, 60.0, 90.0, 120.0, 150.0)
 """Amplitudes of the map of pushes [N m], up to what RABBIT's motors give."""
-STEPS = {"NPD": (5e-4, 1e-4), "ADRC": (1e-4, 2.5e-5)}
+STEPS = {"NPD": (5e-4, 1e-4), "ADRC": (5e-5, 2.5e-5)}
 """Integration steps of RK4 [s]: of the whole walk, and of the single supports where a push switches and
 the one after.
 """
