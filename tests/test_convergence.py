@@ -140,7 +140,7 @@ def test_the_default_of_adrc_resolves_the_spike_after_a_push(biped, gait):
     walker = ba.Walker(biped, ba.ADRCController(gait.constraint), push)
     walk = ba.walk(walker, gait, 1, engine="compiled")
     assert f"h = {FINE_STEP:g} s" in walk.trajectory.settings["method"]
-    fine = ba.walk(walker, gait, 1, ba.Exponential(1e-5, feedback=True), engine="compiled")
+    fine = ba.walk(walker, gait, 1, ba.Exponential(1e-5), engine="compiled")
     assert walk.signals.peak_error == pytest.approx(fine.signals.peak_error, rel=0.01)
 
 

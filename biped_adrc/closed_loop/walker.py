@@ -12,14 +12,14 @@ makes one from plain values.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.bounds import Bounds
-from biped_adrc.closed_loop.exponential_form import ErrorForm, error_form, feedback_form, split_of
+from biped_adrc.closed_loop.exponential_form import ErrorForm, error_form, split_of
 from biped_adrc.closed_loop.protocols import Mode as Mode
 from biped_adrc.closed_loop.semantics import Instant as Instant
 from biped_adrc.closed_loop.system import ClosedLoop
@@ -224,37 +224,11 @@ class Walker(ClosedLoop[Biped]):
             ),
         )
 
-    def split_form(self, feedback: bool = False) -> ErrorForm | None:
-        """The coordinates in which the exponential method steps.
-
-        Without `feedback`: observer error only; None for sampled time or no linear observer. With
-        it: tracking error too; raises InputError and says why such coordinates do not exist.
-        Compiled code takes their methods, Python `split` and `feedback_split`.
-        """
-        n, p = self.plant.n, self.plant.p
-        if not feedback:
-            return None if self.sampled else error_form(self.law, n, p)
-        if self.sampled:
-            raise InputError(
-                "feedback=True needs a controller that acts at every instant, and this one acts at ticks; "
-                "use ContinuousTime(), or RK4, Adaptive or Stiff"
-            )
-        return feedback_form(self.law, n, p, self.plant.inertia)
+    def split_form(self) -> ErrorForm | None:
+        """The coordinates of the exponential method; None for sampled time or no linear observer."""
+        return None if self.sampled else error_form(self.law, self.plant.n, self.plant.p)
 
     def split(self, mode: Mode) -> Split | None:
-        """Error coordinates of the observer: e' = A e + b (q_b'' - kappa u), independent of u itself.
-
-        The observer's states are the first of s; what follows them is integrated with (q, q'). None
-        where the controller has no linear observer. `back` is linear here, so no `node` is needed.
-        """
+        """As `split_form`, with the remainder of the closed loop in `mode`."""
         form = self.split_form()
-        return None if form is None else replace(split_of(self, form, mode), node=None)
-
-    def feedback_split(self, mode: Mode) -> Split | None:
-        """As `split`, with the tracking error q_b - h(Theta) in the linear part too.
-
-        The remaining coordinates are the phase Theta and the angular momentum about the stance
-        foot. Raises InputError for a walker without such coordinates.
-        """
-        form = self.split_form(feedback=True)
         return None if form is None else split_of(self, form, mode)

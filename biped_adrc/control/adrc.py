@@ -17,7 +17,7 @@ from biped_adrc.control.base import Measurement, measured
 from biped_adrc.control.observing import ObservingController
 from biped_adrc.control.tracking import TABLE_II, Gains, tracking_torque
 from biped_adrc.gait.reference import Reference, ReferencePoint
-from biped_adrc.observers.base import ErrorSystem, Estimate, Feedback, Observer, ResetPolicy
+from biped_adrc.observers.base import ErrorSystem, Estimate, Observer, ResetPolicy
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.types import Array
 
@@ -59,7 +59,4 @@ class ADRCController(JointObservingController):
         return tracking_torque(self.gains, r, x, m.terms, self.solve_theta, a)
 
     def error_system(self) -> ErrorSystem | None:
-        error = self.observer.error_system()
-        if error is None:
-            return None
-        return error._replace(feedback=Feedback(self.gains.K_p, self.gains.K_d, self.reference))
+        return self.observer.error_system()

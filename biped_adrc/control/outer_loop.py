@@ -114,10 +114,7 @@ class OuterLoop(Controller):
         return replace(self, inner=self.inner.sampled(period))
 
     def error_system(self) -> ErrorSystem | None:
-        error = self.inner.error_system()
-        if error is None or error.feedback is None:
-            return error
-        return error._replace(feedback=error.feedback._replace(reference=self))
+        return self.inner.error_system()
 
     def estimate(self, s: Array, m: Measurement) -> Estimate | None:
         return self.inner.estimate(self.parts(s)[0], m)

@@ -1,7 +1,7 @@
 """A walker, a one-step method and a disturbance, made ready for the compiled loops.
 
 Three things come together here: the program of the walker (`engine.program`: flow, tick, strike,
-..), the matrices or tolerances of the method (`engine.kernels.methods`), and the terms of the
+..), the matrices of the method (`engine.kernels.methods`), and the terms of the
 disturbance, which are compiled by themselves so that another disturbance does not recompile the
 walker. The result is a `RunPlan`, which the kernels take.
 
@@ -17,11 +17,10 @@ on the compiled plant.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from operator import methodcaller
-from typing import Any
+from typing import TypeGuard, TypeVar
 
 import numpy as np
 
@@ -47,10 +46,12 @@ from biped_adrc.engine.program import NotCompiled, Program
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import Untraceable, Vector, column, floats
 from biped_adrc.engine.tracer import Tracer, run
-from biped_adrc.hybrid.exponential import no_coordinates
-from biped_adrc.hybrid.integrators import OneStepMethod
+from biped_adrc.hybrid.exponential import Exponential, no_coordinates
+from biped_adrc.hybrid.integrators import RK4, OneStepMethod
 from biped_adrc.timing import LONGEST_PERIOD, SampledTime
 from biped_adrc.types import Array
+
+T = TypeVar("T", bound=OneStepMethod)
 
 
 @dataclass(frozen=True)
@@ -147,55 +148,36 @@ def _plan(
     )
 
 
-FORMS: Mapping[str, Callable[[Any], MethodTable] | None] = {
-    "rk4": lambda m: methods.rk4(m.h),
-    "dop853": lambda m: methods.dop853(m.rtol, m.atol, m.max_step),
-    "etd": None,
-}
-"""Tables of the methods by `OneStepMethod.compiled_form`; None for the one that needs coordinates too."""
-
-
 @lru_cache(maxsize=64)
-def _matrices(h: float, A: bytes, rows: tuple[int, ...]) -> MethodTable:
-    """The table of the exponential method for a step h [s], A (k, k) as bytes, and forced rows."""
+def _matrices(h: float, A: bytes) -> MethodTable:
+    """The table of the exponential method for a step h [s] and A (k, k) as bytes."""
     k = math.isqrt(len(A) // 8)
-    return methods.etd(h, np.frombuffer(A).reshape(k, k), np.array(rows, dtype=np.int64))
-
-
-def written_over(part: object, given: str, methods: frozenset[str]) -> str:
-    """Name of a method that a subclass writes anew below the class that defines `given`; empty for none.
-
-    A subclass that overrides `steps` and inherits `compiled_form` would run its own steps in Python alone.
-    """
-    for cls in type(part).__mro__:
-        if given in vars(cls):
-            break
-        if written := methods.intersection(vars(cls)):
-            return min(written)
-    return ""
+    return methods.etd(h, np.frombuffer(A).reshape(k, k))
 
 
 def _method(walker: Walker, method: OneStepMethod) -> tuple[ErrorForm | None, MethodTable]:
     """The coordinates that a method needs, if any, and its table.
 
-    Raises NotCompiled for a method of the user's own, which has no compiled form or writes over the
-    steps of one that has; InputError for coordinates that the walker does not have.
+    Raises NotCompiled for all but RK4 and Exponential, and for a class of the user's own that steps otherwise;
+    InputError for coordinates that the walker does not have.
     """
-    form: Any = method
-    written = written_over(method, "compiled_form", frozenset(("steps", "split")))
-    known = method.compiled_form in FORMS
-    if written or not known:
-        why = f"writes its own {written}" if known else "has no compiled form"
+    if _steps_as(method, RK4):
+        return None, methods.rk4(method.h)
+    if not _steps_as(method, Exponential):
         raise NotCompiled(
-            f"method {type(method).__name__} {why}; the run goes on in Python on the compiled plant. Compiled "
-            "are RK4, Adaptive and Exponential"
+            f"method {type(method).__name__} has no compiled form, as RK4 and Exponential have; the run goes "
+            "on in Python on the compiled plant"
         )
-    if (make := FORMS[method.compiled_form]) is not None:
-        return None, make(form)
-    split = walker.split_form(form.feedback)
+    split = walker.split_form()
     if split is None:
         raise no_coordinates()
-    return split, _matrices(form.h, split.A.tobytes(), split.rows)
+    return split, _matrices(method.h, split.A.tobytes())
+
+
+def _steps_as(method: OneStepMethod, kind: type[T]) -> TypeGuard[T]:
+    """Whether a method takes the steps of this class, and not its own in place of them."""
+    own = type(method)
+    return isinstance(method, kind) and (own.steps, own.split) == (kind.steps, kind.split)
 
 
 def _push(disturbance: Disturbance | None, n: int) -> DisturbanceTable:

@@ -231,7 +231,7 @@ class Equations:
         return self.made(inp, self._split(Tracer()).back(w, E))
 
     def remainder(self) -> SymbolicFunction:
-        """N_w, N_E in its forced rows, and the least pivot, at y = (w, E) in place of x."""
+        """N_w, row 1 of N_E, and the least pivot, at y = (w, E) in place of x."""
         at = self.at()
         w, E = self._coordinates(at.x)
         form = self._split(at.trace)

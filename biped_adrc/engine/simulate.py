@@ -120,11 +120,9 @@ class _Arcs:
 
         Where that is too few the arc is made again with more, so it need not be right.
         """
-        plan, longest = self.compiled.plan, 0.6
-        F, every = plan.F, self.options.store_every
-        shortest = F[layout.H] if plan.P[layout.KIND] != layout.DOP853 else 1e-3
+        F, every, longest = self.compiled.plan.F, self.options.store_every, 0.6
         ticks = longest / F[layout.PERIOD] if F[layout.PERIOD] > 0.0 else 0.0
-        return 64 + min(100_000, int(longest / shortest / every + 2.0 * ticks))
+        return 64 + min(100_000, int(longest / F[layout.H] / every + 2.0 * ticks))
 
     def fly(self, t: float, x: Array, mode: Mode, fired: str | None) -> FlownArc:
         """One arc from x (nx,) at t [s], and the impact at its end; fired: the event before, None

@@ -15,16 +15,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache, partial
-from typing import ClassVar, NamedTuple
+from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import expm
 
-from biped_adrc.errors import (
-    InputError,
-    check_positive,
-)
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.hybrid.integrators import Flow, Form, OneStepMethod, Step, step_ends
 from biped_adrc.hybrid.system import HybridSystem, Mode, Split
 from biped_adrc.types import Array
@@ -102,27 +99,19 @@ def no_coordinates() -> InputError:
 
 @dataclass(frozen=True)
 class Exponential(OneStepMethod):
-    """ETD-RK4 with fixed step h [s]; feedback: the system's `feedback_split` instead of its `split`.
-
-    With feedback a step costs more and its error is smaller, most where the model is right. Where the torque is
-    at its limit the linear part is wrong, the remainder has to undo it, and the other coordinates are better.
-    Raises InputError for a system without these coordinates.
-    """
-
-    compiled_form: ClassVar[str] = "etd"
+    """ETD-RK4 with fixed step h [s], in the coordinates of the system's `split`. Raises InputError for none."""
 
     h: float = 5e-4
-    feedback: bool = False
 
     def __post_init__(self) -> None:
         check_positive(self.h, f"step h [s] is {self.h}")
 
     @property
     def label(self) -> str:
-        return f"ETD-RK4{' with feedback' if self.feedback else ''}, h = {self.h:g} s"
+        return f"ETD-RK4, h = {self.h:g} s"
 
     def split(self, system: HybridSystem, mode: Mode) -> Split | None:
-        return system.feedback_split(mode) if self.feedback else system.split(mode)
+        return system.split(mode)
 
     def steps(
         self, f: Flow, split: Form | None, t: float, x: Array, t_end: float
@@ -137,14 +126,13 @@ class Exponential(OneStepMethod):
         A = np.ascontiguousarray(split.A)
         table = _remembered(A.tobytes(), A.shape[0], self.h)
         p, E = split.to(x)
-        node = split.node or partial(_linear_node, split)
-        N, _, dx = node(t, p, E)
+        N, _, dx = _node(split, t, p, E)
         for t1 in step_ends(t, t_end, self.h):
             h = t1 - t
             if abs(h - self.h) > _SAME_STEP * self.h:
                 table = phi_table(A, h)
             p1, E1 = etd_rk4(split, table, t, p, E, N, h)
-            N1, x1, dx1 = node(t1, p1, E1)
+            N1, x1, dx1 = _node(split, t1, p1, E1)
 
             def at(s: float, start: Start = (t, p, E, N)) -> Array:
                 h = s - start[0]
@@ -154,10 +142,8 @@ class Exponential(OneStepMethod):
             t, x, dx, p, E, N = t1, x1, dx1, p1, E1, N1
 
 
-def _linear_node(
-    split: Split, t: float, p: Array, E: Array
-) -> tuple[tuple[Array, Array], Array, Array]:
-    """The remainder, x and x' (nx,) at (t, p, E) for a linear `back`, which maps slopes as it maps states."""
+def _node(split: Split, t: float, p: Array, E: Array) -> tuple[tuple[Array, Array], Array, Array]:
+    """The remainder, x and x' (nx,) at (t, p, E); `back` is linear and maps slopes as it maps states."""
     N = split.remainder(t, p, E)
     return N, split.back(p, E), split.back(N[0], split.A @ E + N[1])
 

@@ -2,7 +2,7 @@
 
 A method yields steps over a smooth segment [t, t_end]. A step can give its own state at any time
 inside it (`at`), to the accuracy of the method; the simulator locates events with that. The
-compiled loops have RK4, Adaptive and Exponential too (`compiled_form`); the last is in `exponential`.
+compiled loops have RK4 and Exponential too; the latter is in `exponential`.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 from scipy.integrate import DOP853, RK45, OdeSolver, Radau
@@ -61,9 +60,6 @@ class Step:
 class OneStepMethod(ABC):
     """Base of the methods: yields the steps of a smooth segment. A user's own needs `steps` and `label`."""
 
-    compiled_form: ClassVar[str] = ""
-    """Name of the same method in the compiled loops; empty for one that runs in Python only."""
-
     def split(self, system: HybridSystem, mode: Mode) -> Form | None:
         """The form of `system` that the method steps in; None for x' = f(t, x) itself. Raises
         InputError for none.
@@ -93,8 +89,6 @@ def step_ends(t: float, t_end: float, h: float) -> Iterator[float]:
 @dataclass(frozen=True)
 class RK4(OneStepMethod):
     """The classical explicit Runge-Kutta method of order 4 with fixed step h [s]."""
-
-    compiled_form: ClassVar[str] = "rk4"
 
     h: float = 1e-3
 
@@ -260,7 +254,6 @@ class _SciPy(OneStepMethod):
 class Adaptive(_SciPy):
     """The explicit pair of Dormand and Prince of order 8(5, 3), with step control, as SciPy's DOP853."""
 
-    compiled_form: ClassVar[str] = "dop853"
     _solver = DOP853
 
 

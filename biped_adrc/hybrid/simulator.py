@@ -316,11 +316,7 @@ def _until(split: Split, last: float) -> Split:
     """The split with no time after `last` [s] asked for, so that a step that ends at a break sees
     its left limit.
     """
-    remainder, node = split.remainder, split.node
-    clamped = replace(split, remainder=lambda t, p, E: remainder(min(t, last), p, E))
-    if node is None:
-        return clamped
-    return replace(clamped, node=lambda t, p, E: node(min(t, last), p, E))
+    return replace(split, remainder=lambda t, p, E: split.remainder(min(t, last), p, E))
 
 
 def _ticks(clock: Clock, t_arc: float, t_first: float) -> float:

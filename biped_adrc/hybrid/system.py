@@ -106,18 +106,15 @@ class Clock(Shown):
 class Split(Shown):
     """Coordinates x -> (p, E) in which the stiff part is linear: E' = A E + N_E, p' = N_p.
 
-    - to(x) -> p, E and back(p, E) -> x are inverse to each other; E has shape (k, c).
+    - to(x) -> p, E and back(p, E) -> x are linear and inverse to each other; E has shape (k, c).
     - A (k, k) [1/s]: the linear part, constant over an arc.
     - remainder(t, p, E) -> N_p, N_E.
-    - node(t, p, E) -> (N_p, N_E), x and x' from one evaluation; needed only where `back` is not
-      linear.
     """
 
     to: Callable[[Array], tuple[Array, Array]]
     back: Callable[[Array, Array], Array]
     A: Array
     remainder: Callable[[float, Array, Array], tuple[Array, Array]]
-    node: Callable[[float, Array, Array], tuple[tuple[Array, Array], Array, Array]] | None = None
 
 
 class Relaxing(NamedTuple):
@@ -169,8 +166,4 @@ class HybridSystem(Shown):
 
     def relaxing(self) -> Relaxing | None:
         """The numbers of x that RK4 has to step over exactly; None for none."""
-        return None
-
-    def feedback_split(self, mode: Mode) -> Split | None:
-        """Coordinates with a controller's feedback in the linear part too; None, or InputError, for none."""
         return None

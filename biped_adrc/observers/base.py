@@ -63,20 +63,6 @@ class ResetPolicy(Enum):
             raise InputError(f"reset policy '{name}' is unknown; choose one of {names}") from None
 
 
-class Feedback(NamedTuple):
-    """What a controller makes of the estimates: kappa u = q_d'' - K_d (x2^ - q_d') - K_p (x1^ - q_d) - xi^.
-
-    The exponential method has to know it, since it integrates observer and controller as one linear system.
-    """
-
-    K_p: Array | float
-    """[1/s^2], one number or (p,)."""
-    K_d: Array | float
-    """[1/s]."""
-    reference: object
-    """Where q_d comes from; an outer loop puts itself here."""
-
-
 class ErrorSystem(NamedTuple):
     """Coordinates in which a linear observer's error obeys e' = A e + b (q_b'' - kappa u).
 
@@ -88,8 +74,6 @@ class ErrorSystem(NamedTuple):
     """(k, k) [1/s]."""
     velocity_scale: float
     """[s]."""
-    feedback: Feedback | None = None
-    """Of the controller around the observer; None for an observer alone."""
 
 
 class Observer(Part):

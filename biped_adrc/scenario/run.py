@@ -13,7 +13,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
 from types import NoneType
 
@@ -50,7 +49,6 @@ from biped_adrc.types import Array
 METHODS: dict[str, Callable[..., OneStepMethod]] = {
     "rk4": RK4,
     "exponential": Exponential,
-    "feedback": partial(Exponential, feedback=True),
     "adaptive": Adaptive,
     "stiff": Stiff,
 }

@@ -43,7 +43,7 @@ CHOICES: dict[str, tuple[str, ...]] = {
     "reset": ("none", "relabel", "measured", "model"),
     "hardware": tuple(HARDWARE),
     "velocity": ("measured", "differences", "gyro"),
-    "method": ("rk4", "exponential", "feedback", "adaptive", "stiff"),
+    "method": ("rk4", "exponential", "adaptive", "stiff"),
     "engine": ("pinocchio", "compiled"),
 }
 """Values that a field may have, by field.
@@ -55,8 +55,7 @@ velocity: where rates come from in sampled time. measured: exactly, with noise. 
 gyro: differences, but for the rate of the pitch.
 
 method: of integration. rk4: fixed step. exponential: ETD-RK4 with the observer's linear part solved exactly.
-feedback: the same with the controller's feedback in the linear part. adaptive: explicit with step control.
-stiff: Radau IIA of order 5, implicit.
+adaptive: explicit with step control. stiff: Radau IIA of order 5, implicit. Both run in Python, by SciPy.
 
 engine: compiled runs machine code made from the methods; pinocchio runs the methods in Python, with
 Pinocchio's model.

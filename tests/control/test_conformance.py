@@ -141,7 +141,7 @@ UNNAMED = {
     "RK4": lambda h: [ba.RK4(2e-3)],
     "adaptive": lambda h: [ba.Adaptive(1e-9, 1e-9)],
     "stiff": lambda h: [ba.Stiff(1e-8, 1e-8)],
-    "exponential": lambda h: [ba.Exponential(1e-3), ba.Exponential(1e-3, True)],
+    "exponential": lambda h: [ba.Exponential(1e-3)],
     "motors": lambda h: [Motors(), Motors(2e4, 1e-3)],
 }
 """Rows of what no scenario names."""

@@ -78,7 +78,7 @@ def mixed(biped, gait, npd, plain):
         ),
         "python": replace(plain, walker=replace(walker, controller=Raising(npd)), impacts=1),
         "stalls": replace(plain, walker=replace(walker, max_step_time=0.3)),
-        "passive": Case(passive, cycle.q_plus, cycle.v_plus, ba.Adaptive(1e-9, 1e-9), 2),
+        "passive": Case(passive, cycle.q_plus, cycle.v_plus, ba.RK4(1e-3), 2),
         "pushed": replace(
             plain, walker=replace(walker, disturbance=ba.HipForce(biped, (-1.0, 0.0))), impacts=1
         ),

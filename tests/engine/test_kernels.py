@@ -158,8 +158,7 @@ def test_a_swing_foot_behind_is_no_strike(address):
 
 METHODS = {
     "rk4": methods.rk4(1e-2),
-    "dop853": methods.dop853(1e-6, 1e-6, 0.02),
-    "etd": methods.etd(1e-2, linear(NUMBERS), [1]),
+    "etd": methods.etd(1e-2, linear(NUMBERS)),
 }
 
 
@@ -178,14 +177,14 @@ def test_there_and_back_inside_one_step(address, method):
     ("K", "make", "steps"),
     [
         (NUMBERS, lambda h: methods.rk4(h), (8e-3, 4e-3, 2e-3)),
-        (NUMBERS, lambda h: methods.etd(h, linear(NUMBERS), [1]), (16e-3, 8e-3, 4e-3)),
+        (NUMBERS, lambda h: methods.etd(h, linear(NUMBERS)), (16e-3, 8e-3, 4e-3)),
     ],
     ids=["rk4", "etd"],
 )
 def test_order_four_through_pulses_and_strikes(address, K, make, steps):
     """At a time that no step divides; switching times and strikes at odd times cost no order."""
     case = Case(K)
-    _, _, exact, struck = case.walk(address, methods.dop853(1e-13, 1e-14, 0.005), t_end=1.3137)
+    _, _, exact, struck = case.walk(address, methods.rk4(1e-4), t_end=1.3137)
     errors = []
     for h in steps:
         _, _, x, strikes = case.walk(address, make(h), t_end=1.3137)
@@ -196,12 +195,11 @@ def test_order_four_through_pulses_and_strikes(address, K, make, steps):
 
 
 def test_a_landing_of_a_stiff_system(address):
-    """Poles at 300 and 2e4 rad/s, steps of 2 ms: any end is reached, against a tight reference."""
-    case, method = Case(STIFF, pulses=()), methods.etd(2e-3, linear(STIFF), [1])
+    """Poles at 300 and 2e4 rad/s, steps of 2 ms: any end is reached, against short steps of RK4."""
+    case, method = Case(STIFF, pulses=()), methods.etd(2e-3, linear(STIFF))
     start = START.copy()
     for t_end in (2e-3, 2e-3 + 1e-7, 0.1, 0.1003, 0.1237911):
-        tight = methods.dop853(1e-11, 1e-11, 0.02)
-        _, _, exact, _ = case.walk(address, tight, t_end=t_end, x=start)
+        _, _, exact, _ = case.walk(address, methods.rk4(4e-6), t_end=t_end, x=start)
         _, t, x, _ = case.walk(address, method, t_end=t_end, x=start)
         assert t == t_end
         np.testing.assert_allclose(x[:3], exact[:3], rtol=0, atol=1e-7)
@@ -224,12 +222,11 @@ ENDS = {
 }
 
 
-@pytest.mark.parametrize("method", [METHODS["rk4"], METHODS["dop853"]], ids=["rk4", "dop853"])
 @pytest.mark.parametrize("status", ENDS, ids=lambda s: s.name)
-def test_how_a_run_ends(address, status, method):
+def test_how_a_run_ends(address, status):
     """There, or with the last good state."""
     K, gap = ENDS[status]
-    found, t, x, _ = Case(K).walk(address, method, t_end=1.0)
+    found, t, x, _ = Case(K).walk(address, METHODS["rk4"], t_end=1.0)
     assert found is status
     assert np.all(np.isfinite(x))
     assert gap(t, x) == pytest.approx(0.0, abs=1e-9)
@@ -238,8 +235,6 @@ def test_how_a_run_ends(address, status, method):
 # -- tables --------------------------------------------------------------------------------------
 def test_numbers_that_are_written_once_per_engine_are_equal():
     assert (layout.RESOLUTION, layout.LANDING) == (RESOLUTION, integrators.LANDING)
-    crowded = integrators.CROWDED, integrators.CROWDED_STEP
-    assert crowded == (layout.CROWDED, layout.CROWDED_STEP)
     assert (layout.XTOL, layout.XRTOL, layout.ITERATIONS) == (T_XTOL, T_RTOL, ITERATIONS)
 
 
@@ -258,11 +253,11 @@ def fitted(tick, period, method):
     "make",
     [
         lambda: methods.rk4(0.0),
-        lambda: methods.dop853(1e-15, 1e-9, 0.02),
-        lambda: methods.etd(2e-3, linear(STIFF), [2]),
+        lambda: methods.etd(2e-3, linear(STIFF), levels=2),
+        lambda: methods.etd(2e-3, np.zeros((1, 1))),
         lambda: fitted(0, 1e-3, methods.rk4(1e-3)),
         lambda: fitted(1, 1e-12, methods.rk4(1e-3)),
-        lambda: fitted(1, 0.0, methods.etd(1e-3, linear(NUMBERS), [1])),
+        lambda: fitted(1, 0.0, methods.etd(1e-3, linear(NUMBERS))),
     ],
 )
 def test_what_does_not_fit_is_refused(make):

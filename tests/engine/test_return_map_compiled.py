@@ -94,7 +94,7 @@ def test_robots_without_motors(robot):
     biped = ba.Biped.load(robot)
     known = passive_cycle(biped)
     walker = ba.Walker(biped, ba.Passive(), slope=known.slope, max_step_time=known.max_step_time)
-    compiled, python = maps(walker, ba.Adaptive(1e-11, 1e-11), pitch=np.pi)
+    compiled, python = maps(walker, ba.RK4(1e-3), pitch=np.pi)
     assert compiled.ran == "compiled"
     start = walker.initial_state(known.q_plus, known.v_plus)
     x = python.next_impact(walker, start, Mode()).x_minus

@@ -216,16 +216,3 @@ def test_the_tolerance_decides_the_error(method):
     rough, fine = (np.max(np.abs(x - x0)) for x in ends)
     assert fine < 1e-4
     assert fine < 0.03 * rough
-
-
-def test_the_tolerance_decides_the_steps_of_the_compiled_method(biped, gait):
-    walker = ba.Walker(biped, ba.NPDController(gait.constraint))
-    counts = [
-        len(
-            ba.walk(walker, gait, 1, Adaptive(rtol, 1e-12, 1.0), engine="compiled")
-            .trajectory.arcs[0]
-            .t
-        )
-        for rtol in (1e-4, 1e-11)
-    ]
-    assert counts[0] + 30 < counts[1]

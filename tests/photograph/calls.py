@@ -28,7 +28,9 @@ CHAINS: dict[str, tuple[Call, ...]] = {
         Call("sampled", f"simulate {FAST} --period 0.001 --torque-limit 150 -o sampled.npz"),
         Call("pinocchio", "simulate --impacts 1 -o one.npz"),
         Call("bandwidth", f"simulate {FAST} --bandwidth 400 --order 2 --reset relabel --friction"),
-        Call("printed", f"simulate {FAST} --as-printed --gait v0.8 --method feedback --step 0.001"),
+        Call(
+            "printed", f"simulate {FAST} --as-printed --gait v0.8 --method exponential --step 0.001"
+        ),
         Call(
             "stiff", "simulate --engine compiled --impacts 1 --method stiff --poles=-200,-300,-450"
         ),

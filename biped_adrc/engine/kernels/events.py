@@ -15,22 +15,17 @@ import math
 from biped_adrc.engine.kernels.call import Ints, inner, shift, unit
 from biped_adrc.engine.kernels.laws import broken, copy, finite, row, watch
 from biped_adrc.engine.kernels.layout import *
-from biped_adrc.engine.kernels.steps import classical, eighth, halve
+from biped_adrc.engine.kernels.steps import classical, halve
 from biped_adrc.types import Array
 
 
 @inner
 def reach(P: Ints, F: Array, K: Array, W: Array, t: float, x: Array, dx: Array, s: float) -> None:
-    """Rows XE and TRIED: state and event functions at s [s], by one step from (t, x), x (nx,), dx (nx,).
-
-    DOP853 always starts from X0; the others take one classical step, ETD-RK4 from the end of its
-    sub-steps.
+    """Rows XE and TRIED: state and event functions at s [s], by one classical step from (t, x), with the
+    slope dx; both (nx,).
     """
     xe = row(P, W, XE)
-    if P[KIND] == DOP853:
-        eighth(P, F, K, W, t, s - t, xe)
-    else:
-        classical(P, F, K, W, t, x, dx, s - t, xe)
+    classical(P, F, K, W, t, x, dx, s - t, xe)
     watch(P, F, K, W, s, xe, row(P, W, TRIED))
 
 

@@ -217,7 +217,7 @@ def act(P: Ints, F: Array, K: Array, W: Array, t: float, x: Array) -> int:
 
 @unit
 def remainder(P: Ints, F: Array, K: Array, W: Array, t: float, y: Array, N: Array) -> None:
-    """N = (N_w, N_E) at (t, y), t [s], y = (w, E), N_E in the forced rows only.
+    """N = (N_w, N_E) at (t, y), t [s], y = (w, E), of N_E row 1 alone.
 
     The disturbance depends on (q, v), so where there is one, x of y is computed for it first.
     """
@@ -231,7 +231,7 @@ def remainder(P: Ints, F: Array, K: Array, W: Array, t: float, y: Array, N: Arra
     copy(y, shift(inp, 3), ny)
     copy(zeta, shift(inp, 3 + ny), n)
     call(P[REMAINDER], K, inp, N)
-    note(W, N, N[P[SLOW] + P[FORCED] * P[JOINTS]])
+    note(W, N, N[P[SLOW] + P[JOINTS]])
 
 
 @inner

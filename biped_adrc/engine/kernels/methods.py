@@ -22,7 +22,7 @@ import math
 import numpy as np
 
 from biped_adrc.engine.kernels import layout
-from biped_adrc.engine.kernels.run_plan import Ints, MethodTable
+from biped_adrc.engine.kernels.run_plan import MethodTable
 from biped_adrc.errors import InputError, check_positive
 from biped_adrc.hybrid.exponential import Phi, PhiTable
 from biped_adrc.types import Array
@@ -41,32 +41,16 @@ def rk4(h: float) -> MethodTable:
     return MethodTable(layout.RK4, h=h)
 
 
-def dop853(rtol: float, atol: float, max_step: float) -> MethodTable:
-    """Dormand and Prince 8(5, 3) with step control: rtol [1], atol, max_step [s]. Raises InputError."""
-    for name, value in (("rtol", rtol), ("atol", atol), ("max_step [s]", max_step)):
-        check_positive(value, f"{name} is {value}")
-    least = 100.0 * np.finfo(float).eps
-    if rtol < least:
-        raise InputError(
-            f"rtol is {rtol:g}, expected at least {least:.1e}, the round-off of a step"
-        )
-    return MethodTable(layout.DOP853, rtol=rtol, atol=atol, max_step=max_step)
-
-
-def etd(h: float, A: Array, rows: Ints, levels: int = 13) -> MethodTable:
-    """ETD-RK4 with step h [s] for E' = A E + N_E, A (k, k) [1/s], N_E zero but in `rows`.
+def etd(h: float, A: Array, levels: int = 13) -> MethodTable:
+    """ETD-RK4 with step h [s] for E' = A E + N_E, A (k, k) [1/s], N_E zero but in row 1.
 
     levels: the shortest sub-step of a landing is h 2^-(levels - 1). Raises InputError, also where
     the classical step below the shortest sub-step would not be stable.
     """
     check_positive(h, f"step h [s] is {h}")
-    A, rows = np.array(A, dtype=float), np.array(rows, dtype=np.int64)
-    if A.ndim != 2 or A.shape[0] != A.shape[1] or not np.all(np.isfinite(A)):
+    A = np.array(A, dtype=float)
+    if A.ndim != 2 or A.shape[0] != A.shape[1] or len(A) < 2 or not np.all(np.isfinite(A)):
         raise InputError(f"A has shape {A.shape}, expected a square matrix of finite numbers")
-    if rows.ndim != 1 or np.any(rows < 0) or np.any(rows >= len(A)):
-        raise InputError(
-            f"the forced rows are {rows}, expected row numbers of a matrix of {len(A)}"
-        )
     if not 1 <= levels <= 40:
         raise InputError(f"levels is {levels}, expected 1 to 40")
     shortest = h * 0.5 ** (levels - 1)
@@ -76,7 +60,7 @@ def etd(h: float, A: Array, rows: Ints, levels: int = 13) -> MethodTable:
             f"the fastest pole is {fastest:.3g} rad/s and the shortest sub-step {shortest:.2e} s; "
             f"their product has to be below {STABLE}: give more levels or a shorter h"
         )
-    return MethodTable(layout.ETD, h=h, phi=phi_levels(A, h, levels), rows=rows)
+    return MethodTable(layout.ETD, h=h, phi=phi_levels(A, h, levels))
 
 
 def _times(A: Array, B: Array) -> Array:

@@ -20,7 +20,6 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import DOP853
 
 from biped_adrc.engine.kernels import layout
 from biped_adrc.errors import InputError
@@ -70,7 +69,7 @@ class LawAddresses(NamedTuple):
     back: int = 0
     """y -> x."""
     remainder: int = 0
-    """(t, step, t_start, y, zeta) -> (N_w, N_E, pivot), N_E (r, p) only in the r rows `MethodTable.rows`."""
+    """(t, step, t_start, y, zeta) -> (N_w, N_E, pivot), of N_E row 1 alone (p,)."""
     turn: int = 0
     """E -> M E, with a matrix M (k, k) given in the argument K."""
 
@@ -141,23 +140,13 @@ class MethodTable(NamedTuple):
     """A one-step method with its numbers; made by `methods`."""
 
     kind: int
-    """layout.RK4, DOP853 or ETD."""
-    h: float = 1.0
-    """Fixed step [s] of RK4 and ETD."""
-    rtol: float = 1.0
-    """Relative tolerance of DOP853 [1]."""
-    atol: float = 1.0
-    """Absolute tolerance of DOP853, one number for all states in their own units."""
-    max_step: float = 1.0
-    """Longest step of DOP853 [s]."""
+    """layout.RK4 or ETD."""
+    h: float
+    """Step [s]."""
     phi: Array = np.zeros((0, layout.MATRICES, 0, 0))
     """The six matrices of ETD-RK4, in the order of `PhiTable`, for h and its halvings (levels, 6, k, k)."""
-    rows: Ints = np.zeros(0, dtype=np.int64)
-    """The rows of E where the remainder N_E is not zero ("forced rows"), ints."""
 
 
-TABLEAU = np.concatenate([getattr(DOP853, name).ravel() for name in ("A", "B", "C", "E3", "E5")])
-"""Coefficients of `scipy.integrate.DOP853` in one vector of `layout.TABLEAU` numbers, in `layout`'s order."""
 LEAST_PERIOD = 1e-9
 """Shortest sampling period [s]; with shorter ones ticks could not be counted exactly in floats."""
 
@@ -169,7 +158,7 @@ class RunPlan:
     P: Ints
     """Integers: addresses, sizes, places in F."""
     F: Array
-    """Floats: clock, tolerances, ground, disturbance, matrices."""
+    """Floats: clock, step, ground, disturbance, matrices."""
     nx: int
     """Numbers in a state."""
     width: int
@@ -210,7 +199,7 @@ def plan(
     P[layout.COORDINATES], P[layout.STATES], P[layout.JOINTS] = sizes.n, sizes.nx, sizes.p
     P[layout.SLOW], P[layout.STIFF] = sizes.nw, sizes.k
     P[layout.MOVING], P[layout.LAG_AT] = sizes.moving or sizes.nx, sizes.lag_at
-    P[layout.FORCED], P[layout.LEVELS] = len(method.rows), len(method.phi)
+    P[layout.LEVELS] = len(method.phi)
     P[layout.KIND], P[layout.RESTART] = method.kind, clock.restart
     P[layout.DROPS], P[layout.SWITCHES] = len(scene.drops), len(push.switches)
     P[layout.PARTS] = len(push.addresses)
@@ -218,20 +207,17 @@ def plan(
     head[layout.PERIOD], head[layout.T_FIRST] = clock.period, clock.t_first
     head[layout.PERIOD_PART], head[layout.LAG_SPEED] = clock.part, sizes.lag_speed
     head[layout.LEAST_STEP], head[layout.H] = scene.least_step, method.h
-    head[layout.RTOL], head[layout.ATOL] = method.rtol, method.atol
-    head[layout.MAX_STEP] = method.max_step
-    weights = method.phi if method.kind == layout.ETD else TABLEAU
     P[layout.WIDTH] = _width(sizes)
     fastest = sizes.fastest if len(sizes.fastest) else np.full(sizes.n, np.inf)
-    F, at = _joined([head, scene.drops, push.switches, push.K, weights, fastest], np.float64)
+    F, at = _joined([head, scene.drops, push.switches, push.K, method.phi, fastest], np.float64)
     P[layout.FASTEST_AT] = at[5]
     P[layout.DROPS_AT], P[layout.SWITCHES_AT], P[layout.WEIGHTS_AT] = at[1], at[2], at[4]
     resultants = push.resultants or (0,) * len(push.addresses)
     P[layout.RESULTANTS] = np.count_nonzero(resultants)
     given = zip(push.addresses, push.offsets[:-1], resultants, strict=True)
     parts = [(a, at[3] + o, r) for a, o, r in given]
-    P, where = _joined([P, method.rows, np.array(parts, dtype=np.int64)], np.int64)
-    P[layout.ROWS_AT], P[layout.PARTS_AT] = where[1], where[2]
+    P, where = _joined([P, np.array(parts, dtype=np.int64)], np.int64)
+    P[layout.PARTS_AT] = where[1]
     return RunPlan(P, F, sizes.nx, _width(sizes))
 
 

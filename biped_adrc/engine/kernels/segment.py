@@ -16,14 +16,7 @@ from biped_adrc.engine.kernels.call import Ints, call, inner, shift, unit
 from biped_adrc.engine.kernels.events import event, pieces, retake
 from biped_adrc.engine.kernels.laws import *
 from biped_adrc.engine.kernels.layout import *
-from biped_adrc.engine.kernels.steps import (
-    adaptive,
-    classical,
-    exponential,
-    halve,
-    initial_step,
-    lagging,
-)
+from biped_adrc.engine.kernels.steps import classical, exponential, halve, lagging
 from biped_adrc.types import Array
 
 
@@ -109,7 +102,7 @@ def fixed(P: Ints, F: Array, K: Array, W: Array, t: float, t1: float, last: int)
     if P[KIND] == ETD and last == 0:
         N = row(P, W, N1)
         remainder(P, F, K, W, t1, y1, N)
-        if not regular(N, P[SLOW] + P[FORCED] * P[JOINTS]):
+        if not regular(N, P[SLOW] + P[JOINTS]):
             return broken(W)
     if sloped:
         dx1 = row(P, W, DX1)
@@ -126,7 +119,7 @@ def pass_on(P: Ints, W: Array) -> None:
     copy(row(P, W, DX1), row(P, W, DX0), P[MOVING])
     if P[KIND] == ETD:
         copy(row(P, W, Y1), row(P, W, Y0), P[SLOW] + P[STIFF] * P[JOINTS])
-        copy(row(P, W, N1), row(P, W, N0), P[SLOW] + P[FORCED] * P[JOINTS])
+        copy(row(P, W, N1), row(P, W, N0), P[SLOW] + P[JOINTS])
 
 
 @inner
@@ -152,31 +145,20 @@ def stop(P: Ints, F: Array, K: Array, W: Array, R: Array, code: int) -> int:
 def through(P: Ints, F: Array, K: Array, W: Array, t_next: float, R: Array) -> int:
     """From X0 at TIME to t_next [s], over which all is smooth; a code, 0 at t_next.
 
-    Steps of fixed length are counted and not added up, so round-off does not grow. More than
-    MOST_STEPS steps, a step of no length, or CROWDED steps in a row below CROWDED_STEP on average end
-    as STEP_FAILED.
+    Steps are counted and their length not added up, so round-off does not grow. More than MOST_STEPS
+    steps, or a step of no length, end as STEP_FAILED.
     """
-    t0 = t = mark = W[TIME]
+    t0 = t = W[TIME]
     every, skipped, steps, h = int(W[EVERY]), 0, 0, F[H]
     W[LIMIT] = left(t_next)
     count = max(1.0, np.ceil((t_next - t0) / h - LANDING))
     begin(P, F, K, W, t, h if count > 1.0 else t_next - t)
     if every > 0 and not node(P, W, R, t, row(P, W, X0), row(P, W, DX0)):
         return FULL
-    if P[KIND] == DOP853:
-        count, h = 0.0, initial_step(P, F, K, W, t, t_next)
     while t < t_next:
         steps += 1
-        if P[KIND] == DOP853:
-            code = adaptive(P, F, K, W, t, t_next, h)
-            t1, h = W[REACHED], W[TRY]
-            if steps % CROWDED == 0:
-                if t1 - mark < CROWDED * CROWDED_STEP:
-                    return code if code != 0 else STEP_FAILED
-                mark = t1
-        else:
-            t1 = t0 + steps * h if steps < count else t_next
-            code = fixed(P, F, K, W, t, t1, int(steps >= count))
+        t1 = t0 + steps * h if steps < count else t_next
+        code = fixed(P, F, K, W, t, t1, int(steps >= count))
         if code != 0 or t1 <= t or steps > MOST_STEPS:
             return code if code != 0 else STEP_FAILED
         code = event(P, F, K, W, t, t1)

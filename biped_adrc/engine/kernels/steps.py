@@ -1,21 +1,12 @@
-"""One step of each method: the classical Runge-Kutta method, ETD-RK4 with landing by halving, and DOP853.
+"""One step of each method: the classical Runge-Kutta method, and ETD-RK4 with landing by halving.
 
-ETD-RK4 in the coordinates y = (w, E), E (k, p) row by row, with N_E in the forced rows only; its
-equations are in `hybrid.integrators`. A length that is not the step h is taken in sub-steps h
+ETD-RK4 in the coordinates y = (w, E), E (k, p) row by row, with N_E in row 1 alone; its equations are
+in `hybrid.exponential`. A length that is not the step h is taken in sub-steps h
 2^-level, whose matrices are prepared (`kernels.methods`), and what is left below the last level by
 one classical step, which is stable there.
-
-DOP853 is the explicit pair of Dormand and Prince of order 8(5, 3), with SciPy's initial step and
-step control. Coefficients are those of `scipy.integrate.DOP853`; the initial step, the error's norm
-and the factors are as in Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.4
-and II.10.
 """
 
 from __future__ import annotations
-
-import math
-
-import numpy as np
 
 from biped_adrc.engine.kernels.call import Ints, call, inner, shift, unit
 from biped_adrc.engine.kernels.laws import *
@@ -62,8 +53,8 @@ def classical(
     middle = last = end = 0.0
     if lag:
         _, middle, last, end = weights(F[LAG_SPEED] * h)
-        lagging(P, F, K, W, t, x, h, row(P, W, SLOPES))
-        dx = row(P, W, SLOPES)
+        dx = row(P, W, K1)
+        lagging(P, F, K, W, t, x, h, dx)
     for i in range(m):
         stage[i] = x[i] + 0.5 * h * dx[i]
     if lag:
@@ -105,13 +96,12 @@ def turn(P: Ints, M: Array, y: Array, out: Array) -> None:
 
 @inner
 def push(P: Ints, M: Array, factor: float, N: Array, out: Array) -> None:
-    """E (k, p) of out += factor M N_E, where only the forced rows of N_E are stored."""
+    """E (k, p) of out += factor M N_E, where row 1 of N_E alone is stored, the others being zero."""
     k, p, nw = P[STIFF], P[JOINTS], P[SLOW]
     for i in range(k):
-        for j in range(P[FORCED]):
-            weight = factor * M[i * k + P[P[ROWS_AT] + j]]
-            for c in range(p):
-                out[nw + i * p + c] += weight * N[nw + j * p + c]
+        weight = factor * M[i * k + 1]
+        for c in range(p):
+            out[nw + i * p + c] += weight * N[nw + c]
 
 
 @inner
@@ -137,7 +127,7 @@ def exponential(
     """out = y after one step of ETD-RK4 of length h [s] from (t, y) with the remainder N; h is that
     of the level.
 
-    The equations of `hybrid.integrators`, stages a, b and c in rows YA and YB; w takes the
+    The equations of `hybrid.exponential`, stages a, b and c in rows YA and YB; w takes the
     classical RK4 with the same stages.
     """
     ny, e_half = P[SLOW] + P[STIFF] * P[JOINTS], row(P, W, E_HALF)
@@ -204,109 +194,3 @@ def halve(
     join(P, K, y, x)
     flow(P, F, K, W, now, x, row(P, W, DXB))
     W[LANDED], W[FAR], W[FAR_VALUE] = now, tb, fb
-
-
-@inner
-def weighted(P: Ints, W: Array, c: Array, stages: int, i: int) -> float:
-    """Entry i of a weighted sum of slopes: sum_s c_s K_s,i with the first `stages` weights of c (stages,)."""
-    slopes, width, total = row(P, W, SLOPES), P[WIDTH], 0.0
-    for s in range(stages):
-        total += slopes[s * width + i] * c[s]
-    return total
-
-
-@unit
-def eighth(P: Ints, F: Array, K: Array, W: Array, t: float, h: float, out: Array) -> None:
-    """out (nx,) = one step of DOP853 of length h [s] from (t, X0) with the slope DX0.
-
-    Twelve stages; their slopes stay in rows SLOPES for the error estimate.
-    """
-    nx, A = P[STATES], shift(F, P[WEIGHTS_AT])
-    x, stage, B = row(P, W, X0), row(P, W, STAGE), shift(A, B_AT)
-    copy(row(P, W, DX0), row(P, W, SLOPES), nx)
-    for s in range(1, STAGES):
-        for i in range(nx):
-            stage[i] = x[i] + weighted(P, W, shift(A, STAGES * s), s, i) * h
-        flow(P, F, K, W, t + A[C_AT + s] * h, stage, row(P, W, SLOPES + s))
-    for i in range(nx):
-        out[i] = x[i] + h * weighted(P, W, B, STAGES, i)
-
-
-@inner
-def error_norm(P: Ints, F: Array, W: Array, h: float) -> float:
-    """Error of the step of length h [s] from X0 to X1 (nx,), as a fraction of the tolerance [1].
-
-    The estimates of order 5 and 3 combined as in Hairer's code; below 1 the step is accepted.
-    """
-    nx, A, x, x1 = P[STATES], shift(F, P[WEIGHTS_AT]), row(P, W, X0), row(P, W, X1)
-    fifth, third = 0.0, 0.0
-    for i in range(nx):
-        scale = F[ATOL] + max(abs(x[i]), abs(x1[i])) * F[RTOL]
-        fifth += (weighted(P, W, shift(A, E5_AT), STAGES + 1, i) / scale) ** 2
-        third += (weighted(P, W, shift(A, E3_AT), STAGES + 1, i) / scale) ** 2
-    if fifth == 0.0 and third == 0.0:
-        return 0.0
-    return abs(h) * fifth / math.sqrt((fifth + 0.01 * third) * nx)
-
-
-@unit
-def adaptive(P: Ints, F: Array, K: Array, W: Array, t: float, t_end: float, h: float) -> int:
-    """X1, DX1 (nx,) from X0, DX0, with a step that meets the tolerance; a status.
-
-    h [s]: first step to try. The time reached goes into REACHED, the next step to try into TRY. A
-    step is shortened by at most 5, lengthened by at most 10, and not lengthened right after a
-    rejection, as SciPy does. Below ten times the spacing of floats it ends as STEP_FAILED, or as
-    NOT_FINITE or SINGULAR where numbers are lost.
-    """
-    nx, least = P[STATES], 10.0 * (np.nextafter(t, np.inf) - t)
-    x1, dx1 = row(P, W, X1), row(P, W, DX1)
-    h, rejected = max(min(h, F[MAX_STEP]), least), False
-    while h >= least:
-        t1 = min(t + h, t_end)
-        h = t1 - t
-        eighth(P, F, K, W, t, h, x1)
-        flow(P, F, K, W, t1, x1, dx1)
-        copy(dx1, row(P, W, SLOPES + STAGES), nx)
-        error = error_norm(P, F, W, h)
-        if error < 1.0:
-            factor = 10.0 if error == 0.0 else min(10.0, 0.9 * error**-0.125)
-            if rejected:
-                factor = min(1.0, factor)
-            if not finite(x1, nx):
-                return broken(W)
-            if not slow(P, F, x1):
-                return RAN_AWAY
-            W[REACHED], W[TRY], W[LOST] = t1, h * factor, 0.0
-            return 0
-        factor = 0.9 * error**-0.125
-        h *= factor if factor > 0.2 else 0.2
-        rejected = True
-    fine = regular(row(P, W, DX0), nx) and regular(x1, nx) and regular(dx1, nx)
-    return STEP_FAILED if fine else broken(W)
-
-
-@inner
-def rms(P: Ints, F: Array, W: Array, x: Array, y: Array, sign: float) -> float:
-    """Root mean square [1] of x + sign * y (nx,) on the scale of the tolerance at X0."""
-    nx, x0, total = P[STATES], row(P, W, X0), 0.0
-    for i in range(nx):
-        scale = F[ATOL] + abs(x0[i]) * F[RTOL]
-        total += ((x[i] + sign * y[i]) / scale) ** 2
-    return math.sqrt(total) / math.sqrt(nx)
-
-
-@inner
-def initial_step(P: Ints, F: Array, K: Array, W: Array, t: float, t_end: float) -> float:
-    """The first step to try [s] from (t, X0) with the slope DX0 (nx,): Hairer's rule, II.4."""
-    length, x, dx = t_end - t, row(P, W, X0), row(P, W, DX0)
-    stage, k2 = row(P, W, STAGE), row(P, W, K2)
-    d0, d1 = rms(P, F, W, x, x, 0.0), rms(P, F, W, dx, dx, 0.0)
-    h0 = 1e-6 if d0 < 1e-5 or d1 < 1e-5 else 0.01 * d0 / d1
-    h0 = min(h0, length)
-    for i in range(P[STATES]):
-        stage[i] = x[i] + h0 * dx[i]
-    flow(P, F, K, W, t + h0, stage, k2)
-    d2 = rms(P, F, W, k2, dx, -1.0) / h0
-    at_rest = d1 <= 1e-15 and d2 <= 1e-15
-    h1 = max(1e-6, h0 * 1e-3) if at_rest else (0.01 / max(d1, d2)) ** 0.125
-    return min(min(100.0 * h0, h1), min(length, F[MAX_STEP]))

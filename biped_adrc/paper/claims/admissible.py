@@ -79,15 +79,18 @@ class Member:
             impacts=impacts,
             solve_theta=self.theta == "solved",
             reset="measured" if self.start == "zero" and controller == "ADRC" else "model",
-            method=method(controller),
+            method="rk4",
             h=h,
             engine=COMPILED,
         )
 
 
-def method(controller: str) -> str:
-    """The integration method of a controller's walks: ADRC's observer is stiff, and its feedback is linear."""
-    return "feedback" if controller == "ADRC" else "rk4"
+def step_of(controller: str, what: str) -> float:
+    """The step [s] that is declared for something; under ADRC never longer than that of its pushed step, since
+    the observer is stiff.
+    """
+    steps = declared()["steps"]
+    return float(min(steps[what], steps["ADRC"]) if controller == "ADRC" else steps[what])
 
 
 def members() -> tuple[Member, ...]:

@@ -26,7 +26,7 @@ from biped_adrc.engine.run import COMPILED
 from biped_adrc.errors import BipedError
 from biped_adrc.gait.recipe import impact_smoothness
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
-from biped_adrc.paper.claims.admissible import Member, declared, method
+from biped_adrc.paper.claims.admissible import Member, declared, step_of
 from biped_adrc.paper.claims.tally import AtTwoSteps
 from biped_adrc.paper.claims.walks import (
     MemberOutcome,
@@ -85,7 +85,7 @@ def _cycle(preset: str, gait: str, controller: str, theta: str) -> GaitCycle:
     """
     h = declared()["steps"]["plain"]
     run = Scenario(controller, preset=preset, gait=gait, solve_theta=theta == "solved")
-    run = replace(run, method=method(controller), engine=COMPILED)
+    run = replace(run, engine=COMPILED)
     biped, of = nominal(preset, gait)
 
     def at(step: float) -> tuple[float, float]:
@@ -193,9 +193,8 @@ def _pair(name: str, runs: dict[str, Scenario]) -> Pair:
     peak, delay = {}, {}
     made: dict[str, bool] = {}
     same = True
-    h = declared()["steps"]["plain"]
     for c, run in runs.items():
-        ready = prepared(run)
+        ready, h = prepared(run), step_of(c, "plain")
         walks = [ready.simulate(step, run.impacts) for step in (h, 0.5 * h)]
         found = [tracks(ready, walk) for walk in walks]
         # NumPy's, since max passes over the NaN of a step that never ends
@@ -208,8 +207,8 @@ def _pair(name: str, runs: dict[str, Scenario]) -> Pair:
 
 
 def _both(run: Scenario) -> dict[str, Scenario]:
-    """The run under NPD and under ADRC, each with its method, on the compiled engine."""
-    return {c: replace(run, controller=c, method=method(c), engine=COMPILED) for c in CONTROLLERS}
+    """The run under NPD and under ADRC, on the compiled engine."""
+    return {c: replace(run, controller=c, method="rk4", engine=COMPILED) for c in CONTROLLERS}
 
 
 def unmatched(preset: str) -> tuple[Pair, ...]:
@@ -270,14 +269,17 @@ def basin(preset: str) -> tuple[Start, ...]:
     The least speed comes from the zero dynamics in closed form; the walks show whether it is the boundary. It
     matters for the paper's promise of global stability: no controller of the joints helps a start below it.
     """
-    k, h = declared()["basin"], declared()["steps"]["plain"]
+    k = declared()["basin"]
     runs = _both(Scenario(preset=preset))
     least = least_speed(runs["NPD"])
     found = []
     for factor in k["factors"]:
         made, half = (
-            {c: _strikes(run, factor * least, step, k["impacts"]) for c, run in runs.items()}
-            for step in (h, 0.5 * h)
+            {
+                c: _strikes(run, factor * least, share * step_of(c, "plain"), k["impacts"])
+                for c, run in runs.items()
+            }
+            for share in (1.0, 0.5)
         )
         name = f"{preset}, {factor * least:.3f} of the gait's speed after impact"
         found.append(Start(name, least, factor, made, k["impacts"], made == half))

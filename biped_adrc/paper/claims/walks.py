@@ -27,7 +27,7 @@ from biped_adrc.engine.run import simulate_by
 from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.biped import Biped
-from biped_adrc.paper.claims.admissible import Member, declared
+from biped_adrc.paper.claims.admissible import Member, declared, step_of
 from biped_adrc.paper.claims.tally import AtTwoSteps
 from biped_adrc.paper.pair import CONTROLLERS
 from biped_adrc.scenario.build import RobotAndGait, build
@@ -208,7 +208,6 @@ def walked(run: Scenario, start: str = "model") -> MemberWalk:
     The pushed step with run.h and half of it, since its error is a spike of milliseconds; then all impacts with
     the longer step declared for what comes later, of which only ending and legality are kept.
     """
-    steps = declared()["steps"]
     made = prepared(run, start == "zero")
     assert run.h is not None
     onset = min(push.start for push in run.pushes)
@@ -217,7 +216,9 @@ def walked(run: Scenario, start: str = "model") -> MemberWalk:
     pushed = [tracks(made, made.simulate(share * run.h, 1))[0] for share in (1.0, 0.5)]
     usual = [_undisturbed(*of, share * run.h) for share in (1.0, 0.5)]
     both = list(zip(pushed, usual, strict=True))
-    first, second = (_ending(made, share * steps["later"]) for share in (1.0, 0.5))
+    first, second = (
+        _ending(made, share * step_of(run.controller, "later")) for share in (1.0, 0.5)
+    )
     return MemberWalk(
         *first[:2],
         run.impacts,

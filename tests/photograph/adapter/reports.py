@@ -30,7 +30,6 @@ STORED: dict[str, Plain] = {
         "order": 2,
         "mass": {"torso": 1.1},
     },
-    "ADRC with feedback": {"method": "feedback", "h": 1e-3, "pushes": ["q5=10@1:0.1-0.2:sine=7"]},
     "NPD": {"controller": "NPD", "pushes": [PUSH, "q5=-5@1:0.2-"]},
     "NPD sampled": {"controller": "NPD", "period": 2e-3, "gait": "v0.8", "preset": "tac2003"},
     "NPD as printed": {"controller": "NPD", "solve_theta": False, "method": "adaptive"},

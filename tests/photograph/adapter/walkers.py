@@ -269,7 +269,7 @@ def method(m: Plain | None) -> Any:
     if m["kind"] == "rk4":
         return ba.RK4(m["h"])
     if m["kind"] in ("exponential", "feedback"):
-        return ba.Exponential(m["h"], feedback=m["kind"] == "feedback")
+        return ba.Exponential(m["h"])
     made = ba.Adaptive if m["kind"] == "adaptive" else ba.Stiff
     return made(m["tolerance"], m["tolerance"])
 
