@@ -23,7 +23,7 @@ from scipy.interpolate import CubicHermiteSpline
 
 import biped_adrc as ba
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.kernels.run import ArcRun, arc
+from biped_adrc.engine.kernels.run import ArcNodes, arc
 from biped_adrc.errors import ModelError
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
@@ -63,10 +63,9 @@ def own(
     """The engine on one single support, as it is timed and with its states at the times, which steps divide."""
     compiled = CompiledWalker.of(walker, method, len(x) - 2 * walker.plant.n)
     every = round(float(times[1] - times[0]) / method.h)
-    start = compiled.plan.start(x, 0.0, 1, 0.0, float(times[-1]))
 
-    def run() -> ArcRun:
-        return arc(compiled.plan, compiled.K, start, every)
+    def run() -> ArcNodes:
+        return arc(compiled.plan.start(x, 0.0, 1, 0.0, float(times[-1])), every)
 
     def interpolated() -> Array:
         found = run()

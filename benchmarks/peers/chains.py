@@ -18,7 +18,6 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.engine.compiled_biped import CompiledBiped
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.errors import ModelError
 from biped_adrc.ground import StepDown
@@ -116,9 +115,9 @@ class CompiledChain(Chain):
         plan, none, n = compiled.plan, np.zeros((0, 1 + 4 * self.biped.n)), self.biped.n
 
         def simulate(q: Array, v: Array, duration: float) -> Array:
-            s = plan.start(np.concatenate((q, v)), 0.0, 1, 0.0, duration)
-            kernels().stride(plan.P, plan.F, compiled.K, plan.work(), s, 0, none)
-            return s[layout.HEAD : layout.HEAD + n].copy()
+            run = plan.start(np.concatenate((q, v)), 0.0, 1, 0.0, duration)
+            kernels().stride(run.cells, 0, none)
+            return run.x[:n].copy()
 
         return simulate
 

@@ -35,7 +35,7 @@ from biped_adrc.control.npd import NPDController
 from biped_adrc.errors import InputError, check_positive
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
-from biped_adrc.hybrid.watch import event_time_error
+from biped_adrc.hybrid.constants import XRTOL, XTOL
 from biped_adrc.model.biped import Biped
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array, ComplexArray
@@ -272,7 +272,7 @@ def noise_of_differences(P: ReturnMap, step: StepDerivative) -> Array:
     """
     values, left, right = eig(step.jacobian, left=True, right=True)
     y, size = left.conj().T, np.abs(right)
-    late = 3.0 * event_time_error(step.duration) / P.difference * np.sum(size, axis=0)
+    late = 3.0 * (XTOL + XRTOL * step.duration) / P.difference * np.sum(size, axis=0)
     late += step.flow_residual * np.abs(step.earlier) @ size
     noise: Array = np.abs(y @ step.end_flow) * late / np.abs(np.sum(left.conj() * right, axis=0))
     return noise[np.argsort(-np.abs(values))]

@@ -41,9 +41,9 @@ from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.hybrid import simulator
-from biped_adrc.hybrid.simulator import Record, RunOptions
+from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.system import FoundEvent, Mover
-from biped_adrc.hybrid.trajectory import Event, Trajectory
+from biped_adrc.hybrid.trajectory import Event, Record, Trajectory
 from biped_adrc.parts import handing_out, numbers
 from biped_adrc.timing import SampledTime, check_ends
 from biped_adrc.types import Array, Indices, frozen

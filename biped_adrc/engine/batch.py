@@ -22,7 +22,6 @@ import numpy as np
 
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.engine.program import NotCompiled
@@ -233,16 +232,16 @@ def _strides(
     at the latest.
     """
     plan, nx = compiled.plan, len(x)
-    s = plan.start(x, mode.start, mode.step, mode.start, t_end)
+    run = plan.start(x, mode.start, mode.step, mode.start, t_end)
     strikes = np.zeros((impacts, 1 + 2 * nx))
-    code, made = kernels().stride(plan.P, plan.F, compiled.K, plan.work(), s, impacts, strikes)
+    code, made = kernels().stride(run.cells, impacts, strikes)
     return BatchWalk(
         STATUS[code],
         "",
         strikes[:made, 0].copy(),
         strikes[:made, 1 : 1 + nx].copy(),
-        s[layout.HEAD :].copy(),
-        float(s[layout.TIME]),
+        run.x.copy(),
+        run["t"],
         COMPILED,
         mode.start,
     )

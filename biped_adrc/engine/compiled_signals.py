@@ -28,7 +28,7 @@ from biped_adrc.engine.equations import (
     count,
 )
 from biped_adrc.engine.ir import generated
-from biped_adrc.engine.kernels.layout import OUTSIDE
+from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.program import NotCompiled, Program, structure_of_walker
 from biped_adrc.engine.structure import structure

@@ -19,7 +19,7 @@ from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers, WalkerStructure
 from biped_adrc.engine.ir import generated
-from biped_adrc.engine.kernels.layout import OUTSIDE
+from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.mechanics import robot_of
 from biped_adrc.engine.program import NotCompiled, structure_of_walker

@@ -1,7 +1,7 @@
 """A walker, a one-step method and a disturbance, made ready for the compiled loops.
 
 Three things come together here: the program of the walker (`engine.program`: flow, tick, strike,
-..), the matrices of the method (`engine.kernels.methods`), and the terms of the
+..), the matrices of the method (`hybrid.exponential`), and the terms of the
 disturbance, which are compiled by themselves so that another disturbance does not recompile the
 walker. The result is a `RunPlan`, which the kernels take.
 
@@ -16,11 +16,9 @@ on the compiled plant.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from operator import methodcaller
-from typing import TypeGuard, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
@@ -30,12 +28,11 @@ from biped_adrc.control.passive import Passive
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.equations import SymbolicFunction, count
 from biped_adrc.engine.ir import in_memory, module_text
-from biped_adrc.engine.kernels import methods
 from biped_adrc.engine.kernels.run_plan import (
     ClockTable,
     DisturbanceTable,
+    Functions,
     GroundTable,
-    LawAddresses,
     MethodTable,
     RunPlan,
     StateSizes,
@@ -46,10 +43,11 @@ from biped_adrc.engine.program import NotCompiled, Program
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import Untraceable, Vector, column, floats
 from biped_adrc.engine.tracer import Tracer, run
-from biped_adrc.hybrid.exponential import Exponential, no_coordinates
+from biped_adrc.gait.reference import Reference
+from biped_adrc.hybrid import constants
+from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
 from biped_adrc.timing import LONGEST_PERIOD, SampledTime
-from biped_adrc.types import Array
 
 T = TypeVar("T", bound=OneStepMethod)
 
@@ -65,22 +63,23 @@ class CompiledWalker:
     plan: RunPlan
     """Sizes, addresses and settings of the run, as vectors."""
 
-    @property
-    def K(self) -> Array:
-        """Parameters of the walker's functions (size,), in their own units."""
-        return self.program.K
-
     @classmethod
     def of(
-        cls, walker: Walker, method: OneStepMethod, size: int, t_first: float = 0.0
+        cls,
+        walker: Walker,
+        method: OneStepMethod,
+        size: int,
+        t_first: float = 0.0,
+        reference: Reference | None = None,
     ) -> CompiledWalker:
         """For a controller with `size` states and a run that begins at t_first [s].
 
+        reference: for functions that read signals (`compiled_signals`); its numbers stand behind the walker's.
         Compiles the walker's functions where they are not in memory or on disk, and makes the plan.
         Raises NotCompiled where a part or the method cannot be compiled, InputError for a
         method without the coordinates that it needs.
         """
-        split, made = _method(walker, method)
+        split, table = _method(walker, method)
         program = Program.of(walker, size, split)
         time = walker.timing
         clock = ClockTable()
@@ -88,7 +87,7 @@ class CompiledWalker:
             assert walker.held is not None
             part = walker.held.motors.fraction * time.period if walker.held.sizes.waiting else 0.0
             clock = ClockTable(time.period, int(time.restart), t_first, part)
-        return cls(walker, program, _plan(walker, program, split, clock, made))
+        return cls(walker, program, _plan(walker, program, split, clock, table, reference))
 
     @classmethod
     def held(cls, walker: Walker, method: OneStepMethod) -> CompiledWalker:
@@ -117,6 +116,7 @@ def _plan(
     split: ErrorForm | None,
     clock: ClockTable,
     method: MethodTable,
+    reference: Reference | None = None,
 ) -> RunPlan:
     """The plan of a run: addresses, sizes, ground, disturbance, clock and method in one record.
 
@@ -129,7 +129,7 @@ def _plan(
     flows = walker.held is None or relaxing  # the torque of the motors, then all does
     drops = np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2)
     return plan(
-        LawAddresses(*(program.address(name) for name in LawAddresses._fields)),
+        Functions(*(program.address(name) for name in Functions._fields)),
         StateSizes(
             n,
             nx,
@@ -137,22 +137,16 @@ def _plan(
             nx - stiff * p,
             stiff,
             nx if flows else 2 * n,
-            lag_at=0 if relaxing is None else nx + relaxing.at.start,
+            lags=0 if relaxing is None else nx + relaxing.at.start,
             lag_speed=0.0 if relaxing is None else relaxing.speed,
             fastest=walker.bounds.fastest,
         ),
+        np.array([*program.K[:-1], *floats(reference), 0.0]),
         GroundTable(LEAST_STEP, drops),
         _push(walker.disturbance, n),
         clock,
         method,
     )
-
-
-@lru_cache(maxsize=64)
-def _matrices(h: float, A: bytes) -> MethodTable:
-    """The table of the exponential method for a step h [s] and A (k, k) as bytes."""
-    k = math.isqrt(len(A) // 8)
-    return methods.etd(h, np.frombuffer(A).reshape(k, k))
 
 
 def _method(walker: Walker, method: OneStepMethod) -> tuple[ErrorForm | None, MethodTable]:
@@ -161,9 +155,9 @@ def _method(walker: Walker, method: OneStepMethod) -> tuple[ErrorForm | None, Me
     Raises NotCompiled for all but RK4 and Exponential, and for a class of the user's own that steps otherwise;
     InputError for coordinates that the walker does not have.
     """
-    if _steps_as(method, RK4):
-        return None, methods.rk4(method.h)
-    if not _steps_as(method, Exponential):
+    if isinstance(method, RK4):
+        return None, MethodTable(constants.RK4, method.h)
+    if not isinstance(method, Exponential):
         raise NotCompiled(
             f"method {type(method).__name__} has no compiled form, as RK4 and Exponential have; the run goes "
             "on in Python on the compiled plant"
@@ -171,13 +165,7 @@ def _method(walker: Walker, method: OneStepMethod) -> tuple[ErrorForm | None, Me
     split = walker.split_form()
     if split is None:
         raise no_coordinates()
-    return split, _matrices(method.h, split.A.tobytes())
-
-
-def _steps_as(method: OneStepMethod, kind: type[T]) -> TypeGuard[T]:
-    """Whether a method takes the steps of this class, and not its own in place of them."""
-    own = type(method)
-    return isinstance(method, kind) and (own.steps, own.split) == (kind.steps, kind.split)
+    return split, MethodTable(constants.ETD, method.h, phi_levels(method.h, split.A))
 
 
 def _push(disturbance: Disturbance | None, n: int) -> DisturbanceTable:

@@ -2,20 +2,20 @@
 
     flow      (t, step, t_start, x, zeta) -> x'               (10); in sampled time the torque is held
     tick      (t, step, t_start, x, zeta, outside) -> x, q''  sensors, controller, motors, meter
-    strike    (t, step, x) -> x+                              (7), (8), relabelling, controller's jump
-    watch     (t, t_start, drop, q) -> event functions, x of the swing foot
+    impact    (t, step, x) -> x+                              (7), (8), relabelling, controller's jump
+    events    (t, t_start, drop, q) -> event functions, x of the swing foot
     sample    (t, step, t_start, x, ..) -> x, xi^         as tick, of a plant that moves by itself
     to, back, remainder                                       coordinates of the exponential method
 
 `outside`, for the meter: force (2,) [N], impulse since the last sample instant (2,) [N s], drop of
 the ground [m]. zeta (n,) [N m] is an input, since disturbances are compiled by themselves
-(`engine.compiled_walker`) and may differ from run to run. flow, tick, strike and remainder add,
+(`engine.compiled_walker`) and may differ from run to run. flow, tick, impact and remainder add,
 after their result, the least pivot of the matrices that the controller inverts; flow, tick and
 remainder -1 in its place where a torque is beyond the walker's bound.
 
 `WalkerStructure` decides the code, `WalkerNumbers` are given at run time as the vector K.
 `engine.program` asks for these functions and compiles them; the loops in `engine.kernels` call them
-by address. The names tick and strike are those of the kernels' tables: a sample instant, an impact.
+by address. A tick is a sample instant.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from biped_adrc.closed_loop import exponential_form, noticing, semantics
 from biped_adrc.closed_loop.exponential_form import ErrorForm
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.control.base import Controller
-from biped_adrc.engine.kernels.layout import OUTSIDE
+from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.mechanics import PlanarRobot, RobotStructure
 from biped_adrc.engine.symbolic_loop import SymbolicInstant, SymbolicLoop, on_symbols
 from biped_adrc.engine.symbols import Scalar, Vector, column, floats
@@ -126,7 +126,7 @@ class Equations:
     def names(numbers: WalkerNumbers) -> list[str]:
         """Names of the functions that this walker has; each is a method of this class."""
         split = [] if numbers.split is None else ["to", "back", "remainder"]
-        return ["flow", "strike", "watch", *(["tick"] if numbers.held else []), *split]
+        return ["flow", "impact", "events", *(["tick"] if numbers.held else []), *split]
 
     def loop(self, trace: Tracer, zeta: Array = NONE, given: Array = NONE) -> SymbolicLoop:
         """The closed loop on symbols, with zeta (n,) [N m] and what the meter needs from outside (OUTSIDE,)."""
@@ -185,7 +185,7 @@ class Equations:
         xi = np.zeros(self.make.robot.p) if found is None else found
         return self.made(at.inp, x, xi, at.lost)
 
-    def strike(self) -> SymbolicFunction:
+    def impact(self) -> SymbolicFunction:
         """x+ (nx,) after impact, relabelling and the controller's jump; `step` is the single
         support that begins.
         """
@@ -194,7 +194,7 @@ class Equations:
         x = trace(semantics.struck)(self.loop(trace), t, x, Mode(step, t))
         return self.made(inp, x, trace.solver.least)
 
-    def watch(self) -> SymbolicFunction:
+    def events(self) -> SymbolicFunction:
         """The three event functions: clearance [m], hip margin [m], time left [s]; then x of the
         swing foot [m].
         """

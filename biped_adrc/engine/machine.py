@@ -107,7 +107,7 @@ def compiled(text: str, vectors: bool = False) -> bytes:
     """Object code of a module in LLVM's language, optimised for this processor at level 3.
 
     No fast-math flags: sums keep their order. vectors: look for operations that go together (SLP),
-    which helps `turn` and takes its time elsewhere.
+    which helps `matvec` and takes its time elsewhere.
     """
     from llvmlite import binding
 

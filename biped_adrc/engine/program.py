@@ -5,7 +5,7 @@ One compilation serves every robot, gain and gait of the same structure, which h
 memory, in milliseconds where they are on disk; only for a new structure is anything traced and
 compiled.
 
-Beside the functions of `engine.equations` stands `turn`, the product of the exponential method: M E
+Beside the functions of `engine.equations` stands `matvec`, the product of the exponential method: M E
 for a matrix M (k, k) in the place of K and E (k, p).
 """
 
@@ -78,7 +78,7 @@ class Program:
         need.
         """
         split = self.numbers.split
-        if name == "turn" and split is not None:
+        if name == "matvec" and split is not None:
             return product(len(split.A), self.make.robot.p).addresses[name]
         return self.machine.addresses.get(name, 0)
 
@@ -166,14 +166,14 @@ def structure_of_walker(make: WalkerStructure) -> Hashable:
 
 
 def product(k: int, p: int) -> LoadedCode:
-    """Machine code with the function `turn` for M (k, k) and E (k, p), as vector instructions.
+    """Machine code with the function `matvec` for M (k, k) and E (k, p), as vector instructions.
 
     The matrices of ETD-RK4 change with the length of a step, so M is an argument, in the place of
     K.
     """
 
-    def turn() -> SymbolicFunction:
+    def matvec() -> SymbolicFunction:
         M, E = Vector("M", k * k), Vector("E", k * p)
         return SymbolicFunction(M.symbol, E.symbol, column(M.take(k, k) @ E.take(k, p)))
 
-    return generated(("turn", k, p), {"turn": turn}, vectors=True)
+    return generated(("matvec", k, p), {"matvec": matvec}, vectors=True)

@@ -19,14 +19,14 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.engine.compiled_biped import CompiledBiped
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.controller_inputs import CompiledReference, compiled_references
-from biped_adrc.engine.kernels import layout
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.run import arc
-from biped_adrc.engine.kernels.run_plan import STATUS
+from biped_adrc.engine.kernels.run_plan import STATUS, CompiledRun
 from biped_adrc.engine.program import NotCompiled
 from biped_adrc.engine.run import COMPILED, COMPILED_PLANT
 from biped_adrc.engine.ticks import TERMINAL, run_ticks
 from biped_adrc.hybrid import simulator
+from biped_adrc.hybrid.constants import COMPLETED, STRUCK
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import FlownArc, RunOptions, run_arcs
 from biped_adrc.hybrid.status import Status
@@ -120,46 +120,35 @@ class _Arcs:
 
         Where that is too few the arc is made again with more, so it need not be right.
         """
-        F, every, longest = self.compiled.plan.F, self.options.store_every, 0.6
-        ticks = longest / F[layout.PERIOD] if F[layout.PERIOD] > 0.0 else 0.0
-        return 64 + min(100_000, int(longest / F[layout.H] / every + 2.0 * ticks))
+        plan, every, longest = self.compiled.plan, self.options.store_every, 0.6
+        period = plan.number("period")
+        ticks = longest / period if period > 0.0 else 0.0
+        return 64 + min(100_000, int(longest / plan.number("h") / every + 2.0 * ticks))
 
     def fly(self, t: float, x: Array, mode: Mode, fired: str | None) -> FlownArc:
         """One arc from x (nx,) at t [s], and the impact at its end; fired: the event before, None
         at the start.
         """
-        s = starting(self.compiled, x, t, mode, self.options.t_end, fired)
-        return flown(self.compiled, s, mode, self.options.store_every, self.room)
+        plan, end, every = self.compiled.plan, self.options.t_end, self.options.store_every
+        run = plan.start(x, t, mode.step, mode.start, end, fired is not None)
+        return flown(run, mode, every, self.room)
 
 
-def starting(
-    made: CompiledWalker, x: Array, t: float, mode: Mode, end: float, fired: str | None
-) -> Array:
-    """The run vector of an arc from x (nx,) at t [s] to `end` [s]; fired: the event before, None at
-    the start.
-    """
-    s = made.plan.start(x, t, mode.step, mode.start, end)
-    s[layout.FIRED] = -1.0 if fired is None else layout.FOOT_STRIKE
-    return s
-
-
-def flown(made: CompiledWalker, s: Array, mode: Mode, every: int, room: int) -> FlownArc:
-    """From the run vector s to its END or the first event, with the impact there.
+def flown(run: CompiledRun, mode: Mode, every: int, room: int) -> FlownArc:
+    """A run to its end or the first event, with the impact there.
 
     every: each so many-th step is kept. room: nodes to make room for at first.
     """
-    plan, K = made.plan, made.K
-    found = arc(plan, K, s, every, room)
-    s, code = found.s, found.code
-    t, x_minus, event, outcome = float(s[layout.TIME]), s[layout.HEAD :].copy(), None, None
-    if code == layout.STRUCK:
-        code = kernels().strike(plan.P, plan.F, K, plan.work(), s)
-        if code == layout.COMPLETED:
-            outcome = s[layout.HEAD :].copy(), Mode(mode.step + 1, t)
-            event = Event(FOOT_STRIKE, t, x_minus, outcome[0])
+    code, t, x, dx = arc(run, every, room)
+    x_minus, event, outcome = run.x.copy(), None, None
+    if code == STRUCK:
+        code = kernels().strike(run.cells)
+        if code == COMPLETED:
+            outcome = run.x.copy(), Mode(mode.step + 1, run["t"])
+            event = Event(FOOT_STRIKE, run["t"], x_minus, outcome[0])
     elif STATUS[code] in TERMINAL:
-        event = Event(TERMINAL[STATUS[code]], t, x_minus, None)
-    nodes = Arc(mode, found.t.copy(), found.x.copy(), found.dx.copy(), event)
+        event = Event(TERMINAL[STATUS[code]], run["t"], x_minus, None)
+    nodes = Arc(mode, t.copy(), x.copy(), dx.copy(), event)
     lost = STATUS[code] in simulator.FAILURES
     detail = f"after t = {nodes.t[-1]:.6g} s" if lost else ""
     return FlownArc(nodes, STATUS[code], detail, outcome)

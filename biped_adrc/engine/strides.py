@@ -18,8 +18,8 @@ from biped_adrc.closed_loop.stepping_plant import Advanced, Contact, PlantState,
 from biped_adrc.engine.compiled_push import PlantPush
 from biped_adrc.engine.compiled_tick import CompiledTick
 from biped_adrc.errors import NotFiniteError
-from biped_adrc.hybrid.simulator import Record
 from biped_adrc.hybrid.system import FoundEvent, HybridSystem, Mover
+from biped_adrc.hybrid.trajectory import Record
 from biped_adrc.types import Array, Indices
 
 

@@ -28,19 +28,19 @@ from biped_adrc.control.base import Measurement
 from biped_adrc.engine.compiled_biped import parts_of, pointer_call
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.controller_inputs import CompiledReference, ControllerInputs
-from biped_adrc.engine.kernels import layout
-from biped_adrc.engine.kernels.layout import COMPLETED, END
 from biped_adrc.engine.kernels.load import kernels
+from biped_adrc.engine.kernels.record import PLACES
 from biped_adrc.engine.kernels.run import arc
-from biped_adrc.engine.kernels.run_plan import STATUS
+from biped_adrc.engine.kernels.run_plan import STATUS, CompiledRun
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.hardware.sample_hold import HeldSizes
 from biped_adrc.hybrid import simulator
+from biped_adrc.hybrid.constants import COMPLETED, FULL, STRUCK
 from biped_adrc.hybrid.integrators import OneStepMethod
-from biped_adrc.hybrid.simulator import Record, RunOptions
+from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Clock, FoundEvent, HybridSystem, Mover
-from biped_adrc.hybrid.trajectory import Event, Trajectory
+from biped_adrc.hybrid.trajectory import Event, Record, Trajectory
 from biped_adrc.model.reduction import Reduction
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array, Indices, frozen
@@ -85,7 +85,7 @@ def ended(walker: Walker, code: int, t: float, x: Array, mode: Mode) -> FoundEve
     """
     if code == COMPLETED:
         return None
-    if code == layout.STRUCK:
+    if code == STRUCK:
         outcome = walker.struck(t, x, mode)
         return FoundEvent(Event(FOOT_STRIKE, t, x, outcome[0]), outcome)
     status = STATUS[code]
@@ -94,19 +94,6 @@ def ended(walker: Walker, code: int, t: float, x: Array, mode: Mode) -> FoundEve
             f"the plant's motion ends after t = {t:.6g} s: {status.name}"
         )
     return FoundEvent(Event(TERMINAL[status], t, x, None), None, status)
-
-
-def start(
-    plant: CompiledWalker, x: Array, t: float, mode: Mode, end: float, fired: str | None, every: int
-) -> Array:
-    """The run vector s of a held plant over one arc, from x (nx,) at t [s] to `end` [s] at the latest.
-
-    fired: the event that ended the arc before. every: which nodes are kept.
-    """
-    s = plant.plan.start(x, t, mode.step, mode.start, end)
-    s[layout.FIRED] = -1.0 if fired is None else layout.FOOT_STRIKE
-    s[layout.EVERY] = every
-    return s
 
 
 # -- with hardware ---------------------------------------------------------------------------------
@@ -148,27 +135,27 @@ class TicksWithHardware(HybridSystem):
 class HeldMotion:
     """Moves `TicksWithHardware` from one of its sample instants to the next, over one arc.
 
-    s: the kernels' run vector, made at the first call and carried on, so that an event function
-    keeps its value across a sample instant, where the plant's q does not jump.
+    run: the plant's, made at the first call and carried on, so that an event function keeps its value across a
+    sample instant, where the plant's q does not jump.
     """
 
     def __init__(self, system: TicksWithHardware, fired: str | None):
         self.system, self.fired = system, fired
-        self.s: Array | None = None
+        self.run: CompiledRun | None = None
 
     def __call__(
         self, t: float, x: Array, mode: Mode, until: float, record: Record
     ) -> tuple[float, Array, FoundEvent | None]:
         """From (t, x) to `until` [s] or the first event, as `hybrid.system.Mover`."""
-        plant, at = self.system.plant, self.system.flowing
-        if self.s is None:
-            self.s = start(plant, x[at], t, mode, until, self.fired, record.every)
-        self.s[layout.HEAD :], self.s[END] = x[at], until
-        found = arc(plant.plan, plant.K, self.s, record.every, room=16)
-        self.s = found.s
-        record.add(found.t.copy(), whole(x, at, found.x), whole(0.0 * x, at, found.dx))
-        t, x = float(self.s[layout.TIME]), whole(x, at, self.s[layout.HEAD :])
-        return t, x, ended(self.system.walker, found.code, t, x, mode)
+        plan, at, run = self.system.plant.plan, self.system.flowing, self.run
+        if run is None:
+            fired = self.fired is not None
+            run = self.run = plan.start(x[at], t, mode.step, mode.start, until, fired)
+        run.x[:], run["t_end"] = x[at], until
+        nodes = arc(run, record.every, room=16)
+        record.add(nodes.t.copy(), whole(x, at, nodes.x), whole(0.0 * x, at, nodes.dx))
+        t, x = run["t"], whole(x, at, run.x)
+        return t, x, ended(self.system.walker, nodes.code, t, x, mode)
 
 
 # -- without hardware ------------------------------------------------------------------------------
@@ -207,14 +194,14 @@ class TicksWithoutHardware(HybridSystem):
         """
         n, end = self.walker.plant.n, len(x) - self.walker.plant.p
         held = np.concatenate((x[: 2 * n], x[end:]))
-        s = start(self.plant, held, t, mode, until, fired, record.every)
-        seen, states, ends = TickInputs(self.plant, self.inputs, s), [x[2 * n : end]], [0]
+        run = self.plant.plan.start(held, t, mode.step, mode.start, until, fired is not None)
+        run["every"] = record.every
+        seen, states, ends = TickInputs(run, self.inputs), [x[2 * n : end]], [0]
         try:
             code = self.ticks(seen, t, mode, until, states, ends)
         finally:
             self.keep(seen.kept, states, ends, record)
-        x = s[layout.HEAD :]
-        t, x = float(s[layout.TIME]), np.concatenate((x[: 2 * n], states[-1], x[2 * n :]))
+        t, x = run["t"], np.concatenate((run.x[: 2 * n], states[-1], run.x[2 * n :]))
         return t, x, ended(self.walker, code, t, x, mode)
 
     def ticks(
@@ -236,8 +223,8 @@ class TicksWithoutHardware(HybridSystem):
         assert isinstance(time, SampledTime)
         origin, period, s = t if time.restart else self.t_first, time.period, states[0]
         body = walker.nominal.body_terms if law.needs_body else None
-        run, size = seen.s, len(s)
-        torque = run[layout.HEAD + 2 * walker.plant.n :]
+        run, size, t_end = seen.run, len(s), PLACES["t_end"]
+        torque, numbers = run.x[2 * walker.plant.n :], run.numbers
         count = max(0, math.floor((t - origin) / period))
         while origin + count * period < t:
             count += 1
@@ -265,10 +252,10 @@ class TicksWithoutHardware(HybridSystem):
                     torque[:] = u
                     s = predict(s, m, u)
                     states.append(s)
-                    ends.append(int(run[layout.COUNT]))
-            run[END] = t = due if due < until else until
+                    ends.append(int(run["count"]))
+            numbers[t_end] = t = due if due < until else until
             code = hold(at, following)
-            while code == layout.FULL:
+            while code == FULL:
                 seen.grow(2 * len(seen.rows))
                 code = hold(at, following)
             if code != COMPLETED or t >= until:
@@ -307,39 +294,32 @@ class TickInputs:
     """What the controller is given at one sample instant after the other, all arrays read-only.
 
     hold(at, following) moves the plant on, writes the next inputs at the address `following`, and
-    returns a code; `at` is the address of `given`, the list of addresses that the kernel reads.
+    returns a code; `at` is the address of the addresses that the kernel reads.
     """
 
-    def __init__(self, plant: CompiledWalker, inputs: ControllerInputs, s: Array):
-        """The plant's plan with work rows of its own, and the block of addresses that `hold` reads.
-
-        s: run vector of the arc; inputs: the compiled function behind it.
-        """
-        self.plan, self.K, self.work, self.s = plant.plan, plant.K, plant.plan.work(), s
-        self.inputs, self.n = inputs, inputs.robot.structure.n
+    def __init__(self, run: CompiledRun, inputs: ControllerInputs):
+        """run: of the plant; inputs: the compiled function behind it."""
+        self.run, self.inputs, self.n = run, inputs, inputs.robot.structure.n
         self.shapes = [(), (self.n,), (self.n,), *inputs.shapes]
         self.width = sum(map(math.prod, self.shapes))
         self.hold = _HOLD(kernels().ADDRESSES["hold"])
-        self.given = np.zeros(8, dtype=np.int64)
-        self.rows = np.empty((0, 1 + 2 * self.plan.nx))
+        addresses = run.address, inputs.address, inputs.K.ctypes.data
+        self.addresses = np.array(addresses, dtype=np.int64)
+        self.at = self.addresses.ctypes.data
+        self.rows = np.empty((0, 1 + 2 * run.nx))
         self.grow(ROOM)
-        self.at = self.given.ctypes.data
 
     def grow(self, rows: int) -> None:
-        """Make room for so many nodes; those that there are stay. Addresses change, so `given` is
-        written anew.
-        """
+        """Make room for so many nodes; those that there are stay."""
         more = np.empty((rows, self.rows.shape[1]))
         more[: len(self.rows)] = self.rows
-        self.rows, self.s[layout.ROOM] = more, rows
-        arrays = (self.plan.P, self.plan.F, self.K, self.work, self.s, self.rows)
-        addresses = [array.ctypes.data for array in arrays]
-        self.given[:] = *addresses, self.inputs.address, self.inputs.K.ctypes.data
+        self.rows = more
+        self.run.set_nodes(more)
 
     @property
     def kept(self) -> Array:
         """The nodes so far (N, 1 + 2 nx): t [s], x, x'."""
-        return self.rows[: int(self.s[layout.COUNT])]
+        return self.rows[: int(self.run["count"])]
 
     def __iter__(self) -> Iterator[TickInput]:
         """Inputs at one sample instant after the other, views into blocks of BLOCK rows.
@@ -348,8 +328,8 @@ class TickInputs:
         new block is made each time, since controllers may keep what they were given.
         """
         last = np.empty((1, self.width))
-        last[0, 0] = self.s[layout.TIME]
-        last[0, 1 : 1 + 2 * self.n] = self.s[layout.HEAD : layout.HEAD + 2 * self.n]
+        last[0, 0] = self.run["t"]
+        last[0, 1 : 1 + 2 * self.n] = self.run.x[: 2 * self.n]
         pointer_call(self.inputs.machine, "inputs", self.inputs.K, last, last[:, 1 + 2 * self.n :])
         while True:
             block = np.empty((BLOCK + 1, self.width))

@@ -1,44 +1,34 @@
 """Walkers as one WebAssembly module, and the numbers of each: what a page needs to walk them without a server.
 
-The functions are those of `engine.program` and `engine.compiled_signals`; in place of an address a plan has a
+The functions are those of `engine.program` and `engine.compiled_signals`; in place of an address a block has a
 function's number in `WebWalkers.functions`, from 1 on. Walkers of the same structure share their functions.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
-
-import numpy as np
 
 from biped_adrc.engine.compiled_signals import SignalNumbers, observe
 from biped_adrc.engine.compiled_walker import CompiledWalker, term_text
 from biped_adrc.engine.equations import Equations
 from biped_adrc.engine.ir import module_text
-from biped_adrc.engine.kernels import layout
-from biped_adrc.engine.kernels.call import Ints
-from biped_adrc.engine.kernels.run_plan import LawAddresses
-from biped_adrc.engine.symbols import floats
+from biped_adrc.engine.kernels.record import PART, PLACES
+from biped_adrc.engine.kernels.run_plan import Functions, RunPlan
 from biped_adrc.engine.webassembly import web_module
 from biped_adrc.errors import InputError
 from biped_adrc.gait.reference import Reference
-from biped_adrc.types import Array
 
 
 class WebWalker(NamedTuple):
     """The numbers of one walker."""
 
-    P: Ints
-    """Its plan, with numbers of functions in place of addresses."""
-    F: Array
-    """As `RunPlan` has it."""
-    K: Array
-    """Numbers of the walker, then those of the reference that errors refer to."""
+    plan: RunPlan
+    """With numbers of functions in place of addresses."""
     observe: int
     """Number of the function that says its signals (`closed_loop.instant_signals`)."""
-    width: int
-    """Numbers in a work row."""
 
 
 class WebWalkers(NamedTuple):
@@ -52,7 +42,7 @@ class WebWalkers(NamedTuple):
 
 
 def web_walkers(walkers: Sequence[CompiledWalker], reference: Reference) -> WebWalkers:
-    """One module for walkers on one gait, whose signals refer to the same reference.
+    """One module for walkers on one gait, made with the reference to which their signals refer.
 
     Raises InputError for the exponential method, whose product with matrices has another form.
     """
@@ -87,24 +77,25 @@ class _Laws(NamedTuple):
 
 def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker:
     """The numbers of one walker, whose functions join those of the others. Raises InputError."""
-    program, P = one.program, one.plan.P.copy()
+    program = one.program
     if program.numbers.split is not None:
         raise InputError("an offline page takes the steps of RK4; leave out the exponential method")
-    watched = SignalNumbers(program.numbers, reference)
+    signals = SignalNumbers(program.numbers, reference)
 
     def text() -> str:
         equations = Equations.of(program.make, program.numbers)
         made = {name: getattr(equations, name)() for name in Equations.names(program.numbers)}
-        return module_text(made | {"observe": observe(program.make, watched)})
+        return module_text(made | {"observe": observe(program.make, signals)})
 
     own = laws.of(program.address("flow"), text)
-    for place, name in enumerate(LawAddresses._fields):
-        P[place] = laws.number(f"{own}.{name}") if P[place] else 0
-    parts = P[P[layout.PARTS_AT] :].reshape(-1, layout.PART_SIZE)
+    cells = one.plan.cells.copy()
+    for name in Functions._fields:
+        at = PLACES[name]
+        cells[at] = laws.number(f"{own}.{name}") if cells[at] else 0
     terms = one.walker.disturbance.terms if one.walker.disturbance else ()
-    for part, term in zip(parts, terms, strict=True):
+    for k, term in enumerate(terms):
+        part = cells[one.plan.places["parts"] + PART * k :][:PART]
         push = laws.of(int(part[0]), partial(term_text, term, one.walker.plant.n))
         part[0] = laws.number(f"{push}.torque")
         part[2] = laws.number(f"{push}.resultant") if part[2] else 0
-    K = np.array([*floats(watched), 0.0])
-    return WebWalker(P, one.plan.F, K, laws.number(f"{own}.observe"), one.plan.width)
+    return WebWalker(replace(one.plan, cells=cells), laws.number(f"{own}.observe"))

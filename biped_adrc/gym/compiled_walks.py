@@ -9,12 +9,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from biped_adrc.engine.compiled_signals import SignalNumbers, reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.equations import WalkerNumbers
 from biped_adrc.engine.kernels.load import kernels
+from biped_adrc.engine.kernels.run_plan import CompiledRun
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.symbols import floats
 from biped_adrc.gait.reference import Reference
@@ -32,18 +32,13 @@ class LoadedWalk(NamedTuple):
     walker: CompiledWalker
     code: LoadedCode
     """Of the function LAW."""
-    P: NDArray[np.int64]
-    F: Array
-    K: Array
-    """Numbers of the walker, then those of the reference."""
-    W: Array
-    s: Array
+    run: CompiledRun
 
     @property
-    def given(self) -> list[int]:
-        """What the kernel `samples` is given of it."""
-        at = [x.ctypes.data for x in (self.P, self.F, self.K, self.W, self.s)]
-        return [*at, place_of_torque(self.walker.program.numbers), self.code.addresses[LAW]]
+    def addresses(self) -> list[int]:
+        """What the kernel `samples` reads of it."""
+        torque = self.run.place("K") + place_of_torque(self.walker.program.numbers)
+        return [self.run.address, self.run.address + 8 * torque, self.code.addresses[LAW]]
 
 
 def place_of_torque(numbers: WalkerNumbers) -> int:
@@ -61,7 +56,7 @@ class CompiledWalks:
         self.laws = dict[int, LoadedCode]()
         """By the address of the walk's own code, with which they change."""
         self.made: list[LoadedWalk | None] = [None] * count
-        self.given = np.zeros((count, kernels().GIVEN), dtype=np.int64)
+        self.addresses = np.zeros((count, kernels().WALK), dtype=np.int64)
         self.codes = np.ones(count, dtype=np.int64)
         self.seen = np.zeros((count, 0))
 
@@ -69,27 +64,26 @@ class CompiledWalks:
         """Walk i anew; row i of `seen` is what is to be seen at its start."""
         made = self._made(episode)
         self.made[i] = made
-        self.given[i] = made.given
-        width = made.W.shape[1]
+        self.addresses[i] = made.addresses
+        width = made.run.width
         if self.seen.shape[1] < width:
             self.seen = np.hstack(
                 (self.seen, np.zeros((len(self.seen), width - self.seen.shape[1])))
             )
-        kernels().looks(self.given[i], self.seen[i : i + 1])
+        kernels().looks(self.addresses[i], self.seen[i : i + 1])
         self.codes[i] = 0
 
     def move(self, torques: Array) -> None:
         """Every walk whose code is 0 by one sample, under its row of torques (N, p) [N m]."""
-        kernels().samples(self.given.ravel(), torques, self.seen, self.codes)
+        kernels().samples(self.addresses.ravel(), torques, self.seen, self.codes)
 
     def _made(self, episode: Episode) -> LoadedWalk:
         walker = episode.walker
         x = walker.initial_state(episode.q, episode.v, episode.mode)
-        made = CompiledWalker.of(walker, episode.method, walker.controller_size(x))
+        size = walker.controller_size(x)
+        made = CompiledWalker.of(walker, episode.method, size, reference=self.reference)
         watched = SignalNumbers(made.program.numbers, self.reference)
         of = made.program.address("tick")
         if of not in self.laws:
             self.laws[of] = reading_code(LAW, learner_view, made.program.make, watched)
-        K = np.array([*floats(watched), 0.0])
-        s = made.plan.start(x, 0.0, *episode.mode, 0.0)
-        return LoadedWalk(made, self.laws[of], made.plan.P, made.plan.F, K, made.plan.work(), s)
+        return LoadedWalk(made, self.laws[of], made.plan.start(x, 0.0, *episode.mode, 0.0))

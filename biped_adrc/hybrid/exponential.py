@@ -1,7 +1,7 @@
 """ETD-RK4, the exponential Runge-Kutta method, for a flow whose stiff part is linear.
 
-In the coordinates of `Split`, E' = A E + N_E(t, p, E) and p' = N_p(t, p, E). A is integrated exactly
-through the phi-functions; p sees the classical RK4 (Cox, Matthews, J. Comput. Phys. 176, 2002, eqs
+In the coordinates y = (w, E) of `system.Split`, E' = A E + N_E(t, w, E) and w' = N_w(t, w, E). A is integrated
+exactly through the phi-functions; w sees the classical RK4 (Cox, Matthews, J. Comput. Phys. 176, 2002, eqs
 (26)-(29)):
 
     a = e^(hA/2) E + h/2 phi1(hA/2) N(E)
@@ -9,33 +9,41 @@ through the phi-functions; p sees the classical RK4 (Cox, Matthews, J. Comput. P
     c = e^(hA/2) a + h/2 phi1(hA/2) (2 N(b) - N(E))
     E1 = e^(hA) E + h [(phi1 - 3 phi2 + 4 phi3) N(E) + 2 (phi2 - 2 phi3) (N(a) + N(b))
                        + (4 phi3 - phi2) N(c)]
+
+    phi_0 = e^z,   phi_(j+1)(z) = (phi_j(z) - 1/j!) / z
+
+`hybrid.march` takes the steps. A break or an event rarely falls on a multiple of h, so the matrices are made
+for h and its halvings: by their series for steps so short that |hA| < 1/2, and doubled from there,
+
+    phi_0(2z) = phi_0^2                    phi_1(2z) = (phi_0 phi_1 + phi_1) / 2
+    phi_2(2z) = (phi_0 phi_2 + phi_1 + phi_2) / 4
+    phi_3(2z) = (phi_0 phi_3 + phi_1 / 2 + phi_2 + phi_3) / 8
+
+by plain sums and not by BLAS, whose order of summation differs from machine to machine.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import expm
 
 from biped_adrc.errors import InputError, check_positive
-from biped_adrc.hybrid.integrators import Flow, Form, OneStepMethod, Step, step_ends
-from biped_adrc.hybrid.system import HybridSystem, Mode, Split
-from biped_adrc.types import Array
-
-Start = tuple[float, Array, Array, tuple[Array, Array]]
-"""t [s], p, E and the remainder at the start of a step of ETD-RK4."""
-
-
-_SAME_STEP = 1e-9
-"""Relative difference [1] below which two steps share their phi-functions."""
-
+from biped_adrc.hybrid.constants import MATRICES
+from biped_adrc.hybrid.integrators import OneStepMethod
+from biped_adrc.types import Array, frozen
 
 Phi = tuple[Array, Array, Array, Array]
 """phi_0 to phi_3, each (k, k)."""
+TERMS = 24
+"""Terms of the series; |z|^24 / 24! < 1e-30 for |z| < 1/2."""
+LEVELS, STABLE = 13, 0.1
+"""The shortest sub-step is h 2^-(levels - 1), with at least so many levels, and no longer than STABLE over the
+fastest pole: the classical step that ends a landing is stable there.
+"""
 
 
 class PhiTable(NamedTuple):
@@ -62,44 +70,12 @@ class PhiTable(NamedTuple):
         return cls(half[0], 0.5 * h * half[1], p0, first, middle, h * (4.0 * p3 - p2))
 
 
-def phi_functions(A: Array, h: float) -> Phi:
-    """e^(hA), phi1(hA), phi2(hA), phi3(hA), each (k, k), from one exponential of a (4k, 4k) matrix.
-
-        phi_0 = e^z,   phi_(j+1)(z) = (phi_j(z) - 1/j!) / z
-
-    The block matrix has the phi-functions in its first row, so no division by a small z is needed.
-    """
-    k = A.shape[0]
-    block = np.zeros((4 * k, 4 * k))
-    block[:k, :k] = h * A
-    for j in range(3):
-        block[j * k : (j + 1) * k, (j + 1) * k : (j + 2) * k] = np.eye(k)
-    top = expm(block)[:k]
-    return top[:, :k], top[:, k : 2 * k], top[:, 2 * k : 3 * k], top[:, 3 * k :]
-
-
-def phi_table(A: Array, h: float) -> PhiTable:
-    """The matrices of ETD-RK4 for A (k, k) [1/s] and a step h [s], from two matrix exponentials."""
-    return PhiTable.of(phi_functions(A, 0.5 * h), phi_functions(A, h), h)
-
-
-@lru_cache(maxsize=16)
-def _remembered(A: bytes, k: int, h: float) -> PhiTable:
-    """`phi_table` for the regular step of a method, kept for the last 16 (A, h); A as bytes."""
-    return phi_table(np.frombuffer(A).reshape(k, k), h)
-
-
-def no_coordinates() -> InputError:
-    """The error of the method for a system without a split."""
-    return InputError(
-        "the exponential method needs a controller in continuous time whose observer is linear "
-        "in its error and measures the true q_b; use RK4, Adaptive or Stiff instead"
-    )
-
-
 @dataclass(frozen=True)
 class Exponential(OneStepMethod):
-    """ETD-RK4 with fixed step h [s], in the coordinates of the system's `split`. Raises InputError for none."""
+    """ETD-RK4 with fixed step h [s], in the coordinates of the system's `split`; for continuous time.
+
+    Raises InputError, when a run begins, for a system without such coordinates.
+    """
 
     h: float = 5e-4
 
@@ -110,66 +86,69 @@ class Exponential(OneStepMethod):
     def label(self) -> str:
         return f"ETD-RK4, h = {self.h:g} s"
 
-    def split(self, system: HybridSystem, mode: Mode) -> Split | None:
-        return system.split(mode)
 
-    def steps(
-        self, f: Flow, split: Form | None, t: float, x: Array, t_end: float
-    ) -> Iterator[Step]:
-        """Steps from (t, x), x (nx,), to t_end [s] in the coordinates of `split`.
-
-        A step of another length than h, before a break, makes matrices of its own, and so does
-        every look inside a step. Raises InputError without such coordinates.
-        """
-        if not isinstance(split, Split):
-            raise no_coordinates()
-        A = np.ascontiguousarray(split.A)
-        table = _remembered(A.tobytes(), A.shape[0], self.h)
-        p, E = split.to(x)
-        N, _, dx = _node(split, t, p, E)
-        for t1 in step_ends(t, t_end, self.h):
-            h = t1 - t
-            if abs(h - self.h) > _SAME_STEP * self.h:
-                table = phi_table(A, h)
-            p1, E1 = etd_rk4(split, table, t, p, E, N, h)
-            N1, x1, dx1 = _node(split, t1, p1, E1)
-
-            def at(s: float, start: Start = (t, p, E, N)) -> Array:
-                h = s - start[0]
-                return split.back(*etd_rk4(split, phi_table(A, h), *start, h))
-
-            yield Step(t, t1, x, x1, dx, dx1, at)
-            t, x, dx, p, E, N = t1, x1, dx1, p1, E1, N1
+def no_coordinates() -> InputError:
+    """The error of the method for a system without a split."""
+    return InputError(
+        "the exponential method needs a controller in continuous time whose observer is linear "
+        "in its error and measures the true q_b; use RK4, Adaptive or Stiff instead"
+    )
 
 
-def _node(split: Split, t: float, p: Array, E: Array) -> tuple[tuple[Array, Array], Array, Array]:
-    """The remainder, x and x' (nx,) at (t, p, E); `back` is linear and maps slopes as it maps states."""
-    N = split.remainder(t, p, E)
-    return N, split.back(p, E), split.back(N[0], split.A @ E + N[1])
+def _times(A: Array, B: Array) -> Array:
+    """A B, both (k, k), by plain sums."""
+    product: Array = np.einsum("ij,jk->ik", A, B)
+    return product
 
 
-def etd_rk4(
-    split: Split,
-    table: PhiTable,
-    t: float,
-    p: Array,
-    E: Array,
-    N: tuple[Array, Array],
-    h: float,
-) -> tuple[Array, Array]:
-    """p and E (k, c) after one step of length h [s] from (p, E), with N = remainder(t, p, E) known already.
+def _series(Z: Array) -> Phi:
+    """phi_0 to phi_3 of a small Z (k, k), each by Horner's rule."""
+    one = np.eye(len(Z))
 
-    table: the matrices of that h. Three more evaluations of the remainder, as RK4 has.
+    def phi(j: int) -> Array:
+        total = one / math.factorial(TERMS + j)
+        for i in reversed(range(TERMS)):
+            total = one / math.factorial(i + j) + _times(Z, total)
+        return total
+
+    return phi(0), phi(1), phi(2), phi(3)
+
+
+def _doubled(phi: Phi) -> Phi:
+    """phi_0 to phi_3 of 2z from those of z, each (k, k)."""
+    p0, p1, p2, p3 = phi
+    return (
+        _times(p0, p0),
+        0.5 * (_times(p0, p1) + p1),
+        0.25 * (_times(p0, p2) + p1 + p2),
+        0.125 * (_times(p0, p3) + 0.5 * p1 + p2 + p3),
+    )
+
+
+def phi_levels(h: float, A: Array) -> Array:
+    """The matrices of `PhiTable` for steps h 2^-level [s], (levels, 6, k, k), for A (k, k) [1/s]; read-only.
+
+    Raises InputError for a matrix that is not square or not finite.
     """
-    Np, NE = N
-    half, phi, full, first, middle, last = table
-    half_E = half @ E
-    Ea = half_E + phi @ NE
-    Na, NEa = split.remainder(t + 0.5 * h, p + 0.5 * h * Np, Ea)
-    Eb = half_E + phi @ NEa
-    Nb, NEb = split.remainder(t + 0.5 * h, p + 0.5 * h * Na, Eb)
-    Ec = half @ Ea + phi @ (2.0 * NEb - NE)
-    Nc, NEc = split.remainder(t + h, p + h * Nb, Ec)
-    p1 = p + (h / 6.0) * (Np + 2.0 * (Na + Nb) + Nc)
-    E1 = full @ E + first @ NE + middle @ (NEa + NEb) + last @ NEc
-    return p1, E1
+    A = np.ascontiguousarray(A, dtype=float)
+    if A.ndim != 2 or A.shape[0] != A.shape[1] or not np.all(np.isfinite(A)):
+        raise InputError(f"A has shape {A.shape}, expected a square matrix of finite numbers")
+    return _phi_levels(h, A.tobytes())
+
+
+@lru_cache(maxsize=64)
+def _phi_levels(h: float, data: bytes) -> Array:
+    """As `phi_levels`, with A as bytes."""
+    k = math.isqrt(len(data) // 8)
+    A = np.frombuffer(data).reshape(k, k)
+    fastest = float(np.max(np.abs(np.linalg.eigvals(A)), initial=0.0))
+    levels = max(LEVELS, 1 + math.ceil(math.log2(max(fastest * h / STABLE, 1.0))))
+    size = float(np.max(np.sum(np.abs(A), axis=1), initial=0.0)) * h
+    short = max(0, math.ceil(math.log2(2.0 * size))) if size > 0.0 else 0
+    phi = _series(A * (h * 0.5 ** max(short, levels)))
+    table = np.zeros((levels, MATRICES, k, k))
+    for level in reversed(range(max(short, levels))):
+        half, phi = phi, _doubled(phi) if level < short else _series(A * (h * 0.5**level))
+        if level < levels:
+            table[level] = PhiTable.of(half, phi, h * 0.5**level)
+    return frozen(table)

@@ -1,11 +1,7 @@
-"""The simulation loop of a hybrid system in Python: step, locate the event, reset, sample, repeat.
+"""The loop: flow, event, reset, sample, repeat.
 
-Every arc starts with the clock updates that are due, flows to the next switching time or sample
-instant, and ends at the first event. Events are located by Brent's method on the step itself, taken
-again with a shorter length, so that x- has the accuracy of the method and not of an interpolant. At
-breaks the flow is asked for its limit from the left.
-
-`run_arcs` is shared: the Python engine flies an arc with `flow_arc`, the compiled one with a
+Every arc is one march from the last event to the next (`hybrid.march`), which starts with the clock updates
+that are due. `run_arcs` is shared: the Python engine flies an arc with `flow_arc`, the compiled one with a
 kernel (`engine.simulate`). Systems that move by themselves give a `Mover` in place of a flow.
 """
 
@@ -13,72 +9,26 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from biped_adrc.errors import InputError, NotFiniteError, RanAwayError, SingularError, check_count
-from biped_adrc.hybrid.integrators import Form, OneStepMethod, Step, StepFailed
+from biped_adrc.hybrid.constants import NOT_FINITE, STEP_FAILED
+from biped_adrc.hybrid.integrators import OneStepMethod, StepFailed
+from biped_adrc.hybrid.march import arm, travel
+from biped_adrc.hybrid.on_arrays import Calendar, Run
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.system import Clock, FoundEvent, HybridSystem, Mode, Outcome, Split
-from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
-from biped_adrc.hybrid.watch import Watch, interior
+from biped_adrc.hybrid.system import HybridSystem, Mode, Outcome
+from biped_adrc.hybrid.trajectory import Arc, Record, Trajectory
 from biped_adrc.parts import handing_out, sentence_of
 from biped_adrc.types import Array
 
 Progress = Callable[[float, int], None]
 """Called after every event with the time [s] and the number of events so far."""
-
-
-@dataclass
-class Record:
-    """Nodes of the arc being built: one by one, or many in rows.
-
-    every: each k-th step is kept; the lists t [s], x (nx,) or (K, nx), dx likewise, and `read` by
-    name grow with every call; skipped: steps since the last one kept.
-    """
-
-    every: int
-    t: list[float | Array] = field(default_factory=list)
-    x: list[Array] = field(default_factory=list)
-    dx: list[Array] = field(default_factory=list)
-    read: dict[str, list[Array]] = field(default_factory=dict)
-    skipped: int = 0
-
-    def add(self, t: float | Array, x: Array, dx: Array, **read: Array) -> None:
-        """One node t [s], x (nx,), dx (nx,), or K of them in K rows of each; and what was read there."""
-        self.t.append(t)
-        self.x.append(x)
-        self.dx.append(dx)
-        for name, rows in read.items():
-            self.read.setdefault(name, []).append(rows)
-        self.skipped = 0
-
-    def step(self, step: Step, last: bool) -> None:
-        """Store the end of a step, or skip it when only every k-th is kept; `last` is always kept.
-
-        Of a step longer than RESOLUTION interior points are stored too: dense output is a cubic,
-        and a long step of a high-order method is not.
-        """
-        self.skipped += 1
-        if last or self.skipped >= self.every:
-            for t in interior(step.t0, step.t1)[:-1]:
-                self.add(t, step.at(t), slope_of(step, t))
-            self.add(step.t1, step.x1, step.dx1)
-
-    def arc(self, mode: Mode, event: Event | None) -> Arc:
-        """All nodes as one arc that ran in `mode` and ended in `event`."""
-        read = {name: np.vstack(rows) for name, rows in self.read.items()}
-        return Arc(mode, np.hstack(self.t), np.vstack(self.x), np.vstack(self.dx), event, read)
-
-
-def slope_of(step: Step, t: float) -> Array:
-    """x'(t) (nx,) inside a step, t in [s], by central difference of the step's own states."""
-    d = 1e-4 * (step.t1 - step.t0)
-    return (step.at(t + d) - step.at(t - d)) / (2.0 * d)
 
 
 @dataclass(frozen=True)
@@ -233,24 +183,26 @@ def flow_arc(
     fired: str | None,
     began: float | None = None,
 ) -> FlownArc:
-    """One arc from (t, x) in Python: clock updates and moves until an event, t_end, or an error of
-    `FAILURES`.
+    """One arc from (t, x) in Python: to an event, t_end, or an error of `FAILURES`.
 
-    fired: the event that ended the arc before. began [s]: where the arc did, for what goes on from
-    the middle of one. An arc that fails before its first node keeps its start.
+    fired: the event that ended the arc before. began [s]: where the arc did, for what goes on from the middle
+    of one. An arc that fails before its first node keeps its start.
     """
-    record, t_arc, found = Record(options.store_every), t if began is None else began, None
-    status, detail = Status.COMPLETED, ""
+    record, found, status, detail = Record(options.store_every), None, Status.COMPLETED, ""
+    calendar = Calendar(system, mode, t if began is None else began, options.t0, options.t_end)
     move = system.mover(fired)
+    run = None
     if move is None:
         assert method is not None
-        watch = Watch(system.guards(mode), t, x, fired)
-        move = _Steps(system, method, method.split(system, mode), watch)
+        run = Run(calendar, method, record, t, x, fired)
+        arm(run)
     try:
-        while t < options.t_end and found is None:
-            x = _tick(system.clocks(), t, t_arc, options.t0, x, mode)
-            t_next = _next_break(system, mode, t, t_arc, options.t0, options.t_end)
-            t, x, found = move(t, x, mode, t_next, record)
+        if run is not None:
+            _check(travel(run), run.t)
+            found = run.event
+        while move is not None and t < options.t_end and found is None:
+            x = calendar.due(t, x)
+            t, x, found = move(t, x, mode, calendar.next_break(t), record)
     except tuple(FAILURES.values()) as error:
         status = next(s for s, kind in FAILURES.items() if isinstance(error, kind))
         detail = str(error)
@@ -266,89 +218,9 @@ def flow_arc(
     return FlownArc(record.arc(mode, found.event), found.status, "", found.outcome)
 
 
-@dataclass(frozen=True)
-class _Steps:
-    """Moves a system over one arc by the steps of a one-step method, and watches its event functions."""
-
-    system: HybridSystem
-    method: OneStepMethod
-    split: Form | None
-    watch: Watch
-
-    def __call__(
-        self, t: float, x: Array, mode: Mode, until: float, record: Record
-    ) -> tuple[float, Array, FoundEvent | None]:
-        """To `until` [s] or the first event, as `system.Mover`; nodes go into `record`."""
-        for step in self.steps(t, x, mode, until, record):
-            found = self.watch.first(step)
-            if found is not None:
-                te, xe = found.event.t, found.event.x_minus
-                record.add(te, xe, self.system.flow(math.nextafter(te, -math.inf), xe, mode))
-                return te, xe, found
-            record.step(step, last=step.t1 >= until)
-            t, x = step.t1, step.x1
-        return t, x, None
-
-    def steps(self, t: float, x: Array, mode: Mode, until: float, record: Record) -> Iterator[Step]:
-        """Steps from (t, x) to `until` [s]; the flow is asked for its limit from the left there.
-
-        Raises NotFiniteError after a step to a state that is not finite, RanAwayError after one to
-        a state beyond what the system can have.
-        """
-        just_before = math.nextafter(until, -math.inf)
-        split = _until(self.split, just_before) if isinstance(self.split, Split) else self.split
-        first = True
-
-        def f(s: float, y: Array) -> Array:
-            return self.system.flow(min(s, just_before), y, mode)
-
-        for step in self.method.steps(f, split, t, x, until):
-            if first:
-                record.add(step.t0, step.x0, step.dx0)
-                first = False
-            if not math.isfinite(step.x1.dot(step.x1)):
-                raise NotFiniteError(f"the state is not finite after t = {step.t0:.6g} s")
-            self.system.check_state(step.t1, step.x1)
-            yield step
-
-
-def _until(split: Split, last: float) -> Split:
-    """The split with no time after `last` [s] asked for, so that a step that ends at a break sees
-    its left limit.
-    """
-    return replace(split, remainder=lambda t, p, E: split.remainder(min(t, last), p, E))
-
-
-def _ticks(clock: Clock, t_arc: float, t_first: float) -> float:
-    """Time [s] of the first sample instant of a clock in this arc."""
-    return (t_arc if clock.restart else t_first) + clock.offset
-
-
-def _tick(
-    clocks: tuple[Clock, ...], t: float, t_arc: float, t_first: float, x: Array, mode: Mode
-) -> Array:
-    """x (nx,) after the updates of all clocks that are due at t [s], in the order of the system's clocks.
-
-    A clock is due where t equals start + k period exactly; breaks are computed by the same
-    expression.
-    """
-    for clock in clocks:
-        start = _ticks(clock, t_arc, t_first)
-        k = round((t - start) / clock.period)
-        if k >= 0 and t == start + k * clock.period:
-            x = clock.update(t, x, mode)
-    return x
-
-
-def _next_break(
-    system: HybridSystem, mode: Mode, t: float, t_arc: float, t_first: float, t_end: float
-) -> float:
-    """The first switching time or sample instant after t [s], at most t_end: no step goes across one."""
-    times = [s for s in system.switching_times(mode) if s > t]
-    for clock in system.clocks():
-        start = _ticks(clock, t_arc, t_first)
-        k = max(0, math.floor((t - start) / clock.period))
-        while start + k * clock.period <= t:
-            k += 1
-        times.append(start + k * clock.period)
-    return min([*times, t_end])
+def _check(code: int, t: float) -> None:
+    """Raise the error of `FAILURES` for a code of the march that ended at t [s]."""
+    if code == NOT_FINITE:
+        raise NotFiniteError(f"the state is not finite after t = {t:.6g} s")
+    if code == STEP_FAILED:
+        raise StepFailed(f"no step from t = {t:.6g} s on")

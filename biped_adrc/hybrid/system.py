@@ -15,7 +15,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from enum import Enum
 from typing import Any, NamedTuple
 
 from biped_adrc.hybrid.status import Status
@@ -44,28 +43,8 @@ Mover = Callable[[float, Array, Mode, float, Any], tuple[float, Array, FoundEven
 """move(t, x, mode, until, record) -> t, x, and the event that ended the arc there, if one did.
 
 Moves a system from t to `until` [s] or to its next event in whatever way it likes. Nodes go into
-`record`, a `simulator.Record`, as they are made, so that they are kept where it raises.
+`record`, a `trajectory.Record`, as they are made, so that they are kept where it raises.
 """
-
-
-class Direction(Enum):
-    """Which zero crossings of a witness count. A zero at the start never fires, a zero at the end does.
-
-    So an event that has just happened does not fire again, and one exactly at the end of a step is
-    not lost.
-    """
-
-    FALLING = -1
-    EITHER = 0
-    RISING = 1
-
-    def crossed(self, before: float, after: float) -> bool:
-        """Whether a witness that went from `before` to `after` crossed zero this way."""
-        falling = before > 0.0 >= after
-        rising = before < 0.0 <= after
-        if self is Direction.FALLING:
-            return falling
-        return rising if self is Direction.RISING else falling or rising
 
 
 @dataclass(frozen=True)
@@ -74,7 +53,6 @@ class Guard(Shown):
 
     - witness(t, x): real function whose zero is the event.
     - reset(t, x): (x+, mode+), or None to let the crossing pass as no event.
-    - direction: which crossings count; falling through zero by default.
     - terminal: with a status, the run ends at the crossing in place of a reset.
 
     A guard fires only after its witness has left zero.
@@ -83,7 +61,6 @@ class Guard(Shown):
     name: str
     witness: Callable[[float, Array], float]
     reset: Callable[[float, Array], tuple[Array, Mode] | None] | None = None
-    direction: Direction = Direction.FALLING
     terminal: Status | None = None
 
 

@@ -110,6 +110,34 @@ class Arc(Shown):
         return hermite(at[i], at[i + 1], x[i], x[i + 1], dx[i], dx[i + 1], t)
 
 
+@dataclass
+class Record:
+    """Nodes of the arc being built: one by one, or many in rows.
+
+    The lists t [s], x (nx,) or (K, nx), dx likewise, and `read` by name grow with every call.
+    """
+
+    every: int
+    """Each k-th step is kept."""
+    t: list[float | Array] = field(default_factory=list)
+    x: list[Array] = field(default_factory=list)
+    dx: list[Array] = field(default_factory=list)
+    read: dict[str, list[Array]] = field(default_factory=dict)
+
+    def add(self, t: float | Array, x: Array, dx: Array, **read: Array) -> None:
+        """One node t [s], x (nx,), dx (nx,), or K of them in K rows of each; and what was read there."""
+        self.t.append(t)
+        self.x.append(x)
+        self.dx.append(dx)
+        for name, rows in read.items():
+            self.read.setdefault(name, []).append(rows)
+
+    def arc(self, mode: Any, event: Event | None) -> Arc:
+        """All nodes as one arc that ran in `mode` and ended in `event`."""
+        read = {name: np.vstack(rows) for name, rows in self.read.items()}
+        return Arc(mode, np.hstack(self.t), np.vstack(self.x), np.vstack(self.dx), event, read)
+
+
 def hermite(t0: float, t1: float, x0: Array, x1: Array, dx0: Array, dx1: Array, t: float) -> Array:
     """Cubic through (t0, x0) and (t1, x1) with end slopes dx0, dx1, each (nx,), at t [s]; x1 when t1 = t0."""
     h = t1 - t0

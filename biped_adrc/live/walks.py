@@ -1,7 +1,7 @@
 """The walks of a page, compiled with a hand, in the numbers that viz/play/machine.js reads.
 
-The hand is two parts of the disturbance, a torque on the coordinates and a force on a link. Their numbers
-are in the vector F of the plan (`engine.kernels.run_plan`), which the page writes before each sample.
+The hand is two parts of the disturbance, a torque on the coordinates and a force on a link. The page writes
+their numbers into the block of the run (`engine.kernels.record`) before each sample.
 
 The closed form of a point of a link has numbers that are affine in the place on the link; those at (0, 0) and
 their slopes along x and z are given, for each link that is drawn.
@@ -23,13 +23,13 @@ from biped_adrc.disturbances.base import Sum
 from biped_adrc.disturbances.link import OnLink
 from biped_adrc.disturbances.step import TorqueStep
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.kernels import layout
+from biped_adrc.engine.kernels.record import PART, PLACES
 from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.engine.program import NotCompiled
-from biped_adrc.engine.simulate import starting
 from biped_adrc.engine.symbols import paths
 from biped_adrc.engine.web_walker import WebWalker, web_walkers
 from biped_adrc.errors import InputError
+from biped_adrc.hybrid.constants import STRUCK
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import link_point, point, turned
 from biped_adrc.robots.symmetry import twins
@@ -50,11 +50,6 @@ A force that is held for a period T acts T / 2 late, which takes k T / 2 from th
 """
 SAME = 1e-9
 """Largest distance [m] between two points that are taken for one."""
-PLACES = (
-    *("TIME", "STEP", "START", "END", "FIRED", "EVERY", "ARC", "HEAD", "ROWS"),
-    "FOOT_STRIKE",
-)
-"""Names of `engine.kernels.layout` that the script has."""
 
 
 @dataclass(frozen=True)
@@ -94,7 +89,8 @@ class PageWalk:
         x = walker.initial_state(*start(s, scene), Mode(s.first_step))
         size, method = walker.controller_size(x), method_of(s, walker)
         try:
-            made = CompiledWalker.of(with_hand(walker), method, size, 0.0)
+            reference = scene.walked.constraint
+            made = CompiledWalker.of(with_hand(walker), method, size, 0.0, reference)
         except NotCompiled as reason:
             raise InputError(
                 f"the walk '{name}' does not run in machine code as a whole: {reason}"
@@ -116,12 +112,12 @@ def with_hand(walker: Walker) -> Walker:
 def numbers(walks: Mapping[str, PageWalk]) -> dict[str, Any]:
     """What machine.js reads of the walks; vectors in base64. Raises InputError.
 
-    walks       by name: plan, parameters, start, and where the hand is in F
+    walks       by name: the block as it begins, its pointers, and where the hand is in it
     code        the module, with the names of the functions in the order of their numbers
     links       A; by name re, im (3, n) [m] at the link's (0, 0) and their slopes along x and z, and turn
     joints      what each drawn joint is: a coordinate, or -1, -2 for x and z of the trunk
     exchanged   whether the legs are drawn with exchanged names, in odd and even single supports; R
-    places, codes, status, signals: numbers of the kernels, by name
+    places, status, signals: numbers of the kernels, by name, and struck
     """
     first = next(iter(walks.values()))
     web = web_walkers([walk.made for walk in walks.values()], first.scene.walked.constraint)
@@ -140,8 +136,8 @@ def numbers(walks: Mapping[str, PageWalk]) -> dict[str, Any]:
         "exchanged": [exchanged(plant, step) for step in (1, 2)],
         "R": plant.R.tolist(),
         "spring": SPRING,
-        "places": {name: getattr(layout, name) for name in PLACES},
-        "struck": layout.STRUCK,
+        "places": PLACES,
+        "struck": STRUCK,
         "status": [(x.name.lower().replace("_", " "), x.value.split(";")[0]) for x in STATUS],
         "signals": signal_places(first),
     }
@@ -153,14 +149,14 @@ def packed(data: bytes | Array) -> str:
 
 
 def walk_numbers(walk: PageWalk, web: WebWalker) -> dict[str, Any]:
-    """Of one walk: vectors, sizes, clock, start, limits of ground and motors, places of the hand in F."""
+    """Of one walk: its block, clock, limits of ground and motors, places of the hand."""
     timing, s = cast(SampledTime, walk.walker.timing), walk.scenario
     known = limits(s).of(walk.walker.plant.description)
     return {
-        **{name: packed(getattr(web, name)) for name in ("P", "F", "K")},
+        "cells": packed(web.plan.start(walk.x, 0.0, *walk.mode, 0.0).block),
+        "pointers": web.plan.pointers.tolist(),
+        "nx": web.plan.nx,
         "observe": web.observe,
-        "width": web.width,
-        "s": packed(starting(walk.made, walk.x, 0.0, walk.mode, 0.0, None)),
         "period": timing.period,
         "restart": timing.restart,
         "slope": walk.walker.slope,
@@ -173,13 +169,13 @@ def walk_numbers(walk: PageWalk, web: WebWalker) -> dict[str, Any]:
 
 
 def hand_places(made: CompiledWalker) -> dict[str, Any]:
-    """Where in F torque (n,) and force (2,) of the hand are, and re, im and turn of its point begin."""
-    P, n, hand = made.plan.P, made.walker.plant.n, made.walker.disturbance
+    """Cells where torque (n,) and force (2,) of the hand are, and re, im and turn of its point begin."""
+    plan, n, hand = made.plan, made.walker.plant.n, made.walker.disturbance
     assert hand is not None
-    parts = P[P[layout.PARTS_AT] :].reshape(-1, layout.PART_SIZE)
 
     def places(term: int, name: str, size: int) -> list[int]:
-        first = int(parts[term, 1]) + list(paths(hand.terms[term])).index(f"{name}[0]")
+        at = plan.cells[plan.places["parts"] + PART * term + 1] // 8
+        first = int(at) + list(paths(hand.terms[term])).index(f"{name}[0]")
         return list(range(first, first + size))
 
     return {

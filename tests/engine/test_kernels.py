@@ -16,21 +16,21 @@ import numpy as np
 import pytest
 from numba import types
 
-from biped_adrc.engine.kernels import layout, methods
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.run_plan import (
     STATUS,
     ClockTable,
     DisturbanceTable,
+    Functions,
     GroundTable,
-    LawAddresses,
+    MethodTable,
     StateSizes,
     plan,
 )
 from biped_adrc.errors import InputError
-from biped_adrc.hybrid import integrators
+from biped_adrc.hybrid.constants import ETD, RK4
+from biped_adrc.hybrid.exponential import phi_levels
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.watch import ITERATIONS, RESOLUTION, T_RTOL, T_XTOL
 
 GRAVITY, ALPHA, A0, A1, ZERO_PIVOT_AT, NAN_AT, LOWEST_HIP, LONGEST = range(8)
 NUMBERS = np.array([9.81, 0.3, 400.0, 50.0, math.inf, math.inf, 0.5, 3.0])
@@ -55,7 +55,7 @@ def flow(K, inp, out):
         out[4] = 0.0 if q > K[4] else math.inf
 
 
-def strike(K, inp, out):
+def impact(K, inp, out):
     step, q, v = inp[1], inp[2], inp[3]
     out[0] = -q
     out[1] = v * math.cos(2.0 * q) + 1e-3 * step
@@ -63,7 +63,7 @@ def strike(K, inp, out):
     out[4] = math.inf
 
 
-def watch(K, inp, out):
+def events(K, inp, out):
     t, start, drop, q = inp[0], inp[1], inp[2], inp[3]
     out[0] = K[1] ** 2 - q**2 + drop
     out[1] = math.cos(q) - K[6]
@@ -91,7 +91,7 @@ def remainder(K, inp, out):
     out[3] = math.inf
 
 
-def turn(M, E, out):
+def matvec(M, E, out):
     for i in range(2):
         out[i] = M[2 * i] * E[0] + M[2 * i + 1] * E[1]
 
@@ -104,15 +104,23 @@ def pulse(K, inp, out):
 
 
 SIGNATURE = types.void(*(types.CPointer(types.float64),) * 3)
-LAWS = (flow, strike, watch, to, back, remainder, turn, pulse)
+FUNCTIONS = (flow, impact, events, to, back, remainder, matvec, pulse)
 
 
 @pytest.fixture(scope="module")
 def address():
-    """Of every law; the functions live as long as the module."""
-    compiled = {f.__name__: numba.cfunc(SIGNATURE, error_model="numpy")(f) for f in LAWS}
+    """Of every function; the functions live as long as the module."""
+    compiled = {f.__name__: numba.cfunc(SIGNATURE, error_model="numpy")(f) for f in FUNCTIONS}
     yield {name: made.address for name, made in compiled.items()}
     compiled.clear()
+
+
+def rk4(h):
+    return MethodTable(RK4, h)
+
+
+def etd(h, A):
+    return MethodTable(ETD, h, phi_levels(h, A))
 
 
 def linear(K):
@@ -127,7 +135,7 @@ class Case(NamedTuple):
     pulses: tuple = ((2, 0.05, 0.0913, -0.4), (0, 0.0317, 0.1088, 0.3))
 
     def plan(self, address, method):
-        code = LawAddresses(**{name: address.get(name, 0) for name in LawAddresses._fields})
+        code = Functions(**{name: address.get(name, 0) for name in Functions._fields})
         scene = GroundTable(1e-3, np.array(self.drops, dtype=float).reshape(-1, 2))
         pulses, push = self.pulses, DisturbanceTable()
         if pulses:
@@ -137,28 +145,28 @@ class Case(NamedTuple):
                 4 * np.arange(len(pulses) + 1),
                 np.array([(p[0], s) for p in pulses for s in p[1:3]], dtype=float),
             )
-        return plan(code, StateSizes(1, 4, 1, 2, 2), scene, push, ClockTable(), method)
+        return plan(code, StateSizes(1, 4, 1, 2, 2), self.K, scene, push, ClockTable(), method)
 
     def walk(self, address, method, t_end=FAR, impacts=0, x=START):
         """How it ended: status, time, x, and the strikes (k, 9) with t, x- and x+."""
         made, strikes = self.plan(address, method), np.zeros((20, 9))
-        s = made.start(x, 0.0, 1, 0.0, t_end)
-        code, count = kernels().stride(made.P, made.F, self.K, made.work(), s, impacts, strikes)
-        return STATUS[code], s[layout.TIME], s[layout.HEAD :].copy(), strikes[:count]
+        run = made.start(x, 0.0, 1, 0.0, t_end)
+        code, count = kernels().stride(run.cells, impacts, strikes)
+        return STATUS[code], run["t"], run.x.copy(), strikes[:count]
 
 
 def test_a_swing_foot_behind_is_no_strike(address):
     """The wheel rolls back over -alpha without an event and goes on to fall."""
     slow = np.array([-0.25, -0.6, 0.0, 0.0])
-    status, _, x, strikes = Case(pulses=(), drops=()).walk(address, methods.rk4(1e-3), x=slow)
+    status, _, x, strikes = Case(pulses=(), drops=()).walk(address, rk4(1e-3), x=slow)
     assert status is Status.FELL
     assert len(strikes) == 0
     assert x[0] < -0.9
 
 
 METHODS = {
-    "rk4": methods.rk4(1e-2),
-    "etd": methods.etd(1e-2, linear(NUMBERS)),
+    "rk4": rk4(1e-2),
+    "etd": etd(1e-2, linear(NUMBERS)),
 }
 
 
@@ -176,15 +184,15 @@ def test_there_and_back_inside_one_step(address, method):
 @pytest.mark.parametrize(
     ("K", "make", "steps"),
     [
-        (NUMBERS, lambda h: methods.rk4(h), (8e-3, 4e-3, 2e-3)),
-        (NUMBERS, lambda h: methods.etd(h, linear(NUMBERS)), (16e-3, 8e-3, 4e-3)),
+        (NUMBERS, rk4, (8e-3, 4e-3, 2e-3)),
+        (NUMBERS, lambda h: etd(h, linear(NUMBERS)), (16e-3, 8e-3, 4e-3)),
     ],
     ids=["rk4", "etd"],
 )
 def test_order_four_through_pulses_and_strikes(address, K, make, steps):
     """At a time that no step divides; switching times and strikes at odd times cost no order."""
     case = Case(K)
-    _, _, exact, struck = case.walk(address, methods.rk4(1e-4), t_end=1.3137)
+    _, _, exact, struck = case.walk(address, rk4(1e-4), t_end=1.3137)
     errors = []
     for h in steps:
         _, _, x, strikes = case.walk(address, make(h), t_end=1.3137)
@@ -196,10 +204,10 @@ def test_order_four_through_pulses_and_strikes(address, K, make, steps):
 
 def test_a_landing_of_a_stiff_system(address):
     """Poles at 300 and 2e4 rad/s, steps of 2 ms: any end is reached, against short steps of RK4."""
-    case, method = Case(STIFF, pulses=()), methods.etd(2e-3, linear(STIFF))
+    case, method = Case(STIFF, pulses=()), etd(2e-3, linear(STIFF))
     start = START.copy()
     for t_end in (2e-3, 2e-3 + 1e-7, 0.1, 0.1003, 0.1237911):
-        _, _, exact, _ = case.walk(address, methods.rk4(4e-6), t_end=t_end, x=start)
+        _, _, exact, _ = case.walk(address, rk4(4e-6), t_end=t_end, x=start)
         _, t, x, _ = case.walk(address, method, t_end=t_end, x=start)
         assert t == t_end
         np.testing.assert_allclose(x[:3], exact[:3], rtol=0, atol=1e-7)
@@ -233,15 +241,11 @@ def test_how_a_run_ends(address, status):
 
 
 # -- tables --------------------------------------------------------------------------------------
-def test_numbers_that_are_written_once_per_engine_are_equal():
-    assert (layout.RESOLUTION, layout.LANDING) == (RESOLUTION, integrators.LANDING)
-    assert (layout.XTOL, layout.XRTOL, layout.ITERATIONS) == (T_XTOL, T_RTOL, ITERATIONS)
-
-
 def fitted(tick, period, method):
     return plan(
-        LawAddresses(1, tick, 1, 1),
+        Functions(1, tick, 1, 1),
         StateSizes(1, 4, 1),
+        NUMBERS,
         GroundTable(1e-3, np.zeros((0, 2))),
         DisturbanceTable(),
         ClockTable(period, 1, 0.0),
@@ -252,12 +256,10 @@ def fitted(tick, period, method):
 @pytest.mark.parametrize(
     "make",
     [
-        lambda: methods.rk4(0.0),
-        lambda: methods.etd(2e-3, linear(STIFF), levels=2),
-        lambda: methods.etd(2e-3, np.zeros((1, 1))),
-        lambda: fitted(0, 1e-3, methods.rk4(1e-3)),
-        lambda: fitted(1, 1e-12, methods.rk4(1e-3)),
-        lambda: fitted(1, 0.0, methods.etd(1e-3, linear(NUMBERS))),
+        lambda: etd(2e-3, np.zeros((1, 2))),
+        lambda: fitted(0, 1e-3, rk4(1e-3)),
+        lambda: fitted(1, 1e-12, rk4(1e-3)),
+        lambda: fitted(1, 0.0, etd(1e-3, linear(NUMBERS))),
     ],
 )
 def test_what_does_not_fit_is_refused(make):

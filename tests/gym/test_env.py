@@ -8,7 +8,6 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 import biped_adrc as ba
-from biped_adrc.engine.kernels import layout
 from biped_adrc.errors import InputError
 from biped_adrc.gym.moved_walks import MovedWalks
 
@@ -34,7 +33,7 @@ def state(env):
     walks = env.unwrapped.stage.walks
     if isinstance(walks, MovedWalks):
         return walks.walks[0].now.x
-    return walks.made[0].s[layout.HEAD :]
+    return walks.made[0].run.x
 
 
 @pytest.mark.parametrize(

@@ -4,10 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from scipy.linalg import expm
 from scipy.special import ellipk
 
 import biped_adrc as ba
-from biped_adrc.hybrid.exponential import Exponential, phi_functions
+from biped_adrc.hybrid.exponential import Exponential, phi_levels
 from biped_adrc.hybrid.integrators import RK4, Adaptive, Stiff
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import Guard, HybridSystem, Relaxing, Split
@@ -119,16 +120,24 @@ def test_energy_of_a_free_swing(biped):
     assert stiff < 1e-5
 
 
-def test_phi_functions_against_their_series_and_recurrence():
-    random = np.random.default_rng(0)
-    A, h = random.normal(size=(4, 4)), 0.3
-    e, phi1, phi2, phi3 = phi_functions(A, h)
-    z, eye = h * A, np.eye(4)
-    powers = [np.linalg.matrix_power(z, k) for k in range(30)]
-    for j, found in enumerate((e, phi1, phi2, phi3)):
-        series = sum(power / math.factorial(k + j) for k, power in enumerate(powers))
-        assert np.allclose(found, series, atol=1e-13)
-    assert np.allclose(z @ phi2, phi1 - eye, atol=1e-13)
+@pytest.mark.parametrize("h", [0.3, 5.0])
+def test_the_matrices_of_each_length_against_matrix_exponentials(h):
+    """phi_0 to phi_3 are the first row of one exponential of a block matrix; the table combines them."""
+    A = np.random.default_rng(0).normal(size=(4, 4))
+    for level, table in enumerate(phi_levels(h, A)[:3]):
+        step = h * 0.5**level
+        half, (full, p1, p2, p3) = (phi_functions(c * step * A) for c in (0.5, 1.0))
+        weights = (p1 - 3 * p2 + 4 * p3, 2 * p2 - 4 * p3, 4 * p3 - p2)
+        expected = (half[0], 0.5 * step * half[1], full, *(step * w for w in weights))
+        for found, one in zip(table, expected, strict=True):
+            np.testing.assert_allclose(found, one, rtol=0, atol=1e-13 * np.max(np.abs(full)))
+
+
+def phi_functions(Z):
+    k = len(Z)
+    block = np.kron(np.eye(4, k=1), np.eye(k))
+    block[:k, :k] = Z
+    return np.hsplit(expm(block)[:k], 4)
 
 
 class StiffPlusSmooth(HybridSystem):

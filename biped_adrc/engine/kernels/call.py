@@ -1,8 +1,8 @@
 """Pointers, calls of C functions by their addresses at run time, and how the loops are compiled.
 
 The loops work on pointers, written and read as arrays are; a vector is a pointer to its first
-number. Generated functions are called by an address that is data of the run, so the loops are compiled
-once for all walkers.
+number. A run r is a pointer to its cells, and r.name the field of that name (`record`). Generated functions are
+called by an address that is data of the run, so the loops are compiled once for all walkers.
 
 There are three decorators. `inner` functions are compiled into each of their callers, those of `unit` once
 each and called by their symbol, which keeps the compile time down; those of `kernel` are what Python calls.
@@ -20,11 +20,13 @@ import numpy as np
 from llvmlite import binding, ir
 from numba import extending
 from numba.core.dispatcher import Dispatcher
+from numba.core.imputils import lower_getattr_generic, lower_setattr_generic
 from numba.core.types import Type
-from numba.core.typing.templates import Signature
+from numba.core.typing.templates import AttributeTemplate, Signature, infer_getattr
 from numpy.typing import NDArray
 
-Ints = NDArray[np.int64]
+from biped_adrc.engine.kernels.record import KINDS, PLACES
+
 Rows = NDArray[np.float64]
 _Function = TypeVar("_Function", bound=Callable[..., object])
 """A function that keeps its type through a decorator."""
@@ -48,8 +50,9 @@ ADDRESSES: dict[str, int] = {}
 """Of the units in memory, by name."""
 _NUMBERS = {"int": types.int64, "float": types.float64, "None": types.void}
 """numba's types by the annotations of numbers."""
-_POINTERS = {"Ints": types.CPointer(types.int64), "Array": types.CPointer(types.float64)}
-"""Of vectors, in units."""
+_CELLS = types.CPointer(types.int64)
+_POINTERS = {"Run": _CELLS, "Ints": _CELLS, "Array": types.CPointer(types.float64)}
+"""Of a run and of vectors, in units."""
 _ARRAYS = {"Ints": types.int64[::1], "Array": types.float64[::1], "Rows": types.float64[:, ::1]}
 """Of vectors and matrices, in kernels."""
 _KEEP: list[object] = []
@@ -185,3 +188,44 @@ floats_at = _pointer_at(types.float64, ir.DoubleType())
 """Pointer to the float64 at an address."""
 ints_at = _pointer_at(types.int64, ir.IntType(64))
 """Pointer to the int64 at an address."""
+
+
+# -- fields of a run -------------------------------------------------------------------------------
+class _Fields(AttributeTemplate):
+    """Types of r.name, for a run r."""
+
+    key = types.CPointer
+
+    def generic_resolve(self, run: Type, name: str) -> Type | None:
+        """numba's type of a field; None for a pointer to something else, or another name."""
+        return {**_NUMBERS, **_POINTERS}[KINDS[name]] if run == _CELLS and name in KINDS else None
+
+
+def _cell(builder: ir.IRBuilder, run: ir.Value, name: str) -> ir.Value:
+    """Pointer to the cell of a field, of the field's own kind."""
+    cell = builder.gep(run, [ir.Constant(ir.IntType(64), PLACES[name])])
+    return builder.bitcast(cell, ir.DoubleType().as_pointer()) if KINDS[name] == "float" else cell
+
+
+def _read(
+    context: Context, builder: ir.IRBuilder, kind: Type, run: ir.Value, name: str
+) -> ir.Value:
+    """r.name"""
+    value = builder.load(_cell(builder, run, name))
+    if KINDS[name] in ("int", "float"):
+        return value
+    number = ir.DoubleType() if KINDS[name] == "Array" else ir.IntType(64)
+    return builder.inttoptr(value, number.as_pointer())
+
+
+def _write(
+    context: Context, builder: ir.IRBuilder, signature: Signature, arguments: Any, name: str
+) -> None:
+    """r.name = value"""
+    builder.store(arguments[1], _cell(builder, arguments[0], name))
+
+
+_infer: Any = infer_getattr
+_infer(_Fields)
+lower_getattr_generic(types.CPointer)(_read)
+lower_setattr_generic(types.CPointer)(_write)

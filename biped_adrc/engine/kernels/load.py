@@ -18,12 +18,21 @@ from numba.core import config
 
 from biped_adrc.engine.machine import forget, load_source, note_checksums
 from biped_adrc.errors import ModelError
-from biped_adrc.hybrid import relaxation
 
-FILES = ("layout", "call", "laws", "steps", "events", "segment", "arc", "samples")
-"""The kernel files, in the order in which they need each other."""
-_OWN = ("biped_adrc.engine.kernels", "biped_adrc.hybrid.relaxation")
-"""Imports that are left out, since their text is there."""
+_HERE = "biped_adrc.engine.kernels"
+FILES = (
+    f"{_HERE}.record",
+    f"{_HERE}.call",
+    "biped_adrc.hybrid.constants",
+    f"{_HERE}.operations",
+    "biped_adrc.hybrid.relaxation",
+    "biped_adrc.hybrid.march",
+    f"{_HERE}.arc",
+    f"{_HERE}.samples",
+)
+"""Their modules, in the order in which they need each other."""
+_LEFT_OUT = (*FILES, "biped_adrc.hybrid.on_arrays")
+"""Imports that are left out: what is there, and the march's operations of Python."""
 
 
 _LOCK = Lock()
@@ -54,9 +63,9 @@ def _kernels() -> ModuleType:
 
 def source() -> str:
     """The text of all kernels, their imports of each other left out."""
-    folder = Path(__file__).parent
-    files = (Path(relaxation.__file__), *(folder / f"{name}.py" for name in FILES))
-    texts = [_alone(file.read_text(encoding="utf-8")) for file in files]
+    root = Path(__file__).parents[3]
+    paths = (root / f"{name.replace('.', '/')}.py" for name in FILES)
+    texts = [_alone(path.read_text(encoding="utf-8")) for path in paths]
     return "\n\n".join(['"""Compiled loops."""', "from __future__ import annotations", *texts])
 
 
@@ -65,7 +74,7 @@ def _alone(text: str) -> str:
     lines = text.splitlines()
     for statement in ast.parse(text).body:
         if isinstance(statement, ast.ImportFrom) and (
-            statement.module == "__future__" or str(statement.module).startswith(_OWN)
+            statement.module == "__future__" or statement.module in _LEFT_OUT
         ):
             for i in range(statement.lineno - 1, statement.end_lineno or statement.lineno):
                 lines[i] = ""

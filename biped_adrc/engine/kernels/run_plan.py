@@ -1,9 +1,9 @@
-"""The plan of a compiled run: what the kernels are given, and what the codes they return mean.
+"""The plan of a compiled run: its block of cells as it begins, checked, and what the codes that it ends with
+mean.
 
-`engine.compiled_walker` fills the records below (addresses, sizes, ground, disturbance, clock,
-method) with names; `plan` checks that they fit together and flattens them into the vectors of
-integers P and floats F, whose places `layout` names. A plan is read only and serves any number of
-runs, in any thread; what changes during a run is in the run vector s and in the work rows W.
+`engine.compiled_walker` fills the records below (addresses, sizes, ground, disturbance, clock, method) with
+names; `plan` checks that they fit together and lays them out as `record` says. A plan is read only and serves
+any number of runs, in any thread: each has a copy of the block.
 
 In all records t is the time [s], `step` the number of the single support, t_start [s] when that began, x (nx,)
 the state (q, q', and the states of the other parts), and zeta (n,) [N m] the disturbance. An arc is the flow
@@ -13,21 +13,25 @@ between two impacts, a tick a sample instant.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import accumulate
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from biped_adrc.engine.kernels import layout
+from biped_adrc.engine.kernels.record import (
+    FOOT_STRIKE,
+    KINDS,
+    OUTSIDE,
+    PART,
+    PLACES,
+    ROWS,
+    TABLES,
+    Ints,
+)
 from biped_adrc.errors import InputError
+from biped_adrc.hybrid.constants import ETD, MATRICES
 from biped_adrc.hybrid.status import Status
-from biped_adrc.types import Array
-
-Ints = NDArray[np.int64]
-T = TypeVar("T", np.int64, np.float64)
+from biped_adrc.types import Array, frozen
 
 STATUS = (
     Status.COMPLETED,
@@ -40,10 +44,10 @@ STATUS = (
     Status.EVENT_LIMIT,
     Status.RAN_AWAY,
 )
-"""The status for each code that a kernel returns; the codes `layout.STRUCK` and `layout.FULL` have none."""
+"""The status for each code of `hybrid.constants`; STRUCK and FULL have none."""
 
 
-class LawAddresses(NamedTuple):
+class Functions(NamedTuple):
     """Addresses of the walker's functions `void f(double* K, double* inp, double* out)`, 0 for none.
 
     K are the parameters, inp and out the values named below. pivot is the smallest |pivot| of the matrices that
@@ -59,9 +63,9 @@ class LawAddresses(NamedTuple):
     tick: int
     """(t, step, t_start, x, zeta, outside) -> (x after the tick, pivot, q''), in sampled time. outside (5,):
     force from outside (2) [N], its impulse since the last tick (2) [N s], drop of the ground [m]."""
-    strike: int
+    impact: int
     """(t, step, x) -> (x+, pivot); step is that of the new single support."""
-    watch: int
+    events: int
     """(t, t_start, drop, q) -> the event functions: clearance of the swing foot [m], height of the hip over its
     limit [m], time left for the step [s]; then x of the swing foot [m]. An event is where one falls to zero."""
     to: int = 0
@@ -69,9 +73,9 @@ class LawAddresses(NamedTuple):
     back: int = 0
     """y -> x."""
     remainder: int = 0
-    """(t, step, t_start, y, zeta) -> (N_w, N_E, pivot), of N_E row 1 alone (p,)."""
-    turn: int = 0
-    """E -> M E, with a matrix M (k, k) given in the argument K."""
+    """(t, step, t_start, y, zeta) -> (N_w, N_E, pivot), N_E (p,) in row 1 alone, the others being zero."""
+    matvec: int = 0
+    """E -> M E, with a matrix M (k, k) in the argument K."""
 
 
 class StateSizes(NamedTuple):
@@ -83,13 +87,13 @@ class StateSizes(NamedTuple):
     """Numbers in x."""
     p: int
     """Actuated joints."""
-    nw: int = 0
+    n_slow: int = 0
     """Numbers in w, read by the exponential method only."""
     k: int = 0
     """Rows of E (k, p); 0 without the exponential method."""
     moving: int = 0
     """How many states flow, the first in x; the rest is held between sample instants. 0 means all flow."""
-    lag_at: int = 0
+    lags: int = 0
     """Where in x the torques of lagging motors are, which go to the last p numbers; 0 without a lag."""
     lag_speed: float = 0.0
     """How fast they go there, 1 / tau [1/s]."""
@@ -137,92 +141,163 @@ class ClockTable(NamedTuple):
 
 
 class MethodTable(NamedTuple):
-    """A one-step method with its numbers; made by `methods`."""
+    """A one-step method with its numbers."""
 
     kind: int
-    """layout.RK4 or ETD."""
+    """RK4 or ETD."""
     h: float
     """Step [s]."""
-    phi: Array = np.zeros((0, layout.MATRICES, 0, 0))
-    """The six matrices of ETD-RK4, in the order of `PhiTable`, for h and its halvings (levels, 6, k, k)."""
+    phi: Array = np.zeros((0, MATRICES, 0, 0))
+    """The matrices of ETD-RK4 (levels, 6, k, k), by `hybrid.exponential.phi_levels`."""
 
 
 LEAST_PERIOD = 1e-9
 """Shortest sampling period [s]; with shorter ones ticks could not be counted exactly in floats."""
 
 
+class CompiledRun:
+    """One run in memory, by name: run["t"], run["x0"]. Runs at the same time must not share it."""
+
+    def __init__(self, cells: Ints, pointers: Ints, nx: int):
+        """cells: of the plan, copied; pointers: which of them point into the block, from its start."""
+        self.cells, self.pointers, self.nx = cells.copy(), pointers, nx
+        self.cells[pointers] += self.address
+        self.numbers = self.cells.view(np.float64)
+
+    @property
+    def address(self) -> int:
+        """Of the block."""
+        return int(self.cells.ctypes.data)
+
+    @property
+    def x(self) -> Array:
+        """State (nx,), as a view."""
+        at = self.place("x0")
+        return self.numbers[at : at + self.nx]
+
+    @property
+    def width(self) -> int:
+        """Numbers in a work vector."""
+        return self.place("dx0") - self.place("x0")
+
+    @property
+    def block(self) -> Ints:
+        """The cells, pointers as distances from its start [bytes] again."""
+        block = self.cells.copy()
+        block[self.pointers] -= self.address
+        return block
+
+    def place(self, name: str) -> int:
+        """Cell of the first number of a vector."""
+        return (int(self.cells[PLACES[name]]) - self.address) // 8
+
+    def __getitem__(self, name: str) -> float:
+        """A number."""
+        where = self.numbers if KINDS[name] == "float" else self.cells
+        return where[PLACES[name]].item()
+
+    def __setitem__(self, name: str, value: float) -> None:
+        """A number, or the address of a vector outside the block."""
+        where = self.numbers if KINDS[name] == "float" else self.cells
+        where[PLACES[name]] = value
+
+    def set_nodes(self, rows: Array) -> None:
+        """Room for nodes (N, 1 + 2 nx), C-contiguous; whoever gives it keeps it alive."""
+        self["nodes"], self["room"] = rows.ctypes.data, len(rows)
+
+
 @dataclass(frozen=True)
 class RunPlan:
-    """What kernels read of a run: the vectors P and F, and the sizes of the state and of the work memory."""
+    """The block of a run as it begins."""
 
-    P: Ints
-    """Integers: addresses, sizes, places in F."""
-    F: Array
-    """Floats: clock, step, ground, disturbance, matrices."""
+    cells: Ints
+    """Fields, tables and rows."""
+    pointers: Ints
+    """Cells that point into the block; they hold the distance from its start [bytes]."""
+    places: dict[str, int]
+    """Cell at which each of TABLES begins."""
     nx: int
     """Numbers in a state."""
-    width: int
-    """Numbers in a work row."""
 
-    def work(self) -> Array:
-        """New work memory (ROWS, width) of zeros for one run; runs at the same time must not share it."""
-        return np.zeros((layout.ROWS, self.width))
+    def number(self, name: str) -> float:
+        """A field, such as the step h [s]."""
+        return float(self.cells.view(np.float64)[PLACES[name]])
 
-    def start(self, x: Array, t: float, step: int, t_start: float, end: float) -> Array:
-        """The run vector s (HEAD + nx,) with which a run begins: its head, then the state x (nx,).
+    def start(
+        self, x: Array, t: float, step: int, t_start: float, t_end: float, fired: bool = False
+    ) -> CompiledRun:
+        """A run from x (nx,) at t [s] to t_end [s] at the latest, in the single support `step` that began at
+        t_start.
 
-        From t [s] to `end` [s] at the latest, in the single support `step` that began at t_start [s].
-        Raises InputError for a state that is not finite or has another shape.
+        fired: whether an impact has just been. Raises InputError for a state that is not finite or has another
+        shape.
         """
         x = np.asarray(x, dtype=float)
         if x.shape != (self.nx,) or not np.all(np.isfinite(x)):
             raise InputError(f"the initial state is {x}, expected {self.nx} finite numbers")
-        s = np.zeros(layout.HEAD + self.nx)
-        s[layout.TIME], s[layout.STEP], s[layout.START], s[layout.END] = t, step, t_start, end
-        s[layout.FIRED], s[layout.ARC] = -1.0, t
-        s[layout.HEAD :] = x
-        return s
+        run = CompiledRun(self.cells, self.pointers, self.nx)
+        run["t"] = run["t_arc"] = t
+        run["step"], run["t_start"], run["t_end"] = step, t_start, t_end
+        run["fired"] = FOOT_STRIKE if fired else -1
+        run.x[:] = x
+        return run
 
 
 def plan(
-    code: LawAddresses,
+    functions: Functions,
     sizes: StateSizes,
-    scene: GroundTable,
+    K: Array,
+    ground: GroundTable,
     push: DisturbanceTable,
     clock: ClockTable,
     method: MethodTable,
 ) -> RunPlan:
-    """Check these parts and put them into the vectors P and F. Raises InputError where they do not fit."""
-    _check(code, sizes, push, clock, method)
-    P = np.zeros(layout.P_HEAD, dtype=np.int64)
-    P[: len(code)] = code
-    P[layout.COORDINATES], P[layout.STATES], P[layout.JOINTS] = sizes.n, sizes.nx, sizes.p
-    P[layout.SLOW], P[layout.STIFF] = sizes.nw, sizes.k
-    P[layout.MOVING], P[layout.LAG_AT] = sizes.moving or sizes.nx, sizes.lag_at
-    P[layout.LEVELS] = len(method.phi)
-    P[layout.KIND], P[layout.RESTART] = method.kind, clock.restart
-    P[layout.DROPS], P[layout.SWITCHES] = len(scene.drops), len(push.switches)
-    P[layout.PARTS] = len(push.addresses)
-    head = np.zeros(layout.F_HEAD)
-    head[layout.PERIOD], head[layout.T_FIRST] = clock.period, clock.t_first
-    head[layout.PERIOD_PART], head[layout.LAG_SPEED] = clock.part, sizes.lag_speed
-    head[layout.LEAST_STEP], head[layout.H] = scene.least_step, method.h
-    P[layout.WIDTH] = _width(sizes)
-    fastest = sizes.fastest if len(sizes.fastest) else np.full(sizes.n, np.inf)
-    F, at = _joined([head, scene.drops, push.switches, push.K, method.phi, fastest], np.float64)
-    P[layout.FASTEST_AT] = at[5]
-    P[layout.DROPS_AT], P[layout.SWITCHES_AT], P[layout.WEIGHTS_AT] = at[1], at[2], at[4]
+    """Check these parts and lay them out; K: numbers that the functions read. Raises InputError for a
+    misfit."""
+    _check(functions, sizes, push, clock, method)
+    n, nx, p = sizes.n, sizes.nx, sizes.p
+    fields: dict[str, float] = {
+        **functions._asdict(),
+        **sizes._asdict(),
+        "moving": sizes.moving or nx,
+        "guards": 3,
+        "ny": sizes.n_slow + sizes.k * p,
+        "nN": sizes.n_slow + p,
+        "levels": len(method.phi),
+        **clock._asdict(),
+        "kind": method.kind,
+        "h": method.h,
+        "least_step": ground.least_step,
+        "n_drops": len(ground.drops),
+        "n_switches": len(push.switches),
+        "n_parts": len(push.addresses),
+        "n_pulling": np.count_nonzero(push.resultants),
+    }
+    fastest = sizes.fastest if len(sizes.fastest) else np.full(n, np.inf)
+    floats = (K, ground.drops, push.switches, fastest, method.phi, push.K)
+    tables = [np.ascontiguousarray(x, dtype=float).ravel().view(np.int64) for x in floats]
     resultants = push.resultants or (0,) * len(push.addresses)
-    P[layout.RESULTANTS] = np.count_nonzero(resultants)
-    given = zip(push.addresses, push.offsets[:-1], resultants, strict=True)
-    parts = [(a, at[3] + o, r) for a, o, r in given]
-    P, where = _joined([P, np.array(parts, dtype=np.int64)], np.int64)
-    P[layout.PARTS_AT] = where[1]
-    return RunPlan(P, F, sizes.nx, _width(sizes))
+    parts = np.array([push.addresses, push.offsets[:-1], resultants], dtype=np.int64).T
+    width = 3 + max(nx, int(fields["ny"])) + max(n, 2) + OUTSIDE
+    tables.append(parts.ravel())
+    lengths = [*map(len, tables), *(width for _ in ROWS)]
+    starts = np.cumsum([len(KINDS), *lengths])
+    cells = np.concatenate([np.zeros(len(KINDS), dtype=np.int64), *tables])
+    cells = np.append(cells, np.zeros(starts[-1] - len(cells), dtype=np.int64))
+    places = dict(zip((*TABLES, *ROWS), starts[:-1].tolist(), strict=True))
+    for name, value in fields.items():
+        if name in PLACES and name not in TABLES:
+            cells.view(np.float64 if KINDS[name] == "float" else np.int64)[PLACES[name]] = value
+    for name, start in places.items():
+        cells[PLACES[name]] = 8 * start
+    numbers = np.arange(len(parts)) * PART + 1 + places["parts"]
+    cells[numbers] = 8 * (places["push"] + cells[numbers])
+    pointers = np.concatenate(([PLACES[name] for name in places], numbers)).astype(np.int64)
+    return RunPlan(frozen(cells), frozen(pointers), {k: places[k] for k in TABLES}, nx)
 
 
 def _check(
-    code: LawAddresses,
+    functions: Functions,
     sizes: StateSizes,
     push: DisturbanceTable,
     clock: ClockTable,
@@ -239,24 +314,14 @@ def _check(
             f"the sampling period is {clock.period} s, expected at least {LEAST_PERIOD:g} s, or 0 for none"
         )
     k, phi = sizes.k, method.phi
-    if method.kind == layout.ETD and (k == 0 or phi.shape[1:] != (layout.MATRICES, k, k)):
+    if method.kind == ETD and (k == 0 or phi.shape[1:] != (MATRICES, k, k)):
         raise InputError(
             f"the matrices have shape {phi.shape}, expected (levels, 6, {k}, {k}), k > 0"
         )
-    needed = {"flow": True, "watch": True, "strike": True, "tick": clock.period > 0.0}
-    needed |= dict.fromkeys(("to", "back", "remainder", "turn"), method.kind == layout.ETD)
-    missing = [name for name, is_needed in needed.items() if is_needed and not getattr(code, name)]
+    needed = {"flow": True, "events": True, "impact": True, "tick": clock.period > 0.0}
+    needed |= dict.fromkeys(("to", "back", "remainder", "matvec"), method.kind == ETD)
+    missing = [
+        name for name, is_needed in needed.items() if is_needed and not getattr(functions, name)
+    ]
     if missing:
         raise InputError(f"no address of {', '.join(missing)}, which this method and clock call")
-
-
-def _joined(parts: Sequence[Array | Ints], dtype: type[T]) -> tuple[NDArray[T], list[int]]:
-    """All parts in one vector, and where each begins."""
-    flat: list[NDArray[T]] = [np.asarray(part, dtype=dtype).ravel() for part in parts]
-    return np.concatenate(flat), [0, *accumulate(map(len, flat[:-1]))]
-
-
-def _width(sizes: StateSizes) -> int:
-    """Numbers of the longest row: a function's input or output, or the head of a run."""
-    states = max(sizes.nx, sizes.nw + sizes.k * sizes.p)
-    return max(layout.HEAD, 3 + states + max(sizes.n, 2) + layout.OUTSIDE)

@@ -12,71 +12,62 @@ from __future__ import annotations
 
 from biped_adrc.engine.kernels.arc import *
 from biped_adrc.engine.kernels.call import *
-from biped_adrc.engine.kernels.laws import *
-from biped_adrc.engine.kernels.layout import *
+from biped_adrc.engine.kernels.operations import *
+from biped_adrc.engine.kernels.record import Ints, Run
 from biped_adrc.types import Array
 
-GIVEN = 7
-"""Numbers in `given` for a walk: addresses of P, F, K, W, s, place of the torques in K, that function's."""
+WALK = 3
+"""Numbers in `walks` for one: addresses of its run, of its torque among the numbers K, and of the function."""
 MOST_ARCS = 100
 """In one sample (EVENT_LIMIT)."""
 
 
 @unit
-def sample(P: Ints, F: Array, K: Array, W: Array, s: Array) -> int:
-    """s (HEAD + nx,) from a sample instant to the next one; a code, 0 for COMPLETED.
+def sample(r: Run) -> int:
+    """From a sample instant to the next one; a code, 0 for COMPLETED.
 
-    No nodes are kept. Where the walk ends, s is at its end.
+    No nodes are kept. Where the walk ends, the run is at its end.
     """
-    s[EVERY] = 0.0
+    r.every = 0
     for _ in range(MOST_ARCS):
-        start = s[ARC] if P[RESTART] == 1 else F[T_FIRST]
-        s[END] = next_tick(F, s[TIME], start)
-        code = go_on(P, F, K, W, s, s)
+        r.t_end = next_tick(r, r.t, clock_start(r))
+        code = go_on(r)
         if code == STRUCK:
-            code = land(P, K, W, s)
+            code = land(r)
         if code != COMPLETED:
             return code
-        if is_tick(F, s[TIME], s[ARC] if P[RESTART] == 1 else F[T_FIRST]):
+        if is_tick(r, r.t, clock_start(r)):
             return COMPLETED
     return EVENT_LIMIT
 
 
 @unit
-def look(P: Ints, F: Array, K: Array, W: Array, s: Array, law: int, out: Array) -> None:
-    """out = law(t, step, t_start, x, zeta, outside) in s, as a sample instant there is given them."""
-    n, nx, inp, zeta = P[COORDINATES], P[STATES], row(P, W, INP), row(P, W, ZETA)
-    load(P, W, s)
-    lower(P, F, W)
-    copy(row(P, W, X0), shift(inp, 3), nx)
-    from_outside(P, F, W, s[TIME], shift(inp, 3 + nx + n))
-    inp[0], inp[1], inp[2] = s[TIME], s[STEP], s[START]
-    disturb(P, F, W, zeta)
-    copy(zeta, shift(inp, 3 + nx), n)
-    call(law, K, inp, out)
+def look(r: Run, law: int, out: Array) -> None:
+    """out = law(t, step, t_start, x, zeta, outside) where the run is, as a sample instant there is given
+    them."""
+    lower(r)
+    r.limit = math.inf
+    measure(r, r.x0)
+    call(law, r.K, r.inp, out)
 
 
 @kernel
-def samples(given: Ints, torques: Rows, seen: Rows, codes: Ints) -> None:
+def samples(walks: Ints, torques: Rows, views: Rows, codes: Ints) -> None:
     """One sample of each of N walks whose code is 0, under its row of torques (N, p) [N m].
 
-    given (N GIVEN,), in the order of GIVEN. Codes (N,) become those of `sample`, rows of `seen` what
-    that function says after it; those of a walk that has ended stay as they are.
+    walks (N WALK,), in the order of WALK. Codes (N,) become those of `sample`, rows of `views` what that
+    function says after it; those of a walk that has ended stay as they are.
     """
-    rows, shown, p = data(torques), data(seen), torques.shape[1]
+    rows, shown, p = data(torques), data(views), torques.shape[1]
     for i in range(codes.shape[0]):
-        if codes[i] != COMPLETED:
-            continue
-        at = GIVEN * i
-        P, F, K = ints_at(given[at]), floats_at(given[at + 1]), floats_at(given[at + 2])
-        W, s = floats_at(given[at + 3]), floats_at(given[at + 4])
-        copy(shift(rows, i * p), shift(K, given[at + 5]), p)
-        codes[i] = sample(P, F, K, W, s)
-        look(P, F, K, W, s, given[at + 6], shift(shown, i * seen.shape[1]))
+        if codes[i] == COMPLETED:
+            r = ints_at(walks[WALK * i])
+            copy(shift(rows, i * p), floats_at(walks[WALK * i + 1]), p)
+            codes[i] = sample(r)
+            look(r, walks[WALK * i + 2], shift(shown, i * views.shape[1]))
 
 
 @kernel
-def looks(given: Ints, seen: Rows) -> None:
-    """In seen (1, k) what the function says of a walk where it is; given (GIVEN,)."""
-    P, F, K = ints_at(given[0]), floats_at(given[1]), floats_at(given[2])
-    look(P, F, K, floats_at(given[3]), floats_at(given[4]), given[6], data(seen))
+def looks(walks: Ints, views: Rows) -> None:
+    """In views (1, k) what the function says of a walk where it is; walks (WALK,)."""
+    look(ints_at(walks[0]), walks[2], data(views))

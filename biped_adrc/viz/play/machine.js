@@ -15,7 +15,7 @@ function nextafter(x, y) {
 const machine = { memory: null, calls: null, free: STACK, table: null };
 async function startMachine() {
   const module = await WebAssembly.compile(unpacked(numbers.code));
-  const room = ({ P, F, K, s, width }) => P.length + F.length + K.length + s.length + 8 * (at.ROWS * width + SEEN);
+  const room = ({ cells }) => cells.length + 8 * SEEN;
   const size = Object.values(numbers.walks).reduce((sum, told) => sum + room(told), STACK);
   machine.memory = new WebAssembly.Memory({ initial: Math.ceil(size / 65536) });
   machine.table = new WebAssembly.Table({ initial: numbers.functions.length + 1, element: "anyfunc" });
@@ -53,27 +53,40 @@ function placed({ re, im }, q) {
   };
 }
 
-// the vectors of each kind of walk, in the module's memory, used by one walk at a time: `Walk` keeps its own s
+// the block of each kind of walk in the module's memory, used by one walk at a time: `Walk` keeps what changes
 class Kind {
   constructor(name) {
     const told = numbers.walks[name];
     Object.assign(this, told, { name });
-    this.P = vector(BigInt64Array, new BigInt64Array(unpacked(told.P)));
-    this.F = vector(Float64Array, new Float64Array(unpacked(told.F)));
-    this.K = vector(Float64Array, new Float64Array(unpacked(told.K)));
-    this.s = vector(Float64Array, new Float64Array(unpacked(told.s)));
-    this.first = this.s.slice();
-    this.W = vector(Float64Array, at.ROWS * told.width);
+    this.cells = vector(BigInt64Array, new BigInt64Array(unpacked(told.cells)));
+    this.address = this.cells.byteOffset;
+    told.pointers.forEach((k) => { this.cells[k] += BigInt(this.address); });
+    this.numbers = new Float64Array(this.cells.buffer, this.address, this.cells.length);
+    this.values = this.row("values", 3);
+    this.x = this.row("x0", this.nx);
     this.seen = vector(Float64Array, SEEN);
-    this.five = [this.P, this.F, this.K, this.W, this.s].map((x) => x.byteOffset);
+    this.first = this.state();
+  }
+  row(name, size) {
+    const first = (Number(this.cells[at[name]]) - this.address) / 8;
+    return this.numbers.subarray(first, first + size);
+  }
+  state() {
+    const [t, step, t_arc] = [at.t, at.step, at.t_arc].map((k) => this.numbers[k]);
+    return { t, step, t_arc, head: this.cells.slice(at.t, at.nodes), values: this.values.slice(), x: this.x.slice() };
+  }
+  set({ head, values, x }) {
+    this.cells.set(head, at.t);
+    this.values.set(values);
+    this.x.set(x);
   }
   hold(hand) {
     const { torque, force, re, im, turn } = this.hand;
-    torque.forEach((k, i) => { this.F[k] = hand ? hand.torque[i] : 0; });
-    force.forEach((k, i) => { this.F[k] = hand ? hand.force[i] : 0; });
+    torque.forEach((k, i) => { this.numbers[k] = hand ? hand.torque[i] : 0; });
+    force.forEach((k, i) => { this.numbers[k] = hand ? hand.force[i] : 0; });
     if (!hand) return;
     const point = linkPoint(hand.link, hand.at);
-    [[re, point.re], [im, point.im], [turn, point.turn]].forEach(([k, x]) => this.F.set(x, k));
+    [[re, point.re], [im, point.im], [turn, point.turn]].forEach(([k, x]) => this.numbers.set(x, k));
   }
 }
 const kinds = {};
@@ -84,14 +97,14 @@ class Walk {
     Object.assign(this, { name, s, foot, status: 0, rows: [] });
   }
   static begun(name) {
-    const walk = new Walk(name, kinds[name].first.slice(), [0, 0]);
+    const walk = new Walk(name, kinds[name].first, [0, 0]);
     walk.look(walk.kind);
     return walk;
   }
   get kind() { return kinds[this.name]; }
-  get t() { return this.s[at.TIME]; }
-  get step() { return this.s[at.STEP]; }
-  get x() { return this.s.subarray(at.HEAD); }
+  get t() { return this.s.t; }
+  get step() { return this.s.step; }
+  get x() { return this.s.x; }
   get q() { return this.x.subarray(0, numbers.n); }
   get v() { return this.x.subarray(numbers.n, 2 * numbers.n); }
   get walks() { return this.status === 0; }
@@ -103,7 +116,7 @@ class Walk {
 
   // the first sample instant after now [s], by the expression that the engines have
   until() {
-    const start = this.kind.restart ? this.s[at.ARC] : 0, { period } = this.kind;
+    const start = this.kind.restart ? this.s.t_arc : 0, { period } = this.kind;
     let k = Math.max(0, Math.floor((this.t - start) / period));
     while (start + k * period <= this.t) k += 1;
     return start + k * period;
@@ -112,44 +125,35 @@ class Walk {
   sampled(hand) {
     const { kind } = this, { go_on, land } = machine.calls;
     kind.hold(hand);
-    kind.s.set(this.s);
-    kind.s[at.END] = this.until();
-    kind.s[at.EVERY] = 0;
-    let code = Number(go_on(...kind.five, kind.s.byteOffset));
-    const after = new Walk(this.name, kind.s.slice(), this.foot);
+    kind.set(this.s);
+    kind.numbers[at.t_end] = this.until();
+    kind.cells[at.every] = 0n;
+    let code = Number(go_on(kind.address));
+    const after = new Walk(this.name, kind.state(), this.foot);
     after.hand = hand;
     after.look(kind);
     after.rows = [row(after)];
     if (code === numbers.struck) {
-      const [P, , K, W, s] = kind.five;
-      code = Number(land(P, K, W, s));
-      if (code === 0) after.landed(kind.s.subarray(at.HEAD));
+      code = Number(land(kind.address));
+      if (code === 0) after.landed(kind.state());
     }
     after.status = code;
     return after;
   }
   look(kind) {
-    kind.s.set(this.s);
-    machine.calls.look(...kind.five, BigInt(kind.observe), kind.seen.byteOffset);
+    kind.set(this.s);
+    machine.calls.look(kind.address, BigInt(kind.observe), kind.seen.byteOffset);
     this.seen = kind.seen.slice();
     this.points = [...signal(this, "hip"), ...signal(this, "swing_foot")];
   }
   // in x+ on the other foot; the hip stays where it is
-  landed(x) {
+  landed(s) {
     const [hip_x, hip_z, dx, dz] = this.points, [foot_x, foot_z] = this.foot;
-    this.s = headed(this.t, this.step + 1, this.t, at.FOOT_STRIKE, x);
+    this.s = s;
     this.foot = [foot_x + dx, foot_z + dz];
     this.points = [hip_x - dx, hip_z - dz, -dx, -dz];
   }
 }
-// a run vector from t [s] on, in the single support `step` that began at `start` [s]
-function headed(t, step, start, fired, x) {
-  const s = new Float64Array(at.HEAD + x.length);
-  [[at.TIME, t], [at.STEP, step], [at.START, start], [at.FIRED, fired], [at.ARC, t]].forEach(([k, y]) => { s[k] = y; });
-  s.set(x, at.HEAD);
-  return s;
-}
-
 const signal = (walk, name) => Array.from(walk.seen.subarray(...numbers.signals[name]));
 const finite = (x) => (Number.isFinite(x) ? x : null);
 

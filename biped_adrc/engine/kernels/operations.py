@@ -1,0 +1,454 @@
+"""What the march does with a run in memory: the operations of `hybrid.on_arrays`, around the functions of a
+walker.
+
+A function is called by its address, with its inputs in `inp` in the order that `run_plan.Functions` has. An
+output ends with the least pivot of the matrices inverted; where that is exactly zero, or below it for a
+torque beyond the bound, the run is noted as singular or run away and the output made NaN, even where a torque
+limit has made a finite number of it.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from biped_adrc.engine.kernels.call import call, floats_at, inner, shift, unit
+from biped_adrc.engine.kernels.record import FOOT_STRIKE, FOOT_X, HIP_TOO_LOW, PART, Run
+from biped_adrc.hybrid.constants import *
+from biped_adrc.types import Array
+
+GAUSS = 0.5773502691896257  # 1 / sqrt(3), as in `biped_adrc.disturbances.base`
+"""Node of the two-point rule of Gauss, 1 / sqrt(3) [1], as in `disturbances.base`."""
+
+
+# -- vectors ---------------------------------------------------------------------------------------
+@inner
+def copy(x: Array, out: Array, size: int) -> None:
+    """out (size,) = x (size,)."""
+    for i in range(size):
+        out[i] = x[i]
+
+
+@inner
+def add(x: Array, h: float, dx: Array, out: Array, size: int) -> None:
+    """out (size,) = x + h dx."""
+    for i in range(size):
+        out[i] = x[i] + h * dx[i]
+
+
+@inner
+def rk4_sum(
+    x: Array, h: float, k1: Array, k2: Array, k3: Array, k4: Array, out: Array, size: int
+) -> None:
+    """out (size,) = x + h / 6 (k1 + 2 (k2 + k3) + k4)."""
+    for i in range(size):
+        slopes = k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]
+        out[i] = x[i] + (h / 6.0) * slopes
+
+
+@inner
+def finite(x: Array, size: int) -> bool:
+    """Whether the sum of squares of x (size,) is finite, as for every state that means anything.
+
+    Four sums side by side, so that no addition waits for the one before it.
+    """
+    a = b = c = d = 0.0
+    for i in range(0, size - 3, 4):
+        a += x[i] * x[i]
+        b += x[i + 1] * x[i + 1]
+        c += x[i + 2] * x[i + 2]
+        d += x[i + 3] * x[i + 3]
+    for i in range(size - size % 4, size):
+        a += x[i] * x[i]
+    return a + b + c + d < math.inf
+
+
+@inner
+def regular(dx: Array, size: int) -> bool:
+    """Whether every number of dx (size,) is finite, however large; a slope may be huge where its
+    square overflows.
+    """
+    a = b = c = d = 0.0
+    for i in range(0, size - 3, 4):
+        a += 0.0 * dx[i]
+        b += 0.0 * dx[i + 1]
+        c += 0.0 * dx[i + 2]
+        d += 0.0 * dx[i + 3]
+    for i in range(size - size % 4, size):
+        a += 0.0 * dx[i]
+    return a + b + c + d == 0.0
+
+
+@inner
+def matrix(r: Run, level: int, which: int) -> Array:
+    """One of the six matrices (k, k) of a level; `which` is HALF, HALF_PHI, ..."""
+    return shift(r.phi, (MATRICES * level + which) * r.k * r.k)
+
+
+@inner
+def matvec(r: Run, M: Array, y: Array, out: Array) -> None:
+    """E of out = M E of y, M (k, k), E (k, p); w of out is left as it is.
+
+    By generated vector code: k and p are constants in it.
+    """
+    call(r.matvec, M, shift(y, r.n_slow), shift(out, r.n_slow))
+
+
+@inner
+def apply_input(r: Run, M: Array, factor: float, N: Array, out: Array) -> None:
+    """E (k, p) of out += factor M N_E, where only row 1 of N_E is stored."""
+    for i in range(r.k):
+        weight = factor * M[i * r.k + 1]
+        for c in range(r.p):
+            out[r.n_slow + i * r.p + c] += weight * N[r.n_slow + c]
+
+
+# -- the walker ------------------------------------------------------------------------------------
+@inner
+def broken(r: Run) -> int:
+    """The status of a run whose state or slope is not finite: what a function has asked for, else
+    NOT_FINITE."""
+    return NOT_FINITE if r.lost == 0 else r.lost
+
+
+@inner
+def note(r: Run, out: Array, pivot: float) -> None:
+    """Make a function's result NaN where its last output says that it means nothing, and note the status."""
+    if pivot <= 0.0:
+        r.lost = SINGULAR if pivot == 0.0 else RAN_AWAY
+        out[0] = math.nan
+
+
+@inner
+def slow(r: Run, t: float, x: Array) -> bool:
+    """Whether no rate in x (nx,) is beyond its bound."""
+    fits = True
+    for i in range(r.n):
+        fits = fits and abs(x[r.n + i]) <= r.fastest[i]
+    return fits
+
+
+@inner
+def disturb(r: Run, zeta: Array) -> None:
+    """zeta (n,) [N m]: the sum of the disturbance's parts at (t, step, t_start, q, v) in `inp`."""
+    for i in range(r.n):
+        zeta[i] = 0.0
+    for k in range(r.n_parts):
+        call(r.parts[PART * k], floats_at(r.parts[PART * k + 1]), r.inp, r.one)
+        for i in range(r.n):
+            zeta[i] += r.one[i]
+
+
+@inner
+def set_time(r: Run, t: float) -> None:
+    """The first of the inputs: t [s], single support, its start [s]."""
+    r.inp[0], r.inp[1], r.inp[2] = t, r.step, r.t_start
+
+
+@unit
+def flow(r: Run, t: float, x: Array, dx: Array) -> None:
+    """dx (nx,) = x'(t, x); dx (nx + 1,) or longer.
+
+    t [s] is taken no later than r.limit, so that a step that ends at a break sees the limit from the left. Of
+    what is held only the last p numbers are passed on, the torques on the joints.
+    """
+    nx, inp, moving = r.nx, r.inp, r.moving
+    set_time(r, min(t, r.limit))
+    copy(x, shift(inp, 3), moving)
+    if moving < nx:
+        copy(shift(x, nx - r.p), shift(inp, 3 + nx - r.p), r.p)
+    disturb(r, r.zeta)
+    copy(r.zeta, shift(inp, 3 + nx), r.n)
+    call(r.flow, r.K, inp, dx)
+    note(r, dx, dx[nx])
+
+
+@inner
+def relax(r: Run, x: Array, weight: float, out: Array) -> None:
+    """Torques of lagging motors in out (nx,): what is asked, and `weight` [1] of what x has beyond it."""
+    for i in range(r.p):
+        aim = x[r.nx - r.p + i]
+        out[r.lags + i] = aim + weight * (x[r.lags + i] - aim)
+
+
+@inner
+def relax_slope(r: Run, x: Array, steep: float, dx: Array) -> None:
+    """dx of lagging torques: `steep` [1/s] times what x (nx,) has beyond what is asked."""
+    for i in range(r.p):
+        dx[r.lags + i] = steep * (x[r.lags + i] - x[r.nx - r.p + i])
+
+
+@unit
+def remainder(r: Run, t: float, y: Array, N: Array) -> None:
+    """N = (N_w, row 1 of N_E) at (t, y), t [s], y = (w, E).
+
+    The disturbance depends on (q, v), so where there is one, x of y is computed for it first.
+    """
+    inp = r.inp
+    set_time(r, min(t, r.limit))
+    if r.n_parts > 0:
+        call(r.back, r.K, y, r.out)
+        copy(r.out, shift(inp, 3), 2 * r.n)
+    disturb(r, r.zeta)
+    copy(y, shift(inp, 3), r.ny)
+    copy(r.zeta, shift(inp, 3 + r.ny), r.n)
+    call(r.remainder, r.K, inp, N)
+    note(r, N, N[r.nN])
+
+
+@inner
+def split(r: Run, x: Array, y: Array) -> None:
+    """y = (w, E) of x (nx,)."""
+    call(r.to, r.K, x, y)
+
+
+@inner
+def join(r: Run, y: Array, x: Array) -> None:
+    """x (nx,) of y = (w, E)."""
+    call(r.back, r.K, y, x)
+
+
+# -- events ----------------------------------------------------------------------------------------
+@unit
+def watch(r: Run, t: float, q: Array, out: Array) -> None:
+    """out (4,): the event functions at (t, q), t [s], q (n,) [rad]: clearance [m], hip margin [m], time left
+    [s]; then x of the swing foot [m].
+    """
+    r.inp[0], r.inp[1], r.inp[2] = t, r.t_start, r.drop
+    copy(q, shift(r.inp, 3), r.n)
+    call(r.events, r.K, r.inp, out)
+
+
+@inner
+def accepts(r: Run, guard: int, te: float) -> bool:
+    """Whether the crossing found is an event: a touchdown less than least_step ahead of the stance foot is
+    none."""
+    return guard != FOOT_STRIKE or r.tried[FOOT_X] > r.least_step
+
+
+@inner
+def code_of(r: Run, guard: int) -> int:
+    """How an arc ends at the event of a guard."""
+    if guard == FOOT_STRIKE:
+        return STRUCK
+    return FELL if guard == HIP_TOO_LOW else STALLED
+
+
+@inner
+def hermite(r: Run, h: float, s: float, out: Array) -> None:
+    """out (n,) [rad] = q at the fraction s of the step of length h [s] from x0 to x1.
+
+    The cubic through both states with their rates as slopes; q alone, since event functions need no more.
+    """
+    for i in range(r.n):
+        rise = r.x1[i] - r.x0[i]
+        bend = (1.0 - s) * (h * r.x0[r.n + i] - rise) - s * (h * r.x1[r.n + i] - rise)
+        out[i] = r.x0[i] + s * rise + s * (1.0 - s) * bend
+
+
+@inner
+def suspect(r: Run, t0: float, t1: float, count: int) -> bool:
+    """Whether an event function falls through zero between `count` points of the Hermite polynomial.
+
+    A cheap first look at a long step: no flow is evaluated. `after` has the values at t1 [s] already.
+    """
+    v0, v1, v2 = r.values[0], r.values[1], r.values[2]
+    for j in range(1, count + 1):
+        w = r.after
+        if j < count:
+            w = r.tried
+            hermite(r, t1 - t0, j / count, r.stage)
+            watch(r, t0 + (t1 - t0) * j / count, r.stage, w)
+        w0, w1, w2 = w[0], w[1], w[2]
+        if v0 > 0.0 >= w0 or v1 > 0.0 >= w1 or v2 > 0.0 >= w2:
+            return True
+        v0, v1, v2 = w0, w1, w2
+    return False
+
+
+@inner
+def jump(r: Run, x: Array, out: Array) -> int:
+    """out (nx,) = x+ at the impact in x (nx,); a status.
+
+    On success step, t_start and t_arc become those of the single support that begins; on failure they stay.
+    """
+    r.inp[0], r.inp[1] = r.t, r.step + 1.0
+    copy(x, shift(r.inp, 2), r.nx)
+    call(r.impact, r.K, r.inp, out)
+    if out[r.nx] == 0.0:
+        return SINGULAR
+    if not finite(out, r.nx):
+        return NOT_FINITE
+    r.step += 1.0
+    r.t_start = r.t_arc = r.t
+    return 0
+
+
+@inner
+def lower(r: Run) -> None:
+    """drop: how far the steps of the ground lower the ground [m] on which this single support ends."""
+    r.drop = 0.0
+    for i in range(r.n_drops):
+        if r.drops[2 * i] == r.step:
+            r.drop += r.drops[2 * i + 1]
+
+
+@inner
+def node(r: Run, t: float, x: Array, dx: Array) -> bool:
+    """Keep (t, x, dx), x and dx (nx,), as the next row of `nodes`; False when there is no room."""
+    i, nx = r.count, r.nx
+    if i >= r.room:
+        return False
+    kept = shift(r.nodes, i * (1 + 2 * nx))
+    kept[0] = t
+    for j in range(nx):
+        kept[1 + j], kept[1 + nx + j] = x[j], dx[j]
+    r.count = i + 1
+    return True
+
+
+# -- breaks ----------------------------------------------------------------------------------------
+@inner
+def is_tick(r: Run, t: float, start: float) -> bool:
+    """Whether t [s] is exactly a sample instant of the clock that began at `start` [s].
+
+    Sample instants are always computed as start + k T, so equality is exact.
+    """
+    k = np.floor((t - start) / r.period + 0.5)
+    return t == start + k * r.period
+
+
+@inner
+def next_tick(r: Run, t: float, start: float) -> float:
+    """The first sample instant after t [s] of the clock that began at `start` [s]."""
+    k = np.floor((t - start) / r.period)
+    while start + k * r.period <= t:
+        k += 1.0
+    return start + k * r.period
+
+
+@inner
+def clock_start(r: Run) -> float:
+    """Where the clock of this arc began [s]."""
+    return r.t_arc if r.restart == 1 else r.t_first
+
+
+@inner
+def next_switch(r: Run, t: float, last: float) -> float:
+    """The first switching time of the disturbance after t [s], at most `last` [s].
+
+    A switch with step 0 counts from the start of the run, any other from the start of that single support.
+    """
+    first = last
+    for i in range(r.n_switches):
+        step, s = r.switches[2 * i], r.switches[2 * i + 1]
+        if step == r.step:
+            s += r.t_start
+        if (step == 0.0 or step == r.step) and t < s < first:
+            first = s
+    return first
+
+
+@inner
+def next_break(r: Run) -> float:
+    """The first switching time or sample instant after t [s], at most t_end."""
+    first = next_switch(r, r.t, r.t_end)
+    if r.period > 0.0:
+        first = min(first, next_tick(r, r.t, clock_start(r)))
+    if r.part > 0.0:
+        first = min(first, next_tick(r, r.t, clock_start(r) + r.part))
+    return first
+
+
+@inner
+def pushed(r: Run, t: float, weight: float, total: Array) -> None:
+    """total (2,) grows by weight times the force from outside [N] at t [s], with (q, v) in `inp`.
+
+    Only the parts of the disturbance that have a resultant are asked; pure torques have none.
+    """
+    set_time(r, t)
+    for k in range(r.n_parts):
+        if r.parts[PART * k + 2] != 0:
+            call(r.parts[PART * k + 2], floats_at(r.parts[PART * k + 1]), r.inp, r.one)
+            total[0] += weight * r.one[0]
+            total[1] += weight * r.one[1]
+
+
+@inner
+def from_outside(r: Run, t: float, out: Array) -> None:
+    """out (5,): force from outside at t [s] (2) [N], its impulse since the last sample instant (2) [N s],
+    drop [m].
+
+    The impulse is integrated by two points of Gauss in each smooth piece, as `Disturbance.impulse` does.
+    """
+    for i in range(4):
+        out[i] = 0.0
+    out[4] = r.drop
+    if r.n_pulling == 0:
+        return
+    pushed(r, t, 1.0, out)
+    begin = t - r.period
+    while begin < t:
+        end = next_switch(r, begin, t)
+        middle, half = 0.5 * (begin + end), 0.5 * (end - begin)
+        pushed(r, middle - GAUSS * half, half, shift(out, 2))
+        pushed(r, middle + GAUSS * half, half, shift(out, 2))
+        begin = end
+
+
+@unit
+def due(r: Run) -> int:
+    """x0 (nx,) after what is due at t: a sample instant, with dx0 its slope; the torque that waited for a
+    part of the period. A status, x0 unchanged where it is not 0.
+
+    The slope comes with the same call; unless motors lag it is complete, and the first step needs no
+    evaluation of the flow.
+    """
+    n, nx, x, out, dx = r.n, r.nx, r.x0, r.out, r.dx0
+    if r.period > 0.0 and is_tick(r, r.t, clock_start(r)):
+        measure(r, x)
+        call(r.tick, r.K, r.inp, out)
+        note(r, out, out[nx])
+        if not finite(out, nx):
+            return broken(r)
+        copy(out, x, nx)
+        copy(shift(x, n), dx, n)
+        copy(shift(out, nx + 1), shift(dx, n), n)
+        for i in range(2 * n, nx):
+            dx[i] = 0.0
+        r.sloped = 1 if r.moving == 2 * n else 0
+    if r.part > 0.0:
+        begin = clock_start(r) + r.part
+        if r.t >= begin and is_tick(r, r.t, begin):
+            for i in range(r.p):
+                x[nx - r.p + i] = x[nx - 2 * r.p + i]
+    return 0
+
+
+@inner
+def measure(r: Run, x: Array) -> None:
+    """The inputs of a function at a sample instant at t in x (nx,): (t, step, t_start, x, zeta, outside)."""
+    n, nx, inp = r.n, r.nx, r.inp
+    copy(x, shift(inp, 3), nx)
+    from_outside(r, r.t, shift(inp, 3 + nx + n))
+    set_time(r, min(r.t, r.limit))
+    disturb(r, r.zeta)
+    copy(r.zeta, shift(inp, 3 + nx), n)
+
+
+# -- a solver's steps, which are Python's ----------------------------------------------------------
+@inner
+def solver_starts(r: Run, t: float, t_next: float) -> None:
+    """No solver runs here."""
+
+
+@inner
+def solve(r: Run) -> float:
+    """No step: the march then ends as STEP_FAILED."""
+    return r.t
+
+
+@inner
+def dense(r: Run, s: float) -> None:
+    """No solver runs here."""

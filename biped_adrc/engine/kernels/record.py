@@ -1,0 +1,182 @@
+"""A run in memory, as the compiled march reads and writes it: one block of cells of 8 bytes.
+
+The first cells are the fields below, in this order. A vector is a pointer to its first number. The vectors of
+TABLES follow, then those of ROWS, each of the same length. The plan (`run_plan`) fills fields and tables; what
+changes during a run is behind the first comment below. Blocks of different runs share nothing.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from biped_adrc.types import Array
+
+Ints = NDArray[np.int64]
+FOOT_STRIKE, HIP_TOO_LOW, FOOT_X = 0, 1, 3
+"""Places in what a walker's `events` gives: two event functions; x of the swing foot [m]."""
+PART = 3
+"""Numbers in `parts` for one."""
+OUTSIDE = 5
+"""Numbers for the meter behind the inputs of a sample instant: force (2), impulse (2), drop."""
+
+
+class Run:
+    """Fields of a run. In compiled code r.name reads the cell, and writes it."""
+
+    flow: int
+    """Addresses of the walker's functions, see `run_plan.Functions`; 0 for none."""
+    tick: int
+    impact: int
+    events: int
+    to: int
+    back: int
+    remainder: int
+    matvec: int
+    n: int
+    """Coordinates."""
+    nx: int
+    """Numbers in x."""
+    p: int
+    """Actuated joints."""
+    moving: int
+    """How many of the first states flow, the others being held."""
+    n_slow: int
+    """Numbers in w, for ETD-RK4."""
+    k: int
+    """Rows of E (k, p)."""
+    ny: int
+    """Numbers in y = (w, E)."""
+    nN: int
+    """Numbers in the remainder (N_w, row 1 of N_E)."""
+    levels: int
+    """Halvings of h for which there are matrices, h included."""
+    guards: int
+    """Event functions."""
+    kind: int
+    """RK4 or ETD."""
+    restart: int
+    """1 where the clock restarts with each arc."""
+    lags: int
+    """Where in x the torques of lagging motors are; 0 without."""
+    n_drops: int
+    n_switches: int
+    n_parts: int
+    """Parts of the disturbance."""
+    n_pulling: int
+    """Those with a force on the robot as a whole."""
+    period: float
+    """Of sample instants [s]; 0 for continuous time."""
+    part: float
+    """Time after a sample instant at which the waiting torque acts [s]; 0 for none."""
+    t_first: float
+    """Start of the run [s]."""
+    least_step: float
+    """Minimum step length [m]."""
+    h: float
+    """Step of integration [s]."""
+    lag_speed: float
+    """1 / tau of lagging motors [1/s]."""
+    K: Array
+    """Numbers that the walker's functions read."""
+    drops: Array
+    """Rows (single support, how much lower the ground is at its end [m])."""
+    switches: Array
+    """Rows (single support, time in it [s]), or (0, time of the run [s])."""
+    fastest: Array
+    """Bounds of the rates (n,) [rad/s]."""
+    phi: Array
+    """Matrices of ETD-RK4 (levels, 6, k, k)."""
+    push: Array
+    """Numbers of the disturbance's parts."""
+    parts: Ints
+    """Of each part: its torque's address, its numbers' address in `push`, its resultant's address or 0."""
+    # -- what changes
+    t: float
+    """[s]"""
+    step: float
+    """Single support."""
+    t_start: float
+    """Start of the single support [s]."""
+    t_end: float
+    """End of the arc, at the latest [s]."""
+    t_arc: float
+    """Start of the arc [s]."""
+    fired: int
+    """The guard that ended the last arc; -1 for none."""
+    armed: int
+    """Whether `values` are those of this arc."""
+    every: int
+    """Every how many steps a node is kept; 0 for never."""
+    count: int
+    """Nodes kept."""
+    room: int
+    """Rows of `nodes`."""
+    sloped: int
+    """1 where dx0 is the slope at x0 already."""
+    lost: int
+    """The status that a function's last output asks for; 0 for none."""
+    drop: float
+    """Of the ground at the end of this single support [m]."""
+    limit: float
+    """Functions are asked for no later time than this [s]."""
+    t_event: float
+    """Time of the event [s]."""
+    t_b: float
+    """Time of x_b [s]."""
+    t_far: float
+    """End of the bracket of an event [s], and the event function there."""
+    f_far: float
+    nodes: Array
+    """Rows (t, x, x')."""
+    inp: Array
+    """Inputs and outputs of a function; zeta and one part of it."""
+    out: Array
+    zeta: Array
+    one: Array
+    values: Array
+    """Event functions at the start of a step, at its end, and at a time tried in it."""
+    after: Array
+    tried: Array
+    x0: Array
+    """State and slope at both ends of a step; state of a stage, and slopes of RK4."""
+    dx0: Array
+    x1: Array
+    dx1: Array
+    stage: Array
+    k1: Array
+    k2: Array
+    k3: Array
+    k4: Array
+    x_e: Array
+    """State and slope at the event, and after sub-steps towards it."""
+    dx_e: Array
+    x_b: Array
+    dx_b: Array
+    x_first: Array
+    """State and event functions before the march."""
+    values_first: Array
+    y0: Array
+    """y and remainder at both ends of a step; at stages; e^(hA/2) E; of sub-steps, and of one that is tried."""
+    N0: Array
+    y1: Array
+    N1: Array
+    y_a: Array
+    y_b: Array
+    N_a: Array
+    N_b: Array
+    N_c: Array
+    e_half: Array
+    y_sub: Array
+    N_sub: Array
+    y_try: Array
+
+
+TABLES = ("K", "drops", "switches", "fastest", "phi", "push", "parts")
+"""Vectors of the plan."""
+KINDS: dict[str, str] = dict(Run.__annotations__)
+"""int, float, Array or Ints, by the name of a field."""
+PLACES: dict[str, int] = {name: place for place, name in enumerate(KINDS)}
+"""Cell of a field."""
+ROWS = tuple(name for name in KINDS if PLACES[name] >= PLACES["inp"])
+"""Work vectors."""

@@ -1,0 +1,27 @@
+"""Numbers of the march, in both of its forms: methods, codes that an arc ends with, tolerances."""
+
+from __future__ import annotations
+
+RK4, ETD, SOLVER = 0, 1, 2
+"""Kinds of method; the last is one of Python's, such as SciPy's."""
+HALF, HALF_PHI, FULL_STEP, FIRST, MIDDLE, LAST, MATRICES = 0, 1, 2, 3, 4, 5, 6
+"""Matrices of ETD-RK4 for one length of step, in the order of `exponential.PhiTable`; their number."""
+
+COMPLETED, TIME_OUT, FELL, STALLED = 0, 1, 2, 3
+NOT_FINITE, SINGULAR, STEP_FAILED, EVENT_LIMIT, RAN_AWAY = 4, 5, 6, 7, 8
+"""Codes, in the order of `hybrid.status.CODES`."""
+STRUCK, FULL = 9, 10
+"""Codes that are no status: an event with a reset ended the arc; there is no room for another node."""
+
+RESOLUTION = 2e-3
+"""Longest stretch of a step without a look at the event functions [s]."""
+MOST_STEPS = 10_000_000
+"""Between two breaks; with more of them a method cannot go on (STEP_FAILED)."""
+LANDING = 1e-9
+"""A last step longer than h by this fraction [1] is still one step: round-off in the count of steps."""
+SAME_STEP = 1e-9
+"""Relative difference [1] below which two steps share their matrices."""
+XTOL, XRTOL, ITERATIONS = 1e-15, 9e-16, 10_000
+"""Tolerances [s] and [1] of the time of an event, and most iterations of its root finder: an event function
+that touches zero flatly takes more than 100.
+"""

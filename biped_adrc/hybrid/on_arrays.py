@@ -1,0 +1,338 @@
+"""A run on NumPy arrays, and the operations that `hybrid.march` has on it: any `HybridSystem`, in Python.
+
+Arrays that go to methods of the system are copies, since the march writes into its own.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeVar
+
+import numpy as np
+
+from biped_adrc.errors import NotFiniteError
+from biped_adrc.hybrid.constants import ETD, NOT_FINITE, RK4, SOLVER, STRUCK
+from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
+from biped_adrc.hybrid.integrators import RK4 as ClassicalRungeKutta
+from biped_adrc.hybrid.integrators import OneStepMethod, Solver, Step
+from biped_adrc.hybrid.system import Clock, FoundEvent, HybridSystem, Mode
+from biped_adrc.hybrid.trajectory import Event, Record
+from biped_adrc.types import Array
+
+_Function = TypeVar("_Function", bound=Callable[..., object])
+
+
+def inner(function: _Function) -> _Function:
+    """The function itself; compiled, it becomes a part of its callers."""
+    return function
+
+
+unit = inner
+"""The function itself; compiled, it becomes a function of its own."""
+
+
+@dataclass(frozen=True)
+class Calendar:
+    """When something happens beside the events: the clocks and switching times of a system over one arc."""
+
+    system: HybridSystem
+    mode: Mode
+    t_arc: float
+    """Start of the arc [s]."""
+    t_first: float
+    """Start of the run [s]."""
+    t_end: float
+    """Latest end of the arc [s]."""
+
+    def start(self, clock: Clock) -> float:
+        """Time [s] of the first sample instant of a clock in this arc."""
+        return (self.t_arc if clock.restart else self.t_first) + clock.offset
+
+    def due(self, t: float, x: Array) -> Array:
+        """x (nx,) after the updates of all clocks that are due at t [s], in the order of the system's clocks.
+
+        A clock is due where t equals start + k period exactly; breaks are computed by the same expression.
+        """
+        for clock in self.system.clocks():
+            start = self.start(clock)
+            k = round((t - start) / clock.period)
+            if k >= 0 and t == start + k * clock.period:
+                x = clock.update(t, x, self.mode)
+        return x
+
+    def next_break(self, t: float) -> float:
+        """The first switching time or sample instant after t [s], at most t_end: no step goes across one."""
+        times = [s for s in self.system.switching_times(self.mode) if s > t]
+        for clock in self.system.clocks():
+            start = self.start(clock)
+            k = max(0, math.floor((t - start) / clock.period))
+            while start + k * clock.period <= t:
+                k += 1
+            times.append(start + k * clock.period)
+        return min([*times, self.t_end])
+
+
+ROWS = ("x0", "dx0", "x1", "dx1", "stage", "k1", "k2", "k3", "k4", "x_e", "dx_e", "x_b", "dx_b")
+"""Arrays (nx,) of a run: state and slope at both ends of a step, of a stage, at an event, after sub-steps."""
+STIFF_ROWS = (
+    "y0",
+    "N0",
+    "y1",
+    "N1",
+    "y_a",
+    "y_b",
+    "N_a",
+    "N_b",
+    "N_c",
+    "e_half",
+    "y_sub",
+    "N_sub",
+    "y_try",
+)
+"""Arrays (ny,) of a run by ETD-RK4."""
+
+
+class Run:
+    """One arc of a system: where it is, what the march knows of it, and its arrays."""
+
+    if TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Array:
+            """One of ROWS and STIFF_ROWS."""
+
+    def __init__(
+        self,
+        calendar: Calendar,
+        method: OneStepMethod,
+        record: Record,
+        t: float,
+        x: Array,
+        fired: str | None,
+    ):
+        """From x (nx,) at t [s]; fired: the guard that ended the arc before, None at the start.
+
+        Raises InputError for a system without what the method needs.
+        """
+        self.calendar, self.method, self.record = calendar, method, record
+        self.system, self.mode = calendar.system, calendar.mode
+        self.t, self.t_end, self.limit, self.t_event = t, calendar.t_end, math.inf, 0.0
+        self.watched = self.system.guards(self.mode)
+        names = [guard.name for guard in self.watched]
+        self.guards, self.fired = len(names), names.index(fired) if fired in names else -1
+        self.t_arc, self.armed, self.sloped, self.every = t, 0, 0, record.every
+        self.nx, self.moving, self.p = len(x), len(x), 0
+        self.accepted: dict[int, FoundEvent] = {}
+        self.event: FoundEvent | None = None
+        for name in ROWS:
+            setattr(self, name, np.zeros(self.nx))
+        self.values, self.after, self.tried = (np.zeros(self.guards) for _ in range(3))
+        self.x0[:] = x
+        self.kind, self.h, self.lags, self.lag_speed = SOLVER, math.inf, 0, 0.0
+        self.steps: Iterator[Step] = iter(())
+        self.ny = self.nN = self.n_slow = self.levels = 0
+        self.t_b = self.t_far = self.f_far = 0.0
+        if isinstance(method, ClassicalRungeKutta):
+            self._set_rk4(method)
+        elif isinstance(method, Exponential):
+            self._set_etd(method)
+
+    def _set_rk4(self, method: ClassicalRungeKutta) -> None:
+        self.kind, self.h, relaxing = RK4, method.h, self.system.relaxing()
+        if relaxing is not None:
+            self.lags, self.lag_speed, self.relaxing = 1, relaxing.speed, relaxing
+
+    def _set_etd(self, method: Exponential) -> None:
+        form = self.system.split(self.mode)
+        if form is None:
+            raise no_coordinates()
+        w, E = form.to(self.x0)
+        self.kind, self.h, self.form, self.E_shape = ETD, method.h, form, E.shape
+        self.phi = phi_levels(method.h, form.A)
+        self.n_slow, self.levels = len(w), len(self.phi)
+        self.ny = self.nN = len(w) + E.size
+        for name in STIFF_ROWS:
+            setattr(self, name, np.zeros(self.ny))
+
+    def parts(self, y: Array) -> tuple[Array, Array]:
+        """w and E (k, c) of y, as copies."""
+        return y[: self.n_slow].copy(), y[self.n_slow :].reshape(self.E_shape).copy()
+
+    def block(self, y: Array) -> Array:
+        """E (k, c) of y, which is written through it."""
+        return y[self.n_slow :].reshape(self.E_shape)
+
+
+# -- vectors ---------------------------------------------------------------------------------------
+def shift(x: Array, i: int) -> Array:
+    """x from its entry i on."""
+    return x[i:]
+
+
+def copy(x: Array, out: Array, size: int) -> None:
+    """out (size,) = x (size,)."""
+    out[:size] = x[:size]
+
+
+def add(x: Array, h: float, dx: Array, out: Array, size: int) -> None:
+    """out (size,) = x + h dx."""
+    out[:size] = x[:size] + h * dx[:size]
+
+
+def rk4_sum(
+    x: Array, h: float, k1: Array, k2: Array, k3: Array, k4: Array, out: Array, size: int
+) -> None:
+    """out (size,) = x + h / 6 (k1 + 2 (k2 + k3) + k4)."""
+    slopes = k1[:size] + 2.0 * (k2[:size] + k3[:size]) + k4[:size]
+    out[:size] = x[:size] + (h / 6.0) * slopes
+
+
+def finite(x: Array, size: int) -> bool:
+    """Whether the sum of squares of x (size,) is finite, as for every state that means anything."""
+    return math.isfinite(x.dot(x))
+
+
+def regular(dx: Array, size: int) -> bool:
+    """Whether every number of dx (size,) is finite, however large."""
+    return bool(np.all(np.isfinite(dx)))
+
+
+def matrix(r: Run, level: int, which: int) -> Array:
+    """One of the six matrices (k, k) of a level; `which` is HALF, HALF_PHI, ..."""
+    M: Array = r.phi[level, which]
+    return M
+
+
+def matvec(r: Run, M: Array, y: Array, out: Array) -> None:
+    """E of out = M E of y; w of out is left as it is."""
+    r.block(out)[:] = M @ r.block(y)
+
+
+def apply_input(r: Run, M: Array, factor: float, N: Array, out: Array) -> None:
+    """E of out += factor M N_E."""
+    r.block(out)[:] += factor * (M @ r.block(N))
+
+
+# -- the system ------------------------------------------------------------------------------------
+def flow(r: Run, t: float, x: Array, dx: Array) -> None:
+    """dx (nx,) = x'(t, x), t in [s]; no later than r.limit, so that a step that ends at a break sees its left
+    limit."""
+    dx[:] = r.system.flow(min(t, r.limit), x.copy(), r.mode)
+
+
+def split(r: Run, x: Array, y: Array) -> None:
+    """y = (w, E) of x."""
+    w, E = r.form.to(x.copy())
+    y[: r.n_slow], r.block(y)[:] = w, E
+
+
+def join(r: Run, y: Array, x: Array) -> None:
+    """x (nx,) of y = (w, E)."""
+    x[:] = r.form.back(*r.parts(y))
+
+
+def remainder(r: Run, t: float, y: Array, N: Array) -> None:
+    """N = (N_w, N_E) at (t, y), t in [s]."""
+    N_w, N_E = r.form.remainder(min(t, r.limit), *r.parts(y))
+    N[: r.n_slow], r.block(N)[:] = N_w, N_E
+
+
+def relax(r: Run, x: Array, weight: float, out: Array) -> None:
+    """What relaxes, in out (nx,): what it goes to, and `weight` [1] of what x has beyond it."""
+    at, to = r.relaxing.at, r.relaxing.to
+    out[at] = x[to] + weight * (x[at] - x[to])
+
+
+def relax_slope(r: Run, x: Array, steep: float, dx: Array) -> None:
+    """dx of what relaxes: `steep` [1/s] times what x (nx,) has beyond what it goes to."""
+    at, to = r.relaxing.at, r.relaxing.to
+    dx[at] = steep * (x[at] - x[to])
+
+
+def slow(r: Run, t: float, x: Array) -> bool:
+    """True. Raises RanAwayError for x (nx,) at t [s] beyond what the system can have."""
+    r.system.check_state(t, x)
+    return True
+
+
+def broken(r: Run) -> int:
+    """The status of a run whose state or slope is not finite."""
+    return NOT_FINITE
+
+
+def watch(r: Run, t: float, x: Array, out: Array) -> None:
+    """out (guards,): the event functions at (t, x), t in [s]."""
+    x = x.copy()
+    for i, guard in enumerate(r.watched):
+        out[i] = guard.witness(t, x)
+
+
+def suspect(r: Run, t0: float, t1: float, count: int) -> bool:
+    """True: a step longer than RESOLUTION is always taken again at its interior points."""
+    return True
+
+
+def accepts(r: Run, guard: int, te: float) -> bool:
+    """Whether the crossing at te [s] in x_e is an event, whose outcome is then kept."""
+    it, x_minus = r.watched[guard], r.x_e.copy()
+    if it.terminal is not None:
+        r.accepted[guard] = FoundEvent(Event(it.name, te, x_minus, None), None, it.terminal)
+        return True
+    outcome = it.reset(te, x_minus) if it.reset is not None else None
+    if outcome is None:
+        return False
+    r.accepted[guard] = FoundEvent(Event(it.name, te, x_minus, outcome[0]), outcome)
+    return True
+
+
+def code_of(r: Run, guard: int) -> int:
+    """STRUCK, with the event in r.event."""
+    r.event = r.accepted[guard]
+    return STRUCK
+
+
+def due(r: Run) -> int:
+    """x0 (nx,) after the sample instants that are due; 0."""
+    r.x0[:] = r.calendar.due(r.t, r.x0.copy())
+    return 0
+
+
+def next_break(r: Run) -> float:
+    """The first break after t [s], at most t_end."""
+    return r.calendar.next_break(r.t)
+
+
+def node(r: Run, t: float, x: Array, dx: Array) -> bool:
+    """Keep (t, x, dx), t in [s]; there is always room."""
+    r.record.add(t, x.copy(), dx.copy())
+    return True
+
+
+# -- a solver's steps ------------------------------------------------------------------------------
+def solver_starts(r: Run, t: float, t_next: float) -> None:
+    """The solver begins at (t, x0), to go to t_next [s] at most."""
+    assert isinstance(r.method, Solver)
+
+    def f(t: float, x: Array) -> Array:
+        return r.system.flow(min(t, r.limit), x, r.mode)
+
+    r.steps = iter(r.method.steps(f, t, r.x0.copy(), t_next))
+
+
+def solve(r: Run) -> float:
+    """x1, dx1 (nx,) after the solver's next step; its end [s].
+
+    Raises NotFiniteError after a step to a state that is not finite, RanAwayError after one beyond the bounds.
+    """
+    r.step = step = next(r.steps)
+    r.x1[:], r.dx1[:] = step.x, step.dx
+    if not finite(r.x1, r.nx):
+        raise NotFiniteError(f"the state is not finite after t = {r.t:.6g} s")
+    slow(r, step.t, r.x1)
+    return step.t
+
+
+def dense(r: Run, s: float) -> None:
+    """x_e (nx,) at s [s], within the solver's last step."""
+    r.x_e[:] = r.step.at(s)
