@@ -10,6 +10,8 @@ At the end of a sample a function says what is to be seen there, such as what a 
 
 from __future__ import annotations
 
+import math
+
 from biped_adrc.engine.kernels.arc import *
 from biped_adrc.engine.kernels.call import *
 from biped_adrc.engine.kernels.operations import *
