@@ -47,13 +47,13 @@ def ends_with_finite_numbers(values, engine):
     assert walk.legality.outcome in ("legal", "made", "fell", "ended")
 
 
-@settings(FIXED, max_examples=100)
+@settings(FIXED, max_examples=40)
 @given(SCENARIOS)
 def test_a_compiled_walk_ends_with_a_status_and_finite_numbers(values):
     ends_with_finite_numbers(values, "compiled")
 
 
-@settings(FIXED, max_examples=10)
+@settings(FIXED, max_examples=5)
 @given(SCENARIOS)
 def test_a_walk_on_pinocchio_ends_with_a_status_and_finite_numbers(values):
     ends_with_finite_numbers(values, "pinocchio")
