@@ -14,9 +14,6 @@ from biped_adrc.engine.kernels.call import Ints, call, inner, shift, unit
 from biped_adrc.engine.kernels.layout import *
 from biped_adrc.types import Array
 
-GAUSS = 0.5773502691896257  # 1 / sqrt(3), as in `biped_adrc.disturbances.base`
-"""Node of the two-point rule of Gauss, 1 / sqrt(3) [1], as in `disturbances.base`."""
-
 
 @inner
 def row(P: Ints, W: Array, i: int) -> Array:
@@ -88,10 +85,10 @@ def note(W: Array, out: Array, pivot: float) -> None:
 
 @inner
 def slow(P: Ints, F: Array, x: Array) -> bool:
-    """Whether no rate in x (nx,) is beyond its bound."""
-    n, fits = P[COORDINATES], True
+    """Whether no rate in x (nx,) is beyond its bound, and no angle beyond the one bound of all."""
+    n, at, fits = P[COORDINATES], P[FASTEST_AT], True
     for i in range(n):
-        fits = fits and abs(x[n + i]) <= F[P[FASTEST_AT] + i]
+        fits = fits and abs(x[n + i]) <= F[at + i] and abs(x[i]) <= F[at + n]
     return fits
 
 
@@ -156,42 +153,20 @@ def next_switch(P: Ints, F: Array, W: Array, t: float, last: float) -> float:
 
 
 @inner
-def pushed(P: Ints, F: Array, W: Array, t: float, weight: float, total: Array) -> None:
-    """total (2,) grows by weight times the force from outside [N] at t [s], with (q, v) in row INP.
+def from_outside(P: Ints, F: Array, W: Array, t: float, force: Array) -> None:
+    """force (2,) from outside on the robot as a whole [N] at t [s], with (q, v) in row INP.
 
     Only the parts of the disturbance that have a resultant are asked; pure torques have none.
     """
     inp, part = row(P, W, INP), row(P, W, PART)
+    force[0] = force[1] = 0.0
     inp[0], inp[1], inp[2] = t, W[STEP], W[START]
     for k in range(P[PARTS]):
         at = P[PARTS_AT] + PART_SIZE * k
         if P[at + 2] != 0:
             call(P[at + 2], shift(F, P[at + 1]), inp, part)
-            total[0] += weight * part[0]
-            total[1] += weight * part[1]
-
-
-@inner
-def from_outside(P: Ints, F: Array, W: Array, t: float, given: Array) -> None:
-    """given (5,): force from outside at t [s] (2) [N], its impulse since the last sample instant
-    (2) [N s], drop [m].
-
-    The impulse is integrated by two points of Gauss in each smooth piece, as `Disturbance.impulse`
-    does.
-    """
-    for i in range(4):
-        given[i] = 0.0
-    given[4] = W[DROP]
-    if P[RESULTANTS] == 0:
-        return
-    pushed(P, F, W, t, 1.0, given)
-    begin = t - F[PERIOD]
-    while begin < t:
-        end = next_switch(P, F, W, begin, t)
-        middle, half = 0.5 * (begin + end), 0.5 * (end - begin)
-        pushed(P, F, W, middle - GAUSS * half, half, shift(given, 2))
-        pushed(P, F, W, middle + GAUSS * half, half, shift(given, 2))
-        begin = end
+            force[0] += part[0]
+            force[1] += part[1]
 
 
 @inner

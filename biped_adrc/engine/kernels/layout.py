@@ -27,17 +27,16 @@ ROWS_AT, PARTS_AT, DROPS_AT, SWITCHES_AT, WEIGHTS_AT = 20, 21, 22, 23, 24
 """P: where forced rows and parts of the disturbance begin in P; where drops, switching times and
 matrices (or the tableau) begin in F.
 """
-WIDTH, MOVING, RESULTANTS, LAG_AT, FASTEST_AT, P_HEAD = 25, 26, 27, 28, 29, 30
-"""P: numbers in a work row; how many of the first states flow, the others being held; parts of the
-disturbance with a force on the robot as a whole; where in x the torques of lagging motors are, 0
-without; where the bounds of the rates begin in F; length of this head.
+WIDTH, MOVING, LAG_AT, FASTEST_AT, P_HEAD = 25, 26, 27, 28, 29
+"""P: numbers in a work row; how many of the first states flow, the others being held; where in x the
+torques of lagging motors are, 0 without; where the bounds of rates and angles begin in F; length of this head.
 """
 PART_SIZE = 3
 """P, of a part of the disturbance: its torque's address, where its parameters begin in F, its
 resultant's address or 0.
 """
-OUTSIDE = 5
-"""Numbers for the meter behind the inputs of a sample instant: force (2), impulse (2), drop."""
+OUTSIDE = 2
+"""Numbers behind the inputs of a sample instant: force from outside, or those on both feet."""
 
 PERIOD, T_FIRST, LEAST_STEP, H, RTOL, ATOL, MAX_STEP = 0, 1, 2, 3, 4, 5, 6
 """F: sampling period [s], 0 for continuous time; start of the run [s]; minimum step length [m]; fixed

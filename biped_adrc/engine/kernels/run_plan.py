@@ -58,8 +58,8 @@ class LawAddresses(NamedTuple):
     flow: int
     """(t, step, t_start, x, zeta) -> (dx/dt, pivot); in sampled time only q, q' and lagging motors flow."""
     tick: int
-    """(t, step, t_start, x, zeta, outside) -> (x after the tick, pivot, q''), in sampled time. outside (5,):
-    force from outside (2) [N], its impulse since the last tick (2) [N s], drop of the ground [m]."""
+    """(t, step, t_start, x, zeta, force) -> (x after the tick, pivot, q''), in sampled time. force (2,): from
+    outside on the robot as a whole [N]."""
     strike: int
     """(t, step, x) -> (x+, pivot); step is that of the new single support."""
     watch: int
@@ -96,6 +96,8 @@ class StateSizes(NamedTuple):
     """How fast they go there, 1 / tau [1/s]."""
     fastest: Array = np.zeros(0)
     """Rates (n,) [rad/s] beyond which the run ends; empty for none."""
+    farthest: float = math.inf
+    """Angle [rad] beyond which it does."""
 
 
 class GroundTable(NamedTuple):
@@ -223,11 +225,11 @@ def plan(
     weights = method.phi if method.kind == layout.ETD else TABLEAU
     P[layout.WIDTH] = _width(sizes)
     fastest = sizes.fastest if len(sizes.fastest) else np.full(sizes.n, np.inf)
-    F, at = _joined([head, scene.drops, push.switches, push.K, weights, fastest], np.float64)
+    bounds = [*fastest, sizes.farthest]
+    F, at = _joined([head, scene.drops, push.switches, push.K, weights, bounds], np.float64)
     P[layout.FASTEST_AT] = at[5]
     P[layout.DROPS_AT], P[layout.SWITCHES_AT], P[layout.WEIGHTS_AT] = at[1], at[2], at[4]
     resultants = push.resultants or (0,) * len(push.addresses)
-    P[layout.RESULTANTS] = np.count_nonzero(resultants)
     given = zip(push.addresses, push.offsets[:-1], resultants, strict=True)
     parts = [(a, at[3] + o, r) for a, o, r in given]
     P, where = _joined([P, method.rows, np.array(parts, dtype=np.int64)], np.int64)

@@ -16,25 +16,31 @@ from biped_adrc.engine.kernels.laws import *
 from biped_adrc.engine.kernels.layout import *
 from biped_adrc.types import Array
 
-GIVEN = 7
-"""Numbers in `given` for a walk: addresses of P, F, K, W, s, place of the torques in K, that function's."""
+GIVEN = 8
+"""Numbers in `given` for a walk: addresses of P, F, K, W, s, R, place of the torques in K, that function's."""
 MOST_ARCS = 100
 """In one sample (EVENT_LIMIT)."""
 
 
 @unit
-def sample(P: Ints, F: Array, K: Array, W: Array, s: Array) -> int:
+def sample(P: Ints, F: Array, K: Array, W: Array, s: Array, R: Array) -> int:
     """s (HEAD + nx,) from a sample instant to the next one; a code, 0 for COMPLETED.
 
-    No nodes are kept. Where the walk ends, s is at its end.
+    Nodes go into R behind its first COUNT rows; where it is FULL, those are given up. Where the walk ends, s is
+    at its end.
     """
-    s[EVERY] = 0.0
+    s[EVERY] = 1.0
     for _ in range(MOST_ARCS):
         start = s[ARC] if P[RESTART] == 1 else F[T_FIRST]
         s[END] = next_tick(F, s[TIME], start)
-        code = go_on(P, F, K, W, s, s)
+        code = go_on(P, F, K, W, s, R)
+        if code == FULL:
+            s[COUNT] = 0.0
+            code = go_on(P, F, K, W, s, R)
         if code == STRUCK:
+            count = s[COUNT]
             code = land(P, K, W, s)
+            s[COUNT] = count
         if code != COMPLETED:
             return code
         if is_tick(F, s[TIME], s[ARC] if P[RESTART] == 1 else F[T_FIRST]):
@@ -44,7 +50,7 @@ def sample(P: Ints, F: Array, K: Array, W: Array, s: Array) -> int:
 
 @unit
 def look(P: Ints, F: Array, K: Array, W: Array, s: Array, law: int, out: Array) -> None:
-    """out = law(t, step, t_start, x, zeta, outside) in s, as a sample instant there is given them."""
+    """out = law(t, step, t_start, x, zeta, force) in s, as a sample instant there is given them."""
     n, nx, inp, zeta = P[COORDINATES], P[STATES], row(P, W, INP), row(P, W, ZETA)
     load(P, W, s)
     lower(P, F, W)
@@ -70,13 +76,13 @@ def samples(given: Ints, torques: Rows, seen: Rows, codes: Ints) -> None:
         at = GIVEN * i
         P, F, K = ints_at(given[at]), floats_at(given[at + 1]), floats_at(given[at + 2])
         W, s = floats_at(given[at + 3]), floats_at(given[at + 4])
-        copy(shift(rows, i * p), shift(K, given[at + 5]), p)
-        codes[i] = sample(P, F, K, W, s)
-        look(P, F, K, W, s, given[at + 6], shift(shown, i * seen.shape[1]))
+        copy(shift(rows, i * p), shift(K, given[at + 6]), p)
+        codes[i] = sample(P, F, K, W, s, floats_at(given[at + 5]))
+        look(P, F, K, W, s, given[at + 7], shift(shown, i * seen.shape[1]))
 
 
 @kernel
 def looks(given: Ints, seen: Rows) -> None:
     """In seen (1, k) what the function says of a walk where it is; given (GIVEN,)."""
     P, F, K = ints_at(given[0]), floats_at(given[1]), floats_at(given[2])
-    look(P, F, K, floats_at(given[3]), floats_at(given[4]), given[6], data(seen))
+    look(P, F, K, floats_at(given[3]), floats_at(given[4]), given[7], data(seen))
