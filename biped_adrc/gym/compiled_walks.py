@@ -95,7 +95,7 @@ class CompiledWalks:
         for i in np.flatnonzero(walked & ((self.codes != 0) | (steps > self.steps))):
             made = self.made[i]
             assert made is not None
-            self._judge(i, made)
+            self._judge(int(i), made)
         self.steps = steps.copy()
 
     def _judge(self, i: int, made: LoadedWalk) -> None:

@@ -225,7 +225,7 @@ def plan(
     weights = method.phi if method.kind == layout.ETD else TABLEAU
     P[layout.WIDTH] = _width(sizes)
     fastest = sizes.fastest if len(sizes.fastest) else np.full(sizes.n, np.inf)
-    bounds = [*fastest, sizes.farthest]
+    bounds = np.append(fastest, sizes.farthest)
     F, at = _joined([head, scene.drops, push.switches, push.K, weights, bounds], np.float64)
     P[layout.FASTEST_AT] = at[5]
     P[layout.DROPS_AT], P[layout.SWITCHES_AT], P[layout.WEIGHTS_AT] = at[1], at[2], at[4]
