@@ -79,7 +79,9 @@ def test_certificate_says_what_dry_ground_would_not_bear(biped, gait):
     assert c.violations() == ()
     assert c.violations(ba.Limits(friction=0.1)) == (
         f"friction {c.mean_friction:.3g} > 0.1 over 5 ms",
+        f"the impulse at impact asks for friction {c.impulse_ratio:.3f} > 0.1",
     )
+    assert len(c.violations(ba.Limits(friction=0.1), but=("friction", "impulse"))) == 0
     assert "torque" in c.violations(ba.Limits(torque=50.0))[0]
     assert c.step_length == pytest.approx(0.3124, abs=1e-4)
     assert len(made.signals.of_step(2).t) < len(made.signals.t)

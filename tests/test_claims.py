@@ -44,10 +44,10 @@ def figure(value, change=1e-3):
     return AtTwoSteps(value * (1.0 + change), value)
 
 
-def walk(error, *, made=4, rate=1e-9, change=1e-3, period=0.4, illegal=()):
+def walk(error, *, made=4, rate=1e-9, change=1e-3, period=0.4, infeasible=None):
     status = "COMPLETED" if made == 4 else "FELL"
     f = figure(error, change)
-    return MemberWalk(status, made, 4, f, f, figure(rate), figure(period), illegal)
+    return MemberWalk(status, made, 4, f, f, figure(rate), figure(period), infeasible or {})
 
 
 def outcome(npd=None, adrc=None, member=None):
@@ -133,14 +133,14 @@ def test_a_walk_is_taken_from_the_undisturbed_one_at_either_step():
         nominal("identified", "published")[1].q_minus[0] = 1.0
 
 
-def test_a_walk_that_is_not_finite_is_not_legal(monkeypatch):
+def test_a_walk_that_is_not_finite_is_not_feasible(monkeypatch):
     run = Member("identified", 30.0, 0.12, ("q3",), 0.0, "model", "solved").run("NPD", 1e-3)
     made = prepared(run)
     walk = made.simulate(1e-3, 1)
     arc = walk.arcs[0]
     lost = replace(walk, arcs=(replace(arc, x=np.full_like(arc.x, np.nan)),))
     monkeypatch.setattr(Prepared, "simulate", lambda *_: lost)
-    assert _ending(made, 1e-3).illegal == ("not finite",)
+    assert _ending(made, 1e-3).infeasible == {"normal_force": "not finite"}
 
 
 # -- cases and tallies -----------------------------------------------------------------------------
@@ -219,11 +219,12 @@ def cell(npd, adrc, doubtful=False):
 @pytest.mark.parametrize(
     ("cells", "word", "number"),
     [
-        ([("fell", "legal")], "replicated", "lost in 1 of 1"),
-        ([("fell", "legal"), ("ended", "fell")], "depends", "lost in 2 of 2"),
-        ([("fell", "made")], "contradicted", "walks on in 1, legally in 0"),
-        ([("fell", "fell"), ("legal", "fell")], "contradicted", "ADRC alone is lost in 1"),
-        ([("legal", "legal")], "not testable", "lost in 0 of 1"),
+        ([("fell", "feasible")], "replicated", "lost in 1 of 1"),
+        ([("fell", "feasible"), ("ended", "fell")], "depends", "lost in 2 of 2"),
+        ([("fell", "infeasible")], "contradicted", "walks on in 1, feasible in 0"),
+        ([("fell", "but_impact")], "replicated", "feasible but for the impact in 1"),
+        ([("fell", "fell"), ("feasible", "fell")], "contradicted", "ADRC alone is lost in 1"),
+        ([("feasible", "feasible")], "not testable", "lost in 0 of 1"),
     ],
 )
 def test_a_critical_phase_is_judged_over_the_map(cells, word, number):
@@ -262,7 +263,7 @@ def test_stability(multiplier, word):
         assert claim_checks([claim])[1].holds == (word == "replicated")
 
 
-def need(gait="recipe", *, impulse=0.5, cost=1.0, jump=1.0, illegal=()):
+def need(gait="recipe", *, impulse=0.5, cost=1.0, jump=1.0, infeasible=None):
     return Needs(
         f"{gait}",
         "identified",
@@ -274,7 +275,7 @@ def need(gait="recipe", *, impulse=0.5, cost=1.0, jump=1.0, illegal=()):
         figure(cost, 1e-5),
         figure(10.0),
         jump,
-        illegal,
+        infeasible or {},
         figure(100.0),
     )
 
@@ -338,8 +339,8 @@ def test_the_least_speed_of_the_zero_dynamics_parts_the_starts():
 
 def test_the_needs_of_the_recipe():
     a, b = evidence.needs("identified")
-    assert not a.illegal
-    assert b.illegal
+    assert not a.infeasible
+    assert b.infeasible
     assert b.friction_at_an_instant.at_half == pytest.approx(0.57, abs=0.005)
     assert b.friction.at_half <= b.friction_at_an_instant.at_half
     assert b.torque.at_half == pytest.approx(315.0, rel=0.01)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.legality import Legality
+from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.analysis.quadrature import integrate, largest
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.paper.convergence import (
@@ -64,7 +64,7 @@ def made_up(**values: object) -> Outcome:
         1e-4,
         100.0,
         (),
-        Legality(ba.Status.COMPLETED, (), 0.0, KnownLimits(0.6, 150.0, 5e-3)),
+        Feasibility(ba.Status.COMPLETED, (), KnownLimits(0.6, 150.0, 5e-3)),
         "",
         "",
     )

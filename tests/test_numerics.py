@@ -98,6 +98,23 @@ def test_robots_without_motors_run_away_by_their_speed_alone():
 
 
 @pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("timing", [ba.ContinuousTime(), ba.SampledTime(1e-3)])
+def test_a_joint_that_turns_all_the_way_round_ends_the_walk(biped, gait, engine, timing):
+    """The swing leg whirls about the hip, over a hole in which it meets no ground."""
+    hole = (ba.StepDown(1, 3.0),)
+    law = ba.NPDController(gait.constraint)
+    walker = ba.Walker(biped, law, timing=timing, torque_limit=1.0, ground_steps=hole)
+    q, v = gait.start(biped)
+    v = v + 100.0 * np.eye(5)[1]
+    run = ba.walk(walker, gait, 1, ba.RK4(1e-4), start=(q, v), engine=engine).trajectory
+    assert run.status is ba.Status.RAN_AWAY
+    assert "q2 is 6.2" in run.detail
+    assert "rad, beyond a whole turn" in run.detail
+    farthest = np.max(np.abs(run.final_state[:5]))
+    assert 2.0 * np.pi - 0.05 < farthest <= 2.0 * np.pi
+
+
+@pytest.mark.parametrize("engine", ENGINES)
 def test_a_fall_has_a_state(biped, gait, engine):
     push = ba.TorqueStep([60.0] * 5, step=1, start=0.1)
     walker = ba.Walker(biped, ba.ADRCController(gait.constraint), push)

@@ -150,7 +150,7 @@ SIMULATE = {
     ),
     "sets": Row(["--set", "max_step_time=900 ms"], scenario_field("max_step_time"), 0.9),
     "as_printed": Row("--as-printed", scenario_field("solve_theta"), False),
-    "end_illegal": Row("--end-illegal", same("end_illegal"), True),
+    "end_infeasible": Row("--end-infeasible", same("end_infeasible"), True),
     "out": Row("-o own.csv", same("out"), Path("own.csv")),
     "log": Row("--period 0.002 --log own", same("log"), Path("own.csv")),
 }

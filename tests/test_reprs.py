@@ -30,7 +30,7 @@ def test_parts_and_walks_fit_a_line(biped, gait):
         m,
         m.terms,
     ]
-    results = [walk, walk.trajectory, walk.signals, walk.certificates[0], walk.legality]
+    results = [walk, walk.trajectory, walk.signals, walk.certificates[0], walk.feasibility]
     studied = [ba.Scenario("NPD"), ba.find_cycle("compass"), ba.Limits()]
     for thing in (*parts, *results, *studied):
         assert "\n" not in repr(thing), type(thing)

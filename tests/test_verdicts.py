@@ -10,7 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 from biped_adrc.analysis.certificate import Certificate
-from biped_adrc.analysis.legality import Legality
+from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.analysis.return_map import PeriodicOrbit
 from biped_adrc.campaign.pool import Timed
 from biped_adrc.checks import at_most
@@ -36,19 +36,20 @@ CERTIFICATE = Certificate(
     mean_normal_force=200.0,
     mean_friction=0.4,
     scuffing=0.0,
+    slip=0.0,
     peak_torque=100.0,
+    impulse_ratio=0.5,
     friction_limit=0.6,
     torque_limit=150.0,
     window=5e-3,
     step_length=0.3,
-    impulse_ratio=0.5,
     old_foot_velocity=0.1,
     clearance=0.01,
     joint_work=10.0,
     energy_lost=10.0,
     cost_of_transport=0.3,
 )
-LEGALITY = Legality(Status.COMPLETED, (CERTIFICATE,), 0.5, KnownLimits(0.6, 150.0, 5e-3))
+FEASIBILITY = Feasibility(Status.COMPLETED, (CERTIFICATE,), KnownLimits(0.6, 150.0, 5e-3))
 
 
 def outcome(controller, peak=1e-2, impacts=9, asked=9, **more):
@@ -64,7 +65,7 @@ def outcome(controller, peak=1e-2, impacts=9, asked=9, **more):
         peak,
         100.0,
         (CERTIFICATE,),
-        LEGALITY,
+        FEASIBILITY,
         "rk4",
         "compiled",
     )

@@ -15,8 +15,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from biped_adrc.analysis.certificate import REASONS
+from biped_adrc.analysis.feasibility import Feasibility, outcome_of
 from biped_adrc.analysis.forced_steps import stopping_force
-from biped_adrc.analysis.legality import Legality, outcome_of
 from biped_adrc.analysis.stride_gain import STANCE_KNEE
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.control.base import Controller
@@ -115,7 +116,7 @@ class PushedWalk:
     """How the simulation ended."""
     speeds: tuple[float, ...]
     """L / T of every finished step [m/s]."""
-    legality: Legality | None
+    feasibility: Feasibility | None
     """Of the finished steps, within the limits of the robot's record."""
     clearance: float | None
     """Least height of the swing foot inside a step [m]."""
@@ -124,7 +125,7 @@ class PushedWalk:
     def of(cls, case: HipCase, force: float) -> PushedWalk:
         """Simulate the case under this force [N].
 
-        The last step, in which the robot fell, is left out of speeds and legality: it says nothing of walking.
+        The last step, in which the robot fell, is left out of speeds and feasibility.
         """
         made = case.walk(force)
         count = len(made.trajectory.events(FOOT_STRIKE))
@@ -135,7 +136,7 @@ class PushedWalk:
             force,
             made.trajectory.status,
             tuple(step.step_length / step.duration for step in steps),
-            finished.legality if arcs else None,
+            finished.feasibility if arcs else None,
             min((step.clearance for step in steps), default=None),
         )
 
@@ -146,8 +147,10 @@ class PushedWalk:
 
     @property
     def outcome(self) -> str:
-        """One of the words in `analysis.legality.OUTCOMES`."""
-        return outcome_of(self.status, False) if self.legality is None else self.legality.outcome
+        """One of the words in `analysis.feasibility.OUTCOMES`."""
+        if self.feasibility is None:
+            return outcome_of(self.status, REASONS)
+        return self.feasibility.outcome
 
     def speed(self, last: int = 5) -> float | None:
         """Mean of the last steps [m/s]; None without one."""

@@ -2,7 +2,7 @@
 
 Of a finished walk:
 - `signals`, `quadrature`          all time series of a walk, and integrals and means of them
-- `certificate`, `legality`        whether a real robot could have made these steps
+- `certificate`, `feasibility`        whether a real robot could have made these steps
 - `regression`, `statistics`       multipliers by (26), (27); shares and medians over many walks
 
 Of a closed loop or a gait, before or without a long simulation:

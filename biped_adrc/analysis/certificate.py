@@ -4,15 +4,16 @@ A planar model pinned at its foot cannot slip or lift off, so feasibility is che
 and friction |F_T| / F_N at every instant and in the mean over a window, the same ratio of the
 impulses at impact, whether the old foot lifts off, scuffing of the swing foot, torque, and the
 joint work against the energy lost at impact. On a periodic gait on level ground these two are
-equal. Forces are those on the plant, along and perpendicular to its ground. A step is legal within
-the `Limits`: by the mean of the force, not by an instant, and not by the impulse.
+equal. Forces are those on the plant, along and perpendicular to its ground. A step is feasible within
+the `Limits`: by the mean of the force, not by an instant, and by the impulse of its impact.
 
-`certificates` and `supports` read the `Signals` of a walk; `legality` sums them up for the walk.
+`certificates` and `supports` read the `Signals` of a walk; `feasibility` sums them up for the walk.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Collection, Sequence
 from dataclasses import asdict, dataclass
 
 import numpy as np
@@ -24,12 +25,15 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.errors import InputError
 from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.robots.limits import ENDS, ROUND_OFF, KnownLimits, Limits, completed
+from biped_adrc.model.contact import Impact
+from biped_adrc.robots.limits import ENDS, ROUND_OFF, SLIP, KnownLimits, Limits, completed
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
-REASONS = ("normal_force", "friction", "torque", "scuffing")
-"""Why a single support is not legal: keys of `Support.illegal`."""
+IMPULSE = "impulse"
+"""The reason that is counted apart: the impulse at impact alone leaves the friction cone."""
+REASONS = ("normal_force", "friction", "torque", "scuffing", "slip", IMPULSE)
+"""Why a single support is not feasible: keys of `Support.infeasible`."""
 
 
 @dataclass(frozen=True)
@@ -52,17 +56,23 @@ class Support(Shown):
     """Largest |F_T| / F_N of the forces averaged over the window, of those with F_N > 0, dimensionless."""
     scuffing: float
     """How deep the swing foot is below the lower of the footholds, away from the ends of the step [m]."""
+    slip: float
+    """Largest distance that a foot slips on soft ground [m]; 0 on the rigid plant."""
     peak_torque: float
     """Largest |u_i| [N m]."""
+    impulse_ratio: float
+    """|F_T| / F_N of the impulse at the impact that ends it: infinite where the ground would have had to
+    pull, 0 without an impact.
+    """
     friction_limit: float
-    """mu of the friction cone that `share_outside` refers to."""
+    """mu of the friction cone; infinite on soft ground, where friction is the simulator's."""
     torque_limit: float
     """Limit of every motor [N m]."""
     window: float
     """Length of the window of the means [s]."""
 
-    def illegal(self, limits: Limits | KnownLimits | None = None) -> dict[str, str]:
-        """What is not within the limits, in words, by the names in `REASONS`; empty for a legal step.
+    def infeasible(self, limits: Limits | KnownLimits | None = None) -> dict[str, str]:
+        """What is not within the limits, in words, by the names in `REASONS`; empty for a feasible step.
 
         limits: None takes those that this was made with; a None inside `Limits` does so, too.
         Raises InputError for limits with another window, since the means would have to be computed
@@ -75,14 +85,17 @@ class Support(Shown):
         found = {}
         if not normal > 0.0:
             found["normal_force"] = f"F_N = {normal:.3g} N {over}{contact}"
-        if not (
-            ratio <= (1.0 + ROUND_OFF) * k.friction or (ratio == math.inf and not normal > 0.0)
-        ):
+        cone = (1.0 + ROUND_OFF) * k.friction
+        if not (ratio <= cone or (ratio == math.inf and not normal > 0.0)):
             found["friction"] = f"friction {ratio:.3g} > {k.friction:g} {over}"
         if not self.peak_torque <= k.torque:
             found["torque"] = f"torque {self.peak_torque:.4g} N m > {k.torque:g}"
         if not self.scuffing <= 0.0:
             found["scuffing"] = f"the swing foot scuffs by {self.scuffing:.2g} m"
+        if not self.slip <= SLIP:
+            found["slip"] = f"a foot slips by {1e3 * self.slip:.2g} mm > {1e3 * SLIP:g}"
+        if not self.impulse_ratio <= cone:
+            found[IMPULSE] = impulse_text(self.impulse_ratio, k)
         return found
 
     def _known(self, limits: Limits | KnownLimits | None) -> KnownLimits:
@@ -108,8 +121,6 @@ class Certificate(Support):
 
     step_length: float
     """Distance of the footholds along the ground [m]."""
-    impulse_ratio: float
-    """|F_T| / F_N of the impulses at impact; infinite where the ground would have had to pull."""
     old_foot_velocity: float
     """Velocity of the old stance foot after impact, perpendicular to the ground [m/s]; positive when
     it lifts off.
@@ -126,15 +137,13 @@ class Certificate(Support):
     """int |u_i q_i'| dt, summed over motors, over m g times step length; dimensionless."""
 
     def violations(
-        self, limits: Limits | KnownLimits | None = None, clearance: bool = True
+        self, limits: Limits | KnownLimits | None = None, but: Collection[str] = ()
     ) -> tuple[str, ...]:
-        """What a robot within these limits could not have done, in words; empty when all holds.
+        """As `infeasible`, as sentences, and in addition the old foot has to lift off; empty when all holds.
 
-        As `illegal`, and in addition the old foot has to lift off. The impulse ratio is reported
-        without a limit; scuffing counts unless `clearance` is False.
+        but: names in `REASONS` that do not count.
         """
-        illegal = self.illegal(limits)
-        found = [text for name, text in illegal.items() if clearance or name != "scuffing"]
+        found = [text for name, text in self.infeasible(limits).items() if name not in but]
         if not self.old_foot_velocity > 0:
             found.append("the old stance foot does not lift off")
         return tuple(found)
@@ -143,6 +152,11 @@ class Certificate(Support):
 def ratio_text(ratio: float) -> str:
     """A friction ratio as text; "no contact" where it is infinite."""
     return f"{ratio:.3f}" if math.isfinite(ratio) else "no contact"
+
+
+def impulse_text(ratio: float, k: KnownLimits) -> str:
+    """What an impulse outside the friction cone asks for, in words."""
+    return f"the impulse at impact asks for friction {ratio_text(ratio)} > {k.friction:g}"
 
 
 def certificates(
@@ -158,21 +172,34 @@ def certificates(
 
 
 def supports(
-    walker: Walker, trajectory: Trajectory, signals: Signals, limits: Limits | None = None
+    walker: Walker,
+    trajectory: Trajectory,
+    signals: Signals,
+    limits: Limits | None = None,
+    slips: Sequence[float] | None = None,
 ) -> tuple[Support, ...]:
-    """What every single support needed, the last unfinished one included; None takes the robot's limits."""
+    """What every single support needed, the last unfinished one included; None takes the robot's limits.
+
+    slips: of each single support on soft ground [m], in place of the friction cone; None on the rigid plant.
+    """
     k = (limits or Limits()).of(walker.plant.description)
+    if slips is None:
+        slips = (0.0,) * len(trajectory.arcs)
+    else:
+        k = k._replace(friction=math.inf)
     return tuple(
-        support(walker, signals.of_step(arc.mode.step), k, ended_in_impact(arc))
-        for arc in trajectory.arcs
+        support(walker, signals.of_step(arc.mode.step), k, ended_in_impact(arc), slip)
+        for arc, slip in zip(trajectory.arcs, slips, strict=True)
     )
 
 
-def support(walker: Walker, s: Signals, k: KnownLimits, finished: bool = True) -> Support:
-    """What the single support in s needed; `finished` where it ended in an impact.
+def support(
+    walker: Walker, s: Signals, k: KnownLimits, finished: bool = True, slip: float = 0.0
+) -> Support:
+    """What the single support in s needed but for its impact; `finished` where it ended in one.
 
     s: the signals of this single support alone; k: the limits, for the window and the friction
-    cone.
+    cone; slip [m]: of a foot on soft ground.
     """
     F = forces(walker, s)
     duration = float(s.t[-1] - s.t[0])
@@ -188,7 +215,9 @@ def support(walker: Walker, s: Signals, k: KnownLimits, finished: bool = True) -
         mean_normal_force=float(np.min(means[:, 1])),
         mean_friction=largest_ratio(means),
         scuffing=float(np.max(depths(walker, s, finished))),
+        slip=slip,
         peak_torque=float(np.max(np.abs(s.u), initial=0.0)),
+        impulse_ratio=0.0,
         friction_limit=k.friction,
         torque_limit=k.torque,
         window=k.window,
@@ -236,7 +265,7 @@ def _height(walker: Walker, s: Signals) -> Array:
 
 def outside(F: Array, mu: float) -> NDArray[np.bool_]:
     """Whether (F_T, F_N) (K, 2) [N] is outside the friction cone (K,); a force with NaN is."""
-    return ~((F[:, 1] > 0.0) & (np.abs(F[:, 0]) <= (1.0 + ROUND_OFF) * mu * F[:, 1]))
+    return ~((F[:, 1] > 0.0) & (np.abs(F[:, 0]) / ((1.0 + ROUND_OFF) * mu) <= F[:, 1]))
 
 
 def largest_ratio(F: Array) -> float:
@@ -247,22 +276,24 @@ def largest_ratio(F: Array) -> float:
     return float(np.max(np.abs(pushes[:, 0]) / pushes[:, 1]))
 
 
+def impulse_ratio(walker: Walker, impact: Impact) -> float:
+    """|F_T| / F_N of the impulse of an impact; infinite where the ground would have to pull."""
+    return largest_ratio(impact.impulse[np.newaxis] @ np.array(ground_axes(walker.slope)).T)
+
+
 def _certificate(walker: Walker, s: Signals, x_minus: Array, k: KnownLimits) -> Certificate:
     """The certificate of a step that ended in an impact at x- = (q, q', ...)."""
     b, n, p = walker.plant, walker.plant.n, walker.plant.p
     q, v = x_minus[:n], x_minus[n : 2 * n]
     impact = b.impact(q, v)
-    along, across = ground_axes(walker.slope)
-    normal = float(impact.impulse @ across)
     height = _height(walker, s) + walker.drop(int(s.step[0]))
     power = s.u * s.v[:, :p]
     length = float(b.swing_foot(q)[0]) / math.cos(walker.slope)
     after = b.kinetic_energy(impact.q, impact.v)
     return Certificate(
-        **vars(support(walker, s, k)),
+        **{**vars(support(walker, s, k)), "impulse_ratio": impulse_ratio(walker, impact)},
         step_length=length,
-        impulse_ratio=float(abs(impact.impulse @ along)) / normal if normal > 0.0 else math.inf,
-        old_foot_velocity=float(impact.old_foot_velocity @ across),
+        old_foot_velocity=float(impact.old_foot_velocity @ ground_axes(walker.slope)[1]),
         clearance=float(np.min(height[inner(s.t)])),
         joint_work=integrate(s.t, np.sum(power, axis=1)),
         energy_lost=b.kinetic_energy(q, v) - after,

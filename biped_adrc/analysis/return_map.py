@@ -64,7 +64,7 @@ class PeriodicOrbit(Shown):
 class ReturnMap(Shown):
     """The map P in section coordinates s, for a walker and an integration method.
 
-    Raises InputError for a walker with noise or a meter, whose state never returns.
+    Raises InputError for a walker with noise, whose state never returns.
     """
 
     walker: Walker
@@ -86,7 +86,6 @@ class ReturnMap(Shown):
         w = self.walker
         noisy = w.sensors is not None and w.sensors.noisy
         counts = {
-            "a meter, which counts on": w.meter is not None,
             "noise in its sensors": noisy,
             "a controller that has to notice touchdowns and counts them": w.touchdown is not None,
         }

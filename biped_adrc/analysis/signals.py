@@ -156,7 +156,9 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
             if arc.event is not None and arc.event.x_plus is not None:
                 at = at + walker.plant.swing_foot(arc.event.x_minus[:n])
         foot = np.vstack(places)
-    outside = [walker.resultant(float(t), arc.mode) for arc in arcs for t in arc.seen]
+    outside: Array | float = 0.0
+    if walker.disturbance is not None and walker.disturbance.pulls:
+        outside = np.array([walker.resultant(float(t), arc.mode) for arc in arcs for t in arc.seen])
     return Signals(
         t=np.concatenate([arc.t for arc in arcs]),
         step=np.concatenate([np.full(len(arc.t), arc.mode.step) for arc in arcs]),
@@ -169,7 +171,7 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
         foothold_height=foot[:, 1],
         **{
             **r._asdict(),
-            "ground_reaction": r.ground_reaction - np.array(outside),
+            "ground_reaction": r.ground_reaction - outside,
             "potential": r.potential + walker.plant.weight * foot[:, 1],
         },
     )

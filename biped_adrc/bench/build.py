@@ -1,10 +1,10 @@
 """From a trial's scenario to a walker that is ready to run, and what a study's numbers depend on besides
 values.
 
-Walks of a study are sampled and run on the compiled engine with a meter, which counts errors, torques and
-ground forces at sample instants. Robots and gaits are loaded once per process and shared by its trials. A
-study may name files (a robot's TOML and URDF, a gait) and classes of the user: their contents are hashed into
-the versions of the results, so that results of two different robots never end in one file.
+Walks of a study are sampled and run on the compiled engine. Robots and gaits are loaded once per process and
+shared by its trials. A study may name files (a robot's TOML and URDF, a gait) and classes of the user: their
+contents are hashed into the versions of the results, so that results of two different robots never end in one
+file.
 
 Called by `bench.run` (walks), `bench.study.rehearse` (checks) and `bench.sweep` (hashes).
 """
@@ -109,17 +109,16 @@ def _scene(
 
 
 def case(s: Scenario) -> Case:
-    """The walk of a scenario, metered, with its start and method; recorded where it has to notice touchdowns.
+    """The walk of a scenario with its start and method, recorded on the rigid plant.
 
-    The meter counts at sample instants and takes one integration step per period, which is why a study asks for
-    a period. Raises InputError for values that do not fit together, or that a study cannot use: continuous
-    time, fine steps besides, another engine.
+    Raises InputError for values that do not fit together, or that a study cannot use: continuous time, fine
+    steps besides, another engine.
     """
     if s.period is None or s.fine is not None:
         what = "has no period" if s.period is None else f"has fine = {s.fine:g} s"
         raise InputError(
-            f"the scenario {what}; a study counts what it reports at ticks, with one step: expected a period "
-            "[s], such as 1 ms, and no fine step"
+            f"the scenario {what}; a study walks in sampled time, with one step: expected a period [s], "
+            "such as 1 ms, and no fine step"
         )
     if s.engine != COMPILED:
         raise InputError(
@@ -127,8 +126,8 @@ def case(s: Scenario) -> Case:
         )
     scene = scene_of(s)
     q, v = start(s, scene)
-    walker = build(s, scene, metered=s.plant == RIGID)
+    walker = build(s, scene)
     if s.plant != RIGID:
         soft_loop(s, walker)
-    mode, recorded = Mode(s.first_step), s.plant == RIGID and s.touchdown is not None
-    return Case(walker, q, v, method_of(s, walker), s.impacts, mode, recorded)
+    mode = Mode(s.first_step)
+    return Case(walker, q, v, method_of(s, walker), s.impacts, mode, s.plant == RIGID)

@@ -1,13 +1,12 @@
 """One cell of the comparison's table: the walks of one controller under one condition, and their statistics.
 
-A walk makes all its steps, or it does not (it fell, or ended otherwise). If it does, every step may be legal:
-the ground only pushes, within dry friction, torques are within their limits, and the swing foot does not scuff.
-Only legal walks count as success, since the model's foot is pinned and walks where no real ground holds it.
+A walk makes all its steps, or it does not (it fell, or ended otherwise). If it does, it may be feasible
+(`analysis.feasibility`), or feasible but for the impact, which is counted apart. All others are no success,
+since the model's foot is pinned and walks where no real ground holds it.
 
-A share is (value, low, high) with Wilson's interval, dimensionless: `survived` and `legal` of all walks,
-`reasons` and `impulse` of those walks that made all steps and have a value in the column. Medians have
-bootstrap intervals (`analysis.statistics`). Made by `bench.comparison`, read by the
-comparison's page.
+A share is (value, low, high) with Wilson's interval, dimensionless: `survived`, `feasible` and `but_impact` of
+all walks, `reasons` and `impulse` of those walks that made all steps and have a value in the column. Medians
+have bootstrap intervals (`analysis.statistics`). Made by `bench.comparison`, read by the comparison's page.
 """
 
 from __future__ import annotations
@@ -21,10 +20,7 @@ from biped_adrc.campaign.chunk import Row
 from biped_adrc.viz.comparison_text import MEASURES, NEEDS, REASONS
 
 IMPULSE = "bad_impulse"
-"""Column: 1 where |F_T| / F_N of the impulse at some impact is above the coefficient of friction, else 0.
-
-It is reported apart and makes no walk illegal: in some presets the gait itself does so without a disturbance.
-"""
+"""Column: 1 where |F_T| / F_N of the impulse at some impact is above the coefficient of friction, else 0."""
 
 
 def is_made(row: Row) -> bool:
@@ -32,9 +28,14 @@ def is_made(row: Row) -> bool:
     return row["survived"] == 1
 
 
-def is_legal(row: Row) -> bool:
-    """Whether the walk made all steps, each of them legally."""
-    return is_made(row) and row["legal"] == 1
+def is_feasible(row: Row) -> bool:
+    """Whether the walk made all steps, each of them feasible."""
+    return is_made(row) and row["feasible"] == 1
+
+
+def is_counted(row: Row) -> bool:
+    """Whether the walk is feasible, the impact at most aside, so that its numbers enter the statistics."""
+    return is_feasible(row) or (is_made(row) and row.get("but_impact") == 1)
 
 
 def number(row: Row, name: str) -> float | None:
@@ -62,9 +63,14 @@ class Cell:
         return share(sum(is_made(w) for w in self.walks), len(self.walks))
 
     @property
-    def legal(self) -> Interval:
-        """Share of all walks that make all steps and each of them legally, with its interval."""
-        return share(sum(is_legal(w) for w in self.walks), len(self.walks))
+    def feasible(self) -> Interval:
+        """Share of all walks that are feasible, with its interval."""
+        return share(sum(is_feasible(w) for w in self.walks), len(self.walks))
+
+    @property
+    def but_impact(self) -> Interval:
+        """Share of all walks that are feasible but for the impact, with its interval."""
+        return share(sum(w.get("but_impact") == 1 for w in self.walks), len(self.walks))
 
     @property
     def falls(self) -> dict[str, int]:
@@ -98,15 +104,15 @@ class Cell:
         return {name: share(x.count(1), len(x)) for name, x in told.items() if x}
 
     def medians(
-        self, names: Mapping[str, str], which: Callable[[Row], bool] = is_legal
+        self, names: Mapping[str, str], which: Callable[[Row], bool] = is_counted
     ) -> dict[str, Interval | None]:
         """Medians of these columns over the walks for which `which` is true; None where none has a number."""
         rows = [w for w in self.walks if which(w)]
         return {name: median([number(w, name) for w in rows]) for name in names}
 
     def row(self) -> dict[str, object]:
-        """All of it in plain values, as in summary.json; the measures at top level are medians over legal
-        walks.
+        """All of it in plain values, as in summary.json; the measures at top level are medians over the walks
+        that count.
         """
         return {
             "controller": self.controller,
@@ -114,7 +120,8 @@ class Cell:
             "as_published": self.as_published,
             "walks": len(self.walks),
             "survived": list(self.survived),
-            "legal": list(self.legal),
+            "feasible": list(self.feasible),
+            "but_impact": list(self.but_impact),
             "falls": self.falls,
             "reasons": {name: list(x) for name, x in self.reasons.items()},
             "impulse": None if self.impulse is None else list(self.impulse),

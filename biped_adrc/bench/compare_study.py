@@ -20,7 +20,7 @@ from typing import Any
 from matplotlib.figure import Figure
 
 from biped_adrc.bench.build import engines_of, scene_of
-from biped_adrc.bench.cell import IMPULSE, is_legal, number
+from biped_adrc.bench.cell import IMPULSE, number
 from biped_adrc.bench.comparison import Comparison, check, compare, nominal_trial
 from biped_adrc.bench.conditions import BASE, CONDITIONS, conditions_on
 from biped_adrc.bench.parameters import trial
@@ -37,7 +37,7 @@ from biped_adrc.scenario.registry import find, is_own, source_hash
 from biped_adrc.versions import numerical_versions
 from biped_adrc.viz.comparison_text import NEEDS, REASONS
 from biped_adrc.viz.pages import captions, comparison_html
-from biped_adrc.viz.plots.comparison_figure import legal_figure, measure_figure
+from biped_adrc.viz.plots.comparison_figure import feasible_figure, measure_figure
 from biped_adrc.viz.style import render
 
 RESULTS = "comparison.sqlite"
@@ -176,7 +176,7 @@ def write(
 def nominal(row: Row, settings: Settings = TUNED) -> dict[str, object]:
     """What the gait itself needs of ground and motors, undisturbed, beside the robot's limits, in plain values.
 
-    `broken`: which limits it breaks, in words. A gait that is illegal by itself makes every walk illegal.
+    `broken`: which limits it breaks, in words. A gait that is not feasible by itself makes no walk feasible.
     """
     needs = {name: number(row, name) for name in NEEDS}
     reasons = {**REASONS, IMPULSE: "impulse at impact"}
@@ -184,7 +184,7 @@ def nominal(row: Row, settings: Settings = TUNED) -> dict[str, object]:
     return {
         "trial": dict(nominal_trial(settings)),
         "status": str(row["status"]),
-        "legal": is_legal(row),
+        "outcome": row["outcome"],
         "needs": needs,
         "limits": dict(
             Limits().of(scene_of(trial(nominal_trial(settings))).biped.description)._asdict()
@@ -201,6 +201,6 @@ def draw(summary: Mapping[str, Any]) -> dict[str, bytes]:
 def figures(summary: Mapping[str, Any]) -> dict[str, Figure]:
     """The figures by name, in the order of the page; drawn from the summary alone, which a reader has too."""
     cells = summary["cells"]
-    drawn = {"legal": legal_figure(cells)}
+    drawn = {"feasible": feasible_figure(cells)}
     drawn |= {name: measure_figure(cells, name, title) for name, title in TITLES.items()}
     return {name: drawn[name] for name in captions("comparison")}

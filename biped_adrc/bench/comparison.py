@@ -1,9 +1,9 @@
-"""Controllers x conditions x seeds: how often each controller walks legally, with what error, torque and cost.
+"""Controllers x conditions x seeds: how often the walks are feasible, their error, torque and cost.
 
 Under a seed every controller meets the same disturbance, model error and start, so that walks are paired by
-seed. Shares of walks have Wilson's intervals; medians are taken over the walks that make all their steps
-legally and have bootstrap intervals (`analysis.statistics`). Settings (`bench.settings`) are tuned alike, or as
-published.
+seed. Shares of walks have Wilson's intervals; medians are taken over the walks that are feasible, the impact
+at most aside, and have bootstrap intervals (`analysis.statistics`). Settings (`bench.settings`) are tuned
+alike, or as published.
 
 `compare` is given a function `carry` that turns trials into rows and knows nothing of files or processes:
 `bench.compare_study` hands in one with a store, tests hand in one without walks.

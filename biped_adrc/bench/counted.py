@@ -1,10 +1,8 @@
-"""What is counted in a walk, as columns of a row: of the meter of a rigid walk, of the signals of a soft one.
+"""What is counted in a walk, as columns of a row: read off the signals at the nodes of its trajectory.
 
-On the rigid plant the meter counts at sample instants while the robot walks (`hardware.meter`), so that a
-trajectory is stored only where touchdowns have to be noticed. On another plant the row is read off the signals,
-which are recorded from tick to tick. There a friction is what the ground gave, so it is never above that of the
-ground; what a walk asked in vain is in `slip`, `flight` and how it ended; and impulses of an impact are not
-told apart from the forces after it.
+A walk on the rigid plant is judged by its certificate, one on soft ground by how far its feet slip
+(`analysis.feasibility`). On soft ground a friction is what the ground gave, so it is never above that of the
+ground, and impulses of an impact are not told apart from the forces after it.
 
 A number may be infinite or NaN here; `bench.run` leaves out what is not finite.
 """
@@ -15,21 +13,16 @@ import math
 
 import numpy as np
 
-from biped_adrc.analysis.certificate import REASONS
+from biped_adrc.analysis.certificate import IMPULSE, REASONS
 from biped_adrc.analysis.contact_errors import contact_errors
-from biped_adrc.analysis.legality import outcome_of
-from biped_adrc.engine.batch import BatchWalk, Case
-from biped_adrc.hardware.meter import LARGEST_RATIO, Reading, reading
-from biped_adrc.hybrid.status import Status
+from biped_adrc.scenario.build import limits
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.types import Array
 
 WalkRow = dict[str, float | int | str | None]
 """Results by column name."""
 
-BY_METER = ("peak_error", "peak_torque", "work", "net_work", "peak_matched", "peak_unmatched")
-"""Columns that the meter counts under the same names: errors [rad], torques [N m], work [J], xi [rad/s^2]."""
-OF_LEGALITY = (
+OF_FEASIBILITY = (
     "least_normal_force",
     "friction",
     "share_outside",
@@ -37,92 +30,54 @@ OF_LEGALITY = (
     "mean_friction",
     "scuffing",
 )
-"""Columns that `Legality` has under the same names."""
+"""Columns that `Feasibility` has under the same names."""
 
 
-def by_meter(made: Case, walked: BatchWalk) -> WalkRow:
-    """What the meter counted: root mean squares over ticks and joints, and legality.
+def counted(made: Walk) -> WalkRow:
+    """Errors, torques, work and feasibility of a scenario's walk, what its feet did on soft ground, and when
+    touchdowns were noticed.
 
-    Forces averaged over the window of `Limits` decide; peaks at single ticks are reported beside them. A ratio
-    F_T / F_N without a positive normal force has no number.
+    Root mean squares are over nodes and joints.
     """
-    w = made.walker
-    g = reading(w.held_at(walked.final_state).g)
-    count, legal, known = max(g.ticks, 1.0), g.illegal_step == 0.0, g.windows > 0.0
-    of_joints = count * w.plant.p
-    before = walked.impacts if legal else int(min(g.illegal_step - made.mode.step, walked.impacts))
-    impulse = walked.impacts > 0 and g.impulse_ratio < LARGEST_RATIO
-    return {
-        **{name: getattr(g, name) for name in BY_METER},
-        "rms_error": math.sqrt(g.square_error / of_joints),
-        "rms_torque": math.sqrt(g.square_torque / of_joints),
-        **_judged(walked.status, legal, before, _broken(made, g)),
-        "least_normal_force": g.least_normal_force if g.ticks > 0.0 else None,
-        "friction": g.friction if 0.0 < g.friction < LARGEST_RATIO else None,
-        "share_outside": g.outside / count,
-        "mean_normal_force": g.mean_normal_force if known else None,
-        "mean_friction": g.mean_friction if known and g.mean_friction > 0.0 else None,
-        "scuffing": g.scuffing,
-        "impulse_ratio": g.impulse_ratio if impulse else None,
-    }
-
-
-def _broken(made: Case, g: Reading) -> dict[str, bool]:
-    """Whether each limit of the robot's record was broken, by what the meter says."""
-    k = made.walker.meter.limits.of(made.walker.plant.description)  # type: ignore[union-attr]
-    return {
-        "normal_force": g.windows > 0.0 and not g.mean_normal_force > 0.0,
-        "friction": not g.mean_friction <= k.friction,
-        "torque": not g.peak_torque <= k.torque,
-        "scuffing": not g.scuffing <= 0.0,
-        "impulse": not g.impulse_ratio <= k.friction,
-    }
-
-
-def by_signals(made: Walk) -> WalkRow:
-    """The same of the signals of a walk, and what its feet did and when touchdowns were noticed."""
-    x, found = made.signals, made.legality
-    ticks = np.flatnonzero(np.diff(x.t) > 0.0)
-    u, turned = x.u[ticks], np.diff(x.q[:, : x.u.shape[1]], axis=0)[ticks]
-    broken = {name: name in found.reasons for name in REASONS}
+    assert made.scenario is not None
+    x, found = made.signals, made.feasible_within(limits(made.scenario))
+    held = np.flatnonzero(np.diff(x.t) > 0.0)
+    u, turned = x.u[held], np.diff(x.q[:, : x.u.shape[1]], axis=0)[held]
+    outcome, judged = found.outcome, set(REASONS) - {IMPULSE if made.soft else "slip"}
     return {
         "peak_error": _largest(x.error),
-        "rms_error": _rms(x.error[ticks]),
+        "rms_error": _rms(x.error[held]),
         "peak_torque": _largest(x.u),
         "rms_torque": _rms(u),
         "work": float(np.sum(np.abs(u) * np.abs(turned))),
         "net_work": float(np.sum(u * turned)),
         "peak_matched": _largest(x.xi_matched),
         "peak_unmatched": _largest(x.xi_unmatched),
-        **contact_errors(x)._asdict(),
-        **_on_the_ground(made),
+        **(_on_the_ground(made) if made.soft else {}),
         **({} if made.walker.touchdown is None else made.touchdowns.rates._asdict()),
-        **_judged(found.status, not any(broken.values()), found.legal_impacts, broken),
-        **{name: getattr(found, name) for name in OF_LEGALITY},
+        "outcome": outcome,
+        "feasible": int(outcome == "feasible"),
+        "but_impact": int(outcome == "but_impact"),
+        "feasible_impacts": found.feasible_impacts,
+        **{f"bad_{name}": int(name in found.reasons) for name in judged},
+        **{name: getattr(found, name) for name in OF_FEASIBILITY},
+        "impulse_ratio": found.impulse_ratio if made.certificates else None,
     }
 
 
 def _on_the_ground(made: Walk) -> WalkRow:
-    """What the feet did, of the step in which it was largest; nothing on a plant that does not say it."""
-    steps = made.soft_steps
+    """The errors that touchdowns and pushes leave, and what the feet did, of the step in which it was largest.
+
+    The latter is missing on a plant that does not say it.
+    """
+    row, steps = contact_errors(made.signals)._asdict(), made.soft_steps
     if not steps:
-        return {}
-    return {
+        return row
+    return row | {
         "slip": max(max(step.slip) for step in steps),
         "flight": max(step.flight for step in steps),
         "double_support": max(step.double_support for step in steps),
         "penetration": max(step.depth for step in steps),
-    }
-
-
-def _judged(status: Status, legal: bool, legal_impacts: int, broken: dict[str, bool]) -> WalkRow:
-    """The columns of legality that are no measure; broken: whether each limit was, by name."""
-    outcome = outcome_of(status, legal)
-    return {
-        "outcome": outcome,
-        "legal": int(outcome == "legal"),
-        "legal_impacts": legal_impacts,
-        **{f"bad_{name}": int(bad) for name, bad in broken.items()},
     }
 
 

@@ -16,10 +16,10 @@ from threading import Lock
 
 import numpy as np
 
-from biped_adrc.analysis.legality import outcome_of
-from biped_adrc.analysis.touchdowns import touchdowns
+from biped_adrc.analysis.certificate import REASONS
+from biped_adrc.analysis.feasibility import outcome_of
 from biped_adrc.bench.build import case, scene_of
-from biped_adrc.bench.counted import WalkRow, by_meter, by_signals
+from biped_adrc.bench.counted import WalkRow, counted
 from biped_adrc.bench.parameters import trial
 from biped_adrc.campaign.chunk import NO_WALK, REFUSED, Record
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
@@ -73,29 +73,29 @@ def _recorded(s: Scenario, made: Case) -> WalkRow:
             "impacts": 0,
         }
     row = ended(s, made, ends_of(walk))
-    return row | _with_cost(made, row, by_signals(walk))
+    return row | _with_cost(made, row, counted(walk))
 
 
 def measured(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
     """The row of a walk that has been carried out.
 
-    s: its scenario; made: the walker and its start; walked: final state, impacts and status.
+    s: its scenario; made: the walker and its start; walked: trajectory, impacts and status.
     """
     row = ended(s, made, walked)
-    if len(walked.final_state) > 2 * made.walker.plant.n + made.walker.behind - 1:
-        row |= _with_cost(made, row, by_meter(made, walked))
     if walked.trajectory is not None:
-        row |= touchdowns(made.walker, walked.trajectory).rates._asdict()
+        with _PREPARING:
+            walk = Walk(made.walker, scene_of(s).walked, walked.trajectory, s)
+            row |= _with_cost(made, row, counted(walk))
     return row
 
 
-def _with_cost(made: Case, row: WalkRow, counted: WalkRow) -> WalkRow:
+def _with_cost(made: Case, row: WalkRow, found: WalkRow) -> WalkRow:
     """What was counted, and the cost of transport work / (weight x distance), None without forward motion."""
-    distance, work = row.get("distance"), counted["work"]
+    distance, work = row.get("distance"), found["work"]
     assert isinstance(work, float)
     forward = isinstance(distance, float) and distance > 0.0
     cost = work / (made.walker.plant.weight * distance) if forward else None  # type: ignore[operator]
-    return counted | {"cost_of_transport": cost}
+    return found | {"cost_of_transport": cost}
 
 
 def ends_of(made: Walk) -> BatchWalk:
@@ -119,7 +119,7 @@ def ended(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
         "engine": walked.engine,
     }
     if status not in NO_WALK:
-        row |= {"outcome": outcome_of(walked.status, legal=False), "legal": 0}
+        row |= {"outcome": outcome_of(walked.status, REASONS), "feasible": 0, "but_impact": 0}
     with _PREPARING:
         row |= _pace(s, made, walked)
     return row

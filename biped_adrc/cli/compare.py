@@ -30,7 +30,7 @@ def compare(
     threads: bool = False,
     scheduler: str | None = None,
 ) -> None:
-    """Which controller walks legally under what: controllers x conditions x seeds, with intervals."""
+    """Whose walks are feasible under what: controllers x conditions x seeds, with intervals."""
     crew = study_workers(workers, threads, scheduler)
     from biped_adrc.bench.compare_study import RESULTS, run_comparison
     from biped_adrc.bench.conditions import conditions_on
@@ -62,12 +62,12 @@ def _names(text: str | None, every: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def _print(summary: PlainRecord) -> None:
-    """Print the share of walks that are legal; in brackets those that make all steps, where they are more."""
+    """Print the shares of walks: feasible + feasible but for the impact (all that make all steps)."""
     from biped_adrc.viz.comparison_text import nominal_text
 
     controllers = list(summary["controllers"])
     columns = (Column(name, overflow="fold") for name in controllers)
-    title = "legal walks, % (all that make all steps, %)"
+    title = "feasible walks + feasible but for the impact, % (all that make all steps, %)"
     table = Table("condition", *columns, title=title, padding=(0, 0, 0, 1))
     found = {(c["condition"], c["controller"]): _shares(c) for c in summary["cells"]}
     for condition in summary["conditions"]:
@@ -78,5 +78,7 @@ def _print(summary: PlainRecord) -> None:
 
 
 def _shares(cell: PlainRecord) -> str:
-    legal, made = (f"{100 * cell[kind][0]:.0f}" for kind in ("legal", "survived"))
-    return legal if legal == made else f"{legal} ({made})"
+    kinds = ("feasible", "but_impact", "survived")
+    feasible, apart, made = (f"{100 * cell[kind][0]:.0f}" for kind in kinds)
+    counted = feasible if apart == "0" else f"{feasible} + {apart}"
+    return counted if feasible == made else f"{counted} ({made})"

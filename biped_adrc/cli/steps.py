@@ -10,12 +10,11 @@ from rich.table import Column, Table
 from biped_adrc.cli.app import console
 
 if TYPE_CHECKING:
-    from biped_adrc.analysis.certificate import Certificate
-    from biped_adrc.analysis.legality import Legality
+    from biped_adrc.analysis.feasibility import Feasibility
     from biped_adrc.soft.meters import SoftStep
 
 
-def print_supports(legality: Legality, ended: str) -> None:
+def print_supports(feasibility: Feasibility, ended: str) -> None:
     """Print what every step needed of ground and motors, a row each; below how the walk ended, in words."""
     from biped_adrc.analysis.certificate import Certificate, ratio_text
 
@@ -28,8 +27,8 @@ def print_supports(legality: Legality, ended: str) -> None:
         Column("friction", min_width=8),
         "at impact",
     )
-    table = Table(*names, "scuffs [mm]", "not legal", box=SIMPLE_HEAD, pad_edge=False)
-    for s in legality.supports:
+    table = Table(*names, "scuffs [mm]", "not feasible", box=SIMPLE_HEAD, pad_edge=False)
+    for s in feasibility.supports:
         c = s if isinstance(s, Certificate) else None
         table.add_row(
             f"{s.step}",
@@ -38,14 +37,14 @@ def print_supports(legality: Legality, ended: str) -> None:
             f"{s.peak_torque:.1f}",
             f"{s.mean_normal_force:.1f}",
             ratio_text(s.mean_friction),
-            ratio_text(c.impulse_ratio) if c else "",
+            ratio_text(s.impulse_ratio) if c else "",
             f"{1e3 * s.scuffing:.2g}",
-            ", ".join(name.replace("_", " ") for name in s.illegal()),
+            ", ".join(name.replace("_", " ") for name in s.infeasible()),
         )
     console.print(table)
     console.print(
-        f"F_N and friction: least and largest mean over {1e3 * legality.limits.window:g} ms; "
-        f"{instants(legality)}\n{ended}\n{legality.text()}"
+        f"F_N and friction: least and largest mean over {1e3 * feasibility.limits.window:g} ms\n"
+        f"{ended}\n{feasibility.text()}"
     )
 
 
@@ -67,11 +66,3 @@ def print_on_ground(steps: tuple[SoftStep, ...]) -> None:
         )
         table.add_row(f"{k}", *row)
     console.print(table)
-
-
-def instants(needed: Legality | Certificate) -> str:
-    """What no mean hides: the least normal force, and how long the force is outside the friction cone."""
-    return (
-        f"at an instant F_N is {needed.least_normal_force:.1f} N at least, and the force is outside the "
-        f"friction cone for {100.0 * needed.share_outside:.2g} % of the time"
-    )

@@ -1,7 +1,7 @@
 """`biped-adrc simulate` and `poincare`: one walk, and the stability of one gait under a controller.
 
 Both make a `Scenario` of the options. `simulate` walks it with `scenario.run`, once more at half
-the step to say how far the numbers can be trusted, judges every step (`analysis.legality`) and
+the step to say how far the numbers can be trusted, judges every step (`analysis.feasibility`) and
 stores the run. `poincare` finds the fixed point of the return map and its multipliers
 (`studies.cycle_stability`).
 """
@@ -18,14 +18,14 @@ from rich.table import Table
 
 from biped_adrc.cli.app import EXIT_FELL, app, bar, console, inputs, run_path, say, say_written
 from biped_adrc.cli.options import of_scenario, texts, values_of
-from biped_adrc.cli.steps import instants, print_on_ground, print_supports
+from biped_adrc.cli.steps import print_on_ground, print_supports
 from biped_adrc.errors import InputError
 from biped_adrc.files import keep_inputs, output_path
 from biped_adrc.types import PlainRecord
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.certificate import Certificate
-    from biped_adrc.analysis.legality import Legality
+    from biped_adrc.analysis.feasibility import Feasibility
     from biped_adrc.robots.limits import Limits
     from biped_adrc.scenario.outcome import Outcome
     from biped_adrc.scenario.recording import Walk
@@ -55,7 +55,7 @@ def simulate(
     sets: list[str] | None = None,
     scenario: Path | None = None,
     as_printed: bool = False,
-    end_illegal: bool = False,
+    end_infeasible: bool = False,
     out: Path | None = None,
     log: Path | None = None,
 ) -> None:
@@ -67,7 +67,7 @@ def simulate(
     values = {"controller": usual(given), **values_of(given, push, sets, scenario), **printed}
     s = Scenario(**values)
     read = inputs(s.robot, s.gait)
-    _walk(s, limits(s), end_illegal, run_path(out, read), log_path(log, s, read))
+    _walk(s, limits(s), end_infeasible, run_path(out, read), log_path(log, s, read))
 
 
 def usual(given: PlainRecord, motors: str = "ADRC") -> str:
@@ -96,7 +96,7 @@ def log_path(log: Path | None, s: Scenario, read: Iterable[Path]) -> Path | None
 
 
 def _walk(
-    s: Scenario, limits: Limits, end_illegal: bool, out: Path | None, log: Path | None
+    s: Scenario, limits: Limits, end_infeasible: bool, out: Path | None, log: Path | None
 ) -> None:
     """Carry out a scenario, print it, and write it where it is asked for; raises the exit if the robot fell.
 
@@ -112,8 +112,8 @@ def _walk(
             shown.update(task, description="the same at half the step", completed=0)
             finer = replace(halved(s, full.walker), engine="compiled")
             half = walk_scenario(finer, lambda t, n: shown.update(task, completed=n))
-    if end_illegal:
-        full, half = full.until_illegal(limits), half and half.until_illegal(limits)
+    if end_infeasible:
+        full, half = full.until_infeasible(limits), half and half.until_infeasible(limits)
     if out is not None:
         # first, as printing may fail
         (full.save if out.suffix.lower() == ".npz" else full.export)(out)
@@ -126,7 +126,7 @@ def _walk(
         _print_passive(full, limits)
     else:
         print_on_ground(full.soft_steps)
-        _print_steps(replace(full.outcome, half=half.outcome), full.legal_within(limits))
+        _print_steps(replace(full.outcome, half=half.outcome), full.feasible_within(limits))
     settings = full.trajectory.settings
     console.print(f"engine {settings['engine']}: {settings.get('why') or WHY[settings['engine']]}")
     for remark in full.remarks:
@@ -137,12 +137,12 @@ def _walk(
         raise typer.Exit(EXIT_FELL)
 
 
-def _print_steps(o: Outcome, legality: Legality) -> None:
+def _print_steps(o: Outcome, feasibility: Feasibility) -> None:
     """Print what every step needed of ground and motors, a row each, and below how the walk ended."""
     from biped_adrc.paper.convergence import error_text
 
     print_supports(
-        legality,
+        feasibility,
         f"{o.status}: {o.message}\n{o.impacts} impacts, largest tracking error {error_text(o)}, "
         f"peak torque {o.peak_torque:.1f} N m, {o.method}",
     )
@@ -173,24 +173,25 @@ def _print_passive(walk: Walk, limits: Limits) -> None:
         )
     console.print(table)
     status = walk.trajectory.status
-    legality = walk.legal_within(limits)
+    feasibility = walk.feasible_within(limits)
     console.print(
         f"{status.name}: {status.value}\n{len(events)} impacts, {walk.note}; friction and F_N in the mean of "
-        f"{1e3 * limits.window:g} ms\n{legality.text()}"
+        f"{1e3 * limits.window:g} ms\n{feasibility.text()}"
     )
 
 
 def _nominal(c: Certificate) -> str:
-    """What the step of a cycle needs of ground and motors, and whether it is legal, in a sentence."""
+    """What the step of a cycle needs of ground and motors, and whether it is feasible, in a sentence."""
     from biped_adrc.analysis.certificate import ratio_text
+    from biped_adrc.analysis.feasibility import VERDICTS, because, verdict_of
 
-    missed = "; ".join(c.illegal().values())
+    broken = c.infeasible()
     return (
         f"its step: {c.step_length:.4f} m in {c.duration:.4f} s, peak torque {c.peak_torque:.1f} N m; in the "
         f"mean of {1e3 * c.window:g} ms friction {ratio_text(c.mean_friction)}, "
-        f"F_N {c.mean_normal_force:.1f} N; {instants(c)}; the swing foot scuffs by {1e3 * c.scuffing:.2g} mm; "
-        f"friction at impact {ratio_text(c.impulse_ratio)}, limit {c.friction_limit:g}; "
-        f"{'not legal: ' + missed if missed else 'legal'}"
+        f"F_N {c.mean_normal_force:.1f} N; the swing foot scuffs by {1e3 * c.scuffing:.2g} mm; "
+        f"friction at impact {ratio_text(c.impulse_ratio)}; "
+        f"{because(VERDICTS[verdict_of(broken)], broken)}"
     )
 
 

@@ -1,4 +1,4 @@
-"""The largest rates and torques that a run may have; beyond them it ends as run away (RAN_AWAY)."""
+"""The largest angles, rates and torques that a run may have; beyond them it ends as run away (RAN_AWAY)."""
 
 from __future__ import annotations
 
@@ -11,10 +11,15 @@ from biped_adrc.errors import RanAwayError
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array, read_only
 
+TURN = 2.0 * math.pi
+"""Range of a joint to either side [rad]: a whole turn, more than cables and legs of a biped allow."""
+
 
 class Bounds(NamedTuple):
-    """Of rates and torques."""
+    """Of angles, rates and torques."""
 
+    farthest: float
+    """Angle of a joint or of the pitch [rad]; infinite for none."""
     fastest: Array
     """Rates (n,) [rad/s]; infinite for none."""
     strongest: float
@@ -22,28 +27,30 @@ class Bounds(NamedTuple):
 
     @classmethod
     def of(cls, robot: object, n: int, speed: float, torque: float) -> Bounds:
-        """So many times the speed limits of the URDF, and the peak torque of the robot's record.
+        """A whole turn, so many times the speed limits of the URDF, and the peak torque of the robot's record.
 
         None for the torque of a robot without motors, and for a model of n coordinates that is no Biped.
         """
         if not isinstance(robot, Biped):
-            return cls(read_only(np.full(n, math.inf)), math.inf)
+            return cls(math.inf, read_only(np.full(n, math.inf)), math.inf)
         peak = robot.description.peak_torque if robot.p else math.inf
-        return cls(read_only(speed * robot.speed_limits), torque * peak)
+        return cls(TURN, read_only(speed * robot.speed_limits), torque * peak)
 
-    def slow(self, v: Array) -> Array:
-        """Whether rates v (n,) or (K, n) [rad/s] are not beyond `fastest`; not so for NaN."""
-        within: Array = np.all(np.abs(v) <= self.fastest, axis=-1)
+    def hold(self, q: Array, v: Array) -> Array:
+        """Whether angles q [rad] and rates v [rad/s], (n,) or (K, n), are within; not so for NaN."""
+        within: Array = np.all((np.abs(q) <= self.farthest) & (np.abs(v) <= self.fastest), axis=-1)
         return within
 
-    def check_rates(self, t: float, v: Array) -> None:
-        """Raise RanAwayError for a rate v (n,) [rad/s] at t [s] beyond `fastest`."""
-        if not self.slow(v):
-            v = np.abs(v)
-            i = int(np.argmax(v / self.fastest))
-            raise RanAwayError(
-                f"t = {t:.6g} s: |q{i + 1}'| is {v[i]:.3g} rad/s, above {self.fastest[i]:.3g} rad/s"
-            )
+    def check(self, t: float, q: Array, v: Array) -> None:
+        """Raise RanAwayError for an angle of q (n,) [rad] or a rate of v (n,) [rad/s] at t [s] beyond them."""
+        if self.hold(q, v):
+            return
+        i, j = int(np.argmax(np.abs(q))), int(np.argmax(np.abs(v) / self.fastest))
+        if abs(q[i]) > self.farthest:
+            raise RanAwayError(f"t = {t:.6g} s: q{i + 1} is {q[i]:.3g} rad, beyond a whole turn")
+        raise RanAwayError(
+            f"t = {t:.6g} s: |q{j + 1}'| is {abs(v[j]):.3g} rad/s, above {self.fastest[j]:.3g} rad/s"
+        )
 
     def bounded(self, u: Array) -> Array:
         """u (p,) [N m] itself. Raises RanAwayError for one beyond `strongest`."""

@@ -10,7 +10,6 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol
 
 from biped_adrc.control.base import Measurement
-from biped_adrc.hardware.loads import Outside
 from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import Estimate
@@ -57,10 +56,6 @@ class AfterImpact(Protocol):
     def v(self) -> Array:
         """Rates after impact and relabelling (n,) [rad/s]."""
 
-    @property
-    def impulse(self) -> Array:
-        """Of the ground on the foot that strikes (2,) [N s]."""
-
 
 class WalkingPlant(Plant, Protocol):
     """A plant that stands on the ground with one foot (pinned) and strikes it with the other.
@@ -73,9 +68,6 @@ class WalkingPlant(Plant, Protocol):
 
     def impact(self, q: Array, v: Array) -> AfterImpact:
         """The plastic impact (7) from q (n,) [rad], v (n,) [rad/s], then the relabelling (8)."""
-
-    def momentum(self, q: Array, v: Array) -> Array:
-        """Linear momentum m v_com (2,) [N s] of the whole robot."""
 
     def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
         """Force of the ground on the stance foot (2,) [N] for q'' = a, without forces from outside."""
@@ -112,7 +104,7 @@ class Loop(Protocol):
 
     @property
     def plant(self) -> Any:
-        """What moves: a `Plant`; a `WalkingPlant` where there are impacts or a meter."""
+        """What moves: a `Plant`; a `WalkingPlant` where there are impacts."""
 
     @property
     def nominal(self) -> Any:
@@ -160,8 +152,3 @@ class Loop(Protocol):
 
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
         """The disturbance zeta (n,) [N m] at t [s]."""
-
-    def outside(self, t: float, mode: Mode) -> Outside:
-        """For the meter at a sample instant t [s]: force from outside now, its impulse since the
-        last sample instant, and how far the ground drops.
-        """

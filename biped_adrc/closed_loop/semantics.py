@@ -5,7 +5,7 @@
 
 State: x = (q, q', s) in continuous time and x = (q, q', s, held) in sampled time. s is the state of
 the controller (observer included); `held` is the tail that `hardware.sample_hold` lays out:
-sensors, meter, torques on their way to the motors. The controller's terms come from the nominal
+sensors, torques on their way to the motors. The controller's terms come from the nominal
 model, the motion from the plant, and the two may differ.
 
 These pure functions are the only place where the closed loop is defined. On NumPy arrays
@@ -26,8 +26,6 @@ import numpy as np
 from biped_adrc.closed_loop.noticing import labelled, noticed, unnoticed
 from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.control.base import Measurement
-from biped_adrc.hardware.loads import loads
-from biped_adrc.hardware.meter import Hit
 from biped_adrc.hardware.motors import Line
 from biped_adrc.hardware.sample_hold import (
     Held,
@@ -144,12 +142,12 @@ def flow(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
 
 
 def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
-    """x (nx,) after one sample instant at t [s]: sensors, controller, motors and meter in this
-    order; q and q' do not change.
+    """x (nx,) after one sample instant at t [s]: sensors, controller and motors in this order; q and
+    q' do not change.
 
     Behind sensors the controller sees the measured (q, q') of the sensors' state w in place of the
-    true ones. The meter always uses the true state. A controller that has to notice touchdowns acts
-    in the labels that it believes in (`noticed`).
+    true ones. A controller that has to notice touchdowns acts in the labels that it believes in
+    (`noticed`).
     """
     (q, v, s, tail), k = parts(loop, x), loop.held
     assert k is not None
@@ -163,12 +161,7 @@ def tick(loop: Loop, t: float, x: Array, mode: Mode) -> Array:
         w = k.sense(h.w, q, v)
         m = loop.measure(t, *k.reading(w, q, v), mode)
         s, line = decided(loop, k, s, m, h.line)
-    g = h.g
-    if k.sizes.meter > 0:
-        exact = k.sensors is None and k.touchdown is None
-        terms = m.terms if exact else loop.nominal.reduction(q, v)
-        g = measured_by_meter(loop, t, g, q, v, line, terms, mode)
-    return np.concatenate((q, v, s, written(Held(w, g, line, h.own, b))))
+    return np.concatenate((q, v, s, written(Held(w, line, h.own, b))))
 
 
 def on_stance_foot(
@@ -204,24 +197,6 @@ def decided(loop: Loop, k: HeldParts, s: Array, m: Measurement, line: Line) -> t
     return loop.calls.predict(s, m, k.motors.mean_command(line) if k.sizes.known > 0 else u), line
 
 
-def measured_by_meter(
-    loop: Loop, t: float, g: Array, q: Array, v: Array, line: Line, terms: Reduction, mode: Mode
-) -> Array:
-    """The meter's state g after a sample instant at which `line` is sent to the motors.
-
-    q (n,) [rad], v (n,) [rad/s] are the true state, terms those of the nominal model there; the
-    meter takes ground force, torque and the unknown force xi~ (n,) [N m].
-    """
-    k = loop.held
-    assert k is not None
-    u, zeta = motor_torque(line), loop.external(t, q, v, mode)
-    a = acceleration(loop, terms, q, v, applied(u, zeta))
-    asked = loads(loop.plant, loop.outside(t, mode), q, v, a)
-    xi = unknown(loop, terms, a, u, zeta)
-    given = (q, v, u, k.motors.mean_torque(line), xi, terms, t, mode.step, t - mode.start, asked)
-    return k.meter.measure(g, *given)
-
-
 def release(loop: Loop, x: Array) -> Array:
     """x once the torque that waited for a fraction of the period acts: `waiting` replaces u, both
     (p,) [N m].
@@ -251,29 +226,25 @@ def struck(loop: Loop, t: float, x: Array, after: Mode) -> Array:
     q, v = parts(loop, x)[:2]
     impact = loop.plant.impact(q, v)
     v_plus = impact.v * (1.0 + loop.gain) if len(loop.gain) > 0 else impact.v
-    return landed(loop, t, x, impact.q, v_plus, impact.impulse, after)
+    return landed(loop, t, x, impact.q, v_plus, after)
 
 
-def landed(
-    loop: Loop, t: float, x: Array, q_plus: Array, v_plus: Array, impulse: Array, after: Mode
-) -> Array:
+def landed(loop: Loop, t: float, x: Array, q_plus: Array, v_plus: Array, after: Mode) -> Array:
     """x+ (nx,) after an impact at x- that left the plant at q_plus (n,) [rad], v_plus (n,) [rad/s].
 
     Shared by plants with an impact map and by those that compute their own contacts. Controller
     state and held tail are relabelled. A rate that the sensors derive from differences is reset to
     what the nominal model's impact predicts, since no difference across an impact is a rate.
-    impulse (2,) [N s]: of the ground, for the meter. A controller that has to notice touchdowns, and
-    its sensors, are told nothing here; its labels are then those of the other foot.
+    A controller that has to notice touchdowns, and its sensors, are told nothing here; its labels are
+    then those of the other foot.
     """
     (q, v, s, tail), k = parts(loop, x), loop.held
     seen = q_plus, v_plus
     if k is not None:
-        h, expected, hit = read(k.sizes, tail), v_plus, None
+        h, expected = read(k.sizes, tail), v_plus
         if k.sensors is not None and k.touchdown is None:
             expected = loop.nominal.impact(*k.reading(h.w, q, v)).v
-        if k.sizes.meter > 0:
-            hit = Hit(t, after.step - 1.0, loop.plant.momentum(q, v), impulse)
-        h = after_impact(k, h, loop.swap, q, q_plus, v_plus, expected, hit)
+        h = after_impact(k, h, loop.swap, q_plus, v_plus, expected)
         if k.touchdown is not None:
             h = h._replace(b=unnoticed(k, h.b, t))
             return np.concatenate((q_plus, v_plus, s, written(h)))

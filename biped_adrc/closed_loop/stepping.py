@@ -113,7 +113,7 @@ class SteppingLoop(ClosedLoop[Any]):
 
     @cached_property
     def bounds(self) -> Bounds:
-        """Rates and torque beyond which the run ends as run away."""
+        """Angles, rates and torque beyond which the run ends as run away."""
         return Bounds.of(self.nominal, self.plant.n, self.runaway_speed, self.runaway_torque)
 
     def bounded(self, u: Array) -> Array:
@@ -190,13 +190,14 @@ class SteppingLoop(ClosedLoop[Any]):
         moved = advanced(self.plant, state, u, outside, until)
         passed = np.array([state.t, *(node.t for node in moved.nodes)])
         rows = np.array([self.with_plant(x, s) for s in (state, *moved.nodes)])
-        rates, finite = rows[:, len(q) : 2 * len(q)], np.all(np.isfinite(rows), axis=1)
-        good = np.logical_and.accumulate(finite & self.bounds.slow(rates))
+        angles, rates = rows[:, : len(q)], rows[:, len(q) : 2 * len(q)]
+        finite = np.all(np.isfinite(rows), axis=1)
+        good = np.logical_and.accumulate(finite & self.bounds.hold(angles, rates))
         self.keep(passed[good], rows[good], mode, record)
         if not np.all(good):
             bad = int(np.argmin(good))
             if finite[bad]:
-                self.bounds.check_rates(passed[bad], rates[bad])
+                self.bounds.check(passed[bad], angles[bad], rates[bad])
             last = np.max(passed[good], initial=t)
             raise NotFiniteError(f"the state of the plant is not finite after t = {last:.6g} s")
         t, x_minus = moved.state.t, rows[-1]
@@ -242,7 +243,7 @@ class SteppingLoop(ClosedLoop[Any]):
                 f"{name} at t = {t:.6g} s: its impulse or the state after it is not finite"
             )
         after = Mode(mode.step + 1, t)
-        x_plus = self.with_plant(landed(self, t, x, state.q, state.v, impulse, after), state)
+        x_plus = self.with_plant(landed(self, t, x, state.q, state.v, after), state)
         return FoundEvent(Event(name, t, x, x_plus), (x_plus, after))
 
     def keep(self, t: Array, x: Array, mode: Mode, record: Record) -> None:

@@ -27,8 +27,6 @@ from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import BipedError, InputError
 from biped_adrc.gait.reference import Reference, check_point
 from biped_adrc.hardware import sample_hold as held
-from biped_adrc.hardware.loads import Outside
-from biped_adrc.hardware.meter import SampledMeter
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import Held, HeldParts
 from biped_adrc.hardware.sensing import Sensor
@@ -45,7 +43,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
     """`semantics` on arrays, with a plant, a controller, its timing, and the model that it knows.
 
     Subclasses are frozen dataclasses that name these fields; what they do not override here is: no
-    disturbance, no meter, no relabelling.
+    disturbance, no relabelling.
     """
 
     plant: P
@@ -136,7 +134,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
         time, n, p = self.timing, self.plant.n, self.plant.p
         if not isinstance(time, SampledTime):
             return None
-        given = (self.sensors, self.motors, self.metering(time), self.own, self.touchdown)
+        given = (self.sensors, self.motors, self.own, self.touchdown)
         return held.held_parameters(n, p, time, *given)
 
     def __getstate__(self) -> dict[str, object]:
@@ -147,10 +145,6 @@ class ClosedLoop(HybridSystem, Generic[P]):
     def own(self) -> int:
         """How many numbers of x a plant that moves by itself keeps for its own use; 0 for all others."""
         return 0
-
-    def metering(self, timing: SampledTime) -> SampledMeter | None:
-        """The meter for these sample instants; None without a meter."""
-        return None
 
     @property
     def limit(self) -> float | None:
@@ -192,10 +186,6 @@ class ClosedLoop(HybridSystem, Generic[P]):
         if self.disturbance is None:
             return ()
         return self.disturbance.switching_times(mode.step, mode.start)
-
-    def outside(self, t: float, mode: Mode) -> Outside:
-        """Nothing from outside, and flat ground."""
-        return Outside(np.zeros(2), np.zeros(2), 0.0)
 
     # -- the state ---------------------------------------------------------------------------------
     @cached_property
@@ -288,7 +278,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
         return semantics.flow(self, t, x, mode)
 
     def tick(self, t: float, x: Array, mode: Mode) -> Array:
-        """x (nx,) after a sample instant: sensors, controller, queue of torques, meter."""
+        """x (nx,) after a sample instant: sensors, controller, queue of torques."""
         after = semantics.tick(self, t, x, mode)
         return after if self.sensors is None else returned(after, x.shape, self.sensors, "sense")
 

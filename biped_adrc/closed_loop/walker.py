@@ -27,8 +27,6 @@ from biped_adrc.control.base import Controller
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError
 from biped_adrc.ground import StepDown, StepUp, check_slope, check_steps, drop_of
-from biped_adrc.hardware.loads import Outside
-from biped_adrc.hardware.meter import Meter, SampledMeter
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import check_parts
 from biped_adrc.hardware.sensing import Sensor
@@ -59,14 +57,15 @@ class Walker(ClosedLoop[Biped]):
     - torque_limit [N m]: saturates every motor; the observer is fed the torque applied, not the one
       asked for.
     - slope [rad]: of the ground, positive downhill. ground_steps: where it falls or rises by steps.
-    - sensors, motors, meter: between controller and plant; in sampled time only.
+    - sensors, motors: between controller and plant; in sampled time only.
     - touchdown: how the controller is told of one, in sampled time with restart=False; None: at once.
     - impact_gain (n,) [1]: v+ = (1 + gain) v+ of (7), an error of the impact model; empty for none.
     - fall_height [1]: the run ends as a fall when the hip is below this fraction of |p_hip| at q =
       0.
     - max_step_time [s]: a longer single support ends as stalled.
     - runaway_speed, runaway_torque [1]: the run ends as run away beyond so many times the speed
-      limits of the URDF, or the peak torque of the robot's record; infinite for no end.
+      limits of the URDF, or the peak torque of the robot's record; infinite for no end. A joint
+      that turns by more than a whole turn ends it, too.
 
     Raises InputError for values that do not fit together, such as sensors in continuous time.
     """
@@ -83,7 +82,6 @@ class Walker(ClosedLoop[Biped]):
     ground_steps: tuple[StepDown | StepUp, ...] = ()
     sensors: Sensor | None = None
     motors: Motors | None = None
-    meter: Meter | None = None
     touchdown: Touchdown | None = None
     impact_gain: tuple[float, ...] = ()
     runaway_speed: float = 20.0
@@ -100,8 +98,7 @@ class Walker(ClosedLoop[Biped]):
         if limit is not None and not (math.isfinite(limit) and limit > 0):
             raise InputError(f"the torque limit is {limit} N m, expected a positive number or None")
         check_ends(self.max_step_time, self.fall_height, self.runaway_speed, self.runaway_torque)
-        parts = (self.sensors, self.motors, self.meter)
-        check_parts(self.plant.n, self.timing, *parts, self.impact_gain)
+        check_parts(self.plant.n, self.timing, self.sensors, self.motors, self.impact_gain)
 
     # -- parts -------------------------------------------------------------------------------------
     @property
@@ -111,12 +108,12 @@ class Walker(ClosedLoop[Biped]):
 
     @cached_property
     def bounds(self) -> Bounds:
-        """Rates and torque beyond which the run ends as run away."""
+        """Angles, rates and torque beyond which the run ends as run away."""
         return Bounds.of(self.plant, self.plant.n, self.runaway_speed, self.runaway_torque)
 
     def check_state(self, t: float, x: Array) -> None:
-        """Raise RanAwayError for x (nx,) at t [s] with a rate beyond the bounds."""
-        self.bounds.check_rates(t, x[self.plant.n : 2 * self.plant.n])
+        """Raise RanAwayError for x (nx,) at t [s] with an angle or a rate beyond the bounds."""
+        self.bounds.check(t, x[: self.plant.n], x[self.plant.n : 2 * self.plant.n])
 
     def bounded(self, u: Array) -> Array:
         """u (p,) [N m] itself. Raises RanAwayError for one beyond the bounds."""
@@ -132,20 +129,7 @@ class Walker(ClosedLoop[Biped]):
         """Relabelling of the actuated joints at an impact (p,), dtype int."""
         return self.plant.swap
 
-    def metering(self, timing: SampledTime) -> SampledMeter | None:
-        if self.meter is None:
-            return None
-        return self.meter.sampled(self.plant, timing.period, self.slope)
-
     # -- from outside ------------------------------------------------------------------------------
-    def outside(self, t: float, mode: Mode) -> Outside:
-        """Force now, impulse since the last sample instant, drop of the ground; for the meter."""
-        impulse = np.zeros(2)
-        if self.disturbance is not None:
-            assert self.held is not None
-            impulse = self.disturbance.impulse(t - self.held.meter.period, t, *mode)
-        return Outside(self.resultant(t, mode), impulse, self.drop(mode.step))
-
     def ground_reaction(self, i: Instant, mode: Mode) -> Array:
         """Force of the ground on the stance foot (F_T, F_N) (2,) [N], forces from outside taken off.
 

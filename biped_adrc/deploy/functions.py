@@ -88,13 +88,10 @@ def step(computer: Computer, size: int) -> SymbolicFunction:
 
 
 def touchdown(computer: Computer, size: int) -> SymbolicFunction:
-    """x_c after a touchdown; the inputs of the mode are the single support that begins.
-
-    The ground's impulse is not known and, without a meter, not needed.
-    """
+    """x_c after a touchdown; the inputs of the mode are the single support that begins."""
     given = Given(computer, size)
     at, (q, v) = given.at, given.parts[:2]
-    x = at.trace(semantics.landed)(at.loop, at.t, at.x, q, v, np.zeros(2), at.mode)
+    x = at.trace(semantics.landed)(at.loop, at.t, at.x, q, v, at.mode)
     return given.function(x[2 * len(q) :])
 
 

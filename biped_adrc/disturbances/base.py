@@ -18,7 +18,6 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
@@ -26,9 +25,6 @@ from biped_adrc.errors import InputError, check_count
 from biped_adrc.part import Part, derived, setup
 from biped_adrc.parts import check_part, numbers, returned
 from biped_adrc.types import Array
-
-GAUSS = 0.5773502691896257
-"""1 / sqrt(3): nodes of Gauss's rule on [-1, 1], both of weight 1."""
 
 
 class Disturbance(Part):
@@ -92,23 +88,9 @@ class Disturbance(Part):
         """Times [s] of the run at which the torque is not smooth in this step, which began at t_start [s]."""
         return tuple(s if at == 0 else t_start + s for at, s in self.switches if at in (0, step))
 
-    def impulse(self, t0: float, t1: float, step: int, t_start: float) -> Array:
-        """The integral of `resultant` from t0 to t1 (2,) [N s], by two points of Gauss in each smooth piece.
-
-        Exact for a resultant that is a polynomial of degree 3 in each piece, as all packaged ones but the sine
-        and noise are.
-        """
-        inside = sorted(s for s in self.switching_times(step, t_start) if t0 < s < t1)
-        total = np.zeros(2)
-        for a, b in pairwise([t0, *inside, t1]):
-            middle, half = 0.5 * (a + b), 0.5 * (b - a)
-            for node in (middle - GAUSS * half, middle + GAUSS * half):
-                total += half * self.net_force(node, step, t_start)
-        return total
-
     @property
     def pulls(self) -> bool:
-        """Whether it has a resultant at all; without one, `impulse` need not be asked for."""
+        """Whether it has a resultant at all."""
         return any(type(term).resultant is not Disturbance.resultant for term in self.terms)
 
     def __add__(self, other: Disturbance) -> Disturbance:

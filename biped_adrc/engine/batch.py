@@ -16,7 +16,7 @@ import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -265,7 +265,7 @@ def _left_by(case: Case, run: Trajectory, engine: str) -> BatchWalk:
         run.t_end,
         engine,
         case.mode.start,
-        run if case.recorded else None,
+        replace(run, settings={**run.settings, "engine": engine}) if case.recorded else None,
     )
 
 

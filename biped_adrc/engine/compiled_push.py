@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ctypes
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -19,6 +20,7 @@ from biped_adrc.closed_loop.stepping_plant import Load
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.compiled_biped import pointer_call
 from biped_adrc.engine.compiled_walker import term_code
+from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.symbols import floats
 from biped_adrc.types import Array
 
@@ -59,15 +61,13 @@ class CompiledPush:
     """
 
     def __init__(self, loop: SteppingLoop, disturbance: Disturbance):
-        n, terms = loop.plant.n, disturbance.terms
-        self.loop, self.inp = loop, np.zeros(3 + 2 * n)
-        self.codes = [term_code(term, n) for term in terms]
-        self.K = [np.array([*floats(term), 0.0]) for term in terms]
-        self.out = np.zeros((len(terms), n + 2))
+        n = loop.plant.n
+        self.loop, self.inp, self.terms = loop, np.zeros(3 + 2 * n), terms_of(disturbance, n)
+        self.out = np.zeros((len(self.terms), n + 2))
         given, places = self.inp.ctypes.data, {"torque": 0, "resultant": n}
         self.calls = [
             (_LAW(code.addresses[name]), (K.ctypes.data, given, row[at:].ctypes.data))
-            for code, K, row in zip(self.codes, self.K, self.out, strict=True)
+            for (code, K), row in zip(self.terms, self.out, strict=True)
             for name, at in places.items()
             if name in code.addresses
         ]
@@ -93,10 +93,23 @@ class CompiledPush:
 
     def zeta(self, t: Array, q: Array, v: Array, mode: Mode) -> Array:
         """zeta (K, n) [N m] at K times [s], q (K, n) [rad], v (K, n) [rad/s]."""
-        ones = np.ones((len(t), 1))
-        inp = np.hstack((t[:, np.newaxis], mode.step * ones, mode.start * ones, q, v))
-        total, out = np.zeros_like(q), np.empty(q.shape)
-        for code, K in zip(self.codes, self.K, strict=True):
-            pointer_call(code, "torque", K, inp, out)
-            total += out
-        return total
+        return summed(self.terms, t, q, v, mode)
+
+
+def summed(
+    terms: Sequence[tuple[LoadedCode, Array]], t: Array, q: Array, v: Array, mode: Mode
+) -> Array:
+    """zeta (K, n) [N m] at K times [s], q (K, n) [rad], v (K, n) [rad/s]: of code and numbers of each term."""
+    ones = np.ones((len(t), 1))
+    inp = np.hstack((t[:, np.newaxis], mode.step * ones, mode.start * ones, q, v))
+    total, out = np.zeros(q.shape), np.empty(q.shape)
+    for code, K in terms:
+        pointer_call(code, "torque", K, inp, out)
+        total += out
+    return total
+
+
+def terms_of(disturbance: Disturbance | None, n: int) -> list[tuple[LoadedCode, Array]]:
+    """Machine code and numbers of each term, for n coordinates. Raises NotCompiled for a term without."""
+    terms = () if disturbance is None else disturbance.terms
+    return [(term_code(term, n), np.array([*floats(term), 0.0])) for term in terms]

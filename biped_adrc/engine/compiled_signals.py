@@ -20,6 +20,7 @@ from biped_adrc.closed_loop.instant_signals import InstantSignals, signals_at
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Measurement
 from biped_adrc.engine.compiled_biped import parts_of, pointer_call
+from biped_adrc.engine.compiled_push import summed, terms_of
 from biped_adrc.engine.equations import (
     Equations,
     SymbolicFunction,
@@ -99,12 +100,15 @@ def compiled_readings(
 
 
 def _inputs(walker: Walker, arc: Arc) -> Array:
-    """Rows (K, inputs) of what `observe` is given at the K nodes of an arc; the meter's inputs are zero."""
-    n, mode, ones = walker.plant.n, arc.mode, np.ones((len(arc.t), 1))
-    rows = zip(arc.seen, arc.x, strict=True)
-    zeta = [walker.external(float(t), x[:n], x[n : 2 * n], mode) for t, x in rows]
-    head = (arc.seen[:, np.newaxis], mode.step * ones, mode.start * ones)
-    return np.hstack((*head, arc.x, np.array(zeta), np.zeros((len(arc.t), OUTSIDE))))
+    """Rows (K, inputs) of what `observe` is given at the K nodes of an arc; forces on the feet are zero."""
+    n, t, x, mode = walker.plant.n, arc.seen, arc.x, arc.mode
+    q, v, ones = x[:, :n], x[:, n : 2 * n], np.ones((len(t), 1))
+    try:
+        zeta = summed(terms_of(walker.disturbance, n), t, q, v, mode)
+    except NotCompiled:
+        zeta = np.array([walker.external(*at, mode) for at in zip(t.tolist(), q, v, strict=True)])
+    head = (t[:, np.newaxis], mode.step * ones, mode.start * ones)
+    return np.hstack((*head, x, zeta, np.zeros((len(t), OUTSIDE))))
 
 
 def reading_code(

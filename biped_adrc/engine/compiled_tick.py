@@ -103,7 +103,7 @@ class CompiledTick:
         inp[3 : 3 + len(x)] = x
         if self.felt is not None:
             q, v, _, tail = parts(self.felt, x)
-            inp[-OUTSIDE : 2 - OUTSIDE] = self.felt.foot_forces(t, q, v, tail, mode)
+            inp[-OUTSIDE:] = self.felt.foot_forces(t, q, v, tail, mode)
         self._function(*self._at)
         out = self.out.copy()
         if not (out[-1] > 0.0 and math.isfinite(out.dot(out))):

@@ -101,7 +101,6 @@ class CompiledWalker:
             controller=Passive(),
             timing=SampledTime(LONGEST_PERIOD),
             sensors=None,
-            meter=None,
             touchdown=None,
             motors=None if walker.motors is None else replace(walker.motors, rate_limit=None),
         )
@@ -140,6 +139,7 @@ def _plan(
             lags=0 if relaxing is None else nx + relaxing.at.start,
             lag_speed=0.0 if relaxing is None else relaxing.speed,
             fastest=walker.bounds.fastest,
+            farthest=walker.bounds.farthest,
         ),
         np.array([*program.K[:-1], *floats(reference), 0.0]),
         GroundTable(LEAST_STEP, drops),

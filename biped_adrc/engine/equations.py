@@ -1,15 +1,15 @@
 """The equations of a walker on symbols, one straight-line function each, traced from the parts' own methods.
 
     flow      (t, step, t_start, x, zeta) -> x'               (10); in sampled time the torque is held
-    tick      (t, step, t_start, x, zeta, outside) -> x, q''  sensors, controller, motors, meter
+    tick      (t, step, t_start, x, zeta, force) -> x, q''  sensors, controller, motors
     impact    (t, step, x) -> x+                              (7), (8), relabelling, controller's jump
     events    (t, t_start, drop, q) -> event functions, x of the swing foot
     sample    (t, step, t_start, x, ..) -> x, xi^         as tick, of a plant that moves by itself
     to, back, remainder                                       coordinates of the exponential method
 
-`outside`, for the meter: force (2,) [N], impulse since the last sample instant (2,) [N s], drop of
-the ground [m]. zeta (n,) [N m] is an input, since disturbances are compiled by themselves
-(`engine.compiled_walker`) and may differ from run to run. flow, tick, impact and remainder add,
+`force` (2,) [N], from outside on the robot as a whole, changes what a foot carries. zeta (n,) [N m] is
+an input, since disturbances are compiled by themselves (`engine.compiled_walker`) and may differ from
+run to run. flow, tick, impact and remainder add,
 after their result, the least pivot of the matrices that the controller inverts; flow, tick and
 remainder -1 in its place where a torque is beyond the walker's bound.
 
@@ -128,8 +128,8 @@ class Equations:
         split = [] if numbers.split is None else ["to", "back", "remainder"]
         return ["flow", "impact", "events", *(["tick"] if numbers.held else []), *split]
 
-    def loop(self, trace: Tracer, zeta: Array = NONE, given: Array = NONE) -> SymbolicLoop:
-        """The closed loop on symbols, with zeta (n,) [N m] and what the meter needs from outside (OUTSIDE,)."""
+    def loop(self, trace: Tracer, zeta: Array = NONE, force: Array = NONE) -> SymbolicLoop:
+        """The closed loop on symbols, with zeta (n,) [N m] and the force from outside (2,) [N]."""
         K, make = self.numbers, self.make
         model = K.plant if K.model is None else K.model
         return SymbolicLoop(
@@ -144,11 +144,11 @@ class Equations:
             strongest=K.strongest,
             torques=[],
             zeta=zeta,
-            given=given,
+            force=force,
         )
 
     def at(self) -> SymbolicInstant:
-        """The symbols (t, step, t_start, x, zeta, outside), and the loop at them."""
+        """The symbols (t, step, t_start, x, zeta, force), and the loop at them."""
         n, trace = self.make.robot.n, Tracer()
         inp = Vector("inp", 3 + self.make.nx + n + OUTSIDE)
         t, mode, x = inp.take(), Mode(inp.take(), inp.take()), inp.take(self.make.nx)
@@ -174,7 +174,7 @@ class Equations:
 
     def sample(self) -> SymbolicFunction:
         """Of a plant that moves by itself: x (nx,) after a sample instant, the observer's estimate of xi
-        (p,) [rad/s^2], 0 without one, and the least pivot. In place of what a meter needs: forces on the feet.
+        (p,) [rad/s^2], 0 without one, and the least pivot. `force` is that on the feet.
         """
         at = self.at()
         at = at._replace(loop=at.loop._replace(moves=True))

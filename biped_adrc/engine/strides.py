@@ -157,7 +157,8 @@ class Strides(HybridSystem):
         """
         nx, n, p, at = len(x), self.plant.n, self.plant.p, arc.at
         stride, load, t, row = self.plant.stride, self.push.load, arc.t[0], arc.rows[0]
-        slow = float(np.min(self.loop.bounds.fastest)) ** 2
+        bounds = self.loop.bounds
+        near, slow = bounds.farthest**2, float(np.min(bounds.fastest)) ** 2
         while True:
             held = (self.sampled if breaks.sampled(t) else self.passed)(t, x, mode)
             arc.held.append(held)
@@ -165,7 +166,8 @@ class Strides(HybridSystem):
             outside = load(0.5 * (t + end), row[:n], row[n : 2 * n], mode)
             row, contacts = stride(t, row, held[nx - p : nx], outside, end)
             arc.add(end, row)
-            if not row.dot(row) < slow:  # one product tests all of them
+            q = row[:n]
+            if not (q.dot(q) < near and row.dot(row) < slow):  # two products test all of them
                 self.check(t, end, row)
             if contacts or end >= until:
                 return contacts
@@ -173,15 +175,16 @@ class Strides(HybridSystem):
             x[at] = row
 
     def good(self, row: Array) -> bool:
-        """Whether a row is finite, and its rates are within the bounds."""
-        v = row[self.plant.n : 2 * self.plant.n]
-        return bool(np.all(np.isfinite(row)) and self.loop.bounds.slow(v))
+        """Whether a row is finite, and its angles and rates are within the bounds."""
+        n = self.plant.n
+        return bool(np.all(np.isfinite(row)) and self.loop.bounds.hold(row[:n], row[n : 2 * n]))
 
     def check(self, t: float, end: float, row: Array) -> None:
         """Raise what ends a run in `row` at `end` [s], after a stride from t [s]."""
         if not np.all(np.isfinite(row)):
             raise NotFiniteError(f"the state of the plant is not finite after t = {t:.6g} s")
-        self.loop.bounds.check_rates(end, row[self.plant.n : 2 * self.plant.n])
+        n = self.plant.n
+        self.loop.bounds.check(end, row[:n], row[n : 2 * n])
 
     def sampled(self, t: float, x: Array, mode: Mode) -> Array:
         """x (nx,) after a sample instant at t [s] and the estimate of xi (p,), in one row."""

@@ -15,7 +15,6 @@ from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.engine.mechanics import PlanarRobot
 from biped_adrc.engine.symbols import Scalar, Vector, maximum, minimum, where
 from biped_adrc.engine.tracer import Located, Tracer, run
-from biped_adrc.hardware.loads import Outside
 from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.observers.base import Estimate
 from biped_adrc.types import Array, Indices
@@ -53,7 +52,7 @@ def on_symbols(trace: Tracer, controller: Controller, p: int, size: int) -> Cont
 
 
 class SymbolicLoop(NamedTuple):
-    """A `protocols.Loop` of symbols; zeta (n,) [N m] and `given` (OUTSIDE,), for the meter, are inputs."""
+    """A `protocols.Loop` of symbols; zeta (n,) [N m] and `force` (2,) [N] are inputs."""
 
     plant: PlanarRobot
     """The robot that moves, on symbols."""
@@ -76,9 +75,10 @@ class SymbolicLoop(NamedTuple):
     torques: list[Scalar]
     """All torques so far that must not be beyond it."""
     zeta: Array
-    given: Array
+    force: Array
+    """From outside on the robot as a whole."""
     moves: bool = False
-    """Whether the plant moves by itself: then the first of `given` are the forces on its feet [N]."""
+    """Whether the plant moves by itself: then `force` are the forces on its feet [N]."""
 
     def measure(self, t: float, q: Array, v: Array, mode: Mode) -> Measurement:
         """With the body's terms always, at q (n,) [rad], v (n,) [rad/s]: what no method asks
@@ -102,8 +102,8 @@ class SymbolicLoop(NamedTuple):
     ) -> tuple[float, float]:
         """Vertical forces of the ground on stance and swing foot [N]."""
         if self.moves:
-            return self.given[0], self.given[1]
-        return semantics.on_stance_foot(self, self.given[:2], t, q, v, tail, mode)
+            return self.force[0], self.force[1]
+        return semantics.on_stance_foot(self, self.force, t, q, v, tail, mode)
 
     def bounded(self, u: Array) -> Array:
         """u (p,) [N m] itself, kept for `lost`."""
@@ -120,10 +120,6 @@ class SymbolicLoop(NamedTuple):
     def external(self, t: float, q: Array, v: Array, mode: Mode) -> Array:
         """The symbols of zeta (n,) [N m]."""
         return self.zeta
-
-    def outside(self, t: float, mode: Mode) -> Outside:
-        """The symbols of force (2,) [N], impulse (2,) [N s] and drop [m]."""
-        return Outside(self.given[:2], self.given[2:4], self.given[4])
 
 
 class SymbolicInstant(NamedTuple):

@@ -4,7 +4,7 @@ Between sample instants the plant is (q, q', u) with the torque held, or (q, q',
 motors lag; it moves by itself in compiled code, disturbance and events included. There are two
 systems for `hybrid.simulator`:
 
-- `TicksWithHardware`, with sensors, delays or a meter, runs the walker's own sample instants of
+- `TicksWithHardware`, with sensors or delays, runs the walker's own sample instants of
   `closed_loop.semantics`, one call of a kernel between two of them;
 - `TicksWithoutHardware` does a whole arc in one loop. One compiled call moves the plant, computes
   the model's terms and the reference at the next sample instant, and leaves them where Python reads
@@ -116,7 +116,7 @@ def whole(x: Array, at: Indices, rows: Array) -> Array:
 
 @dataclass(frozen=True)
 class TicksWithHardware(HybridSystem):
-    """The walker's own sample instants, hardware and meter included, on the held plant."""
+    """The walker's own sample instants, hardware included, on the held plant."""
 
     walker: Walker
     """With compiled dynamics."""

@@ -4,25 +4,21 @@ MuJoCo, and controllers that run in Python.
 A sample goes from one sample instant, or impact, to the next sample instant or impact. `Now` is all that a walk
 is made of. The samples are those of `ba.walk_scenario`, bit for bit.
 
-The walker's controller runs in Python around a compiled plant, or the plant moves by itself. On soft ground
-friction and the direction of the force are what the simulator makes them, so legality is another thing there: a
-single support is illegal where a foot slips, by the numbers of `soft.meters`, or where a torque is beyond the
-limit.
+The walker's controller runs in Python around a compiled plant, or the plant moves by itself.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any, NamedTuple, cast
 
 import numpy as np
 
-from biped_adrc.closed_loop.feet import OnFeet
+from biped_adrc.analysis.certificate import Support
 from biped_adrc.closed_loop.protocols import Mode
-from biped_adrc.closed_loop.semantics import parts, torque_held
-from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.stepping_plant import PlantState
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.control.base import Measurement
@@ -35,17 +31,15 @@ from biped_adrc.engine.strides import Strides
 from biped_adrc.engine.ticks import TicksWithHardware, flowing
 from biped_adrc.errors import InputError
 from biped_adrc.gait.reference import Reference, ReferencePoint
-from biped_adrc.ground import ground_axes
 from biped_adrc.gym.compiled_walks import place_of_torque
-from biped_adrc.gym.episode import Episode
+from biped_adrc.gym.episode import Episode, Needs
 from biped_adrc.gym.view import learner_view
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import RunOptions, finite, flow_arc
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import HybridSystem
+from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.parts import handing_out
-from biped_adrc.robots.limits import KnownLimits
-from biped_adrc.soft.meters import PRESSED, slipping
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
 
@@ -65,19 +59,19 @@ class Now(NamedTuple):
 
 
 class MovedWalk:
-    """One walk, where it is, and its legality so far as `view.LEGALITY`.
+    """One walk, where it is, and the arcs of this single support so far.
 
     Ticks of a clock that does not restart are counted from 0 s.
     """
 
-    def __init__(self, episode: Episode, limits: KnownLimits):
+    def __init__(self, episode: Episode):
         """At its start. Raises InputError for what cannot walk sample by sample."""
-        self.episode, self.limits = episode, limits
+        self.episode = episode
         self.loop, self.system = moving(episode)
         self.timing = cast(SampledTime, self.loop.timing)
         start = self.loop.initial_state(episode.q, episode.v, episode.mode)
         self.now = Now(0.0, start, episode.mode, 0.0)
-        self.legality, self.looks = np.zeros(4), 0
+        self.arcs: list[Arc] = []
 
     def give(self, torque: Array) -> None:
         """The learner's torque (p,) [N m] of the coming sample, where the controller reads it."""
@@ -86,8 +80,11 @@ class MovedWalk:
             at = place_of_torque(self.system.code.numbers)
             self.system.code.K[at : at + len(torque)] = torque
 
-    def sample(self) -> Status:
-        """To the next sample instant; COMPLETED where it goes on, else `now` is at the end."""
+    def sample(self, over: Callable[[Support], None]) -> Status:
+        """To the next sample instant; COMPLETED where it goes on, else `now` is at the end.
+
+        over is told what each single support that ends on the way needed.
+        """
         while True:
             until, now, system = self._until(), self.now, self.system
             if isinstance(system, Strides):
@@ -95,6 +92,10 @@ class MovedWalk:
             at = (now.t, now.x, now.mode, now.fired, now.began)
             with handing_out(), np.errstate(over="ignore", invalid="ignore"):
                 made = finite(flow_arc(system, None, RunOptions(until, 0.0), *at))
+            self.arcs.append(made.arc)
+            if made.arc.event is not None or made.status is not Status.COMPLETED:
+                over(self.episode.needed(joined(self.arcs)))
+                self.arcs = []
             event, t, x = made.arc.event, float(made.arc.t[-1]), made.arc.x[-1]
             if made.status is not Status.COMPLETED:
                 self.now = now._replace(t=t, x=x)
@@ -122,36 +123,15 @@ class MovedWalk:
             return reference(m.t, m.q, m.v)
 
         view = learner_view(self.loop, self.now.t, self.now.x, self.now.mode, point)
-        return np.concatenate(
-            [*view[:-1], view.legality if len(view.legality) else self._on_feet()]
-        )
+        return np.concatenate(view)
 
-    def _on_feet(self) -> Array:
-        """Legality (4,) of a walk on soft ground, with where it is now."""
-        loop, now = self.loop, self.now
-        assert isinstance(loop, SteppingLoop)
-        (q, v, _, tail), k = parts(loop, now.x), loop.held
-        assert k is not None
-        u, state = torque_held(k, tail), PlantState(now.t, q, v, tail[: k.sizes.own])
-        if not isinstance(loop.plant, OnFeet) or now.t <= 0.0:
-            return self.legality
-        feet = loop.plant.footing(state, u, loop.load(now.t, q, v, now.mode))
-        axes = along, out = ground_axes(self.episode.walker.slope)
-        F_T, F_N = np.abs(feet.force @ along), feet.force @ out
-        mu = self.episode.scenario.ground_friction
-        slips = slipping(feet.force, feet.speed, mu, axes)
-        first, friction, normal, peak = self.legality
-        broken = np.any(slips) or np.max(np.abs(u)) > self.limits.torque
-        self.legality = np.array(
-            [
-                first if first or not broken else now.mode.step,
-                max(friction, *(F_T / np.where(F_N > PRESSED, F_N, np.inf))),
-                min(normal, float(np.sum(F_N))) if self.looks else float(np.sum(F_N)),
-                max(peak, float(np.max(np.abs(u)))),
-            ]
-        )
-        self.looks += 1
-        return self.legality
+
+def joined(arcs: Sequence[Arc]) -> Arc:
+    """One arc of arcs of the same single support that follow one another."""
+    kept = [arc for arc in arcs if arc.read] or arcs  # one that failed at once has read nothing
+    t, x, dx = (np.concatenate([getattr(arc, name) for arc in kept]) for name in ("t", "x", "dx"))
+    read = {name: np.concatenate([arc.read[name] for arc in kept]) for name in kept[0].read}
+    return Arc(arcs[0].mode, t, x, dx, arcs[-1].event, read)
 
 
 def moving(episode: Episode) -> tuple[ClosedLoop[Any], HybridSystem]:
@@ -186,25 +166,26 @@ def _ticks(walker: Walker, method: OneStepMethod) -> TicksWithHardware:
 class MovedWalks:
     """N walks; what it hands out is as of `compiled_walks.CompiledWalks`."""
 
-    def __init__(self, count: int, reference: Reference, limits: KnownLimits):
-        """reference: the curve that errors refer to. limits: of ground and motors."""
-        self.reference, self.limits = reference, limits
+    def __init__(self, count: int, reference: Reference):
+        """reference: the curve that errors refer to."""
+        self.reference, self.needs = reference, Needs(count)
         self.walks: list[MovedWalk | None] = [None] * count
         self.codes = np.ones(count, dtype=np.int64)
         self.seen = np.zeros((count, 0))
 
     def begin(self, i: int, episode: Episode) -> None:
         """Walk i anew; row i of `seen` is what is to be seen at its start."""
-        walk = self.walks[i] = MovedWalk(episode, self.limits)
+        walk = self.walks[i] = MovedWalk(episode)
         row = walk.seen(self.reference)
         if self.seen.shape[1] != len(row):
             self.seen = np.zeros((len(self.codes), len(row)))
         self.seen[i], self.codes[i] = row, 0
+        self.needs.begin(i)
 
     def move(self, torques: Array) -> None:
         """Every walk whose code is 0 by one sample, under its row of torques (N, p) [N m]."""
         for i, walk in enumerate(self.walks):
             if walk is not None and self.codes[i] == 0:
                 walk.give(torques[i])
-                self.codes[i] = STATUS.index(walk.sample())
+                self.codes[i] = STATUS.index(walk.sample(partial(self.needs.add, i)))
                 self.seen[i] = walk.seen(self.reference)

@@ -61,7 +61,7 @@ class Stage:
                 return compiled
             except NotCompiled:
                 pass
-        moved = MovedWalks(count, reference, self.limits)
+        moved = MovedWalks(count, reference)
         moved.begin(0, episode)
         return moved
 
@@ -124,15 +124,15 @@ class Stage:
         return fallen, late & ~fallen
 
     def infos(self) -> dict[str, Any]:
-        """What is known beside the observation, (N,) each; legality is of the walk so far."""
-        at = self.walks.seen[:, self.first :]
+        """What is known beside the observation, (N,) each; `episode.Needs` has the second four."""
+        at, needed = self.walks.seen[:, self.first :], self.walks.needs.rows
         return {
             "t": at[:, 0].copy(),
             "step": at[:, 1].astype(np.int64),
             "seed": self.seeds.copy(),
-            "legal": at[:, 4] == 0.0,
-            "friction": at[:, 5].copy(),
-            "normal_force": at[:, 6].copy(),
-            "peak_torque": at[:, 7].copy(),
+            "feasible": needed[:, 0] > 0.0,
+            "friction": needed[:, 1].copy(),
+            "normal_force": needed[:, 2].copy(),
+            "peak_torque": needed[:, 3].copy(),
             "status": NAMES[self.walks.codes],
         }

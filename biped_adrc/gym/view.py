@@ -19,16 +19,8 @@ from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.control.base import Measurement
 from biped_adrc.gait.reference import ReferencePoint
-from biped_adrc.hardware.meter import Reading
 from biped_adrc.hardware.sample_hold import motor_torque, read
 from biped_adrc.types import Array
-
-LEGALITY = tuple(
-    Reading._fields.index(name)
-    for name in ("illegal_step", "mean_friction", "mean_normal_force", "peak_torque")
-)
-"""What is kept of the meter's `Reading`: the single support in which a limit was broken first, 0 for none;
-largest |F_T| / F_N and least F_N [N] of the mean force; largest torque [N m]."""
 
 
 class LearnerView(NamedTuple):
@@ -48,8 +40,6 @@ class LearnerView(NamedTuple):
     """Time [s], and number of the single support, (2,)."""
     squares: Array
     """|q_b - q_d|^2 of the true state [rad^2], and |u|^2 [N^2 m^2], (2,)."""
-    legality: Array
-    """As `LEGALITY`, by the meter (4,); empty without one."""
 
 
 def learner_view(
@@ -82,5 +72,4 @@ def learner_view(
         u=motor_torque(line),
         at=np.array([t, mode.step]),
         squares=np.array([e @ e, u @ u]),
-        legality=np.array([h.g[i] for i in LEGALITY] if k.sizes.meter > 0 else h.g),
     )

@@ -89,10 +89,6 @@ class TorqueLine:
             return self.fraction * line.u + (1.0 - self.fraction) * line.waiting
         return line.u
 
-    def mean_torque(self, line: Line) -> Array:
-        """Of the motors until the next tick (p,) [N m], with lag by what they give now; for the meter."""
-        return line.u_m if len(line.u_m) > 0 else self.mean_command(line)
-
 
 def check_lag(lag: float) -> None:
     """Raise InputError for a time constant [s] that is not finite or below zero."""

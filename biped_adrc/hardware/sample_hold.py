@@ -1,9 +1,9 @@
 """What a walker holds between ticks, behind its controller's state.
 
-    x = (q, q', s, own, b, w, g, queue, u_m, waiting, u)
+    x = (q, q', s, own, b, w, queue, u_m, waiting, u)
 
 own is what a plant that moves by itself keeps, b what the controller takes for its single support, w the
-sensors' state, g the meter's, the rest the line of torques on their way to the motors; each is empty where the
+sensors' state, the rest the line of torques on their way to the motors; each is empty where the
 walker has no such part. u_m alone flows.
 
 The walker's state is one vector, since integrators, stored runs and machine code know vectors alone. Here its
@@ -14,13 +14,11 @@ ticks and at an impact is said once; `closed_loop.walker` does so for a tick, wh
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.errors import InputError
-from biped_adrc.hardware import meter
-from biped_adrc.hardware.meter import Hit, Meter, SampledMeter
 from biped_adrc.hardware.motors import IDEAL, Line, Motors, TorqueLine, whole_and_part
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import HEAD, Belief, Touchdown, numbers_of
@@ -30,14 +28,12 @@ from biped_adrc.types import Array, Indices, frozen
 
 
 class HeldSizes(NamedTuple):
-    """n coordinates, p joints, and what is held: numbers in w and g, torques in the queue, and 0 or 1."""
+    """n coordinates, p joints, and what is held: numbers in w, torques in the queue, and 0 or 1."""
 
     n: int
     p: int
     sensors: int
     """Numbers in w."""
-    meter: int
-    """Numbers in g."""
     queue: int
     """Torques that wait for whole periods, j of `hardware.motors`."""
     lag: int
@@ -57,17 +53,15 @@ class HeldSizes(NamedTuple):
     def total(self) -> int:
         """Numbers held."""
         torques = self.queue + self.lag + self.waiting + 1
-        return self.own + self.told + self.sensors + self.meter + self.p * torques
+        return self.own + self.told + self.sensors + self.p * torques
 
 
 class HeldParts(NamedTuple):
-    """The parts at the ticks of a walker; None, and for the meter an empty tuple, where it has not one."""
+    """The parts at the ticks of a walker; None where it has not one."""
 
     sensors: Sensor | None
     """Sampled for its robot and period."""
     motors: TorqueLine
-    meter: Any
-    """`SampledMeter`."""
     sizes: HeldSizes
     touchdown: Touchdown | None = None
 
@@ -85,8 +79,6 @@ class Held(NamedTuple):
 
     w: Array
     """Of the sensors."""
-    g: Array
-    """Of the meter."""
     line: Line
     """Torques on their way to the motors [N m]."""
     own: Array
@@ -100,11 +92,10 @@ def check_parts(
     timing: ContinuousTime | SampledTime,
     sensors: Sensor | None,
     motors: Motors | None,
-    metered: Meter | None,
     gain: tuple[float, ...],
 ) -> None:
     """Raise InputError for hardware in continuous time, or an impact gain that is none."""
-    hardware = {"sensors": sensors, "motors": motors, "a meter": metered}
+    hardware = {"sensors": sensors, "motors": motors}
     given = [name for name, part in hardware.items() if part is not None]
     if given and not isinstance(timing, SampledTime):
         raise InputError(
@@ -124,7 +115,6 @@ def held_parameters(
     timing: SampledTime,
     sensors: Sensor | None = None,
     motors: Motors | None = None,
-    metered: SampledMeter | None = None,
     own: int = 0,
     touchdown: Touchdown | None = None,
 ) -> HeldParts:
@@ -140,7 +130,6 @@ def held_parameters(
         n,
         p,
         0 if sampled is None else sampled.size,
-        0 if metered is None else meter.size(p, metered.window),
         queue,
         int(motors.lag > 0.0),
         int(fraction > 0.0),
@@ -149,24 +138,23 @@ def held_parameters(
         own,
         0 if touchdown is None else HEAD + touchdown.size,
     )
-    line, g = motors.sampled(period, fraction), () if metered is None else metered
-    return frozen(HeldParts(sampled, line, g, sizes, touchdown))
+    return frozen(HeldParts(sampled, motors.sampled(period, fraction), sizes, touchdown))
 
 
 def read(k: HeldSizes, tail: Array) -> Held:
     """The parts of what follows the controller's state: tail (total,), as views."""
     at, parts = 0, []
     of_line = (k.queue * k.p, k.lag * k.p, k.waiting * k.p, k.p)
-    for size in (k.own, k.told, k.sensors, k.meter, *of_line):
+    for size in (k.own, k.told, k.sensors, *of_line):
         parts.append(tail[at : at + size])
         at += size
-    own, b, w, g, *line = parts
-    return Held(w, g, Line(*line), own, b)
+    own, b, w, *line = parts
+    return Held(w, Line(*line), own, b)
 
 
 def written(held: Held) -> Array:
     """The parts in one vector (total,), the inverse of `read`."""
-    return np.concatenate((held.own, held.b, held.w, held.g, *held.line))
+    return np.concatenate((held.own, held.b, held.w, *held.line))
 
 
 def motor_torque(line: Line) -> Array:
@@ -209,23 +197,14 @@ def _tried(sensors: Sensor, q: Array, v: Array) -> Array:
 
 
 def after_impact(
-    k: HeldParts,
-    held: Held,
-    swap: Indices,
-    q_minus: Array,
-    q: Array,
-    v: Array,
-    v_model: Array,
-    hit: Hit | None,
+    k: HeldParts, held: Held, swap: Indices, q: Array, v: Array, v_model: Array
 ) -> Held:
-    """What is held after an impact from q_minus to (q, v), each (n,); swap (p,) relabels the joints.
+    """What is held after an impact to (q, v), each (n,); swap (p,) relabels the joints.
 
-    v_model (n,) [rad/s]: the rate that the controller expects by its nominal model. hit: for the meter; None
-    without one. Sensors show no impact to a controller that has yet to notice it.
+    v_model (n,) [rad/s]: the rate that the controller expects by its nominal model. Sensors show no impact to a
+    controller that has yet to notice it.
     """
-    w, g, p = held.w, held.g, k.sizes.p
+    w = held.w
     if k.sensors is not None and k.touchdown is None:
         w = k.sensors.impact(w, q, v, v_model)
-    if hit is not None:
-        g = k.meter.impact(g, q_minus[:p], q[:p], swap, hit)
-    return Held(w, g, held.line.relabelled(swap), held.own, held.b)
+    return Held(w, held.line.relabelled(swap), held.own, held.b)

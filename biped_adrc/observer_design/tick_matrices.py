@@ -46,7 +46,7 @@ class TickMatrices(NamedTuple):
 
 
 def linear_twin(walker: Walker) -> Walker:
-    """The walker without what has no derivative: limits, counts, noise, meter, pushes.
+    """The walker without what has no derivative: limits, counts, noise, pushes.
 
     Raises InputError for one in continuous time, or that has to notice touchdowns.
     """
@@ -64,7 +64,6 @@ def linear_twin(walker: Walker) -> Walker:
         sensors=None if walker.sensors is None else walker.sensors.smooth(),
         torque_limit=None,
         motors=None,
-        meter=None,
         disturbance=None,
     )
 

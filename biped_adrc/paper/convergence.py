@@ -12,8 +12,8 @@ Takes outcomes (`scenario.outcome.Outcome`) that hold the run at half the step i
 `paper.verdicts` (checks), by `paper.reproduction` (table of all quantities) and by the command `walk`,
 which prints the error.
 
-For legality the two runs have to agree as well: a walk that is legal at one step and not at the other has no
-verdict.
+For feasibility the two runs have to agree as well: a walk that is feasible at one step and not at the other has
+no verdict.
 """
 
 from __future__ import annotations
@@ -70,19 +70,19 @@ QUANTITIES: dict[str, Quantity] = {
 
 def _normal(o: Outcome) -> float:
     """The least normal force averaged over a window [N]; 0 where no window is long enough to say."""
-    return o.legality.mean_normal_force if o.legality.supports else 0.0
+    return o.feasibility.mean_normal_force if o.feasibility.supports else 0.0
 
 
 def _friction(o: Outcome) -> float:
     """Largest averaged |F_T| / F_N; 0 where F_N <= 0: the ratio has a pole there, and F_N alone decides."""
-    return o.legality.mean_friction if _normal(o) > 0.0 else 0.0
+    return o.feasibility.mean_friction if _normal(o) > 0.0 else 0.0
 
 
 def _impulse(o: Outcome) -> float:
     """Largest |F_T| / F_N of an impact; 0 where the ground would have had to pull, where the ratio
     is infinite.
     """
-    ratio = o.legality.impulse_ratio
+    ratio = o.feasibility.impulse_ratio if o.feasibility.supports else 0.0
     return 0.0 if ratio == math.inf else ratio
 
 
@@ -140,8 +140,8 @@ def halved(o: Outcome) -> tuple[Halved, ...]:
 def convergence_check(name: str, o: Outcome) -> Check:
     """The check that no figure of merit of a run changes by more than `AGREE` at half the step.
 
-    Infinite where the two runs end differently; "legal" and "not legal" are different endings. A run that falls
-    before its last impact has no figures of merit: only its ending has to be the same.
+    Infinite where the two runs end differently; "feasible" and "not feasible" are different endings. A run that
+    falls before its last impact has no figures of merit: only its ending has to be the same.
     """
     gap = math.inf
     if _ending(o) == _ending(o.half):
@@ -151,8 +151,8 @@ def convergence_check(name: str, o: Outcome) -> Check:
 
 
 def _ending(o: Outcome | None) -> tuple[str, int, str] | None:
-    """Status, impacts and legality of a run."""
-    return None if o is None else (o.status, o.impacts, o.legality.outcome)
+    """Status, impacts and feasibility of a run."""
+    return None if o is None else (o.status, o.impacts, o.feasibility.outcome)
 
 
 def error_text(o: Outcome) -> str:

@@ -10,12 +10,13 @@ rests on it. Tasks of `paper.plan`; read by `paper.tables`, the claims, and `viz
 
 What a walk can be:
 
-    legal      makes all steps within friction, torque limits and without scuffing
-    pulled     makes all steps; the mean normal force was negative, a real foot would have left the ground
-    made       makes all steps, and breaks another limit
-    fell       the robot fell
-    ended      ended otherwise, such as a step that takes too long
-    marginal   another word or status at half of the integration step
+    feasible    makes all steps within friction, torque limits and without scuffing
+    but_impact  the same but for the impact, whose impulse asks for more friction
+    pulled      makes all steps; the mean normal force was negative, a real foot would have left the ground
+    infeasible  makes all steps, and breaks another limit
+    fell        the robot fell
+    ended       ended otherwise, such as a step that takes too long
+    marginal    another word or status at half of the integration step
 """
 
 from __future__ import annotations
@@ -61,9 +62,7 @@ class Fate:
     """What became of one walk."""
 
     outcome: str
-    """"fell", "ended" (otherwise, as `status` says), "made" (all steps, though ground or motors could not have
-    given what they needed) or "legal".
-    """
+    """One of the words in `OUTCOMES`."""
     status: str
     """How the simulation ended."""
     mean_normal_force: float | None
@@ -71,9 +70,9 @@ class Fate:
     mean_friction: float | None
     """The largest |F_T| / F_N of such an average; None where the ground never pushed."""
     impulse_ratio: float | None
-    """The largest |F_T| / F_N of the impacts; it makes no walk illegal."""
+    """The largest |F_T| / F_N of the impacts."""
     reasons: tuple[str, ...] = ()
-    """Why the walk is not legal, by the names of `Legality.reasons`."""
+    """Why the walk is not feasible, by the names of `Feasibility.reasons`."""
     marginal: bool = False
     """Whether its word or its status is another at half of the step."""
 
@@ -87,7 +86,7 @@ class Fate:
 
     @classmethod
     def _at(cls, o: Outcome) -> Fate:
-        found = o.legality
+        found = o.feasibility
         normal, friction, impulse = (
             x if math.isfinite(x) else None
             for x in (found.mean_normal_force, found.mean_friction, found.impulse_ratio)
@@ -100,7 +99,7 @@ class Fate:
         if self.marginal:
             return "marginal"
         pulls = self.mean_normal_force is not None and self.mean_normal_force <= 0.0
-        return "pulled" if self.outcome == "made" and pulls else self.outcome
+        return "pulled" if self.outcome == "infeasible" and pulls else self.outcome
 
 
 @dataclass(frozen=True)
@@ -184,7 +183,7 @@ def pushes(
     return [Tried(onset, amplitude, of, limit) for limit, of, amplitude, onset in every]
 
 
-WORDS = ("legal", "made", "pulled", "fell", "ended", "marginal")
+WORDS = ("feasible", "but_impact", "infeasible", "pulled", "fell", "ended", "marginal")
 """What a walk of the map can be, and the columns of its table."""
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.analysis.legality import OUTCOMES
+from biped_adrc.analysis.feasibility import OUTCOMES
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.observers.gpi import TABLE_I
@@ -76,15 +76,15 @@ def _run(name: str, o: Outcome) -> dict[str, object]:
         "controller": o.run.controller,
         "preset": o.run.preset,
         "status": o.status,
-        "outcome": o.legality.outcome,
+        "outcome": o.feasibility.outcome,
         "impacts": o.impacts,
         "peak error [rad]": o.peak_error,
         "at half the step [rad]": None if o.half is None else o.half.peak_error,
         "rms error [rad]": o.rms_error,
         "peak torque [N m]": o.peak_torque,
         "median step [s]": float(np.median([s.duration for s in steps])) if steps else None,
-        "mean friction": o.legality.mean_friction,
-        "mean F_N [N]": o.legality.mean_normal_force,
+        "mean friction": o.feasibility.mean_friction,
+        "mean F_N [N]": o.feasibility.mean_normal_force,
         "impulse ratio": float(np.max([s.impulse_ratio for s in steps])) if steps else None,
         "method": o.method,
         "engine": o.engine,
@@ -198,10 +198,10 @@ def _said(of: str, /, **values: object) -> str:
 def _push(plan: Plan, r: Results) -> str:
     """How both controllers walk under the headline push, with vertical and with slow edges.
 
-    The legality of both walks is said once where it is the same.
+    The feasibility of both walks is said once where it is the same.
     """
     npd, adrc = (r.heads[c].outcome for c in CONTROLLERS)
-    words = {c: OUTCOMES[r.heads[c].outcome.legality.outcome] for c in CONTROLLERS}
+    words = {c: OUTCOMES[r.heads[c].outcome.feasibility.outcome] for c in CONTROLLERS}
     kind = "carried_alike" if words["NPD"] == words["ADRC"] else "carried_apart"
     return _said(
         "push",

@@ -4,7 +4,7 @@
 - `urdf_reader` reading a URDF into that tree
 - `urdf_xml`    the XML that it is read from
 - `robot_toml`  the record robot.toml and parameter presets
-- `limits`      what ground and motors can give, within which a walk is legal
+- `limits`      what ground and motors can give, within which a walk is feasible
 - `symmetry`    exchange of the legs at impact
 
 A robot is a folder with these two files and no code; `model.biped` makes the dynamics from them,

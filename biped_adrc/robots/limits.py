@@ -1,10 +1,11 @@
-"""What ground and motors can give, within which a walk is legal.
+"""What ground and motors can give, within which a walk is feasible.
 
-A walk makes a single support legally when the force of the ground, averaged over any window within it,
-lies in the friction cone (F_N > 0 and |F_T| <= mu F_N), every torque is within the motors' limit, and the
-swing foot does not scuff away from the ends of the step. The impulse at impact is not part of it. A mean
+A single support is feasible when the force of the ground, averaged over any window within it, lies in the
+friction cone (F_N > 0 and |F_T| <= mu F_N), every torque is within the motors' limit, the swing foot does not
+scuff away from the ends of the step, and the impulse of its impact lies in the cone too. A mean
 and not an instant is used: the edge of a push leaves the cone for a millisecond and a foot does not
-move in it, while torques that chatter leave it in the mean as well. `analysis.certificate` applies
+move in it, while torques that chatter leave it in the mean as well. On soft ground a foot that slips by more
+than SLIP in a single support takes the place of the cone. `analysis.certificate` applies
 the limits; what they leave open is in the robot's record.
 """
 
@@ -19,6 +20,8 @@ from biped_adrc.shown import Shown
 
 WINDOW = 5e-3
 """Time over which the force of the ground is averaged [s]."""
+SLIP = 5e-3
+"""Distance that a foot may slip on soft ground in a single support [m]."""
 
 
 ROUND_OFF = 1e-9
@@ -42,7 +45,7 @@ class KnownLimits(NamedTuple):
 
 @dataclass(frozen=True)
 class Limits(Shown):
-    """What ground and motors can give, within which a walk is legal; None takes the robot's record.
+    """What ground and motors can give, within which a walk is feasible; None takes the robot's record.
 
     Raises InputError for a friction that is not above 0 and at most 1, or a torque or window that
     is not positive.

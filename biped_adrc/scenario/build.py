@@ -26,14 +26,13 @@ from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.gait import Gait, load_gait
 from biped_adrc.gait.published import PassiveCycle, passive_cycle
 from biped_adrc.ground import StepDown, StepUp, uneven_ground
-from biped_adrc.hardware.meter import Meter
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.model_errors import ModelErrors, impact_error
-from biped_adrc.robots.limits import ENDS, Limits
+from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.disturbances import disturbances, taken
 from biped_adrc.scenario.registry import construct, find, own, takes
@@ -119,15 +118,14 @@ class RobotAndGait:
         return self.gait
 
 
-def build(s: Scenario, scene: RobotAndGait | None = None, metered: bool = False) -> Walker:
+def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
     """The walker of a scenario.
 
     The plant is the nominal robot with the scenario's model errors, the controller's model always the nominal
-    one; the ground's slope is the gait's plus the scenario's. Sensors, motors, meter and ground steps are None
+    one; the ground's slope is the gait's plus the scenario's. Sensors, motors and ground steps are None
     or empty where the scenario has none.
 
-    scene: robot and gait where they are at hand. metered: with a meter that records torques and ground forces
-    at the sample instants. Raises InputError for what does not fit together.
+    scene: robot and gait where they are at hand. Raises InputError for what does not fit together.
     """
     scene = RobotAndGait.of(s) if scene is None else scene
     if scene.cycle is not None:
@@ -155,7 +153,6 @@ def build(s: Scenario, scene: RobotAndGait | None = None, metered: bool = False)
         sensors=sensors(s),
         motors=Motors(s.rate_limit, s.lag) if s.rate_limit or s.lag else None,
         touchdown=touchdown(s, gait),
-        meter=Meter(gait.constraint, limits(s), ENDS * gait.period) if metered else None,
         impact_gain=tuple(gain.tolist()),
         runaway_speed=s.runaway_speed,
         runaway_torque=s.runaway_torque,
@@ -187,7 +184,7 @@ def _passive(s: Scenario, biped: Biped, known: PassiveCycle) -> Walker:
 
 
 def limits(s: Scenario) -> Limits:
-    """The limits of ground and motors within which the walk is legal; the torque limit is the robot's own."""
+    """Limits of ground and motors within which the walk is feasible; the torque limit is the robot's own."""
     return Limits(s.friction_limit, None, s.force_window)
 
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from biped_adrc.analysis.certificate import Certificate
-from biped_adrc.analysis.legality import Legality
+from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.errors import InputError
@@ -51,7 +51,7 @@ class Outcome(Shown):
     """max |u_i| [N m]; 0 without motors."""
     certificates: tuple[Certificate, ...]
     """What each finished step would have asked of ground and motors."""
-    legality: Legality
+    feasibility: Feasibility
     """Whether ground and motors could have carried the walk, within the limits of the robot's record."""
     method: str
     """Integration method, with its step."""
@@ -80,7 +80,7 @@ def outcome_of(made: Walk) -> Outcome:
     if made.scenario is None:
         raise InputError(
             "this walk was made of a walker, and an outcome is a scenario's; take its trajectory, signals and "
-            "legality, or walk with biped_adrc.walk_scenario"
+            "feasibility, or walk with biped_adrc.walk_scenario"
         )
     trajectory, s = made.trajectory, made.signals
     events = trajectory.events(FOOT_STRIKE)
@@ -99,7 +99,7 @@ def outcome_of(made: Walk) -> Outcome:
         float(np.sqrt(max(mean, 0.0))),
         float(np.max(np.abs(s.u), initial=0.0)),
         made.certificates,
-        made.legality,
+        made.feasibility,
         str(trajectory.settings["method"]),
         str(trajectory.settings.get("engine", "unknown")),
         slip=max((x for step in made.soft_steps for x in step.slip), default=None),

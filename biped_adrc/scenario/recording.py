@@ -11,7 +11,7 @@ reproduction of the paper read it.
     walk.signals         arrays over time: q, v, u, errors, estimates, ground reaction
     walk.certificates    per step: friction, torque, clearance, energy
     walk.soft_steps      per step on soft ground: slip, flight, double support, penetration
-    walk.legality        could ground and motors have carried it? until_illegal cuts it where not
+    walk.feasibility     could ground and motors have carried it? until_infeasible cuts it where not
     walk.touchdowns      when each was noticed, where the controller has to
     walk.remarks         sentences on what was not as it was asked for
     walk.plot, animate   figures and pictures
@@ -31,7 +31,7 @@ from typing import TYPE_CHECKING, Self
 import numpy as np
 
 from biped_adrc.analysis.certificate import Certificate, certificates, supports
-from biped_adrc.analysis.legality import Legality, until_illegal
+from biped_adrc.analysis.feasibility import Feasibility, until_infeasible
 from biped_adrc.analysis.recorded_signals import PLACE, recorded
 from biped_adrc.analysis.signals import Signals, signals
 from biped_adrc.analysis.touchdowns import Noticed, touchdowns
@@ -46,7 +46,7 @@ from biped_adrc.scenario.edges import edge_remarks, step_remarks
 from biped_adrc.scenario.outcome import Outcome, outcome_of
 from biped_adrc.scenario.walker_record import MissingPart
 from biped_adrc.shown import Shown
-from biped_adrc.soft.meters import SoftStep, recorded_steps
+from biped_adrc.soft.meters import SoftStep, recorded_steps, slip_times
 from biped_adrc.types import Array
 
 if TYPE_CHECKING:
@@ -121,11 +121,16 @@ class Walk(Shown):
 
         Empty for a walk on the rigid plant, and on one that does not say what its feet do.
         """
+        ground = self._soft_ground()
+        return () if ground is None else recorded_steps(self.trajectory, *ground)
+
+    def _soft_ground(self) -> tuple[float, tuple[Array, Array]] | None:
+        """Friction and axes of the soft ground, of a run that says what its feet do there; else None."""
         run = self.trajectory
         ground = run.settings.get("plant", {}).get("ground")
         if ground is None or recorded(run, PLACE) is None:
-            return ()
-        return recorded_steps(run, ground["friction"], ground_axes(self.walker.slope))
+            return None
+        return ground["friction"], ground_axes(self.walker.slope)
 
     def certified(self, limits: Limits | None = None) -> tuple[Certificate, ...]:
         """The certificates for other limits, or with forces averaged over another window [s].
@@ -137,18 +142,18 @@ class Walk(Shown):
         return certificates(self.walker, self.trajectory, self.signals, limits)
 
     @cached_property
-    def legality(self) -> Legality:
+    def feasibility(self) -> Feasibility:
         """Whether ground and motors could have carried this walk within the limits of the robot's record."""
-        return self.legal_within(Limits())
+        return self.feasible_within(Limits())
 
-    def legal_within(self, limits: Limits) -> Legality:
-        """As `legality`, within other limits; the unfinished last step counts too."""
+    def feasible_within(self, limits: Limits) -> Feasibility:
+        """As `feasibility`, within other limits; the unfinished last step counts too."""
         finished = self.certificates if limits == Limits() else self.certified(limits)
         rest = replace(self.trajectory, arcs=self.trajectory.arcs[len(finished) :])
-        return Legality(
+        slips = [max(step.slip) for step in self.soft_steps] if self.soft_steps else None
+        return Feasibility(
             self.trajectory.status,
-            (*finished, *supports(self.walker, rest, self.signals, limits)),
-            float(np.max([c.impulse_ratio for c in finished], initial=0.0)),
+            (*finished, *supports(self.walker, rest, self.signals, limits, slips)),
             limits.of(self.walker.plant.description),
             len(self.trajectory.events(FOOT_STRIKE)) if self.soft else None,
         )
@@ -163,13 +168,15 @@ class Walk(Shown):
         """The numbers of a scenario's walk that a worker process sends back."""
         return outcome_of(self)
 
-    def until_illegal(self, limits: Limits | None = None) -> Self:
+    def until_infeasible(self, limits: Limits | None = None) -> Self:
         """The walk up to the first instant at which ground or motors could not have carried it.
 
-        Its status is then ILLEGAL and its detail says which limit, when, and by how much. None: the limits
+        Its status is then INFEASIBLE and its detail says which limit, when, and by how much. None: the limits
         of the robot's record.
         """
-        cut = until_illegal(self.walker, self.trajectory, self.signals, limits)
+        run, ground = self.trajectory, self._soft_ground()
+        slipped = None if ground is None else slip_times(run, *ground)
+        cut = until_infeasible(self.walker, run, self.signals, limits, slipped)
         return self if cut is self.trajectory else replace(self, trajectory=cut)
 
     def saying(self, said: tuple[str, ...]) -> Self:

@@ -151,7 +151,7 @@ def walk(
     first_step: int = 1,
     progress: Progress | None = None,
     engine: str = COMPILED,
-    legal: Limits | None = None,
+    within: Limits | None = None,
     plant: str | SteppingPlant | None = None,
 ) -> Walk:
     """Walk from (q+, q'+) after the impact of the gait's orbit, or from `start`, for some impacts.
@@ -161,8 +161,8 @@ def walk(
     trajectory's settings say what ran ("engine") and why not what was asked for ("why"). Under ADRC and a push
     the default step of "pinocchio", 0.5 ms, is too long for ADRC's errors after an edge (ten times too large
     under Table I), which `Walk.remarks` says; "compiled" takes 0.05 ms there. Every step of the method is kept,
-    so that peaks and certificates miss none. A fall is a status of the trajectory. legal: the walk ends, with
-    the status ILLEGAL, where it would leave these limits; without, they are looked up in `Walk.legality` alone.
+    so that peaks and certificates miss none. A fall is a status of the trajectory. within: the walk ends, with
+    the status INFEASIBLE, where it would leave these limits; without, `Walk.feasibility` alone judges by them.
     plant: in place of the rigid one, by name ("mujoco", soft ground) or itself, as MuJoCoPlant(biped, ground);
     then the walker acts at ticks, and there is no method. Raises InputError for parts that do not fit together.
     """
@@ -189,7 +189,7 @@ def walk(
             progress=progress,
             engine=engine,
         )
-    return made if legal is None else made.until_illegal(legal)
+    return made if within is None else made.until_infeasible(within)
 
 
 def walk_in_parts(

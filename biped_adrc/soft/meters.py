@@ -12,6 +12,7 @@ h F v / 2 there, of first order, and of second order everywhere else.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,6 +23,7 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.parts import check_part
+from biped_adrc.robots.limits import SLIP
 from biped_adrc.shown import Shown
 from biped_adrc.soft.mujoco_plant import MuJoCoPlant
 from biped_adrc.types import Array
@@ -74,7 +76,7 @@ class SoftStep(Shown):
 def soft_steps(
     loop: SteppingLoop, run: Trajectory, apart: float | None = None
 ) -> tuple[SoftStep, ...]:
-    """The meter of every single support of a run on soft ground, that at the end included.
+    """What was done in every single support of a run on soft ground, that at the end included.
 
     apart [s]: between two readings; None for one at each step of the engine. Raises InputError for a plant
     that is not on soft ground, and for a run that is not of this loop.
@@ -84,7 +86,7 @@ def soft_steps(
     assert isinstance(plant, MuJoCoPlant)
     apart, axes = plant.h if apart is None else apart, ground_axes(plant.slope)
     return tuple(
-        metered(r, plant.ground.friction, axes, plant.levels(r.own))
+        step_of(r, plant.ground.friction, axes, plant.levels(r.own))
         for r in (readings(loop, arc, apart) for arc in run.arcs)
     )
 
@@ -97,7 +99,22 @@ def recorded_steps(
     Coarser, and at no price: a slip is off by up to the time between two nodes times the speed at which it
     begins. friction: mu [1]. axes: unit vectors (x, z) (2,) along and out of the ground.
     """
-    return tuple(metered(_recorded(arc), friction, axes) for arc in run.arcs)
+    return tuple(step_of(_recorded(arc), friction, axes) for arc in run.arcs)
+
+
+def slip_times(run: Trajectory, friction: float, axes: tuple[Array, Array]) -> tuple[float, ...]:
+    """When in each single support a foot has slipped by more than SLIP [s], infinite for never.
+
+    As `recorded_steps`, with the same arguments.
+    """
+    return tuple(_slip_time(_recorded(arc), friction, axes) for arc in run.arcs)
+
+
+def _slip_time(r: Readings, friction: float, axes: tuple[Array, Array]) -> float:
+    slips = slipping(r.force, r.speed, friction, axes) * np.abs(r.speed @ axes[0])
+    slipped = np.cumsum(weights(r.t)[:, np.newaxis] * slips, axis=0)
+    beyond = np.flatnonzero(np.max(slipped, axis=1) > SLIP)
+    return float(r.t[beyond[0]]) if len(beyond) else math.inf
 
 
 def _recorded(arc: Arc) -> Readings:
@@ -111,7 +128,7 @@ def _recorded(arc: Arc) -> Readings:
     return Readings(arc.t, none, none, none, u, zeta, force, place, speed)
 
 
-def metered(
+def step_of(
     r: Readings,
     friction: float,
     axes: tuple[Array, Array],
@@ -119,7 +136,7 @@ def metered(
     carrying: float = CARRYING,
     slip_speed: float = SLIP_SPEED,
 ) -> SoftStep:
-    """The meter of one single support from readings at K times.
+    """What was done in one single support, from readings at K times.
 
     friction: mu [1]. axes: unit vectors (x, z) (2,) along and out of the ground. level (K, 2) [m]: of the
     ground under each foot. carrying [N],
@@ -156,7 +173,7 @@ def slipping(
     carrying: float = CARRYING,
     slip_speed: float = SLIP_SPEED,
 ) -> NDArray[np.bool_]:
-    """Whether each foot slips (...,), from force [N] and speed [m/s], each (..., 2); the rest as `metered`."""
+    """Whether each foot slips (...,), from force [N] and speed [m/s], each (..., 2); the rest as `step_of`."""
     along, out = axes
     normal, tangential = force @ out, np.abs(force @ along)
     at_cone = tangential >= AT_CONE * friction * normal

@@ -60,7 +60,7 @@ class MuJoCoPlant(Checked, Shown):
 
     - h [s]: step of the engine. slope [rad]: of the ground, positive downhill.
     - touchdown_force [N], ahead [m]: what the swing foot has to carry, and how far in front it has to
-      be. flight_height [m]: the run ends as illegal where the stance foot is higher above the ground.
+      be. flight_height [m]: the run ends as infeasible where the stance foot is higher above the ground.
     - integrator: "rk4", or "leapfrog" at a quarter of the price (`mujoco_engine`).
     - lag [s]: time constant tau of the motors, tau u_m' = u - u_m; 0 for none.
     - ground_steps: where the ground falls or rises. first_step: number of the first single support.
@@ -295,7 +295,7 @@ class MuJoCoPlant(Checked, Shown):
         if x * hip[0] + z * (hip[2] - below) < self.lowest_hip:
             return (Contact("hip_too_low", ends=Status.FELL),)
         if x * stance[0] + z * (stance[2] - below) > self.flight_height:
-            return (Contact("stance_foot_in_the_air", ends=Status.ILLEGAL),)
+            return (Contact("stance_foot_in_the_air", ends=Status.INFEASIBLE),)
         if t - own[0] > self.max_step_time:
             return (Contact("step_too_long", ends=Status.STALLED),)
         if x * swing[0] + z * (swing[2] - ahead) > TOUCHING or swing[0] - stance[0] <= self.ahead:

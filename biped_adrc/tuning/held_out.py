@@ -12,7 +12,7 @@ from biped_adrc.tuning.measure import Measure, Walks
 from biped_adrc.tuning.study import TuningStudy
 from biped_adrc.types import Array
 
-SHARES = ("survived", "legal")
+SHARES = ("survived", "feasible", "but_impact")
 """Columns of zeros and ones, whose mean is a share with Wilson's interval."""
 
 

@@ -1,7 +1,8 @@
 """A measure: one number of a candidate, from a column of the rows of its walks.
 
-A walk that is not legal, or has no number in the column, ranks worst: it counts as plus infinity where less is
-better and as minus infinity where more is better, and is never dropped. What is asked over all walks is
+A walk that is not feasible (the impact at most aside), or has no number in the column, ranks worst: it counts
+as plus infinity where less is better and as minus infinity where more is better, and is never dropped. What is
+asked over all walks is
 
     median, mean, worst, or a quantile p in (0, 1), of which the next worse walk counts, without interpolation.
 
@@ -17,18 +18,18 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
-from biped_adrc.bench.cell import is_legal, is_made, number
+from biped_adrc.bench.cell import is_counted, is_made, number
 from biped_adrc.bench.study import Part
 from biped_adrc.campaign.chunk import Row
 from biped_adrc.types import Array
 
-OF_ALL = ("survived", "legal", "impacts", "legal_impacts", "distance")
+OF_ALL = ("survived", "feasible", "but_impact", "impacts", "feasible_impacts", "distance")
 """Columns that every walk has, however it ended."""
 SMALLEST_SCALE = 1e-12
 """Of a limit: below this a bound counts as 0, and what is beyond it is not divided by it."""
 
-Counts = Literal["legal", "made"]
-"""Which walks count with their number: legal ones, or all that make their steps."""
+Counts = Literal["feasible", "made"]
+"""Which walks count with their number: feasible ones (the impact aside), or all that make their steps."""
 Walks = Sequence[tuple[str, Row]]
 """Walks of a candidate: the name of the condition of each, and its row."""
 
@@ -42,7 +43,7 @@ class Measure(Part):
     """What is taken over all walks: a float is a quantile."""
     condition: str | None = None
     """The walks under this condition alone; None for all."""
-    counts: Counts = "legal"
+    counts: Counts = "feasible"
     """Walks that count with their number; all others rank worst."""
 
     @property
@@ -77,7 +78,7 @@ class Measure(Part):
 
     def fine(self, row: Row) -> bool:
         """Whether a walk counts with its number."""
-        return is_legal(row) if self.counts == "legal" else is_made(row)
+        return is_counted(row) if self.counts == "feasible" else is_made(row)
 
     @property
     def worst(self) -> float:
@@ -130,7 +131,7 @@ class Limit(Measure):
 
     @property
     def sentence(self) -> str:
-        """ "mean legal at least 0.9"."""
+        """ "mean feasible at least 0.9"."""
         return f"{self.words} at {'most' if self.less_is_better else 'least'} {self.bound:g}"
 
     def excess(self, x: float) -> float:

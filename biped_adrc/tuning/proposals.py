@@ -31,7 +31,7 @@ from biped_adrc.tuning.study import TuningStudy
 from biped_adrc.tuning.variables import Variable
 
 NOT_WALKED = 1.0
-"""By how much a candidate without walks counts as missing a limit on them: as much as one without any legal
+"""By how much a candidate without walks counts as missing a limit on them: as much as one without any feasible
 walk misses a share of them. With 0 a search stays with candidates that are not worth a walk."""
 STARTUP = 10
 """Candidates that are drawn at random before TPE begins."""

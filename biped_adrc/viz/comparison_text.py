@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from biped_adrc.analysis.feasibility import VERDICTS
 from biped_adrc.resources import packaged
 from biped_adrc.types import PlainRecord
 
@@ -19,17 +20,17 @@ TEXTS = packaged("biped_adrc.viz", "comparison.toml")
 TITLE: str = TEXTS["title"]
 """Title of the page."""
 WHAT_COUNTS: str = " ".join(TEXTS["what_counts"].split())
-"""When a walk counts as legal, in words."""
+"""When a walk counts as feasible, in words."""
 MEASURES: dict[str, str] = TEXTS["measures"]
-"""Column of a walk's row -> heading; the median over legal walks is shown. matched and unmatched are
+"""Column of a walk's row -> heading; the median over walks that count is shown. matched and unmatched are
 the parts of what the model does not know: what a motor could cancel, and the rest.
 """
 NEEDS: dict[str, str] = TEXTS["needs"]
 """Column -> heading of what a walk needs of the ground and the motors: medians over the walks that
-make all steps, legal or not.
+make all steps, feasible or not.
 """
 REASONS: dict[str, str] = TEXTS["reasons"]
-"""Column -> heading of why a walk that makes all steps is not legal; a walk may have several reasons."""
+"""Column -> heading of why a walk that makes all steps is not feasible; a walk may have several reasons."""
 SHARES: tuple[str, ...] = (*TEXTS["columns"]["shares"], *NEEDS.values())
 """Headings of the first table, by `share_texts`; the needs are its last columns."""
 MEDIANS: tuple[str, ...] = (*TEXTS["columns"]["medians"], *MEASURES.values())
@@ -72,7 +73,7 @@ def by_condition(cells: Sequence[PlainRecord]) -> list[PlainRecord]:
 
 
 def share_texts(cell: PlainRecord) -> list[str]:
-    """A row of the first table: how many walks are legal, how many make all steps, and why not.
+    """A row of the first table: how many walks are feasible, how many make all steps, and why not.
 
     cell: one controller under one condition, as `bench.cell.Cell.row` gives it.
     """
@@ -85,7 +86,8 @@ def share_texts(cell: PlainRecord) -> list[str]:
     return [
         cell["condition"],
         who(cell),
-        percent(cell["legal"]),
+        percent(cell["feasible"]),
+        percent(cell["but_impact"]),
         percent(cell["survived"]),
         ended or "–",
         ", ".join(reasons) or "–",
@@ -95,8 +97,9 @@ def share_texts(cell: PlainRecord) -> list[str]:
 
 
 def median_texts(cell: PlainRecord) -> list[str]:
-    """A row of the second table: how many walks are legal, and the medians of `MEASURES` over them."""
-    count = f"{round(cell['legal'][0] * cell['walks'])} of {cell['walks']}"
+    """A row of the second table: how many walks count, and the medians of `MEASURES` over them."""
+    share = cell["feasible"][0] + cell["but_impact"][0]
+    count = f"{round(share * cell['walks'])} of {cell['walks']}"
     return [cell["condition"], who(cell), count, *(interval(cell[n]) for n in MEASURES)]
 
 
@@ -124,15 +127,15 @@ def condition_texts(summary: PlainRecord) -> list[list[str]]:
 
 
 def nominal_text(nominal: PlainRecord) -> str:
-    """What the undisturbed walk needs of ground and motors, in a sentence, and what of it is illegal already.
+    """What the undisturbed walk needs of ground and motors, in a sentence, and which limits it breaks.
 
-    nominal: "status", "legal", "broken" (limits that are not kept), "needs" by name of `NEEDS`,
+    nominal: "status", "outcome", "broken" (limits that are not kept), "needs" by name of `NEEDS`,
     "limits".
     """
     walk = "The gait itself, walked by NPD from its own start with nothing wrong,"
     if nominal["status"] != "COMPLETED":
         return f"{walk} does not make all steps: {nominal['status'].lower()}."
-    verdict = "is legal" if nominal["legal"] else "is not legal"
+    verdict = f"is {VERDICTS[nominal['outcome']]}"
     broken = ", ".join(nominal["broken"])
     beyond = f"; beyond its limit already: {broken}" if broken else ""
     limits = nominal["limits"]

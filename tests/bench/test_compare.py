@@ -23,13 +23,15 @@ from biped_adrc.viz import comparison_text
 published = partial(run_comparison, settings=AS_PUBLISHED)
 
 
-def row(made, legal=None, status=None, **values):
-    """A made-up row: legal where it made all steps, if not told otherwise."""
+def row(made, feasible=None, status=None, **values):
+    """A made-up row: feasible where it made all steps, if not told otherwise."""
     known = dict.fromkeys(COLUMNS) | dict.fromkeys(MEASURES, 1.0) | dict.fromkeys(NEEDS, 1.0)
     known |= dict.fromkeys((*REASONS, IMPULSE), 0)
     return known | {
         "survived": int(made),
-        "legal": int(made if legal is None else made and legal),
+        "feasible": int(made if feasible is None else made and feasible),
+        "but_impact": 0,
+        "outcome": "infeasible" if feasible is False else "feasible",
         "status": status or ("COMPLETED" if made else "FELL"),
         "detail": "it says",
         **values,
@@ -67,12 +69,12 @@ def test_the_table_is_that_of_the_rows():
     def walk(r):
         if r["controller"] == "NPD":
             return row(True, peak_error=0.1)
-        made, legal = r["seed"] % 4 != 3, r["seed"] % 4 != 2
+        made, feasible = r["seed"] % 4 != 3, r["seed"] % 4 != 2
         return row(
             made,
-            legal,
+            feasible,
             peak_error=0.01 * (1 + r["seed"]),
-            bad_friction=int(not legal),
+            bad_friction=int(not feasible),
             bad_torque=int(r["seed"] == 2),
             bad_impulse=None if r["seed"] else 1,
             mean_friction=0.1 * r["seed"],
@@ -83,8 +85,8 @@ def test_the_table_is_that_of_the_rows():
     )
     cell = found.cell("ADRC", "delay")
     assert (cell.controller, cell.condition) == ("ADRC", "delay")
-    assert (cell.survived.value, cell.legal.value) == (0.75, 0.5)
-    assert cell.legal == share(4, 8)
+    assert (cell.survived.value, cell.feasible.value) == (0.75, 0.5)
+    assert cell.feasible == share(4, 8)
     assert cell.falls == {"FELL": 2}
     assert cell.reasons["bad_friction"] == share(2, 6)
     assert cell.reasons["bad_torque"] == share(1, 6)
@@ -96,8 +98,8 @@ def test_the_table_is_that_of_the_rows():
     assert found.cell("NPD", "nothing").survived.value == 1.0
     texts = dict(zip(comparison_text.SHARES, comparison_text.share_texts(plain), strict=True))
     assert texts["the others ended"] == "2 fell"
-    assert texts["made, but not legal for [%]"] == "friction 33, torque 17"
-    assert texts["legal [%]"].startswith("50 (")
+    assert texts["made, but not feasible for [%]"] == "friction 33, torque 17"
+    assert texts["feasible [%]"].startswith("50 (")
     assert texts["made all steps [%]"].startswith("75 (")
     json.dumps(plain, allow_nan=False)
 
@@ -111,14 +113,14 @@ def test_what_was_no_walk_is_no_fall(status):
 
 
 def made_up(records):
-    """In place of walks: ADRC tracks better and LESO too, and one seed in five is not legal."""
+    """In place of walks: ADRC tracks better and LESO too, and one seed in five is not feasible."""
     error = {"NPD": 1.0, "LESO": 0.3, "ADRC": 0.1}
     found = []
     for r in records:
         seed = r.get("seed", 0)
         peak = error[r.get("controller", "ADRC")] * (1.0 + 0.01 * seed)
-        legal = seed % 5 != 4
-        found.append(row(True, legal, peak_error=peak, bad_friction=int(not legal)))
+        feasible = seed % 5 != 4
+        found.append(row(True, feasible, peak_error=peak, bad_friction=int(not feasible)))
     return found
 
 
@@ -142,12 +144,12 @@ def test_walks_of_rabbit_are_judged_by_the_ground(tmp_path):
     asked = (("NPD",), ("nothing", "encoders"), 2, Threads(2))
     summary = published(tmp_path, "the command", *asked)
     assert summary["walks"] == 5
-    assert summary["nominal"]["legal"]
+    assert summary["nominal"]["outcome"] == "feasible"
     assert summary["nominal"]["limits"]["friction"] == 0.6
     assert 0.4 < summary["nominal"]["needs"]["mean_friction"] < 0.6
     nothing, encoders = summary["cells"]
-    assert (nothing["survived"][0], nothing["legal"][0]) == (1.0, 1.0)
-    assert (encoders["survived"][0], encoders["legal"][0]) == (1.0, 0.0)
+    assert (nothing["survived"][0], nothing["feasible"][0]) == (1.0, 1.0)
+    assert (encoders["survived"][0], encoders["feasible"][0]) == (1.0, 0.0)
     assert encoders["reasons"]["bad_friction"][0] == 1.0
     assert encoders["peak_error"] is None
     rows = [run_trial(AS_PUBLISHED.record("nothing", "NPD", seed)) for seed in range(2)]

@@ -14,21 +14,21 @@ from biped_adrc.bench.settings import AS_PUBLISHED
 from biped_adrc.cli.app import command
 from biped_adrc.viz.comparison_text import interval
 from biped_adrc.viz.pages import comparison_html
-from biped_adrc.viz.plots.comparison_figure import legal_figure, measure_figure
+from biped_adrc.viz.plots.comparison_figure import feasible_figure, measure_figure
 from biped_adrc.viz.plots.sweep_maps import Maps, cut, sweep_map_figure
 
 
 def row(r):
-    """ADRC tracks ten times closer; with encoders no walk is legal."""
-    legal = "counts" not in r
+    """ADRC tracks ten times closer; with encoders no walk is feasible."""
+    feasible = "counts" not in r
     error = {"NPD": 1e-2, "DOB": 5e-3, "ADRC": 1e-3}[r["controller"]]
     known = dict.fromkeys(COLUMNS) | dict.fromkeys((*MEASURES, *NEEDS), 1.0)
     known |= dict.fromkeys((*REASONS, IMPULSE), 0) | {"peak_unmatched": 0.0, "detail": ""}
     return known | {
         "status": "COMPLETED",
         "survived": 1,
-        "legal": int(legal),
-        "bad_friction": int(not legal),
+        "feasible": int(feasible),
+        "bad_friction": int(not feasible),
         "peak_error": error,
         "rms_error": error,
     }
@@ -46,19 +46,19 @@ def summary(tmp_path_factory):
     return write(found, tmp_path_factory.mktemp("compare"), "biped-adrc compare", 1)
 
 
-def test_the_figure_shows_legal_walks_large_and_all_others_small(summary):
-    (axes,) = legal_figure(summary["cells"]).axes
+def test_the_figure_shows_feasible_walks_large_and_all_others_small(summary):
+    (axes,) = feasible_figure(summary["cells"]).axes
     at = (1, 2)  # ADRC with encoders
     texts = {
         t.get_text(): t.get_fontsize()
         for t in axes.texts
         if abs(t.get_position()[0] - at[0]) < 0.1 and abs(t.get_position()[1] - at[1]) < 0.5
     }
-    assert texts["0 %"] > 1.5 * texts["all steps: 100 %"]
+    assert texts["0 %"] > 1.5 * texts["but impact: 0 %, all steps: 100 %"]
     assert "0 to 16" in texts
 
 
-def test_marks_are_hollow_where_no_walk_is_legal(summary):
+def test_marks_are_hollow_where_no_walk_is_feasible(summary):
     (axes,) = measure_figure(summary["cells"], "peak_error", "error").axes
     marks = [c.lines[0] for c in axes.containers]
     filled = [m for m in marks if m.get_markerfacecolor() != "white"]
@@ -71,7 +71,7 @@ def test_marks_are_hollow_where_no_walk_is_legal(summary):
 def test_legends_name_each_controller_once(summary):
     for name, figure in figures(summary).items():
         shown = [text.get_text() for legend in figure.legends for text in legend.get_texts()]
-        assert shown == ([] if name == "legal" else ["NPD", "ADRC", "DOB"])
+        assert shown == ([] if name == "feasible" else ["NPD", "ADRC", "DOB"])
 
 
 def test_the_page_says_first_that_settings_are_not_alike(summary):
@@ -91,7 +91,7 @@ def test_the_command_is_text_on_the_page(summary):
     ("value", "label", "limits"),
     [
         ("survived", "share of walks that make all steps", (0.0, 1.0)),
-        ("legal", "share of walks that make all steps legally", (0.0, 1.0)),
+        ("feasible", "share of walks that are feasible", (0.0, 1.0)),
         ("peak_error", "mean of peak_error", (0.0, 0.5)),
     ],
 )
@@ -102,7 +102,7 @@ def test_maps_say_which_share_they_show(value, label, limits):
     bar = figure.axes[-1]
     assert bar.get_ylabel() == label
     assert bar.get_ylim() == pytest.approx(
-        (limits[0], limits[1]) if value in ("survived", "legal") else (0.25, 0.5)
+        (limits[0], limits[1]) if value in ("survived", "feasible") else (0.25, 0.5)
     )
 
 

@@ -30,7 +30,6 @@ from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.gait.curves import Curve
 from biped_adrc.gait.outputs import Outputs
 from biped_adrc.gait.reference import check_point
-from biped_adrc.hardware.meter import Meter
 from biped_adrc.hardware.motors import Line, Motors, TorqueLine, whole_and_part
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Look, Touchdown
@@ -257,19 +256,16 @@ def _(motors: Motors):
             sent = agree(TorqueLine.send, k, line, limited)
             after = agree(Line.relabelled, sent, SWAP)
             assert [len(x) for x in sent] == [len(x) for x in after] == list(sizes)
-            for law in (TorqueLine.mean_command, TorqueLine.mean_torque):
-                assert agree(law, k, sent).shape == (4,)
+            assert agree(TorqueLine.mean_command, k, sent).shape == (4,)
             assert all(np.array_equal(a, b) for a, b in zip(kept, line, strict=True))
     for delay, known in ((2.0 * PERIOD, False), (1.3 * PERIOD, True)):
         timing = ba.SampledTime(PERIOD, delay=delay, delay_known=known)
         controller = ba.ADRCController(gait().constraint, SLOW)
-        meter = Meter(gait().constraint) if known else None
         walker = ba.Walker(
             heavy(),
             controller,
             timing=timing,
             motors=motors,
-            meter=meter,
             runaway_torque=np.inf,
         )
         assert walker.held.sizes.queue == int(delay / PERIOD)

@@ -141,16 +141,16 @@ def test_a_fall_terminates_and_time_truncates():
 
 
 @pytest.mark.parametrize("push", [0.0, 60.0])
-def test_legality_is_that_of_the_walk(push):
-    """As the certificate of the walk has it, which goes by nodes between the sample instants too."""
+def test_feasibility_is_that_of_the_walk(push):
+    """As the certificate of the walk has it, which goes by the same nodes."""
     pushed = {"push": "pulse", "on": "-q5", "amplitude": push, "pushed_step": 1, "onset": 0.1}
     given = {"controller": "NPD", "impacts": 2, "start_speed_spread": 0.0}
     env = made(action="added", **given, **(pushed if push else {}))
     info = walked(env, 0, 2000)[4][-1]
-    found = ba.walk_scenario(replace(env.unwrapped.stage.task.scenario, seed=0)).outcome.legality
-    assert info["legal"] is (not found.reasons) is (push == 0.0)
-    assert info["friction"] == pytest.approx(found.mean_friction, rel=0.05)
-    assert info["normal_force"] == pytest.approx(found.mean_normal_force, rel=0.05)
+    found = ba.walk_scenario(replace(env.unwrapped.stage.task.scenario, seed=0)).outcome.feasibility
+    assert info["feasible"] is (not found.reasons) is (push == 0.0)
+    assert info["friction"] == pytest.approx(found.mean_friction, rel=1e-9)
+    assert info["normal_force"] == pytest.approx(found.mean_normal_force, rel=1e-9)
     assert info["peak_torque"] == pytest.approx(found.peak_torque, rel=1e-9)
 
 

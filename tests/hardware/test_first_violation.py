@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.legality import first_violation
+from biped_adrc.analysis.feasibility import first_violation
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.robots.limits import KnownLimits
 
@@ -47,11 +47,11 @@ def test_the_earliest_of_all_is_told(walker, first, second):
 
 
 def test_none_is_none_and_a_number_that_is_none_is_one(walker):
-    legal = step()
-    assert first_violation(walker, legal, KNOWN) is None
-    u = legal.u.copy()
+    feasible = step()
+    assert first_violation(walker, feasible, KNOWN) is None
+    u = feasible.u.copy()
     u[7, 1] = np.nan
-    assert first_violation(walker, replace(legal, u=u), KNOWN).t == legal.t[7]
+    assert first_violation(walker, replace(feasible, u=u), KNOWN).t == feasible.t[7]
 
 
 def test_the_end_of_a_step_counts_unless_the_foot_comes_down_there(walker):
@@ -67,8 +67,8 @@ def test_a_walk_is_cut_at_the_node_of_its_first_violation(walker, gait):
     s, most = walk.signals, np.max(np.abs(walk.signals.u), axis=1)
     limit = 0.5 * (np.max(most[s.step == 1]) + np.max(most[s.step == 2]))
     assert limit > 1.02 * np.max(most[s.step == 1])
-    whole, cut = walk.trajectory, walk.until_illegal(ba.Limits(torque=limit)).trajectory
-    assert cut.status is ba.Status.ILLEGAL
+    whole, cut = walk.trajectory, walk.until_infeasible(ba.Limits(torque=limit)).trajectory
+    assert cut.status is ba.Status.INFEASIBLE
     assert cut.t_end == s.t[np.argmax(most > limit)]
     assert len(cut.arcs) == 2
     assert cut.arcs[1].event is None

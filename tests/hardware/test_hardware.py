@@ -1,4 +1,4 @@
-"""Sensors, motors and meter by closed forms, alone and in walks of both engines."""
+"""Sensors and motors by closed forms, alone and in walks of both engines."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -8,7 +8,6 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.closed_loop import semantics
-from biped_adrc.hardware.meter import Meter, reading
 from biped_adrc.hardware.motors import Line, Motors, TorqueLine
 from biped_adrc.hardware.pitch_sensor import PitchSensor
 from biped_adrc.hardware.sample_hold import motor_torque
@@ -221,10 +220,7 @@ def made(biped, gait, name, controller):
     parts = dict(SETUPS[name])
     timing = ba.SampledTime(T, delay=parts.pop("delay"), delay_known=parts.pop("known", False))
     heavier = biped.with_errors(mass={"torso": 1.1})
-    meter = Meter(gait.constraint)
-    return ba.Walker(
-        heavier, controller, PUSH, timing, biped, torque_limit=150.0, meter=meter, **parts
-    )
+    return ba.Walker(heavier, controller, PUSH, timing, biped, torque_limit=150.0, **parts)
 
 
 class Plain(ba.Controller):
@@ -250,39 +246,6 @@ def test_both_engines_walk_alike(biped, gait, name, plain):
     for a, b in zip(one.arcs, other.arcs, strict=True):
         assert abs(a.event.t - b.event.t) < 1e-7
         assert np.max(np.abs(a.event.x_minus - b.event.x_minus)[:10]) < 1e-6
-    readings = [reading(walker.held_at(run.final_state).g) for run in (one, other)]
-    assert readings[0] == pytest.approx(readings[1], rel=1e-5, abs=1e-9)
-
-
-def test_the_meter_counts_what_the_signals_show(biped, gait):
-    walker = made(biped, gait, "impact", adrc(gait))
-    walk = ba.walk(walker, gait, impacts=3)
-    signals = walk.signals
-    g = reading(walker.held_at(walk.trajectory.final_state).g)
-    starts = np.array([arc.t[0] for arc in walk.trajectory.arcs])
-    begin = starts[signals.step - 1]
-    k = np.round((signals.t - begin) / T)
-    tick = np.abs(signals.t - begin - k * T) < 1e-12
-    # of two nodes at one time the second is after the tick
-    tick &= np.append(np.diff(signals.t) > 0.0, True)
-    ends = [arc.t[-1] for arc in walk.trajectory.arcs]
-    tick &= ~np.isin(signals.t, ends) | np.isin(signals.t, starts)
-    e, u = signals.error[tick], signals.u[tick]
-    assert g.ticks == np.sum(tick)
-    assert g.peak_error == pytest.approx(np.max(np.abs(e)), rel=1e-9)
-    assert g.square_torque == pytest.approx(np.sum(u**2), rel=1e-9)
-    assert g.peak_matched == pytest.approx(np.max(np.abs(signals.xi_matched[tick])), rel=1e-9)
-    unmatched = np.max(np.abs(signals.xi_unmatched[tick]))
-    assert g.peak_unmatched == pytest.approx(unmatched, rel=1e-9)
-    assert g.net_work == pytest.approx(work_of(signals), rel=1e-6)
-    assert abs(g.net_work) < g.work
-
-
-def work_of(signals):
-    """The integral of u' q_b' by the trapezoidal rule over all nodes: u is held, q' smooth in between."""
-    power = np.sum(signals.u * signals.v[:, :4], axis=1)
-    steps = np.diff(signals.t)
-    return np.sum(0.5 * steps * (power[:-1] + power[1:]))
 
 
 def test_bad_hardware_is_refused(biped, gait):

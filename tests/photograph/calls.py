@@ -35,7 +35,7 @@ CHAINS: dict[str, tuple[Call, ...]] = {
             "stiff", "simulate --engine compiled --impacts 1 --method stiff --poles=-200,-300,-450"
         ),
         Call("adaptive", f"simulate {FAST} --controller npd --method adaptive --preset tac2003"),
-        Call("illegal", f"simulate {FAST} --controller NPD --friction-limit 0.3 --end-illegal"),
+        Call("illegal", f"simulate {FAST} --controller NPD --friction-limit 0.3 --end-infeasible"),
         Call("felled", "simulate --engine compiled --torque-limit 5 --impacts 4 --controller NPD"),
         Call("signals", f"simulate {FAST} --controller NPD -o signals.mat"),
         Call("compass", "simulate --robot compass --impacts 3 -o compass.npz"),

@@ -31,7 +31,7 @@ def same(one: ba.Walk, other: ba.Walk) -> None:
         a, b = getattr(one.signals, f.name), getattr(other.signals, f.name)
         np.testing.assert_array_equal(a, b, err_msg=f.name)
     assert repr(one.certificates) == repr(other.certificates)
-    assert repr(one.legality) == repr(other.legality)
+    assert repr(one.feasibility) == repr(other.feasibility)
     assert one.remarks == other.remarks
 
 

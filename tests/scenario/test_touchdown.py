@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.touchdowns import TouchdownRates
-from biped_adrc.bench.build import case
-from biped_adrc.bench.run import measured, run_trial
-from biped_adrc.engine.batch import run_case
+from biped_adrc.bench.run import run_trial
 from biped_adrc.hardware.touchdown_by_foot import ByForce, ByKinematics
 from biped_adrc.hardware.touchdown_told import Told
 from biped_adrc.scenario.build import build
@@ -59,17 +56,6 @@ def test_a_row_of_a_study_says_how_touchdowns_were_noticed(plant):
     rates = ba.walk_scenario(ba.Scenario(**values, own=own)).touchdowns.rates
     assert {name: row[name] for name in rates._fields} == pytest.approx(rates._asdict(), abs=1e-9)
     assert run_trial({**values, "touchdown": None})["false_notices"] is None
-
-
-def test_a_row_of_a_walk_that_is_recorded_is_that_of_one_that_is_not():
-    s = ba.Scenario(**USUAL, touchdown="told", own={"late": 4e-3})
-    made = case(s)
-    walks = [run_case(replace(made, recorded=recorded))() for recorded in (True, False)]
-    rows = [measured(s, made, walked) for walked in walks]
-    assert made.recorded
-    assert not case(replace(s, touchdown=None, own={})).recorded
-    assert {**rows[1], **rows[0]} == rows[0]
-    assert set(rows[0]) - set(rows[1]) == set(TouchdownRates._fields)
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from biped_adrc.closed_loop.stepping_plant import Load, PlantState
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.storage import load, save
-from biped_adrc.soft.meters import metered, soft_steps, weights
+from biped_adrc.soft.meters import soft_steps, step_of, weights
 from biped_adrc.soft.mujoco_plant import MuJoCoPlant
 from biped_adrc.soft.mujoco_robot import mujoco
 
@@ -98,7 +98,7 @@ def test_a_block_that_slides_to_rest():
     speed[:, 0, 0] = v
     place = np.full((len(t), 2, 2), -2e-4)
     none = np.zeros((len(t), 1))
-    found = metered(Readings(t, none, none, none, none - 7.0, none, force, place, speed), mu, FLAT)
+    found = step_of(Readings(t, none, none, none, none - 7.0, none, force, place, speed), mu, FLAT)
     assert found.slip == pytest.approx(((v0**2 - s**2) / (2 * mu * g), 0.0), rel=1e-3)
     assert found.slip_time == pytest.approx(((v0 - s) / (mu * g), 0.0), rel=1e-3)
     assert found.creep[0] == pytest.approx(s**2 / (2 * mu * g), rel=0.1)

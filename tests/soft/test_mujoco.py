@@ -194,7 +194,7 @@ def test_a_robot_in_the_air_is_told_from_one_that_fell(plant, gait):
     system = loop(plant, ba.Passive(), disturbance=ba.HipForce(plant.biped, (0.0, 900.0)))
     q, v = gait.start(plant.biped)
     run = system.run(system.initial_state(q, v), RunOptions(1.0))
-    assert run.status is ba.Status.ILLEGAL
+    assert run.status is ba.Status.INFEASIBLE
     assert run.arcs[-1].event.guard == "stance_foot_in_the_air"
     fallen = loop(plant, ba.Passive())
     run = fallen.run(fallen.initial_state(q, v), RunOptions(2.0))

@@ -52,9 +52,9 @@ def _row(record):
     L = np.array([[own["l1"]], [own["l2"]]])
     found = costs(K, L)
     if found is None:
-        return {"status": "FALLEN", "survived": 0, "legal": 0, "cost": None, "of_state": None}
+        return {"status": "FALLEN", "survived": 0, "feasible": 0, "cost": None, "of_state": None}
     told = {"cost": sum(found), "of_state": found[0], "of_torque": found[1] / float(R[0, 0])}
-    return {"status": "COMPLETED", "survived": 1, "legal": 1, **told}
+    return {"status": "COMPLETED", "survived": 1, "feasible": 1, **told}
 
 
 def tables(**study):
@@ -72,4 +72,4 @@ def tables(**study):
     }
 
 
-COLUMNS = ("cost", "of_state", "of_torque", "legal")
+COLUMNS = ("cost", "of_state", "of_torque", "feasible")

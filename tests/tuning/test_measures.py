@@ -16,30 +16,30 @@ from biped_adrc.tuning.without_walk import numbers_without_walk
 INF = math.inf
 
 
-def walks(*numbers, condition="", legal=1, column="rms_error"):
-    return [(condition, {"survived": 1, "legal": legal, column: x}) for x in numbers]
+def walks(*numbers, condition="", feasible=1, column="rms_error"):
+    return [(condition, {"survived": 1, "feasible": feasible, column: x}) for x in numbers]
 
 
-FELL = ("", {"survived": 0, "legal": 0, "rms_error": 0.001})
-REFUSED = ("", {"survived": None, "legal": None, "rms_error": None})
+FELL = ("", {"survived": 0, "feasible": 0, "rms_error": 0.001})
+REFUSED = ("", {"survived": None, "feasible": None, "rms_error": None})
 
 
 def of(m, walked):
     return m.measured(walked, {})
 
 
-def test_falls_and_illegal_walks_rank_worst_and_are_not_dropped():
+def test_falls_and_infeasible_walks_rank_worst_and_are_not_dropped():
     median, best = Aim(column="rms_error"), Aim(column="rms_error", goal="maximise")
     assert of(median, walks(3.0, 1.0, 2.0)) == 2.0
     assert of(median, walks(1.0, 2.0)) == 1.5
-    for bad in (FELL, REFUSED, *walks(0.001, legal=0), *walks(None)):
+    for bad in (FELL, REFUSED, *walks(0.001, feasible=0), *walks(None)):
         assert of(median, [*walks(3.0, 1.0), bad]) == 3.0
         assert of(best, [*walks(3.0, 1.0), bad]) == 1.0
         assert of(median, [*walks(3.0), bad]) == INF
         assert of(best, [*walks(3.0), bad]) == -INF
         assert of(Aim(column="rms_error", over="mean"), [*walks(3.0), bad]) == INF
     made = Aim(column="rms_error", counts="made")
-    assert of(made, [*walks(3.0, 1.0), *walks(0.5, legal=0)]) == 1.0
+    assert of(made, [*walks(3.0, 1.0), *walks(0.5, feasible=0)]) == 1.0
     assert of(made, [*walks(3.0, 1.0), FELL]) == 3.0
 
 
@@ -53,9 +53,9 @@ def test_quantiles_are_numbers_of_walks_in_the_order_of_the_goal():
 
 
 def test_every_walk_counts_in_a_share():
-    legal = Limit(column="legal", least=0.9)
-    x = of(legal, [*walks(1.0, 1.0), FELL, REFUSED])
-    assert (x, legal.excess(x)) == (0.5, pytest.approx(0.4 / 0.9))
+    feasible = Limit(column="feasible", least=0.9)
+    x = of(feasible, [*walks(1.0, 1.0), FELL, REFUSED])
+    assert (x, feasible.excess(x)) == (0.5, pytest.approx(0.4 / 0.9))
     torque = Limit(column="peak_torque", most=150.0, over="worst")
     assert torque.excess(of(torque, walks(100.0, 165.0, column="peak_torque"))) == pytest.approx(
         0.1
@@ -74,7 +74,7 @@ STUDY = {
         "own.filter": {"from": 1, "to": 4, "whole": True},
     },
     "objectives": [{"column": "rms_error"}, {"column": "speed", "goal": "maximise"}],
-    "limits": [{"column": "legal", "least": 0.9}],
+    "limits": [{"column": "feasible", "least": 0.9}],
     "training": {"seeds": [0, 1]},
     "selection": {"seeds": {"from": 10, "count": 3}},
     "test": {"seeds": [20]},
@@ -121,10 +121,10 @@ def test_held_out_numbers_are_paired_by_seed():
     study = read_tuning(STUDY | {"objectives": mean, "test": {"seeds": list(range(20, 60))}})
     y = np.random.default_rng(2).uniform(1.0, 9.0, 40)
     chosen, published = walks(*(0.5 * y)), walks(*y)
-    error, legal = held_out(study, (chosen, {}), (published, {}))
+    error, feasible = held_out(study, (chosen, {}), (published, {}))
     assert error.ratio == pytest.approx((0.5, 0.5, 0.5))
     assert error.chosen.low < error.chosen.value < error.chosen.high
-    assert legal.chosen == pytest.approx((1.0, 0.9124, 1.0), abs=1e-4)
+    assert feasible.chosen == pytest.approx((1.0, 0.9124, 1.0), abs=1e-4)
     fell = held_out(study, (chosen, {}), ([*published[1:], FELL], {}))[0]
     assert (fell.published.value, fell.ratio) == (INF, None)
     linear = held_out(study, (chosen, {"rms_error": 2.0}), (published, {"rms_error": 4.0}))[0]

@@ -162,7 +162,7 @@ def test_a_limit_without_a_walk_excludes_candidates_before_their_walks(monkeypat
 def test_the_sampler_is_not_drawn_to_what_was_not_worth_a_walk(monkeypatch):
     """A candidate that misses a limit before its walks counts as worse than one that misses it by as much."""
     monkeypatch.setitem(without_walk.WITHOUT_WALK, "k1", lambda s: float(s.own["k1"]))
-    limits = [{"column": "k1", "most": 20.0}, {"column": "legal", "least": 0.5}]
+    limits = [{"column": "k1", "most": 20.0}, {"column": "feasible", "least": 0.5}]
     tables = {**plant.tables(budget=8, generation=4), "limits": limits}
     study = read_tuning(tables, columns=(*plant.COLUMNS, "k1"))
     found = search(study, walked)

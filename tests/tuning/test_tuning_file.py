@@ -88,7 +88,7 @@ def test_a_study_takes_the_values_of_a_scenario_file(tmp_path):
 def tuned(tmp_path_factory):
     tables = plant.tables(budget=24, generation=8, name="a <b> $x$")
     tables["objectives"] = [{"column": "of_state"}, {"column": "of_torque"}]
-    tables["limits"] = [{"column": "legal", "least": 0.5}]
+    tables["limits"] = [{"column": "feasible", "least": 0.5}]
     out = tmp_path_factory.mktemp("tuned")
     return tune(read_tuning(tables, columns=plant.COLUMNS), out, Threads(1), function=plant.rows)
 
@@ -145,7 +145,7 @@ def test_rows_are_those_of_a_sweep(tmp_path):
     tuned = tune(study, tmp_path / "tuned", Threads(1))
     K_p = [c.chosen["K_p"] for c in tuned.candidates[1:]]
     tables = {"study": {"name": "x", "seeds": [0]}, "fixed": study.fixed, "grid": {"K_p": K_p}}
-    swept = sweep(read_study(tables), tmp_path / "swept", Threads(1)).table("rms_error", "legal")
-    pairs = zip(swept["rms_error"], swept["legal"], strict=True)
-    expected = [x if legal else math.inf for x, legal in pairs]
+    swept = sweep(read_study(tables), tmp_path / "swept", Threads(1)).table("rms_error", "feasible")
+    pairs = zip(swept["rms_error"], swept["feasible"], strict=True)
+    expected = [x if feasible else math.inf for x, feasible in pairs]
     assert [c.objectives[0] for c in tuned.candidates[1:]] == expected

@@ -18,9 +18,6 @@ from biped_adrc.engine.kernels.record import FOOT_STRIKE, FOOT_X, HIP_TOO_LOW, P
 from biped_adrc.hybrid.constants import *
 from biped_adrc.types import Array
 
-GAUSS = 0.5773502691896257  # 1 / sqrt(3), as in `biped_adrc.disturbances.base`
-"""Node of the two-point rule of Gauss, 1 / sqrt(3) [1], as in `disturbances.base`."""
-
 
 # -- vectors ---------------------------------------------------------------------------------------
 @inner
@@ -122,10 +119,10 @@ def note(r: Run, out: Array, pivot: float) -> None:
 
 @inner
 def slow(r: Run, t: float, x: Array) -> bool:
-    """Whether no rate in x (nx,) is beyond its bound."""
-    fits = True
-    for i in range(r.n):
-        fits = fits and abs(x[r.n + i]) <= r.fastest[i]
+    """Whether no angle and no rate in x (nx,) is beyond its bound."""
+    n, fits = r.n, True
+    for i in range(n):
+        fits = fits and abs(x[n + i]) <= r.fastest[i] and abs(x[i]) <= r.farthest
     return fits
 
 
@@ -362,39 +359,18 @@ def next_break(r: Run) -> float:
 
 
 @inner
-def pushed(r: Run, t: float, weight: float, total: Array) -> None:
-    """total (2,) grows by weight times the force from outside [N] at t [s], with (q, v) in `inp`.
+def from_outside(r: Run, t: float, force: Array) -> None:
+    """force (2,) from outside on the robot as a whole [N] at t [s], with (q, v) in `inp`.
 
     Only the parts of the disturbance that have a resultant are asked; pure torques have none.
     """
+    force[0] = force[1] = 0.0
     set_time(r, t)
     for k in range(r.n_parts):
         if r.parts[PART * k + 2] != 0:
             call(r.parts[PART * k + 2], floats_at(r.parts[PART * k + 1]), r.inp, r.one)
-            total[0] += weight * r.one[0]
-            total[1] += weight * r.one[1]
-
-
-@inner
-def from_outside(r: Run, t: float, out: Array) -> None:
-    """out (5,): force from outside at t [s] (2) [N], its impulse since the last sample instant (2) [N s],
-    drop [m].
-
-    The impulse is integrated by two points of Gauss in each smooth piece, as `Disturbance.impulse` does.
-    """
-    for i in range(4):
-        out[i] = 0.0
-    out[4] = r.drop
-    if r.n_pulling == 0:
-        return
-    pushed(r, t, 1.0, out)
-    begin = t - r.period
-    while begin < t:
-        end = next_switch(r, begin, t)
-        middle, half = 0.5 * (begin + end), 0.5 * (end - begin)
-        pushed(r, middle - GAUSS * half, half, shift(out, 2))
-        pushed(r, middle + GAUSS * half, half, shift(out, 2))
-        begin = end
+            force[0] += r.one[0]
+            force[1] += r.one[1]
 
 
 @unit
@@ -428,7 +404,7 @@ def due(r: Run) -> int:
 
 @inner
 def measure(r: Run, x: Array) -> None:
-    """The inputs of a function at a sample instant at t in x (nx,): (t, step, t_start, x, zeta, outside)."""
+    """The inputs of a function at a sample instant at t in x (nx,): (t, step, t_start, x, zeta, force)."""
     n, nx, inp = r.n, r.nx, r.inp
     copy(x, shift(inp, 3), nx)
     from_outside(r, r.t, shift(inp, 3 + nx + n))

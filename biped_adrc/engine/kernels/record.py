@@ -17,8 +17,8 @@ FOOT_STRIKE, HIP_TOO_LOW, FOOT_X = 0, 1, 3
 """Places in what a walker's `events` gives: two event functions; x of the swing foot [m]."""
 PART = 3
 """Numbers in `parts` for one."""
-OUTSIDE = 5
-"""Numbers for the meter behind the inputs of a sample instant: force (2), impulse (2), drop."""
+OUTSIDE = 2
+"""Numbers behind the inputs of a sample instant: force from outside, or those on both feet."""
 
 
 class Run:
@@ -63,8 +63,6 @@ class Run:
     n_switches: int
     n_parts: int
     """Parts of the disturbance."""
-    n_pulling: int
-    """Those with a force on the robot as a whole."""
     period: float
     """Of sample instants [s]; 0 for continuous time."""
     part: float
@@ -77,6 +75,8 @@ class Run:
     """Step of integration [s]."""
     lag_speed: float
     """1 / tau of lagging motors [1/s]."""
+    farthest: float
+    """Bound of the angles [rad]."""
     K: Array
     """Numbers that the walker's functions read."""
     drops: Array

@@ -61,8 +61,8 @@ class Functions(NamedTuple):
     flow: int
     """(t, step, t_start, x, zeta) -> (dx/dt, pivot); in sampled time only q, q' and lagging motors flow."""
     tick: int
-    """(t, step, t_start, x, zeta, outside) -> (x after the tick, pivot, q''), in sampled time. outside (5,):
-    force from outside (2) [N], its impulse since the last tick (2) [N s], drop of the ground [m]."""
+    """(t, step, t_start, x, zeta, force) -> (x after the tick, pivot, q''), in sampled time. force (2,): from
+    outside on the robot as a whole [N]."""
     impact: int
     """(t, step, x) -> (x+, pivot); step is that of the new single support."""
     events: int
@@ -99,6 +99,8 @@ class StateSizes(NamedTuple):
     """How fast they go there, 1 / tau [1/s]."""
     fastest: Array = np.zeros(0)
     """Rates (n,) [rad/s] beyond which the run ends; empty for none."""
+    farthest: float = math.inf
+    """Angle [rad] beyond which it does."""
 
 
 class GroundTable(NamedTuple):
@@ -271,7 +273,6 @@ def plan(
         "n_drops": len(ground.drops),
         "n_switches": len(push.switches),
         "n_parts": len(push.addresses),
-        "n_pulling": int(np.count_nonzero(push.resultants)),
     }
     fastest = sizes.fastest if len(sizes.fastest) else np.full(n, np.inf)
     floats = (K, ground.drops, push.switches, fastest, method.phi, push.K)

@@ -28,14 +28,19 @@ MOST_ARCS = 100
 def sample(r: Run) -> int:
     """From a sample instant to the next one; a code, 0 for COMPLETED.
 
-    No nodes are kept. Where the walk ends, the run is at its end.
+    Nodes are kept behind the first r.count; where there is no room, those are given up. Where the walk ends,
+    the run is at its end.
     """
-    r.every = 0
     for _ in range(MOST_ARCS):
         r.t_end = next_tick(r, r.t, clock_start(r))
         code = go_on(r)
+        if code == FULL:
+            r.count = 0
+            code = go_on(r)
         if code == STRUCK:
+            count = r.count
             code = land(r)
+            r.count = count
         if code != COMPLETED:
             return code
         if is_tick(r, r.t, clock_start(r)):
@@ -45,7 +50,7 @@ def sample(r: Run) -> int:
 
 @unit
 def look(r: Run, law: int, out: Array) -> None:
-    """out = law(t, step, t_start, x, zeta, outside) where the run is, as a sample instant there is given
+    """out = law(t, step, t_start, x, zeta, force) where the run is, as a sample instant there is given
     them."""
     lower(r)
     r.limit = math.inf

@@ -14,11 +14,13 @@ are declared in admissible.toml. `claims.tasks` joins them to the `Evidence`.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
+from biped_adrc.analysis.feasibility import verdict_of
 from biped_adrc.analysis.regression import regress_multipliers
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.control.tracking import TABLE_II
@@ -128,12 +130,12 @@ class Needs(NamedTuple):
     """Largest difference of a joint's rate from its reference after the impact [rad/s]; 0 for an invariant
     gait.
     """
-    illegal: tuple[str, ...]
-    """Which limits of ground and motors it breaks, in words."""
+    infeasible: Mapping[str, str]
+    """Which limits of ground and motors it breaks, in words, by the names in `REASONS`."""
     normal: AtTwoSteps
     """Least F_N averaged over the window [N]."""
     same: bool = True
-    """Whether it is legal at both steps, or at neither."""
+    """Whether it is feasible at both steps, or at neither."""
 
 
 def needs(preset: str) -> tuple[Needs, ...]:
@@ -148,7 +150,7 @@ def _needs(preset: str, gait: str) -> Needs:
     made = prepared(run)
     walks = (made.simulate(step, 2) for step in (h, 0.5 * h))
     steps = [watched(made.walker, made.gait, walk).certificates[-1] for walk in walks]
-    why, at_half = (tuple(one.illegal().values()) for one in steps)
+    why, at_half = (one.infeasible() for one in steps)
     biped = nominal(preset, gait)[0]
 
     def figure(name: str) -> AtTwoSteps:
@@ -167,7 +169,7 @@ def _needs(preset: str, gait: str) -> Needs:
         float(np.max(np.abs(impact_smoothness(made.gait, biped)))),
         at_half,
         figure("mean_normal_force"),
-        bool(why) == bool(at_half),
+        verdict_of(why) == verdict_of(at_half),
     )
 
 

@@ -12,6 +12,7 @@ from functools import partial
 
 import numpy as np
 
+from biped_adrc.analysis.feasibility import but_for_the_impact
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.paper.claims.admissible import convergence, declared, in_all
 from biped_adrc.paper.claims.evidence import (
@@ -117,7 +118,9 @@ def recipe_needs(needs: Sequence[Needs]) -> Claim:
     """Could a robot walk gait (b)? Its friction, normal force and torque against the limits of ground and
     motors.
     """
-    cases = [ClaimCase(n.name, n.friction, not n.illegal, _doubtful(n)) for n in needs]
+    cases = [
+        ClaimCase(n.name, n.friction, but_for_the_impact(n.infeasible), _doubtful(n)) for n in needs
+    ]
     shown = (
         f"{n.preset}: friction {_two(n.friction)} in the mean over 5 ms and "
         f"{_two(n.friction_at_an_instant)} at an instant, {n.torque.at_half:.0f} N m"
@@ -127,7 +130,7 @@ def recipe_needs(needs: Sequence[Needs]) -> Claim:
 
 
 def _doubtful(n: Needs) -> bool:
-    """Whether the integration step decides what makes the gait legal or not."""
+    """Whether the integration step decides what makes the gait feasible or not."""
     figures = (n.friction, n.normal, n.torque)
     return not (n.same and all(f.converged(*convergence()) for f in figures))
 

@@ -11,6 +11,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from biped_adrc.analysis.certificate import IMPULSE
+from biped_adrc.analysis.feasibility import COUNTED, but_for_the_impact
 from biped_adrc.paper.claims import admissible
 from biped_adrc.paper.claims.admissible import convergence, declared
 from biped_adrc.paper.claims.tally import NOT_TESTABLE, AtTwoSteps, ClaimCase, Tally, above_limit
@@ -24,7 +26,7 @@ Members = Sequence[MemberOutcome]
 
 def push_claims(members: Members, cells: Sequence[PushCell] = ()) -> list[Claim]:
     """All rows of this module but `long_walk`; cells: of the map of pushes, where it was made."""
-    rules = (rejection, tracking, deviates, walks_on, unaffected, legal)
+    rules = (rejection, tracking, deviates, walks_on, unaffected, feasible)
     return [*(rule(members) for rule in rules), critical_phase(members, cells)]
 
 
@@ -120,12 +122,21 @@ def unaffected(members: Members) -> Claim:
     )
 
 
-def legal(members: Members) -> Claim:
-    """Ground and motors can give what ADRC's walks need: the support leg stays where it is without glue."""
+def feasible(members: Members) -> Claim:
+    """Ground and motors can give what ADRC's walks need: the support leg stays where it is without glue.
+
+    A walk that is feasible but for the impact counts, and is counted apart.
+    """
     walked = [(o.member.name, o.walked["ADRC"]) for o in members]
-    cases = [ClaimCase(name, w.period, w.made and not w.illegal, not w.same) for name, w in walked]
-    why = sorted({reason for _, w in walked for reason in w.illegal})
-    return row("legal", _tally(cases), why="; ".join(why) or "nothing")
+    held = [w.made and but_for_the_impact(w.infeasible) for _, w in walked]
+    cases = [
+        ClaimCase(name, w.period, holds, not w.same)
+        for (name, w), holds in zip(walked, held, strict=True)
+    ]
+    why = sorted({x for _, w in walked for name, x in w.infeasible.items() if name != IMPULSE})
+    apart = sum(h and bool(w.infeasible) for h, (_, w) in zip(held, walked, strict=True))
+    said = {"why": "; ".join(why) or "nothing", "apart": apart, "count": len(walked)}
+    return row("feasible", _tally(cases), **said)
 
 
 def critical_phase(members: Members, cells: Sequence[PushCell] = ()) -> Claim:
@@ -148,11 +159,11 @@ def critical_phase(members: Members, cells: Sequence[PushCell] = ()) -> Claim:
 
 
 def _critical_phase_of_the_map(cells: Sequence[PushCell]) -> Claim:
-    """Where NPD makes no further steps ADRC has to, legally; marginal cells are left out."""
+    """Where NPD makes no further steps ADRC has to, the impact aside; marginal cells are left out."""
     known = certain(cells)
     lost = [c for c in known if c.npd.outcome in LOST]
     cases = [
-        ClaimCase(_name(c), AtTwoSteps(c.amplitude, c.amplitude), c.adrc.outcome == "legal")
+        ClaimCase(_name(c), AtTwoSteps(c.amplitude, c.amplitude), c.adrc.outcome in COUNTED)
         for c in lost
     ]
     return row(
@@ -161,7 +172,8 @@ def _critical_phase_of_the_map(cells: Sequence[PushCell]) -> Claim:
         lost=len(lost),
         known=len(known),
         on=sum(c.adrc.outcome not in LOST for c in lost),
-        legally=sum(case.holds for case in cases),
+        feasible=sum(c.adrc.outcome == "feasible" for c in lost),
+        apart=sum(c.adrc.outcome == "but_impact" for c in lost),
         alone=sum(c.adrc.outcome in LOST and c.npd.outcome not in LOST for c in known),
         doubtful=len(cells) - len(known),
     )

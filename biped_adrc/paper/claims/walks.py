@@ -13,6 +13,7 @@ at half.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import NamedTuple
@@ -20,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
+from biped_adrc.analysis.feasibility import verdict_of
 from biped_adrc.analysis.quadrature import largest
 from biped_adrc.analysis.signals import Signals, signals
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
@@ -54,10 +56,10 @@ class MemberWalk(NamedTuple):
     """Theta' at the end of the pushed step less that of the walk without a push [rad/s]."""
     period: AtTwoSteps
     """Of the pushed step [s]."""
-    illegal: tuple[str, ...]
-    """What ground or motors could not have given, by step."""
+    infeasible: Mapping[str, str]
+    """What ground or motors could not have given, by the names in `REASONS`, with the step."""
     same: bool = True
-    """Whether the walk ends alike at half of the step, legality included."""
+    """Whether the walk ends alike at half of the step, feasibility included."""
 
     @property
     def made(self) -> bool:
@@ -206,7 +208,7 @@ def walked(run: Scenario, start: str = "model") -> MemberWalk:
     """A run under the push, reduced to numbers.
 
     The pushed step with run.h and half of it, since its error is a spike of milliseconds; then all impacts with
-    the longer step declared for what comes later, of which only ending and legality are kept.
+    the longer step declared for what comes later, of which only ending and feasibility are kept.
     """
     made = prepared(run, start == "zero")
     assert run.h is not None
@@ -226,25 +228,25 @@ def walked(run: Scenario, start: str = "model") -> MemberWalk:
         AtTwoSteps(*(one.away_from(other, onset) for one, other in both)),
         AtTwoSteps(*(one.rate - other.rate for one, other in both)),
         AtTwoSteps(*(one.period for one in pushed)),
-        first.illegal,
-        first[:2] == second[:2] and bool(first.illegal) == bool(second.illegal),
+        first.infeasible,
+        first[:2] == second[:2] and verdict_of(first.infeasible) == verdict_of(second.infeasible),
     )
 
 
 class Ending(NamedTuple):
-    """How a walk ends: status, impacts made, and what makes it illegal."""
+    """How a walk ends: status, impacts made, and what makes it infeasible."""
 
     status: str
     impacts: int
-    illegal: tuple[str, ...]
+    infeasible: Mapping[str, str]
 
 
 def _ending(made: Prepared, h: float) -> Ending:
     """Of all impacts of a run, with integration steps of h [s]."""
     walk = made.simulate(h, made.run.impacts)
-    why: tuple[str, ...] = ("not finite",)
+    why = {"normal_force": "not finite"}
     if all(bool(np.all(np.isfinite(arc.x))) for arc in walk.arcs):
-        why = tuple(watched(made.walker, made.gait, walk).legality.reasons.values())
+        why = watched(made.walker, made.gait, walk).feasibility.reasons
     return Ending(walk.status.name, len(walk.events(FOOT_STRIKE)), why)
 
 

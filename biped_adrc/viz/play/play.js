@@ -17,9 +17,9 @@ function describe(message) {
   const slow = !message.paused && message.reached < 0.9 * message.rate;
   element("rate").textContent = message.rate + " x" + (message.paused ? ", paused" : "")
     + (slow ? ", reached " + message.reached.toFixed(2) + " x" : "");
-  const words = now < breach.until ? "not legal now: " + breach.words : "legal now";
-  element("legal").textContent = walk.ending ? "" : words;
-  element("legal").className = now < breach.until ? "bad" : "good";
+  const words = now < breach.until ? "beyond its limits: " + breach.words : "within its limits";
+  element("limits").textContent = walk.ending ? "" : words;
+  element("limits").className = now < breach.until ? "bad" : "good";
   const ends = [["walk", walk], ["ghost", ghost]].filter(([, w]) => w && w.ending);
   tell(ends.map(([name, w]) => name + " " + w.ending).join(". "));
 }

@@ -12,13 +12,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Polygon
 
+from biped_adrc.analysis.feasibility import COUNTED
 from biped_adrc.errors import InputError
 from biped_adrc.types import PlainRecord
 from biped_adrc.viz.style import label, named_cells, new_figure, style
 
 FATES: dict[str, tuple[str, str, str]] = {
-    "legal": ("walks on legally", "#FFFFFF", ""),
-    "made": ("makes all steps, beyond friction or torque", "#F0E442", "///"),
+    "feasible": ("walks on, feasible", "#FFFFFF", ""),
+    "but_impact": ("walks on, feasible but for the impact", "#E8E8E8", "/"),
+    "infeasible": ("makes all steps, beyond friction or torque", "#F0E442", "///"),
     "pulled": ("makes all steps, the ground would have had to pull", "#E69F00", "..."),
     "fell": ("falls", "#555555", "xxx"),
     "ended": ("ends otherwise: singular, diverged, stalled", "#CC79A7", "\\\\\\"),
@@ -34,7 +36,7 @@ def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
     rows: "onset_ms" [ms], "amplitude" [N m], "pattern", "torque_limit" [N m] or None for unlimited,
     "npd_word" and "adrc_word" of `FATES`. Panels go from unlimited torque to the highest limit,
     rows of cells are in the order of the data. The title of a panel counts the pushes that are
-    walked through legally. Raises InputError when there are no rows.
+    feasible, the impact aside. Raises InputError when there are no rows.
     """
     if not rows:
         raise InputError("the map of pushes has no cells; expected at least one row")
@@ -83,6 +85,6 @@ def _cells(
 
 
 def _count(rows: Sequence[PlainRecord]) -> str:
-    """How many pushes each controller walks through legally, in words."""
-    npd, adrc = (sum(r[f"{c}_word"] == "legal" for r in rows) for c in ("npd", "adrc"))
-    return f"legally: NPD {npd}, ADRC {adrc} of {len(rows)}"
+    """How many pushes leave each controller a walk that is feasible, the impact aside, in words."""
+    npd, adrc = (sum(r[f"{c}_word"] in COUNTED for r in rows) for c in ("npd", "adrc"))
+    return f"feasible, the impact aside: NPD {npd}, ADRC {adrc} of {len(rows)}"

@@ -3,7 +3,7 @@
 `biped-adrc sweep --plot` draws them (`bench.export.write_map`) from the columns of the sweep's
 table. Each axis is cut into cells (`cut`), results are averaged over all points of a cell
 (`cell_means`), so parameters that are not on an axis are averaged over: of `survived` colour is the
-share of walks that make all steps, of `legal` that of walks that make them legally. A parameter
+share of walks that make all steps, of `feasible` that of feasible walks. A parameter
 with few values has a cell for each of them; one that was drawn at random is cut into cells of equal
 width.
 """
@@ -35,7 +35,7 @@ WRITTEN = 120
 
 SHARES = {
     "survived": "share of walks that make all steps",
-    "legal": "share of walks that make all steps legally",
+    "feasible": "share of walks that are feasible",
 }
 """Columns of 0 and 1, and what their mean is called."""
 

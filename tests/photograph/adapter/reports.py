@@ -140,7 +140,7 @@ def walk_report(walk: Any) -> Plain:
         "peak torque": [float(np.max(np.abs(s.u), initial=0.0))],
         "signals": {f.name: files.array(np.asarray(getattr(s, f.name))) for f in fields(s)},
         "certificates": [plain(c.record()) for c in walk.certificates],
-        "legality": walk.legality.text(),
+        "legality": walk.feasibility.text(),
     }
 
 

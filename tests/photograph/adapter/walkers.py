@@ -20,10 +20,8 @@ from biped_adrc.disturbances.base import Sum
 from biped_adrc.disturbances.link import OnLink
 from biped_adrc.errors import InputError
 from biped_adrc.gait.curves import Polynomial
-from biped_adrc.hardware.meter import Meter
 from biped_adrc.observers.high_gain import HighGainObserver
 from biped_adrc.observers.momentum import MomentumObserver
-from biped_adrc.robots.limits import ENDS
 from tests.photograph.adapter import own
 from validation import three_link
 
@@ -221,17 +219,14 @@ def timing(s: Plain) -> Any:
     return ba.SampledTime(t["period"], t["restart"], t["delay"], t.get("delay_known", False))
 
 
-def hardware(s: Plain, g: Any) -> Plain:
-    """Sensors, motors and meter by the walker's names for them."""
+def hardware(s: Plain) -> Plain:
+    """Sensors and motors by the walker's names for them."""
     h = s["hardware"]
     found: Plain = {}
     if h["sensors"] is not None:
         found["sensors"] = ba.Sensors(**h["sensors"])
     if h["motors"] is not None:
         found["motors"] = ba.Motors(**h["motors"])
-    if h["meter"] is not None:
-        limits = ba.Limits(h["meter"]["friction"], None, h["meter"]["window"])
-        found["meter"] = Meter(g.constraint, limits, ENDS * g.period)
     return found
 
 
@@ -258,7 +253,7 @@ def walker(s: Plain, nominal: Any, g: Any) -> Any:
         slope=g.slope + s["ground"]["slope"],
         ground_steps=ground_steps(s),
         impact_gain=tuple(s["impact_gain"]),
-        **hardware(s, g),
+        **hardware(s),
     )
 
 

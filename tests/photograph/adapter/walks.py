@@ -167,7 +167,7 @@ def state(walker: Any, x: Any) -> Numbers:
     parts: Numbers = {"x": _floats(np.concatenate((q, v))), "s": _floats(s)}
     if walker.held is not None:
         h = walker.held_at(x)
-        parts |= {"sensors": _floats(h.w), "meter": _floats(h.g)}
+        parts["sensors"] = _floats(h.w)
         parts["motors"] = _floats(np.concatenate([np.ravel(part) for part in h.line]))
     return parts
 
@@ -223,9 +223,19 @@ def apart(a: list[float], b: list[float]) -> float:
     return float(np.max(gap, initial=0.0))
 
 
+BEFORE = {"feasible": "legal", "feasible_impacts": "legal_impacts", "infeasible": "made"}
+"""Names of columns and of outcomes that the stored photograph has under others."""
+
+
+def named_before(row: Plain) -> Plain:
+    """A row with the names of the stored photograph."""
+    row = {BEFORE.get(name, name): x for name, x in row.items()}
+    return row | {"outcome": BEFORE.get(str(row["outcome"]), row["outcome"])}
+
+
 def rows(s: Plain) -> Plain:
     """The row of a trial, compiled, and its change from the moved start."""
-    row = run_trial(s["fields"])
+    row = named_before(run_trial(s["fields"]))
     words = {name: x for name, x in row.items() if isinstance(x, str) or x is None}
     numbers = {name: [float(x)] for name, x in row.items() if isinstance(x, int | float)}
     if row["status"] in ("REFUSED", "RAISED"):
@@ -234,7 +244,7 @@ def rows(s: Plain) -> Plain:
     case = build.case(t)
     q, v = moved(s, case.q, case.v)
     case = replace(case, q=q, v=v)
-    other = measured(t, case, run_case(case)())
+    other = named_before(measured(t, case, run_case(case)()))
     same = (other["status"], other["impacts"]) == (row["status"], row["impacts"])
     change = {name: apart(x, [float(other[name])]) for name, x in numbers.items()}
     return {"words": words, "numbers": numbers, "deviation": change if same else None}

@@ -1,26 +1,29 @@
-"""Whether a walk was legal, step by step, and where it first was not.
+"""Whether a walk was feasible, step by step, and where it first was not.
 
 `certificate` says what every single support needed. Here the walk is judged by it: an outcome in
-one word, the reasons in words, and the extreme numbers over all steps (`Legality`). `until_illegal`
-cuts a walk at its first violation, for studies that count legal steps only. `scenario.walk` calls
+one word, the reasons in words, and the extreme numbers over all steps (`Feasibility`). `until_infeasible`
+cuts a walk at its first violation, for studies that count feasible steps only. `scenario.walk` calls
 both.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.analysis.certificate import (
+    IMPULSE,
     Certificate,
     Support,
     depths,
     ended_in_impact,
     forces,
+    impulse_ratio,
+    impulse_text,
     largest_ratio,
     outside,
 )
@@ -28,18 +31,25 @@ from biped_adrc.analysis.quadrature import window_means
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.robots.limits import KnownLimits, Limits
+from biped_adrc.hybrid.trajectory import Arc, Trajectory
+from biped_adrc.robots.limits import ROUND_OFF, SLIP, KnownLimits, Limits
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
+VERDICTS = {
+    "infeasible": "not feasible",
+    "but_impact": "feasible but for the impact",
+    "feasible": "feasible",
+}
+"""What steps that were all made are: word in records, and its meaning in reports."""
 OUTCOMES = {
     "fell": "it fell",
     "ended": "it ended otherwise",
-    "made": "it made all steps, not all of them legally",
-    "legal": "it made all steps legally",
+    **{word: f"it made all steps, {text}" for word, text in VERDICTS.items()},
 }
 """Outcome of a walk: word in records, and its meaning in reports."""
+COUNTED = ("feasible", "but_impact")
+"""Outcomes of a walk that is feasible, the impact at most aside."""
 NUMBERS = (
     "share_outside",
     "least_normal_force",
@@ -47,19 +57,37 @@ NUMBERS = (
     "mean_normal_force",
     "mean_friction",
     "scuffing",
+    "slip",
     "impulse_ratio",
     "peak_torque",
 )
-"""Numbers of `Legality` that its record holds."""
+"""Numbers of `Feasibility` that its record holds."""
 
 
-def outcome_of(status: Status, legal: bool) -> str:
-    """One of the words in `OUTCOMES`."""
+def outcome_of(status: Status, broken: Collection[str]) -> str:
+    """One of the words in `OUTCOMES`; broken: what is not within the limits, by the names in `REASONS`."""
     if status is Status.FELL:
         return "fell"
     if status is not Status.COMPLETED:
         return "ended"
-    return "legal" if legal else "made"
+    return verdict_of(broken)
+
+
+def verdict_of(broken: Collection[str]) -> str:
+    """One of the words in `VERDICTS`; broken as for `outcome_of`."""
+    if not but_for_the_impact(broken):
+        return "infeasible"
+    return "but_impact" if broken else "feasible"
+
+
+def because(words: str, broken: Mapping[str, str]) -> str:
+    """Words, with the reasons behind where there are some."""
+    return f"{words}: {'; '.join(broken.values())}" if broken else words
+
+
+def but_for_the_impact(broken: Collection[str]) -> bool:
+    """Whether no limit is broken, but for that on the impulse at impact."""
+    return set(broken) <= {IMPULSE}
 
 
 def _over_steps(worst: Callable[[list[float]], float], name: str, text: str) -> property:
@@ -69,14 +97,14 @@ def _over_steps(worst: Callable[[list[float]], float], name: str, text: str) -> 
     drop.
     """
 
-    def found(legality: Legality) -> float:
-        return float(worst([getattr(s, name) for s in legality.supports]))
+    def found(feasibility: Feasibility) -> float:
+        return float(worst([getattr(s, name) for s in feasibility.supports]))
 
     return property(found, doc=text)
 
 
 @dataclass(frozen=True)
-class Legality(Shown):
+class Feasibility(Shown):
     """What the single supports of a walk needed, the last unfinished one included, compared with limits.
 
     The numbers below are extremes over all single supports, with the units of `Support`.
@@ -86,8 +114,6 @@ class Legality(Shown):
     """How the simulation ended."""
     supports: tuple[Support, ...]
     """In order, finished ones as certificates."""
-    impulse_ratio: float
-    """Largest |F_T| / F_N of the impacts, 0 without one; it makes no step illegal."""
     limits: KnownLimits
     """The limits that `reasons` refers to."""
     touchdowns: int | None = None
@@ -95,25 +121,25 @@ class Legality(Shown):
 
     @property
     def reasons(self) -> dict[str, str]:
-        """Why it is not legal: for each name in `REASONS` the first text, with the number of its step."""
+        """Why it is not feasible: for each name in `REASONS` the first text, with the number of its step."""
         found: dict[str, str] = {}
         for s in self.supports:
-            for name, text in s.illegal().items():
+            for name, text in s.infeasible().items():
                 found.setdefault(name, f"step {s.step}: {text}")
         return found
 
     @property
     def outcome(self) -> str:
         """One of the words in `OUTCOMES`."""
-        return outcome_of(self.status, not self.reasons)
+        return outcome_of(self.status, self.reasons)
 
     @property
-    def legal_impacts(self) -> int:
-        """Number of impacts before the first step that is not legal."""
+    def feasible_impacts(self) -> int:
+        """Number of impacts before the first step that is not feasible."""
         ended = self.touchdowns
         if ended is None:
             ended = sum(isinstance(s, Certificate) for s in self.supports)
-        broken = (k for k, s in enumerate(self.supports[:ended]) if s.illegal())
+        broken = (k for k, s in enumerate(self.supports[:ended]) if s.infeasible())
         return next(broken, ended)
 
     least_normal_force = _over_steps(np.min, "least_normal_force", "F_N at any instant [N].")
@@ -123,7 +149,9 @@ class Legality(Shown):
     mean_normal_force = _over_steps(np.min, "mean_normal_force", "Least of the means [N].")
     mean_friction = _over_steps(np.max, "mean_friction", "Largest of the means.")
     scuffing = _over_steps(np.max, "scuffing", "[m].")
+    slip = _over_steps(np.max, "slip", "On soft ground [m].")
     peak_torque = _over_steps(np.max, "peak_torque", "[N m].")
+    impulse_ratio = _over_steps(np.max, "impulse_ratio", "Of the impacts, 0 without one.")
 
     @property
     def share_outside(self) -> float:
@@ -138,21 +166,14 @@ class Legality(Shown):
         numbers = {name: float(getattr(self, name)) for name in NUMBERS}
         return {
             "outcome": self.outcome,
-            "legal_impacts": self.legal_impacts,
+            "feasible_impacts": self.feasible_impacts,
             **{name: x if math.isfinite(x) else None for name, x in numbers.items()},
             "reasons": self.reasons,
         }
 
     def text(self) -> str:
-        """The outcome in words, with the reasons and the impulse ratio."""
-        words = f"{OUTCOMES[self.outcome]} ({self.outcome})"
-        reasons = "; ".join(self.reasons.values())
-        if self.touchdowns is not None:
-            return f"{words}: {reasons}" if reasons else words
-        ratio = self.impulse_ratio
-        impulse = f"{ratio:.2f}" if math.isfinite(ratio) else "no contact"
-        beside = f"impulses at impact ask for friction {impulse}, limit {self.limits.friction:g}"
-        return f"{words}: {reasons}; {beside}" if reasons else f"{words}; {beside}"
+        """The outcome in words, with the reasons."""
+        return because(OUTCOMES[self.outcome], self.reasons)
 
 
 class Violation(NamedTuple):
@@ -167,7 +188,7 @@ class Violation(NamedTuple):
 def first_violation(
     walker: Walker, s: Signals, k: KnownLimits, finished: bool = True
 ) -> Violation | None:
-    """The first node, or end of a window of the mean force, at which a single support is illegal; or None.
+    """The first node, or end of a window of the mean force, at which a single support is infeasible; or None.
 
     s: the signals of this single support alone; finished: whether it ended in an impact.
     """
@@ -193,22 +214,43 @@ def _first(t: Array, x: Array, limit: float, text: str) -> list[Violation]:
     return [Violation(float(t[i]), text.format(x[i])) for i in beyond[:1]]
 
 
-def until_illegal(
-    walker: Walker, trajectory: Trajectory, signals: Signals, limits: Limits | None = None
+def until_infeasible(
+    walker: Walker,
+    trajectory: Trajectory,
+    signals: Signals,
+    limits: Limits | None = None,
+    slipped: Sequence[float] | None = None,
 ) -> Trajectory:
-    """The trajectory up to its first violation, with the status ILLEGAL; itself where there is none.
+    """The trajectory up to its first violation, with the status INFEASIBLE; itself where there is none.
 
+    slipped: on soft ground, when in each single support a foot has slipped by SLIP [s], infinite for never.
     Everything before the violation is unchanged; the arc ends at the last node that is not after
     it.
     """
-    k = (limits or Limits()).of(walker.plant.description)
-    for number, arc in enumerate(trajectory.arcs):
-        found = first_violation(walker, signals.of_step(arc.mode.step), k, ended_in_impact(arc))
-        if found is None:
+    k, arcs = (limits or Limits()).of(walker.plant.description), trajectory.arcs
+    if slipped is not None:
+        k = k._replace(friction=math.inf)
+    for number, arc in enumerate(arcs):
+        t = math.inf if slipped is None else slipped[number]
+        slips = Violation(t, f"a foot slips by more than {1e3 * SLIP:g} mm")
+        force = first_violation(walker, signals.of_step(arc.mode.step), k, ended_in_impact(arc))
+        every = (force, _at_impact(walker, arc, k), slips)
+        found = min((one for one in every if one is not None), key=lambda one: one.t)
+        if found.t == math.inf:
             continue
         kept = int(np.searchsorted(arc.t, found.t, side="right"))
         last = replace(arc, t=arc.t[:kept], x=arc.x[:kept], dx=arc.dx[:kept], event=None)
         detail = f"single support {arc.mode.step}, {found.t:.4f} s: {found.what}"
-        arcs = (*trajectory.arcs[:number], last)
-        return replace(trajectory, arcs=arcs, status=Status.ILLEGAL, detail=detail)
+        return replace(
+            trajectory, arcs=(*arcs[:number], last), status=Status.INFEASIBLE, detail=detail
+        )
     return trajectory
+
+
+def _at_impact(walker: Walker, arc: Arc, k: KnownLimits) -> Violation | None:
+    """The impact that ends an arc, where its impulse leaves the friction cone; else None."""
+    if not ended_in_impact(arc):
+        return None
+    ratio = impulse_ratio(walker, walker.plant.impact(*walker.split_state(arc.x[-1])[:2]))
+    beyond = not ratio <= (1.0 + ROUND_OFF) * k.friction
+    return Violation(float(arc.t[-1]), impulse_text(ratio, k)) if beyond else None

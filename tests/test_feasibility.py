@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.certificate import outside, support
-from biped_adrc.analysis.legality import first_violation, outcome_of
+from biped_adrc.analysis.certificate import depths, outside, support
+from biped_adrc.analysis.feasibility import first_violation, outcome_of
 from biped_adrc.analysis.quadrature import window_means
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.robots.limits import KnownLimits
@@ -52,24 +52,24 @@ def test_a_force_that_dips_for_2_ms_is_carried_and_one_for_6_ms_is_not(walker):
     for length, names in ((2e-3, []), (6e-3, ["normal_force"])):
         t, F_N = dip(length)
         s = support(walker, handmade(t, F_N), KNOWN)
-        assert list(s.illegal()) == names
+        assert list(s.infeasible()) == names
         assert s.least_normal_force == -100.0
         least = WEIGHT - 400.0 * min(length, 5e-3) / 5e-3
         assert s.mean_normal_force == pytest.approx(least, abs=1e-9)
         assert s.share_outside == pytest.approx(length / 0.4, rel=1e-9)
 
 
-def test_a_foot_that_is_lifted_needs_no_friction_and_is_illegal(walker):
+def test_a_foot_that_is_lifted_needs_no_friction_and_is_infeasible(walker):
     t = grid()
     s = support(walker, handmade(t, np.full(len(t), -5.0), np.full(len(t), 50.0)), KNOWN)
     assert s.friction == s.mean_friction == np.inf
     assert s.share_outside == 1.0
-    assert list(s.illegal()) == ["normal_force"]
-    assert "no contact" in s.illegal()["normal_force"]
+    assert list(s.infeasible()) == ["normal_force"]
+    assert "no contact" in s.infeasible()["normal_force"]
     partly = np.where(t < 0.2, -5.0, 100.0)
     s = support(walker, handmade(t, partly, np.full(len(t), 50.0)), KNOWN)
     assert s.friction == 0.5
-    assert "no contact" not in s.illegal()["normal_force"]
+    assert "no contact" not in s.infeasible()["normal_force"]
 
 
 def test_friction_is_judged_in_the_mean_and_on_both_sides(walker):
@@ -78,21 +78,21 @@ def test_friction_is_judged_in_the_mean_and_on_both_sides(walker):
         s = support(
             walker, handmade(t, np.full(len(t), 100.0), np.full(len(t), 70.0 * sign)), KNOWN
         )
-        assert list(s.illegal()) == ["friction"]
+        assert list(s.infeasible()) == ["friction"]
         assert s.share_outside == 1.0
         slips = handmade(t, np.full(len(t), 100.0), np.where(t < 0.1, 0.0, 70.0 * sign))
         first = first_violation(walker, slips, KNOWN)
         assert first.t == pytest.approx(0.1 + 5e-3 * 60.0 / 70.0, abs=2 * H)
         assert "friction" in first.what
         assert (s.mean_friction, s.friction) == pytest.approx((0.7, 0.7))
-        assert not s.illegal(ba.Limits(friction=0.8))
+        assert not s.infeasible(ba.Limits(friction=0.8))
     chatter = 90.0 * np.sign(np.sin(2.0 * np.pi * 1e3 * (t + 0.25 * H)))
     s = support(walker, handmade(t, np.full(len(t), 100.0), chatter), KNOWN)
     assert s.friction == pytest.approx(0.9)
     assert s.mean_friction < 0.1
-    assert not s.illegal()
+    assert not s.infeasible()
     s = support(walker, handmade(t, np.full(len(t), 100.0), 65.0 + 0.3 * chatter), KNOWN)
-    assert list(s.illegal()) == ["friction"]
+    assert list(s.infeasible()) == ["friction"]
 
 
 @pytest.mark.parametrize("slope", [-0.2, 0.2])
@@ -114,7 +114,7 @@ def test_scuffing_counts_away_from_the_ends_below_the_lower_foothold(walker):
     middle = np.where(np.abs(t - 0.2) < 0.01, -2e-3, 0.02)
     s = support(walker, handmade(t, F_N, height=middle), KNOWN)
     assert s.scuffing == pytest.approx(2e-3)
-    assert list(s.illegal()) == ["scuffing"]
+    assert list(s.infeasible()) == ["scuffing"]
     down = replace(walker, ground_steps=(ba.StepDown(1, 0.005),))
     assert support(down, handmade(t, F_N, height=middle), KNOWN).scuffing == 0.0
     up = replace(walker, ground_steps=(ba.StepUp(1, 0.005),))
@@ -140,30 +140,32 @@ def test_scuffing_counts_all_along_the_step_but_for_three_per_cent(walker, share
         ("mean_normal_force", "normal_force"),
         ("peak_torque", "torque"),
         ("scuffing", "scuffing"),
+        ("slip", "slip"),
+        ("impulse_ratio", "impulse"),
     ],
 )
 def test_each_number_that_is_none_is_a_reason_of_its_own(walker, number, reason):
     t = grid()
     good = support(walker, handmade(t, np.full(len(t), WEIGHT)), KNOWN)
-    assert good.illegal() == {}
-    assert list(replace(good, **{number: np.nan}).illegal()) == [reason]
+    assert good.infeasible() == {}
+    assert list(replace(good, **{number: np.nan}).infeasible()) == [reason]
 
 
-def test_torque_at_its_limit_is_legal_and_above_is_not(walker):
+def test_torque_at_its_limit_is_feasible_and_above_is_not(walker):
     t = grid()
     F_N, u = np.full(len(t), WEIGHT), np.zeros((len(t), 4))
     u[50, 2] = -150.0
-    assert not support(walker, handmade(t, F_N, u=u), KNOWN).illegal()
+    assert not support(walker, handmade(t, F_N, u=u), KNOWN).infeasible()
     u[50, 2] = -151.0
-    assert list(support(walker, handmade(t, F_N, u=u), KNOWN).illegal()) == ["torque"]
+    assert list(support(walker, handmade(t, F_N, u=u), KNOWN).infeasible()) == ["torque"]
 
 
-def test_a_force_that_is_no_number_is_not_legal(walker):
+def test_a_force_that_is_no_number_is_not_feasible(walker):
     t = grid()
     F_N = np.full(len(t), WEIGHT)
     F_N[7] = np.nan
     s = support(walker, handmade(t, F_N), KNOWN)
-    assert "normal_force" in s.illegal()
+    assert "normal_force" in s.infeasible()
     assert s.friction == 0.0
     assert outside(np.array([[0.0, np.nan], [np.nan, 1.0], [0.0, 0.0]]), 0.6).all()
 
@@ -215,15 +217,15 @@ def test_a_walk_is_judged_by_all_its_steps_and_cut_at_the_first_violation(biped,
     push = ba.TorquePulse([0.0, 0.0, 0.0, 0.0, 300.0], step=2, start=0.1, stop=0.2)
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), push)
     walk = ba.walk(walker, gait, impacts=3)
-    found = walk.legality
-    assert found.outcome == outcome_of(walk.trajectory.status, legal=False) != "made"
-    assert found.legal_impacts == 1
+    found = walk.feasibility
+    assert found.outcome == outcome_of(walk.trajectory.status, found.reasons) != "infeasible"
+    assert found.feasible_impacts == 1
     assert found.reasons
-    cut = walk.until_illegal()
-    assert cut.trajectory.status is ba.Status.ILLEGAL
+    cut = walk.until_infeasible()
+    assert cut.trajectory.status is ba.Status.INFEASIBLE
     assert "single support 2" in cut.trajectory.detail
     assert "push less" in cut.trajectory.status.value
-    assert outcome_of(ba.Status.ILLEGAL, False) == "ended"
+    assert outcome_of(ba.Status.INFEASIBLE, ()) == "ended"
     one, other = walk.trajectory.arcs[1], cut.trajectory.arcs[1]
     assert other.event is None
     assert np.array_equal(one.x[: len(other.x)], other.x)
@@ -232,22 +234,22 @@ def test_a_walk_is_judged_by_all_its_steps_and_cut_at_the_first_violation(biped,
     s = walk.signals.of_step(2)
     first = first_violation(walker, s, KNOWN, finished=False)
     assert other.t[-1] <= first.t < one.t[len(other.t)]
-    asked = ba.walk(walker, gait, impacts=3, legal=ba.Limits())
+    asked = ba.walk(walker, gait, impacts=3, within=ba.Limits())
     assert asked.trajectory.detail == cut.trajectory.detail
 
 
-def test_a_legal_walk_is_left_as_it_is_and_limits_decide(biped, gait):
+def test_a_feasible_walk_is_left_as_it_is_and_limits_decide(biped, gait):
     walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, impacts=2)
-    assert walk.legality.outcome == "legal"
-    assert walk.legality.legal_impacts == 2
-    assert walk.until_illegal() is walk
-    assert walk.legality.impulse_ratio == max(c.impulse_ratio for c in walk.certificates)
-    strict = walk.legal_within(ba.Limits(friction=0.3))
-    assert (strict.outcome, strict.legal_impacts) == ("made", 0)
-    assert list(strict.reasons) == ["friction"]
-    assert list(walk.legal_within(ba.Limits(torque=60.0)).reasons) == ["torque"]
-    assert walk.until_illegal(ba.Limits(friction=0.3)).trajectory.status is ba.Status.ILLEGAL
-    instant = walk.legal_within(ba.Limits(window=1e-6))
+    assert walk.feasibility.outcome == "feasible"
+    assert walk.feasibility.feasible_impacts == 2
+    assert walk.until_infeasible() is walk
+    assert walk.feasibility.impulse_ratio == max(c.impulse_ratio for c in walk.certificates)
+    strict = walk.feasible_within(ba.Limits(friction=0.3))
+    assert (strict.outcome, strict.feasible_impacts) == ("infeasible", 0)
+    assert list(strict.reasons) == ["friction", "impulse"]
+    assert list(walk.feasible_within(ba.Limits(torque=60.0)).reasons) == ["torque"]
+    assert walk.until_infeasible(ba.Limits(friction=0.3)).trajectory.status is ba.Status.INFEASIBLE
+    instant = walk.feasible_within(ba.Limits(window=1e-6))
     assert instant.mean_friction == pytest.approx(instant.friction, rel=1e-3)
     with pytest.raises(ba.BipedError, match=r"averaged over 0\.005 s, the limits ask for 0\.01 s"):
         walk.certificates[0].violations(ba.Limits(window=0.01))
@@ -271,3 +273,62 @@ def test_what_the_model_does_not_know_is_matched_and_unmatched(biped, gait):
                 rest = terms.kappa @ (terms.A_N.T @ unknown[4:])
                 assert np.allclose(s.xi_unmatched[i], rest, atol=1e-8)
     assert np.max(np.abs(s.xi_unmatched)) > 0.5
+
+
+def test_where_only_the_impulse_asks_for_more_it_is_feasible_but_for_the_impact():
+    """By the impulse of (7) at x-, against a friction a little below and above what it asks for."""
+    biped = ba.Biped.load("rabbit", "identified-bare")
+    own = ba.load_gait("published", biped)
+    walk = ba.walk(ba.Walker(biped, ba.NPDController(own.constraint)), own, impacts=2)
+    asks = abs(np.divide(*biped.impact(own.q_minus, own.v_minus).impulse))
+    assert asks > 0.6
+    assert walk.feasibility.impulse_ratio == pytest.approx(asks, rel=1e-6)
+    for share, outcome, impacts in ((0.999, "but_impact", 0), (1.001, "feasible", 2)):
+        found = walk.feasible_within(ba.Limits(friction=share * asks))
+        assert (found.outcome, found.feasible_impacts) == (outcome, impacts)
+    found = walk.feasibility
+    assert list(found.reasons) == ["impulse"]
+    assert found.text().startswith(
+        "it made all steps, feasible but for the impact: step 1: the impulse"
+    )
+    cut = walk.until_infeasible().trajectory
+    assert cut.status is ba.Status.INFEASIBLE
+    assert cut.arcs[0].event is None
+    assert np.array_equal(cut.final_state, walk.trajectory.arcs[0].event.x_minus)
+
+
+def test_the_plant_is_judged_and_not_the_model(biped, gait):
+    """Half the mass on the ground is half the force, whatever the controller believes."""
+    light = biped.with_errors(mass={"torso": 0.5})
+    law = ba.NPDController(gait.constraint)
+    needed = [
+        ba.walk(ba.Walker(plant, law, model=biped), gait, 1).certificates[0].mean_normal_force
+        for plant in (biped, light)
+    ]
+    assert needed[0] - needed[1] > 0.5 * (biped.weight - light.weight)
+
+
+def test_steps_shorter_than_the_window_are_judged_as_a_whole(walker, biped, gait):
+    """By the change of momentum over a step of the gait, T F = m (v-) - m (v+) + T m g e_z."""
+    q, v = gait.start(biped)
+    change = biped.momentum(gait.q_minus, gait.v_minus) - biped.momentum(q, v)
+    F = change / gait.period + biped.weight * np.array([0.0, 1.0])
+    walk = ba.walk(walker, gait, impacts=2)
+    for c in walk.certified(ba.Limits(window=2.0 * gait.period)):
+        assert c.mean_normal_force == pytest.approx(F[1], rel=1e-5)
+        assert c.mean_friction == pytest.approx(abs(F[0]) / F[1], rel=1e-4)
+
+
+def test_a_foot_that_comes_from_lower_ground_does_not_scuff(biped, gait):
+    """After a step up the old foothold lies below both of the next single support."""
+    law = ba.NPDController(ba.continued(gait.constraint))
+    up = ba.Walker(biped, law, ground_steps=(ba.StepUp(1, 0.01),))
+    walk = ba.walk(up, gait, 2)
+    assert [c.scuffing for c in walk.certificates] == [0.0, 0.0]
+    s = walk.signals.of_step(2)
+    deep = s.swing_foot[:, 1].copy()
+    assert np.min(deep[s.t - s.t[0] > 0.013]) < 0.0  # it is below, and rises
+    middle = np.abs(s.t - s.t[0] - 0.2) < 0.01
+    deep[middle] = -0.002
+    dipped = replace(s, swing_foot=np.column_stack((s.swing_foot[:, 0], deep)))
+    assert np.max(depths(up, dipped, True)) == pytest.approx(0.002)
