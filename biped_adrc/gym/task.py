@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 
 from biped_adrc.bench.conditions import BASE, CONDITIONS, conditions_on
 from biped_adrc.errors import InputError
-from biped_adrc.gym.episode import ADDED, TORQUES
 from biped_adrc.parts import check_part
 from biped_adrc.robots.limits import KnownLimits
 from biped_adrc.scenario.build import RIGID, RobotAndGait, limits
@@ -22,6 +21,8 @@ from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
+TORQUES, ADDED = "torques", "added"
+"""What an action is: all of the torque, or an addition to that of the scenario's controller."""
 ACTIONS = (TORQUES, ADDED)
 FALLEN_FROM = 1e-9
 """Of the time limit [s]: a sample that ends so little before it is the last."""
