@@ -26,8 +26,7 @@ class AddedForce(Disturbance):
         freeze(self, "force")
 
     def acts(self, t: float, step: int, t_start: float) -> float:
-        acts: float = self.force @ self.force
-        return acts
+        return 1.0 * (self.force[0] ** 2 + self.force[1] ** 2)
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
         k = self.point

@@ -21,6 +21,7 @@ from biped_adrc.gym.picture import Drawn, Window
 from biped_adrc.gym.stage import Stage
 from biped_adrc.gym.task import TORQUES, LearnerTask
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
+from biped_adrc.scenario.stepper import finite_numbers
 from biped_adrc.types import Array
 
 RENDER_MODES = ("human", "rgb_array")
@@ -88,7 +89,7 @@ class WalkEnv(gymnasium.Env[Any, Any]):
         stage = self.stage
         if stage.stepper.codes[0] != 0:
             raise InputError("there is no walk that goes on; call reset() first")
-        stage.move([action])  # type: ignore[arg-type]
+        stage.move(finite_numbers("action", action, (stage.plant.p,))[np.newaxis])
         fallen, late = (bool(over[0]) for over in stage.ended())
         self._show(False)
         reward = float(stage.rewards()[0])

@@ -16,7 +16,6 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.engine.samples import PythonWalk
-from biped_adrc.errors import InputError
 from biped_adrc.gym.soft_legality import SoftLegality
 from biped_adrc.gym.task import ADDED, FALLEN_FROM, LearnerTask
 from biped_adrc.gym.view import learner_view
@@ -80,24 +79,10 @@ class Stage:
             self.soft.begin(i)
 
     def move(self, actions: Array) -> None:
-        """One sample of all that walk, under actions (N, p), shares of the motors' limit [1].
-
-        Raises InputError for another shape, and for what is not finite.
-        """
-        try:
-            shares = np.asarray(actions, dtype=float)
-        except (TypeError, ValueError):
-            raise InputError(f"the action is {actions!r:.60}, expected numbers") from None
-        expected = len(self.seeds), self.plant.p
-        if shares.shape != expected:
-            alone = expected[0] == 1
-            raise InputError(
-                f"the action has shape {shares.shape[alone:]}, expected {expected[alone:]}: a share of the "
-                "torque limit for each motor"
-            )
-        if not np.isfinite(shares).all():
-            raise InputError(f"the action is {shares}, expected finite numbers from -1 to 1")
-        self.stepper.step(self.limits.torque * shares)
+        """One sample of all that walk, under actions (N, p), shares of the motors' limit [1]."""
+        inputs = np.zeros((len(actions), self.plant.p + 2))
+        inputs[:, :-2] = self.limits.torque * actions
+        self.stepper.move(inputs)
         self._seen = np.zeros(0)
 
     # -- where they are ----------------------------------------------------------------------------

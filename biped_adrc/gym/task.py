@@ -32,8 +32,8 @@ FALLEN_FROM = 1e-9
 class LearnerTask(Shown):
     """A scenario for learners.
 
-    Raises InputError for an action that there is not, a time or weight out of range, and a scenario in
-    continuous time or for a robot without motors.
+    Raises InputError for an action that there is not, a time or weight out of range, and values of the scenario
+    that would do nothing.
     """
 
     scenario: Scenario
@@ -60,13 +60,6 @@ class LearnerTask(Shown):
         if not self.seconds > 0.0:
             raise InputError(f"seconds is {self.seconds}, expected a positive time")
         s = self.scenario
-        if s.period is None:
-            raise InputError(
-                "a learner acts at sample instants, and this scenario has none; give a period, as period = "
-                "0.001 or hardware = 'ideal'"
-            )
-        if s.fine is not None:
-            raise InputError(f"steps of a sample have one length; leave out fine = {s.fine:g} s")
         mine = [x for x in ("controller", *OF_CONTROLLER, "contact") if s.given(x)]
         if self.action == TORQUES and mine:
             raise InputError(

@@ -22,6 +22,7 @@ from biped_adrc.gym.picture import Drawn
 from biped_adrc.gym.stage import Flags, Stage
 from biped_adrc.gym.task import TORQUES, LearnerTask
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
+from biped_adrc.scenario.stepper import finite_numbers
 from biped_adrc.types import Array
 
 
@@ -96,7 +97,7 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         """One sample of each walk under actions (N, p) [1]; those that had ended begin anew."""
         stage, again = self.stage, self.over
         resting = again.any()
-        stage.move(actions)
+        stage.move(finite_numbers("action", actions, (self.num_envs, stage.plant.p)))
         if resting:
             for i in np.flatnonzero(again):
                 self._begin(int(i), None)

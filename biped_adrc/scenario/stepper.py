@@ -8,7 +8,7 @@ states after it:
     begin = stepper.save(0)
     while sample.t[0] < 0.1:
         sample = stepper.step(force=[[0.0, 0.0], [-20.0, 0.0]])
-    print(sample.x[:, 4], sample.status)                 # pitch of the trunk, with and without the force
+    print(sample.x[:, 4], sample.status)                 # pitch of the trunk, without and with the force
     stepper.restore(1, begin)                            # walk 1 goes back to the start of walk 0
 
 Without inputs each walk is that of `ba.walk_scenario`. Walks whose parts all compile are moved in one call of
@@ -18,73 +18,49 @@ machine code; the others one by one (`engine.samples`).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import NamedTuple
+from dataclasses import replace
+from typing import NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from biped_adrc.closed_loop.protocols import Mode
-from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.engine.compiled_signals import Reading
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import Ints
 from biped_adrc.engine.kernels.run_plan import STATUS
-from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.program import NotCompiled
-from biped_adrc.engine.samples import CompiledWalk, Driven, PythonWalk
-from biped_adrc.errors import InputError, check_count, check_whole
+from biped_adrc.engine.samples import CompiledWalk, PythonWalk, driven, reading
+from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.reference import Reference
-from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.parts import check_part, numbers
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop
 from biped_adrc.scenario.build import start as start_of
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import check_start, default_method
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array, freeze, frozen
+from biped_adrc.types import Array, frozen
 
 _STATUS = np.array([*STATUS, None], dtype=object)
 """By code; the last one is for a walk that has not begun, code -1."""
 
 
-@dataclass(frozen=True)
-class Sample(Shown):
+class Sample(NamedTuple):
     """N walks, each at its last sample instant, or at its end; all arrays are read-only."""
 
-    rows: Array
-    """t [s], number of the single support, and state of each (N, 2 + nx)."""
-    codes: Ints
-    """Of the statuses (N,), 0 for a walk that goes on."""
-
-    def __post_init__(self) -> None:
-        freeze(self, "rows", "codes")
-
-    @property
-    def t(self) -> Array:
-        """Times of the walks (N,) [s]."""
-        return self.rows[:, 0]
-
-    @property
-    def step(self) -> Ints:
-        """Numbers of the single supports (N,)."""
-        return frozen(self.rows[:, 1].astype(np.int64))
-
-    @property
-    def x(self) -> Array:
-        """States (N, nx): q, q', then what controller and hardware keep; before the sample instant there."""
-        return self.rows[:, 2:]
-
-    @property
-    def status(self) -> NDArray[np.object_]:
-        """`Status` of each (N,): COMPLETED for a walk that goes on, None for one that has not begun."""
-        return frozen(_STATUS[self.codes])
+    t: Array
+    """(N,) [s]"""
+    x: Array
+    """States (N, nx): q, q', then what controller and hardware keep; before the sample instant."""
+    step: Ints
+    """Numbers of the single supports (N,)."""
+    status: NDArray[np.object_]
+    """`Status` (N,): COMPLETED for a walk that goes on, None for one that has not begun."""
 
 
 class Snapshot(NamedTuple):
-    """A walk and where it is, for `Stepper.restore`."""
+    """A walk where it is, for `Stepper.restore`."""
 
     walk: CompiledWalk | PythonWalk
     code: int
@@ -106,11 +82,11 @@ class Stepper:
         check_part(what, "what is moved by samples", Scenario, Walker)
         check_count(count, f"the number of walks is {count}")
         self.what, self.walker_of = what, walker_of
-        sampled = what.sampled if isinstance(what, Walker) else what.period is not None
-        if not sampled:
+        self.curve: Reference | None = None
+        if what.period is None if isinstance(what, Scenario) else not what.sampled:
             raise InputError(
-                "a stepper goes from one sample instant to the next, and there are none; give a period, as "
-                "period = 0.001 in a scenario, or timing=SampledTime(1e-3) of a walker"
+                "walks go from one sample instant to the next here, and there are none; give a period, as "
+                "period = 0.001 or hardware = 'ideal', or timing=SampledTime(1e-3) of a walker"
             )
         if isinstance(what, Scenario):
             if what.fine is not None:
@@ -118,25 +94,24 @@ class Stepper:
                     f"steps of a sample have one length; leave out fine = {what.fine:g} s"
                 )
             self.scene = RobotAndGait.of(what)
-            self.p = self.scene.biped.p
-            self.reference: Reference | None = self.scene.walked.constraint
-        else:
-            self.p, self.reference = what.plant.p, None
+            self.curve = self.scene.walked.constraint
+        self.p = what.plant.p if isinstance(what, Walker) else self.scene.biped.p
         self.why = ""
         """Why walks are not moved in machine code; empty where they are."""
         self.walks: list[CompiledWalk | PythonWalk | None] = [None] * count
         self.addresses = np.zeros((count, kernels().WALK), dtype=np.int64)
         self.codes = np.full(count, -1, dtype=np.int64)
+        """0 for a walk that goes on, -1 for one that has not begun."""
         self.rows = np.zeros((count, 0))
-        self._views = dict[Reading, tuple[Ints, int]]()
-        """By function that `read` has had: addresses of its machine code for each walk (N,), and its width."""
-        self._codes = dict[tuple[Reading, int], LoadedCode]()
-        """By function and address of the walk's own code, with which it changes."""
+        """t, number of the single support, x of each walk."""
+        self._laws = dict[Reading, tuple[Ints, int]]()
+        """By function for `read`: addresses of its machine code (N,), and how many numbers it gives."""
 
     @property
     def sample(self) -> Sample:
         """Where the walks are."""
-        return Sample(self.rows.copy(), self.codes.copy())
+        rows, step = self.rows.copy(), self.rows[:, 1].astype(np.int64)
+        return frozen(Sample(rows[:, 0], rows[:, 2:], step, _STATUS[self.codes]))
 
     def reset(
         self,
@@ -153,135 +128,111 @@ class Stepper:
             for k in range(len(self.walks)):
                 self._begin(k, None if seed is None else seed + k, start)
         else:
-            self._begin(self._checked(i), seed, start)
+            self._begin(i, seed, start)
         return self.sample
+
+    def _begin(self, i: int, seed: int | None, start: tuple[Array, Array] | None) -> None:
+        """Walk i as `reset` has it."""
+        s, mode = self.what, Mode()
+        if isinstance(s, Scenario):
+            s, mode = replace(s, seed=s.seed if seed is None else seed), Mode(s.first_step)
+            walker, outside = driven(self.walker_of(s, self.scene))
+            start = start_of(s, self.scene) if start is None else start
+            loop, method = soft_loop(s, walker) or walker, method_of(s, walker)
+        elif start is None or seed is not None:
+            raise InputError(
+                "a walker has no seed and no start of its own; call reset(start=gait.start(biped))"
+            )
+        else:
+            walker, outside = driven(s)
+            loop, method = walker, default_method(walker)
+        check_start(*start, walker)
+        x = loop.initial_state(*start, mode)
+        if loop is not walker:
+            self.why = "the plant moves by itself"
+        walk: CompiledWalk | PythonWalk | None = None
+        if not self.why:
+            try:
+                walk = CompiledWalk.of(walker, method, x, mode, self.curve)
+            except NotCompiled as reason:
+                self.why = str(reason)
+        self._put(i, walk or PythonWalk.of(loop, outside, method, x, mode), 0)
+
+    def _put(self, i: int, walk: CompiledWalk | PythonWalk, code: int) -> None:
+        """A walk in place i."""
+        _, t, x, mode = walk.at
+        if not self.rows.size:
+            self.rows = np.zeros((len(self.walks), 2 + len(x)))
+        self.rows[i] = (t, mode.step, *x)
+        self.walks[i], self.codes[i] = walk, code
+        self.addresses[i] = walk.addresses if isinstance(walk, CompiledWalk) else 0
+        for laws, _ in self._laws.values():
+            laws[i] = 0
 
     def step(self, torque: ArrayLike | None = None, force: ArrayLike | None = None) -> Sample:
         """One sample of every walk that goes on.
 
         torque (N, p) [N m]: added to what the controller asks for. force (N, 2) [N]: (F_x, F_z) on the origin
-        of the trunk. One row is for all walks, None is zero. Raises InputError for other shapes, for what is
-        not finite, and before all walks have begun.
+        of the trunk. None is zero. Raises InputError for other shapes, for what is not finite, and before all
+        walks have begun.
         """
-        if np.any(self.codes < 0):
-            raise InputError("there is a walk that has not begun; call reset() first")
-        given = np.empty((len(self.walks), self.p + 2))
-        given[:, : self.p] = self._inputs("torque", torque, self.p)
-        given[:, self.p :] = self._inputs("force", force, 2)
-        in_python = np.flatnonzero((self.addresses[:, 0] == 0) & (self.codes == 0))
-        kernels().samples(self.addresses.ravel(), given, self.rows, self.codes)
-        for i in in_python:
-            walk = self.walks[i]
-            assert isinstance(walk, PythonWalk)
-            walk, status = walk.sample(given[i, : self.p], given[i, self.p :])
-            self.walks[i], self.rows[i], self.codes[i] = walk, walk.row, STATUS.index(status)
+        inputs = np.zeros((len(self.walks), self.p + 2))
+        if torque is not None:
+            inputs[:, : self.p] = finite_numbers("torque", torque, inputs[:, : self.p].shape)
+        if force is not None:
+            inputs[:, self.p :] = finite_numbers("force", force, inputs[:, self.p :].shape)
+        self.move(inputs)
         return self.sample
+
+    def move(self, inputs: Array) -> None:
+        """As `step`, under rows (torque, force) of finite inputs (N, p + 2), C-contiguous, not checked."""
+        if self.codes.min() < 0:
+            raise InputError("there is a walk that has not begun; call reset() first")
+        in_python = ((self.addresses[:, 0] == 0) & (self.codes == 0)).nonzero()[0]
+        kernels().samples(self.addresses.ravel(), inputs, self.rows, self.codes)
+        for i in in_python:
+            walk, status = cast(PythonWalk, self.walks[i]).sample(inputs[i])
+            self._put(i, walk, STATUS.index(status))
 
     def save(self, i: int = 0) -> Snapshot:
         """Walk i as it is, with all that it is made of. Raises InputError for a walk that has not begun."""
-        walk = self.walks[self._checked(i)]
+        walk = self.walks[i]
         if walk is None:
             raise InputError(f"walk {i} has not begun; call reset({i}) first")
         return Snapshot(walk.copied(), int(self.codes[i]))
 
     def restore(self, i: int, snapshot: Snapshot) -> None:
         """Walk i goes on from where a walk, this or another one, was saved."""
-        self._put(self._checked(i), snapshot.walk.copied(), snapshot.code)
+        self._put(i, snapshot.walk.copied(), snapshot.code)
 
     def read(self, view: Reading) -> Array:
         """What view(loop, t, x, mode, reference) says of each walk where it is, as `signals_at`, in N rows.
 
         The reference is the scenario's gait. Raises InputError for a walker, and where no walk has begun.
         """
-        N, begun = len(self.walks), next((walk for walk in self.walks if walk is not None), None)
-        if self.reference is None or begun is None:
+        if self.curve is None or self.codes.max() < 0:
             raise InputError("there is no gait to refer to, or no walk; call reset() of a scenario")
-        if view not in self._views:
-            width = len(begun.read(view, self.reference))
-            self._views[view] = np.zeros(N, dtype=np.int64), width
-        laws, width = self._views[view]
-        found = np.zeros((N, width))
+        if view not in self._laws:
+            first = next(walk for walk in self.walks if walk is not None)
+            size = len(reading(first, view, self.curve))
+            self._laws[view] = np.zeros(len(self.walks), dtype=np.int64), size
+        laws, size = self._laws[view]
+        found = np.zeros((len(laws), size))
         for i in np.flatnonzero(laws == 0):
             walk = self.walks[i]
             if isinstance(walk, CompiledWalk):
-                laws[i] = self._law(view, walk, self.reference)
+                laws[i] = walk.law(view, self.curve)
             elif walk is not None:
-                found[i] = walk.read(view, self.reference)
+                found[i] = reading(walk, view, self.curve)
         kernels().looks(self.addresses.ravel(), laws, found)
         return found
 
-    def _law(self, view: Reading, walk: CompiledWalk, reference: Reference) -> int:
-        """Address of the machine code of `view` for a walk."""
-        key = view, walk.made.program.address("tick")
-        if key not in self._codes:
-            self._codes[key] = walk.code(view, reference)
-        return self._codes[key].addresses["read"]
 
-    def _begin(self, i: int, seed: int | None, start: tuple[Array, Array] | None) -> None:
-        """Walk i as `reset` has it."""
-        what, mode, loop = self.what, Mode(), None
-        if isinstance(what, Scenario):
-            s = what if seed is None else replace(what, seed=seed)
-            driven, mode = Driven.of(self.walker_of(s, self.scene)), Mode(s.first_step)
-            method, loop = method_of(s, driven.walker), soft_loop(s, driven.walker)
-            start = start_of(s, self.scene) if start is None else start
-        elif start is None or seed is not None:
-            raise InputError(
-                "a walker has no seed and no start of its own; call reset(start=gait.start(biped))"
-            )
-        else:
-            driven = Driven.of(what)
-            method = default_method(driven.walker)
-        check_start(*start, driven.walker)
-        self._put(i, self._walk(driven, loop, method, start, mode), 0)
-
-    def _walk(
-        self,
-        driven: Driven,
-        loop: SteppingLoop | None,
-        method: OneStepMethod,
-        start: tuple[Array, Array],
-        mode: Mode,
-    ) -> CompiledWalk | PythonWalk:
-        """A walk at its start, in machine code where that can be; what cannot is not tried again."""
-        if loop is not None:
-            self.why = "the plant moves by itself"
-        if not self.why:
-            try:
-                return CompiledWalk.of(driven, method, start, mode, self.reference)
-            except NotCompiled as reason:
-                self.why = str(reason)
-        return PythonWalk.of(driven, loop, method, start, mode)
-
-    def _put(self, i: int, walk: CompiledWalk | PythonWalk, code: int) -> None:
-        """A walk in place i. Raises InputError for a state of another size than the others have."""
-        row = walk.row
-        if len(row) != self.rows.shape[1]:
-            if np.any(self.codes >= 0):
-                raise InputError(
-                    f"the walk has {len(row) - 2} numbers in its state, and the others have "
-                    f"{self.rows.shape[1] - 2}; expected a walk of this stepper"
-                )
-            self.rows = np.zeros((len(self.walks), len(row)))
-        self.walks[i], self.rows[i], self.codes[i] = walk, row, code
-        self.addresses[i] = walk.addresses if isinstance(walk, CompiledWalk) else 0
-        for laws, _ in self._views.values():
-            laws[i] = 0
-
-    def _checked(self, i: int) -> int:
-        """The number of a walk. Raises InputError for one that there is not."""
-        check_whole(i, f"the walk is {i}")
-        if i >= len(self.walks):
-            raise InputError(f"there is no walk {i}, expected 0 to {len(self.walks) - 1}")
-        return i
-
-    def _inputs(self, name: str, values: ArrayLike | None, size: int) -> Array:
-        """Inputs as floats, (size,) or (N, size). Raises InputError."""
-        if values is None:
-            return np.zeros(size)
-        x, N = numbers(values, f"the {name}"), len(self.walks)
-        if x.shape not in ((size,), (N, size)) or not np.all(np.isfinite(x)):
-            raise InputError(
-                f"the {name} is {x}, expected finite numbers, {size} for each of {N} walks, or one row for all"
-            )
-        return x
+def finite_numbers(what: str, values: ArrayLike, shape: tuple[int, ...]) -> Array:
+    """Values as floats of this shape. Raises InputError for another one, and for what is not finite."""
+    x = numbers(values, f"the {what}")
+    if x.shape != shape:
+        raise InputError(f"the {what} has shape {x.shape}, expected {shape}")
+    if not np.isfinite(x).all():
+        raise InputError(f"the {what} is {x}, expected finite numbers")
+    return x
