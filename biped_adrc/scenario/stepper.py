@@ -8,8 +8,8 @@ states after it:
     begin = stepper.save(0)
     while sample.t[0] < 0.1:
         sample = stepper.step(force=[[0.0, 0.0], [-20.0, 0.0]])
-    print(sample.x[:, 4], sample.status)                 # pitch of the trunk, without and with the force
-    stepper.restore(1, begin)                            # walk 1 goes back to the start of walk 0
+    print(sample.x[:, 4], sample.status[1].name)  # pitch of the trunk without and with the force
+    stepper.restore(1, begin)                     # walk 1 goes back to the start of walk 0
 
 Without inputs each walk is that of `ba.walk_scenario`. Walks whose parts all compile are moved in one call of
 machine code; the others one by one (`engine.samples`).
