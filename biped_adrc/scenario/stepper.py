@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import NamedTuple, cast
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -99,7 +99,8 @@ class Stepper:
         self.why = ""
         """Why walks are not moved in machine code; empty where they are."""
         self.walks: list[CompiledWalk | PythonWalk | None] = [None] * count
-        self.addresses = np.zeros((count, kernels().WALK), dtype=np.int64)
+        self.in_python = False  # whether one of them is
+        self.addresses = np.zeros(count * kernels().WALK, dtype=np.int64)
         self.codes = np.full(count, -1, dtype=np.int64)
         """0 for a walk that goes on, -1 for one that has not begun."""
         self.rows = np.zeros((count, 0))
@@ -165,7 +166,10 @@ class Stepper:
             self.rows = np.zeros((len(self.walks), 2 + len(x)))
         self.rows[i] = (t, mode.step, *x)
         self.walks[i], self.codes[i] = walk, code
-        self.addresses[i] = walk.addresses if isinstance(walk, CompiledWalk) else 0
+        size = kernels().WALK
+        compiled = walk.addresses if isinstance(walk, CompiledWalk) else [0] * size
+        self.addresses[size * i : size * (i + 1)] = compiled
+        self.in_python |= isinstance(walk, PythonWalk)
         for laws, _ in self._laws.values():
             laws[i] = 0
 
@@ -176,6 +180,8 @@ class Stepper:
         of the trunk. None is zero. Raises InputError for other shapes, for what is not finite, and before all
         walks have begun.
         """
+        if self.codes.min() < 0:
+            raise InputError("there is a walk that has not begun; call reset() first")
         inputs = np.zeros((len(self.walks), self.p + 2))
         if torque is not None:
             inputs[:, : self.p] = finite_numbers("torque", torque, inputs[:, : self.p].shape)
@@ -185,14 +191,12 @@ class Stepper:
         return self.sample
 
     def move(self, inputs: Array) -> None:
-        """As `step`, under rows (torque, force) of finite inputs (N, p + 2), C-contiguous, not checked."""
-        if self.codes.min() < 0:
-            raise InputError("there is a walk that has not begun; call reset() first")
-        in_python = ((self.addresses[:, 0] == 0) & (self.codes == 0)).nonzero()[0]
-        kernels().samples(self.addresses.ravel(), inputs, self.rows, self.codes)
-        for i in in_python:
-            walk, status = cast(PythonWalk, self.walks[i]).sample(inputs[i])
-            self._put(i, walk, STATUS.index(status))
+        """As `step`, of walks that have begun, under rows (torque, force) of inputs (N, p + 2), not checked."""
+        kernels().samples(self.addresses, inputs, self.rows, self.codes)
+        for i, walk in enumerate(self.walks) if self.in_python else ():
+            if isinstance(walk, PythonWalk) and self.codes[i] == 0:
+                moved, status = walk.sample(inputs[i])
+                self._put(i, moved, STATUS.index(status))
 
     def save(self, i: int = 0) -> Snapshot:
         """Walk i as it is, with all that it is made of. Raises InputError for a walk that has not begun."""
@@ -210,7 +214,7 @@ class Stepper:
 
         The reference is the scenario's gait. Raises InputError for a walker, and where no walk has begun.
         """
-        if self.curve is None or self.codes.max() < 0:
+        if self.curve is None or not self.rows.size:
             raise InputError("there is no gait to refer to, or no walk; call reset() of a scenario")
         if view not in self._laws:
             first = next(walk for walk in self.walks if walk is not None)
@@ -218,13 +222,13 @@ class Stepper:
             self._laws[view] = np.zeros(len(self.walks), dtype=np.int64), size
         laws, size = self._laws[view]
         found = np.zeros((len(laws), size))
-        for i in np.flatnonzero(laws == 0):
+        for i in np.flatnonzero(laws == 0) if np.count_nonzero(laws) < len(laws) else ():
             walk = self.walks[i]
             if isinstance(walk, CompiledWalk):
                 laws[i] = walk.law(view, self.curve)
             elif walk is not None:
                 found[i] = reading(walk, view, self.curve)
-        kernels().looks(self.addresses.ravel(), laws, found)
+        kernels().looks(self.addresses, laws, found)
         return found
 
 
