@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 """Real array in float64; shapes are stated in the docstrings."""
 
 Indices = NDArray[np.int_]
-"""Array of int: row numbers, and the relabelling of joints at an impact."""
+"""Array of int: row numbers, and the relabelling of joints at an impact (see `relabelled`)."""
 
 ComplexArray = NDArray[np.complex128]
 """Complex array, for eigenvalues and transfer functions."""
@@ -59,6 +59,11 @@ def frozen(value: T) -> T:
         parts = [frozen(part) for part in value]
         return value._make(parts) if hasattr(value, "_make") else type(value)(parts)
     return value
+
+
+def relabelled(rows: Array, swap: Indices) -> Array:
+    """Rows (.., p) of joints in their order after an impact: entry swap[i] of (rows, -rows) for joint i."""
+    return np.concatenate((rows, -rows), axis=-1)[..., swap]
 
 
 def freeze(record: object, *names: str) -> None:

@@ -208,7 +208,7 @@ def test_what_is_stored_cannot_be_written_to(biped, gait):
     gains = ba.Gains([5000.0] * 4, 50.0)
     kept = [arc.t, arc.x, arc.dx, arc.event.x_minus, arc.event.x_plus, gait.q_minus, gait.v_minus]
     kept += [c.phase, c.curve.coefficients, c.curve.stacked, gains.K_p]
-    kept += [biped.B, biped.phase, biped.R, biped.relabelling, *biped.friction_coefficients]
+    kept += [biped.B, biped.phase, biped.R, biped.swap, *biped.friction_coefficients]
     told = ba.Scenario("NPD", impacts=1, period=1e-3, touchdown="told")
     found = ba.walk_scenario(told)
     kept += [*vars(found.signals).values(), found.outcome.x_minus, found.outcome.durations]

@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from biped_adrc.deploy.source import Source
 
 
+SLOW = 10.0
+"""[1/s]; several integrators in a row seem to grow by less than this, from round-off."""
+
+
 @app.command("export")
 @texts("export")
 def export_command(
@@ -27,11 +31,20 @@ def export_command(
     fmu: bool = False,
 ) -> None:
     """Write the controller of a scenario as C99 that needs no library, for a robot's computer."""
+    from biped_adrc.deploy.computer import Computer
     from biped_adrc.deploy.export import export_c
+    from biped_adrc.scenario.build import RobotAndGait, build
     from biped_adrc.scenario.scenario import Scenario
 
-    source = export_c(Scenario(**values_of({}, None, sets, scenario)), out, prefix, real, fmu)
+    s = Scenario(**values_of({}, None, sets, scenario))
+    source = export_c(s, out, prefix, real, fmu)
     _print(source, out, fmu)
+    scene = RobotAndGait.of(s)
+    if (growth := Computer(build(s, scene)).growth(*scene.on_orbit)) > SLOW:
+        say(
+            f"by itself this controller is unstable, its fastest mode grows by {growth:.0f} /s: on a recorded "
+            "walk the least difference grows too, so compare it in closed loop"
+        )
 
 
 def _print(source: Source, out: Path, fmu: bool) -> None:

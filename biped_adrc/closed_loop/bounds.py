@@ -47,6 +47,7 @@ class Bounds(NamedTuple):
 
     def bounded(self, u: Array) -> Array:
         """u (p,) [N m] itself. Raises RanAwayError for one beyond `strongest`."""
-        if self.strongest < math.inf and np.max(np.abs(u)) > self.strongest:
+        # one product tests all of them, at every sample
+        if u.dot(u) > self.strongest**2 and np.max(np.abs(u)) > self.strongest:
             raise RanAwayError(f"torque {u} N m, above {self.strongest:.3g} N m")
         return u

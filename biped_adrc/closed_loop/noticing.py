@@ -20,7 +20,7 @@ from biped_adrc.control.base import Measurement
 from biped_adrc.hardware.motors import Line
 from biped_adrc.hardware.sample_hold import HeldParts, read
 from biped_adrc.hardware.touchdown import Belief, Look, belief_of, numbers_of
-from biped_adrc.types import Array
+from biped_adrc.types import Array, relabelled
 
 
 def noticed(
@@ -94,7 +94,7 @@ def estimated(loop: Loop, s: Array, tail: Array, m: Measurement, mode: Mode) -> 
     if estimate is None:
         return None
     xi: Array = estimate.disturbance
-    return chosen(b.other, xi[loop.swap], xi)
+    return chosen(b.other, relabelled(xi, loop.swap), xi)
 
 
 def unnoticed(k: HeldParts, b: Array, t: float) -> Array:

@@ -135,7 +135,7 @@ class Loop(Protocol):
 
     @property
     def swap(self) -> Indices:
-        """Relabelling of the actuated joints at an impact (p,), dtype int: new joint i is old joint swap[i]."""
+        """Relabelling of the actuated joints at an impact (p,), dtype int, as `types.relabelled` takes it."""
 
     @property
     def gain(self) -> Array:

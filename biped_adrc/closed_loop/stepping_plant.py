@@ -89,7 +89,7 @@ class SteppingPlant(Protocol):
 
     @property
     def swap(self) -> Indices:
-        """Relabelling of the motors at a touchdown (p,), dtype int; `arange(p)` for none."""
+        """Relabelling of the motors at a touchdown (p,), for `types.relabelled`; `arange(p)` for none."""
 
     def start(self, t: float, q: Array, v: Array) -> PlantState:
         """The plant at t [s] in q (n,) [rad], v (n,) [rad/s], at rest inside (solver state, contacts)."""
@@ -166,10 +166,12 @@ def check_swap(plant: SteppingPlant) -> None:
     """Raise InputError for a relabelling that is none of p motors."""
     swap = np.asarray(plant.swap)
     fits = swap.dtype.kind == "i" and swap.shape == (plant.p,)
-    if not fits or not np.array_equal(np.sort(swap), np.arange(plant.p)):
+    if not fits or not np.array_equal(
+        np.sort(swap - plant.p * (swap >= plant.p)), np.arange(plant.p)
+    ):
         raise InputError(
             f"{type(plant).__name__}.swap is {plant.swap!r}, expected an array of int with each of the numbers "
-            f"0 to {plant.p - 1} once"
+            f"0 to {plant.p - 1} once, plus {plant.p} where an angle changes its sign"
         )
 
 

@@ -92,7 +92,6 @@ class Walker(ClosedLoop[Biped]):
     def __post_init__(self) -> None:
         """Raise InputError for values that do not fit together; see the class."""
         self.check()
-        self.plant.check_motors()
         check_slope(self.slope)
         check_steps(self.ground_steps)
         if self.disturbance is not None:
@@ -131,9 +130,7 @@ class Walker(ClosedLoop[Biped]):
     @cached_property
     def swap(self) -> Indices:
         """Relabelling of the actuated joints at an impact (p,), dtype int."""
-        if self.plant.p == 0:
-            return np.zeros(0, dtype=int)
-        return self.plant.relabelling[: self.plant.p]
+        return self.plant.swap
 
     def metering(self, timing: SampledTime) -> SampledMeter | None:
         if self.meter is None:

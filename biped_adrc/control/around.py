@@ -12,7 +12,7 @@ from typing import Self
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.observers.base import Estimate
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class Around(Controller):
     def predict(self, s: Array, m: Measurement, u: Array) -> Array:
         return self.inner.predict(s, m, u)
 
-    def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
+    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
         return self.inner.jump(s, after, swap)
 
     def estimate(self, s: Array, m: Measurement) -> Estimate | None:

@@ -26,7 +26,7 @@ from biped_adrc.observers.base import ErrorSystem, Estimate
 from biped_adrc.part import Part
 from biped_adrc.parts import line_of, returned, spoken
 from biped_adrc.shown import one_line
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices
 
 
 class Measurement(NamedTuple):
@@ -105,8 +105,8 @@ class Controller(Part):
         """Sampled: s (size,) at the next sample instant, under the applied torque u (p,) [N m]."""
         return s
 
-    def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
-        """s (size,) after impact; `swap` (p,) relabels the joints, `after` is measured after it."""
+    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
+        """s (size,) after impact; `swap` (p,) is for `types.relabelled`, `after` is measured after it."""
         return s
 
     def estimate(self, s: Array, m: Measurement) -> Estimate | None:

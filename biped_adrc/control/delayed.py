@@ -32,7 +32,7 @@ from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.errors import InputError, check_positive
 from biped_adrc.observers.base import Estimate
 from biped_adrc.part import derived
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices, relabelled
 
 HIGHEST = 10
 """Largest order: beyond it coefficients cover more than ten decades and the line gets no better."""
@@ -107,9 +107,9 @@ class Delayed(Around):
         dR[-1] = rate * (asked - D[:-1] @ R) / D[-1]
         return np.concatenate((dz, dR.ravel()))
 
-    def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
+    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
         z, R = self.parts(s, after)
-        return np.concatenate((self.inner.jump(z, after, swap), R[:, swap].ravel()))
+        return np.concatenate((self.inner.jump(z, after, swap), relabelled(R, swap).ravel()))
 
     def estimate(self, s: Array, m: Measurement) -> Estimate | None:
         return self.inner.estimate(self.parts(s, m)[0], m)

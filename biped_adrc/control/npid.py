@@ -33,7 +33,7 @@ from biped_adrc.errors import InputError, check_positive
 from biped_adrc.gait.reference import Reference
 from biped_adrc.part import derived
 from biped_adrc.parts import check_part
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices, relabelled
 
 
 @dataclass(frozen=True)
@@ -125,10 +125,10 @@ class NPIDController(Controller):
         (M, b), e = self.filter, m.q_b - self.reference(m.t, m.q, m.v).q_d
         return (M @ s.reshape(3, -1) + np.outer(b, e)).ravel()
 
-    def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
+    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
         """Rows after impact: a new start, with the integral relabelled by swap (p,)."""
         p = len(swap)
-        return np.concatenate((self.initial_state(after)[: 2 * p], s[2 * p :][swap]))
+        return np.concatenate((self.initial_state(after)[: 2 * p], relabelled(s[2 * p :], swap)))
 
     def sampled(self, period: float) -> NPIDController:
         return replace(self, period=period)

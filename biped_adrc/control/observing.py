@@ -16,14 +16,12 @@ from abc import abstractmethod
 from dataclasses import replace
 from typing import Self
 
-import numpy as np
-
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.tracking import Gains, orthogonal_to
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
 from biped_adrc.parts import check_part
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices
 
 
 class ObservingController(Controller):
@@ -79,11 +77,8 @@ class ObservingController(Controller):
     def initial_state(self, m: Measurement) -> Array:
         return self.observer.initial_state(*self.measured_output(m))
 
-    def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
-        """As the observer's reset; coordinates behind the p joints, as of a momentum, keep their place."""
-        x = self.measured_output(after)
-        every: Array = np.concatenate((swap, np.arange(len(swap), len(x.position))))
-        return self.observer.reset(s, self.reset, every, *x)
+    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
+        return self.observer.reset(s, self.reset, swap, *self.measured_output(after))
 
     def flow(self, s: Array, m: Measurement, u: Array) -> Array:
         return self.observer.flow(s, self.measured_output(m).position, self.observer_input(m, u))

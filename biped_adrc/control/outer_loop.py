@@ -24,7 +24,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import CorrectedConstraint, Correction, VirtualConstraint
 from biped_adrc.observers.base import ErrorSystem, Estimate
 from biped_adrc.part import with_fields
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices
 
 Constraint = VirtualConstraint | CorrectedConstraint
 
@@ -103,7 +103,7 @@ class OuterLoop(Controller):
         z, w = self.parts(s)
         return np.concatenate((self._acting(w).predict(z, m, u), w))
 
-    def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
+    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
         z, w = self.parts(s)
         z = self.inner.jump(z, after, swap)
         made = np.concatenate((z, self.own_jump(w, reference_in_force(self.inner, z), after)))

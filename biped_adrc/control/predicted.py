@@ -30,7 +30,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.observers.base import Estimate
 from biped_adrc.part import derived
 from biped_adrc.timing import LONGEST_DELAY
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices, relabelled
 
 WHOLE = 1e-9
 """A prediction that is longer than whole periods by less than this fraction of one is of whole periods."""
@@ -103,9 +103,9 @@ class Predicted(Around):
         U = np.zeros((len(self.weights[0]), m.terms.kappa.shape[0]))
         return np.concatenate((self.inner.initial_state(self.ahead(U, m)), U.ravel()))
 
-    def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
+    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
         z, U = self.parts(s, after)
-        U = U[:, swap]
+        U = relabelled(U, swap)
         return np.concatenate((self.inner.jump(z, self.ahead(U, after), swap), U.ravel()))
 
     def correct(self, s: Array, m: Measurement) -> Array:

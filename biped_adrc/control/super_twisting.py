@@ -31,7 +31,7 @@ from biped_adrc.control.tracking import solved_acceleration
 from biped_adrc.errors import check_positive
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.part import derived
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices, relabelled
 
 
 @dataclass(frozen=True)
@@ -88,9 +88,9 @@ class SuperTwistingController(Controller):
         assert self.period is not None
         return s + self.period * self.flow(s, m, u)
 
-    def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
+    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
         """z (p,) after impact: what is wrong with the model belongs to a leg, and is relabelled."""
-        return s[swap]
+        return relabelled(s, swap)
 
     def sampled(self, period: float) -> SuperTwistingController:
         return replace(self, period=period)

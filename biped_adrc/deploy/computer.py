@@ -12,16 +12,21 @@ import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+import numpy as np
+
+from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.deploy.noticed import Noticed
 from biped_adrc.engine.equations import WalkerNumbers
 from biped_adrc.engine.mechanics import RobotData, robot_of
+from biped_adrc.engine.tick_derivative import tick_derivative
 from biped_adrc.errors import InputError, ModelError
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.timing import SampledTime
+from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)
@@ -105,6 +110,17 @@ class Computer:
         """What the computer holds between sample instants."""
         assert self.alone.held is not None
         return self.alone.held
+
+    def growth(self, q: Array, v: Array) -> float:
+        """Of the controller's fastest mode [1/s] where (q, v), each (n,), is held; 0 where none grows.
+
+        An observer that receives the torque of its own controller, and a motion that does not answer to it,
+        are such a case: a replay that runs freely.
+        """
+        x = self.alone.initial_state(q, v)
+        _, J = tick_derivative(self.alone, len(x))(0.0, x, Mode())
+        held = J[2 * len(q) :, 2 * len(q) :]
+        return math.log(np.max(np.abs(np.linalg.eigvals(held)), initial=1.0)) / self.timing.period
 
     @cached_property
     def numbers(self) -> WalkerNumbers:

@@ -31,7 +31,7 @@ from biped_adrc.errors import (
     RanAwayError,
     SingularError,
 )
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices, relabelled
 
 FLAGS: tuple[str, ...] = ("-std=c99", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic")
 """How an exported controller is compiled."""
@@ -187,11 +187,10 @@ class ExportedController(Controller):
     def output(self, s: Array, m: Measurement) -> Array:
         return s[len(s) - self.source.p :]
 
-    def jump(self, s: Array, after: Measurement, swap: Array) -> Array:
+    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
         x = self._state(s)
-        return self._kept(
-            self.loaded.touchdown(x, self._given(after)), x, self.output(s, after)[swap]
-        )
+        flag = self.loaded.touchdown(x, self._given(after))
+        return self._kept(flag, x, relabelled(self.output(s, after), swap))
 
     def continuous(self) -> Controller:
         raise InputError(

@@ -143,7 +143,7 @@ def _of_robot(computer: Computer, made: Functions) -> dict[str, object]:
         "n": k.n,
         "p": k.p,
         "period": decimal(computer.timing.period),
-        "swap": walker.swap.tolist(),
+        "exchanged": [f"{'-' * (j >= k.p)}u[{j % k.p}]" for j in walker.swap.tolist()],
         "rates_read": made.rates,
         "rates": _rates(made.rates, k.n),
         "rates_finite": " && ".join(f"{x} - {x} == 0" for x in read) or "1",

@@ -220,14 +220,13 @@ def robot_of(biped: Biped) -> RobotData:
     """Structure and numbers of a robot. Raises ModelError when it is no planar tree of rigid links."""
     tree = PlanarTree.of(biped)
     arrays = tree.K
-    swap = biped.relabelling[: biped.p] if biped.p else np.zeros(0, dtype=int)
     structure = RobotStructure(
         biped.n,
         biped.p,
         tree.A,
         biped.R.astype(int),
         biped.relabel(np.zeros(biped.n)),
-        swap,
+        biped.swap,
         tuple(np.asarray(x) != 0.0 for x in arrays),
     )
     return RobotData(structure, arrays)

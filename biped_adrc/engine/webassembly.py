@@ -14,11 +14,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Set
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 from llvmlite import binding
 
-from biped_adrc.engine.kernels.load import kernels
+from biped_adrc.engine.kernels.load import kernels, source
+from biped_adrc.engine.machine import keep, key_of, stored
 
 TARGET = "wasm32-unknown-unknown"
 """LLVM's name of what a browser runs."""
@@ -74,7 +76,17 @@ def _defined(module: Any) -> list[Any]:
 
 @cache
 def _loops() -> str:
-    """All units of the kernels in one text, each under its own name; errors of Python end the module.
+    """All units of the kernels in one text for LLVM, from the disk where it is there."""
+    key = key_of(f"{TARGET}\0{source()}\0{Path(__file__).read_text(encoding='utf-8')}")
+    kept = stored(key)
+    text = kept.decode() if kept is not None else _written_loops()
+    if kept is None:
+        keep(key, text.encode())
+    return text
+
+
+def _written_loops() -> str:
+    """As `_loops`, each unit under its own name; errors of Python end the module.
 
     numba compiles them once more, since what it keeps on the disk is for this processor.
     """

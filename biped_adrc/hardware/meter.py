@@ -41,7 +41,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.reduction import Reduction, disturbance_parts
 from biped_adrc.robots.limits import ROUND_OFF, Limits
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array, Indices
+from biped_adrc.types import Array, Indices, relabelled
 
 Number: TypeAlias = float | Array
 """One number: a float, or an array of shape () as NumPy gives."""
@@ -302,7 +302,7 @@ class SampledMeter:
         out[16] = greater(out[16], np.minimum(found, LARGEST_RATIO))
         behind = g[READINGS + p : READINGS + 2 * p]
         return np.concatenate(
-            (out, q_plus, behind[swap], np.zeros(SUPPORT + 2 * (self.window + 1)))
+            (out, q_plus, relabelled(behind, swap), np.zeros(SUPPORT + 2 * (self.window + 1)))
         )
 
 

@@ -24,7 +24,7 @@ import numpy as np
 from biped_adrc.errors import InputError
 from biped_adrc.parts import Checked
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array, Indices
+from biped_adrc.types import Array, Indices, relabelled
 
 WHOLE = 1e-9
 """A delay that differs from whole periods by less than this fraction is one of whole periods."""
@@ -45,7 +45,9 @@ class Line(NamedTuple):
     def relabelled(self, swap: Indices) -> Line:
         """The line after an impact; swap (p,) relabels the joints."""
         p = len(self.u)
-        return Line(*(x.reshape(-1, p)[:, swap].ravel() if len(x) > 0 else x for x in self))
+        return Line(
+            *(relabelled(x.reshape(-1, p), swap).ravel() if len(x) > 0 else x for x in self)
+        )
 
 
 @dataclass(frozen=True)

@@ -102,6 +102,8 @@ class Run:
         def __getattr__(self, name: str) -> Array:
             """One of ROWS and STIFF_ROWS."""
 
+    step: Step
+
     def __init__(
         self,
         calendar: Calendar,

@@ -23,7 +23,7 @@ from biped_adrc.disturbances.base import Sum
 from biped_adrc.disturbances.link import OnLink
 from biped_adrc.disturbances.step import TorqueStep
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.kernels.record import PLACES
+from biped_adrc.engine.kernels.record import PLACES, Ints
 from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.engine.program import NotCompiled
 from biped_adrc.engine.symbols import paths
@@ -143,7 +143,7 @@ def numbers(walks: Mapping[str, PageWalk]) -> dict[str, Any]:
     }
 
 
-def packed(data: bytes | Array) -> str:
+def packed(data: bytes | Ints) -> str:
     """Bytes or a vector in base64."""
     return base64.b64encode(data if isinstance(data, bytes) else data.tobytes()).decode("ascii")
 

@@ -27,7 +27,7 @@ from biped_adrc.logs.plausible import check_plausible
 from biped_adrc.logs.robot_log import RobotLog, check_rows
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.columns import write_csv
-from biped_adrc.types import Array
+from biped_adrc.types import Array, relabelled
 
 UNITS = {"t": "s", "q": "rad", "v": "rad/s", "u": "N m"}
 """Unit of each signal in the package."""
@@ -86,22 +86,22 @@ def exchanged(
 
     It is its own inverse, as two touchdowns leave the labels as they were.
     """
-    other, swap = (legs == LEGS[1])[:, np.newaxis], biped.relabelling[: biped.p]
+    other = (legs == LEGS[1])[:, np.newaxis]
     turned = np.array([biped.relabel(x) for x in q]).reshape(q.shape)
     return (
         np.where(other, turned, q),
         np.where(other, v @ biped.R.T, v),
-        np.where(other, u[:, swap], u),
+        np.where(other, relabelled(u, biped.swap), u),
     )
 
 
 def _check_pairs(measured: NDArray[np.bool_], biped: Biped) -> None:
     """Raise InputError where the rate of a joint (n,) is measured on one leg and not on the other."""
-    alone = np.flatnonzero(measured & ~measured[biped.relabelling])
+    alone = np.argwhere((biped.R != 0.0) & measured[:, np.newaxis] & ~measured) + 1
     if len(alone):
         raise InputError(
-            f"the log has v{alone[0] + 1} and not v{biped.relabelling[alone[0]] + 1}, the same joint of the "
-            "other leg; expected both, or none of them"
+            f"the log has v{alone[0, 0]} and not v{alone[0, 1]}, of which it is made when the legs are "
+            "exchanged; expected both, or none of them"
         )
 
 

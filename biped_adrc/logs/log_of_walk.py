@@ -17,7 +17,7 @@ from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.logs.robot_log import RobotLog
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.timing import SAME_INSTANT, SampledTime
-from biped_adrc.types import Array
+from biped_adrc.types import Array, relabelled
 
 LoggedRow = tuple[float, float, Array, Array, Array]
 """t [s], number of the single support, q (n,) [rad], u (p,) [N m], v (n,) [rad/s]."""
@@ -73,4 +73,4 @@ def _row(walker: Walker, arc: Arc, k: int, end: int) -> LoggedRow:
     t, tails = arc.t[nodes], (parts(walker, x)[3] for x in arc.x[nodes])
     acted = np.array([motor_torque(read(held.sizes, x).line) for x in tails])
     u = np.trapezoid(acted, t, axis=0) / (t[-1] - t[0])  # also where it is late or lags
-    return float(arc.t[k]), step, q, u[walker.swap] if other > 0.5 else u, v
+    return float(arc.t[k]), step, q, relabelled(u, walker.swap) if other > 0.5 else u, v

@@ -24,7 +24,6 @@ from pathlib import Path
 from types import NoneType
 
 import numpy as np
-from numpy.typing import NDArray
 
 from biped_adrc.errors import ModelError
 from biped_adrc.model.contact import FloatingDynamics, Impact
@@ -36,7 +35,7 @@ from biped_adrc.robots.robot_toml import RobotDescription, load_description
 from biped_adrc.robots.symmetry import absolute_angles, relabelling
 from biped_adrc.robots.urdf import Inertial, Tree
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array, frozen, read_only
+from biped_adrc.types import Array, Indices, frozen, read_only
 
 STICTION_SPEED = 0.05  # [rad/s], width of the smoothed sign of static friction
 """Width [rad/s] of the smoothed sign tanh(v / STICTION_SPEED) of static friction."""
@@ -84,7 +83,7 @@ class Biped(Shown):
         return biped
 
     def check(self) -> None:
-        """Build both models now; check that they can be computed with and that the two legs are alike.
+        """Build both models now; check their numbers, that the legs are alike, and how motors change over.
 
         Relabelling at impact is right only for equal legs. Tested at one state: with the base at
         rest the kinetic energy must not change when the legs exchange their roles, nor the distance
@@ -103,6 +102,7 @@ class Biped(Shown):
                 f"robot '{self.description.name}': the legs differ in mass or length; relabelling at "
                 "impact needs equal legs"
             )
+        _ = self.swap
 
     # -- sizes and names -----------------------------------------------------------------------
     @cached_property
@@ -149,40 +149,24 @@ class Biped(Shown):
         return read_only(self.description.offset)
 
     @cached_property
-    def relabelling(self) -> NDArray[np.int_]:
-        """R as a permutation (n,) of ints: q_new = q[R].
+    def swap(self) -> Indices:
+        """Relabelling of the motors at an impact (p,), ints: new joint i is entry swap[i] of (q_b, -q_b).
 
-        Observers exchange their states by it. Raises ModelError where R is no permutation.
+        Controllers, observers and torques on their way are relabelled by it (`types.relabelled`). A motor
+        between the legs changes its sign. Raises ModelError for motors that are combined, or have an offset.
         """
-        rows, columns = np.nonzero(self.R)
-        ones = np.array_equal(rows, np.arange(self.n)) and np.all(self.R[rows, columns] == 1.0)
-        if not ones or self._offset.any():
+        p, moved = self.p, self.R[: self.p]
+        ones = np.concatenate((moved[:, :p], -moved[:, :p]), axis=1) == 1.0
+        fits = ones.any(axis=1) & (np.count_nonzero(moved, axis=1) == 1) & (self._offset[:p] == 0.0)
+        if not fits.all():
+            bad = [self.description.actuated[i] for i in np.flatnonzero(~fits)]
             raise ModelError(
-                f"robot '{self.description.name}': relabelling combines coordinates or adds to them, it is "
-                "no permutation; use Biped.R and Biped.relabel"
+                f"robot '{self.description.name}': the angles of the motors {bad} are combined with others as "
+                "the legs change over, and a controller is relabelled by exchanging motors. Expected a motor "
+                "for either leg, as between torso and thighs, or one between the legs; give the robot other "
+                "joints, or no motors (--actuated '')"
             )
-        return frozen(columns)
-
-    def check_motors(self) -> None:
-        """Raise ModelError for motors that the impact does not exchange one for one.
-
-        A controller's state and a held torque are relabelled with the legs: u+ = u[swap]. One motor between the
-        legs has an angle that changes its sign instead, for which there is no such exchange.
-        """
-        moved = self.R[: self.p]
-        ones = np.sum(moved == 1.0, axis=1) == 1
-        bad = [
-            self.description.actuated[i]
-            for i in range(self.p)
-            if not ones[i] or np.count_nonzero(moved[i]) != 1 or self._offset[i] != 0.0
-        ]
-        if bad:
-            raise ModelError(
-                f"robot '{self.description.name}': the motors of {bad} are not exchanged with others at "
-                "impact; their angles change sign or are combined as the legs change over, and a controller is "
-                "relabelled by exchanging motors. Expected a motor for either leg, as between torso and "
-                "thighs; give the robot a torso with two hips, or no motors (--actuated '')"
-            )
+        return frozen(np.nonzero(ones)[1])
 
     # -- the two Pinocchio models ----------------------------------------------------------------
     @cached_property

@@ -30,7 +30,7 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.observers.base import ResetPolicy
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.types import Array
+from biped_adrc.types import Array, relabelled
 
 DEGREE = 20
 """Degree of the polynomial in time that approximates xi along the orbit."""
@@ -93,7 +93,7 @@ def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
         rows += [np.zeros(biped.p)] * order
         ends.append(np.array(rows[:order]))
     inertia = biped.reduction(*gait.start(biped)).kappa_inverse
-    return ImpactStates(ends[0], ends[1], biped.relabelling[: biped.p], inertia)
+    return ImpactStates(ends[0], ends[1], biped.swap, inertia)
 
 
 def _times(theta: Array, rate: Array, start: float) -> Array:
@@ -111,7 +111,9 @@ def reset_error(impact: ImpactStates, policy: ResetPolicy) -> Array:
 
     (order, p) in physical units: rows [rad], [rad/s], [rad/s^2], ....
     """
-    estimate = impact.before if policy is ResetPolicy.NONE else impact.before[:, impact.swap]
+    estimate = (
+        impact.before if policy is ResetPolicy.NONE else relabelled(impact.before, impact.swap)
+    )
     estimate = estimate.copy()
     if policy in (ResetPolicy.MEASURED, ResetPolicy.MODEL):
         estimate[:2] = impact.after[:2]

@@ -21,7 +21,7 @@ from typing import NamedTuple
 from biped_adrc.errors import InputError
 from biped_adrc.part import Part
 from biped_adrc.shown import one_line
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices
 
 
 class Estimate(NamedTuple):
@@ -92,7 +92,7 @@ class Observer(Part):
 
     @abstractmethod
     def reset(
-        self, z: Array, policy: ResetPolicy, swap: Array, y: Array, dy: Array, xi: Array
+        self, z: Array, policy: ResetPolicy, swap: Indices, y: Array, dy: Array, xi: Array
     ) -> Array:
         """z (size,) after impact, from z before it.
 

@@ -28,7 +28,7 @@ import numpy as np
 from biped_adrc.errors import InputError, check_positive
 from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
 from biped_adrc.part import derived
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices, relabelled
 
 MOST_POLES = 20
 """States per joint: with more, round-off places the poles, and machine code of a step takes minutes to make."""
@@ -132,14 +132,14 @@ class ChainObserver(Observer):
         return Estimate(Z[0], Z[1] * self.scale, xi)
 
     def reset(
-        self, z: Array, policy: ResetPolicy, swap: Array, y: Array, dy: Array, xi: Array
+        self, z: Array, policy: ResetPolicy, swap: Indices, y: Array, dy: Array, xi: Array
     ) -> Array:
         """z after impact; MEASURED keeps xi^ and its derivatives, relabelled."""
         if policy is ResetPolicy.NONE:
             return z
         if policy is ResetPolicy.MODEL:
             return self.initial_state(y, dy, xi)
-        Z = z.reshape(self.order, -1)[:, swap]
+        Z = relabelled(z.reshape(self.order, -1), swap)
         if policy is ResetPolicy.MEASURED:
             Z[0], Z[1] = y, dy / self.scale
         return Z.ravel()

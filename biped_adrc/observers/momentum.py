@@ -43,7 +43,7 @@ from biped_adrc.observers.chain import (
 )
 from biped_adrc.observers.gpi import GPIObserver, SampledGPIObserver
 from biped_adrc.part import derived
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices, relabelled
 
 
 @dataclass(frozen=True)
@@ -74,16 +74,18 @@ class MomentumChain(Observer):
         return Estimate(Z[0], np.zeros(Z.shape[1]), Z[1] * self.scale)
 
     def reset(
-        self, z: Array, policy: ResetPolicy, swap: Array, y: Array, dy: Array, xi: Array
+        self, z: Array, policy: ResetPolicy, swap: Indices, y: Array, dy: Array, xi: Array
     ) -> Array:
         """z after impact; the impact does not end the force that r estimates, so every policy keeps r.
 
-        NONE changes nothing. The others relabel the coordinates by swap (n,), as the legs swap; MEASURED and
-        MODEL also set pi^ to y, the momentum after impact, and MODEL sets the derivatives of r to zero.
+        NONE changes nothing. The others relabel the p joints by swap (p,), and the coordinates behind them keep
+        their place; MEASURED and MODEL also set pi^ to y, the momentum after impact, and MODEL sets the
+        derivatives of r to zero.
         """
         if policy is ResetPolicy.NONE:
             return z
-        Z = z.reshape(self.order, -1)[:, swap]
+        Z, p = z.reshape(self.order, -1), len(swap)
+        Z = np.concatenate((relabelled(Z[:, :p], swap), Z[:, p:]), axis=1)
         if policy is not ResetPolicy.RELABEL:
             Z[0] = y
         if policy is ResetPolicy.MODEL:

@@ -278,7 +278,6 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     description = description_of(record, Path(path))
     biped = Biped(description, tree, PRESET, hints.armature)
     biped.check()
-    biped.check_motors()
     said = (
         *body.said,
         *parts.said,

@@ -45,7 +45,7 @@ from biped_adrc.soft.ground import SoftGround
 from biped_adrc.soft.mujoco_engine import INTEGRATORS, MuJoCoEngine, Own
 from biped_adrc.soft.mujoco_robot import PLANES, floating_model, mujoco
 from biped_adrc.timing import check_ends
-from biped_adrc.types import Array, Indices, MuJoCoData, MuJoCoModel
+from biped_adrc.types import Array, Indices, MuJoCoData, MuJoCoModel, relabelled
 
 TOUCHING = 1e-6
 """How deep the stance foot is in the ground at the start [m]: no last bit decides whether it touches."""
@@ -66,8 +66,8 @@ class MuJoCoPlant(Checked, Shown):
     - ground_steps: where the ground falls or rises. first_step: number of the first single support.
     - fall_height [1], max_step_time [s]: ends of a run, as of a `Walker`.
 
-    Raises InputError where MuJoCo is missing, or a value is none; ModelError for a robot whose motors no
-    impact exchanges one by one. Warns of a step of the engine above a tenth of the ground's time constant.
+    Raises InputError where MuJoCo is missing, or a value is none. Warns of a step of the engine above a tenth
+    of the ground's time constant.
     """
 
     biped: Biped
@@ -99,7 +99,6 @@ class MuJoCoPlant(Checked, Shown):
             raise InputError(
                 f"robot '{self.biped.description.name}' has no motors; expected one with motors at its joints"
             )
-        self.biped.check_motors()
         if str(self.integrator) not in INTEGRATORS:
             raise InputError(
                 f"the integrator of the plant is {self.integrator!r}, expected one of {list(INTEGRATORS)}"
@@ -129,7 +128,7 @@ class MuJoCoPlant(Checked, Shown):
     @property
     def swap(self) -> Indices:
         """Relabelling of the motors at a touchdown (p,), dtype int."""
-        return self.biped.relabelling[: self.p]
+        return self.biped.swap
 
     @property
     def foot_mass(self) -> float:
@@ -273,7 +272,7 @@ class MuJoCoPlant(Checked, Shown):
             return state
         own = Own.of(state.own)._replace(since=state.t).numbers()
         if self.lag > 0.0:
-            own[-self.p :] = own[-self.p :][self.swap]
+            own[-self.p :] = relabelled(own[-self.p :], self.swap)
         if self.ground_steps:
             own[5:8] = own[5] + 1.0, own[7], own[6]
         q, v = self.biped.relabel(state.q), self.biped.R @ state.v

@@ -103,8 +103,10 @@ def gait_map(s: Scenario, observer_states: bool = True) -> Cycle:
     """
     scene = RobotAndGait.of(s)
     walker = build(replace(s, pushes=()), scene)
-    P = ReturnMap(walker, method_of(s, walker), observer_states)
-    return Cycle(P, walker.initial_state(scene.walked.q_minus, scene.walked.v_minus))
+    q, v = scene.walked.q_minus, scene.walked.v_minus
+    upright = math.pi * round(q[-1] / math.pi)  # a leg that stands is at pi
+    P = ReturnMap(walker, method_of(s, walker), observer_states, pitch=upright)
+    return Cycle(P, walker.initial_state(q, v))
 
 
 def find_cycle(

@@ -412,11 +412,11 @@ def loop_compiles(walker, states=20, ticks=0):
             close(program, "tick", (0.1, 3.0, 0.05, x, zeta, outside), pushed.tick(0.1, x, mode))
         seen = [guard.witness(0.1, x) for guard in walker.guards(mode)]
         seen.append(walker.plant.swing_foot(x[:n])[0])
-        close(program, "watch", (0.1, 0.05, walker.drop(3), x[:n]), np.array(seen))
+        close(program, "events", (0.1, 0.05, walker.drop(3), x[:n]), np.array(seen))
         after = walker.strike(0.1, x, ba.Mode(2, 0.0))
         if after is not None:
             struck = after
-            close(program, "strike", (0.1, 3.0, x), after[0])
+            close(program, "impact", (0.1, 3.0, x), after[0])
     assert struck is not None
 
 

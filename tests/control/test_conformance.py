@@ -166,7 +166,7 @@ BASES = {
     ),
     ba.Reference: ("gait", set()),
     Outputs: ("gait", set()),
-    OneStepMethod: ("hybrid", {"_SciPy"}),
+    OneStepMethod: ("hybrid", {"Solver", "_SciPy"}),
     Sensor: ("hardware", set()),
     Touchdown: ("hardware", {"Gated"}),
     Curve: ("gait", {"ControlledCurve"}),

@@ -88,7 +88,7 @@ def test_an_impact_relabels_the_force_and_keeps_it(biped, gait):
     law = MomentumDOBController(gait.constraint, MomentumObserver.from_bandwidth(50.0, 3))
     walker = Walker(biped, law)
     after = walker.measure(0.0, q, v, Mode())
-    r, swap = np.arange(1.0, 6.0), biped.relabelling[:4]
+    r, swap = np.arange(1.0, 6.0), biped.swap
     s = law.observer.initial_state(np.ones(5), NO_STATE, r)
     s[10:] = 9.0
     for policy in ba.ResetPolicy:

@@ -154,6 +154,23 @@ def test_a_folder_with_other_files_is_left_alone(tmp_path):
             export_c(NPD, tmp_path / name)
 
 
+@pytest.mark.parametrize(("name", "grows"), [("ADRC", True), ("NPD", False)])
+def test_the_growth_is_that_of_two_controllers_beside_one_motion(name, grows, gait, biped):
+    computer = Computer(build(ba.Scenario(name, period=1e-3)))
+    law, (q, v) = computer.alone.law, gait.start(biped)
+    m = computer.alone.measure(0.0, q, v, ba.Mode())
+    states, apart = [law.initial_state(m), law.initial_state(m)], []
+    states[1] = states[1] + 1e-3
+    for _ in range(600):
+        corrected = [law.correct(s, m) for s in states]
+        states = [law.predict(s, m, law.output(s, m)) for s in corrected]
+        apart.append(np.linalg.norm(states[1] - states[0]))
+    found = computer.growth(q, v)
+    assert (found > 50.0) == grows
+    if grows:
+        assert found == pytest.approx(np.log(apart[-1] / apart[200]) / 0.399, rel=0.05)
+
+
 def test_without_a_compiler_or_room_to_compile_the_c_is_written_and_it_is_said(
     tmp_path, monkeypatch
 ):

@@ -72,7 +72,7 @@ def test_terms_and_impact_at_a_thousand_states(robot):
     biped = ba.Biped.load(robot)
     code, walker = CompiledBiped.of(biped), Walker(biped, Passive())
     strike = evaluator(
-        compiled(walker, np.zeros(2 * biped.n)), "strike", 2 + 2 * biped.n, 2 * biped.n + 1
+        compiled(walker, np.zeros(2 * biped.n)), "impact", 2 + 2 * biped.n, 2 * biped.n + 1
     )
     random = np.random.default_rng(12)
     for _ in range(COUNT):
@@ -106,8 +106,8 @@ def check_walker(walker, gait, count):
             program = compiled(walker, x)
             call = {
                 "flow": evaluator(program, "flow", 3 + nx + n, nx + 1),
-                "strike": evaluator(program, "strike", 2 + nx, nx + 1),
-                "watch": evaluator(program, "watch", 3 + n, 4),
+                "impact": evaluator(program, "impact", 2 + nx, nx + 1),
+                "events": evaluator(program, "events", 3 + n, 4),
             }
             if walker.sampled:
                 call["tick"] = evaluator(program, "tick", 3 + nx + n, nx + 1 + n)
@@ -117,12 +117,12 @@ def check_walker(walker, gait, count):
         q = x[:n]
         witnesses = [guard.witness(0.1, x) for guard in walker.guards(Mode(3, 0.05))]
         seen = [*witnesses, walker.plant.swing_foot(q)[0]]
-        close(call["watch"](0.1, 0.05, walker.drop(3), q), np.array(seen))
+        close(call["events"](0.1, 0.05, walker.drop(3), q), np.array(seen))
         if walker.sampled:
             close(call["tick"](0.1, 3.0, 0.05, x, zeta), pushed.tick(0.1, x, mode))
         struck = walker.strike(0.1, x, Mode(2, 0.0))
         if struck is not None:
-            close(call["strike"](0.1, 3.0, x), struck[0])
+            close(call["impact"](0.1, 3.0, x), struck[0])
 
 
 def test_one_compilation_serves_every_number(biped, gait):

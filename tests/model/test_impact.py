@@ -30,8 +30,8 @@ def test_momentum_equation_and_standing_foot(any_biped):
         gap = D_e @ hit.v_e - before - E_2.T @ hit.impulse
         assert np.max(np.abs(gap)) <= 1e-12 * np.max(np.abs(before))
         assert np.max(np.abs(E_2 @ hit.v_e)) <= 1e-12 * max(1.0, np.max(np.abs(hit.v_e)))
-        assert np.array_equal(hit.q, q[b.relabelling])
-        assert np.array_equal(hit.v, hit.v_e[: b.n][b.relabelling])
+        assert np.array_equal(hit.q, q[[1, 0, 3, 2, 4]])
+        assert np.array_equal(hit.v, hit.v_e[[1, 0, 3, 2, 4]])
 
 
 def test_kinetic_energy_never_grows(any_biped):

@@ -276,12 +276,19 @@ def test_what_cannot_be_guessed_is_asked_for(urdf, text, hints, word):
         derive(urdf(text), hints)
 
 
-def test_one_motor_between_the_legs_is_refused():
-    """A compass with a motor at the hip: the angle changes its sign at impact, no motor takes its place."""
-    path = data_folder("urdf") / "compass" / "floating.urdf"
-    hip = ba.Biped.load("compass").description.joints[0]
-    with pytest.raises(ba.BipedError, match="exchanged"):
-        derive(path, Hints(actuated=(hip,), torque=100.0))
+def test_a_motor_that_is_combined_with_another_one_is_refused(urdf):
+    """A torso that counts from the stance leg counts from the other one after an impact: q2+ = q2 - q1."""
+    text = (data_folder("urdf") / "compass" / "floating.urdf").read_text()
+    turns = 'name="torso" type="revolute"><axis xyz="0 -1 0"/>'
+    for old, new in (
+        ('name="hip_mount" type="fixed">', turns),
+        ('"0 0 0"/>\n      <mass value="10"', '"0 0 0.5"/>\n      <mass value="10"'),
+    ):
+        assert old in text
+        text = text.replace(old, new)
+    hints = Hints(("left_foot", "right_foot"), ("hip_joint", "torso"), torque=100.0)
+    with pytest.raises(ModelError, match=r"\['torso'\] are combined"):
+        derive(urdf(text), hints)
 
 
 # -- the command -----------------------------------------------------------------------------------

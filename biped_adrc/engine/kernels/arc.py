@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from biped_adrc.engine.kernels.call import *
 from biped_adrc.engine.kernels.operations import *
-from biped_adrc.engine.kernels.record import Ints, Run
+from biped_adrc.engine.kernels.record import FOOT_STRIKE, Ints, Run
 from biped_adrc.hybrid.constants import *
 from biped_adrc.hybrid.march import arm, travel
 from biped_adrc.types import Array
@@ -28,8 +28,8 @@ def go_on(r: Run) -> int:
     r.lost = 0
     lower(r)
     if armed == 0:
-        arm(r)
-    code = travel(r)
+        arm(r)  # type: ignore[arg-type]
+    code = travel(r)  # type: ignore[arg-type]
     if r.every > 0 and r.count == 0 and code != FULL:
         for i in range(r.nx):
             r.dx0[i] = 0.0

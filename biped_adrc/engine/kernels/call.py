@@ -196,7 +196,7 @@ class _Fields(AttributeTemplate):
 
     key = types.CPointer
 
-    def generic_resolve(self, run: Type, name: str) -> Type | None:
+    def generic_resolve(self, run: Type, name: str) -> Any:  # type: ignore[override]
         """numba's type of a field; None for a pointer to something else, or another name."""
         return {**_NUMBERS, **_POINTERS}[KINDS[name]] if run == _CELLS and name in KINDS else None
 
@@ -226,6 +226,8 @@ def _write(
 
 
 _infer: Any = infer_getattr
+_getattr: Any = lower_getattr_generic
+_setattr: Any = lower_setattr_generic
 _infer(_Fields)
-lower_getattr_generic(types.CPointer)(_read)
-lower_setattr_generic(types.CPointer)(_write)
+_getattr(types.CPointer)(_read)
+_setattr(types.CPointer)(_write)

@@ -275,7 +275,7 @@ def plan(
         "n_drops": len(ground.drops),
         "n_switches": len(push.switches),
         "n_parts": len(push.addresses),
-        "n_pulling": np.count_nonzero(push.resultants),
+        "n_pulling": int(np.count_nonzero(push.resultants)),
     }
     fastest = sizes.fastest if len(sizes.fastest) else np.full(n, np.inf)
     floats = (K, ground.drops, push.switches, fastest, method.phi, push.K)

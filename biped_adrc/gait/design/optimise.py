@@ -189,7 +189,6 @@ def optimise(biped: Biped, request: GaitRequest, progress: IpoptProgress | None 
             f"robot '{biped.description.name}' has {biped.n} coordinates and {biped.p} motors; gaits are "
             "designed for robots with one coordinate without a motor and at least one motor"
         )
-    biped.check_motors()
     missed: tuple[str, ...] = ()
     for nodes in (request.nodes, 2 * request.nodes):
         found, iterations = _staged(biped, replace(request, nodes=nodes), limits, progress)

@@ -40,7 +40,7 @@ from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.recording import watched
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.cycle_stability import poincare
-from biped_adrc.types import Array
+from biped_adrc.types import Array, relabelled
 
 GAITS = ("published", "recipe")
 """Gait (a), through x*, and gait (b), by the recipe of section IV."""
@@ -331,9 +331,8 @@ def jumps(preset: str) -> tuple[Jumps, ...]:
     biped, gait = nominal(run.preset, run.gait)
     before = biped.reduction(gait.q_minus, gait.v_minus)
     after = biped.reduction(*gait.start(biped))
-    swap = biped.relabelling[: biped.p]
     edge = after.kappa @ np.full(biped.p, 30.0)
-    jump = float(np.max(np.abs(after.xi - before.xi[swap])))
+    jump = float(np.max(np.abs(after.xi - relabelled(before.xi, biped.swap))))
     return (Jumps(preset, jump, float(np.max(np.abs(edge)))),)
 
 

@@ -40,7 +40,8 @@ def tracking_figure(
     milliseconds after either edge, without angles, as these do not move within milliseconds.
     torque_limit [N m]: drawn as a dotted line.
     """
-    heights = (3.0, 3.0, 1.6, 3.0, 3.0) if push else (1.0,) * 4
+    k = min(2, signals.q_d.shape[1])  # panels of angles
+    heights = (*(3.0,) * k, 1.6, 3.0, 3.0) if push else (1.0,) * (k + 2)
     shares = (1.5, 1.5, 1.0, 1.0) if push else (1.0,)
     with style():
         figure = new_figure(13.0 if push else 7.5, 9.6 if push else 9.0)
@@ -50,18 +51,18 @@ def tracking_figure(
         )
         # angles do not move within milliseconds: they have no panels at the edges
         columns = [
-            _column(figure, [spec[i, j] for i in range(0 if j < 2 else 2, len(heights))])
+            _column(figure, [spec[i, j] for i in range(0 if j < 2 else k, len(heights))])
             for j in range(len(shares))
         ]
         for j, column in enumerate(columns):
-            _tracking_column(column, j < 2, signals, push, torque_limit)
+            _tracking_column(column, k if j < 2 else 0, signals, push, torque_limit)
         columns[0][0].set_xlim(signals.t[0], signals.t[-1])
         columns[0][0].set_title("whole walk", loc="left")
         if push:
             _zoom(columns[1], signals, push)
             columns[1][0].set_title("around the push", loc="left")
             _edges(columns[2:], signals, push)
-            _one_legend_a_row([*columns[0], *columns[1][2:], *columns[2]], columns[1][:2])
+            _one_legend_a_row([*columns[0], *columns[1][k:], *columns[2]], columns[1][:k])
         return thin(figure)
 
 
@@ -75,13 +76,13 @@ def _column(figure: Figure, places: Sequence[SubplotSpec]) -> list[Axes]:
 
 
 def _tracking_column(
-    column: Sequence[Axes], angles: bool, s: Signals, push: Window | None, limit: float | None
+    column: Sequence[Axes], angles: int, s: Signals, push: Window | None, limit: float | None
 ) -> None:
-    """Fill the panels of a column from top to bottom: angles if asked for, the push if any, torques, errors.
+    """Fill the panels of a column from top to bottom: so many of angles, the push if any, torques, errors.
 
     limit [N m]: of the torques, drawn as a line.
     """
-    halves = np.array_split(np.arange(s.q_d.shape[1]), 2) if angles else []
+    halves = np.array_split(np.arange(s.q_d.shape[1]), angles) if angles else []
     for axes, half in zip(column, halves, strict=False):
         plots.joint_tracking(axes, s, half.tolist(), push)
     if push:

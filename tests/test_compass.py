@@ -1,0 +1,226 @@
+"""A compass with a motor at its hip: angle and torque change their sign at an impact, as the legs swap."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.control.momentum_dob import MomentumDOBController
+from biped_adrc.control.npid import NPIDController
+from biped_adrc.control.super_twisting import SuperTwistingController
+from biped_adrc.deploy.computer import Computer
+from biped_adrc.deploy.loaded import OK
+from biped_adrc.deploy.source import source_of
+from biped_adrc.hardware.sample_hold import read
+from biped_adrc.logs.log_file import exchanged
+from biped_adrc.observers.base import Estimate
+from biped_adrc.resources import data_folder
+from biped_adrc.robot_import.import_robot import Hints, derive
+from biped_adrc.studies.gait_design import design_gait
+from biped_adrc.types import relabelled
+
+RELABEL = ba.ResetPolicy.RELABEL
+STEP = ba.RK4(1e-3)
+LATE = ba.SampledTime(1e-3, delay=2.4e-3, delay_known=True)
+PUSH = ba.TorquePulse([5.0, 0.0], step=1, start=0.1, stop=0.2)
+
+
+@pytest.fixture(scope="module")
+def compass():
+    """The robot of the registry, with a motor between its legs."""
+    path = data_folder("urdf") / "compass" / "floating.urdf"
+    found = derive(path, Hints(actuated=("hip_joint",), torque=100.0))
+    assert found.broken == ()
+    return found.biped
+
+
+@pytest.fixture(scope="module")
+def designed(compass):
+    return design_gait(compass, 0.5, limits=ba.StepLimits(clearance=None))
+
+
+def adrc(constraint):
+    return ba.ADRCController(constraint, ba.GPIObserver.from_bandwidth(100.0), reset=RELABEL)
+
+
+def walker(compass, controller, **more):
+    """On a plant that is heavier than the model knows, under a push."""
+    heavy = compass.with_errors(mass={"hip": 1.1})
+    return ba.Walker(heavy, controller, PUSH, model=compass, **more)
+
+
+def test_without_torque_it_walks_down_a_slope_as_published(compass):
+    """Goswami et al. 1998, 3 degrees: stance angle after the impact and the multipliers."""
+    slope, stance = math.radians(3.0), -0.2186688
+    passive = ba.Walker(compass, ba.Passive(), slope=slope)
+    q = np.array([-2.0 * slope + 2.0 * stance, math.pi - stance])
+    walk = ba.simulate(
+        passive,
+        passive.initial_state(q, np.array([0.7150096, -1.0923836])),
+        ba.Mode(),
+        ba.Adaptive(),
+        t_end=60.0,
+        stop_after=("foot_strike", 3),
+    )
+    P = ba.ReturnMap(passive, ba.Adaptive(), pitch=math.pi)
+    found = P.fixed_point(walk.before("foot_strike")[-1])
+    after = compass.impact(found.x_minus[:2], found.x_minus[2:])
+    assert math.pi - after.q[1] == pytest.approx(stance, abs=1e-7)
+    np.testing.assert_allclose(np.abs(found.multipliers[0].imag), 0.5444761, atol=1e-6)
+    assert found.multipliers[2] == pytest.approx(0.1315726, abs=1e-6)
+
+
+def test_the_exchange_of_the_legs_keeps_the_power_of_the_motor(compass):
+    u, v = np.array([3.0]), np.array([0.7, -1.1])
+    assert relabelled(u, compass.swap) @ (compass.R @ v)[:1] == u @ v[:1]
+
+
+def test_on_level_ground_the_motor_gives_what_the_impact_takes(compass, designed):
+    gait = designed.gait
+    hit = compass.impact(gait.q_minus, gait.v_minus)
+    lost = compass.kinetic_energy(gait.q_minus, gait.v_minus)
+    lost -= compass.kinetic_energy(hit.q, hit.v)
+    o = ba.ZeroDynamics.of(compass, gait.constraint, 80).cycle
+    assert np.sum(o.u * o.v[:, :1], axis=1) @ o.time_weights == pytest.approx(lost, rel=1e-8)
+
+
+def test_one_multiplier_of_the_walk_is_that_of_the_zero_dynamics(compass, designed):
+    gait = designed.gait
+    law = ba.Walker(compass, ba.NPDController(gait.constraint))
+    x = law.initial_state(gait.q_minus, gait.v_minus)
+    found = ba.ReturnMap(law, ba.RK4(5e-4), pitch=math.pi).fixed_point(x)
+    assert found.multipliers[0] == pytest.approx(designed.multiplier, rel=1e-6)
+
+
+HARDWARE = {
+    "continuous": {},
+    "late": {"timing": LATE, "motors": ba.Motors(lag=2e-3)},
+    "touchdown noticed": {
+        "timing": ba.SampledTime(1e-3, restart=False),
+        "sensors": ba.Sensors(1e5, filter_time=1e-3),
+        "touchdown": ba.ByKinematics(after=0.1),
+    },
+}
+
+
+@pytest.mark.parametrize(
+    ("controller", "hardware"),
+    [
+        (ba.NPDController, "continuous"),
+        (adrc, "continuous"),
+        (adrc, "late"),
+        (adrc, "touchdown noticed"),
+        (NPIDController, "late"),
+        (SuperTwistingController, "continuous"),
+        (MomentumDOBController, "late"),
+    ],
+)
+def test_both_engines_walk_alike(compass, designed, controller, hardware):
+    around = walker(compass, controller(designed.gait.constraint), **HARDWARE[hardware])
+    python, code = (
+        ba.walk(around, designed.gait, 3, STEP, engine=engine).trajectory
+        for engine in ("pinocchio", "compiled")
+    )
+    assert python.status is code.status is ba.Status.COMPLETED
+    assert code.settings["engine"] == "compiled"
+    for one, other in zip(python.arcs, code.arcs, strict=True):
+        assert other.event.x_plus == pytest.approx(one.event.x_plus, rel=1e-9, abs=1e-9)
+
+
+@dataclass(frozen=True)
+class OfTheLeftLeg(ba.ADRCController):
+    """Its observer sees the angle from the left leg to the right one, which no impact changes."""
+
+    def side(self, m):
+        return 1.0 if m.step % 2 == 1 else -1.0
+
+    def measured_output(self, m):
+        return Estimate(*(self.side(m) * x for x in super().measured_output(m)))
+
+    def observer_input(self, m, u):
+        return self.side(m) * super().observer_input(m, u)
+
+    def torque(self, r, x, m, a=None):
+        return super().torque(r, Estimate(*(self.side(m) * y for y in x)), m, a)
+
+    def jump(self, s, after, swap):
+        return s
+
+
+def test_an_observer_that_is_relabelled_sees_what_one_of_the_left_leg_sees(compass, designed):
+    law = adrc(designed.gait.constraint)
+    ends = [
+        ba.walk(walker(compass, x), designed.gait, 3, STEP, engine="pinocchio").trajectory
+        for x in (law, OfTheLeftLeg(**vars(law)))
+    ]
+    one, other = (end.final_state for end in ends)
+    np.testing.assert_allclose(other[:4], one[:4], rtol=1e-12)
+    np.testing.assert_allclose(
+        other[4:], -one[4:], rtol=1e-12
+    )  # three impacts: the right leg stands
+
+
+def test_a_motor_with_lag_keeps_its_torque_on_the_legs_over_an_impact(compass, designed):
+    around = walker(compass, adrc(designed.gait.constraint), **HARDWARE["late"])
+    run = ba.walk(around, designed.gait, 3, STEP).trajectory
+    for event in run.events("foot_strike"):
+        tails = (x[-around.held.sizes.total :] for x in (event.x_minus, event.x_plus))
+        before, after = (read(around.held.sizes, tail).line for tail in tails)
+        assert np.abs(before.u_m) > 0.1
+        for old, new in zip(before, after, strict=True):
+            np.testing.assert_array_equal(new, -old)
+
+
+def test_the_exported_controller_walks_over_impacts(compass, designed):
+    """And the torque that it holds where nothing is measured stays the same on the legs."""
+    late = {"timing": LATE, "motors": ba.Motors(rate_limit=2e4)}
+    around = walker(compass, adrc(designed.gait.constraint), **late)
+    by_c = ba.ExportedController(source_of(Computer(around)))
+    ends = [
+        ba.walk(x, designed.gait, 3, STEP, engine="pinocchio").trajectory
+        for x in (around, replace(around, controller=by_c))
+    ]
+    for one, other in zip(*(end.events("foot_strike") for end in ends), strict=True):
+        assert other.t == pytest.approx(one.t, rel=1e-9)
+        np.testing.assert_allclose(other.x_plus[:4], one.x_plus[:4], rtol=1e-9)
+        np.testing.assert_allclose(other.x_plus[-4:], one.x_plus[-4:], rtol=1e-8, atol=1e-8)
+    c, (q, v) = by_c.loaded, designed.gait.start(compass)
+    _, x = c.init(c.measured(0.0, q, v))
+    _, u = c.step(x, c.measured(0.0, q, v))
+    assert c.touchdown(x, c.measured(1e-3, q, v)) == OK
+    _, held = c.step(x, c.measured(np.nan, q, v))
+    assert np.abs(u) > 1.0
+    np.testing.assert_array_equal(held, -u)
+
+
+def test_a_log_in_the_labels_of_its_own_legs_comes_back(compass):
+    q, v, u = (np.random.default_rng(3).normal(size=(6, k)) for k in (2, 2, 1))
+    legs = np.array([1.0, 2.0, 2.0, 1.0, 2.0, 1.0])
+    there = exchanged(legs, q, v, u, compass)
+    np.testing.assert_array_equal(there[2][legs == 2.0], -u[legs == 2.0])
+    for found, given in zip(exchanged(legs, *there, compass), (q, v, u), strict=True):
+        np.testing.assert_allclose(found, given, atol=1e-15)
+
+
+@dataclass(frozen=True)
+class ForgetsTheSign(ba.NPDController):
+    def initial_state(self, m):
+        return np.zeros(1)
+
+    def flow(self, s, m, u):
+        return m.q_b
+
+    def jump(self, s, after, swap):
+        return s[swap]
+
+
+@pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
+def test_a_controller_of_ones_own_that_forgets_the_sign_is_told(compass, designed, engine):
+    law = ForgetsTheSign(designed.gait.constraint)
+    run = ba.walk(ba.Walker(compass, law), designed.gait, 1, STEP, engine=engine).trajectory
+    assert not run.status.ok
+    assert "ForgetsTheSign.jump" in str(run.detail)
