@@ -50,7 +50,7 @@ At = tuple[ClosedLoop[Any], float, Array, Mode]
 """A loop, time [s], state (nx,) before the sample instant there, and single support."""
 
 
-def driven(walker: Walker) -> tuple[Walker, Array]:
+def with_inputs(walker: Walker) -> tuple[Walker, Array]:
     """The walker under a torque and a force from outside, and the array (p + 2,) where Python reads both."""
     plant, p = walker.plant, walker.plant.p
     outside = np.zeros(p + 2)
@@ -61,7 +61,7 @@ def driven(walker: Walker) -> tuple[Walker, Array]:
 
 
 def torque_place(numbers: WalkerNumbers) -> int:
-    """Where the torque from outside is among the numbers of a driven walker."""
+    """Where the torque from outside is among the numbers of a walker with inputs."""
     inner = cast(AddedTorque, numbers.controller).inner
     return len(floats((numbers.plant, numbers.model, inner)))
 
@@ -100,7 +100,7 @@ class CompiledWalk:
         run = self.run
         return self.made.walker, run["t"], run.x, Mode(int(run["step"]), run["t_start"])
 
-    def copied(self) -> Self:
+    def copy(self) -> Self:
         """The same walk in memory of its own."""
         run = self.run
         return replace(self, run=CompiledRun(run.block, run.pointers, run.nx))
@@ -142,7 +142,7 @@ class PythonWalk:
     def of(
         cls, loop: ClosedLoop[Any], outside: Array, method: OneStepMethod, x: Array, mode: Mode
     ) -> Self:
-        """From x (nx,). loop: a driven walker, or its parts around another plant; outside: their array."""
+        """From x (nx,). loop: a walker with inputs, or its parts around another plant; outside: their array."""
         p, system, places = loop.plant.p, cast(HybridSystem, loop), [(outside, slice(None))]
         if isinstance(loop, Walker):
             system = loop = compiled_plant(loop)[0]
@@ -168,7 +168,7 @@ class PythonWalk:
         """Where it is."""
         return self.loop, *self.now[:3]
 
-    def copied(self) -> Self:
+    def copy(self) -> Self:
         """Itself: `sample` gives another walk."""
         return self
 

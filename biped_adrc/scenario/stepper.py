@@ -31,7 +31,7 @@ from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import Ints
 from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.engine.program import NotCompiled
-from biped_adrc.engine.samples import CompiledWalk, PythonWalk, driven, reading
+from biped_adrc.engine.samples import CompiledWalk, PythonWalk, reading, with_inputs
 from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.reference import Reference
 from biped_adrc.parts import check_part, numbers
@@ -137,7 +137,7 @@ class Stepper:
         s, mode = self.what, Mode()
         if isinstance(s, Scenario):
             s, mode = replace(s, seed=s.seed if seed is None else seed), Mode(s.first_step)
-            walker, outside = driven(self.walker_of(s, self.scene))
+            walker, outside = with_inputs(self.walker_of(s, self.scene))
             start = start_of(s, self.scene) if start is None else start
             loop, method = soft_loop(s, walker) or walker, method_of(s, walker)
         elif start is None or seed is not None:
@@ -145,7 +145,7 @@ class Stepper:
                 "a walker has no seed and no start of its own; call reset(start=gait.start(biped))"
             )
         else:
-            walker, outside = driven(s)
+            walker, outside = with_inputs(s)
             loop, method = walker, default_method(walker)
         check_start(*start, walker)
         x = loop.initial_state(*start, mode)
@@ -167,8 +167,8 @@ class Stepper:
         self.rows[i] = (t, mode.step, *x)
         self.walks[i], self.codes[i] = walk, code
         size = kernels().WALK
-        compiled = walk.addresses if isinstance(walk, CompiledWalk) else [0] * size
-        self.addresses[size * i : size * (i + 1)] = compiled
+        addresses = walk.addresses if isinstance(walk, CompiledWalk) else [0] * size
+        self.addresses[size * i : size * (i + 1)] = addresses
         self.in_python |= isinstance(walk, PythonWalk)
         for laws, _ in self._laws.values():
             laws[i] = 0
@@ -195,19 +195,19 @@ class Stepper:
         kernels().samples(self.addresses, inputs, self.rows, self.codes)
         for i, walk in enumerate(self.walks) if self.in_python else ():
             if isinstance(walk, PythonWalk) and self.codes[i] == 0:
-                moved, status = walk.sample(inputs[i])
-                self._put(i, moved, STATUS.index(status))
+                after, status = walk.sample(inputs[i])
+                self._put(i, after, STATUS.index(status))
 
     def save(self, i: int = 0) -> Snapshot:
         """Walk i as it is, with all that it is made of. Raises InputError for a walk that has not begun."""
         walk = self.walks[i]
         if walk is None:
             raise InputError(f"walk {i} has not begun; call reset({i}) first")
-        return Snapshot(walk.copied(), int(self.codes[i]))
+        return Snapshot(walk.copy(), int(self.codes[i]))
 
     def restore(self, i: int, snapshot: Snapshot) -> None:
         """Walk i goes on from where a walk, this or another one, was saved."""
-        self._put(i, snapshot.walk.copied(), snapshot.code)
+        self._put(i, snapshot.walk.copy(), snapshot.code)
 
     def read(self, view: Reading) -> Array:
         """What view(loop, t, x, mode, reference) says of each walk where it is, as `signals_at`, in N rows.
