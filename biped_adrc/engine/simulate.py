@@ -115,12 +115,12 @@ class _Arcs:
 
     @property
     def room(self) -> int:
-        """Nodes of an arc to make room for at first: those of a single support of 0.6 s, two at
+        """Nodes of an arc to make room for at first: those of a single support of 1 s, two at
         each sample instant.
 
         Where that is too few the arc is made again with more, so it need not be right.
         """
-        plan, longest = self.compiled.plan, 0.6
+        plan, longest = self.compiled.plan, 1.0
         F, every = plan.F, self.options.store_every
         shortest = F[layout.H] if plan.P[layout.KIND] != layout.DOP853 else 1e-3
         ticks = longest / F[layout.PERIOD] if F[layout.PERIOD] > 0.0 else 0.0
