@@ -64,7 +64,7 @@ def made_up(**values: object) -> Outcome:
         1e-4,
         100.0,
         (),
-        Feasibility(ba.Status.COMPLETED, (), KnownLimits(0.6, 150.0, 5e-3)),
+        Feasibility(ba.Status.COMPLETED, (), KnownLimits(0.6, 150.0, 5e-3), 0),
         "",
         "",
     )

@@ -49,7 +49,7 @@ CERTIFICATE = Certificate(
     energy_lost=10.0,
     cost_of_transport=0.3,
 )
-FEASIBILITY = Feasibility(Status.COMPLETED, (CERTIFICATE,), KnownLimits(0.6, 150.0, 5e-3))
+FEASIBILITY = Feasibility(Status.COMPLETED, (CERTIFICATE,), KnownLimits(0.6, 150.0, 5e-3), 1)
 
 
 def outcome(controller, peak=1e-2, impacts=9, asked=9, **more):

@@ -25,7 +25,6 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.errors import InputError
 from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.model.contact import Impact
 from biped_adrc.robots.limits import ENDS, ROUND_OFF, SLIP, KnownLimits, Limits, completed
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
@@ -165,9 +164,9 @@ def certificates(
     """One certificate for every single support that ended in an impact; None takes the robot's limits."""
     k = (limits or Limits()).of(walker.plant.description)
     return tuple(
-        _certificate(walker, signals.of_step(arc.mode.step), arc.event.x_minus, k)
+        _certificate(walker, signals.of_step(arc.mode.step), arc, k)
         for arc in trajectory.arcs
-        if arc.event is not None and arc.event.guard == FOOT_STRIKE
+        if ended_in_impact(arc)
     )
 
 
@@ -182,24 +181,30 @@ def supports(
 
     slips: of each single support on soft ground [m], in place of the friction cone; None on the rigid plant.
     """
-    k = (limits or Limits()).of(walker.plant.description)
+    k, arcs = (limits or Limits()).of(walker.plant.description), trajectory.arcs
     if slips is None:
-        slips = (0.0,) * len(trajectory.arcs)
+        asked = [impulse_ratio(walker, arc) for arc in arcs]
+        rest = [(0.0, ratio) for ratio in asked]
     else:
-        k = k._replace(friction=math.inf)
+        k, rest = k._replace(friction=math.inf), [(slip, 0.0) for slip in slips]
     return tuple(
-        support(walker, signals.of_step(arc.mode.step), k, ended_in_impact(arc), slip)
-        for arc, slip in zip(trajectory.arcs, slips, strict=True)
+        support(walker, signals.of_step(arc.mode.step), k, ended_in_impact(arc), *of)
+        for arc, of in zip(arcs, rest, strict=True)
     )
 
 
 def support(
-    walker: Walker, s: Signals, k: KnownLimits, finished: bool = True, slip: float = 0.0
+    walker: Walker,
+    s: Signals,
+    k: KnownLimits,
+    finished: bool = True,
+    slip: float = 0.0,
+    ratio: float = 0.0,
 ) -> Support:
-    """What the single support in s needed but for its impact; `finished` where it ended in one.
+    """What the single support in s needed; `finished` where it ended in an impact.
 
     s: the signals of this single support alone; k: the limits, for the window and the friction
-    cone; slip [m]: of a foot on soft ground.
+    cone; slip [m]: of a foot on soft ground; ratio: of the impulse at its end.
     """
     F = forces(walker, s)
     duration = float(s.t[-1] - s.t[0])
@@ -217,7 +222,7 @@ def support(
         scuffing=float(np.max(depths(walker, s, finished))),
         slip=slip,
         peak_torque=float(np.max(np.abs(s.u), initial=0.0)),
-        impulse_ratio=0.0,
+        impulse_ratio=ratio,
         friction_limit=k.friction,
         torque_limit=k.torque,
         window=k.window,
@@ -276,22 +281,25 @@ def largest_ratio(F: Array) -> float:
     return float(np.max(np.abs(pushes[:, 0]) / pushes[:, 1]))
 
 
-def impulse_ratio(walker: Walker, impact: Impact) -> float:
-    """|F_T| / F_N of the impulse of an impact; infinite where the ground would have to pull."""
-    return largest_ratio(impact.impulse[np.newaxis] @ np.array(ground_axes(walker.slope)).T)
+def impulse_ratio(walker: Walker, arc: Arc) -> float:
+    """|F_T| / F_N of the impulse that ends an arc: infinite where the ground would pull, 0 without one."""
+    if not ended_in_impact(arc):
+        return 0.0
+    impulse = walker.plant.impact(*walker.split_state(arc.x[-1])[:2]).impulse
+    return largest_ratio(impulse[np.newaxis] @ np.array(ground_axes(walker.slope)).T)
 
 
-def _certificate(walker: Walker, s: Signals, x_minus: Array, k: KnownLimits) -> Certificate:
-    """The certificate of a step that ended in an impact at x- = (q, q', ...)."""
-    b, n, p = walker.plant, walker.plant.n, walker.plant.p
-    q, v = x_minus[:n], x_minus[n : 2 * n]
+def _certificate(walker: Walker, s: Signals, arc: Arc, k: KnownLimits) -> Certificate:
+    """The certificate of a step that ended in an impact at x- = (q, q', ...), the end of its arc."""
+    b, p = walker.plant, walker.plant.p
+    q, v, _ = walker.split_state(arc.x[-1])
     impact = b.impact(q, v)
     height = _height(walker, s) + walker.drop(int(s.step[0]))
     power = s.u * s.v[:, :p]
     length = float(b.swing_foot(q)[0]) / math.cos(walker.slope)
     after = b.kinetic_energy(impact.q, impact.v)
     return Certificate(
-        **{**vars(support(walker, s, k)), "impulse_ratio": impulse_ratio(walker, impact)},
+        **vars(support(walker, s, k, ratio=impulse_ratio(walker, arc))),
         step_length=length,
         old_foot_velocity=float(impact.old_foot_velocity @ ground_axes(walker.slope)[1]),
         clearance=float(np.min(height[inner(s.t)])),

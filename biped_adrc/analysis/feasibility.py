@@ -17,7 +17,6 @@ import numpy as np
 
 from biped_adrc.analysis.certificate import (
     IMPULSE,
-    Certificate,
     Support,
     depths,
     ended_in_impact,
@@ -113,11 +112,11 @@ class Feasibility(Shown):
     status: Status
     """How the simulation ended."""
     supports: tuple[Support, ...]
-    """In order, finished ones as certificates."""
+    """In order."""
     limits: KnownLimits
     """The limits that `reasons` refers to."""
-    touchdowns: int | None = None
-    """How many of the supports ended in one; None: those that are certificates."""
+    touchdowns: int
+    """How many of the supports ended in one."""
 
     @property
     def reasons(self) -> dict[str, str]:
@@ -136,11 +135,8 @@ class Feasibility(Shown):
     @property
     def feasible_impacts(self) -> int:
         """Number of impacts before the first step that is not feasible."""
-        ended = self.touchdowns
-        if ended is None:
-            ended = sum(isinstance(s, Certificate) for s in self.supports)
-        broken = (k for k, s in enumerate(self.supports[:ended]) if s.infeasible())
-        return next(broken, ended)
+        broken = (k for k, s in enumerate(self.supports[: self.touchdowns]) if s.infeasible())
+        return next(broken, self.touchdowns)
 
     least_normal_force = _over_steps(np.min, "least_normal_force", "F_N at any instant [N].")
     friction = _over_steps(
@@ -249,8 +245,6 @@ def until_infeasible(
 
 def _at_impact(walker: Walker, arc: Arc, k: KnownLimits) -> Violation | None:
     """The impact that ends an arc, where its impulse leaves the friction cone; else None."""
-    if not ended_in_impact(arc):
-        return None
-    ratio = impulse_ratio(walker, walker.plant.impact(*walker.split_state(arc.x[-1])[:2]))
+    ratio = impulse_ratio(walker, arc)
     beyond = not ratio <= (1.0 + ROUND_OFF) * k.friction
     return Violation(float(arc.t[-1]), impulse_text(ratio, k)) if beyond else None

@@ -105,7 +105,7 @@ class Signals(Shown):
 
     def of_step(self, step: int) -> Signals:
         """The rows of one single support."""
-        rows = self.step == step
+        rows = slice(*np.searchsorted(self.step, (step, step + 1)))
         return Signals(**{f.name: getattr(self, f.name)[rows] for f in fields(self)})
 
 

@@ -61,7 +61,7 @@ def counted(made: Walk) -> WalkRow:
         "feasible_impacts": found.feasible_impacts,
         **{f"bad_{name}": int(name in found.reasons) for name in judged},
         **{name: getattr(found, name) for name in OF_FEASIBILITY},
-        "impulse_ratio": found.impulse_ratio if made.certificates else None,
+        "impulse_ratio": found.impulse_ratio if found.touchdowns and not made.soft else None,
     }
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 from rich.box import SIMPLE_HEAD
@@ -10,13 +12,16 @@ from rich.table import Column, Table
 from biped_adrc.cli.app import console
 
 if TYPE_CHECKING:
+    from biped_adrc.analysis.certificate import Certificate
     from biped_adrc.analysis.feasibility import Feasibility
     from biped_adrc.soft.meters import SoftStep
 
 
-def print_supports(feasibility: Feasibility, ended: str) -> None:
+def print_supports(
+    feasibility: Feasibility, certificates: Sequence[Certificate], ended: str
+) -> None:
     """Print what every step needed of ground and motors, a row each; below how the walk ended, in words."""
-    from biped_adrc.analysis.certificate import Certificate, ratio_text
+    from biped_adrc.analysis.certificate import ratio_text
 
     names = (
         "step",
@@ -28,8 +33,7 @@ def print_supports(feasibility: Feasibility, ended: str) -> None:
         "at impact",
     )
     table = Table(*names, "scuffs [mm]", "not feasible", box=SIMPLE_HEAD, pad_edge=False)
-    for s in feasibility.supports:
-        c = s if isinstance(s, Certificate) else None
+    for s, c in zip_longest(feasibility.supports, certificates):
         table.add_row(
             f"{s.step}",
             f"{s.duration:.4f}",

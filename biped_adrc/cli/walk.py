@@ -143,6 +143,7 @@ def _print_steps(o: Outcome, feasibility: Feasibility) -> None:
 
     print_supports(
         feasibility,
+        o.certificates,
         f"{o.status}: {o.message}\n{o.impacts} impacts, largest tracking error {error_text(o)}, "
         f"peak torque {o.peak_torque:.1f} N m, {o.method}",
     )

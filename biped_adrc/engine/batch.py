@@ -49,7 +49,7 @@ AHEAD = 4
 MOST_IMPACTS = 1_000_000
 """Of one walk, whose states at all impacts are kept in memory."""
 STORE = 1_000_000
-"""Each so-many-th step is kept in Python: in practice the ends of the arcs alone."""
+"""Each so-many-th step is kept: in practice the ends of the arcs alone, compiled those of the samples too."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ class Case(Shown):
     mode: Mode = Mode()  # noqa: RUF009
     """Single support in which it starts."""
     recorded: bool = False
-    """Whether all its nodes are kept, as `BatchWalk.trajectory`."""
+    """Whether nodes at both sides of its sample instants are kept at least, as `BatchWalk.trajectory`."""
 
     def __post_init__(self) -> None:
         """Raises InputError for a part that is none."""
@@ -211,8 +211,9 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
             return _ended(case, Status.RAISED, str(error))
         return lambda: walked
     if case.recorded:
+        options = replace(case.options, store_every=STORE)
         return lambda: _left_by(
-            case, run_made(compiled, x, case.mode, case.method, case.options), COMPILED
+            case, run_made(compiled, x, case.mode, case.method, options), COMPILED
         )
     return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts)
 

@@ -115,12 +115,12 @@ class _Arcs:
 
     @property
     def room(self) -> int:
-        """Nodes of an arc to make room for at first: those of a single support of 0.6 s, two at
+        """Nodes of an arc to make room for at first: those of a single support of 1 s, two at
         each sample instant.
 
         Where that is too few the arc is made again with more, so it need not be right.
         """
-        plan, every, longest = self.compiled.plan, self.options.store_every, 0.6
+        plan, every, longest = self.compiled.plan, self.options.store_every, 1.0
         period = plan.number("period")
         ticks = longest / period if period > 0.0 else 0.0
         return 64 + min(100_000, int(longest / plan.number("h") / every + 2.0 * ticks))

@@ -148,14 +148,14 @@ class Walk(Shown):
 
     def feasible_within(self, limits: Limits) -> Feasibility:
         """As `feasibility`, within other limits; the unfinished last step counts too."""
-        finished = self.certificates if limits == Limits() else self.certified(limits)
-        rest = replace(self.trajectory, arcs=self.trajectory.arcs[len(finished) :])
-        slips = [max(step.slip) for step in self.soft_steps] if self.soft_steps else None
+        run, slips = self.trajectory, None
+        if self.soft:
+            slips = [max(step.slip) for step in self.soft_steps] or [0.0] * len(run.arcs)
         return Feasibility(
-            self.trajectory.status,
-            (*finished, *supports(self.walker, rest, self.signals, limits, slips)),
+            run.status,
+            supports(self.walker, run, self.signals, limits, slips),
             limits.of(self.walker.plant.description),
-            len(self.trajectory.events(FOOT_STRIKE)) if self.soft else None,
+            len(run.events(FOOT_STRIKE)),
         )
 
     @cached_property
