@@ -32,7 +32,14 @@ def print_supports(
         Column("friction", min_width=8),
         "at impact",
     )
-    table = Table(*names, "scuffs [mm]", "not feasible", box=SIMPLE_HEAD, pad_edge=False)
+    table = Table(
+        *names,
+        "scuffs [mm]",
+        Column("breaks", min_width=8),
+        box=SIMPLE_HEAD,
+        pad_edge=False,
+        padding=(0, 1, 0, 0),
+    )
     for s, c in zip_longest(feasibility.supports, certificates):
         table.add_row(
             f"{s.step}",

@@ -28,6 +28,7 @@ def row(r):
         "status": "COMPLETED",
         "survived": 1,
         "feasible": int(feasible),
+        "outcome": "feasible" if feasible else "infeasible",
         "bad_friction": int(not feasible),
         "peak_error": error,
         "rms_error": error,
