@@ -103,6 +103,7 @@ from biped_adrc.scenario.run import passive_walk as passive_walk
 from biped_adrc.scenario.run import walk_scenario as walk_scenario
 from biped_adrc.scenario.scenario import Scenario as Scenario
 from biped_adrc.scenario.specified import specified as specified
+from biped_adrc.scenario.stepper import Stepper as Stepper
 from biped_adrc.scenario.stored import load_walk as load_walk
 from biped_adrc.scenario.walk import walk as walk
 from biped_adrc.soft.ground import SoftGround as SoftGround

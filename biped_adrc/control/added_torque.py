@@ -7,7 +7,7 @@ the sum that acts: its observer does not take a for a disturbance, and so does n
 is the torque a itself.
 
 a is a parameter: machine code reads it from its vector K, Python from the array that it was made with, which
-stays its maker's to write. So `biped_adrc.gym` gives another a before each sample, and compiles nothing.
+stays its maker's to write. So a `Stepper` gives another a before each sample, and compiles nothing.
 """
 
 from __future__ import annotations

@@ -57,7 +57,7 @@ class CompiledLoop(SteppingLoop):
         """As `SteppingLoop.run`, from x0 (nx,)."""
         began = Mode() if mode is None else mode
         x0 = self.checked_start(x0, options, began)
-        made = self._compiled(self.controller_size(x0))
+        made = self.compiled(self.controller_size(x0))
         system = self.system(self.controller_size(x0), options.t0)
         run = simulator.run(system, x0, began, None, options)
         settings = (
@@ -67,14 +67,14 @@ class CompiledLoop(SteppingLoop):
 
     def tick(self, t: float, x: Array, mode: Mode) -> Array:
         """x (nx,) after the sample instant at t [s]."""
-        tick = self._compiled(self.controller_size(x)).tick
+        tick = self.compiled(self.controller_size(x)).tick
         found = None if tick is None else tick(t, x, mode)
         return super().tick(t, x, mode) if found is None else found[: len(x)]
 
     def __getstate__(self) -> dict[str, object]:
         return {name: x for name, x in super().__getstate__().items() if name != "_made"}
 
-    def _compiled(self, size: int) -> Compiled:
+    def compiled(self, size: int) -> Compiled:
         """The loop for a controller with `size` states, made once in each thread, for its work space."""
         made: dict[tuple[int, int], Compiled] = vars(self).setdefault("_made", {})
         key = size, get_ident()
@@ -83,7 +83,7 @@ class CompiledLoop(SteppingLoop):
         return made[key]
 
     def _made_for(self, size: int) -> Compiled:
-        """As `_compiled`."""
+        """As `compiled`."""
         parts = SteppingLoop(**{f.name: getattr(self, f.name) for f in fields(self)})
         try:
             return Compiled(parts, CompiledTick(parts, size), "")
@@ -92,7 +92,7 @@ class CompiledLoop(SteppingLoop):
 
     def system(self, size: int, t_first: float) -> HybridSystem:
         """What the simulator runs from t_first [s] on, for a controller with `size` states."""
-        made = self._compiled(size)
+        made = self.compiled(size)
         assert self.held is not None
         if not isinstance(self.plant, StridingPlant) or self.held.sizes.waiting:
             return self if made.tick else made.loop

@@ -17,11 +17,11 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from biped_adrc.errors import InputError
-from biped_adrc.gym.episode import TORQUES
 from biped_adrc.gym.picture import Drawn, Window
 from biped_adrc.gym.stage import Stage
-from biped_adrc.gym.task import LearnerTask
+from biped_adrc.gym.task import TORQUES, LearnerTask
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
+from biped_adrc.scenario.stepper import finite_numbers
 from biped_adrc.types import Array
 
 RENDER_MODES = ("human", "rgb_array")
@@ -87,9 +87,9 @@ class WalkEnv(gymnasium.Env[Any, Any]):
     def step(self, action: Array) -> tuple[Array, float, bool, bool, dict[str, Any]]:
         """One sample under an action (p,) [1]. Raises InputError for what is none, and after a fall."""
         stage = self.stage
-        if stage.walks.codes[0] != 0:
+        if stage.stepper.codes[0] != 0:
             raise InputError("there is no walk that goes on; call reset() first")
-        stage.move([action])  # type: ignore[arg-type]
+        stage.move(finite_numbers("action", action, (stage.plant.p,))[np.newaxis])
         fallen, late = (bool(over[0]) for over in stage.ended())
         self._show(False)
         reward = float(stage.rewards()[0])

@@ -1,7 +1,7 @@
 """N walks of one task side by side: what a learner is given of them, and how they go on.
 
-`env` is one of them, `vector` N; both are this class, so that a walk among many is the same as alone, bit for
-bit. Walks are moved on in machine code where all their parts compile, else one by one.
+`env` is one of them, `vector` N; both are this class around a `Stepper`, so that a walk among many is the same
+as alone, bit for bit.
 """
 
 from __future__ import annotations
@@ -12,14 +12,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.control.passive import Passive
 from biped_adrc.engine.kernels.run_plan import STATUS
-from biped_adrc.engine.program import NotCompiled
-from biped_adrc.errors import InputError
-from biped_adrc.gym.compiled_walks import CompiledWalks
-from biped_adrc.gym.episode import Episode
-from biped_adrc.gym.moved_walks import MovedWalks
-from biped_adrc.gym.task import FALLEN_FROM, LearnerTask
-from biped_adrc.scenario.build import RIGID, RobotAndGait
+from biped_adrc.engine.samples import PythonWalk
+from biped_adrc.gym.soft_legality import SoftLegality
+from biped_adrc.gym.task import ADDED, FALLEN_FROM, LearnerTask
+from biped_adrc.gym.view import learner_view
+from biped_adrc.scenario.build import RIGID, RobotAndGait, build
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.stepper import Stepper
 from biped_adrc.types import Array
 
 TURNS = 4.0 * np.pi
@@ -38,32 +40,29 @@ class Stage:
     """N walks. Raises InputError for a task that cannot be walked."""
 
     def __init__(self, task: LearnerTask, count: int):
-        self.scene = RobotAndGait.of(task.scenario)
+        self.stepper = Stepper(task.scenario, count, self._walker)
+        self.scene = self.stepper.scene
         self.limits = task.limits(self.scene)
         self.task = replace(task, scenario=replace(task.scenario, torque_limit=self.limits.torque))
         self.plant, self.phase = self.scene.biped, self.scene.walked.constraint.phase
-        self.walks = self._walks(count)
-        self.walks.codes[:] = 1
         n, p = self.plant.n, self.plant.p
         self.first = 2 * n + 3 * p
         self.highest = np.concatenate(
             (self._fastest(), np.full(p, self.limits.torque), [2.0 * TURNS])
         )
-        self.seeds = np.zeros(count, dtype=np.int64)
+        s, self.soft = self.task.scenario, None
+        if s.plant != RIGID:
+            slope = self.scene.walked.slope + s.slope
+            self.soft = SoftLegality(count, slope, s.ground_friction, self.limits.torque)
+        self.seeds, self._seen = np.zeros(count, dtype=np.int64), np.zeros(0)
+        self.begin(0, s.seed)  # what is wrong is said here
+        self.stepper.codes[:] = -1
 
-    def _walks(self, count: int) -> CompiledWalks | MovedWalks:
-        """Compiled where that is possible; one is begun, so that what is wrong is said here."""
-        episode, reference = self._episode(self.task.scenario.seed), self.scene.walked.constraint
-        if self.task.scenario.plant == RIGID:
-            compiled = CompiledWalks(count, reference)
-            try:
-                compiled.begin(0, episode)
-                return compiled
-            except NotCompiled:
-                pass
-        moved = MovedWalks(count, reference, self.limits)
-        moved.begin(0, episode)
-        return moved
+    def _walker(self, s: Scenario, scene: RobotAndGait) -> Walker:
+        """The walker of a scenario, of which an action is an addition to its controller, or in its place."""
+        limited = replace(s, torque_limit=self.limits.torque)
+        walker = build(limited, scene, metered=s.plant == RIGID)
+        return walker if self.task.action == ADDED else replace(walker, controller=Passive())
 
     def _fastest(self) -> Array:
         """Bounds of q, q', e and e', one after the other, for what is measured."""
@@ -72,39 +71,36 @@ class Stage:
         v = np.where(np.isfinite(v), v, FASTEST)
         return np.concatenate((np.full(n, TURNS), v, np.full(p, 2.0 * TURNS), 2.0 * v[:p]))
 
-    def _episode(self, seed: int) -> Episode:
-        """Of the scenario with this seed. Raises InputError for a seed out of its range."""
-        return Episode.of(replace(self.task.scenario, seed=seed), self.scene, self.task.action)
-
     def begin(self, i: int, seed: int) -> None:
         """Walk i anew, with this seed of its scenario."""
-        self.walks.begin(i, self._episode(seed))
-        self.seeds[i] = seed
+        self.stepper.reset(i, seed)
+        self.seeds[i], self._seen = seed, np.zeros(0)
+        if self.soft is not None:
+            self.soft.begin(i)
 
     def move(self, actions: Array) -> None:
-        """One sample of all that walk, under actions (N, p), shares of the motors' limit [1].
-
-        Raises InputError for another shape, and for what is not finite.
-        """
-        try:
-            shares = np.asarray(actions, dtype=float)
-        except (TypeError, ValueError):
-            raise InputError(f"the action is {actions!r:.60}, expected numbers") from None
-        expected = len(self.seeds), self.plant.p
-        if shares.shape != expected:
-            alone = expected[0] == 1
-            raise InputError(
-                f"the action has shape {shares.shape[alone:]}, expected {expected[alone:]}: a share of the "
-                "torque limit for each motor"
-            )
-        if not np.isfinite(shares).all():
-            raise InputError(f"the action is {shares}, expected finite numbers from -1 to 1")
-        self.walks.move(np.ascontiguousarray(self.limits.torque * shares))
+        """One sample of all that walk, under actions (N, p), shares of the motors' limit [1]."""
+        inputs = np.zeros((len(actions), self.plant.p + 2))
+        inputs[:, :-2] = self.limits.torque * actions
+        self.stepper.move(inputs)
+        self._seen = np.zeros(0)
 
     # -- where they are ----------------------------------------------------------------------------
+    @property
+    def seen(self) -> Array:
+        """The numbers of `view.LearnerView` of each walk, N rows, read once after each sample."""
+        if not self._seen.size:
+            self._seen = self.stepper.read(learner_view)
+            if self.soft is not None:
+                for i, walk in enumerate(self.stepper.walks):
+                    if isinstance(walk, PythonWalk):
+                        self.soft.look(i, walk)
+                self._seen = np.hstack((self._seen, self.soft.rows))
+        return self._seen
+
     def observations(self) -> Array:
         """(N, first + 1), within the bounds."""
-        seen = self.walks.seen
+        seen = self.seen
         found = np.empty((len(seen), self.first + 1))
         found[:, :-1] = seen[:, : self.first]
         found[:, -1] = np.vecdot(seen[:, : self.plant.n], self.phase)
@@ -112,20 +108,20 @@ class Stage:
 
     def rewards(self) -> Array:
         """(N,) of the sample that has just been made."""
-        squares = self.walks.seen[:, self.first + 2 : self.first + 4]
-        return self.task.rewards(squares, self.walks.codes == 0)
+        squares = self.seen[:, self.first + 2 : self.first + 4]
+        return self.task.rewards(squares, self.stepper.codes == 0)
 
     def ended(self) -> tuple[Flags, Flags]:
         """Whether each walk has fallen, or was lost (N,), and whether its time or its impacts are over (N,)."""
-        s, seen = self.task.scenario, self.walks.seen
-        fallen = self.walks.codes != 0
+        s, seen = self.task.scenario, self.seen
+        fallen = self.stepper.codes != 0
         late = seen[:, self.first] >= self.task.seconds - FALLEN_FROM
         late |= seen[:, self.first + 1] >= s.first_step + s.impacts
         return fallen, late & ~fallen
 
     def infos(self) -> dict[str, Any]:
         """What is known beside the observation, (N,) each; legality is of the walk so far."""
-        at = self.walks.seen[:, self.first :]
+        at = self.seen[:, self.first :]
         return {
             "t": at[:, 0].copy(),
             "step": at[:, 1].astype(np.int64),
@@ -134,5 +130,5 @@ class Stage:
             "friction": at[:, 5].copy(),
             "normal_force": at[:, 6].copy(),
             "peak_torque": at[:, 7].copy(),
-            "status": NAMES[self.walks.codes],
+            "status": NAMES[self.stepper.codes],
         }

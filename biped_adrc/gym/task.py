@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 
 from biped_adrc.bench.conditions import BASE, CONDITIONS, conditions_on
 from biped_adrc.errors import InputError
-from biped_adrc.gym.episode import ADDED, TORQUES
 from biped_adrc.parts import check_part
 from biped_adrc.robots.limits import KnownLimits
 from biped_adrc.scenario.build import RIGID, RobotAndGait, limits
@@ -22,6 +21,8 @@ from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
+TORQUES, ADDED = "torques", "added"
+"""What an action is: all of the torque, or an addition to that of the scenario's controller."""
 ACTIONS = (TORQUES, ADDED)
 FALLEN_FROM = 1e-9
 """Of the time limit [s]: a sample that ends so little before it is the last."""
@@ -31,8 +32,8 @@ FALLEN_FROM = 1e-9
 class LearnerTask(Shown):
     """A scenario for learners.
 
-    Raises InputError for an action that there is not, a time or weight out of range, and a scenario in
-    continuous time or for a robot without motors.
+    Raises InputError for an action that there is not, a time or weight out of range, and values of the scenario
+    that would do nothing.
     """
 
     scenario: Scenario
@@ -59,13 +60,6 @@ class LearnerTask(Shown):
         if not self.seconds > 0.0:
             raise InputError(f"seconds is {self.seconds}, expected a positive time")
         s = self.scenario
-        if s.period is None:
-            raise InputError(
-                "a learner acts at sample instants, and this scenario has none; give a period, as period = "
-                "0.001 or hardware = 'ideal'"
-            )
-        if s.fine is not None:
-            raise InputError(f"steps of a sample have one length; leave out fine = {s.fine:g} s")
         mine = [x for x in ("controller", *OF_CONTROLLER, "contact") if s.given(x)]
         if self.action == TORQUES and mine:
             raise InputError(

@@ -18,11 +18,11 @@ from gymnasium.vector.utils import batch_space
 
 from biped_adrc.errors import InputError, check_count
 from biped_adrc.gym.env import check_options, checked_mode, spaces_of
-from biped_adrc.gym.episode import TORQUES
 from biped_adrc.gym.picture import Drawn
 from biped_adrc.gym.stage import Flags, Stage
-from biped_adrc.gym.task import LearnerTask
+from biped_adrc.gym.task import TORQUES, LearnerTask
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
+from biped_adrc.scenario.stepper import finite_numbers
 from biped_adrc.types import Array
 
 
@@ -97,9 +97,7 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         """One sample of each walk under actions (N, p) [1]; those that had ended begin anew."""
         stage, again = self.stage, self.over
         resting = again.any()
-        if resting:
-            stage.walks.codes[again] = 1
-        stage.move(actions)
+        stage.move(finite_numbers("action", actions, (self.num_envs, stage.plant.p)))
         if resting:
             for i in np.flatnonzero(again):
                 self._begin(int(i), None)

@@ -23,7 +23,7 @@ from biped_adrc.disturbances.base import Sum
 from biped_adrc.disturbances.link import OnLink
 from biped_adrc.disturbances.step import TorqueStep
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.kernels.record import PART, PLACES, Ints
+from biped_adrc.engine.kernels.record import PLACES, Ints
 from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.engine.program import NotCompiled
 from biped_adrc.engine.symbols import paths
@@ -170,12 +170,11 @@ def walk_numbers(walk: PageWalk, web: WebWalker) -> dict[str, Any]:
 
 def hand_places(made: CompiledWalker) -> dict[str, Any]:
     """Cells where torque (n,) and force (2,) of the hand are, and re, im and turn of its point begin."""
-    plan, n, hand = made.plan, made.walker.plant.n, made.walker.disturbance
+    n, hand = made.walker.plant.n, made.walker.disturbance
     assert hand is not None
 
     def places(term: int, name: str, size: int) -> list[int]:
-        at = plan.cells[plan.places["parts"] + PART * term + 1] // 8
-        first = int(at) + list(paths(hand.terms[term])).index(f"{name}[0]")
+        first = made.plan.term(term) + list(paths(hand.terms[term])).index(f"{name}[0]")
         return list(range(first, first + size))
 
     return {

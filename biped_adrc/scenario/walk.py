@@ -245,7 +245,7 @@ def _begin(
     if start is None:
         assert gait is not None
         start = _start_of(gait, walker)
-    _check_start(*start, walker)
+    check_start(*start, walker)
     return start
 
 
@@ -261,7 +261,7 @@ def _start_of(gait: Gait, walker: Walker) -> tuple[Array, Array]:
     return gait.start(walker.nominal)
 
 
-def _check_start(q: Array, v: Array, walker: Walker) -> None:
+def check_start(q: Array, v: Array, walker: Walker) -> None:
     """Raise InputError for a start that is no state, or has angles beyond a whole turn, as in degrees."""
     n = walker.plant.n
     for name, x in (("q", q), ("q'", v)):

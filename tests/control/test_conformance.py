@@ -19,6 +19,7 @@ from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.passive import Passive
 from biped_adrc.control.pd_gravity import JointGains
 from biped_adrc.control.stride import TORSO_LEAN
+from biped_adrc.disturbances.added_force import AddedForce
 from biped_adrc.errors import InputError
 from biped_adrc.gait.bspline import BSpline
 from biped_adrc.gait.constraint import CorrectedConstraint
@@ -28,6 +29,7 @@ from biped_adrc.hardware.motors import IDEAL, Motors
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.hybrid.integrators import OneStepMethod
+from biped_adrc.model.planar import link_point
 from biped_adrc.observers.momentum import MomentumObserver
 from biped_adrc.scenario.registry import find, names
 
@@ -137,6 +139,9 @@ UNNAMED = {
     "added torque": lambda h: [
         AddedTorque(Passive(), np.array([3.0, -2.0, 1.0, 0.5])),
         AddedTorque(ba.ADRCController(h), np.full(4, 2.0)),
+    ],
+    "added force": lambda h: [
+        AddedForce(np.array([20.0, -5.0]), link_point(robot(), robot().description.trunk)),
     ],
     "RK4": lambda h: [ba.RK4(2e-3)],
     "adaptive": lambda h: [ba.Adaptive(1e-9, 1e-9)],

@@ -9,7 +9,6 @@ from gymnasium.utils.env_checker import check_env
 
 import biped_adrc as ba
 from biped_adrc.errors import InputError
-from biped_adrc.gym.moved_walks import MovedWalks
 
 ID = "biped_adrc.gym:biped_adrc/Walk-v0"
 SLOW = {"bandwidth": 160.0, "order": 1}
@@ -30,10 +29,7 @@ def walked(env, seed, samples, action=(0.0, 0.0, 0.0, 0.0)):
 
 def state(env):
     """x of the one walk."""
-    walks = env.unwrapped.stage.walks
-    if isinstance(walks, MovedWalks):
-        return walks.walks[0].now.x
-    return walks.made[0].run.x
+    return env.unwrapped.stage.stepper.sample.x[0]
 
 
 @pytest.mark.parametrize(

@@ -223,6 +223,10 @@ class RunPlan:
         """A field, such as the step h [s]."""
         return float(self.cells.view(np.float64)[PLACES[name]])
 
+    def term(self, k: int) -> int:
+        """Cell at which the numbers of term k of the disturbance begin."""
+        return int(self.cells[self.places["parts"] + PART * k + 1]) // 8
+
     def start(
         self, x: Array, t: float, step: int, t_start: float, t_end: float, fired: bool = False
     ) -> CompiledRun:

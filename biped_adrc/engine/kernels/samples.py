@@ -1,11 +1,8 @@
-"""Many walks at once, each moved on by one sample under a torque of its own, in one call from Python.
+"""Many walks at once, each moved on by one sample under its own torque and force, in one call from Python.
 
 A sample goes from one sample instant to the next. An impact within it is made on the way; where the clock
 restarts with it, a sample instant is due there, and the sample ends. So a walk is the same as in `arc`, and the
-torques may be others at every sample instant.
-
-At the end of a sample a function says what is to be seen there, such as what a learner is given
-(`biped_adrc.gym.view`).
+inputs may be others at every sample instant.
 """
 
 from __future__ import annotations
@@ -19,7 +16,7 @@ from biped_adrc.engine.kernels.record import Ints, Run
 from biped_adrc.types import Array
 
 WALK = 3
-"""Numbers in `walks` for one: addresses of its run, of its torque among the numbers K, and of the function."""
+"""Numbers in `walks` for one: addresses of its run, and of the torque and the force in it; 0 for no walk."""
 MOST_ARCS = 100
 """In one sample (EVENT_LIMIT)."""
 
@@ -54,22 +51,28 @@ def look(r: Run, law: int, out: Array) -> None:
 
 
 @kernel
-def samples(walks: Ints, torques: Rows, views: Rows, codes: Ints) -> None:
-    """One sample of each of N walks whose code is 0, under its row of torques (N, p) [N m].
+def samples(walks: Ints, inputs: Rows, states: Rows, codes: Ints) -> None:
+    """One sample of each of N walks whose code is 0, under inputs (N, p + 2): torque [N m] and force [N].
 
-    walks (N WALK,), in the order of WALK. Codes (N,) become those of `sample`, rows of `views` what that
-    function says after it; those of a walk that has ended stay as they are.
+    walks (N WALK,), in the order of WALK. Codes (N,) become those of `sample`, rows of states (N, 2 + nx) are
+    (t, step, x) after it; those of a walk that has ended stay as they are.
     """
-    rows, shown, p = data(torques), data(views), torques.shape[1]
+    given, rows, p = data(inputs), data(states), inputs.shape[1] - 2
     for i in range(codes.shape[0]):
-        if codes[i] == COMPLETED:
-            r = ints_at(walks[WALK * i])
-            copy(shift(rows, i * p), floats_at(walks[WALK * i + 1]), p)
+        if codes[i] == COMPLETED and walks[WALK * i] != 0:
+            r, u = ints_at(walks[WALK * i]), shift(given, i * (p + 2))
+            copy(u, floats_at(walks[WALK * i + 1]), p)
+            copy(shift(u, p), floats_at(walks[WALK * i + 2]), 2)
             codes[i] = sample(r)
-            look(r, walks[WALK * i + 2], shift(shown, i * views.shape[1]))
+            row = shift(rows, i * states.shape[1])
+            row[0], row[1] = r.t, r.step
+            copy(r.x0, shift(row, 2), r.nx)
 
 
 @kernel
-def looks(walks: Ints, views: Rows) -> None:
-    """In views (1, k) what the function says of a walk where it is; walks (WALK,)."""
-    look(ints_at(walks[0]), walks[2], data(views))
+def looks(walks: Ints, laws: Ints, views: Rows) -> None:
+    """Rows of views (N, k): what the functions at the addresses laws (N,) say of the walks where they are."""
+    rows = data(views)
+    for i in range(laws.shape[0]):
+        if walks[WALK * i] != 0:
+            look(ints_at(walks[WALK * i]), laws[i], shift(rows, i * views.shape[1]))

@@ -1,0 +1,213 @@
+"""A walk that is moved on sample by sample, under a torque and a force from outside.
+
+    u = u_c + torque,    zeta = zeta_w + J(q)' force
+
+u_c and zeta_w are those of the walker; torque (p,) [N m] adds to the motors', force (2,) [N] acts on the origin
+of the trunk (`control.added_torque`, `disturbances.added_force`). A sample goes from one sample instant to the
+next; where an impact restarts the clock, it ends there.
+
+A `CompiledWalk` lies in memory, and the kernel `samples` moves many of them in one call. A `PythonWalk` is
+moved by `hybrid.simulator.flow_arc`: a controller in Python on the compiled plant, or a plant of its own.
+"""
+
+from __future__ import annotations
+
+import math
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple, Self, cast
+
+import numpy as np
+
+from biped_adrc.closed_loop.protocols import Mode
+from biped_adrc.closed_loop.system import ClosedLoop
+from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.control.added_torque import AddedTorque
+from biped_adrc.disturbances.added_force import AddedForce
+from biped_adrc.engine.compiled_loop import CompiledLoop
+from biped_adrc.engine.compiled_push import CompiledPush
+from biped_adrc.engine.compiled_signals import Reading, SignalNumbers, reading_code
+from biped_adrc.engine.compiled_walker import CompiledWalker
+from biped_adrc.engine.equations import WalkerNumbers
+from biped_adrc.engine.kernels.run_plan import CompiledRun
+from biped_adrc.engine.program import NotCompiled
+from biped_adrc.engine.simulate import compiled_plant
+from biped_adrc.engine.strides import Strides
+from biped_adrc.engine.symbols import floats
+from biped_adrc.engine.ticks import TicksWithHardware, flowing
+from biped_adrc.errors import RaisedError
+from biped_adrc.gait.reference import Reference
+from biped_adrc.hybrid.integrators import OneStepMethod
+from biped_adrc.hybrid.simulator import RunOptions, finite, flow_arc
+from biped_adrc.hybrid.status import Status
+from biped_adrc.hybrid.system import HybridSystem
+from biped_adrc.model.planar import link_point
+from biped_adrc.parts import handing_out
+from biped_adrc.timing import SampledTime
+from biped_adrc.types import Array
+
+At = tuple[ClosedLoop[Any], float, Array, Mode]
+"""A loop, time [s], state (nx,) before the sample instant there, and single support."""
+
+
+def with_inputs(walker: Walker) -> tuple[Walker, Array]:
+    """The walker under a torque and a force from outside, and the array (p + 2,) where Python reads both."""
+    plant, p = walker.plant, walker.plant.p
+    outside = np.zeros(p + 2)
+    force = AddedForce(outside[p:], link_point(plant, plant.description.trunk))
+    push = force if walker.disturbance is None else walker.disturbance + force
+    law = AddedTorque(walker.controller, outside[:p])
+    return replace(walker, controller=law, disturbance=push), outside
+
+
+def torque_place(numbers: WalkerNumbers) -> int:
+    """Where the torque from outside is among the numbers of a walker with inputs."""
+    inner = cast(AddedTorque, numbers.controller).inner
+    return len(floats((numbers.plant, numbers.model, inner)))
+
+
+def force_place(made: CompiledWalker) -> int:
+    """Cell of a run at which the force from outside is: it is the last term of the disturbance."""
+    assert made.walker.disturbance is not None
+    return made.plan.term(len(made.walker.disturbance.terms) - 1)
+
+
+@dataclass(frozen=True)
+class CompiledWalk:
+    """One walk in memory."""
+
+    made: CompiledWalker
+    run: CompiledRun
+    """Where it is; moved by the kernel `samples`."""
+
+    @classmethod
+    def of(
+        cls, walker: Walker, method: OneStepMethod, x: Array, mode: Mode, curve: Reference | None
+    ) -> Self:
+        """From x (nx,). curve: what `law` refers to. Raises NotCompiled for a part without machine code."""
+        made = CompiledWalker.of(walker, method, walker.controller_size(x), mode.start, curve)
+        return cls(made, made.plan.start(x, mode.start, *mode, mode.start))
+
+    @property
+    def addresses(self) -> list[int]:
+        """In the order of `kernels.samples.WALK`."""
+        torque, at = torque_place(self.made.program.numbers), self.run.address
+        return [at, at + 8 * (self.run.place("K") + torque), at + 8 * force_place(self.made)]
+
+    @property
+    def at(self) -> At:
+        """Where it is."""
+        run = self.run
+        return self.made.walker, run["t"], run.x, Mode(int(run["step"]), run["t_start"])
+
+    def copy(self) -> Self:
+        """The same walk in memory of its own."""
+        run = self.run
+        return replace(self, run=CompiledRun(run.block, run.pointers, run.nx))
+
+    def law(self, view: Reading, curve: Reference) -> int:
+        """Address of machine code for what `view` says."""
+        watched = SignalNumbers(self.made.program.numbers, curve)
+        return reading_code("read", view, self.made.program.make, watched).addresses["read"]
+
+
+class Now(NamedTuple):
+    """Where a walk is."""
+
+    t: float
+    """[s]"""
+    x: Array
+    """State (nx,) before the sample instant at t."""
+    mode: Mode
+    began: float
+    """Where the clock of sample instants began that restarts at impacts [s]."""
+    fired: str | None = None
+    """The event that has just happened; None for none."""
+
+
+@dataclass(frozen=True)
+class PythonWalk:
+    """One walk by `flow_arc`. Sample instants of a clock that does not restart are counted from 0 s."""
+
+    loop: ClosedLoop[Any]
+    system: HybridSystem
+    """The loop as the simulator runs it."""
+    method: OneStepMethod
+    """For a system that does not move by itself."""
+    places: tuple[tuple[Array, slice], ...]
+    """Arrays in which inputs are read, each with its part of (torque, force)."""
+    now: Now
+
+    @classmethod
+    def of(
+        cls, loop: ClosedLoop[Any], outside: Array, method: OneStepMethod, x: Array, mode: Mode
+    ) -> Self:
+        """From x (nx,). loop: a walker with inputs, or its parts around another plant; outside: their array."""
+        p, system, places = loop.plant.p, cast(HybridSystem, loop), [(outside, slice(None))]
+        if isinstance(loop, Walker):
+            system = loop = compiled_plant(loop)[0]
+            assert loop.held is not None
+            with suppress(NotCompiled):
+                held = CompiledWalker.held(loop, method)
+                at, cells = force_place(held), held.plan.cells.copy()
+                held = replace(held, plan=replace(held.plan, cells=cells))
+                places.append((cells.view(np.float64)[at : at + 2], slice(p, None)))
+                system = TicksWithHardware(loop, held, flowing(loop.held.sizes, len(x)))
+        elif isinstance(loop, CompiledLoop):
+            size = loop.controller_size(x)
+            system, tick = loop.system(size, 0.0), loop.compiled(size).tick
+            if tick is not None:
+                at = torque_place(tick.numbers)
+                places.append((tick.K[at : at + p], slice(p)))
+            if isinstance(system, Strides) and isinstance(system.push, CompiledPush):
+                places.append((system.push.K[-1][:2], slice(p, None)))
+        return cls(loop, system, method, tuple(places), Now(mode.start, x, mode, mode.start))
+
+    @property
+    def at(self) -> At:
+        """Where it is."""
+        return self.loop, *self.now[:3]
+
+    def copy(self) -> Self:
+        """Itself: `sample` gives another walk."""
+        return self
+
+    def sample(self, inputs: Array) -> tuple[Self, Status]:
+        """The walk at its next sample instant, with COMPLETED, or at its end.
+
+        inputs: torque and force (p + 2,). Raises RaisedError where a class of the user's raises.
+        """
+        for place, part in self.places:
+            place[:] = inputs[part]
+        walk = self
+        while True:
+            now, until, system = walk.now, walk._until(), self.system
+            if isinstance(system, Strides):
+                system = replace(system, began=now.began)
+            at = (now.t, now.x, now.mode, now.fired, now.began)
+            with handing_out(), np.errstate(over="ignore", invalid="ignore"):
+                flown = finite(flow_arc(system, self.method, RunOptions(until, 0.0), *at))
+            if flown.status is Status.RAISED:
+                raise RaisedError(flown.detail)
+            event = flown.arc.event
+            if flown.outcome is None or event is None:
+                t, x = float(flown.arc.t[-1]), flown.arc.x[-1].copy()
+                return replace(walk, now=Now(t, x, now.mode, now.began)), flown.status
+            walk = replace(walk, now=Now(event.t, *flown.outcome, event.t, event.guard))
+            if cast(SampledTime, self.loop.timing).restart or event.t >= until:
+                return walk, flown.status
+
+    def _until(self) -> float:
+        """The first sample instant after `now` [s], by the expression that the engines have."""
+        timing, t = cast(SampledTime, self.loop.timing), self.now.t
+        origin, period = self.now.began if timing.restart else 0.0, timing.period
+        k = max(0, math.floor((t - origin) / period))
+        while origin + k * period <= t:
+            k += 1
+        return origin + k * period
+
+
+def reading(walk: CompiledWalk | PythonWalk, view: Reading, curve: Reference) -> Array:
+    """What view(loop, t, x, mode, reference) says where a walk is, in one row, by Python."""
+    found = view(*walk.at, lambda s, m: curve(m.t, m.q, m.v))
+    return np.concatenate([np.ravel(part) for part in found])

@@ -1,0 +1,242 @@
+"""Walks that are moved on by one sample at a time, N side by side, each under inputs of its own.
+
+A learner, a search or a controller of another program gives torque and force before each sample and reads the
+states after it:
+
+    stepper = ba.Stepper(ba.Scenario("NPD", period=1e-3), count=2)
+    sample = stepper.reset()
+    begin = stepper.save(0)
+    while sample.t[0] < 0.1:
+        sample = stepper.step(force=[[0.0, 0.0], [-20.0, 0.0]])
+    print(sample.x[:, 4], sample.status[1].name)  # pitch of the trunk without and with the force
+    stepper.restore(1, begin)                     # walk 1 goes back to the start of walk 0
+
+Without inputs each walk is that of `ba.walk_scenario`. Walks whose parts all compile are moved in one call of
+machine code; the others one by one (`engine.samples`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from biped_adrc.closed_loop.protocols import Mode
+from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.engine.compiled_signals import Reading
+from biped_adrc.engine.kernels.load import kernels
+from biped_adrc.engine.kernels.record import Ints
+from biped_adrc.engine.kernels.run_plan import STATUS
+from biped_adrc.engine.program import NotCompiled
+from biped_adrc.engine.samples import CompiledWalk, PythonWalk, reading, with_inputs
+from biped_adrc.errors import InputError, check_count
+from biped_adrc.gait.reference import Reference
+from biped_adrc.parts import check_part, numbers
+from biped_adrc.scenario.build import RobotAndGait, build, soft_loop
+from biped_adrc.scenario.build import start as start_of
+from biped_adrc.scenario.run import method_of
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.walk import check_start, default_method
+from biped_adrc.types import Array, frozen
+
+_STATUS = np.array([*STATUS, None], dtype=object)
+"""By code; the last one is for a walk that has not begun, code -1."""
+
+
+class Sample(NamedTuple):
+    """N walks, each at its last sample instant, or at its end; all arrays are read-only."""
+
+    t: Array
+    """(N,) [s]"""
+    x: Array
+    """States (N, nx): q, q', then what controller and hardware keep; before the sample instant."""
+    step: Ints
+    """Numbers of the single supports (N,)."""
+    status: NDArray[np.object_]
+    """`Status` (N,): COMPLETED for a walk that goes on, None for one that has not begun."""
+
+
+class Snapshot(NamedTuple):
+    """A walk where it is, for `Stepper.restore`."""
+
+    walk: CompiledWalk | PythonWalk
+    code: int
+
+
+class Stepper:
+    """`count` walks of a scenario, or of a walker, in sampled time.
+
+    walker_of(scenario, robot and gait): the walker in place of `scenario.build`. Raises InputError for
+    continuous time, a scenario with `fine`, a robot without motors, and parts that do not fit together.
+    """
+
+    def __init__(
+        self,
+        what: Scenario | Walker,
+        count: int = 1,
+        walker_of: Callable[[Scenario, RobotAndGait], Walker] = build,
+    ):
+        check_part(what, "what is moved by samples", Scenario, Walker)
+        check_count(count, f"the number of walks is {count}")
+        self.what, self.walker_of = what, walker_of
+        self.curve: Reference | None = None
+        if what.period is None if isinstance(what, Scenario) else not what.sampled:
+            raise InputError(
+                "walks go from one sample instant to the next here, and there are none; give a period, as "
+                "period = 0.001 or hardware = 'ideal', or timing=SampledTime(1e-3) of a walker"
+            )
+        if isinstance(what, Scenario):
+            if what.fine is not None:
+                raise InputError(
+                    f"steps of a sample have one length; leave out fine = {what.fine:g} s"
+                )
+            self.scene = RobotAndGait.of(what)
+            self.curve = self.scene.walked.constraint
+        self.p = what.plant.p if isinstance(what, Walker) else self.scene.biped.p
+        self.why = ""
+        """Why walks are not moved in machine code; empty where they are."""
+        self.walks: list[CompiledWalk | PythonWalk | None] = [None] * count
+        self.in_python = False  # whether one of them is
+        self.addresses = np.zeros(count * kernels().WALK, dtype=np.int64)
+        self.codes = np.full(count, -1, dtype=np.int64)
+        """0 for a walk that goes on, -1 for one that has not begun."""
+        self.rows = np.zeros((count, 0))
+        """t, number of the single support, x of each walk."""
+        self._laws = dict[Reading, tuple[Ints, int]]()
+        """By function for `read`: addresses of its machine code (N,), and how many numbers it gives."""
+
+    @property
+    def sample(self) -> Sample:
+        """Where the walks are."""
+        rows, step = self.rows.copy(), self.rows[:, 1].astype(np.int64)
+        return frozen(Sample(rows[:, 0], rows[:, 2:], step, _STATUS[self.codes]))
+
+    def reset(
+        self,
+        i: int | None = None,
+        seed: int | None = None,
+        start: tuple[Array, Array] | None = None,
+    ) -> Sample:
+        """Walk i anew, or all of them.
+
+        seed: of the scenario; where all begin, walk i has seed + i. None is the scenario's own, for each.
+        start: (q, v), each (n,) [rad, rad/s]; None is the scenario's. A walker has no seed, and needs a start.
+        """
+        if i is None:
+            for k in range(len(self.walks)):
+                self._begin(k, None if seed is None else seed + k, start)
+        else:
+            self._begin(i, seed, start)
+        return self.sample
+
+    def _begin(self, i: int, seed: int | None, start: tuple[Array, Array] | None) -> None:
+        """Walk i as `reset` has it."""
+        s, mode = self.what, Mode()
+        if isinstance(s, Scenario):
+            s, mode = replace(s, seed=s.seed if seed is None else seed), Mode(s.first_step)
+            walker, outside = with_inputs(self.walker_of(s, self.scene))
+            start = start_of(s, self.scene) if start is None else start
+            loop, method = soft_loop(s, walker) or walker, method_of(s, walker)
+        elif start is None or seed is not None:
+            raise InputError(
+                "a walker has no seed and no start of its own; call reset(start=gait.start(biped))"
+            )
+        else:
+            walker, outside = with_inputs(s)
+            loop, method = walker, default_method(walker)
+        check_start(*start, walker)
+        x = loop.initial_state(*start, mode)
+        if loop is not walker:
+            self.why = "the plant moves by itself"
+        walk: CompiledWalk | PythonWalk | None = None
+        if not self.why:
+            try:
+                walk = CompiledWalk.of(walker, method, x, mode, self.curve)
+            except NotCompiled as reason:
+                self.why = str(reason)
+        self._put(i, walk or PythonWalk.of(loop, outside, method, x, mode), 0)
+
+    def _put(self, i: int, walk: CompiledWalk | PythonWalk, code: int) -> None:
+        """A walk in place i."""
+        _, t, x, mode = walk.at
+        if not self.rows.size:
+            self.rows = np.zeros((len(self.walks), 2 + len(x)))
+        self.rows[i] = (t, mode.step, *x)
+        self.walks[i], self.codes[i] = walk, code
+        size = kernels().WALK
+        addresses = walk.addresses if isinstance(walk, CompiledWalk) else [0] * size
+        self.addresses[size * i : size * (i + 1)] = addresses
+        self.in_python |= isinstance(walk, PythonWalk)
+        for laws, _ in self._laws.values():
+            laws[i] = 0
+
+    def step(self, torque: ArrayLike | None = None, force: ArrayLike | None = None) -> Sample:
+        """One sample of every walk that goes on.
+
+        torque (N, p) [N m]: added to what the controller asks for. force (N, 2) [N]: (F_x, F_z) on the origin
+        of the trunk. None is zero. Raises InputError for other shapes, for what is not finite, and before all
+        walks have begun.
+        """
+        if self.codes.min() < 0:
+            raise InputError("there is a walk that has not begun; call reset() first")
+        inputs = np.zeros((len(self.walks), self.p + 2))
+        if torque is not None:
+            inputs[:, : self.p] = finite_numbers("torque", torque, inputs[:, : self.p].shape)
+        if force is not None:
+            inputs[:, self.p :] = finite_numbers("force", force, inputs[:, self.p :].shape)
+        self.move(inputs)
+        return self.sample
+
+    def move(self, inputs: Array) -> None:
+        """As `step`, of walks that have begun, under rows (torque, force) of inputs (N, p + 2), not checked."""
+        kernels().samples(self.addresses, inputs, self.rows, self.codes)
+        for i, walk in enumerate(self.walks) if self.in_python else ():
+            if isinstance(walk, PythonWalk) and self.codes[i] == 0:
+                after, status = walk.sample(inputs[i])
+                self._put(i, after, STATUS.index(status))
+
+    def save(self, i: int = 0) -> Snapshot:
+        """Walk i as it is, with all that it is made of. Raises InputError for a walk that has not begun."""
+        walk = self.walks[i]
+        if walk is None:
+            raise InputError(f"walk {i} has not begun; call reset({i}) first")
+        return Snapshot(walk.copy(), int(self.codes[i]))
+
+    def restore(self, i: int, snapshot: Snapshot) -> None:
+        """Walk i goes on from where a walk, this or another one, was saved."""
+        self._put(i, snapshot.walk.copy(), snapshot.code)
+
+    def read(self, view: Reading) -> Array:
+        """What view(loop, t, x, mode, reference) says of each walk where it is, as `signals_at`, in N rows.
+
+        The reference is the scenario's gait. Raises InputError for a walker, and where no walk has begun.
+        """
+        if self.curve is None or not self.rows.size:
+            raise InputError("there is no gait to refer to, or no walk; call reset() of a scenario")
+        if view not in self._laws:
+            first = next(walk for walk in self.walks if walk is not None)
+            size = len(reading(first, view, self.curve))
+            self._laws[view] = np.zeros(len(self.walks), dtype=np.int64), size
+        laws, size = self._laws[view]
+        found = np.zeros((len(laws), size))
+        for i in np.flatnonzero(laws == 0) if np.count_nonzero(laws) < len(laws) else ():
+            walk = self.walks[i]
+            if isinstance(walk, CompiledWalk):
+                laws[i] = walk.law(view, self.curve)
+            elif walk is not None:
+                found[i] = reading(walk, view, self.curve)
+        kernels().looks(self.addresses, laws, found)
+        return found
+
+
+def finite_numbers(what: str, values: ArrayLike, shape: tuple[int, ...]) -> Array:
+    """Values as floats of this shape. Raises InputError for another one, and for what is not finite."""
+    x = numbers(values, f"the {what}")
+    if x.shape != shape:
+        raise InputError(f"the {what} has shape {x.shape}, expected {shape}")
+    if not np.isfinite(x).all():
+        raise InputError(f"the {what} is {x}, expected finite numbers")
+    return x

@@ -1,0 +1,171 @@
+"""Walks moved on by one sample: those of their scenarios, alone or side by side, pushed from outside."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.closed_loop.instant_signals import signals_at
+from biped_adrc.errors import InputError
+
+NPD = ba.Scenario("NPD", period=1e-3, impacts=2)
+TOUCHDOWN = replace(NPD, hardware="rabbit", touchdown="told", delay=0.0015)
+IN_PYTHON = replace(NPD, controller="CLF-QP", impacts=1)
+WAITING = replace(NPD, plant="mujoco", delay=0.0004, impacts=1)
+U = np.array([4.0, -3.0, 2.0, 5.0])
+
+
+@dataclass(frozen=True)
+class InPython(ba.Disturbance):
+    """A push that has no machine code."""
+
+    def torque(self, t, step, t_start, q, v):
+        return np.array([0.0, 3.0, 0.0, 0.0, 0.0]) if v[0] > 0.0 else np.zeros(5)
+
+
+def moved(stepper, samples, **inputs):
+    """Samples one after the other, under the same inputs of all walks."""
+    rows = {name: np.tile(x, (len(stepper.walks), 1)) for name, x in inputs.items()}
+    return [stepper.step(**rows) for _ in range(samples)]
+
+
+def largest(a, b):
+    return float(np.max(np.abs(a - b)))
+
+
+@pytest.mark.parametrize("name", ["NPD", "TOUCHDOWN", "IN_PYTHON"])
+def test_a_walk_is_that_of_its_scenario_at_every_sample(name):
+    s = globals()[name]
+    walk, stepper = ba.walk_scenario(s), ba.Stepper(s)
+    sample, count = stepper.reset(), 0
+    assert bool(stepper.why) is (name == "IN_PYTHON")
+    for arc in walk.trajectory.arcs:
+        while sample.step[0] == arc.mode.step and sample.t[0] < arc.t[-1]:
+            row = int(np.searchsorted(arc.t, sample.t[0]))
+            assert arc.t[row] == sample.t[0]
+            size = None if row else 10  # an arc begins after its sample instant
+            assert largest(arc.x[row][:size], sample.x[0, :size]) < 1e-12
+            sample, count = stepper.step(), count + 1
+    assert count > 300
+    assert sample.status[0] is ba.Status.COMPLETED
+
+
+@pytest.mark.parametrize("s", [NPD, IN_PYTHON, WAITING], ids=["NPD", "CLF-QP", "MuJoCo"])
+def test_save_and_restore_repeat_exactly(s):
+    stepper = ba.Stepper(s, 2)
+    stepper.reset(seed=3)
+    moved(stepper, 20, torque=U)
+    state = stepper.save(0)
+    first = moved(stepper, 20, force=[5.0, -3.0])
+    stepper.restore(0, state)
+    stepper.restore(1, state)
+    for one, other in zip(first, moved(stepper, 20, force=[5.0, -3.0]), strict=True):
+        assert np.array_equal(one.x[0], other.x[0])
+        assert np.array_equal(other.x[0], other.x[1])
+    assert other.t[0] == other.t[1] == pytest.approx(0.04)
+
+
+def test_many_walks_are_single_ones_bit_for_bit():
+    s, rng = replace(NPD, mass_error=0.05), np.random.default_rng(0)
+    many, single = ba.Stepper(s, 3), [ba.Stepper(s) for _ in range(3)]
+    rows = [many.reset(seed=5)] + [one.reset(seed=5 + i) for i, one in enumerate(single)]
+    for _ in range(450):
+        for i, alone in enumerate(rows[1:]):
+            assert all(np.array_equal(x[i], y[0]) for x, y in zip(rows[0], alone, strict=True))
+        u, F = rng.normal(0.0, 3.0, (3, 4)), rng.normal(0.0, 5.0, (3, 2))
+        rows = [many.step(u, F)]
+        rows += [one.step(u[i : i + 1], F[i : i + 1]) for i, one in enumerate(single)]
+    assert rows[0].step.max() == 2
+    assert largest(rows[0].x[0], rows[0].x[1]) > 1e-3
+
+
+PUSHES = {
+    "torque": (ba.TorquePulse([*U, 0.0], start=0.01, stop=0.05), {"torque": U}),
+    "force": (
+        lambda plant: ba.OnLink(
+            plant,
+            plant.description.trunk,
+            ba.TorquePulse([20.0, -30.0, 0.0], start=0.01, stop=0.05),
+        ),
+        {"force": [20.0, -30.0]},
+    ),
+}
+
+
+@pytest.mark.parametrize("in_python", [False, True], ids=["compiled", "Python"])
+@pytest.mark.parametrize("name", PUSHES)
+def test_an_input_is_the_same_push_as_a_disturbance(biped, gait, name, in_python):
+    push, inputs = PUSHES[name]
+    push = push(biped) if callable(push) else push
+    law = ba.NPDController(gait.constraint)
+    alone = ba.Walker(biped, law, timing=ba.SampledTime(1e-3))
+    if in_python:
+        alone = replace(alone, disturbance=InPython())
+    pushed = replace(alone, disturbance=push if not in_python else InPython() + push)
+    arc = ba.walk(pushed, gait, 1).trajectory.arcs[0]
+    stepper = ba.Stepper(alone)
+    stepper.reset(start=gait.start(biped))
+    assert bool(stepper.why) is in_python
+    for k in range(80):
+        sample = moved(stepper, 1, **(inputs if 10 <= k < 50 else {}))[0]
+        row = int(np.searchsorted(arc.t, sample.t[0] - 1e-9))
+        assert largest(arc.x[row, :10], sample.x[0, :10]) < 1e-9
+
+
+@pytest.mark.parametrize("s", [WAITING, replace(WAITING, delay=0.0)], ids=["waiting", "at once"])
+def test_inputs_act_on_a_plant_that_moves_by_itself(s):
+    """Compiled sample instants and Python's read the same inputs."""
+    walks = [ba.Stepper(s), ba.Stepper(replace(s, engine="pinocchio"))]
+    rest = ba.Stepper(s)
+    rest.reset()
+    still = moved(rest, 12)[-1]
+    for inputs in ({"torque": U}, {"force": [40.0, 0.0]}):
+        ends = []
+        for stepper in walks:
+            stepper.reset()
+            ends.append(moved(stepper, 12, **inputs)[-1].x[0])
+        assert largest(ends[0][:10], ends[1][:10]) < 1e-9
+        assert largest(ends[0][:10], still.x[0, :10]) > 1e-4
+
+
+def test_signals_are_read_where_the_walks_are():
+    """In machine code and in Python."""
+    found = []
+    for s in (NPD, replace(NPD, method="adaptive")):
+        stepper = ba.Stepper(s, 2)
+        stepper.reset()
+        for _ in range(5):
+            stepper.step([U, -U])
+        found.append(stepper.read(signals_at))
+    assert np.allclose(*found, rtol=1e-6, atol=1e-6, equal_nan=True)
+    assert largest(found[0][0, 13:17], found[0][1, 13:17]) > 1.0  # torques
+
+
+def test_a_walk_that_has_ended_stays_where_it_is():
+    stepper = ba.Stepper(NPD)
+    stepper.reset()
+    rows = moved(stepper, 900, force=[-400.0, 0.0])
+    assert rows[-1].status[0] is ba.Status.RAN_AWAY
+    assert rows[-1].t[0] == rows[-2].t[0] < 0.9
+    assert stepper.reset(0).status[0] is ba.Status.COMPLETED
+
+
+def test_what_is_no_step_is_refused(biped, gait):
+    with pytest.raises(InputError, match="give a period"):
+        ba.Stepper(ba.Scenario("NPD"))
+    with pytest.raises(InputError, match="fine"):
+        ba.Stepper(replace(NPD, h=1e-3, fine=1e-4))
+    stepper = ba.Stepper(NPD, 2)
+    with pytest.raises(InputError, match="call reset"):
+        stepper.step()
+    assert stepper.reset(1).status[0] is None
+    stepper.reset()
+    for inputs in ({"torque": np.zeros(5)}, {"force": [[np.nan, 0.0]] * 2}):
+        with pytest.raises(InputError, match=r"expected \(2, .\)|finite"):
+            stepper.step(**inputs)
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=ba.SampledTime(1e-3))
+    with pytest.raises(InputError, match="start"):
+        ba.Stepper(walker).reset()
+    with pytest.raises(ValueError, match="read-only"):
+        stepper.sample.x[0, 0] = 1.0
