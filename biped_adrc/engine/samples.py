@@ -12,7 +12,6 @@ moved by `hybrid.simulator.flow_arc`: a controller in Python on the compiled pla
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -39,6 +38,7 @@ from biped_adrc.engine.ticks import TicksWithHardware, flowing
 from biped_adrc.errors import RaisedError
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.integrators import OneStepMethod
+from biped_adrc.hybrid.on_arrays import next_tick
 from biped_adrc.hybrid.simulator import RunOptions, finite, flow_arc
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import HybridSystem
@@ -251,13 +251,9 @@ class PythonWalk:
                 return walk, flown.status, over
 
     def _until(self) -> float:
-        """The first sample instant after `now` [s], by the expression that the engines have."""
-        timing, t = cast(SampledTime, self.loop.timing), self.now.t
-        origin, period = self.now.began if timing.restart else 0.0, timing.period
-        k = max(0, math.floor((t - origin) / period))
-        while origin + k * period <= t:
-            k += 1
-        return origin + k * period
+        """The first sample instant after `now` [s]."""
+        timing = cast(SampledTime, self.loop.timing)
+        return next_tick(self.now.t, self.now.began if timing.restart else 0.0, timing.period)
 
 
 def joined(arcs: Sequence[Arc]) -> Arc:

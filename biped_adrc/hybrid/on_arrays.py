@@ -65,13 +65,16 @@ class Calendar:
     def next_break(self, t: float) -> float:
         """The first switching time or sample instant after t [s], at most t_end: no step goes across one."""
         times = [s for s in self.system.switching_times(self.mode) if s > t]
-        for clock in self.system.clocks():
-            start = self.start(clock)
-            k = max(0, math.floor((t - start) / clock.period))
-            while start + k * clock.period <= t:
-                k += 1
-            times.append(start + k * clock.period)
+        times += [next_tick(t, self.start(c), c.period) for c in self.system.clocks()]
         return min([*times, self.t_end])
+
+
+def next_tick(t: float, start: float, period: float) -> float:
+    """The first of the sample instants start + k period, k = 0, 1, .., after t [s]."""
+    k = max(0, math.floor((t - start) / period))
+    while start + k * period <= t:
+        k += 1
+    return start + k * period
 
 
 ROWS = ("x0", "dx0", "x1", "dx1", "stage", "k1", "k2", "k3", "k4", "x_e", "dx_e", "x_b", "dx_b")

@@ -17,6 +17,7 @@ machine code; the others one by one (`engine.samples`).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
@@ -108,13 +109,15 @@ class Stepper:
         self.in_python = False  # whether one of them is
         self.over: list[tuple[int, Arc]] = []
         """Single supports that ended in the last sample, each with the number of its walk, where recorded."""
-        self.addresses = np.zeros(count * kernels().WALK, dtype=np.int64)
+        self._kernels = kernels()
+        self.addresses = np.zeros(count * self._kernels.WALK, dtype=np.int64)
         self.codes = np.full(count, -1, dtype=np.int64)
         """0 for a walk that goes on, -1 for one that has not begun."""
         self.rows = np.zeros((count, 0))
         """t, number of the single support, x of each walk."""
         self._laws = dict[Reading, tuple[Ints, int]]()
         """By function for `read`: addresses of its machine code (N,), and how many numbers it gives."""
+        self._complete = set[Reading]()  # those whose addresses are there for all walks
 
     @property
     def sample(self) -> Sample:
@@ -175,10 +178,11 @@ class Stepper:
             self.rows = np.zeros((len(self.walks), 2 + len(x)))
         self.rows[i] = (t, mode.step, *x)
         self.walks[i], self.codes[i] = walk, code
-        size = kernels().WALK
+        size = self._kernels.WALK
         addresses = walk.addresses if isinstance(walk, CompiledWalk) else [0] * size
         self.addresses[size * i : size * (i + 1)] = addresses
         self.in_python |= isinstance(walk, PythonWalk)
+        self._complete.clear()
         for laws, _ in self._laws.values():
             laws[i] = 0
 
@@ -202,7 +206,7 @@ class Stepper:
     def move(self, inputs: Array) -> None:
         """As `step`, of walks that have begun, under rows (torque, force) of inputs (N, p + 2), not checked."""
         walked, steps, self.over = self.codes == 0, self.rows[:, 1].copy(), []
-        kernels().samples(self.addresses, inputs, self.rows, self.codes)
+        self._kernels.samples(self.addresses, inputs, self.rows, self.codes)
         struck = self.rows[:, 1] > steps
         ended = np.flatnonzero(walked & (struck | (self.codes != 0))).tolist()
         for i in ended if self.recorded else ():
@@ -240,13 +244,15 @@ class Stepper:
             self._laws[view] = np.zeros(len(self.walks), dtype=np.int64), size
         laws, size = self._laws[view]
         found = np.zeros((len(laws), size))
-        for i in np.flatnonzero(laws == 0) if np.count_nonzero(laws) < len(laws) else ():
+        for i in () if view in self._complete else np.flatnonzero(laws == 0).tolist():
             walk = self.walks[i]
             if isinstance(walk, CompiledWalk):
                 laws[i] = walk.law(view, self.curve)
             elif walk is not None:
                 found[i] = reading(walk, view, self.curve)
-        kernels().looks(self.addresses, laws, found)
+        if not self.in_python:
+            self._complete.add(view)
+        self._kernels.looks(self.addresses, laws, found)
         return found
 
 
@@ -255,6 +261,7 @@ def finite_numbers(what: str, values: ArrayLike, shape: tuple[int, ...]) -> Arra
     x = numbers(values, f"the {what}")
     if x.shape != shape:
         raise InputError(f"the {what} has shape {x.shape}, expected {shape}")
-    if not np.isfinite(x).all():
+    flat = x.ravel()
+    if not math.isfinite(flat.dot(flat)) and not np.isfinite(x).all():  # the product is fast
         raise InputError(f"the {what} is {x}, expected finite numbers")
     return x

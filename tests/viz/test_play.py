@@ -200,16 +200,7 @@ def is_drawn(walk: ba.Walk, t: float, found: dict[str, Any]) -> None:
     assert row["friction"] == pytest.approx(abs(F_T) / F_N, rel=1e-6)
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        "NPD",
-        "ADRC",
-        "m = 3",
-        "encoders: the observer of Table I falls",
-        "a lower bandwidth bears them",
-    ],
-)
+@pytest.mark.parametrize("name", ["NPD", "ADRC", "encoders: the observer of Table I falls"])
 def test_walks_pushed_and_pulled_are_those_of_the_simulator(browser: Chrome, name: str) -> None:
     """Positions and rates, with sin and pow of another library, and everything that is drawn and plotted."""
     found = browser.execute_script(WALKED, name, SAMPLES, EVERY)
