@@ -12,6 +12,7 @@ moved by `hybrid.simulator.flow_arc`: a controller in Python on the compiled pla
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
