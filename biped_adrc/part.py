@@ -15,8 +15,8 @@ without that.
 from __future__ import annotations
 
 from abc import ABC
-from collections.abc import Iterator, Mapping
-from dataclasses import Field, field, fields, is_dataclass
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import field, fields, is_dataclass
 from functools import cached_property, lru_cache
 from typing import Any, TypeVar
 
@@ -68,15 +68,28 @@ def is_part(x: object) -> bool:
 
 def content(part: Any) -> dict[str, Any]:
     """The fields of a part, then its derived numbers, by name."""
-    found = {f.name: _value(f, getattr(part, f.name)) for f in fields(part)}
-    return found | {name: getattr(part, name) for name in derived_names(type(part))}  # type: ignore[arg-type]
+    return {name: value(getattr(part, name)) for name, value in _values(type(part))}
 
 
-def _value(f: Field[Any], x: Any) -> Any:
-    """What methods on symbols find in a field: floats where the annotation says so, even for whole numbers."""
-    if f.metadata.get("setup"):
-        return Setup()
-    return _as_floats(x) if "float" in str(f.type) else x
+@lru_cache(maxsize=1024)
+def _values(cls: Any) -> tuple[tuple[str, Callable[[Any], Any]], ...]:
+    """Of a class of parts: each name in `content`, and what methods on symbols find in place of its value.
+
+    Floats where the annotation says so, even for whole numbers.
+    """
+    found: list[tuple[str, Callable[[Any], Any]]] = []
+    for f in fields(cls):
+        value = _as_floats if "float" in str(f.type) else _itself
+        found.append((f.name, _hidden if f.metadata.get("setup") else value))
+    return (*found, *((name, _itself) for name in derived_names(cls)))
+
+
+def _hidden(x: Any) -> Setup:
+    return Setup()
+
+
+def _itself(x: Any) -> Any:
+    return x
 
 
 def _as_floats(x: Any) -> Any:

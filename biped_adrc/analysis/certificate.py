@@ -1,25 +1,27 @@
 """The certificate of a step: what a real robot on dry ground would have needed for it.
 
-A planar model pinned at its foot cannot slip or lift off, so feasibility is checked afterwards: F_N
-and friction |F_T| / F_N at every instant and in the mean over a window, the same ratio of the
-impulses at impact, whether the old foot lifts off, scuffing of the swing foot, torque, and the
-joint work against the energy lost at impact. On a periodic gait on level ground these two are
-equal. Forces are those on the plant, along and perpendicular to its ground. A step is feasible within
-the `Limits`: by the mean of the force, not by an instant, and by the impulse of its impact.
+A planar model pinned at its foot cannot slip or lift off, so feasibility is checked afterwards: F_N and
+friction |F_T| / F_N in the mean over a window (`ground_force`), the same ratio of the impulse at impact,
+scuffing of the swing foot, torque. A step is feasible where these are within the `Limits`. A `Certificate`
+adds what is known of a step that ended in an impact: whether the old foot lifts off, the forces at every
+instant, and the joint work against the energy lost at impact, which on a periodic gait on level ground are
+equal. Forces are those on the plant, along and perpendicular to its ground.
 
-`certificates` and `supports` read the `Signals` of a walk; `feasibility` sums them up for the walk.
+`certificates` and `supports` read the nodes of a walk; `feasibility` sums them up for the walk.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from biped_adrc.analysis.quadrature import integrate, window_means
+from biped_adrc.analysis.ground_force import Nodes, impulse_ratios, mean_forces, ratios
+from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.errors import InputError
@@ -43,14 +45,8 @@ class Support(Shown):
     """Number of the single support, from 1."""
     duration: float
     """[s]."""
-    least_normal_force: float
-    """F_N at any instant [N]."""
-    friction: float
-    """Largest |F_T| / F_N of the instants with F_N > 0, dimensionless."""
-    share_outside: float
-    """Share of the time in which the force is outside the friction cone, from 0 to 1."""
     mean_normal_force: float
-    """Least F_N averaged over the window [N]."""
+    """Least F_N averaged over the window [N]; infinite where there was no time for one."""
     mean_friction: float
     """Largest |F_T| / F_N of the forces averaged over the window, of those with F_N > 0, dimensionless."""
     scuffing: float
@@ -80,10 +76,9 @@ class Support(Shown):
         k = self._known(limits)
         over = f"over {1e3 * k.window:g} ms"
         normal, ratio = self.mean_normal_force, self.mean_friction
-        contact = "" if math.isfinite(self.friction) else ", no contact"
         found = {}
         if not normal > 0.0:
-            found["normal_force"] = f"F_N = {normal:.3g} N {over}{contact}"
+            found["normal_force"] = f"F_N = {normal:.3g} N {over}"
         cone = (1.0 + ROUND_OFF) * k.friction
         if not (ratio <= cone or (ratio == math.inf and not normal > 0.0)):
             found["friction"] = f"friction {ratio:.3g} > {k.friction:g} {over}"
@@ -118,6 +113,10 @@ class Support(Shown):
 class Certificate(Support):
     """One single support and the impact that ends it."""
 
+    least_normal_force: float
+    """F_N at any instant [N]."""
+    friction: float
+    """Largest |F_T| / F_N of the instants with F_N > 0, dimensionless."""
     step_length: float
     """Distance of the footholds along the ground [m]."""
     old_foot_velocity: float
@@ -158,75 +157,58 @@ def impulse_text(ratio: float, k: KnownLimits) -> str:
     return f"the impulse at impact asks for friction {ratio_text(ratio)} > {k.friction:g}"
 
 
-def certificates(
-    walker: Walker, trajectory: Trajectory, signals: Signals, limits: Limits | None = None
-) -> tuple[Certificate, ...]:
-    """One certificate for every single support that ended in an impact; None takes the robot's limits."""
-    k = (limits or Limits()).of(walker.plant.description)
-    return tuple(
-        _certificate(walker, signals.of_step(arc.mode.step), arc, k)
-        for arc in trajectory.arcs
-        if ended_in_impact(arc)
-    )
-
-
 def supports(
     walker: Walker,
-    trajectory: Trajectory,
-    signals: Signals,
-    limits: Limits | None = None,
+    n: Nodes,
+    k: KnownLimits,
+    impacts: int,
+    after: Array | None = None,
     slips: Sequence[float] | None = None,
 ) -> tuple[Support, ...]:
-    """What every single support needed, the last unfinished one included; None takes the robot's limits.
+    """What each of the S single supports needed, of which the first `impacts` ended in an impact.
 
-    slips: of each single support on soft ground [m], in place of the friction cone; None on the rigid plant.
+    after: as of `impulse_ratios`. slips: of each single support on soft ground [m], in place of the friction
+    cone; None on the rigid plant.
     """
-    k, arcs = (limits or Limits()).of(walker.plant.description), trajectory.arcs
+    first, last, _ = n.supports
     if slips is None:
-        asked = [impulse_ratio(walker, arc) for arc in arcs]
-        rest = [(0.0, ratio) for ratio in asked]
+        slips, impulses = [0.0] * len(first), impulse_ratios(walker, n, impacts, after)
     else:
-        k, rest = k._replace(friction=math.inf), [(slip, 0.0) for slip in slips]
-    return tuple(
-        support(walker, signals.of_step(arc.mode.step), k, ended_in_impact(arc), *of)
-        for arc, of in zip(arcs, rest, strict=True)
-    )
+        k, impulses = k._replace(friction=math.inf), np.zeros(len(first))
+    of, _, F = mean_forces(walker, n, k.window)
+    normal, friction = np.full(len(first), np.inf), np.full(len(first), -np.inf)
+    np.minimum.at(normal, of, F[:, 1])
+    np.maximum.at(friction, of, ratios(F, -np.inf))
+    friction = np.where(friction == -np.inf, np.where(normal == np.inf, 0.0, np.inf), friction)
+    depth = np.maximum.reduceat(depths(walker, n, impacts), first)
+    torque = np.maximum.reduceat(np.max(np.abs(n.u), axis=1, initial=0.0), first)
+    columns = (n.step[first], n.t[last] - n.t[first], normal, friction, depth, slips, torque)
+    numbers = (np.asarray(x).tolist() for x in (*columns, impulses))
+    rows: Iterable[tuple[Any, ...]] = zip(*numbers, strict=True)
+    return tuple(Support(*row, k.friction, k.torque, k.window) for row in rows)
 
 
-def support(
-    walker: Walker,
-    s: Signals,
-    k: KnownLimits,
-    finished: bool = True,
-    slip: float = 0.0,
-    ratio: float = 0.0,
-) -> Support:
-    """What the single support in s needed; `finished` where it ended in an impact.
+def depths(walker: Walker, n: Nodes, impacts: int) -> Array:
+    """How far the swing foot is below the ground at the nodes (K,) [m], 0 near the ends of a single support.
 
-    s: the signals of this single support alone; k: the limits, for the window and the friction
-    cone; slip [m]: of a foot on soft ground; ratio: of the impulse at its end.
+    The ground is taken at the height of the lower of the two footholds. It counts once the foot has been above
+    it, since it may come from lower ground. The end of a single support that is not finished, one behind the
+    first `impacts`, counts.
     """
-    F = forces(walker, s)
-    duration = float(s.t[-1] - s.t[0])
-    _, means = window_means(s.t, F, k.window)
-    out = outside(F, k.friction).astype(float)
-    share = float(np.trapezoid(out, s.t)) / duration if duration > 0.0 else float(out[-1])
-    return Support(
-        step=int(s.step[0]),
-        duration=duration,
-        least_normal_force=float(np.min(F[:, 1])),
-        friction=largest_ratio(F),
-        share_outside=share,
-        mean_normal_force=float(np.min(means[:, 1])),
-        mean_friction=largest_ratio(means),
-        scuffing=float(np.max(depths(walker, s, finished))),
-        slip=slip,
-        peak_torque=float(np.max(np.abs(s.u), initial=0.0)),
-        impulse_ratio=ratio,
-        friction_limit=k.friction,
-        torque_limit=k.torque,
-        window=k.window,
-    )
+    first, last, of = n.supports
+    drops = np.array([max(walker.drop(int(step)), 0.0) for step in n.step[first]])
+    height = heights(walker, n) + drops[of]
+    since, duration = n.t - n.t[first][of], (n.t[last] - n.t[first])[of]
+    counts = since > ENDS * duration
+    counts &= (of >= impacts) | (since < (1.0 - ENDS) * duration)
+    at = np.arange(len(of))
+    rises = np.minimum.reduceat(np.where(height > 0.0, at, len(at)), first)
+    return np.where(counts & (at >= rises[of]), np.maximum(-height, 0.0), 0.0)
+
+
+def heights(walker: Walker, n: Nodes) -> Array:
+    """Height (K,) [m] of the swing foot above the line of the ground through the stance foot, vertically."""
+    return n.swing_foot[:, 1] + math.tan(walker.slope) * n.swing_foot[:, 0]
 
 
 def ended_in_impact(arc: Arc) -> bool:
@@ -234,72 +216,43 @@ def ended_in_impact(arc: Arc) -> bool:
     return arc.event is not None and arc.event.guard == FOOT_STRIKE
 
 
-def forces(walker: Walker, s: Signals) -> Array:
-    """(F_T, F_N) (K, 2) [N], along the ground and perpendicular to it."""
-    return s.ground_reaction @ np.array(ground_axes(walker.slope)).T
+def after_last_impact(walker: Walker, trajectory: Trajectory) -> Array | None:
+    """Momentum (2,) [N s] after the impact with which a walk ended; None where it did not end with one."""
+    event, n = trajectory.arcs[-1].event, walker.plant.n
+    if not ended_in_impact(trajectory.arcs[-1]) or event is None or event.x_plus is None:
+        return None
+    return walker.plant.momentum(event.x_plus[:n], event.x_plus[n : 2 * n])
 
 
-def depths(walker: Walker, s: Signals, finished: bool) -> Array:
-    """How far the swing foot is below the ground (K,) [m], 0 near the ends of the step.
-
-    The ground is taken at the height of the lower of the two footholds. It counts once the foot has
-    been above it, since it may come from lower ground. The end of a step that is not finished
-    counts.
-    """
-    height = _height(walker, s) + max(walker.drop(int(s.step[0])), 0.0)
-    counts = inner(s.t, finished) & np.logical_or.accumulate(height > 0.0)
-    return np.where(counts, np.maximum(-height, 0.0), 0.0)
-
-
-def inner(t: Array, finished: bool = True) -> NDArray[np.bool_]:
-    """Whether a node is away from the ends of the step (K,), for the times t (K,) [s].
-
-    The share ENDS of the step is left out at the begin, and at the end where it is finished.
-    """
-    since, last = t - t[0], t[-1] - t[0]
-    found: NDArray[np.bool_] = since > ENDS * last
-    return found & (since < (1.0 - ENDS) * last) if finished else found
+def certificates(
+    walker: Walker, trajectory: Trajectory, signals: Signals, limits: Limits | None = None
+) -> tuple[Certificate, ...]:
+    """One certificate for every single support that ended in an impact; None takes the robot's limits."""
+    k = (limits or Limits()).of(walker.plant.description)
+    arcs = [arc for arc in trajectory.arcs if ended_in_impact(arc)]
+    after = after_last_impact(walker, trajectory)
+    found = supports(walker, Nodes.of(signals), k, len(arcs), after)
+    return tuple(
+        _certificate(walker, signals.of_step(arc.mode.step), arc, s)
+        for arc, s in zip(arcs, found, strict=False)
+    )
 
 
-def _height(walker: Walker, s: Signals) -> Array:
-    """Height (K,) [m] of the swing foot above the line of the ground through the stance foot, measured
-    vertically.
-    """
-    return s.swing_foot[:, 1] + math.tan(walker.slope) * s.swing_foot[:, 0]
-
-
-def outside(F: Array, mu: float) -> NDArray[np.bool_]:
-    """Whether (F_T, F_N) (K, 2) [N] is outside the friction cone (K,); a force with NaN is."""
-    return ~((F[:, 1] > 0.0) & (np.abs(F[:, 0]) / ((1.0 + ROUND_OFF) * mu) <= F[:, 1]))
-
-
-def largest_ratio(F: Array) -> float:
-    """Largest |F_T| / F_N of the rows of F (K, 2) [N] with F_N > 0; infinite if there is none."""
-    pushes = F[F[:, 1] > 0.0]
-    if len(pushes) == 0:
-        return math.inf
-    return float(np.max(np.abs(pushes[:, 0]) / pushes[:, 1]))
-
-
-def impulse_ratio(walker: Walker, arc: Arc) -> float:
-    """|F_T| / F_N of the impulse that ends an arc: infinite where the ground would pull, 0 without one."""
-    if not ended_in_impact(arc):
-        return 0.0
-    impulse = walker.plant.impact(*walker.split_state(arc.x[-1])[:2]).impulse
-    return largest_ratio(impulse[np.newaxis] @ np.array(ground_axes(walker.slope)).T)
-
-
-def _certificate(walker: Walker, s: Signals, arc: Arc, k: KnownLimits) -> Certificate:
+def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Certificate:
     """The certificate of a step that ended in an impact at x- = (q, q', ...), the end of its arc."""
     b, p = walker.plant, walker.plant.p
     q, v, _ = walker.split_state(arc.x[-1])
     impact = b.impact(q, v)
-    height = _height(walker, s) + walker.drop(int(s.step[0]))
+    height = heights(walker, Nodes.of(s)) + walker.drop(support.step)
     power = s.u * s.v[:, :p]
     length = float(b.swing_foot(q)[0]) / math.cos(walker.slope)
     after = b.kinetic_energy(impact.q, impact.v)
+    F = s.ground_reaction @ np.array(ground_axes(walker.slope)).T
+    friction = float(np.max(ratios(F, -np.inf)))
     return Certificate(
-        **vars(support(walker, s, k, ratio=impulse_ratio(walker, arc))),
+        **vars(support),
+        least_normal_force=float(np.min(F[:, 1])),
+        friction=math.inf if friction == -math.inf else friction,
         step_length=length,
         old_foot_velocity=float(impact.old_foot_velocity @ ground_axes(walker.slope)[1]),
         clearance=float(np.min(height[inner(s.t)])),
@@ -307,3 +260,10 @@ def _certificate(walker: Walker, s: Signals, arc: Arc, k: KnownLimits) -> Certif
         energy_lost=b.kinetic_energy(q, v) - after,
         cost_of_transport=integrate(s.t, np.sum(np.abs(power), axis=1)) / (b.weight * length),
     )
+
+
+def inner(t: Array) -> NDArray[np.bool_]:
+    """Whether a node is away from both ends of a step by the share ENDS (K,), for its times t (K,) [s]."""
+    since, last = t - t[0], t[-1] - t[0]
+    found: NDArray[np.bool_] = (since > ENDS * last) & (since < (1.0 - ENDS) * last)
+    return found

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -18,22 +19,19 @@ import numpy as np
 from biped_adrc.analysis.certificate import (
     IMPULSE,
     Support,
+    after_last_impact,
     depths,
     ended_in_impact,
-    forces,
-    impulse_ratio,
     impulse_text,
-    largest_ratio,
-    outside,
 )
-from biped_adrc.analysis.quadrature import window_means
+from biped_adrc.analysis.ground_force import Nodes, impulse_ratios, mean_forces, ratios
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.trajectory import Arc, Trajectory
+from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.robots.limits import ROUND_OFF, SLIP, KnownLimits, Limits
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array
+from biped_adrc.types import Array, Indices
 
 VERDICTS = {
     "infeasible": "not feasible",
@@ -50,9 +48,6 @@ OUTCOMES = {
 COUNTED = ("feasible", "but_impact")
 """Outcomes of a walk that is feasible, the impact at most aside."""
 NUMBERS = (
-    "share_outside",
-    "least_normal_force",
-    "friction",
     "mean_normal_force",
     "mean_friction",
     "scuffing",
@@ -118,7 +113,7 @@ class Feasibility(Shown):
     touchdowns: int
     """How many of the supports ended in one."""
 
-    @property
+    @cached_property
     def reasons(self) -> dict[str, str]:
         """Why it is not feasible: for each name in `REASONS` the first text, with the number of its step."""
         found: dict[str, str] = {}
@@ -138,22 +133,12 @@ class Feasibility(Shown):
         broken = (k for k, s in enumerate(self.supports[: self.touchdowns]) if s.infeasible())
         return next(broken, self.touchdowns)
 
-    least_normal_force = _over_steps(np.min, "least_normal_force", "F_N at any instant [N].")
-    friction = _over_steps(
-        np.max, "friction", "At any instant; infinite where in a step the ground never pushed."
-    )
     mean_normal_force = _over_steps(np.min, "mean_normal_force", "Least of the means [N].")
     mean_friction = _over_steps(np.max, "mean_friction", "Largest of the means.")
     scuffing = _over_steps(np.max, "scuffing", "[m].")
     slip = _over_steps(np.max, "slip", "On soft ground [m].")
     peak_torque = _over_steps(np.max, "peak_torque", "[N m].")
     impulse_ratio = _over_steps(np.max, "impulse_ratio", "Of the impacts, 0 without one.")
-
-    @property
-    def share_outside(self) -> float:
-        """Share of the time of the whole walk outside the friction cone, from 0 to 1."""
-        time, share = zip(*((s.duration, s.share_outside) for s in self.supports), strict=True)
-        return float(np.average(share, weights=time) if any(time) else np.max(share))
 
     def record(self) -> dict[str, object]:
         """Outcome, numbers and reasons as plain values; None where a number is not finite, such as a
@@ -173,41 +158,49 @@ class Feasibility(Shown):
 
 
 class Violation(NamedTuple):
-    """The first violation in a single support."""
+    """Where a walk is infeasible first."""
 
     t: float
     """[s]."""
+    support: int
+    """In which of its single supports, from 0."""
     what: str
     """In words."""
 
 
 def first_violation(
-    walker: Walker, s: Signals, k: KnownLimits, finished: bool = True
+    walker: Walker, n: Nodes, k: KnownLimits, impacts: int, after: Array | None = None
 ) -> Violation | None:
-    """The first node, or end of a window of the mean force, at which a single support is infeasible; or None.
+    """The first node, impact, or end of a window of the mean force, at which a walk is infeasible; or None.
 
-    s: the signals of this single support alone; finished: whether it ended in an impact.
+    impacts: how many of its single supports ended in one; after: as of `impulse_ratios`.
     """
-    ends, means = window_means(s.t, forces(walker, s), k.window)
-    found: list[Violation] = []
-    bad = np.flatnonzero(outside(means, k.friction))
-    if len(bad):
-        F, over = means[bad[0]], f"over {1e3 * k.window:g} ms"
-        text = f"F_N = {F[1]:.3g} N {over}"
-        if F[1] > 0.0:
-            text = f"friction {largest_ratio(F[np.newaxis]):.3g} > {k.friction:g} {over}"
-        found.append(Violation(float(ends[bad[0]]), text))
-    torque = np.max(np.abs(s.u), axis=1, initial=0.0)
-    found += _first(s.t, torque, k.torque, f"torque {{:.4g}} N m > {k.torque:g}")
-    depth = depths(walker, s, finished)
-    found += _first(s.t, depth, 0.0, "the swing foot scuffs by {:.2g} m")
+    last, of = n.supports[1:]
+    means, cone = mean_forces(walker, n, k.window), (1.0 + ROUND_OFF) * k.friction
+    ratio, over = ratios(means.F, -math.inf), f"over {1e3 * k.window:g} ms"
+    asked = (
+        impulse_ratios(walker, n, impacts, after) if k.friction < math.inf else np.zeros(len(last))
+    )
+    torque, depth = np.max(np.abs(n.u), axis=1, initial=0.0), depths(walker, n, impacts)
+    normal = np.where(means.F[:, 1] > 0.0, 0.0, np.nan)  # a number within any limit, or none
+    kinds: list[tuple[Array, Indices, Array, float, Callable[[int], str]]] = [
+        (means.t, means.of, normal, 0.0, lambda i: f"F_N = {means.F[i, 1]:.3g} N {over}"),
+        (
+            means.t,
+            means.of,
+            ratio,
+            cone,
+            lambda i: f"friction {ratio[i]:.3g} > {k.friction:g} {over}",
+        ),
+        (n.t, of, torque, k.torque, lambda i: f"torque {torque[i]:.4g} N m > {k.torque:g}"),
+        (n.t, of, depth, 0.0, lambda i: f"the swing foot scuffs by {depth[i]:.2g} m"),
+        (n.t[last], np.arange(len(last)), asked, cone, lambda i: impulse_text(asked[i], k)),
+    ]
+    found = []
+    for t, where, x, limit, text in kinds:
+        beyond = np.flatnonzero(~(x <= limit))
+        found += [Violation(float(t[i]), int(where[i]), text(i)) for i in beyond[:1]]
     return min(found, default=None, key=lambda one: one.t)
-
-
-def _first(t: Array, x: Array, limit: float, text: str) -> list[Violation]:
-    """The first time t (K,) [s] at which x (K,) is above its limit or NaN, with its text; empty or one."""
-    beyond = np.flatnonzero(~(x <= limit))
-    return [Violation(float(t[i]), text.format(x[i])) for i in beyond[:1]]
 
 
 def until_infeasible(
@@ -226,25 +219,20 @@ def until_infeasible(
     k, arcs = (limits or Limits()).of(walker.plant.description), trajectory.arcs
     if slipped is not None:
         k = k._replace(friction=math.inf)
-    for number, arc in enumerate(arcs):
-        t = math.inf if slipped is None else slipped[number]
-        slips = Violation(t, f"a foot slips by more than {1e3 * SLIP:g} mm")
-        force = first_violation(walker, signals.of_step(arc.mode.step), k, ended_in_impact(arc))
-        every = (force, _at_impact(walker, arc, k), slips)
-        found = min((one for one in every if one is not None), key=lambda one: one.t)
-        if found.t == math.inf:
-            continue
-        kept = int(np.searchsorted(arc.t, found.t, side="right"))
-        last = replace(arc, t=arc.t[:kept], x=arc.x[:kept], dx=arc.dx[:kept], event=None)
-        detail = f"single support {arc.mode.step}, {found.t:.4f} s: {found.what}"
-        return replace(
-            trajectory, arcs=(*arcs[:number], last), status=Status.INFEASIBLE, detail=detail
-        )
-    return trajectory
-
-
-def _at_impact(walker: Walker, arc: Arc, k: KnownLimits) -> Violation | None:
-    """The impact that ends an arc, where its impulse leaves the friction cone; else None."""
-    ratio = impulse_ratio(walker, arc)
-    beyond = not ratio <= (1.0 + ROUND_OFF) * k.friction
-    return Violation(float(arc.t[-1]), impulse_text(ratio, k)) if beyond else None
+    impacts, after = sum(map(ended_in_impact, arcs)), after_last_impact(walker, trajectory)
+    first = first_violation(walker, Nodes.of(signals), k, impacts, after)
+    text = f"a foot slips by more than {1e3 * SLIP:g} mm"
+    slips = [Violation(t, i, text) for i, t in enumerate(slipped or ()) if t < math.inf]
+    found = min((*slips, *([first] if first else ())), default=None, key=lambda one: one.t)
+    if found is None:
+        return trajectory
+    arc = arcs[found.support]
+    kept = int(np.searchsorted(arc.t, found.t, side="right"))
+    cut = replace(arc, t=arc.t[:kept], x=arc.x[:kept], dx=arc.dx[:kept], event=None)
+    detail = f"single support {arc.mode.step}, {found.t:.4f} s: {found.what}"
+    return replace(
+        trajectory,
+        arcs=(*arcs[: found.support], cut),
+        status=Status.INFEASIBLE,
+        detail=detail,
+    )

@@ -30,13 +30,13 @@ def recorded(trajectory: Trajectory, name: str) -> Array | None:
 
 
 def as_recorded(walker: Walker, trajectory: Trajectory, found: InstantSignals) -> InstantSignals:
-    """The readings at all nodes with q'', ground force and xi of the plant that walked in place of the rigid
-    one's.
+    """The readings at all nodes with q'', ground force, momentum and xi of the plant that walked, in place of
+    the rigid one's.
 
     Forces from outside are added to that of the ground, as `InstantSignals` has it.
     """
-    force = recorded(trajectory, FORCE)
-    if force is None:
+    force, speed = recorded(trajectory, FORCE), recorded(trajectory, SPEED)
+    if force is None or speed is None:
         return found
     n, p, arcs = walker.plant.n, walker.plant.p, trajectory.arcs
     x, a = np.vstack([arc.x for arc in arcs]), np.vstack([accelerations(arc, n) for arc in arcs])
@@ -54,6 +54,7 @@ def as_recorded(walker: Walker, trajectory: Trajectory, found: InstantSignals) -
         xi_matched=matched,
         xi_nominal=nominal,
         ground_reaction=force[:, :2] + np.array(outside),
+        momentum=found.momentum + walker.plant.mass * speed[:, :2],
     )
 
 

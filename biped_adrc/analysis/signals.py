@@ -73,6 +73,10 @@ class Signals(Shown):
     model [N m]; NaN without an observer."""
     ground_reaction: Array
     """(K, 2), (F_T, F_N) [N], horizontal and vertical on any ground."""
+    outside: Array
+    """(K, 2), force from outside on the robot as a whole [N], along x and z."""
+    momentum: Array
+    """(K, 2), m v_com of the plant [N s], along x and z."""
     kinetic: Array
     """(K,) [J]."""
     potential: Array
@@ -156,7 +160,7 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
             if arc.event is not None and arc.event.x_plus is not None:
                 at = at + walker.plant.swing_foot(arc.event.x_minus[:n])
         foot = np.vstack(places)
-    outside: Array | float = 0.0
+    outside = np.zeros((len(x), 2))
     if walker.disturbance is not None and walker.disturbance.pulls:
         outside = np.array([walker.resultant(float(t), arc.mode) for arc in arcs for t in arc.seen])
     return Signals(
@@ -172,6 +176,7 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
         **{
             **r._asdict(),
             "ground_reaction": r.ground_reaction - outside,
+            "outside": outside,
             "potential": r.potential + walker.plant.weight * foot[:, 1],
         },
     )

@@ -130,4 +130,5 @@ def case(s: Scenario) -> Case:
     if s.plant != RIGID:
         soft_loop(s, walker)
     mode = Mode(s.first_step)
-    return Case(walker, q, v, method_of(s, walker), s.impacts, mode, s.plant == RIGID)
+    curve = scene.walked.constraint if s.plant == RIGID else None
+    return Case(walker, q, v, method_of(s, walker), s.impacts, mode, curve)

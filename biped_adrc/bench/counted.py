@@ -1,4 +1,4 @@
-"""What is counted in a walk, as columns of a row: read off the signals at the nodes of its trajectory.
+"""What is counted in a walk, as columns of a row: read at its nodes, or in the table of a compiled walk.
 
 A walk on the rigid plant is judged by its certificate, one on soft ground by how far its feet slip
 (`analysis.feasibility`). On soft ground a friction is what the ground gave, so it is never above that of the
@@ -15,53 +15,51 @@ import numpy as np
 
 from biped_adrc.analysis.certificate import IMPULSE, REASONS
 from biped_adrc.analysis.contact_errors import contact_errors
-from biped_adrc.scenario.build import limits
+from biped_adrc.analysis.feasibility import Feasibility
+from biped_adrc.analysis.ground_force import Nodes
+from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.types import Array
 
 WalkRow = dict[str, float | int | str | None]
 """Results by column name."""
 
-OF_FEASIBILITY = (
-    "least_normal_force",
-    "friction",
-    "share_outside",
-    "mean_normal_force",
-    "mean_friction",
-    "scuffing",
-)
+OF_FEASIBILITY = ("feasible_impacts", "mean_normal_force", "mean_friction", "scuffing")
 """Columns that `Feasibility` has under the same names."""
 
 
-def counted(made: Walk) -> WalkRow:
-    """Errors, torques, work and feasibility of a scenario's walk, what its feet did on soft ground, and when
-    touchdowns were noticed.
+def counted(n: Nodes, found: Feasibility, soft: bool = False) -> WalkRow:
+    """Errors, torques, work and feasibility of a walk; soft: whether it was made on soft ground.
 
     Root mean squares are over nodes and joints.
     """
-    assert made.scenario is not None
-    x, found = made.signals, made.feasible_within(limits(made.scenario))
-    held = np.flatnonzero(np.diff(x.t) > 0.0)
-    u, turned = x.u[held], np.diff(x.q[:, : x.u.shape[1]], axis=0)[held]
-    outcome, judged = found.outcome, set(REASONS) - {IMPULSE if made.soft else "slip"}
+    held = np.flatnonzero(np.diff(n.t) > 0.0)
+    u, turned = n.u[held], np.diff(n.q_b, axis=0)[held]
+    outcome, judged = found.outcome, set(REASONS) - {IMPULSE if soft else "slip"}
     return {
-        "peak_error": _largest(x.error),
-        "rms_error": _rms(x.error[held]),
-        "peak_torque": _largest(x.u),
+        "peak_error": _largest(n.error),
+        "rms_error": _rms(n.error[held]),
+        "peak_torque": _largest(n.u),
         "rms_torque": _rms(u),
         "work": float(np.sum(np.abs(u) * np.abs(turned))),
         "net_work": float(np.sum(u * turned)),
-        "peak_matched": _largest(x.xi_matched),
-        "peak_unmatched": _largest(x.xi_unmatched),
-        **(_on_the_ground(made) if made.soft else {}),
-        **({} if made.walker.touchdown is None else made.touchdowns.rates._asdict()),
         "outcome": outcome,
         "feasible": int(outcome == "feasible"),
         "but_impact": int(outcome == "but_impact"),
-        "feasible_impacts": found.feasible_impacts,
         **{f"bad_{name}": int(name in found.reasons) for name in judged},
         **{name: getattr(found, name) for name in OF_FEASIBILITY},
-        "impulse_ratio": found.impulse_ratio if found.touchdowns and not made.soft else None,
+        "impulse_ratio": found.impulse_ratio if found.touchdowns and not soft else None,
+    }
+
+
+def counted_in(walk: Walk, limits: Limits) -> WalkRow:
+    """As `counted`, of a walk with all its nodes; what its feet did on soft ground, and when touchdowns were
+    noticed.
+    """
+    return {
+        **counted(Nodes.of(walk.signals), walk.feasible_within(limits), walk.soft),
+        **(_on_the_ground(walk) if walk.soft else {}),
+        **({} if walk.walker.touchdown is None else walk.touchdowns.rates._asdict()),
     }
 
 

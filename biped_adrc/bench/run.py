@@ -16,10 +16,11 @@ from threading import Lock
 
 import numpy as np
 
-from biped_adrc.analysis.certificate import REASONS
-from biped_adrc.analysis.feasibility import outcome_of
+from biped_adrc.analysis.certificate import REASONS, supports
+from biped_adrc.analysis.feasibility import Feasibility, outcome_of
+from biped_adrc.analysis.ground_force import Nodes
 from biped_adrc.bench.build import case, scene_of
-from biped_adrc.bench.counted import WalkRow, counted
+from biped_adrc.bench.counted import WalkRow, counted, counted_in
 from biped_adrc.bench.parameters import trial
 from biped_adrc.campaign.chunk import NO_WALK, REFUSED, Record
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
@@ -27,7 +28,8 @@ from biped_adrc.engine.batch import BatchWalk, Case, run_case
 from biped_adrc.errors import BipedError
 from biped_adrc.hybrid.status import Status
 from biped_adrc.resources import packaged
-from biped_adrc.scenario.build import RIGID
+from biped_adrc.robots.limits import Limits
+from biped_adrc.scenario.build import RIGID, limits
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario
@@ -73,7 +75,7 @@ def _recorded(s: Scenario, made: Case) -> WalkRow:
             "impacts": 0,
         }
     row = ended(s, made, ends_of(walk))
-    return row | _with_cost(made, row, counted(walk))
+    return row | _with_cost(made, row, counted_in(walk, limits(s)))
 
 
 def measured(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
@@ -82,11 +84,28 @@ def measured(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
     s: its scenario; made: the walker and its start; walked: trajectory, impacts and status.
     """
     row = ended(s, made, walked)
-    if walked.trajectory is not None:
-        with _PREPARING:
+    if walked.trajectory is None and walked.table is None:
+        return row
+    with _PREPARING:
+        if walked.trajectory is None:
+            found = _by_table(made, walked, limits(s))
+        else:
             walk = Walk(made.walker, scene_of(s).walked, walked.trajectory, s)
-            row |= _with_cost(made, row, counted(walk))
-    return row
+            found = counted_in(walk, limits(s))
+    return row | _with_cost(made, row, found)
+
+
+def _by_table(made: Case, walked: BatchWalk, limits: Limits) -> WalkRow:
+    """What is counted in a compiled walk."""
+    walker, plant = made.walker, made.walker.plant
+    assert walked.table is not None
+    n, k = Nodes.of_table(walked.table, plant.p), limits.of(plant.description)
+    after = None
+    if walked.status is Status.COMPLETED:
+        x = walked.final_state
+        after = plant.momentum(x[: plant.n], x[plant.n : 2 * plant.n])
+    found = supports(walker, n, k, walked.impacts, after)
+    return counted(n, Feasibility(walked.status, found, k, walked.impacts))
 
 
 def _with_cost(made: Case, row: WalkRow, found: WalkRow) -> WalkRow:

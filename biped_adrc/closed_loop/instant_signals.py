@@ -47,6 +47,8 @@ class InstantSignals(NamedTuple):
     """The disturbance torque that explains the estimate, kappa^-1 (xi^ - xi_nominal) (p,) [N m]."""
     ground_reaction: Array
     """On the stance foot (2,) [N], forces from outside not yet taken off."""
+    momentum: Array
+    """m v_com of the plant (2,) [N s]."""
     kinetic: Array
     """Energy [J]."""
     potential: Array
@@ -87,8 +89,43 @@ def signals_at(
         xi_nominal=terms.xi,
         zeta_estimate=terms.kappa_inverse @ (xi_estimate - terms.xi),
         ground_reaction=plant.ground_reaction(m.q, m.v, i.a),
+        momentum=plant.momentum(m.q, m.v),
         kinetic=plant.kinetic_energy(m.q, m.v),
         potential=plant.potential_energy(m.q),
         swing_foot=plant.swing_foot(m.q),
         hip=plant.hip(m.q),
+    )
+
+
+class StepReading(NamedTuple):
+    """What judging a single support reads at one instant."""
+
+    error: Array
+    """q_b - q_d (p,) [rad]."""
+    u: Array
+    """Torque applied (p,) [N m]."""
+    q_b: Array
+    """Angles of the joints (p,) [rad]."""
+    momentum: Array
+    """m v_com (2,) [N s]."""
+    swing_foot: Array
+    """(x, z) from the stance foot (2,) [m]."""
+
+
+def step_reading(
+    loop: Loop,
+    t: float,
+    x: Array,
+    mode: Mode,
+    reference: Callable[[Array, Measurement], ReferencePoint],
+) -> StepReading:
+    """The reading at (t, x); arguments as of `signals_at`."""
+    i, plant = instant(loop, t, x, mode), loop.plant
+    m, p = i.measurement, plant.p
+    return StepReading(
+        m.q[:p] - reference(i.s, m).q_d,
+        i.u,
+        m.q[:p],
+        plant.momentum(m.q, m.v),
+        plant.swing_foot(m.q),
     )

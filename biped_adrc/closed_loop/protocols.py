@@ -72,6 +72,9 @@ class WalkingPlant(Plant, Protocol):
     def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
         """Force of the ground on the stance foot (2,) [N] for q'' = a, without forces from outside."""
 
+    def momentum(self, q: Array, v: Array) -> Array:
+        """Linear momentum m v_com (2,) [N s] of the whole robot."""
+
     def swing_foot(self, q: Array) -> Array:
         """Position (x, z) of the swing foot from the stance foot (2,) [m]."""
 

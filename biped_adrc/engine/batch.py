@@ -20,7 +20,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from biped_adrc.closed_loop.instant_signals import step_reading
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
+from biped_adrc.control.outer_loop import OuterLoop
+from biped_adrc.engine.compiled_signals import reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.run_plan import STATUS
@@ -35,7 +38,9 @@ from biped_adrc.errors import (
     RaisedError,
     SingularError,
 )
+from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import simulator
+from biped_adrc.hybrid.constants import FULL
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.status import Status
@@ -49,7 +54,9 @@ AHEAD = 4
 MOST_IMPACTS = 1_000_000
 """Of one walk, whose states at all impacts are kept in memory."""
 STORE = 1_000_000
-"""Each so-many-th step is kept: in practice the ends of the arcs alone, compiled those of the samples too."""
+"""Each so-many-th step is kept in Python: in practice the ends of the arcs alone."""
+ROOM = 512
+"""Columns of `BatchWalk.table` for which there is room at first, for each impact asked for."""
 
 
 @dataclass(frozen=True)
@@ -68,8 +75,8 @@ class Case(Shown):
     """End after so many."""
     mode: Mode = Mode()  # noqa: RUF009
     """Single support in which it starts."""
-    recorded: bool = False
-    """Whether nodes at both sides of its sample instants are kept at least, as `BatchWalk.trajectory`."""
+    curve: Reference | None = None
+    """Reference from which errors are measured in `BatchWalk.table`; None keeps none."""
 
     def __post_init__(self) -> None:
         """Raises InputError for a part that is none."""
@@ -84,8 +91,8 @@ class Case(Shown):
 
     @property
     def options(self) -> RunOptions:
-        """Of its run arc by arc; unless it is recorded the ends of the arcs alone are kept."""
-        strikes, every = (FOOT_STRIKE, self.impacts), 1 if self.recorded else STORE
+        """Of its run arc by arc; without a curve the ends of the arcs alone are kept."""
+        strikes, every = (FOOT_STRIKE, self.impacts), STORE if self.curve is None else 1
         return RunOptions(self.t_end, self.mode.start, strikes, store_every=every)
 
 
@@ -109,8 +116,12 @@ class BatchWalk(Shown):
     """What ran: compiled, compiled plant, or pinocchio."""
     t_start: float = 0.0
     """Start of the walk [s]."""
+    table: Array | None = None
+    """Of the compiled walk of a case with a curve, in columns: t, step, force from outside (2,), `StepReading`;
+    one at each sample instant and switching time, and at the end of each single support.
+    """
     trajectory: Trajectory | None = None
-    """All nodes, of a case that is recorded and began."""
+    """All nodes, of a case with a curve whose walk has no table."""
 
     @property
     def impacts(self) -> int:
@@ -199,9 +210,9 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
     if case.impacts < 1:
         raise InputError(f"the case asks for {case.impacts} impacts, expected at least 1")
     case.options.check(x)
-    size = case.walker.controller_size(x)
+    walker, size = case.walker, case.walker.controller_size(x)
     try:
-        compiled = CompiledWalker.of(case.walker, case.method, size, case.mode.start)
+        compiled = CompiledWalker.of(walker, case.method, size, case.mode.start, case.curve)
     except (NotCompiled, ModelError) as reason:
         try:
             walked = _in_python(case, x, reason)
@@ -210,12 +221,14 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
         except InputError as error:  # what a user's code gives later on than at the start
             return _ended(case, Status.RAISED, str(error))
         return lambda: walked
-    if case.recorded:
-        options = replace(case.options, store_every=STORE)
+    if case.curve is None:
+        return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts)
+    if not walker.sampled or walker.touchdown is not None or isinstance(walker.law, OuterLoop):
         return lambda: _left_by(
-            case, run_made(compiled, x, case.mode, case.method, options), COMPILED
+            case, run_made(compiled, x, case.mode, case.method, case.options), COMPILED
         )
-    return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts)
+    read = reading_code("judged", step_reading, compiled.program, case.curve).addresses["judged"]
+    return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts, read)
 
 
 def _ended(case: Case, status: Status, detail: str) -> Callable[[], BatchWalk]:
@@ -227,15 +240,24 @@ def _ended(case: Case, status: Status, detail: str) -> Callable[[], BatchWalk]:
 
 
 def _strides(
-    compiled: CompiledWalker, x: Array, mode: Mode, t_end: float, impacts: int
+    compiled: CompiledWalker, x: Array, mode: Mode, t_end: float, impacts: int, read: int = 0
 ) -> BatchWalk:
-    """The walk from x (nx,) at the start of the single support `mode`, in compiled code; t_end [s]
-    at the latest.
+    """The walk from x (nx,) at the start of the single support `mode`, in compiled code; t_end [s] at the
+    latest.
+
+    read: address of what the table holds, 0 for none.
     """
-    plan, nx = compiled.plan, len(x)
-    run = plan.start(x, mode.start, mode.step, mode.start, t_end)
-    strikes = np.zeros((impacts, 1 + 2 * nx))
-    code, made = kernels().stride(run.cells, impacts, strikes)
+    nx, p = len(x), compiled.walker.plant.p
+    run = compiled.plan.start(x, mode.start, mode.step, mode.start, t_end)
+    strikes, made = np.zeros((impacts, 1 + 2 * nx)), 0
+    table = np.empty((4 + 3 * p + 4, ROOM * impacts if read else 0))
+    while True:
+        run.set_table(read, table)
+        code, more = kernels().stride(run.cells, impacts - made, strikes[made:])
+        made += more
+        if code != FULL:
+            break
+        table = np.hstack((table, np.empty_like(table)))
     return BatchWalk(
         STATUS[code],
         "",
@@ -245,6 +267,7 @@ def _strides(
         run["t"],
         COMPILED,
         mode.start,
+        table[:, : int(run["columns"])] if read else None,
     )
 
 
@@ -266,7 +289,9 @@ def _left_by(case: Case, run: Trajectory, engine: str) -> BatchWalk:
         run.t_end,
         engine,
         case.mode.start,
-        replace(run, settings={**run.settings, "engine": engine}) if case.recorded else None,
+        trajectory=None
+        if case.curve is None
+        else replace(run, settings={**run.settings, "engine": engine}),
     )
 
 

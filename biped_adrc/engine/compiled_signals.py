@@ -31,7 +31,7 @@ from biped_adrc.engine.equations import (
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.machine import LoadedCode
-from biped_adrc.engine.program import NotCompiled, Program, structure_of_walker
+from biped_adrc.engine.program import NotCompiled, Program
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import Untraceable, Vector, floats
 from biped_adrc.engine.tracer import run
@@ -83,8 +83,8 @@ def compiled_readings(
     nx = trajectory.arcs[0].x.shape[1]
     try:
         program = Program.of(walker, walker.controller_size(nx))
+        code = reading_code("observe", signals_at, program, reference)
         watched = SignalNumbers(program.numbers, reference)
-        code = reading_code("observe", signals_at, program.make, watched)
     except (NotCompiled, Untraceable, ModelError):
         return None
     K = np.array([*floats(watched), 0.0])
@@ -111,12 +111,13 @@ def _inputs(walker: Walker, arc: Arc) -> Array:
     return np.hstack((*head, x, zeta, np.zeros((len(t), OUTSIDE))))
 
 
-def reading_code(
-    name: str, read: Reading, make: WalkerStructure, watched: SignalNumbers
-) -> LoadedCode:
-    """Machine code of what `read` says, a function of this name as `observe`.
+def reading_code(name: str, read: Reading, program: Program, curve: Reference) -> LoadedCode:
+    """Machine code of what `read` says of a walker that errs from this curve, a function of this name as
+    `observe`.
 
-    Under a hash of the walker's structure, the reference and `read` itself.
+    Under the walker's structure, that of the curve, and `read` itself. Raises Untraceable for a curve without a
+    compiled form.
     """
-    key = name, read, structure_of_walker(make), structure(watched)
-    return generated(key, {name: lambda: observe(make, watched, read)})
+    watched = SignalNumbers(program.numbers, curve)
+    key = name, read, program.key, structure(curve)
+    return generated(key, {name: lambda: observe(program.make, watched, read)})

@@ -149,6 +149,10 @@ class PlanarRobot:
         """On the stance foot (2,) [N], for q'' = a (n,) [rad/s^2]."""
         return ground_reaction(self, self.K, q, v, a)
 
+    def momentum(self, q: Array, v: Array) -> Array:
+        """m v_com (2,) [N s]."""
+        return jacobian(self, turned(self, q), self.K.w_re, self.K.w_im) @ v
+
     def swing_foot(self, q: Array) -> Array:
         """(x, z) from the stance foot (2,) [m]."""
         return np.array(point(turned(self, q), self.K.foot_re, self.K.foot_im))

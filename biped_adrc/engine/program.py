@@ -47,6 +47,8 @@ class Program:
     """The numbers as a vector; its last entry is unused, so that it is never empty."""
     numbers: WalkerNumbers
     """The same by name."""
+    key: Hashable
+    """What decides the code."""
 
     @property
     def nx(self) -> int:
@@ -69,7 +71,8 @@ class Program:
                 f"a parameter of {type(walker.controller).__name__} or its walker is NaN, of which generated "
                 "code would make 0 where it is multiplied by 0; it runs in Python on the compiled plant"
             )
-        return cls(make, _machine(make, numbers), K, numbers)
+        key = structure_of_walker(make), structure(numbers)
+        return cls(make, _machine(key, make, numbers), K, numbers, key)
 
     def address(self, name: str) -> int:
         """Address of a compiled function; 0 if this walker does not need it.
@@ -141,7 +144,7 @@ def _numbers(
     )
 
 
-def _machine(make: WalkerStructure, numbers: WalkerNumbers) -> LoadedCode:
+def _machine(key: Hashable, make: WalkerStructure, numbers: WalkerNumbers) -> LoadedCode:
     """The functions of a structure in memory, traced one by one where there is no code on disk.
 
     Raises NotCompiled for a method that cannot be traced or an operation without machine code.
@@ -154,7 +157,7 @@ def _machine(make: WalkerStructure, numbers: WalkerNumbers) -> LoadedCode:
 
     functions = {name: partial(traced, name) for name in Equations.names(numbers)}
     try:
-        return generated((structure_of_walker(make), structure(numbers)), functions)
+        return generated(key, functions)
     except InputError as reason:
         raise NotCompiled(f"{reason}; it runs in Python on the compiled plant") from reason
 

@@ -27,7 +27,7 @@ from biped_adrc.control.added_torque import AddedTorque
 from biped_adrc.disturbances.added_force import AddedForce
 from biped_adrc.engine.compiled_loop import CompiledLoop
 from biped_adrc.engine.compiled_push import CompiledPush
-from biped_adrc.engine.compiled_signals import Reading, SignalNumbers, reading_code
+from biped_adrc.engine.compiled_signals import Reading, reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.equations import WalkerNumbers
 from biped_adrc.engine.kernels.run_plan import CompiledRun
@@ -118,9 +118,10 @@ class CompiledWalk:
         support, after = rows[:last], rows[last:]
         self.nodes[: len(after)] = after
         run["count"] = len(after)
-        event = (
-            Event(FOOT_STRIKE, support[-1, 0], support[-1, 1 : 1 + nx], None) if struck else None
-        )
+        event = None
+        if struck:
+            x_plus = after[0, 1 : 1 + nx] if len(after) else run.x
+            event = Event(FOOT_STRIKE, support[-1, 0], support[-1, 1 : 1 + nx], x_plus.copy())
         mode = Mode(int(run["step"]) - struck, float(support[0, 0]))
         return Arc(mode, support[:, 0], support[:, 1 : 1 + nx], support[:, 1 + nx :], event)
 
@@ -144,8 +145,7 @@ class CompiledWalk:
 
     def law(self, view: Reading, curve: Reference) -> int:
         """Address of machine code for what `view` says."""
-        watched = SignalNumbers(self.made.program.numbers, curve)
-        return reading_code("read", view, self.made.program.make, watched).addresses["read"]
+        return reading_code("read", view, self.made.program, curve).addresses["read"]
 
 
 def rooms(walker: Walker, h: float) -> int:

@@ -69,6 +69,7 @@ from biped_adrc.hybrid.on_arrays import (
     solver_starts,
     split,
     suspect,
+    table_row,
     unit,
     watch,
 )
@@ -441,6 +442,8 @@ def stop(r: Run, code: int) -> int:
         flow(r, left(te), r.x0, r.dx0)
         if not node(r, te, r.x0, r.dx0):
             return FULL
+    if r.look != 0 and table_row(r, te, r.x0) == 0:
+        return FULL
     return code
 
 
@@ -457,6 +460,8 @@ def through(r: Run, t_next: float) -> int:
     count = max(1.0, np.ceil((t_next - t0) / r.h - LANDING))
     begin(r, t, r.h if count > 1.0 else t_next - t, t_next)
     if r.every > 0 and not node(r, t, r.x0, r.dx0):
+        return FULL
+    if r.look != 0 and table_row(r, t, r.x0) == 0:
         return FULL
     while t < t_next:
         steps += 1
@@ -477,6 +482,8 @@ def through(r: Run, t_next: float) -> int:
             skipped = 0
         pass_on(r)
         r.t = t = t1
+    if r.look != 0 and (r.pulled == 1 or t >= r.t_end) and table_row(r, t, r.x0) == 0:
+        return FULL
     return 0
 
 

@@ -127,6 +127,7 @@ class Run:
         names = [guard.name for guard in self.watched]
         self.guards, self.fired = len(names), names.index(fired) if fired in names else -1
         self.t_arc, self.armed, self.sloped, self.every = t, 0, 0, record.every
+        self.look = self.pulled = 0
         self.nx, self.moving, self.p = len(x), len(x), 0
         self.accepted: dict[int, FoundEvent] = {}
         self.event: FoundEvent | None = None
@@ -312,6 +313,11 @@ def node(r: Run, t: float, x: Array, dx: Array) -> bool:
     """Keep (t, x, dx), t in [s]; there is always room."""
     r.record.add(t, x.copy(), dx.copy())
     return True
+
+
+def table_row(r: Run, t: float, x: Array) -> int:
+    """No table is kept here."""
+    return 1
 
 
 # -- a solver's steps ------------------------------------------------------------------------------

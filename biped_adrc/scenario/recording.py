@@ -30,8 +30,14 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from biped_adrc.analysis.certificate import Certificate, certificates, supports
+from biped_adrc.analysis.certificate import (
+    Certificate,
+    after_last_impact,
+    certificates,
+    supports,
+)
 from biped_adrc.analysis.feasibility import Feasibility, until_infeasible
+from biped_adrc.analysis.ground_force import Nodes
 from biped_adrc.analysis.recorded_signals import PLACE, recorded
 from biped_adrc.analysis.signals import Signals, signals
 from biped_adrc.analysis.touchdowns import Noticed, touchdowns
@@ -148,14 +154,15 @@ class Walk(Shown):
 
     def feasible_within(self, limits: Limits) -> Feasibility:
         """As `feasibility`, within other limits; the unfinished last step counts too."""
-        run, slips = self.trajectory, None
+        run, slips, k = self.trajectory, None, limits.of(self.walker.plant.description)
+        impacts, after = len(run.events(FOOT_STRIKE)), after_last_impact(self.walker, run)
         if self.soft:
             slips = [max(step.slip) for step in self.soft_steps] or [0.0] * len(run.arcs)
         return Feasibility(
             run.status,
-            supports(self.walker, run, self.signals, limits, slips),
-            limits.of(self.walker.plant.description),
-            len(run.events(FOOT_STRIKE)),
+            supports(self.walker, Nodes.of(self.signals), k, impacts, after, slips),
+            k,
+            impacts,
         )
 
     @cached_property

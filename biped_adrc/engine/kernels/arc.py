@@ -22,7 +22,7 @@ def go_on(r: Run) -> int:
     Where there is no room for the nodes (FULL) all is as before, so that the call can be repeated with more. An
     arc that ends before its first step leaves one node, so that no arc is empty.
     """
-    t, armed, count, t_arc = r.t, r.armed, r.count, r.t_arc
+    t, armed, count, t_arc, columns = r.t, r.armed, r.count, r.t_arc, r.columns
     copy(r.x0, r.x_first, r.nx)
     copy(r.values, r.values_first, r.guards)
     r.lost = 0
@@ -35,8 +35,10 @@ def go_on(r: Run) -> int:
             r.dx0[i] = 0.0
         if not node(r, r.t, r.x0, r.dx0):
             code = FULL
+    if r.look != 0 and r.columns == columns and code != FULL and table_row(r, r.t, r.x0) == 0:
+        code = FULL
     if code == FULL:
-        r.t, r.armed, r.count, r.t_arc = t, armed, count, t_arc
+        r.t, r.armed, r.count, r.t_arc, r.columns = t, armed, count, t_arc, columns
         copy(r.x_first, r.x0, r.nx)
         copy(r.values_first, r.values, r.guards)
     return code
@@ -85,7 +87,8 @@ def stride(run: Ints, impacts: int, strikes: Rows) -> tuple[int, int]:
     """Over `impacts` impacts, or over any number until t_end for 0: status and how many were made.
 
     strikes (m, 1 + 2 nx) gets a row (t, x-, x+) of each; more than m of them end as EVENT_LIMIT. No nodes are
-    kept in between.
+    kept in between, but columns of `table`; where there is no room for those (FULL), the run is at the start of
+    its arc.
     """
     r, count = data(run), 0
     r.every = 0

@@ -305,6 +305,23 @@ def node(r: Run, t: float, x: Array, dx: Array) -> bool:
     return True
 
 
+@unit
+def table_row(r: Run, t: float, x: Array) -> int:
+    """Keep what is read at t [s] in x (nx,) as the next column of `table`; 0 when there is no room, else 1."""
+    i, out = r.columns, r.out
+    if i >= r.most_columns:
+        return 0
+    copy(x, shift(r.inp, 3), r.nx)
+    from_outside(r, min(t, r.limit), shift(out, 2))
+    set_time(r, t)
+    call(r.look, r.K, r.inp, shift(out, 4))
+    out[0], out[1] = t, r.step
+    for j in range(r.height):
+        r.table[j * r.most_columns + i] = out[j]
+    r.columns = i + 1
+    return 1
+
+
 # -- breaks ----------------------------------------------------------------------------------------
 @inner
 def is_tick(r: Run, t: float, start: float) -> bool:

@@ -33,6 +33,8 @@ class Run:
     back: int
     remainder: int
     matvec: int
+    look: int
+    """Address of what columns of `table` hold; 0 for none."""
     n: int
     """Coordinates."""
     nx: int
@@ -63,6 +65,8 @@ class Run:
     n_switches: int
     n_parts: int
     """Parts of the disturbance."""
+    pulled: int
+    """1 where a part of it is a force from outside."""
     period: float
     """Of sample instants [s]; 0 for continuous time."""
     part: float
@@ -112,6 +116,10 @@ class Run:
     """Nodes kept."""
     room: int
     """Rows of `nodes`."""
+    columns: int
+    """Columns in `table`, how many there may be, and numbers in one."""
+    most_columns: int
+    height: int
     sloped: int
     """1 where dx0 is the slope at x0 already."""
     lost: int
@@ -129,6 +137,9 @@ class Run:
     f_far: float
     nodes: Array
     """Rows (t, x, x')."""
+    table: Array
+    """Columns (t, step, force from outside (2,), what `look` says) at the start of each stretch without a break
+    and the end of each arc; under a force from outside at both ends of a stretch."""
     inp: Array
     """Inputs and outputs of a function; zeta and one part of it."""
     out: Array

@@ -207,6 +207,11 @@ class CompiledRun:
         """Room for nodes (N, 1 + 2 nx), C-contiguous; whoever gives it keeps it alive."""
         self["nodes"], self["room"] = rows.ctypes.data, len(rows)
 
+    def set_table(self, look: int, table: Array) -> None:
+        """Room for columns of `table` (height, N), likewise; look: address of the function that fills them."""
+        self["look"], self["table"] = look, table.ctypes.data
+        self["height"], self["most_columns"] = table.shape
+
 
 @dataclass(frozen=True)
 class RunPlan:
@@ -277,6 +282,7 @@ def plan(
         "n_drops": len(ground.drops),
         "n_switches": len(push.switches),
         "n_parts": len(push.addresses),
+        "pulled": int(any(push.resultants)),
     }
     fastest = sizes.fastest if len(sizes.fastest) else np.full(n, np.inf)
     floats = (K, ground.drops, push.switches, fastest, method.phi, push.K)
