@@ -68,7 +68,7 @@ def is_part(x: object) -> bool:
 
 def content(part: Any) -> dict[str, Any]:
     """The fields of a part, then its derived numbers, by name."""
-    return {name: value(getattr(part, name)) for name, value in _values(type(part))}
+    return {name: value(getattr(part, name)) for name, value in _values(type(part))}  # type: ignore[arg-type]
 
 
 @lru_cache(maxsize=1024)

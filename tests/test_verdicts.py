@@ -32,7 +32,6 @@ CERTIFICATE = Certificate(
     duration=0.4,
     least_normal_force=200.0,
     friction=0.4,
-    share_outside=0.0,
     mean_normal_force=200.0,
     mean_friction=0.4,
     scuffing=0.0,

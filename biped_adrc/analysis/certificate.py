@@ -13,9 +13,9 @@ equal. Forces are those on the plant, along and perpendicular to its ground.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import asdict, dataclass
-from typing import Any
+from itertools import repeat
 
 import numpy as np
 from numpy.typing import NDArray
@@ -177,15 +177,16 @@ def supports(
         k, impulses = k._replace(friction=math.inf), np.zeros(len(first))
     of, _, F = mean_forces(walker, n, k.window)
     normal, friction = np.full(len(first), np.inf), np.full(len(first), -np.inf)
-    np.minimum.at(normal, of, F[:, 1])
-    np.maximum.at(friction, of, ratios(F, -np.inf))
+    with np.errstate(invalid="ignore"):  # NaN stays, and is judged
+        np.minimum.at(normal, of, F[:, 1])
+        np.maximum.at(friction, of, ratios(F, -np.inf))
     friction = np.where(friction == -np.inf, np.where(normal == np.inf, 0.0, np.inf), friction)
     depth = np.maximum.reduceat(depths(walker, n, impacts), first)
     torque = np.maximum.reduceat(np.max(np.abs(n.u), axis=1, initial=0.0), first)
     columns = (n.step[first], n.t[last] - n.t[first], normal, friction, depth, slips, torque)
     numbers = (np.asarray(x).tolist() for x in (*columns, impulses))
-    rows: Iterable[tuple[Any, ...]] = zip(*numbers, strict=True)
-    return tuple(Support(*row, k.friction, k.torque, k.window) for row in rows)
+    limits = (k.friction, k.torque, k.window)
+    return tuple(Support(*row) for row in zip(*numbers, *map(repeat, limits), strict=False))
 
 
 def depths(walker: Walker, n: Nodes, impacts: int) -> Array:

@@ -23,7 +23,7 @@ def row(r):
     feasible = "counts" not in r
     error = {"NPD": 1e-2, "DOB": 5e-3, "ADRC": 1e-3}[r["controller"]]
     known = dict.fromkeys(COLUMNS) | dict.fromkeys((*MEASURES, *NEEDS), 1.0)
-    known |= dict.fromkeys((*REASONS, IMPULSE), 0) | {"peak_unmatched": 0.0, "detail": ""}
+    known |= dict.fromkeys((*REASONS, IMPULSE), 0) | {"detail": ""}
     return known | {
         "status": "COMPLETED",
         "survived": 1,
