@@ -42,7 +42,7 @@ def test_walk_store_and_animate(tmp_path, command):
     )  # fmt: skip
     assert done.code == 0, done.stderr
     assert "COMPLETED" in done.stdout
-    assert "least and largest mean over 5 ms;" in done.stdout
+    assert "least and largest mean over 5 ms\n" in done.stdout
     settings = json.loads(run.with_suffix(".json").read_text())["settings"]
     assert settings["scenario"]["pushes"][0]["torque"] == {"q1": 10.0, "q2": 10.0}
     assert "pin" in settings["versions"]

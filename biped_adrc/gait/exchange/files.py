@@ -275,7 +275,8 @@ RUN_UNITS = {
         "rad": "q theta q_d error",
         "rad/s": "v dtheta dq_d",
         "rad/s^2": "a xi xi_estimate xi_external xi_matched xi_nominal",
-        "N": "ground_reaction",
+        "N": "ground_reaction outside",
+        "N s": "momentum",
         "N m": "u zeta zeta_estimate",
         "J": "kinetic potential",
     }.items()
