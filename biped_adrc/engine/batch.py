@@ -26,7 +26,7 @@ from biped_adrc.control.outer_loop import OuterLoop
 from biped_adrc.engine.compiled_signals import reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.kernels.run_plan import STATUS
+from biped_adrc.engine.kernels.run_plan import STATUS, table_height
 from biped_adrc.engine.program import NotCompiled
 from biped_adrc.engine.run import COMPILED, COMPILED_PLANT, PINOCCHIO
 from biped_adrc.engine.simulate import on_compiled_plant, run_made
@@ -118,7 +118,7 @@ class BatchWalk(Shown):
     """Start of the walk [s]."""
     table: Array | None = None
     """Of the compiled walk of a case with a curve, in columns: t, step, force from outside (2,), `StepReading`;
-    one at each sample instant and switching time, and at the end of each single support.
+    one at each step of integration, after the sample instant there, and at the end of each single support.
     """
     trajectory: Trajectory | None = None
     """All nodes, of a case with a curve whose walk has no table."""
@@ -247,10 +247,10 @@ def _strides(
 
     read: address of what the table holds, 0 for none.
     """
-    nx, p = len(x), compiled.walker.plant.p
+    nx, height = len(x), table_height(compiled.walker.plant.p)
     run = compiled.plan.start(x, mode.start, mode.step, mode.start, t_end)
     strikes, made = np.zeros((impacts, 1 + 2 * nx)), 0
-    table = np.empty((4 + 3 * p + 4, ROOM * impacts if read else 0))
+    table = np.empty((height, ROOM * impacts if read else 0))
     while True:
         run.set_table(read, table)
         code, more = kernels().stride(run.cells, impacts - made, strikes[made:])

@@ -20,9 +20,10 @@ from typing import Any, NamedTuple, Self, cast
 
 import numpy as np
 
+from biped_adrc.closed_loop.instant_signals import step_reading
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.system import ClosedLoop
-from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
+from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.added_torque import AddedTorque
 from biped_adrc.disturbances.added_force import AddedForce
 from biped_adrc.engine.compiled_loop import CompiledLoop
@@ -30,7 +31,7 @@ from biped_adrc.engine.compiled_push import CompiledPush
 from biped_adrc.engine.compiled_signals import Reading, reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.equations import WalkerNumbers
-from biped_adrc.engine.kernels.run_plan import CompiledRun
+from biped_adrc.engine.kernels.run_plan import CompiledRun, table_height
 from biped_adrc.engine.program import NotCompiled
 from biped_adrc.engine.simulate import compiled_plant
 from biped_adrc.engine.strides import Strides
@@ -43,7 +44,7 @@ from biped_adrc.hybrid.on_arrays import next_tick
 from biped_adrc.hybrid.simulator import RunOptions, finite, flow_arc
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import HybridSystem
-from biped_adrc.hybrid.trajectory import Arc, Event
+from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.model.planar import link_point
 from biped_adrc.parts import handing_out
 from biped_adrc.timing import SampledTime
@@ -82,8 +83,10 @@ class CompiledWalk:
     made: CompiledWalker
     run: CompiledRun
     """Where it is; moved by the kernel `samples`."""
-    nodes: Array
-    """Of this single support (rows, 1 + 2 nx): t, x, x'; no rows where they are not kept."""
+    look: int
+    """Address of what columns of the table hold; 0 for none."""
+    table: Array
+    """Of this single support, as `engine.batch.BatchWalk.table`; no columns where it is not judged."""
 
     @classmethod
     def of(
@@ -93,37 +96,32 @@ class CompiledWalk:
         x: Array,
         mode: Mode,
         curve: Reference | None,
-        recorded: bool,
+        judged: bool,
     ) -> Self:
-        """From x (nx,). curve: what `law` refers to. recorded: whether nodes are kept, for `over`.
+        """From x (nx,). curve: what `law` refers to. judged: whether the table is kept, for `over`.
 
         Raises NotCompiled for a part without machine code.
         """
         made = CompiledWalker.of(walker, method, walker.controller_size(x), mode.start, curve)
-        room = rooms(walker, made.plan.number("h")) if recorded else 0
+        look, room = 0, 0
+        if judged and curve is not None:
+            code = reading_code("judged", step_reading, made.program, curve)
+            look, room = code.addresses["judged"], columns(walker, made.plan.number("h"))
         run = made.plan.start(x, mode.start, *mode, mode.start)
-        return cls(made, run, np.empty((room, 1 + 2 * len(x))))._kept()
+        return cls(made, run, look, np.empty((table_height(walker.plant.p), room)))._kept()
 
     def _kept(self) -> Self:
-        """Itself, its nodes kept where there is room for them."""
-        self.run["every"] = min(len(self.nodes), 1)
-        self.run.set_nodes(self.nodes)
+        """Itself, its run with the table."""
+        self.run.set_table(self.look, self.table)
         return self
 
-    def over(self, struck: bool) -> Arc:
-        """The single support that is over, by an impact or with the walk; the nodes of the next stay."""
-        run, nx = self.run, self.run.nx
-        rows = self.nodes[: int(run["count"])].copy()
-        last = int(np.searchsorted(rows[:, 0], run["t_start"])) + 1 if struck else len(rows)
-        support, after = rows[:last], rows[last:]
-        self.nodes[: len(after)] = after
-        run["count"] = len(after)
-        event = None
-        if struck:
-            x_plus = after[0, 1 : 1 + nx] if len(after) else run.x
-            event = Event(FOOT_STRIKE, support[-1, 0], support[-1, 1 : 1 + nx], x_plus.copy())
-        mode = Mode(int(run["step"]) - struck, float(support[0, 0]))
-        return Arc(mode, support[:, 0], support[:, 1 : 1 + nx], support[:, 1 + nx :], event)
+    def over(self, on: bool) -> Array:
+        """The table; where the walk goes on, only columns of the single support in which it is stay there."""
+        run, table, count = self.run, self.table, int(self.run["columns"])
+        last = int(np.searchsorted(table[1, :count], run["step"])) if on else count
+        found = table[:, :count].copy()
+        table[:, : count - last], run["columns"] = found[:, last:], count - last
+        return found
 
     @property
     def addresses(self) -> list[int]:
@@ -141,17 +139,17 @@ class CompiledWalk:
         """The same walk in memory of its own."""
         run = self.run
         run = CompiledRun(run.block, run.pointers, run.nx)
-        return replace(self, run=run, nodes=self.nodes.copy())._kept()
+        return replace(self, run=run, table=self.table.copy())._kept()
 
     def law(self, view: Reading, curve: Reference) -> int:
         """Address of machine code for what `view` says."""
         return reading_code("read", view, self.made.program, curve).addresses["read"]
 
 
-def rooms(walker: Walker, h: float) -> int:
-    """Nodes of the longest single support with steps h [s]: two at each break, and one at each step."""
+def columns(walker: Walker, h: float) -> int:
+    """Columns of the longest single support with steps h [s], two at each break."""
     period = cast(SampledTime, walker.timing).period
-    return 64 + int((math.ceil(period / h) + 4) * walker.max_step_time / period)
+    return 64 + (3 + math.ceil(period / h)) * math.ceil(walker.max_step_time / period)
 
 
 class Now(NamedTuple):

@@ -1,29 +1,10 @@
-"""What the single supports of learners' walks needed of ground and motors: the certificate, one support at a
-time."""
+"""What the single supports of learners' walks needed of ground and motors, summed up."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from biped_adrc.analysis.certificate import Support
-from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.engine.run import COMPILED
-from biped_adrc.gait.gait import Gait
-from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.robots.limits import Limits
-from biped_adrc.scenario.recording import Walk
-from biped_adrc.soft.walking import as_walked
-
-
-def needed(arc: Arc, walker: Walker | None, loop: object, gait: Gait, limits: Limits) -> Support:
-    """What a single support, one arc of all its nodes, needed. loop: what ran, a SteppingLoop on soft
-    ground."""
-    assert walker is not None
-    run = Trajectory((arc,), Status.COMPLETED, settings={"engine": COMPILED})
-    run = as_walked(loop, run) if isinstance(loop, SteppingLoop) else run
-    return Walk(walker, gait, run).feasible_within(limits).supports[0]
 
 
 class Needs:

@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.engine.kernels.run_plan import STATUS
-from biped_adrc.engine.samples import PythonWalk
-from biped_adrc.gym.needs import Needs, needed
+from biped_adrc.gym.needs import Needs
 from biped_adrc.gym.task import ADDED, FALLEN_FROM, LearnerTask
 from biped_adrc.gym.view import learner_view
 from biped_adrc.scenario.build import RobotAndGait, build, limits
@@ -40,7 +39,7 @@ class Stage:
     """N walks. Raises InputError for a task that cannot be walked."""
 
     def __init__(self, task: LearnerTask, count: int):
-        self.stepper = Stepper(task.scenario, count, self._walker, recorded=True)
+        self.stepper = Stepper(task.scenario, count, self._walker, limits(task.scenario))
         self.scene = self.stepper.scene
         self.limits = task.limits(self.scene)
         self.task = replace(task, scenario=replace(task.scenario, torque_limit=self.limits.torque))
@@ -50,7 +49,7 @@ class Stage:
         self.highest = np.concatenate(
             (self._fastest(), np.full(p, self.limits.torque), [2.0 * TURNS])
         )
-        self.needs, self.within = Needs(count), limits(self.task.scenario)
+        self.needs = Needs(count)
         self.seeds, self._seen = np.zeros(count, dtype=np.int64), np.zeros(0)
         self.begin(0, self.task.scenario.seed)  # what is wrong is said here
         self.stepper.codes[:] = -1
@@ -80,10 +79,8 @@ class Stage:
         inputs[:, :-2] = self.limits.torque * actions
         self.stepper.move(inputs)
         self._seen = np.zeros(0)
-        for i, arc in self.stepper.over:
-            walker, walk = self.stepper.walkers[i], self.stepper.walks[i]
-            loop = walk.loop if isinstance(walk, PythonWalk) else None
-            self.needs.add(i, needed(arc, walker, loop, self.scene.walked, self.within))
+        for i, support in self.stepper.over:
+            self.needs.add(i, support)
 
     # -- where they are ----------------------------------------------------------------------------
     @property

@@ -482,8 +482,11 @@ def through(r: Run, t_next: float) -> int:
             skipped = 0
         pass_on(r)
         r.t = t = t1
-    if r.look != 0 and (r.pulled == 1 or t >= r.t_end) and table_row(r, t, r.x0) == 0:
-        return FULL
+        last = (
+            t >= t_next and t < r.t_end and r.pulled == 0
+        )  # the next stretch begins with the same
+        if r.look != 0 and not last and table_row(r, t, r.x0) == 0:
+            return FULL
     return 0
 
 

@@ -20,28 +20,37 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from biped_adrc.analysis.certificate import Support, supports
+from biped_adrc.analysis.ground_force import Nodes
 from biped_adrc.closed_loop.protocols import Mode
+from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.engine.compiled_signals import Reading
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import Ints
 from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.engine.program import NotCompiled
+from biped_adrc.engine.run import COMPILED
 from biped_adrc.engine.samples import CompiledWalk, PythonWalk, reading, with_inputs
 from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.reference import Reference
-from biped_adrc.hybrid.trajectory import Arc
+from biped_adrc.hybrid.status import Status
+from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.parts import check_part, numbers
+from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop
 from biped_adrc.scenario.build import start as start_of
+from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import check_start, default_method
+from biped_adrc.soft.walking import as_walked
 from biped_adrc.types import Array, frozen
 
 _STATUS = np.array([*STATUS, None], dtype=object)
@@ -72,9 +81,9 @@ class Snapshot(NamedTuple):
 class Stepper:
     """`count` walks of a scenario, or of a walker, in sampled time.
 
-    walker_of(scenario, robot and gait): the walker in place of `scenario.build`. recorded: whether the nodes of
-    single supports are kept, for `over`. Raises InputError for continuous time, a scenario with `fine`, a robot
-    without motors, and parts that do not fit together.
+    walker_of(scenario, robot and gait): the walker in place of `scenario.build`. within: limits by which the
+    single supports of a scenario are judged when they end, for `over`. Raises InputError for continuous time, a
+    scenario with `fine`, a robot without motors, and parts that do not fit together.
     """
 
     def __init__(
@@ -82,11 +91,12 @@ class Stepper:
         what: Scenario | Walker,
         count: int = 1,
         walker_of: Callable[[Scenario, RobotAndGait], Walker] = build,
-        recorded: bool = False,
+        within: Limits | None = None,
     ):
         check_part(what, "what is moved by samples", Scenario, Walker)
         check_count(count, f"the number of walks is {count}")
-        self.what, self.walker_of, self.recorded = what, walker_of, recorded
+        self.what, self.walker_of = what, walker_of
+        self.within = within if isinstance(what, Scenario) else None
         self.curve: Reference | None = None
         if what.period is None if isinstance(what, Scenario) else not what.sampled:
             raise InputError(
@@ -107,10 +117,12 @@ class Stepper:
         self.walkers: list[Walker | None] = [None] * count
         """With the inputs, as the scenario makes them."""
         self.in_python = False  # whether one of them is
-        self.over: list[tuple[int, Arc]] = []
-        """Single supports that ended in the last sample, each with the number of its walk, where recorded."""
+        self.over: list[tuple[int, Support]] = []
+        """Single supports that ended in the last sample, each with the number of its walk, where judged."""
         self._kernels = kernels()
         self.addresses = np.zeros(count * self._kernels.WALK, dtype=np.int64)
+        self._impacts = np.zeros(count, dtype=np.int64)
+        """In the last sample."""
         self.codes = np.full(count, -1, dtype=np.int64)
         """0 for a walk that goes on, -1 for one that has not begun."""
         self.rows = np.zeros((count, 0))
@@ -165,7 +177,7 @@ class Stepper:
         walk: CompiledWalk | PythonWalk | None = None
         if not self.why:
             try:
-                walk = CompiledWalk.of(walker, method, x, mode, self.curve, self.recorded)
+                walk = CompiledWalk.of(walker, method, x, mode, self.curve, self.within is not None)
             except NotCompiled as reason:
                 self.why = str(reason)
         self.walkers[i] = walker
@@ -205,19 +217,42 @@ class Stepper:
 
     def move(self, inputs: Array) -> None:
         """As `step`, of walks that have begun, under rows (torque, force) of inputs (N, p + 2), not checked."""
-        walked, steps, self.over = self.codes == 0, self.rows[:, 1].copy(), []
-        self._kernels.samples(self.addresses, inputs, self.rows, self.codes)
-        struck = self.rows[:, 1] > steps
-        ended = np.flatnonzero(walked & (struck | (self.codes != 0))).tolist()
-        for i in ended if self.recorded else ():
-            walk = self.walks[i]
-            if isinstance(walk, CompiledWalk):
-                self.over.append((i, walk.over(bool(struck[i]))))
+        before = self.codes.copy()
+        over = self._kernels.samples(self.addresses, inputs, self.rows, self.codes, self._impacts)
+        self.over = self._judged(before) if over > 0 and self.within is not None else []
         for i, walk in enumerate(self.walks) if self.in_python else ():
             if isinstance(walk, PythonWalk) and self.codes[i] == 0:
                 after, status, over = walk.sample(inputs[i])
                 self._put(i, after, STATUS.index(status))
-                self.over += [(i, arc) for arc in over]
+                self.over += [(i, self._needed(i, walk.loop, arc)) for arc in over if self.within]
+
+    def _judged(self, before: Ints) -> list[tuple[int, Support]]:
+        """What the single supports needed that have just ended in machine code, each with the number of its
+        walk.
+
+        before: codes (N,) of the walks before this sample.
+        """
+        found, within = list[tuple[int, Support]](), cast(Limits, self.within)
+        for i, walk in enumerate(self.walks):
+            impacts, ended = int(self._impacts[i]), self.codes[i] != 0
+            if isinstance(walk, CompiledWalk) and before[i] == 0 and (impacts > 0 or ended):
+                walker, (q, v) = (
+                    walk.made.walker,
+                    np.split(walk.run.x[: 2 * walk.made.walker.plant.n], 2),
+                )
+                n = Nodes.of_table(walk.over(impacts > 0 and not ended), walker.plant.p)
+                after = walker.plant.momentum(q, v) if len(n.supports.first) == impacts else None
+                k = within.of(walker.plant.description)
+                judged = supports(walker, n, k, impacts, after)
+                found += [(i, s) for s in judged[: None if ended else impacts]]
+        return found
+
+    def _needed(self, i: int, loop: ClosedLoop[Any], arc: Arc) -> Support:
+        """The same of a single support of walk i, one arc of all its nodes."""
+        run = Trajectory((arc,), Status.COMPLETED, settings={"engine": COMPILED})
+        run = as_walked(loop, run) if isinstance(loop, SteppingLoop) else run
+        walk = Walk(cast(Walker, self.walkers[i]), self.scene.walked, run)
+        return walk.feasible_within(cast(Limits, self.within)).supports[0]
 
     def save(self, i: int = 0) -> Snapshot:
         """Walk i as it is, with all that it is made of. Raises InputError for a walk that has not begun."""

@@ -10,11 +10,10 @@ from biped_adrc.scenario.build import limits
 
 PULL = {"push": "sine", "on": "link torso", "force": 40.0, "pushed_step": 2, "duration": 0.3}
 PULSE = {**PULL, "push": "pulse"}
-LONG = {"period": 1.5e-3, "h": 1.5e-3}
 CASES = {
     "pulled by a sine": {"controller": "ADRC", "period": 1e-3, **PULL},
-    "pulse between instants": {**LONG, **PULSE, "onset": 0.1004, "duration": 0.0503},
-    "encoders, delay, lag": {"hardware": "rabbit", "delay": 0.7e-3, "lag": 1e-3, "h": 1e-3},
+    "pulse between instants": {"period": 1.5e-3, **PULSE, "onset": 0.1004, "duration": 0.0503},
+    "encoders, delay, lag": {"hardware": "rabbit", "delay": 0.7e-3, "lag": 1e-3},
     "other impacts": {"period": 1e-3, "impact_error": 0.02, "mass_error": 0.05, "slope": 0.01},
     "falls": {"period": 1e-3, **PULSE, "force": 900.0},
 }

@@ -138,8 +138,8 @@ class Run:
     nodes: Array
     """Rows (t, x, x')."""
     table: Array
-    """Columns (t, step, force from outside (2,), what `look` says) at the start of each stretch without a break
-    and the end of each arc; under a force from outside at both ends of a stretch."""
+    """Columns (t, step, force from outside (2,), what `look` says) at each step and the end of each arc; at a
+    break just after it, under a force from outside just before it too."""
     inp: Array
     """Inputs and outputs of a function; zeta and one part of it."""
     out: Array

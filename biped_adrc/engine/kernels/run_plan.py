@@ -213,6 +213,11 @@ class CompiledRun:
         self["height"], self["most_columns"] = table.shape
 
 
+def table_height(p: int) -> int:
+    """Numbers in a column of `table` with a `StepReading` of p joints behind the first four."""
+    return 4 + 3 * p + 4
+
+
 @dataclass(frozen=True)
 class RunPlan:
     """The block of a run as it begins."""

@@ -25,19 +25,17 @@ MOST_ARCS = 100
 def sample(r: Run) -> int:
     """From a sample instant to the next one; a code, 0 for COMPLETED.
 
-    Nodes are kept behind the first r.count; where there is no room, those are given up. Where the walk ends,
-    the run is at its end.
+    Where there is no room for columns of the table, those in it are given up. Where the walk ends, the run is
+    at its end.
     """
     for _ in range(MOST_ARCS):
         r.t_end = next_tick(r, r.t, clock_start(r))
         code = go_on(r)
         if code == FULL:
-            r.count = 0
+            r.columns = 0
             code = go_on(r)
         if code == STRUCK:
-            count = r.count
             code = land(r)
-            r.count = count
         if code != COMPLETED:
             return code
         if is_tick(r, r.t, clock_start(r)):
@@ -56,22 +54,28 @@ def look(r: Run, law: int, out: Array) -> None:
 
 
 @kernel
-def samples(walks: Ints, inputs: Rows, states: Rows, codes: Ints) -> None:
+def samples(walks: Ints, inputs: Rows, states: Rows, codes: Ints, impacts: Ints) -> int:
     """One sample of each of N walks whose code is 0, under inputs (N, p + 2): torque [N m] and force [N].
 
+    Gives how many of them end a single support, by an impact or with the walk.
+
     walks (N WALK,), in the order of WALK. Codes (N,) become those of `sample`, rows of states (N, 2 + nx) are
-    (t, step, x) after it; those of a walk that has ended stay as they are.
+    (t, step, x) after it; those of a walk that has ended stay as they are. impacts (N,) counts those made.
     """
-    given, rows, p = data(inputs), data(states), inputs.shape[1] - 2
+    given, rows, p, over = data(inputs), data(states), inputs.shape[1] - 2, 0
     for i in range(codes.shape[0]):
         if codes[i] == COMPLETED and walks[WALK * i] != 0:
             r, u = ints_at(walks[WALK * i]), shift(given, i * (p + 2))
             copy(u, floats_at(walks[WALK * i + 1]), p)
             copy(shift(u, p), floats_at(walks[WALK * i + 2]), 2)
+            step = r.step
             codes[i] = sample(r)
+            impacts[i] = int(r.step - step)
+            over += int(impacts[i] > 0 or codes[i] != COMPLETED)
             row = shift(rows, i * states.shape[1])
             row[0], row[1] = r.t, r.step
             copy(r.x0, shift(row, 2), r.nx)
+    return over
 
 
 @kernel
