@@ -2,17 +2,16 @@
 
     x = (q, q', s, own, held)       own: numbers that the plant needs to go on
 
-There is no x' = f(x) and there are no event functions: the plant is asked to advance to the next
-sample instant and reports its touchdowns (`closed_loop.stepping_plant` defines what it has to
-give). Sample instants, sensors, motors, controller and recording are those of every closed loop, so
-a controller is tested unchanged on a plant of another kind. Torque, disturbance and estimate are
-recorded at the nodes, since they cannot be computed again from the states.
+There is no x' = f(x) and there are no event functions: the plant is asked to advance to the next sample instant
+or edge of a disturbance and reports its touchdowns (`closed_loop.stepping_plant` defines what it has to give).
+Sample instants, sensors, motors, controller and recording are those of every closed loop, so a controller is
+tested unchanged on a plant of another kind. Torque, disturbance and estimate are recorded at the nodes, since
+they cannot be computed again from the states.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, cast
@@ -254,12 +253,13 @@ class SteppingLoop(ClosedLoop[Any]):
         return self.load(t, row[:n], row[n : 2 * n], mode)
 
     @cached_property
-    def zetas(self) -> Callable[[Array, Array, Mode], Array] | None:
-        """zeta (K, n) [N m] at K times [s], in the plant's rows; None where Python computes it row by row, so
-        that what it raises ends the run.
-        """
-        n = self.plant.n
-        return None if self.disturbance is not None else lambda t, rows, mode: np.zeros((len(t), n))
+    def pushed_in_python(self) -> bool:
+        """Whether zeta is computed point by point, so that what it raises ends the run there."""
+        return self.disturbance is not None
+
+    def zetas(self, t: Array, rows: Array, mode: Mode) -> Array:
+        """zeta (K, n) [N m] at K times [s], in the plant's rows, where it is not computed point by point."""
+        return np.zeros((len(t), self.plant.n))
 
     def motor_torque(self, x: Array) -> Array:
         """Torque on the joints (.., p) [N m] in states x (.., nx): the plant's, where its motors have a lag."""

@@ -48,7 +48,7 @@ class Stretches(Record):
 
     def point(self, t: float, row: Array, mode: Mode) -> None:
         """The plant passes a row at t [s]."""
-        if self.loop.zetas is None:
+        if self.loop.pushed_in_python:
             n = self.loop.plant.n
             self.zeta.append(self.loop.load(t, row[:n], row[n : 2 * n], mode).zeta)
         self.t.append(t)
@@ -76,8 +76,7 @@ class Stretches(Record):
         dx[:, :n], dx[:, n : 2 * n] = v[at], a[steps]
         kept = (np.arange(len(at)) - np.repeat(ends - counts + 1, counts)) % self.every == 0
         kept[ends] = True
-        zetas = self.loop.zetas
-        zeta = np.array(self.zeta) if zetas is None else zetas(t, rows, mode)
+        zeta = np.array(self.zeta) if self.zeta else self.loop.zetas(t, rows, mode)
         read = {"u": self.loop.motor_torque(x), "zeta": zeta[at], "xi_estimate": xi}
         read = {name: found[kept] for name, found in read.items()}
         return Arc(mode, t[at][kept], x[kept], dx[kept], event, read)

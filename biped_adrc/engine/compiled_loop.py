@@ -10,7 +10,6 @@ A controller that cannot be compiled still gets the model's terms and its refere
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
@@ -71,9 +70,14 @@ class LoopInCode(SteppingLoop):
         return Load(found[:-2], found[-2:]) if size > 0.0 else None
 
     @cached_property
-    def zetas(self) -> Callable[[Array, Array, Mode], Array] | None:
-        """As of a `SteppingLoop`, by machine code where the disturbance is compiled."""
-        return super().zetas if self.compiled_push is None else self.compiled_push.zetas
+    def pushed_in_python(self) -> bool:
+        """Whether its disturbance is not compiled."""
+        return self.disturbance is not None and self.compiled_push is None
+
+    def zetas(self, t: Array, rows: Array, mode: Mode) -> Array:
+        """zeta (K, n) [N m] at K times [s], in the plant's rows, where Python does not compute it."""
+        push = self.compiled_push
+        return super().zetas(t, rows, mode) if push is None else push.zetas(t, rows, mode)
 
 
 @dataclass(frozen=True)
