@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.closed_loop.stepping import Advanced, Contact, PlantState, SteppingLoop
+from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.closed_loop.stepping_plant import Advanced, Contact, PlantState
 from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sensors import Sensors

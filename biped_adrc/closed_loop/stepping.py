@@ -2,11 +2,11 @@
 
     x = (q, q', s, own, held)       own: numbers that the plant needs to go on
 
-There is no x' = f(x) and there are no event functions: the plant is asked to advance to the next
-sample instant and reports its touchdowns (`closed_loop.stepping_plant` defines what it has to
-give). Sample instants, sensors, motors, controller and recording are those of every closed loop, so
-a controller is tested unchanged on a plant of another kind. Torque, disturbance and estimate are
-recorded at the nodes, since they cannot be computed again from the states.
+There is no x' = f(x) and there are no event functions: the plant is asked to advance to the next sample instant
+or edge of a disturbance and reports its touchdowns (`closed_loop.stepping_plant` defines what it has to give).
+Sample instants, sensors, motors, controller and recording are those of every closed loop, so a controller is
+tested unchanged on a plant of another kind. Torque, disturbance and estimate are recorded at the nodes, since
+they cannot be computed again from the states.
 """
 
 from __future__ import annotations
@@ -23,16 +23,18 @@ from biped_adrc.closed_loop.noticing import estimated
 from biped_adrc.closed_loop.protocols import Mode, Plant
 from biped_adrc.closed_loop.semantics import landed, parts, torque_held
 from biped_adrc.closed_loop.stepping_plant import (
-    Advanced,
     Contact,
     Load,
     PlantState,
     SteppingPlant,
+    StridingPlant,
     advanced,
     check_swap,
     motor_torque,
     started,
+    state_of,
 )
+from biped_adrc.closed_loop.stretches import Stretches
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.control.base import Controller
 from biped_adrc.disturbances.base import Disturbance
@@ -43,7 +45,7 @@ from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.system import FoundEvent, Mover
-from biped_adrc.hybrid.trajectory import Event, Record, Trajectory
+from biped_adrc.hybrid.trajectory import Event, Trajectory
 from biped_adrc.parts import handing_out, numbers
 from biped_adrc.timing import SampledTime, check_ends
 from biped_adrc.types import Array, Indices, frozen
@@ -120,6 +122,11 @@ class SteppingLoop(ClosedLoop[Any]):
         """u (p,) [N m] itself. Raises RanAwayError for one beyond the bounds."""
         return self.bounds.bounded(u)
 
+    @cached_property
+    def squares(self) -> tuple[float, float]:
+        """Squares of sums below which all angles, and all angles and rates, are within the bounds."""
+        return self.bounds.farthest**2, float(np.min(self.bounds.fastest)) ** 2
+
     @property
     def swap(self) -> Indices:
         """Relabelling of the motors at a touchdown (p,), dtype int."""
@@ -171,47 +178,92 @@ class SteppingLoop(ClosedLoop[Any]):
         """One function for all arcs; the plant does not need to know what fired."""
         return self.move
 
+    def record(self, every: int) -> Stretches:
+        """Room for the nodes of one arc, of which each `every`-th of a stretch is kept."""
+        return Stretches(every, loop=self)
+
     def move(
-        self, t: float, x: Array, mode: Mode, until: float, record: Record
+        self, t: float, x: Array, mode: Mode, until: float, record: Stretches
     ) -> tuple[float, Array, FoundEvent | None]:
-        """From a sample instant at t [s] to the next, or to a contact: time, x (nx,), and the event
-        if there is one.
+        """One stretch from x (nx,) at t [s] to `until` [s] or to a contact, as `hybrid.system.Mover`.
 
         Nodes are recorded before a state that is not finite raises NotFiniteError, or one beyond the
         bounds RanAwayError, so that the last good motion can be looked at.
         """
-        (q, v, _, tail), k = parts(self, x), self.held
-        assert k is not None
-        u, state = torque_held(k, tail), PlantState(t, q, v, tail[: k.sizes.own])
+        assert self.held is not None
+        n, p, (near, slow) = self.held.sizes.n, self.held.sizes.p, self.squares
+        xi, row = self.estimated(t, x, mode), record.row(x)
+        nodes, contacts, after = self.stretch(t, row, x[-p:], mode, until)
+        record.begin(t, row, x, xi, mode)
+        for end, row in nodes:
+            q = row[:n]
+            if not (q.dot(q) < near and row.dot(row) < slow):  # two products test all of them
+                if not np.all(np.isfinite(row)):
+                    raise NotFiniteError(
+                        f"the state of the plant is not finite after t = {t:.6g} s"
+                    )
+                self.bounds.check(end, q, row[n : 2 * n])
+            record.point(end, row, mode)
+            t = end
+        x = x.copy()
+        x[: 2 * n], x[self.own_places] = row[: 2 * n], row[2 * n :]
+        return t, x, None if after is None else self.found(t, x, mode, contacts, after)
+
+    def stretch(
+        self, t: float, row: Array, u: Array, mode: Mode, until: float
+    ) -> tuple[list[tuple[float, Array]], tuple[Contact, ...], PlantState | None]:
+        """Times [s] and rows (2 n + k,) that the plant passes from a row at t [s] under u (p,) [N m], its
+        contacts, and its state after them, None without.
+
+        On a plant that strides what acts from outside is taken in the middle.
+        """
+        plant, n = self.strides, self.plant.n
+        if plant is not None:
+            load = None if self.disturbance is None else self.push(0.5 * (t + until), row, mode)
+            row, contacts = plant.stride(t, row, u, load, until)
+            after = plant.landed(state_of(until, row, n), contacts) if contacts else None
+            return [(until, row)], contacts, after
 
         def outside(t: float, q: Array, v: Array) -> Load:
             return self.load(t, q, v, mode)
 
-        moved = advanced(self.plant, state, u, outside, until)
-        passed = np.array([state.t, *(node.t for node in moved.nodes)])
-        rows = np.array([self.with_plant(x, s) for s in (state, *moved.nodes)])
-        angles, rates = rows[:, : len(q)], rows[:, len(q) : 2 * len(q)]
-        finite = np.all(np.isfinite(rows), axis=1)
-        good = np.logical_and.accumulate(finite & self.bounds.hold(angles, rates))
-        self.keep(passed[good], rows[good], mode, record)
-        if not np.all(good):
-            bad = int(np.argmin(good))
-            if finite[bad]:
-                self.bounds.check(passed[bad], angles[bad], rates[bad])
-            last = np.max(passed[good], initial=t)
-            raise NotFiniteError(f"the state of the plant is not finite after t = {last:.6g} s")
-        t, x_minus = moved.state.t, rows[-1]
-        return t, x_minus, self.found(t, x_minus, mode, moved) if moved.contacts else None
+        moved = advanced(self.plant, state_of(t, row, n), u, outside, until)
+        nodes = [(node.t, np.concatenate(node[1:])) for node in moved.nodes]
+        return nodes, moved.contacts, moved.state if moved.contacts else None
+
+    @cached_property
+    def strides(self) -> StridingPlant | None:
+        """The plant, where its word is taken."""
+        return self.plant if isinstance(self.plant, StridingPlant) else None
+
+    @cached_property
+    def own_places(self) -> slice:
+        """Places in x of the plant's own numbers, counted from its end."""
+        assert self.held is not None
+        return slice(-self.behind, self.held.sizes.own - self.behind)
 
     def load(self, t: float, q: Array, v: Array, mode: Mode) -> Load:
         """What acts from outside at t [s], q (n,) [rad], v (n,) [rad/s], read-only."""
-        return frozen(Load(self.external(t, q, v, mode), self.resultant(t, mode)))
+        zeta = self.external(t, frozen(q), frozen(v), mode)
+        return frozen(Load(zeta, self.resultant(t, mode)))
+
+    def push(self, t: float, row: Array, mode: Mode) -> Load | None:
+        """As `load`, in a row of the plant; None may stand for nothing."""
+        n = self.plant.n
+        return self.load(t, row[:n], row[n : 2 * n], mode)
+
+    @cached_property
+    def pushed_in_python(self) -> bool:
+        """Whether zeta is computed point by point, so that what it raises ends the run there."""
+        return self.disturbance is not None
+
+    def zetas(self, t: Array, rows: Array, mode: Mode) -> Array:
+        """zeta (K, n) [N m] at K times [s], in the plant's rows, where it is not computed point by point."""
+        return np.zeros((len(t), self.plant.n))
 
     def motor_torque(self, x: Array) -> Array:
         """Torque on the joints (.., p) [N m] in states x (.., nx): the plant's, where its motors have a lag."""
-        u, end = x[..., -self.plant.p :], x.shape[-1] - self.behind
-        assert self.held is not None
-        return motor_torque(self.plant, x[..., end : end + self.held.sizes.own], u)
+        return motor_torque(self.plant, x[..., self.own_places], x[..., -self.plant.p :])
 
     def estimated(self, t: float, x: Array, mode: Mode) -> Array:
         """The observer's estimate of xi (p,) [rad/s^2] at (t, x), t in [s]; NaN without an observer."""
@@ -229,13 +281,16 @@ class SteppingLoop(ClosedLoop[Any]):
         stance, swing = plant.footing(state, u, self.load(t, q, v, mode)).force[:, 1]
         return float(stance), float(swing)
 
-    def found(self, t: float, x: Array, mode: Mode, moved: Advanced) -> FoundEvent:
-        """The event of the contacts at t [s], x (nx,) the state just before, with the controller's jump.
+    def found(
+        self, t: float, x: Array, mode: Mode, contacts: tuple[Contact, ...], state: PlantState
+    ) -> FoundEvent:
+        """The event of the contacts at t [s], x (nx,) the state just before and `state` the plant's after, with
+        the controller's jump.
 
         A contact with a status ends the run. Raises NotFiniteError for an impulse or a state after
         it that is not finite.
         """
-        (name, impulse, ends), state = together(moved.contacts), moved.state
+        name, impulse, ends = together(contacts)
         if ends is not None:
             return FoundEvent(Event(name, t, x, None), None, ends)
         if not np.all(np.isfinite([*state.q, *state.v, *state.own, *impulse])):
@@ -245,26 +300,6 @@ class SteppingLoop(ClosedLoop[Any]):
         after = Mode(mode.step + 1, t)
         x_plus = self.with_plant(landed(self, t, x, state.q, state.v, after), state)
         return FoundEvent(Event(name, t, x, x_plus), (x_plus, after))
-
-    def keep(self, t: Array, x: Array, mode: Mode, record: Record) -> None:
-        """Record each `store_every`-th of K nodes, t (K,) [s] and x (K, nx), both ends among them.
-
-        Beside them the motors' torque (p,) and zeta (n,) [N m] and the observer's estimate (p,)
-        [rad/s^2]. Slopes of the rates are their differences, since the plant does not give q''.
-        """
-        if len(t) == 0:
-            return
-        slopes, n = np.zeros_like(x), self.plant.n
-        slopes[:, :n] = v = x[:, n : 2 * n]
-        if len(t) > 1:
-            a = np.diff(v, axis=0) / np.diff(t)[:, np.newaxis]
-            slopes[:, n : 2 * n] = np.vstack((a, a[-1:]))
-        xi = self.estimated(t[0], x[0], mode)
-        kept = np.unique(np.append(np.arange(0, len(t), record.every), len(t) - 1))
-        zeta = np.array([self.load(t[k], x[k, :n], v[k], mode).zeta for k in kept])
-        count = len(kept), 1
-        read = {"u": self.motor_torque(x[kept]), "zeta": zeta, "xi_estimate": np.tile(xi, count)}
-        record.add(t[kept], x[kept], slopes[kept], **read)
 
 
 def together(contacts: tuple[Contact, ...]) -> Contact:

@@ -152,6 +152,11 @@ class UnevenPlant(SteppingPlant, Protocol):
         """The same plant on these steps; its first single support is number `first_step`."""
 
 
+def state_of(t: float, row: Array, n: int) -> PlantState:
+    """A row (q, q', own) (2 n + k,) at t [s] in parts."""
+    return PlantState(t, row[:n], row[n : 2 * n], row[2 * n :])
+
+
 def motor_torque(plant: SteppingPlant, own: Array, u: Array) -> Array:
     """As `LaggingPlant.motor_torque`; u (.., p) [N m] itself where the plant knows of no lag."""
     return plant.motor_torque(own, u) if isinstance(plant, LaggingPlant) else u

@@ -4,32 +4,29 @@ What ran is in the settings of the trajectory:
 
     engine    "compiled"; "compiled model" where the controller runs in Python, with the reason as "why"
 
-A controller that cannot be compiled still gets the model's terms and its references from machine code. A plant
-that does not stride (`closed_loop.stepping_plant.StridingPlant`), and motors that wait for a fraction of a
-period, are run by `hybrid.simulator` as always, around compiled sample instants.
+A controller that cannot be compiled still gets the model's terms and its references from machine code.
 """
 
 from __future__ import annotations
 
+import math
 from contextlib import suppress
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from threading import get_ident
-from typing import NamedTuple
 
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.stepping_plant import StridingPlant
+from biped_adrc.closed_loop.stepping_plant import Load
 from biped_adrc.engine.compiled_biped import CompiledBiped
-from biped_adrc.engine.compiled_push import CompiledPush, PythonPush
+from biped_adrc.engine.compiled_push import CompiledPush
 from biped_adrc.engine.compiled_tick import CompiledTick
 from biped_adrc.engine.controller_inputs import compiled_references
 from biped_adrc.engine.program import NotCompiled
 from biped_adrc.engine.run import COMPILED
-from biped_adrc.engine.strides import Strides
 from biped_adrc.errors import ModelError
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import RunOptions
-from biped_adrc.hybrid.system import HybridSystem
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
@@ -38,15 +35,49 @@ COMPILED_MODEL = "compiled model"
 """Name of the engine where the controller runs in Python on a compiled model."""
 
 
-class Compiled(NamedTuple):
-    """What there is of a loop in machine code."""
+@dataclass(frozen=True)
+class LoopInCode(SteppingLoop):
+    """A loop with what there is of it in machine code, in one thread."""
 
-    loop: SteppingLoop
-    """For what runs in Python."""
-    tick: CompiledTick | None
+    code: CompiledTick | None = None
     """Its sample instants; None where a part of it cannot be compiled."""
-    why: str
-    """The reason then."""
+    compiled_push: CompiledPush | None = None
+    """Its disturbance; None for none, or for Python."""
+    why: str = ""
+    """Why its sample instants are not compiled."""
+
+    def tick(self, t: float, x: Array, mode: Mode) -> Array:
+        """x (nx,) after the sample instant at t [s]."""
+        after = None if self.code is None else self.code(t, x, mode)
+        return super().tick(t, x, mode) if after is None else after
+
+    def estimated(self, t: float, x: Array, mode: Mode) -> Array:
+        """The estimate of xi (p,) [rad/s^2] at (t, x), t in [s]; the sample instant that gave x has left it."""
+        if self.code is not None and x is self.code.x:
+            return self.code.xi
+        return super().estimated(t, x, mode)
+
+    def push(self, t: float, row: Array, mode: Mode) -> Load | None:
+        """What acts from outside in a row of the plant at t [s]; Python says what is wrong with numbers that
+        are not finite.
+        """
+        if self.compiled_push is None:
+            return super().push(t, row, mode)
+        found = self.compiled_push(t, row, mode)
+        size = found.dot(found)
+        if not math.isfinite(size):
+            return super().push(t, row, mode)
+        return Load(found[:-2], found[-2:]) if size > 0.0 else None
+
+    @cached_property
+    def pushed_in_python(self) -> bool:
+        """Whether its disturbance is not compiled."""
+        return self.disturbance is not None and self.compiled_push is None
+
+    def zetas(self, t: Array, rows: Array, mode: Mode) -> Array:
+        """zeta (K, n) [N m] at K times [s], in the plant's rows, where Python does not compute it."""
+        push = self.compiled_push
+        return super().zetas(t, rows, mode) if push is None else push.zetas(t, rows, mode)
 
 
 @dataclass(frozen=True)
@@ -57,49 +88,38 @@ class CompiledLoop(SteppingLoop):
         """As `SteppingLoop.run`, from x0 (nx,)."""
         began = Mode() if mode is None else mode
         x0 = self.checked_start(x0, options, began)
-        made = self.compiled(self.controller_size(x0))
-        system = self.system(self.controller_size(x0), options.t0)
-        run = simulator.run(system, x0, began, None, options)
-        settings = (
-            {"engine": COMPILED} if made.tick else {"engine": COMPILED_MODEL, "why": made.why}
-        )
+        loop = self.compiled(self.controller_size(x0))
+        run = simulator.run(loop, x0, began, None, options)
+        settings = {"engine": COMPILED_MODEL, "why": loop.why} if loop.why else {"engine": COMPILED}
         return replace(run, settings={**run.settings, **settings})
-
-    def tick(self, t: float, x: Array, mode: Mode) -> Array:
-        """x (nx,) after the sample instant at t [s]."""
-        tick = self.compiled(self.controller_size(x)).tick
-        found = None if tick is None else tick(t, x, mode)
-        return super().tick(t, x, mode) if found is None else found[: len(x)]
 
     def __getstate__(self) -> dict[str, object]:
         return {name: x for name, x in super().__getstate__().items() if name != "_made"}
 
-    def compiled(self, size: int) -> Compiled:
+    def compiled(self, size: int) -> LoopInCode:
         """The loop for a controller with `size` states, made once in each thread, for its work space."""
-        made: dict[tuple[int, int], Compiled] = vars(self).setdefault("_made", {})
+        made: dict[tuple[int, int], LoopInCode] = vars(self).setdefault("_made", {})
         key = size, get_ident()
         if key not in made:
             made[key] = self._made_for(size)
         return made[key]
 
-    def _made_for(self, size: int) -> Compiled:
+    def _made_for(self, size: int) -> LoopInCode:
         """As `compiled`."""
-        parts = SteppingLoop(**{f.name: getattr(self, f.name) for f in fields(self)})
+        push = None
+        if self.disturbance is not None:
+            with suppress(NotCompiled):
+                push = CompiledPush(self.disturbance, self.plant.n)
+        parts = LoopInCode(
+            **{f.name: getattr(self, f.name) for f in fields(self)}, compiled_push=push
+        )
         try:
-            return Compiled(parts, CompiledTick(parts, size), "")
+            return replace(parts, code=CompiledTick(parts, size))
         except NotCompiled as reason:
-            return Compiled(on_compiled_model(parts), None, str(reason))
-
-    def system(self, size: int, t_first: float) -> HybridSystem:
-        """What the simulator runs from t_first [s] on, for a controller with `size` states."""
-        made = self.compiled(size)
-        assert self.held is not None
-        if not isinstance(self.plant, StridingPlant) or self.held.sizes.waiting:
-            return self if made.tick else made.loop
-        return Strides(made.loop, self.plant, made.tick, _push(made.loop), t_first)
+            return replace(on_compiled_model(parts), why=str(reason))
 
 
-def on_compiled_model(loop: SteppingLoop) -> SteppingLoop:
+def on_compiled_model(loop: LoopInCode) -> LoopInCode:
     """The loop with the terms of its model and the references of its controller in machine code, where they
     have any.
     """
@@ -109,13 +129,3 @@ def on_compiled_model(loop: SteppingLoop) -> SteppingLoop:
         with suppress(ModelError):  # of a robot that is no planar tree
             model = CompiledBiped.of(model)
     return replace(loop, model=model, controller=controller)
-
-
-def _push(loop: SteppingLoop) -> PythonPush | CompiledPush:
-    """What acts from outside, in machine code where it can be compiled."""
-    try:
-        return (
-            PythonPush(loop) if loop.disturbance is None else CompiledPush(loop, loop.disturbance)
-        )
-    except NotCompiled:
-        return PythonPush(loop)

@@ -68,6 +68,7 @@ class CompiledTick:
         self.owner = self._code()
         n, p, nx = loop.plant.n, loop.plant.p, self.make.nx
         self.inp, self.out = np.zeros(3 + nx + n + OUTSIDE), np.zeros(nx + p + 1)
+        self.x, self.xi = np.zeros(0), np.zeros(0)
         self.blind = self._blind(loop, size)
         noticing = loop.held.touchdown
         self.felt = loop if noticing and noticing.needs_force else None
@@ -95,8 +96,9 @@ class CompiledTick:
             raise NotCompiled(str(reason)) from reason
 
     def __call__(self, t: float, x: Array, mode: Mode) -> Array | None:
-        """x (nx,) after the sample instant at t [s] and xi^ (p,) in one row; None where Python has to say
-        what is wrong.
+        """x (nx,) after the sample instant at t [s]; None where Python has to say what is wrong.
+
+        It is kept as `x`, and the estimate of xi (p,) there as `xi`.
         """
         inp = self.inp
         inp[0], inp[1], inp[2] = t, mode.step, mode.start
@@ -110,4 +112,5 @@ class CompiledTick:
             return None
         if self.blind:
             out[len(x) : -1] = math.nan
-        return out[:-1]
+        self.x, self.xi = out[: len(x)], out[len(x) : -1]
+        return self.x

@@ -27,14 +27,12 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.added_torque import AddedTorque
 from biped_adrc.disturbances.added_force import AddedForce
 from biped_adrc.engine.compiled_loop import CompiledLoop
-from biped_adrc.engine.compiled_push import CompiledPush
 from biped_adrc.engine.compiled_signals import Reading, reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.equations import WalkerNumbers
 from biped_adrc.engine.kernels.run_plan import CompiledRun, table_height
 from biped_adrc.engine.program import NotCompiled
 from biped_adrc.engine.simulate import compiled_plant
-from biped_adrc.engine.strides import Strides
 from biped_adrc.engine.symbols import floats
 from biped_adrc.engine.ticks import TicksWithHardware, flowing
 from biped_adrc.errors import RaisedError
@@ -198,12 +196,12 @@ class PythonWalk:
                 system = TicksWithHardware(loop, held, flowing(loop.held.sizes, len(x)))
         elif isinstance(loop, CompiledLoop):
             size = loop.controller_size(x)
-            system, tick = loop.system(size, 0.0), loop.compiled(size).tick
-            if tick is not None:
-                at = torque_place(tick.numbers)
-                places.append((tick.K[at : at + p], slice(p)))
-            if isinstance(system, Strides) and isinstance(system.push, CompiledPush):
-                places.append((system.push.terms[-1][1][:2], slice(p, None)))
+            system = made = loop.compiled(size)
+            if made.code is not None:
+                at = torque_place(made.code.numbers)
+                places.append((made.code.K[at : at + p], slice(p)))
+            if made.compiled_push is not None:
+                places.append((made.compiled_push.terms[-1][1][:2], slice(p, None)))
         return cls(loop, system, method, tuple(places), Now(mode.start, x, mode, mode.start))
 
     @property
@@ -225,12 +223,10 @@ class PythonWalk:
             place[:] = inputs[part]
         walk, over = self, list[Arc]()
         while True:
-            now, until, system = walk.now, walk._until(), self.system
-            if isinstance(system, Strides):
-                system = replace(system, began=now.began)
+            now, until = walk.now, walk._until()
             at = (now.t, now.x, now.mode, now.fired, now.began)
             with handing_out(), np.errstate(over="ignore", invalid="ignore"):
-                flown = finite(flow_arc(system, self.method, RunOptions(until, 0.0), *at))
+                flown = finite(flow_arc(self.system, self.method, RunOptions(until, 0.0), *at))
             if flown.status is Status.RAISED:
                 raise RaisedError(flown.detail)
             event, arcs = flown.arc.event, (*walk.arcs, flown.arc)

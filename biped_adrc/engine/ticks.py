@@ -37,6 +37,7 @@ from biped_adrc.hardware.sample_hold import HeldSizes
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.constants import COMPLETED, FULL, STRUCK
 from biped_adrc.hybrid.integrators import OneStepMethod
+from biped_adrc.hybrid.on_arrays import next_tick
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Clock, FoundEvent, HybridSystem, Mover
@@ -225,11 +226,8 @@ class TicksWithoutHardware(HybridSystem):
         body = walker.nominal.body_terms if law.needs_body else None
         run, size, t_end = seen.run, len(s), PLACES["t_end"]
         torque, numbers = run.x[2 * walker.plant.n :], run.numbers
-        count = max(0, math.floor((t - origin) / period))
-        while origin + count * period < t:
-            count += 1
         reference, (step, began) = self.inputs.point or NoReference(), mode
-        due = origin + count * period
+        due = next_tick(math.nextafter(t, -math.inf), origin, period)
         hold, at, output = seen.hold, seen.at, law.output
         saturate, bounded = walker.saturate, walker.bounded
         predict, s = walker.calls.predict, frozen(s)
@@ -243,8 +241,7 @@ class TicksWithoutHardware(HybridSystem):
                 B = None if body is None else body(q, v)
                 elsewhere = partial(measured, t, mode)
                 m = _MEASUREMENT((t, step, t - began, q, v, terms, B, elsewhere))
-                count += 1
-                due = origin + count * period
+                due = next_tick(t, origin, period)
                 if not size:
                     torque[:] = bounded(saturate(output(s, m)))
                 else:

@@ -6,8 +6,10 @@ Arrays that go to methods of the system are copies, since the march writes into 
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
@@ -46,17 +48,23 @@ class Calendar:
     t_end: float
     """Latest end of the arc [s]."""
 
-    def start(self, clock: Clock) -> float:
-        """Time [s] of the first sample instant of a clock in this arc."""
-        return (self.t_arc if clock.restart else self.t_first) + clock.offset
+    @cached_property
+    def clocks(self) -> list[tuple[Clock, float]]:
+        """Every clock, and the time [s] of its first sample instant in this arc."""
+        first = {True: self.t_arc, False: self.t_first}
+        return [(clock, first[clock.restart] + clock.offset) for clock in self.system.clocks()]
+
+    @cached_property
+    def edges(self) -> list[float]:
+        """Switching times and t_end [s] in order, and infinity."""
+        return sorted([*self.system.switching_times(self.mode), self.t_end, math.inf])
 
     def due(self, t: float, x: Array) -> Array:
         """x (nx,) after the updates of all clocks that are due at t [s], in the order of the system's clocks.
 
         A clock is due where t equals start + k period exactly; breaks are computed by the same expression.
         """
-        for clock in self.system.clocks():
-            start = self.start(clock)
+        for clock, start in self.clocks:
             k = round((t - start) / clock.period)
             if k >= 0 and t == start + k * clock.period:
                 x = clock.update(t, x, self.mode)
@@ -64,9 +72,11 @@ class Calendar:
 
     def next_break(self, t: float) -> float:
         """The first switching time or sample instant after t [s], at most t_end: no step goes across one."""
-        times = [s for s in self.system.switching_times(self.mode) if s > t]
-        times += [next_tick(t, self.start(c), c.period) for c in self.system.clocks()]
-        return min([*times, self.t_end])
+        first = self.edges[bisect_right(self.edges, t)]
+        for clock, start in self.clocks:
+            tick = next_tick(t, start, clock.period)
+            first = tick if tick < first else first
+        return first
 
 
 def next_tick(t: float, start: float, period: float) -> float:

@@ -23,7 +23,7 @@ from biped_adrc.hybrid.march import arm, travel
 from biped_adrc.hybrid.on_arrays import Calendar, Run
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import HybridSystem, Mode, Outcome
-from biped_adrc.hybrid.trajectory import Arc, Record, Trajectory
+from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.parts import handing_out, sentence_of
 from biped_adrc.types import Array
 
@@ -188,7 +188,8 @@ def flow_arc(
     fired: the event that ended the arc before. began [s]: where the arc did, for what goes on from the middle
     of one. An arc that fails before its first node keeps its start.
     """
-    record, found, status, detail = Record(options.store_every), None, Status.COMPLETED, ""
+    record, found = system.record(options.store_every), None
+    status, detail = Status.COMPLETED, ""
     calendar = Calendar(system, mode, t if began is None else began, options.t0, options.t_end)
     move = system.mover(fired)
     run = None

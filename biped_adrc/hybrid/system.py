@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.trajectory import Event
+from biped_adrc.hybrid.trajectory import Event, Record
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
@@ -124,6 +124,10 @@ class HybridSystem(Shown):
         fired: name of the event that ended the arc before, None at the start.
         """
         return None
+
+    def record(self, every: int) -> Record:
+        """Room for the nodes of one arc, of which each `every`-th is kept."""
+        return Record(every)
 
     def guards(self, mode: Mode) -> tuple[Guard, ...]:
         """The event functions watched in `mode`."""

@@ -108,7 +108,8 @@ class MuJoCoEngine:
 
     def place(self, row: Array) -> None:
         """Positions and rates of a row; all else that MuJoCo knows follows from them."""
-        self.qpos[:], self.qvel[:] = row[self.positions], row[self.rates]
+        row.take(self.positions, out=self.qpos, mode="clip")  # by far the fastest way
+        row.take(self.rates, out=self.qvel, mode="clip")
         self.warnings[:] = 0
         if self.planes:
             first = 2 * self.biped.n + 6
@@ -121,7 +122,7 @@ class MuJoCoEngine:
         if load is None:
             return
         self.applied[self.angles] = load.zeta
-        if load.force.any():
+        if any(load.force.tolist()):
             f = self.biped.floating
             J = f.velocity_map(q)[f.base, : self.biped.n]
             self.applied[self.angles] -= J.T @ load.force

@@ -32,7 +32,7 @@ from threading import Lock, get_ident
 import numpy as np
 
 from biped_adrc.closed_loop.feet import Feet
-from biped_adrc.closed_loop.stepping_plant import Advanced, Contact, Load, PlantState
+from biped_adrc.closed_loop.stepping_plant import Advanced, Contact, Load, PlantState, state_of
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.errors import InputError, check_count, check_positive
 from biped_adrc.ground import StepDown, StepUp, check_slope, check_steps, drop_of, ground_axes
@@ -229,22 +229,24 @@ class MuJoCoPlant(Checked, Shown):
         t, q, v, own = state
         load = outside(0.5 * (t + until), q, v)
         row, contacts = self.stride(t, np.concatenate((q, v, own)), u, load, until)
-        moved = self._state(until, row)
+        moved = state_of(until, row, self.n)
         return Advanced(self.landed(moved, contacts), contacts, (moved,))
 
     def stride(
         self, t: float, row: Array, u: Array, load: Load | None, until: float
     ) -> tuple[Array, tuple[Contact, ...]]:
         """As `advance` for the state as one row (q, q', own), before what a contact changes."""
-        after = self.engine.moved(t, row, u, load, until)
-        found = self.contacts(until, after[2 * self.n :])
+        engine = self.engine
+        after = engine.moved(t, row, u, load, until)
+        own, points = after[2 * self.n :], engine.points()
+        found = self.contacts(until, own, points)
         if self.ground_steps and not found:
-            self.look_ahead(after[2 * self.n :])
+            self.look_ahead(own, points)
         return after, found
 
-    def look_ahead(self, own: Array) -> None:
+    def look_ahead(self, own: Array, points: list[list[float]]) -> None:
         """Put the swing foot's plane at the next foothold, in `own`, where the foot is ahead and above that."""
-        (x, z), (stance, swing, _) = self.out, self.engine.points()
+        (x, z), (stance, swing, _) = self.out, points
         foothold = own[6] - drop_of(self.ground_steps, int(own[5]))
         if swing[0] > stance[0] and x * swing[0] + z * (swing[2] - foothold) > 0.0:
             own[7] = foothold
@@ -278,20 +280,16 @@ class MuJoCoPlant(Checked, Shown):
         q, v = self.biped.relabel(state.q), self.biped.R @ state.v
         return PlantState(state.t, q, v, own)
 
-    def _state(self, t: float, row: Array) -> PlantState:
-        """A row in parts."""
-        return PlantState(t, row[: self.n], row[self.n : 2 * self.n], row[2 * self.n :])
-
     # -- what ends a single support ----------------------------------------------------------------
-    def contacts(self, t: float, own: Array) -> tuple[Contact, ...]:
+    def contacts(self, t: float, own: Array, points: list[list[float]]) -> tuple[Contact, ...]:
         """What ends the run at t [s] (a fall, a stance foot in the air, a step too long), else a
         touchdown; or none.
 
-        own: the plant's numbers there. A foot above the ground carries nothing, so that forces are asked
-        for only where the swing foot is in it.
+        own: the plant's numbers there. points [m]: of both feet and the hip. A foot above the ground carries
+        nothing, so that forces are asked for only where the swing foot is in it.
         """
-        (x, z), (stance, swing, hip) = self.out, self.engine.points()
-        below, ahead = self.levels(own).tolist()
+        (x, z), (stance, swing, hip) = self.out, points
+        below, ahead = self.levels(own).tolist() if self.ground_steps else (0.0, 0.0)
         if x * hip[0] + z * (hip[2] - below) < self.lowest_hip:
             return (Contact("hip_too_low", ends=Status.FELL),)
         if x * stance[0] + z * (stance[2] - below) > self.flight_height:

@@ -89,6 +89,16 @@ def test_a_controller_without_laws_runs_in_python_on_a_compiled_model(plant, gai
     same(python, compiled, 1e-9)
 
 
+@dataclass(frozen=True)
+class Breaks(ba.Disturbance):
+    """A push of a user's own that raises at the end of a stretch, and not in the middle of one."""
+
+    def torque(self, t, step, t_start, q, v):
+        if t >= 0.05:
+            raise ValueError("broken")
+        return np.zeros(5)
+
+
 def rushing(x0):
     x0[5:10] *= 1e9
     return x0
@@ -97,6 +107,7 @@ def rushing(x0):
 ENDS = {
     "not a number": (Written(lost=0.0105), {}, 0.1, None, ba.Status.NOT_FINITE),
     "lost by the engine": (None, {}, 0.1, rushing, ba.Status.STEP_FAILED),
+    "a push that raises": (None, {"disturbance": Breaks()}, 0.1, None, ba.Status.RAISED),
     "a fall": (ba.Passive(), {}, 2.0, None, ba.Status.FELL),
 }
 
