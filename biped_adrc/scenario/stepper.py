@@ -32,7 +32,7 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.engine.compiled_signals import Reading
-from biped_adrc.engine.kernels.load import kernels
+from biped_adrc.engine.kernels.load import step_kernels
 from biped_adrc.engine.kernels.record import Ints
 from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.engine.program import NotCompiled
@@ -119,7 +119,7 @@ class Stepper:
         self.in_python = False  # whether one of them is
         self.over: list[tuple[int, Support]] = []
         """Single supports that ended in the last sample, each with the number of its walk, where judged."""
-        self._kernels = kernels()
+        self._kernels = step_kernels()
         self.addresses = np.zeros(count * self._kernels.WALK, dtype=np.int64)
         self._impacts = np.zeros(count, dtype=np.int64)
         """In the last sample."""

@@ -65,7 +65,7 @@ def intrinsic(function: Callable[..., Generated]) -> Callable[..., Any]:
 
 
 def kernel(function: _Function) -> _Function:
-    """Callable from Python without the GIL, with arrays, once `compile_all` has run."""
+    """Callable from Python without the GIL, with arrays, once `compile_those` has run."""
     made: Any = njit(nogil=True, error_model="numpy", cache=True)(function)
     KERNELS.append(made)
     return made
@@ -93,7 +93,7 @@ def _signature(
 
 
 def unit(function: _Function) -> _Function:
-    """A C function with a symbol of its own, once `compile_all` has run; its annotations are its signature.
+    """A C function with a symbol of its own, once `compile_those` has run; its annotations are its signature.
 
     What it is given comes back as a reference to that symbol, so callers do not compile it again.
     """
@@ -104,17 +104,21 @@ def unit(function: _Function) -> _Function:
     return types.ExternalFunction(symbol, signature)
 
 
-def compile_all() -> None:
-    """The machine code of all units and kernels, from the disk if it is there; no more is compiled after.
+def compile_those(chosen: Callable[[str], bool]) -> None:
+    """The machine code of units and kernels by name, from the disk if it is there; no more is compiled after.
 
     Units come first, in the order in which they need each other: a kernel links to their symbols.
     """
     for symbol, (signature, function) in UNITS.items():
+        if not chosen(function.__name__):
+            continue
         compiled = cfunc(signature, cache=True, error_model="numpy")(function)
         _KEEP.append(compiled)
         ADDRESSES[symbol.rpartition(".")[2]] = compiled.address
         binding.add_symbol(symbol, compiled.address)
     for made in KERNELS:
+        if not chosen(made.py_func.__name__):
+            continue
         made.compile(tuple(_signature(made.py_func, _ARRAYS)[0]))
         made.disable_compile()
 

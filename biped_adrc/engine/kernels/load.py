@@ -39,9 +39,24 @@ _LOCK = Lock()
 
 
 def kernels() -> ModuleType:
-    """The compiled module, with `arc`, `strike`, `stride`, `samples`; made by the first thread that asks."""
+    """The compiled module, with `arc`, `strike`, `stride`; made by the first thread that asks."""
     with _LOCK:
         return _kernels()
+
+
+def step_kernels() -> ModuleType:
+    """The same module with `samples` and `looks` too."""
+    with _LOCK:
+        return _step_kernels()
+
+
+@lru_cache(maxsize=1)
+def _step_kernels() -> ModuleType:
+    """The module of `_kernels` with what steppers need."""
+    module = _kernels()
+    module.compile_those(lambda name: name in module.FOR_STEPPERS)
+    note_checksums(module)
+    return module
 
 
 @lru_cache(maxsize=1)
@@ -52,11 +67,11 @@ def _kernels() -> ModuleType:
     text = source()
     module = load_source(text)
     try:
-        module.compile_all()
+        module.compile_those(lambda name: name not in module.FOR_STEPPERS)
     except Exception:  # numba does not say what it raises for machine code that is damaged
         forget(module)
         module = load_source(text)
-        module.compile_all()
+        module.compile_those(lambda name: name not in module.FOR_STEPPERS)
     note_checksums(module)
     return module
 

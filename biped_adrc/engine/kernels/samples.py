@@ -17,6 +17,8 @@ from biped_adrc.types import Array
 
 WALK = 3
 """Numbers in `walks` for one: addresses of its run, and of the torque and the force in it; 0 for no walk."""
+FOR_STEPPERS = ("sample", "look", "samples", "looks")
+"""Units and kernels that are compiled when there is a stepper."""
 MOST_ARCS = 100
 """In one sample (EVENT_LIMIT)."""
 
