@@ -15,9 +15,8 @@ from biped_adrc.files import write_bytes
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.model.biped import Biped
 from biped_adrc.paper.figures import push_window
-from biped_adrc.paper.pair import CONTROLLERS
-from biped_adrc.paper.plan import Plan
 from biped_adrc.paper.results import Results
+from biped_adrc.paper.scenarios import CONTROLLERS, Plan
 from biped_adrc.viz.from_the_side.robot_figure import robot_figure
 from biped_adrc.viz.plots import figures
 from biped_adrc.viz.plots.push_map import push_map_figure
@@ -47,16 +46,16 @@ def pictures(plan: Plan, r: Results) -> dict[str, Task[tuple[bytes, bytes]]]:
     does not: the disturbance estimate, the ground's force, energies, multipliers, the return map, and the map
     of pushes.
     """
-    signals, cells = {c: head.signals for c, head in r.heads.items()}, r.cells
+    signals, cells = {c: head.signals for c, head in r.headline.items()}, r.cells
     npd, adrc, window = signals["NPD"], signals["ADRC"], push_window(signals["NPD"])
     magnitudes = {c: r.multipliers[c].orbit.multipliers for c in CONTROLLERS if c in r.multipliers}
     mu = Biped.load("rabbit", plan.preset).description.friction_coefficient
     maps = {
         f"push_map_{preset}": (
             push_map_figure,
-            [cell.row() for cell in cells if cell.preset == preset],
+            [cell.row() for cell in cells if cell.push.preset == preset],
         )
-        for preset in sorted({cell.preset for cell in cells})
+        for preset in sorted({cell.push.preset for cell in cells})
     }
     made: dict[str, tuple[object, ...]] = {
         "figure1": (draw_robot, plan.preset),

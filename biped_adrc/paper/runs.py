@@ -1,0 +1,445 @@
+"""The work of the reproduction: what a worker computes, and the tasks of a plan by kind and name.
+
+The walks are those of `paper.scenarios`; most are made at two integration steps, and of many nodes only those
+are kept that a figure of merit needs. What a push does is separated from what the controller does anyway: the
+error of the pushed step is compared with that of the same step without a push (`Track.away_from`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.interpolate import CubicHermiteSpline
+from scipy.optimize import brentq
+
+from biped_adrc.analysis.certificate import IMPULSE
+from biped_adrc.analysis.feasibility import Feasibility
+from biped_adrc.analysis.quadrature import largest
+from biped_adrc.analysis.signals import Signals
+from biped_adrc.campaign.pool import Task
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
+from biped_adrc.engine.run import COMPILED, simulate_by
+from biped_adrc.errors import BipedError
+from biped_adrc.gait.recipe import impact_smoothness
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4
+from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.observer_design.observer_loop import observer_loop
+from biped_adrc.observers.gpi import GPIObserver
+from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
+from biped_adrc.paper.push_map import push_map
+from biped_adrc.paper.scenarios import (
+    COARSE,
+    CONTROLLERS,
+    GAITS,
+    Member,
+    Plan,
+    base_runs,
+    cycle_runs,
+    declared,
+    engine_runs,
+    loose,
+    map_pushes,
+    members,
+    multiplier_runs,
+    on_the_recipe,
+    plain,
+    pushed_run,
+    starting,
+    tried_runs,
+)
+from biped_adrc.paper.verdict import AtTwoSteps
+from biped_adrc.scenario.build import RobotAndGait, build
+from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.recording import Walk, watched
+from biped_adrc.scenario.run import execute, execute_twice, halved, method_of, walk_scenario
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.studies.cycle_stability import (
+    PoincareResult,
+    poincare,
+    poincare_twice,
+    return_map_samples,
+)
+from biped_adrc.types import Array, relabelled
+
+KEPT = 5e-4
+"""Distance of the nodes that are kept of a walk with short steps [s]; nothing moves faster between pushes."""
+
+
+def sparse(walk: Walk, apart: float = KEPT) -> Walk:
+    """The walk without the nodes that no figure of merit needs, all of them where a push acts and in the single
+    support after it.
+    """
+    run = walk.scenario
+    assert run is not None
+    pushed = {push.step + k for push in run.pushes for k in (0, 1)}
+    arcs = (a if a.mode.step in pushed else a.thinned(apart) for a in walk.trajectory.arcs)
+    return watched(walk.walker, walk.gait, replace(walk.trajectory, arcs=tuple(arcs)), run)
+
+
+def twice(run: Scenario) -> Outcome:
+    """The outcome of a walk, with that at half of its steps in `half`."""
+    if run.h is None or run.h > 0.2 * KEPT or run.reset != "model":
+        return execute_twice(run)
+    half = sparse(walk_scenario(halved(run)), 0.5 * KEPT)
+    return replace(sparse(walk_scenario(run)).outcome, half=half.outcome)
+
+
+@dataclass(frozen=True)
+class Headline:
+    """A pushed run with all that is drawn of it."""
+
+    outcome: Outcome
+    """Its figures of merit, with those at half of the step in `half`, and at a quarter in the half of that."""
+    trajectory: Trajectory
+    """Its nodes, as `sparse` keeps them."""
+    signals: Signals
+    """Errors, torques, forces and energies at the nodes."""
+    laws: Mapping[str, float]
+    """What `physical_laws.walk_laws` found."""
+
+
+def headline(run: Scenario) -> Headline:
+    """A pushed run that is kept; at a quarter of the step only the single supports from the push on."""
+    walk = sparse(walk_scenario(run))
+    half = halved(run)
+    quarter = execute(replace(halved(half), first_step=run.pushes[0].step, impacts=2))
+    at_half = replace(sparse(walk_scenario(half), 0.5 * KEPT).outcome, half=quarter)
+    return Headline(
+        replace(walk.outcome, half=at_half), walk.trajectory, walk.signals, walk_laws(walk)
+    )
+
+
+def engines(one: Scenario, other: Scenario) -> float:
+    """Largest difference of (q, q') before the impacts of two runs [rad, rad/s]; infinite where they differ in
+    number, or there is none.
+    """
+    a, b = (execute(run).x_minus for run in (one, other))
+    n = RobotAndGait.of(one).biped.n
+    if a.shape != b.shape or len(a) == 0:
+        return math.inf
+    return float(np.max(np.abs(a - b)[:, : 2 * n]))
+
+
+# -- what a push adds to the tracking error --------------------------------------------------------
+class Track(NamedTuple):
+    """One single support: the tracking error over time, and Theta' before the impact that ends it."""
+
+    t: Array
+    """(K,) from the start of the step [s]."""
+    error: Array
+    """(K, p) [rad]."""
+    derror: Array
+    """(K, p), its derivative in time [rad/s]."""
+    rate: float
+    """Theta' before the impact [rad/s], NaN when there is no impact."""
+
+    @property
+    def peak(self) -> float:
+        """Largest |error|, between the nodes too [rad]."""
+        return largest(self.t, self.error, self.derror)
+
+    def away_from(self, usual: Track, onset: float) -> float:
+        """max |error - that of `usual`| [rad] from the onset [s] on, while both steps last.
+
+        `usual` has no push and is smooth: cubic Hermite interpolants between its nodes. NaN without a common
+        time.
+        """
+        seen = (self.t >= onset) & (self.t <= usual.t[-1])
+        t, first = np.unique(usual.t, return_index=True)
+        if not np.any(seen) or not np.all(np.isfinite(usual.error)):
+            return float("nan")
+        there = CubicHermiteSpline(t, usual.error[first], usual.derror[first])
+        at = self.t[seen]
+        return largest(at, self.error[seen] - there(at), self.derror[seen] - there(at, 1))
+
+
+def track(walk: Walk) -> Track:
+    """The first single support of a walk."""
+    arc = walk.trajectory.arcs[0]
+    s = walk.signals.of_step(arc.mode.step)
+    struck = arc.event is not None and arc.event.guard == FOOT_STRIKE
+    p, rate = s.error.shape[1], float(s.dtheta[-1]) if struck else float("nan")
+    return Track(s.t - s.t[0], s.error, s.v[:, :p] - s.dq_d, rate)
+
+
+@lru_cache(maxsize=8)
+def scene_of(preset: str | None, gait: str) -> RobotAndGait:
+    """RABBIT in a preset and one of its gaits, read once for many walks."""
+    return RobotAndGait.of(plain("NPD", str(preset), gait=gait))
+
+
+def pieces(run: Scenario, zero: bool, share: float) -> list[Walk]:
+    """The first single support of a run with steps of share run.h, and the others with share `COARSE`, of which
+    only the ending matters.
+
+    zero: the observer starts at xi^ = 0 instead of the model's xi.
+    """
+    scene = scene_of(run.preset, run.gait)
+    walker, n, gait = build(run, scene), scene.biped.n, scene.walked
+    mode = Mode(run.first_step)
+    x = walker.initial_state(*gait.start(scene.biped), mode)
+    if zero and run.controller == "ADRC":
+        x[2 * n + 2 * scene.biped.p :] = 0.0  # x3^ and its derivatives in the scaled chain
+    assert run.h is not None
+    later = Exponential(share * COARSE) if run.controller == "ADRC" else RK4(share * COARSE)
+    parts = (method_of(replace(run, h=share * run.h), walker), 1), (later, run.impacts - 1)
+    found = []
+    for method, impacts in parts[: 1 + (run.impacts > 1)]:
+        end = mode.start + impacts * walker.max_step_time
+        moved = simulate_by(
+            COMPILED, walker, x, mode, method, t0=mode.start, t_end=end, impacts=impacts
+        )
+        found.append(watched(walker, gait, moved))
+        event = moved.arcs[-1].event
+        if not moved.status.ok or event is None or event.x_plus is None:
+            break
+        x, mode = event.x_plus, Mode(moved.arcs[-1].mode.step + 1, event.t)
+    return found
+
+
+@lru_cache(maxsize=64)
+def undisturbed(usual: Member, controller: str, share: float) -> Track:
+    """The pushed step of a member without its push, computed once for all pushes on it."""
+    run = usual.run(controller, pushed=False)
+    return track(pieces(run, usual.start == "zero", share)[0])
+
+
+class MemberWalk(NamedTuple):
+    """What is kept of a walk from the pushed step on."""
+
+    peak: AtTwoSteps
+    """max |q_b - q_d| in the pushed step, between the nodes too [rad]."""
+    deviation: AtTwoSteps
+    """The same of the error less that of the walk without a push, from the onset on [rad]."""
+    rate: AtTwoSteps
+    """|Theta'| at the end of the pushed step less that of the walk without a push [rad/s]; infinite without an
+    impact.
+    """
+    longest: AtTwoSteps
+    """Duration of the longest step [s]; infinite where not all steps are made."""
+    broken: AtTwoSteps
+    """Limits that it breaks, as `limits_broken`."""
+    infeasible: Mapping[str, str]
+    """What ground or motors could not have given, by the names in `REASONS`."""
+
+
+@dataclass(frozen=True)
+class MemberOutcome:
+    """A member of the set under both controllers."""
+
+    member: Member
+    """The choices."""
+    walked: dict[str, MemberWalk]
+    """By controller."""
+
+
+def limits_broken(f: Feasibility) -> float:
+    """How many limits of ground and motors a walk breaks, the impact aside; infinite where not all steps were
+    made.
+    """
+    return float(len(set(f.reasons) - {IMPULSE})) if f.status.ok else math.inf
+
+
+def member_walk(member: Member, controller: str, **values: Any) -> MemberWalk:
+    """A member carried out under a controller at both steps; values: of the scenario, in place of its own."""
+    usual = replace(member, amplitude=0.0, onset=0.0, joints=("q1",), rise=0.0)
+    at = [_at(member, usual, controller, share, values) for share in (1.0, 0.5)]
+    figures = [AtTwoSteps(*both) for both in zip(*(a[0] for a in at), strict=True)]
+    return MemberWalk(figures[0], figures[1], figures[2], figures[3], figures[4], at[0][1])
+
+
+def _at(
+    member: Member, usual: Member, controller: str, share: float, values: Mapping[str, Any]
+) -> tuple[tuple[float, ...], Mapping[str, str]]:
+    """The numbers of `member_walk` at one step, and what is not feasible."""
+    run = member.run(controller, **values)
+    walks = pieces(run, member.start == "zero", share)
+    one, other = track(walks[0]), undisturbed(usual, controller, share)
+    made = sum(len(walk.trajectory.events(FOOT_STRIKE)) for walk in walks) == run.impacts
+    why: dict[str, str] = {}
+    for walk in walks:
+        why = walk.feasibility.reasons | why
+    broken = longest = math.inf
+    if made:
+        broken = max(limits_broken(walk.feasibility) for walk in walks)
+        longest = max(arc.t[-1] - arc.t[0] for walk in walks for arc in walk.trajectory.arcs)
+    gap = abs(one.rate - other.rate)
+    rate = math.inf if np.isnan(gap) else gap
+    return (one.peak, one.away_from(other, member.onset), rate, longest, broken), why
+
+
+def tried(chosen: tuple[Member, ...]) -> list[MemberOutcome]:
+    """Members carried out under both controllers."""
+    return [MemberOutcome(m, {c: member_walk(m, c) for c in CONTROLLERS}) for m in chosen]
+
+
+# -- cycles, starts and closed forms ---------------------------------------------------------------
+def cycle(run: Scenario, with_states: bool) -> PoincareResult | str:
+    """A walking cycle at 1 ms and half of it, or why none is found, in words."""
+    try:
+        found, half = (
+            poincare(replace(run, h=share * COARSE), with_states) for share in (1.0, 0.5)
+        )
+    except BipedError as error:
+        return str(error)
+    return replace(found, half=half)
+
+
+@dataclass(frozen=True)
+class Start:
+    """A walk that starts on the constraint with a chosen speed after the impact."""
+
+    least: float
+    """The speed that just reaches the next impact, relative to the gait's, by one quadrature of the zero
+    dynamics.
+    """
+    factor: float
+    """Speed of this start relative to the least."""
+    outcomes: dict[str, Outcome]
+    """By controller."""
+
+
+def starts(preset: str) -> list[Start]:
+    """Starts just below and just above the least speed that reaches the next impact.
+
+    No controller of the joints helps a start below it, which matters for the promise of global stability.
+    """
+    least = least_speed(preset)
+    return [
+        Start(least, k, {c: execute_twice(starting(c, preset, k * least)) for c in CONTROLLERS})
+        for k in declared()["basin"]["factors"]
+    ]
+
+
+def least_speed(preset: str) -> float:
+    """Share of the gait's speed after impact with which sigma^2 stays positive up to the next impact.
+
+    sigma is the angular momentum about the stance foot. On the zero dynamics sigma^2(Theta) is its initial
+    value plus a function of Theta, whose minimum (of a parabola through three nodes) decides whether the robot
+    passes mid-stance.
+    """
+    scene = RobotAndGait.of(starting("NPD", preset, 1.0))
+    zero = ZeroDynamics.of(scene.biped, scene.walked.constraint, nodes=120)
+    sigma = scene.biped.angular_momentum(*scene.walked.start(scene.biped))
+    gained = zero.sigma_squared(0.0)
+    k = min(max(int(np.argmin(gained)), 1), len(gained) - 2)
+    near = np.polyfit(zero.theta[k - 1 : k + 2] - zero.theta[k], gained[k - 1 : k + 2], 2)
+    lowest = float(near[2] - near[1] ** 2 / (4.0 * near[0]))
+    return float(np.sqrt(max(-lowest, 0.0)) / abs(sigma))
+
+
+def jumps(preset: str) -> dict[str, float]:
+    """What jumps at an impact, or at the edge of a push of 30 N m on all joints, by name.
+
+    xi of (13), the total disturbance, on gait (a) [rad/s^2]; the rates of the joints from those of their
+    references, by gait [rad/s], 0 for a gait that takes the impact into account.
+    """
+    scenes = {gait: RobotAndGait.of(loose("NPD", preset, gait=gait)) for gait in GAITS}
+    biped, gait = scenes["published"].biped, scenes["published"].walked
+    before = biped.reduction(gait.q_minus, gait.v_minus)
+    after = biped.reduction(*gait.start(biped))
+    edge = after.kappa @ np.full(biped.p, 30.0)
+    return {
+        "xi at impact": float(np.max(np.abs(after.xi - relabelled(before.xi, biped.swap)))),
+        "xi at an edge": float(np.max(np.abs(edge))),
+        **{
+            name: float(np.max(np.abs(impact_smoothness(of.walked, biped))))
+            for name, of in scenes.items()
+        },
+        "period": gait.period,
+    }
+
+
+class Order(NamedTuple):
+    """An observer, and what its order costs and gives."""
+
+    largest_gain: float
+    """max |l_k|, in the units of (17)."""
+    noise_gain: float
+    """Largest gain from an error of the measured position to the acceleration asked for [1/s^2]."""
+    bandwidth: float
+    """Geometric mean of the poles [rad/s]."""
+    delay_margin: float
+    """Largest delay in the loop with which it is stable [s]."""
+    slow: float
+    """Amplitude of the tracking error at 5 Hz per unit of disturbance [s^2]."""
+    pushed: AtTwoSteps
+    """Peak error under a push of 30 N m on all joints [rad]."""
+
+
+def orders(preset: str) -> dict[str, Order]:
+    """Table I (m = 7), and observers with one extended state of its bandwidth and of its delay margin."""
+    table = GPIObserver.from_poles()
+    margin = observer_loop(table).delay_margin().delay
+    named = {
+        "Table I": table,
+        "equal bandwidth": GPIObserver.from_bandwidth(table.scale, 1),
+        "equal delay margin": GPIObserver.from_bandwidth(bandwidth_with(margin, 1), 1),
+    }
+    return {name: _order(preset, o) for name, o in named.items()}
+
+
+def bandwidth_with(margin: float, m: int) -> float:
+    """The position of m + 2 equal poles [rad/s] whose delay margin is `margin` [s], by roots in log w."""
+
+    def excess(log_w: float) -> float:
+        found = observer_loop(GPIObserver.from_bandwidth(np.exp(log_w), m)).delay_margin().delay
+        return float(np.log(found / margin))
+
+    return float(np.exp(brentq(excess, np.log(10.0), np.log(1e6))))
+
+
+def _order(preset: str, observer: GPIObserver) -> Order:
+    """The record of one observer: closed forms, and a walk."""
+    loop, w = observer_loop(observer), np.geomspace(1.0, 1e7, 2000)
+    poles = tuple(float(np.real(pole)) for pole in observer.poles)
+    pushed = member_walk(replace(on_the_recipe(preset), gait="published"), "ADRC", poles=poles)
+    return Order(
+        float(np.max(np.abs(observer.gains))),
+        float(np.max(np.abs(loop.noise(w)))),
+        observer.scale,
+        loop.delay_margin().delay,
+        float(np.abs(loop.tracking_error(np.array([10.0 * np.pi])))[0]),
+        pushed.peak,
+    )
+
+
+# -- tasks -----------------------------------------------------------------------------------------
+def tasks(plan: Plan) -> dict[str, Task[object]]:
+    """Everything to compute, by "kind/name", the longest first so that no core waits at the end."""
+    found: dict[str, Task[object]] = {}
+
+    def add(kind: str, name: str, function: Any, *arguments: object) -> None:
+        found[f"{kind}/{name}"] = Task(f"{kind} {name}", function, arguments)
+
+    for preset in plan.presets:
+        add("members", preset, tried, members(preset))
+    for c in reversed(CONTROLLERS):
+        add("headline", c, headline, pushed_run(plan, c))
+        add("engines", c, engines, *engine_runs(plan, c))
+    add("numerics", plan.preset, numerics_laws, plan.preset)
+    for name, run in base_runs(plan).items():
+        add("runs", name, twice, run)
+    for preset in plan.presets:
+        add("pushed recipe", preset, tried, (on_the_recipe(preset),))
+        add("starts", preset, starts, preset)
+        add("jumps", preset, jumps, preset)
+        add("model", preset, model_laws, preset)
+    for k, part in enumerate(map_pushes(plan)):
+        add("map", f"{part[0].preset}, part {k}", push_map, part)
+    for name, run in tried_runs(plan).items():
+        add("tried", name, twice, run)
+    for name, (run, with_states) in cycle_runs(plan).items():
+        add("cycles", name, cycle, run, with_states)
+    for name, run in multiplier_runs(plan).items():
+        add("multipliers", name, poincare_twice, run)
+    add("orders", plan.presets[0], orders, plan.presets[0])
+    add("returns", "map", return_map_samples, multiplier_runs(plan)["NPD"])
+    return found
