@@ -67,7 +67,7 @@ def reproduce(
     walks = {c: replay(head.outcome.run, head.trajectory) for c, head in r.headline.items()}
     for c, walk in walks.items():
         walk.save(out / f"walk-{c.lower()}.npz")
-    pictures = draw_all(plan, r, out, workers)
+    pictures = draw_all(r, out, workers)
     animation = _animate(walks, r)
     write_text(out / "walk.html", animation)
     summary["wall_time_s"] = time.perf_counter() - started
