@@ -79,8 +79,8 @@ def draw_robot(preset: str) -> Figure:
 
 
 def rendered(draw: Callable[..., Figure], *arguments: object) -> tuple[bytes, bytes]:
-    """A figure as PNG and as SVG, laid out once so that both are alike."""
+    """A figure as PNG and as SVG, laid out by the first so that both are alike."""
     figure = draw(*arguments)
-    figure.draw_without_rendering()
+    png = render(figure, "png")
     figure.set_layout_engine("none")
-    return render(figure, "png"), render(figure, "svg")
+    return png, render(figure, "svg")

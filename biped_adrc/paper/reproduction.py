@@ -18,16 +18,14 @@ import time
 from pathlib import Path
 from typing import Any
 
-from biped_adrc.analysis.regression import Regression
 from biped_adrc.campaign.pool import TaskProgress, run_tasks
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.files import check_folder, check_place, plain, write_text
 from biped_adrc.observers.gpi import TABLE_I
-from biped_adrc.paper.convergence import observed_order, records
+from biped_adrc.paper.convergence import records
 from biped_adrc.paper.figures import push_window
 from biped_adrc.paper.pictures import draw_all
 from biped_adrc.paper.results import Results
-from biped_adrc.paper.runs import Headline
 from biped_adrc.paper.runs import tasks as planned_tasks
 from biped_adrc.paper.scenarios import Plan
 from biped_adrc.paper.table import checks, rows
@@ -90,13 +88,8 @@ def judgement(r: Results) -> dict[str, Any]:
         "settings": _settings(plan),
         "tables": tables(r),
         "members": [o for part in r.members.values() for o in part],
-        "nominal": {
-            name: [s.record() for s in o.certificates] for name, o in r.on_gait("a").items()
-        },
         "multipliers": {name: found.record() for name, found in r.multipliers.items()},
-        "headline": {c: _three_steps(head) for c, head in r.headline.items()},
         "convergence": list(records(r.run_twice)),
-        "regression": {c: _regression(found) for c, found in r.regressions.items()},
         "push_map": [cell.row() for cell in r.cells],
     }
     summary: dict[str, Any] = plain(made)
@@ -137,22 +130,6 @@ def _settings(plan: Plan) -> dict[str, object]:
         "Table I, observer eigenvalues [rad/s]": list(TABLE_I),
         "Table II": {"K_p": TABLE_II.K_p, "K_d": TABLE_II.K_d},
     }
-
-
-def _three_steps(head: Headline) -> dict[str, object]:
-    """The largest error under the push [rad] at the step used, its half and its quarter, and the order."""
-    o = head.outcome
-    assert o.half is not None
-    assert o.half.half is not None
-    peaks = [x.peak_error for x in (o, o.half, o.half.half)]
-    order = observed_order(o, lambda x: x.peak_error)
-    return {"step": o.run.fine, "peak_error": peaks, "order": order}
-
-
-def _regression(found: Regression) -> dict[str, object]:
-    """The regression (27) on a pushed walk, with the warning that its data do not determine it."""
-    names = ("magnitudes", "rank", "condition", "samples", "warning")
-    return {name: getattr(found, name) for name in names}
 
 
 def _animate(walks: dict[str, Walk], r: Results) -> str:

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from biped_adrc.paper.results import Results
 
 REPLICATED, DEPENDS, CONTRADICTED = "replicated", "depends", "contradicted"
-BY_CONSTRUCTION, NOT_TESTABLE = "by construction", "not testable"
+NOT_TESTABLE = "not testable"
 CLAIM = "claim"
 """Kind of a statement of the paper, judged over all its cases; of the others (`checks.KINDS`) every case is a
 check.
