@@ -29,28 +29,13 @@ from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.scenario import Scenario
 
 PLAN = Plan(quick=True)
-CERTIFICATE = Certificate(
-    step=1,
-    duration=0.4,
-    least_normal_force=200.0,
-    friction=0.4,
-    share_outside=0.0,
-    mean_normal_force=200.0,
-    mean_friction=0.4,
-    scuffing=0.0,
-    slip=0.0,
-    peak_torque=100.0,
-    impulse_ratio=0.5,
-    friction_limit=0.6,
-    torque_limit=150.0,
-    window=5e-3,
-    step_length=0.3,
-    old_foot_velocity=0.1,
-    clearance=0.01,
-    joint_work=10.0,
-    energy_lost=10.0,
-    cost_of_transport=0.3,
-)
+SUPPORT = {"step": 1, "duration": 0.4, "scuffing": 0.0, "slip": 0.0, "share_outside": 0.0}
+FORCES = {"least_normal_force": 200.0, "friction": 0.4, "impulse_ratio": 0.5, "peak_torque": 100.0}
+MEANS = {"mean_normal_force": 200.0, "mean_friction": 0.4}
+LIMITS = {"friction_limit": 0.6, "torque_limit": 150.0, "window": 5e-3}
+STEP = {"step_length": 0.3, "old_foot_velocity": 0.1, "clearance": 0.01, "cost_of_transport": 0.3}
+ENERGY = {"joint_work": 10.0, "energy_lost": 10.0}
+CERTIFICATE = Certificate(**SUPPORT, **FORCES, **MEANS, **LIMITS, **STEP, **ENERGY)
 FEASIBILITY = Feasibility(Status.COMPLETED, (CERTIFICATE,), KnownLimits(0.6, 150.0, 5e-3), 1)
 
 
@@ -61,21 +46,9 @@ def figure(value, change=1e-3):
 def outcome(controller, peak=1e-2, impacts=9, asked=9, half=True, **more):
     """A walk, by default with the same at half the step."""
     status = "COMPLETED" if impacts == asked else "FELL"
-    made = Outcome(
-        Scenario(controller, impacts=asked),
-        status,
-        "",
-        impacts,
-        np.tile(X_STAR, (impacts, 1)),
-        np.full(impacts, 0.4),
-        peak,
-        peak,
-        100.0,
-        (CERTIFICATE,),
-        FEASIBILITY,
-        "rk4",
-        "compiled",
-    )
+    x, times = np.tile(X_STAR, (impacts, 1)), np.full(impacts, 0.4)
+    kept = (peak, peak, 100.0, (CERTIFICATE,), FEASIBILITY, "rk4", "compiled")
+    made = Outcome(Scenario(controller, impacts=asked), status, "", impacts, x, times, *kept)
     found = replace(made, **more)
     return replace(found, half=found) if half else found
 
@@ -119,7 +92,8 @@ def head(controller, peak=None, **more):
     quarter = outcome(controller, peak * 1.0001, half=False)
     half = replace(outcome(controller, peak * 1.0002, half=False), half=quarter)
     found = replace(outcome(controller, peak * 1.0004, half=False, **more), half=half)
-    return SimpleNamespace(outcome=found, laws={"height": 0.0, "energy": 0.0})
+    laws = {"height": 0.0, "energy": 0.0}
+    return SimpleNamespace(outcome=found, laws=laws, trajectory=None)
 
 
 def results(**odd):

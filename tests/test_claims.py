@@ -10,7 +10,16 @@ from biped_adrc.observer_design.observer_loop import observer_loop
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.paper import runs
 from biped_adrc.paper.metrics import longest_step
-from biped_adrc.paper.scenarios import CONTROLLERS, Member, declared, members, on_torso
+from biped_adrc.paper.scenarios import (
+    CONTROLLERS,
+    GAITS,
+    Member,
+    declared,
+    loose,
+    members,
+    on_torso,
+    plain,
+)
 from biped_adrc.paper.table import claims, le, rows
 from biped_adrc.paper.values import noise_spectrum
 from biped_adrc.paper.verdict import (
@@ -262,9 +271,7 @@ def test_the_least_speed_of_the_zero_dynamics_parts_the_starts():
 
 
 def test_what_gait_b_needs_of_ground_and_motors():
-    a, b = (
-        runs.execute(runs.plain("NPD", "identified", gait=gait, impacts=2)) for gait in runs.GAITS
-    )
+    a, b = (runs.execute(plain("NPD", "identified", gait=gait, impacts=2)) for gait in GAITS)
     assert runs.limits_broken(a.feasibility) == 0.0 < runs.limits_broken(b.feasibility)
     assert b.feasibility.friction == pytest.approx(0.57, abs=0.005)
     assert b.peak_torque == pytest.approx(315.0, rel=0.01)
@@ -274,9 +281,7 @@ def test_what_gait_b_needs_of_ground_and_motors():
 
 def test_a_torque_on_the_torso_slows_both_controllers_alike():
     npd, adrc = (
-        runs.execute(
-            runs.loose(c, "tac2003", 1e-3, pushes=(on_torso(20.0),), first_step=19, impacts=4)
-        )
+        runs.execute(loose(c, "tac2003", 1e-3, pushes=(on_torso(20.0),), first_step=19, impacts=4))
         for c in CONTROLLERS
     )
     assert npd.walked

@@ -35,7 +35,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.contact import Impact, LinkMotion
 from biped_adrc.model.reduction import reduce
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
-from biped_adrc.paper.scenarios import sampled_walk, scaled_observer
+from biped_adrc.paper.scenarios import pushed_steps, sampled_walk, scaled_observer
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.recording import Walk
@@ -110,7 +110,7 @@ def walk_laws(full: Walk) -> dict[str, float]:
     """
     b, o = full.walker.plant, full.outcome
     heights = [abs(float(b.swing_foot(x[: b.n])[1])) for x in o.x_minus]
-    pushed = o.run.pushes[0].step if o.run.pushes else 1
+    pushed = min(pushed_steps(o.run), default=1)
     s = full.signals.of_step(pushed if pushed in full.signals.step else int(full.signals.step[0]))
     power = np.sum(s.u * s.v[:, : b.p], axis=1) + np.sum(s.zeta * s.v, axis=1)
     gained = s.kinetic[-1] + s.potential[-1] - s.kinetic[0] - s.potential[0]

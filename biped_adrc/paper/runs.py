@@ -32,28 +32,10 @@ from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.observer_design.observer_loop import observer_loop
 from biped_adrc.observers.gpi import GPIObserver
+from biped_adrc.paper import scenarios
 from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.paper.push_map import push_map
-from biped_adrc.paper.scenarios import (
-    COARSE,
-    CONTROLLERS,
-    GAITS,
-    Member,
-    Plan,
-    base_runs,
-    cycle_runs,
-    declared,
-    engine_runs,
-    loose,
-    map_pushes,
-    members,
-    multiplier_runs,
-    on_the_recipe,
-    plain,
-    pushed_run,
-    starting,
-    tried_runs,
-)
+from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Member, Plan, changed, value
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.outcome import Outcome
@@ -78,14 +60,15 @@ def sparse(walk: Walk, apart: float = KEPT) -> Walk:
     """
     run = walk.scenario
     assert run is not None
-    pushed = {push.step + k for push in run.pushes for k in (0, 1)}
+    pushed = scenarios.pushed_steps(run)
     arcs = (a if a.mode.step in pushed else a.thinned(apart) for a in walk.trajectory.arcs)
     return watched(walk.walker, walk.gait, replace(walk.trajectory, arcs=tuple(arcs)), run)
 
 
 def twice(run: Scenario) -> Outcome:
     """The outcome of a walk, with that at half of its steps in `half`."""
-    if run.h is None or run.h > 0.2 * KEPT or run.reset != "model":
+    h = value(run, "h")
+    if h is None or h > 0.2 * KEPT or value(run, "reset") != "model":
         return execute_twice(run)
     half = sparse(walk_scenario(halved(run)), 0.5 * KEPT)
     return replace(sparse(walk_scenario(run)).outcome, half=half.outcome)
@@ -109,7 +92,7 @@ def headline(run: Scenario) -> Headline:
     """A pushed run that is kept; at a quarter of the step only the single supports from the push on."""
     walk = sparse(walk_scenario(run))
     half = halved(run)
-    quarter = execute(replace(halved(half), first_step=run.pushes[0].step, impacts=2))
+    quarter = execute(scenarios.from_the_push(halved(half)))
     at_half = replace(sparse(walk_scenario(half), 0.5 * KEPT).outcome, half=quarter)
     return Headline(
         replace(walk.outcome, half=at_half), walk.trajectory, walk.signals, walk_laws(walk)
@@ -172,7 +155,7 @@ def track(walk: Walk) -> Track:
 @lru_cache(maxsize=8)
 def scene_of(preset: str | None, gait: str) -> RobotAndGait:
     """RABBIT in a preset and one of its gaits, read once for many walks."""
-    return RobotAndGait.of(plain("NPD", str(preset), gait=gait))
+    return RobotAndGait.of(scenarios.plain("NPD", str(preset), gait=gait))
 
 
 def pieces(run: Scenario, zero: bool, share: float) -> list[Walk]:
@@ -181,20 +164,20 @@ def pieces(run: Scenario, zero: bool, share: float) -> list[Walk]:
 
     zero: the observer starts at xi^ = 0 instead of the model's xi.
     """
-    scene = scene_of(run.preset, run.gait)
+    scene = scene_of(value(run, "preset"), value(run, "gait"))
     walker, n, gait = build(run, scene), scene.biped.n, scene.walked
-    mode = Mode(run.first_step)
+    mode, impacts, h = (value(run, name) for name in ("first_step", "impacts", "h"))
+    mode, adrc = Mode(mode), value(run, "controller") == "ADRC"
     x = walker.initial_state(*gait.start(scene.biped), mode)
-    if zero and run.controller == "ADRC":
+    if zero and adrc:
         x[2 * n + 2 * scene.biped.p :] = 0.0  # x3^ and its derivatives in the scaled chain
-    assert run.h is not None
-    later = Exponential(share * COARSE) if run.controller == "ADRC" else RK4(share * COARSE)
-    parts = (method_of(replace(run, h=share * run.h), walker), 1), (later, run.impacts - 1)
+    later = Exponential(share * COARSE) if adrc else RK4(share * COARSE)
+    parts = (method_of(changed(run, h=share * h), walker), 1), (later, impacts - 1)
     found = []
-    for method, impacts in parts[: 1 + (run.impacts > 1)]:
-        end = mode.start + impacts * walker.max_step_time
+    for method, count in parts[: 1 + (impacts > 1)]:
+        end = mode.start + count * walker.max_step_time
         moved = simulate_by(
-            COMPILED, walker, x, mode, method, t0=mode.start, t_end=end, impacts=impacts
+            COMPILED, walker, x, mode, method, t0=mode.start, t_end=end, impacts=count
         )
         found.append(watched(walker, gait, moved))
         event = moved.arcs[-1].event
@@ -262,7 +245,7 @@ def _at(
     run = member.run(controller, **values)
     walks = pieces(run, member.start == "zero", share)
     one, other = track(walks[0]), undisturbed(usual, controller, share)
-    made = sum(len(walk.trajectory.events(FOOT_STRIKE)) for walk in walks) == run.impacts
+    made = sum(len(walk.trajectory.events(FOOT_STRIKE)) for walk in walks) == value(run, "impacts")
     why: dict[str, str] = {}
     for walk in walks:
         why = walk.feasibility.reasons | why
@@ -285,7 +268,7 @@ def cycle(run: Scenario, with_states: bool) -> PoincareResult | str:
     """A walking cycle at 1 ms and half of it, or why none is found, in words."""
     try:
         found, half = (
-            poincare(replace(run, h=share * COARSE), with_states) for share in (1.0, 0.5)
+            poincare(changed(run, h=share * COARSE), with_states) for share in (1.0, 0.5)
         )
     except BipedError as error:
         return str(error)
@@ -313,8 +296,12 @@ def starts(preset: str) -> list[Start]:
     """
     least = least_speed(preset)
     return [
-        Start(least, k, {c: execute_twice(starting(c, preset, k * least)) for c in CONTROLLERS})
-        for k in declared()["basin"]["factors"]
+        Start(
+            least,
+            k,
+            {c: execute_twice(scenarios.starting(c, preset, k * least)) for c in CONTROLLERS},
+        )
+        for k in scenarios.declared()["basin"]["factors"]
     ]
 
 
@@ -325,7 +312,7 @@ def least_speed(preset: str) -> float:
     value plus a function of Theta, whose minimum (of a parabola through three nodes) decides whether the robot
     passes mid-stance.
     """
-    scene = RobotAndGait.of(starting("NPD", preset, 1.0))
+    scene = RobotAndGait.of(scenarios.starting("NPD", preset, 1.0))
     zero = ZeroDynamics.of(scene.biped, scene.walked.constraint, nodes=120)
     sigma = scene.biped.angular_momentum(*scene.walked.start(scene.biped))
     gained = zero.sigma_squared(0.0)
@@ -341,7 +328,9 @@ def jumps(preset: str) -> dict[str, float]:
     xi of (13), the total disturbance, on gait (a) [rad/s^2]; the rates of the joints from those of their
     references, by gait [rad/s], 0 for a gait that takes the impact into account.
     """
-    scenes = {gait: RobotAndGait.of(loose("NPD", preset, gait=gait)) for gait in GAITS}
+    scenes = {
+        gait: RobotAndGait.of(scenarios.loose("NPD", preset, gait=gait)) for gait in scenarios.GAITS
+    }
     biped, gait = scenes["published"].biped, scenes["published"].walked
     before = biped.reduction(gait.q_minus, gait.v_minus)
     after = biped.reduction(*gait.start(biped))
@@ -400,7 +389,9 @@ def _order(preset: str, observer: GPIObserver) -> Order:
     """The record of one observer: closed forms, and a walk."""
     loop, w = observer_loop(observer), np.geomspace(1.0, 1e7, 2000)
     poles = tuple(float(np.real(pole)) for pole in observer.poles)
-    pushed = member_walk(replace(on_the_recipe(preset), gait="published"), "ADRC", poles=poles)
+    pushed = member_walk(
+        replace(scenarios.on_the_recipe(preset), gait="published"), "ADRC", poles=poles
+    )
     return Order(
         float(np.max(np.abs(observer.gains))),
         float(np.max(np.abs(loop.noise(w)))),
@@ -420,26 +411,26 @@ def tasks(plan: Plan) -> dict[str, Task[object]]:
         found[f"{kind}/{name}"] = Task(f"{kind} {name}", function, arguments)
 
     for preset in plan.presets:
-        add("members", preset, tried, members(preset))
+        add("members", preset, tried, scenarios.members(preset))
     for c in reversed(CONTROLLERS):
-        add("headline", c, headline, pushed_run(plan, c))
-        add("engines", c, engines, *engine_runs(plan, c))
+        add("headline", c, headline, scenarios.pushed_run(plan, c))
+        add("engines", c, engines, *scenarios.engine_runs(plan, c))
     add("numerics", plan.preset, numerics_laws, plan.preset)
-    for name, run in base_runs(plan).items():
+    for name, run in scenarios.base_runs(plan).items():
         add("runs", name, twice, run)
     for preset in plan.presets:
-        add("pushed recipe", preset, tried, (on_the_recipe(preset),))
+        add("pushed recipe", preset, tried, (scenarios.on_the_recipe(preset),))
         add("starts", preset, starts, preset)
         add("jumps", preset, jumps, preset)
         add("model", preset, model_laws, preset)
-    for k, part in enumerate(map_pushes(plan)):
+    for k, part in enumerate(scenarios.map_pushes(plan)):
         add("map", f"{part[0].preset}, part {k}", push_map, part)
-    for name, run in tried_runs(plan).items():
+    for name, run in scenarios.tried_runs(plan).items():
         add("tried", name, twice, run)
-    for name, (run, with_states) in cycle_runs(plan).items():
+    for name, (run, with_states) in scenarios.cycle_runs(plan).items():
         add("cycles", name, cycle, run, with_states)
-    for name, run in multiplier_runs(plan).items():
+    for name, run in scenarios.multiplier_runs(plan).items():
         add("multipliers", name, poincare_twice, run)
     add("orders", plan.presets[0], orders, plan.presets[0])
-    add("returns", "map", return_map_samples, multiplier_runs(plan)["NPD"])
+    add("returns", "map", return_map_samples, scenarios.multiplier_runs(plan)["NPD"])
     return found

@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from biped_adrc.engine.run import COMPILED, PINOCCHIO
+from biped_adrc.engine.run import PINOCCHIO
 from biped_adrc.errors import InputError
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.resources import packaged
@@ -123,10 +123,35 @@ def on_torso(torque: float) -> Push:
     return Push({"q5": torque}, step=declared()["push"]["step"], start=0.1, stop=0.3)
 
 
+def scenario(controller: str, preset: str, **values: Any) -> Scenario:
+    """The only place at which a scenario of the reproduction is made: RABBIT in a preset under a controller."""
+    return Scenario(controller, preset=preset, **values)
+
+
+def changed(run: Scenario, **values: Any) -> Scenario:
+    """The scenario with other values."""
+    return replace(run, **values)
+
+
+def value(run: Scenario, name: str) -> Any:
+    """A value of the scenario by its name here."""
+    return getattr(run, name)
+
+
+def pushed_steps(run: Scenario) -> set[int]:
+    """The single supports in which a push acts, and those after."""
+    return {push.step + k for push in value(run, "pushes") for k in (0, 1)}
+
+
+def from_the_push(run: Scenario) -> Scenario:
+    """The run from the pushed step on, on its orbit, for two impacts."""
+    return changed(run, first_step=value(run, "pushes")[0].step, impacts=2)
+
+
 def plain(controller: str, preset: str, **values: Any) -> Scenario:
     """A walk with RK4, at the step of its controller."""
     h = STEPS[controller][0]
-    return Scenario(controller, preset=preset, **{"method": "rk4", "h": h, **values})
+    return scenario(controller, preset, **{"method": "rk4", "h": h, **values})
 
 
 def loose(controller: str, preset: str, h: float = LOOSE, **values: Any) -> Scenario:
@@ -144,9 +169,9 @@ def pushed_run(plan: Plan, controller: str) -> Scenario:
 
 def engine_runs(plan: Plan, controller: str) -> tuple[Scenario, Scenario]:
     """The pushed step of the headline run on Pinocchio's dynamics, and compiled, at the same step."""
-    run = Scenario(controller, preset=plan.preset, pushes=plan.pushes, h=ENGINES_STEP, impacts=1)
-    one = replace(run, first_step=plan.pushes[0].step, engine=PINOCCHIO)
-    return one, replace(one, engine=COMPILED)
+    values: dict[str, Any] = {"pushes": plan.pushes, "h": ENGINES_STEP, "impacts": 1}
+    one = scenario(controller, plan.preset, first_step=plan.pushes[0].step, **values)
+    return changed(one, engine=PINOCCHIO), one
 
 
 def base_runs(plan: Plan) -> dict[str, Scenario]:
@@ -170,7 +195,7 @@ def base_runs(plan: Plan) -> dict[str, Scenario]:
         late: dict[str, Any] = {"first_step": TORSO_STEP, "impacts": 9}
         runs[f"sine {c}"] = plain(c, p, pushes=(SINE,), fine=fine, **late)
         runs[f"torso {c}"] = loose(c, p, pushes=(on_torso(20.0),), **late)
-        runs[f"1 kHz {c}"] = Scenario(c, preset=p, pushes=plan.pushes, period=1e-3, h=1e-3)
+        runs[f"1 kHz {c}"] = scenario(c, p, pushes=plan.pushes, period=1e-3, h=1e-3)
         for kind, factors in KINDS.items():
             runs[f"heavier, {kind} {c}"] = loose(c, p, impacts=8, **factors)
         if not plan.quick:
@@ -203,7 +228,7 @@ def tried_runs(plan: Plan) -> dict[str, Scenario]:
                 "impacts": 4,
             }
             run = loose(c, preset, COARSE, **values)
-            runs[f"{torque:g} N m on the torso, {preset} {c}"] = replace(run, h=COARSE)
+            runs[f"{torque:g} N m on the torso, {preset} {c}"] = changed(run, h=COARSE)
         for kind, factors in KINDS.items():
             if preset != plan.preset:
                 runs[f"heavier, {kind}, {preset} {c}"] = loose(c, preset, impacts=8, **factors)
@@ -217,17 +242,17 @@ def cycle_runs(plan: Plan) -> dict[str, tuple[Scenario, bool]]:
     """
     found = {}
     for preset, c in itertools.product(plan.presets, CONTROLLERS):
-        found[f"gait (b), {preset}, {c}"] = (Scenario(c, preset=preset, gait="recipe"), True)
+        found[f"gait (b), {preset}, {c}"] = (scenario(c, preset, gait="recipe"), True)
         for theta in declared()["factors"]["theta"]:
-            run = Scenario(c, preset=preset, solve_theta=theta == "solved")
+            run = scenario(c, preset, solve_theta=theta == "solved")
             found[f"gait (a), {preset}, {c}, Theta'' {theta}"] = (run, False)
     return found
 
 
 def multiplier_runs(plan: Plan) -> dict[str, Scenario]:
     """The cycles with all multipliers, by controller (and what the observer's states become at impact)."""
-    npd, adrc = (Scenario(c, preset=plan.preset) for c in CONTROLLERS)
-    more = {} if plan.quick else {"ADRC": adrc, "ADRC measured": replace(adrc, reset="measured")}
+    npd, adrc = (scenario(c, plan.preset) for c in CONTROLLERS)
+    more = {} if plan.quick else {"ADRC": adrc, "ADRC measured": changed(adrc, reset="measured")}
     return {"NPD": npd} | more
 
 
@@ -238,12 +263,12 @@ def starting(controller: str, preset: str, speed: float) -> Scenario:
 
 def sampled_walk(preset: str, h: float, period: float | None = None) -> Scenario:
     """One step under NPD, in continuous time or with a period [s]; h: integration step [s]."""
-    return Scenario("NPD", preset=preset, impacts=1, period=period, h=h)
+    return scenario("NPD", preset, impacts=1, period=period, h=h)
 
 
 def scaled_observer(preset: str, factor: float) -> Scenario:
     """ADRC with the poles of Table I times a factor."""
-    return Scenario("ADRC", preset=preset, poles=tuple(factor * pole for pole in TABLE_I))
+    return scenario("ADRC", preset, poles=tuple(factor * pole for pole in TABLE_I))
 
 
 @dataclass(frozen=True)
@@ -337,9 +362,9 @@ class Tried:
         factors = PATTERNS[self.pattern].items()
         torque = {joint: self.amplitude * factor for joint, factor in factors}
         push = Push(torque, step=19, start=self.onset, stop=self.onset + 0.2)
-        return Scenario(
+        return scenario(
             controller,
-            preset=self.preset,
+            self.preset,
             pushes=(push,),
             torque_limit=self.torque_limit,
             continued=True,

@@ -221,7 +221,7 @@ def _of_results() -> Iterator[Claim]:
         return {name: (*r.pair(name), 0.0) for name in names}
 
     def single(r: Results) -> dict[str, Any]:
-        return {f"{o.run.controller}, {n}": o for n in walks for o in r.pair(n)}
+        return {f"{c}, {n}": o for n in walks for c, o in zip(CONTROLLERS, r.pair(n), strict=True)}
 
     def error(pair: m.Pair) -> float:
         return pair[1].peak_error / pair[0].peak_error

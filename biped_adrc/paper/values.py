@@ -12,31 +12,10 @@ from biped_adrc.analysis.regression import regress_multipliers
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.observers.gpi import TABLE_I
-from biped_adrc.paper.metrics import (
-    PRINTED_SPEED,
-    adrc_over_npd,
-    cycles,
-    delay,
-    deviation,
-    distance,
-    error_ratio,
-    gains,
-    heavier,
-    largest_multiplier,
-    last,
-    longest_step,
-    lost,
-    npd_cycles,
-    on_recipe,
-    peak,
-    phase_rate,
-    torso,
-    undisturbed,
-    usual_torso,
-)
+from biped_adrc.paper import metrics as m
 from biped_adrc.paper.push_map import LOST
 from biped_adrc.paper.results import Results
-from biped_adrc.paper.scenarios import CONTROLLERS, declared
+from biped_adrc.paper.scenarios import CONTROLLERS, declared, value
 from biped_adrc.paper.verdict import Extremes
 from biped_adrc.types import Array
 
@@ -50,6 +29,7 @@ def of_headline(r: Results) -> dict[str, object]:
         "npd": npd,
         "adrc": adrc,
         "slow": slow[1],
+        "asked": value(npd.run, "impacts"),
         "pushes": "; ".join(push.in_words() for push in r.plan.pushes),
         "words": ", ".join(f"{c} {x}" for c, x in word.items()),
         "errors": f"{1e3 * npd.peak_error:.3g} mrad under NPD, {1e3 * adrc.peak_error:.2g} mrad under ADRC",
@@ -69,8 +49,8 @@ def of_members(r: Results) -> dict[str, object]:
         **by_theta,
         "npd": Extremes.of(w.deviation for w in npd),
         "adrc": Extremes.of(w.deviation for w in adrc),
-        "ratios": Extremes.of(map(deviation, every)),
-        "peaks": Extremes.of(map(error_ratio, every)),
+        "ratios": Extremes.of(map(m.deviation, every)),
+        "peaks": Extremes.of(map(m.error_ratio, every)),
         "rates": Extremes.of(w.rate for w in adrc),
         "npd_rates": Extremes.of(w.rate for w in npd),
         "steps": declared()["steps"]["impacts"],
@@ -82,17 +62,17 @@ def of_members(r: Results) -> dict[str, object]:
 
 def of_recipe_push(r: Results) -> dict[str, object]:
     """The push on gait (b)."""
-    found = list(on_recipe(r).values())
+    found = list(m.on_recipe(r).values())
     return {
-        "deviations": Extremes.of(map(deviation, found)),
-        "peaks": Extremes.of(map(error_ratio, found)),
+        "deviations": Extremes.of(map(m.deviation, found)),
+        "peaks": Extremes.of(map(m.error_ratio, found)),
     }
 
 
 def of_map(r: Results) -> dict[str, object]:
     """What became of the pushes that throw NPD."""
     known = [c for c in r.cells if c.certain]
-    fates = [c.adrc.outcome for c in lost(r).values()]
+    fates = [c.adrc.outcome for c in m.lost(r).values()]
     return {
         "lost": len(fates),
         "known": len(known),
@@ -105,7 +85,7 @@ def of_map(r: Results) -> dict[str, object]:
 
 def of_torso(r: Results) -> dict[str, object]:
     """How pushes of the torso change a step, and up to which one a walk goes on."""
-    usual = usual_torso(r).values()
+    usual = m.usual_torso(r).values()
     stopped = {
         preset: [
             torque
@@ -116,26 +96,26 @@ def of_torso(r: Results) -> dict[str, object]:
     }
     said = (f"{min(x):g} N m ({p})" if x else f"none ({p})" for p, x in stopped.items())
     return {
-        "slow": Extremes(1e3 * delay(adrc, period) for _, adrc, period in usual),
-        "ratios": Extremes.of(adrc_over_npd(delay, pair) for pair in usual),
-        "peaks": Extremes.of(adrc_over_npd(peak, pair) for pair in usual),
+        "slow": Extremes(1e3 * m.delay(adrc, period) for _, adrc, period in usual),
+        "ratios": Extremes.of(m.adrc_over_npd(m.delay, pair) for pair in usual),
+        "peaks": Extremes.of(m.adrc_over_npd(m.peak, pair) for pair in usual),
         "stops": ", ".join(said),
         "alike": ""
-        if all(npd.walked == adrc.walked for npd, adrc, _ in torso(r).values())
+        if all(npd.walked == adrc.walked for npd, adrc, _ in m.torso(r).values())
         else "not ",
     }
 
 
 def of_heavier(r: Results) -> dict[str, object]:
     """The ratio of the errors with a heavier plant."""
-    return {"ratios": Extremes.of(adrc_over_npd(peak, pair) for pair in heavier(r).values())}
+    return {"ratios": Extremes.of(m.adrc_over_npd(m.peak, pair) for pair in m.heavier(r).values())}
 
 
 def of_orders(r: Results) -> dict[str, object]:
     """What the order of the observer costs and gives."""
     orders = next(iter(r.orders.values()))
     table, band, delay = orders.values()
-    shown = (f"{name} {a:.1e} against {b:.1e}" for name, (a, b) in gains(r).items())
+    shown = (f"{name} {a:.1e} against {b:.1e}" for name, (a, b) in m.gains(r).items())
     return {
         "gains": "; ".join(shown),
         "margin": 1e6 * table.delay_margin,
@@ -162,8 +142,8 @@ def of_cycles(r: Results) -> dict[str, object]:
     z = None if observer is None else np.abs(observer.orbit.multipliers)
     more = "" if z is None else f"; under ADRC, {len(z)} with the observer's states, {z[0]:.4f}"
     return {
-        "a": Extremes.of(map(largest_multiplier, cycles("a", r).values())),
-        "b": Extremes.of(map(largest_multiplier, cycles("b", r).values())),
+        "a": Extremes.of(map(m.largest_multiplier, m.cycles("a", r).values())),
+        "b": Extremes.of(map(m.largest_multiplier, m.cycles("b", r).values())),
         "largest": float(abs(npd.orbit.multipliers[0])),
         "delta_squared": npd.delta_squared,
         "observer": more,
@@ -173,34 +153,34 @@ def of_cycles(r: Results) -> dict[str, object]:
 def of_speed(r: Results) -> dict[str, object]:
     """Theta' of gait (b), and what a stricter limit would have changed."""
     found = {
-        name.split(", ")[1]: phase_rate(x.orbit.x_minus)
-        for name, x in npd_cycles(r).items()
+        name.split(", ")[1]: m.phase_rate(x.orbit.x_minus)
+        for name, x in m.npd_cycles(r).items()
         if not isinstance(x, str)
     }
-    apart = {p: 100.0 * (rate / PRINTED_SPEED - 1.0) for p, rate in found.items()}
+    apart = {p: 100.0 * (rate / m.PRINTED_SPEED - 1.0) for p, rate in found.items()}
     shown = (f"{rate:.4f} ({apart[p]:+.1f} %) {p}" for p, rate in found.items())
     far = max(map(abs, apart.values()), default=math.nan)
-    return {"speed": PRINTED_SPEED, "rates": ", ".join(shown), "farthest": far}
+    return {"speed": m.PRINTED_SPEED, "rates": ", ".join(shown), "farthest": far}
 
 
 def of_needs(r: Results) -> dict[str, object]:
     """What gait (b) asks of ground and motors, undisturbed, beside gait (a)."""
-    b, a = (undisturbed(gait, r) for gait in "ba")
+    b, a = (m.undisturbed(gait, r) for gait in "ba")
     shown = (
         f"{name.split(', ')[1]}: friction {o.feasibility.mean_friction:.2f} in the mean over 5 ms and "
         f"{o.feasibility.friction:.2f} at an instant, {o.peak_torque:.0f} N m"
         for name, o in b.items()
     )
     costs = (
-        f"{name.split(', ')[1]} {last('cost_of_transport', o):.3f} against "
-        f"{last('cost_of_transport', other):.3f}"
+        f"{name.split(', ')[1]} {m.last('cost_of_transport', o):.3f} against "
+        f"{m.last('cost_of_transport', other):.3f}"
         for (name, o), other in zip(b.items(), a.values(), strict=True)
     )
     return {
         "needs": "; ".join(shown),
         "costs": "; ".join(costs),
         "torques": Extremes(o.peak_torque for o in b.values()),
-        "ratios": Extremes(last("impulse_ratio", o) for o in (*a.values(), *b.values())),
+        "ratios": Extremes(m.last("impulse_ratio", o) for o in (*a.values(), *b.values())),
     }
 
 
@@ -240,7 +220,7 @@ def of_printed(r: Results) -> dict[str, object]:
         "published": ", ".join(f"{v:g}" for v in PUBLISHED_MULTIPLIERS),
         "decay": math.exp(-0.2 * float(np.max(TABLE_II.K_d))),
         "least": least,
-        "longest": 1e3 * longest_step(least),
+        "longest": 1e3 * m.longest_step(least),
         "period": 1e3 * min(x["period"] for x in r.jumps.values()),
         "noise": ", ".join(f"{v:.2f}" for v in noise_spectrum()),
     }
@@ -254,5 +234,5 @@ def of_held(r: Results) -> dict[str, object]:
 
 def of_poles(r: Results) -> dict[str, object]:
     """The poles of the observer, and the distance of the undisturbed walks from x*."""
-    farthest = float(np.max([distance(o) for o in r.on_gait("a").values()]))
+    farthest = float(np.max([m.distance(o) for o in r.on_gait("a").values()]))
     return {"slow": -max(TABLE_I), "fast": -min(TABLE_I), "farthest": farthest}
