@@ -15,13 +15,13 @@ from biped_adrc.paper.results import Results
 from biped_adrc.paper.runs import MemberOutcome, MemberWalk, Order, Start
 from biped_adrc.paper.scenarios import (
     CONTROLLERS,
+    MapPush,
     Plan,
-    Tried,
     base_runs,
+    claim_runs,
     cycle_runs,
     members,
     on_the_recipe,
-    tried_runs,
 )
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.robots.limits import KnownLimits
@@ -66,7 +66,7 @@ def member(npd=None, adrc=None, of=None):
 
 def cell(npd, adrc, doubtful=False, onset=0.1):
     fates = [Fate(x, "FELL" if x == "fell" else "COMPLETED", 100.0, 0.4, 0.5) for x in (npd, adrc)]
-    push = Tried("identified", onset, 90.0, "all +", None)
+    push = MapPush("identified", onset, 90.0, "all +", None)
     return PushCell(push, fates[0], replace(fates[1], marginal=doubtful))
 
 
@@ -99,17 +99,17 @@ def head(controller, peak=None, **more):
 def results(**odd):
     """Everything holds, but for the entries given as {kind: {name: value}}."""
     runs = {}
-    for name in {**base_runs(PLAN), **tried_runs(PLAN)}:
+    for name in {**base_runs(PLAN), **claim_runs(PLAN)}:
         c = name.rpartition(" ")[2]
         runs[name] = outcome(c, {"NPD": 1e-2, "ADRC": 1e-5}[c])
-    tried = {name: runs.pop(name) for name in tried_runs(PLAN)}
+    more = {name: runs.pop(name) for name in claim_runs(PLAN)}
     order = Order(1.0, 1.0, 500.0, 1e-3, 1e-6, figure(1e-4))
     walked = {c: outcome(c, impacts=0) for c in CONTROLLERS}
     made = {
         "headline": {c: head(c) for c in CONTROLLERS},
         "engines": dict.fromkeys(CONTROLLERS, 1e-14),
         "runs": runs,
-        "tried": tried,
+        "claim_runs": more,
         "members": {"identified": [member(of=m) for m in members("identified")]},
         "pushed_recipe": {"identified": [member(of=on_the_recipe("identified"))]},
         "starts": {

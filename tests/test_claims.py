@@ -27,7 +27,7 @@ from biped_adrc.paper.verdict import (
     Case,
     Claim,
     claim_checks,
-    judged,
+    row_of,
     share_text,
     tally,
     texts,
@@ -41,7 +41,7 @@ BY_NAME = {claim.name: claim for claim in claims()}
 
 
 def judge(name, **odd):
-    return judged(BY_NAME[name], results(**odd))
+    return row_of(BY_NAME[name], results(**odd))
 
 
 def with_member(odd):
@@ -68,7 +68,7 @@ def test_a_member_carried_out_is_what_it_says():
     assert (run.solve_theta, run.reset, run.first_step) == (False, "measured", 19)
     assert run.pushes[0].rise == 0.01
     assert run.pushes[0].torque == {"q3": 30.0, "q4": 30.0}
-    (done,) = runs.tried((chosen,))
+    (done,) = runs.member_outcomes((chosen,))
     npd, adrc = (done.walked[c] for c in CONTROLLERS)
     assert npd.longest.at_half == pytest.approx(adrc.longest.at_half, rel=0.1) != math.inf
     ratio = adrc.deviation.over(npd.deviation)
@@ -220,7 +220,7 @@ def test_stability(name, gait, multiplier, word):
 
 def test_a_push_on_the_torso_holds_up_to_the_torque_that_the_share_names():
     odd = {f"120 N m on the torso, identified {c}": outcome(c, impacts=1) for c in CONTROLLERS}
-    row = judge("not_at_risk", tried=odd)
+    row = judge("not_at_risk", claim_runs=odd)
     assert row.word == "depends"
     assert "100 N m 1 of 1; 120 N m 0 of 1" in row.share
     assert "120 N m (identified); NPD does alike" in row.number

@@ -13,7 +13,7 @@ from biped_adrc.paper.push_map import (
     counts,
     push_map,
 )
-from biped_adrc.paper.scenarios import Tried
+from biped_adrc.paper.scenarios import MapPush
 from biped_adrc.scenario.run import execute
 
 FEASIBLE = Fate("feasible", "COMPLETED", 200.0, 0.4, 0.5)
@@ -22,7 +22,7 @@ FELL = Fate("fell", "FELL", 10.0, 0.9, None)
 
 
 def cell(npd: Fate, adrc: Fate) -> PushCell:
-    return PushCell(Tried("p", 0.1, 30.0, "all +", None), npd, adrc)
+    return PushCell(MapPush("p", 0.1, 30.0, "all +", None), npd, adrc)
 
 
 def test_marginal_cells_carry_no_claim():
@@ -43,9 +43,9 @@ def test_marginal_cells_carry_no_claim():
 
 def test_a_fall_of_the_polynomial_is_none_of_the_robot():
     """A late push that throws NPD past the phase range, where the gait's polynomial explodes."""
-    tried = Tried("identified-bare", 0.3, 150.0, "swing knee -", None)
-    assert not execute(replace(tried.run("NPD"), continued=False)).walked
-    (found,) = push_map([tried])
+    push = MapPush("identified-bare", 0.3, 150.0, "swing knee -", None)
+    assert not execute(replace(push.run("NPD"), continued=False)).walked
+    (found,) = push_map([push])
     assert found.npd.status == "COMPLETED"
     assert found.npd.word not in ("feasible", "but_impact")
 

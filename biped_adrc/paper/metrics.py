@@ -186,7 +186,7 @@ def usual_torso(r: Results) -> dict[str, Pair]:
     return torso(r, 20.0)
 
 
-def lost(r: Results) -> dict[str, PushCell]:
+def lost_by_npd(r: Results) -> dict[str, PushCell]:
     """The pushes of the map, not marginal ones, under which NPD does not make its steps."""
     cells = [c for c in r.cells if c.certain and c.npd.outcome in LOST]
     return {

@@ -1,8 +1,8 @@
 """Section VI's other claim as a map: in which phase of the step does a push make which controller fall?
 
 Pushes of 0.2 s in the 19th single support, over onset, amplitude and joint pattern, with and without a torque
-limit (`scenarios.Tried`). Every walk is made at two integration steps. A cell in which they end differently is
-marginal, and no claim rests on it. What a walk can be:
+limit (`scenarios.MapPush`). Every walk is made at two integration steps. A cell in which they end differently
+is marginal, and no claim rests on it. What a walk can be:
 
     feasible    makes all steps within friction, torque limits and without scuffing
     but_impact  the same but for the impact, whose impulse asks for more friction
@@ -19,7 +19,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 
-from biped_adrc.paper.scenarios import CONTROLLERS, Tried
+from biped_adrc.paper.scenarios import CONTROLLERS, MapPush
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.run import execute_twice
 
@@ -78,7 +78,7 @@ class Fate:
 class PushCell:
     """One push and what each controller made of it."""
 
-    push: Tried
+    push: MapPush
     npd: Fate
     adrc: Fate
 
@@ -105,11 +105,11 @@ class PushCell:
         }
 
 
-def push_map(tried: Sequence[Tried]) -> list[PushCell]:
+def push_map(pushes: Sequence[MapPush]) -> list[PushCell]:
     """Both controllers under every push, each at two steps."""
     return [
         PushCell(push, *(Fate.of(execute_twice(push.run(c))) for c in CONTROLLERS))
-        for push in tried
+        for push in pushes
     ]
 
 

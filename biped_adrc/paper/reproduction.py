@@ -76,15 +76,15 @@ def reproduce(
 
 def judgement(r: Results) -> dict[str, Any]:
     """Claims, checks, tables and numbers of a reproduction, in plain values."""
-    plan, judged = r.plan, rows(r)
-    found = checks(r, judged)
+    plan, of_claims = r.plan, rows(r)
+    found = checks(r, of_claims)
     made = {
         "preset": plan.preset,
         "left_out": list(plan.left_out),
         "holds": all(check.holds for check in found),
         "checks": found,
-        "tally": tally(judged),
-        **_said(judged),
+        "tally": tally(of_claims),
+        **_said(of_claims),
         "settings": _settings(plan),
         "tables": tables(r),
         "members": [o for part in r.members.values() for o in part],
@@ -96,13 +96,13 @@ def judgement(r: Results) -> dict[str, Any]:
     return summary
 
 
-def _said(judged: list[Row]) -> dict[str, object]:
+def _said(of_claims: list[Row]) -> dict[str, object]:
     """What the summary says of the claims in words, and of the setup."""
     return {
         "claims_preface": texts()["preface"],
         "claims_words": texts()["words"],
-        "claims": judged,
-        "findings": [row.finding for row in judged if row.finding],
+        "claims": of_claims,
+        "findings": [row.finding for row in of_claims if row.finding],
         "notes": list(texts()["notes"].values()),
     }
 

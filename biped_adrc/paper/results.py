@@ -29,8 +29,8 @@ class Results:
     """The pushed walks, by controller."""
     runs: Mapping[str, Outcome] = field(default_factory=dict)
     """Walks at two steps, by the names of `scenarios.base_runs`."""
-    tried: Mapping[str, Outcome] = field(default_factory=dict)
-    """Those of the claims alone, by the names of `scenarios.tried_runs`."""
+    claim_runs: Mapping[str, Outcome] = field(default_factory=dict)
+    """Those of the claims alone, by the names of `scenarios.claim_runs`."""
     members: Mapping[str, list[MemberOutcome]] = field(default_factory=dict)
     """The push on the joints at all declared choices, by preset."""
     pushed_recipe: Mapping[str, list[MemberOutcome]] = field(default_factory=dict)
@@ -85,7 +85,7 @@ class Results:
         if name == "push":
             npd, adrc = (self.headline[c].outcome for c in CONTROLLERS)
         else:
-            npd, adrc = ({**self.runs, **self.tried}[f"{name} {c}"] for c in CONTROLLERS)
+            npd, adrc = ({**self.runs, **self.claim_runs}[f"{name} {c}"] for c in CONTROLLERS)
         return npd, adrc
 
     def on_gait(self, gait: str) -> dict[str, Outcome]:

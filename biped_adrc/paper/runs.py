@@ -35,7 +35,7 @@ from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.paper import scenarios
 from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.paper.push_map import push_map
-from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Member, Plan, changed, value
+from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Member, Plan, value, with_values
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.outcome import Outcome
@@ -50,11 +50,11 @@ from biped_adrc.studies.cycle_stability import (
 )
 from biped_adrc.types import Array, relabelled
 
-KEPT = 5e-4
+NODE_DISTANCE = 5e-4
 """Distance of the nodes that are kept of a walk with short steps [s]; nothing moves faster between pushes."""
 
 
-def sparse(walk: Walk, apart: float = KEPT) -> Walk:
+def sparse(walk: Walk, apart: float = NODE_DISTANCE) -> Walk:
     """The walk without the nodes that no figure of merit needs, all of them where a push acts and in the single
     support after it.
     """
@@ -68,9 +68,9 @@ def sparse(walk: Walk, apart: float = KEPT) -> Walk:
 def twice(run: Scenario) -> Outcome:
     """The outcome of a walk, with that at half of its steps in `half`."""
     h = value(run, "h")
-    if h is None or h > 0.2 * KEPT or value(run, "reset") != "model":
+    if h is None or h > 0.2 * NODE_DISTANCE or value(run, "reset") != "model":
         return execute_twice(run)
-    half = sparse(walk_scenario(halved(run)), 0.5 * KEPT)
+    half = sparse(walk_scenario(halved(run)), 0.5 * NODE_DISTANCE)
     return replace(sparse(walk_scenario(run)).outcome, half=half.outcome)
 
 
@@ -93,7 +93,7 @@ def headline(run: Scenario) -> Headline:
     walk = sparse(walk_scenario(run))
     half = halved(run)
     quarter = execute(scenarios.from_the_push(halved(half)))
-    at_half = replace(sparse(walk_scenario(half), 0.5 * KEPT).outcome, half=quarter)
+    at_half = replace(sparse(walk_scenario(half), 0.5 * NODE_DISTANCE).outcome, half=quarter)
     return Headline(
         replace(walk.outcome, half=at_half), walk.trajectory, walk.signals, walk_laws(walk)
     )
@@ -172,7 +172,7 @@ def pieces(run: Scenario, zero: bool, share: float) -> list[Walk]:
     if zero and adrc:
         x[2 * n + 2 * scene.biped.p :] = 0.0  # x3^ and its derivatives in the scaled chain
     later = Exponential(share * COARSE) if adrc else RK4(share * COARSE)
-    parts = (method_of(changed(run, h=share * h), walker), 1), (later, impacts - 1)
+    parts = (method_of(with_values(run, h=share * h), walker), 1), (later, impacts - 1)
     found = []
     for method, count in parts[: 1 + (impacts > 1)]:
         end = mode.start + count * walker.max_step_time
@@ -258,7 +258,7 @@ def _at(
     return (one.peak, one.away_from(other, member.onset), rate, longest, broken), why
 
 
-def tried(chosen: tuple[Member, ...]) -> list[MemberOutcome]:
+def member_outcomes(chosen: tuple[Member, ...]) -> list[MemberOutcome]:
     """Members carried out under both controllers."""
     return [MemberOutcome(m, {c: member_walk(m, c) for c in CONTROLLERS}) for m in chosen]
 
@@ -268,7 +268,7 @@ def cycle(run: Scenario, with_states: bool) -> PoincareResult | str:
     """A walking cycle at 1 ms and half of it, or why none is found, in words."""
     try:
         found, half = (
-            poincare(changed(run, h=share * COARSE), with_states) for share in (1.0, 0.5)
+            poincare(with_values(run, h=share * COARSE), with_states) for share in (1.0, 0.5)
         )
     except BipedError as error:
         return str(error)
@@ -411,7 +411,7 @@ def tasks(plan: Plan) -> dict[str, Task[object]]:
         found[f"{kind}/{name}"] = Task(f"{kind} {name}", function, arguments)
 
     for preset in plan.presets:
-        add("members", preset, tried, scenarios.members(preset))
+        add("members", preset, member_outcomes, scenarios.members(preset))
     for c in reversed(CONTROLLERS):
         add("headline", c, headline, scenarios.pushed_run(plan, c))
         add("engines", c, engines, *scenarios.engine_runs(plan, c))
@@ -419,14 +419,14 @@ def tasks(plan: Plan) -> dict[str, Task[object]]:
     for name, run in scenarios.base_runs(plan).items():
         add("runs", name, twice, run)
     for preset in plan.presets:
-        add("pushed recipe", preset, tried, (scenarios.on_the_recipe(preset),))
+        add("pushed recipe", preset, member_outcomes, (scenarios.on_the_recipe(preset),))
         add("starts", preset, starts, preset)
         add("jumps", preset, jumps, preset)
         add("model", preset, model_laws, preset)
     for k, part in enumerate(scenarios.map_pushes(plan)):
         add("map", f"{part[0].preset}, part {k}", push_map, part)
-    for name, run in scenarios.tried_runs(plan).items():
-        add("tried", name, twice, run)
+    for name, run in scenarios.claim_runs(plan).items():
+        add("claim runs", name, twice, run)
     for name, (run, with_states) in scenarios.cycle_runs(plan).items():
         add("cycles", name, cycle, run, with_states)
     for name, run in scenarios.multiplier_runs(plan).items():

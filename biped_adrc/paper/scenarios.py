@@ -128,7 +128,7 @@ def scenario(controller: str, preset: str, **values: Any) -> Scenario:
     return Scenario(controller, preset=preset, **values)
 
 
-def changed(run: Scenario, **values: Any) -> Scenario:
+def with_values(run: Scenario, **values: Any) -> Scenario:
     """The scenario with other values."""
     return replace(run, **values)
 
@@ -145,7 +145,7 @@ def pushed_steps(run: Scenario) -> set[int]:
 
 def from_the_push(run: Scenario) -> Scenario:
     """The run from the pushed step on, on its orbit, for two impacts."""
-    return changed(run, first_step=value(run, "pushes")[0].step, impacts=2)
+    return with_values(run, first_step=value(run, "pushes")[0].step, impacts=2)
 
 
 def plain(controller: str, preset: str, **values: Any) -> Scenario:
@@ -171,7 +171,7 @@ def engine_runs(plan: Plan, controller: str) -> tuple[Scenario, Scenario]:
     """The pushed step of the headline run on Pinocchio's dynamics, and compiled, at the same step."""
     values: dict[str, Any] = {"pushes": plan.pushes, "h": ENGINES_STEP, "impacts": 1}
     one = scenario(controller, plan.preset, first_step=plan.pushes[0].step, **values)
-    return changed(one, engine=PINOCCHIO), one
+    return with_values(one, engine=PINOCCHIO), one
 
 
 def base_runs(plan: Plan) -> dict[str, Scenario]:
@@ -217,7 +217,7 @@ def reset_runs(preset: str) -> dict[str, Scenario]:
     return runs
 
 
-def tried_runs(plan: Plan) -> dict[str, Scenario]:
+def claim_runs(plan: Plan) -> dict[str, Scenario]:
     """Walks of the claims alone: pushes on the torso by amplitude, and the heavier plant in other presets."""
     runs, step = {}, declared()["push"]["step"]
     for preset, c in itertools.product(plan.presets, CONTROLLERS):
@@ -228,7 +228,7 @@ def tried_runs(plan: Plan) -> dict[str, Scenario]:
                 "impacts": 4,
             }
             run = loose(c, preset, COARSE, **values)
-            runs[f"{torque:g} N m on the torso, {preset} {c}"] = changed(run, h=COARSE)
+            runs[f"{torque:g} N m on the torso, {preset} {c}"] = with_values(run, h=COARSE)
         for kind, factors in KINDS.items():
             if preset != plan.preset:
                 runs[f"heavier, {kind}, {preset} {c}"] = loose(c, preset, impacts=8, **factors)
@@ -252,7 +252,9 @@ def cycle_runs(plan: Plan) -> dict[str, tuple[Scenario, bool]]:
 def multiplier_runs(plan: Plan) -> dict[str, Scenario]:
     """The cycles with all multipliers, by controller (and what the observer's states become at impact)."""
     npd, adrc = (scenario(c, plan.preset) for c in CONTROLLERS)
-    more = {} if plan.quick else {"ADRC": adrc, "ADRC measured": changed(adrc, reset="measured")}
+    more = (
+        {} if plan.quick else {"ADRC": adrc, "ADRC measured": with_values(adrc, reset="measured")}
+    )
     return {"NPD": npd} | more
 
 
@@ -341,7 +343,7 @@ def on_the_recipe(preset: str) -> Member:
 
 
 @dataclass(frozen=True)
-class Tried:
+class MapPush:
     """One push of the map."""
 
     preset: str
@@ -374,7 +376,7 @@ class Tried:
         )
 
 
-def map_pushes(plan: Plan) -> Iterator[list[Tried]]:
+def map_pushes(plan: Plan) -> Iterator[list[MapPush]]:
     """The pushes of the map in parts, by preset, torque limit [N m] and pattern; of a plan that is not full
     the late ones of the largest amplitude within the torque limit alone.
     """
@@ -384,4 +386,4 @@ def map_pushes(plan: Plan) -> Iterator[list[Tried]]:
         parts = [[of] for of in PATTERNS] if plan.full else [list(PATTERNS)]
         for part in parts:
             every = itertools.product(part, amplitudes, onsets)
-            yield [Tried(preset, onset, amplitude, of, limit) for of, amplitude, onset in every]
+            yield [MapPush(preset, onset, amplitude, of, limit) for of, amplitude, onset in every]

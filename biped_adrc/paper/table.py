@@ -30,7 +30,7 @@ from biped_adrc.paper.physical_laws import MODEL_LAWS, work_identity
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.runs import MemberOutcome, limits_broken
 from biped_adrc.paper.scenarios import CONTROLLERS, KINDS, declared
-from biped_adrc.paper.verdict import Claim, Limit, Row, claim_checks, judged, texts
+from biped_adrc.paper.verdict import Claim, Limit, Row, claim_checks, row_of, texts
 from biped_adrc.scenario.outcome import Outcome
 
 
@@ -100,7 +100,7 @@ def _of_the_push() -> Iterator[Claim]:
     yield claim("feasible", metric=lambda o: o.walked["ADRC"].broken, limit=le(0.0), **of)
     yield claim(
         "critical_phase",
-        m.lost,
+        m.lost_by_npd,
         lambda cell: float(cell.adrc.outcome in COUNTED),
         ge(1.0),
         variant=lambda _, cell: cell.setting,
@@ -183,14 +183,14 @@ def broken(o: Outcome) -> float:
 
 def rows(r: Results) -> list[Row]:
     """Every claim of the paper with what became of it."""
-    return [judged(of, r) for of in claims()]
+    return [row_of(of, r) for of in claims()]
 
 
 # -- laws, consistencies and results that every run is held against --------------------------------
-def checks(r: Results, judged_rows: list[Row]) -> list[Check]:
+def checks(r: Results, of_claims: list[Row]) -> list[Check]:
     """All checks of a reproduction, those of its claims included."""
     every = (*_of_designed(), *_of_results(), *_of_steps(), *_of_laws(r))
-    return [check for of in every for check in of.checks(r)] + claim_checks(judged_rows)
+    return [check for of in every for check in of.checks(r)] + claim_checks(of_claims)
 
 
 def _check(kind: str, statement: str, scenarios: Any, metric: Any, limit: Limit) -> Claim:

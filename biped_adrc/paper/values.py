@@ -72,7 +72,7 @@ def of_recipe_push(r: Results) -> dict[str, object]:
 def of_map(r: Results) -> dict[str, object]:
     """What became of the pushes that throw NPD."""
     known = [c for c in r.cells if c.certain]
-    fates = [c.adrc.outcome for c in m.lost(r).values()]
+    fates = [c.adrc.outcome for c in m.lost_by_npd(r).values()]
     return {
         "lost": len(fates),
         "known": len(known),

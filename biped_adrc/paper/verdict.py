@@ -181,7 +181,7 @@ def word_of(cases: Sequence[Case]) -> str:
     return DEPENDS if held else CONTRADICTED
 
 
-def judged(claim: Claim, r: Results) -> Row:
+def row_of(claim: Claim, r: Results) -> Row:
     """The row of a claim of the paper; of one without scenarios, with the word that claims.toml has for it."""
     said, cases = texts()[claim.name], claim.cases(r)
     word = said.get("word") or word_of(cases)
