@@ -9,10 +9,11 @@ from biped_adrc.analysis.certificate import Certificate
 from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.hybrid.status import Status
+from biped_adrc.paper.members import MemberOutcome, MemberWalk
 from biped_adrc.paper.physical_laws import MODEL_LAWS
 from biped_adrc.paper.push_map import Fate, PushCell
 from biped_adrc.paper.results import Results
-from biped_adrc.paper.runs import MemberOutcome, MemberWalk, Order, Start
+from biped_adrc.paper.runs import Order, Start
 from biped_adrc.paper.scenarios import (
     CONTROLLERS,
     MapPush,

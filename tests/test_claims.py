@@ -8,6 +8,7 @@ import pytest
 
 from biped_adrc.observer_design.observer_loop import observer_loop
 from biped_adrc.observers.gpi import GPIObserver
+from biped_adrc.paper import members as member_runs
 from biped_adrc.paper import runs
 from biped_adrc.paper.metrics import longest_step
 from biped_adrc.paper.scenarios import (
@@ -68,7 +69,7 @@ def test_a_member_carried_out_is_what_it_says():
     assert (run.solve_theta, run.reset, run.first_step) == (False, "measured", 19)
     assert run.pushes[0].rise == 0.01
     assert run.pushes[0].torque == {"q3": 30.0, "q4": 30.0}
-    (done,) = runs.member_outcomes((chosen,))
+    (done,) = member_runs.member_outcomes((chosen,))
     npd, adrc = (done.walked[c] for c in CONTROLLERS)
     assert npd.longest.at_half == pytest.approx(adrc.longest.at_half, rel=0.1) != math.inf
     ratio = adrc.deviation.over(npd.deviation)
@@ -82,7 +83,7 @@ def test_a_member_carried_out_is_what_it_says():
 @pytest.mark.parametrize("zero", [True, False])
 def test_an_observer_that_starts_at_zero_knows_the_rates_and_no_disturbance(zero):
     run = Member("identified", 30.0, 0.12, ("q3",), 0.0, "zero", "solved").run("ADRC", pushed=False)
-    (made,) = runs.pieces(run, zero, 4.0)
+    (made,) = member_runs.pieces(run, zero, 4.0)
     q, v, s = made.walker.split_state(made.trajectory.arcs[0].x[0])
     found = made.walker.controller.observer.estimate(s)
     assert np.array_equal(found.position, q[:4])
@@ -93,18 +94,18 @@ def test_an_observer_that_starts_at_zero_knows_the_rates_and_no_disturbance(zero
 def test_a_deviation_is_taken_from_the_onset_on_against_the_walk_without_a_push():
     t = np.linspace(0.0, 1.0, 101)
     slope = np.tile([1.0, -1.0], (101, 1))
-    usual = runs.Track(t, np.column_stack((t, -t)), slope, -1.0)
+    usual = member_runs.Track(t, np.column_stack((t, -t)), slope, -1.0)
     pushed = usual.error + np.where((t > 0.5)[:, np.newaxis], [[0.0, 0.25]], [[3.0, 3.0]])
-    assert runs.Track(t, pushed, slope, -1.0).away_from(usual, 0.505) == pytest.approx(0.25)
+    assert member_runs.Track(t, pushed, slope, -1.0).away_from(usual, 0.505) == pytest.approx(0.25)
 
 
 def test_peaks_lie_between_the_nodes():
     """Of sin(t) on nodes around its peak, and of its deviation from a walk on other nodes."""
     t, other = np.linspace(0.0, 3.0, 10), np.linspace(0.0, 3.0, 31)
-    one = runs.Track(t, np.sin(t)[:, None], np.cos(t)[:, None], -1.0)
+    one = member_runs.Track(t, np.sin(t)[:, None], np.cos(t)[:, None], -1.0)
     assert np.max(np.abs(one.error)) < 0.996
     assert one.peak == pytest.approx(1.0, abs=1e-3)
-    usual = runs.Track(other, other[:, None] ** 2, 2.0 * other[:, None], -1.0)
+    usual = member_runs.Track(other, other[:, None] ** 2, 2.0 * other[:, None], -1.0)
     pushed = one._replace(error=one.error + t[:, None] ** 2, derror=one.derror + 2.0 * t[:, None])
     assert pushed.away_from(usual, 0.0) == pytest.approx(1.0, abs=1e-3)
 
@@ -272,7 +273,9 @@ def test_the_least_speed_of_the_zero_dynamics_parts_the_starts():
 
 def test_what_gait_b_needs_of_ground_and_motors():
     a, b = (runs.execute(plain("NPD", "identified", gait=gait, impacts=2)) for gait in GAITS)
-    assert runs.limits_broken(a.feasibility) == 0.0 < runs.limits_broken(b.feasibility)
+    assert (
+        member_runs.limits_broken(a.feasibility) == 0.0 < member_runs.limits_broken(b.feasibility)
+    )
     assert b.feasibility.friction == pytest.approx(0.57, abs=0.005)
     assert b.peak_torque == pytest.approx(315.0, rel=0.01)
     found = runs.jumps("identified")

@@ -14,9 +14,10 @@ import numpy as np
 
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
+from biped_adrc.paper.members import MemberOutcome
 from biped_adrc.paper.push_map import LOST, PushCell
 from biped_adrc.paper.results import Results
-from biped_adrc.paper.runs import MemberOutcome, Start
+from biped_adrc.paper.runs import Start
 from biped_adrc.paper.scenarios import KINDS, declared, value
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.outcome import Outcome
