@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import biped_adrc as ba
 from biped_adrc.engine.batch import BatchWalk, Case, run_case
 from biped_adrc.hybrid.integrators import OneStepMethod
-from biped_adrc.paper.plan import PAPER_PUSH
+from biped_adrc.paper.scenarios import PAPER_PUSH
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.scenario import Scenario
 

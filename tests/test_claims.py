@@ -1,71 +1,59 @@
-"""The words for claims, on made-up outcomes; and the set on which they rest."""
+"""The words for claims, on made-up results; the set on which they rest, and what is walked for them."""
 
 import itertools
 import math
-from dataclasses import replace
-from importlib.resources import files
 
 import numpy as np
 import pytest
 
 from biped_adrc.observer_design.observer_loop import observer_loop
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.paper.claims import evidence, rows_gait, rows_push
-from biped_adrc.paper.claims.admissible import Member, convergence, declared, members
-from biped_adrc.paper.claims.evidence import GaitCycle, Jumps, Needs, Pair, Start
-from biped_adrc.paper.claims.orders import Order, bandwidth_with
-from biped_adrc.paper.claims.table import rows
-from biped_adrc.paper.claims.tally import AtTwoSteps, ClaimCase, Tally, below_limit
-from biped_adrc.paper.claims.tasks import Evidence
-from biped_adrc.paper.claims.walks import (
-    MemberOutcome,
-    MemberWalk,
-    Prepared,
-    Track,
-    _ending,
-    _undisturbed,
-    nominal,
-    prepared,
-    tried,
+from biped_adrc.paper import members as member_runs
+from biped_adrc.paper import runs
+from biped_adrc.paper.metrics import longest_step
+from biped_adrc.paper.scenarios import (
+    CONTROLLERS,
+    GAITS,
+    Member,
+    declared,
+    loose,
+    members,
+    on_torso,
+    plain,
 )
-from biped_adrc.paper.claims.words import MEANINGS, claim_checks
-from biped_adrc.paper.push_map import Fate, PushCell
+from biped_adrc.paper.table import claims, le, rows
+from biped_adrc.paper.values import noise_spectrum
+from biped_adrc.paper.verdict import (
+    AtTwoSteps,
+    Case,
+    Claim,
+    claim_checks,
+    row_of,
+    share_text,
+    tally,
+    texts,
+    word_of,
+)
 from biped_adrc.viz.pages import CLAIM_COLUMNS
 
-NUMERICS = {
-    "tracking error per unit disturbance on a held joint, simulated [s^2]": 2e-5,
-    "the same at half the step [s^2]": 2e-5,
-    "the same by (23) corrected [s^2]": 2e-5,
-    "the same by (23) as printed [s^2]": 1e-5,
-}
+from .made_up_results import cell, cycle, figure, member, outcome, results, walk
+
+BY_NAME = {claim.name: claim for claim in claims()}
 
 
-def figure(value, change=1e-3):
-    return AtTwoSteps(value * (1.0 + change), value)
+def judge(name, **odd):
+    return row_of(BY_NAME[name], results(**odd))
 
 
-def walk(error, *, made=4, rate=1e-9, change=1e-3, period=0.4, infeasible=None):
-    status = "COMPLETED" if made == 4 else "FELL"
-    f = figure(error, change)
-    return MemberWalk(status, made, 4, f, f, figure(rate), figure(period), infeasible or {})
-
-
-def outcome(npd=None, adrc=None, member=None):
-    npd, adrc = npd or walk(1e-2, rate=1e-3), adrc or walk(1e-6)
-    return MemberOutcome(member or members()[0], {"NPD": npd, "ADRC": adrc})
-
-
-def of(rule, odd, usual=5):
-    """The claim of a rule on some usual outcomes and an odd one."""
-    return rule([outcome()] * usual + [odd])
+def with_member(odd):
+    """The declared choices, one of them with another outcome."""
+    return {"members": {"identified": [odd, *(member(of=m) for m in members()[1:6])]}}
 
 
 # -- the set -------------------------------------------------------------------------------------
-def test_the_set_is_in_the_package_and_is_balanced():
-    assert files("biped_adrc.paper.claims").joinpath("admissible.toml").is_file()
+def test_the_set_is_balanced():
     found, factors = members(), declared()["factors"]
     assert len(found) == len(set(found)) == 36
-    assert found == members()
     for one, other in itertools.combinations(factors, 2):
         count = {}
         for m in found:
@@ -76,300 +64,248 @@ def test_the_set_is_in_the_package_and_is_balanced():
 
 
 def test_a_member_carried_out_is_what_it_says():
-    member = Member("identified", 30.0, 0.12, ("q3", "q4"), 0.01, "zero", "printed")
-    run = member.run("ADRC", 1e-4, 4)
+    chosen = Member("identified", 30.0, 0.12, ("q3", "q4"), 0.01, "zero", "printed")
+    run = chosen.run("ADRC")
     assert (run.solve_theta, run.reset, run.first_step) == (False, "measured", 19)
     assert run.pushes[0].rise == 0.01
     assert run.pushes[0].torque == {"q3": 30.0, "q4": 30.0}
-    done = tried(member)
-    assert done.walked["ADRC"].made
-    assert done.walked["NPD"].made
-    assert done.rejection.at_half < 1e-4 < 0.05 < done.tracking.at_half
-    assert done.rejection.converged(*convergence())
-    for one in done.walked.values():  # made at two steps, not twice at one
+    (done,) = member_runs.member_outcomes((chosen,))
+    npd, adrc = (done.walked[c] for c in CONTROLLERS)
+    assert npd.longest.at_half == pytest.approx(adrc.longest.at_half, rel=0.1) != math.inf
+    ratio = adrc.deviation.over(npd.deviation)
+    assert ratio.at_half < 1e-4 < 0.05 < adrc.peak.over(npd.peak).at_half
+    assert ratio.converged()
+    for one in (npd, adrc):  # made at two steps, not twice at one
         assert one.peak.change > 0.0
+        assert one.broken == (0.0, 0.0)
 
 
-def test_an_observer_that_starts_at_zero_knows_the_rates_and_no_disturbance():
-    run = Member("identified", 30.0, 0.12, ("q3",), 0.0, "zero", "solved").run("ADRC", 1e-4)
-    for zero in (True, False):
-        made = prepared(run, zero)
-        q, v, s = made.walker.split_state(made.x0)
-        found = made.walker.controller.observer.estimate(s)
-        assert np.array_equal(found.position, q[:4])
-        assert found.velocity == pytest.approx(v[:4], rel=1e-12)
-        assert np.any(found.disturbance) != zero
+@pytest.mark.parametrize("zero", [True, False])
+def test_an_observer_that_starts_at_zero_knows_the_rates_and_no_disturbance(zero):
+    run = Member("identified", 30.0, 0.12, ("q3",), 0.0, "zero", "solved").run("ADRC", pushed=False)
+    (made,) = member_runs.pieces(run, zero, 4.0)
+    q, v, s = made.walker.split_state(made.trajectory.arcs[0].x[0])
+    found = made.walker.controller.observer.estimate(s)
+    assert np.array_equal(found.position, q[:4])
+    assert found.velocity == pytest.approx(v[:4], rel=1e-12)
+    assert np.any(found.disturbance) != zero
 
 
 def test_a_deviation_is_taken_from_the_onset_on_against_the_walk_without_a_push():
     t = np.linspace(0.0, 1.0, 101)
     slope = np.tile([1.0, -1.0], (101, 1))
-    usual = Track(t, np.column_stack((t, -t)), slope, -1.0, 1.0)
+    usual = member_runs.Track(t, np.column_stack((t, -t)), slope, -1.0)
     pushed = usual.error + np.where((t > 0.5)[:, np.newaxis], [[0.0, 0.25]], [[3.0, 3.0]])
-    found = Track(t, pushed, slope, -1.0, 1.0).away_from(usual, 0.505)
-    assert found == pytest.approx(0.25, abs=1e-12)
+    assert member_runs.Track(t, pushed, slope, -1.0).away_from(usual, 0.505) == pytest.approx(0.25)
 
 
 def test_peaks_lie_between_the_nodes():
     """Of sin(t) on nodes around its peak, and of its deviation from a walk on other nodes."""
     t, other = np.linspace(0.0, 3.0, 10), np.linspace(0.0, 3.0, 31)
-    one = Track(t, np.sin(t)[:, None], np.cos(t)[:, None], -1.0, 3.0)
+    one = member_runs.Track(t, np.sin(t)[:, None], np.cos(t)[:, None], -1.0)
     assert np.max(np.abs(one.error)) < 0.996
     assert one.peak == pytest.approx(1.0, abs=1e-3)
-    usual = Track(other, other[:, None] ** 2, 2.0 * other[:, None], -1.0, 3.0)
+    usual = member_runs.Track(other, other[:, None] ** 2, 2.0 * other[:, None], -1.0)
     pushed = one._replace(error=one.error + t[:, None] ** 2, derror=one.derror + 2.0 * t[:, None])
     assert pushed.away_from(usual, 0.0) == pytest.approx(1.0, abs=1e-3)
 
 
-def test_a_walk_is_taken_from_the_undisturbed_one_at_either_step():
-    """Two tracks, each at its own step, that nobody can change for the others."""
-    of = ("identified", "NPD", "published", "model", "solved")
-    h = declared()["steps"]["NPD"]
-    usual, half = (_undisturbed(*of, step) for step in (h, 0.5 * h))
-    assert len(half.t) > 1.9 * len(usual.t)
-    with pytest.raises(ValueError, match="read-only"):
-        usual.error[0] = 1.0
-    with pytest.raises(ValueError, match="read-only"):
-        nominal("identified", "published")[1].q_minus[0] = 1.0
+def test_kept_nodes_are_those_of_the_push_and_enough_of_the_others():
+    run = Member("identified", 30.0, 0.12, ("q3",), 0.0, "model", "solved").run("NPD", h=1e-4)
+    whole = runs.walk_scenario(run)
+    found = runs.sparse(whole)
+    count = [[len(arc.t) for arc in w.trajectory.arcs] for w in (whole, found)]
+    assert count[0][:2] == count[1][:2]
+    assert all(b < 0.25 * a for a, b in zip(count[0][2:], count[1][2:], strict=True))
+    assert found.outcome.peak_error == whole.outcome.peak_error
+    assert found.outcome.peak_torque == pytest.approx(whole.outcome.peak_torque, rel=1e-3)
 
 
-def test_a_walk_that_is_not_finite_is_not_feasible(monkeypatch):
-    run = Member("identified", 30.0, 0.12, ("q3",), 0.0, "model", "solved").run("NPD", 1e-3)
-    made = prepared(run)
-    walk = made.simulate(1e-3, 1)
-    arc = walk.arcs[0]
-    lost = replace(walk, arcs=(replace(arc, x=np.full_like(arc.x, np.nan)),))
-    monkeypatch.setattr(Prepared, "simulate", lambda *_: lost)
-    assert _ending(made, 1e-3).infeasible == {"normal_force": "not finite"}
+# -- cases and words -------------------------------------------------------------------------------
+@pytest.mark.parametrize(
+    ("value", "half", "holds", "marginal"),
+    [
+        (0.00999, 0.01001, False, True),  # another verdict
+        (0.00989, 0.0099, True, False),
+        (0.002, 0.001, True, True),  # not converged
+        (2e-10, 1e-10, True, False),  # round-off
+        (math.inf, math.inf, False, False),
+        (math.nan, math.nan, False, True),  # a search that failed says nothing
+        (math.nan, 0.001, True, True),
+    ],
+)
+def test_a_number_is_judged_at_both_steps(value, half, holds, marginal):
+    found = AtTwoSteps(value, half)
+    claim = Claim("", "", "", lambda r: {"a": found}, lambda x: x, le(0.01))
+    (case,) = claim.cases(results())
+    assert (case.holds, case.marginal) == (holds, marginal)
 
 
-# -- cases and tallies -----------------------------------------------------------------------------
-def test_a_number_is_judged_at_both_steps():
-    just = below_limit("a", AtTwoSteps(0.0099, 0.0101), 0.01, (0.05, 0.0))
-    assert just.marginal
-    assert not below_limit("a", AtTwoSteps(0.0098, 0.0099), 0.01, (0.05, 0.0)).marginal
-    assert below_limit("a", AtTwoSteps(0.002, 0.001), 0.01, (0.01, 1e-9)).marginal
-    assert not below_limit("a", AtTwoSteps(2e-10, 1e-10), 0.01, (0.01, 1e-9)).marginal
-    infinite = below_limit("a", AtTwoSteps(math.inf, math.inf), 0.01, (0.01, 1e-9))
-    assert (infinite.holds, infinite.marginal) == (False, False)
-    nothing = below_limit("a", AtTwoSteps(math.nan, math.nan), 0.01, (0.01, 1e-9))
-    assert (nothing.holds, nothing.marginal) == (False, True)  # a search that failed says nothing
-    assert below_limit("a", AtTwoSteps(math.nan, 0.001), 0.01, (0.01, 1e-9)).marginal
+def test_words_count_what_is_firm_and_the_share_has_no_interval():
+    good, bad, doubtful = (
+        Case(name, figure(1.0), holds, marginal, name)
+        for name, holds, marginal in (("g", True, False), ("b", False, False), ("m", True, True))
+    )
+    assert word_of((good,) * 4) == "replicated"
+    assert word_of((good, bad)) == "depends"
+    assert word_of((bad, bad)) == "contradicted"
+    assert word_of((good, good, doubtful)) == "depends"
+    assert word_of((doubtful,)) == word_of(()) == "not testable"
+    assert share_text((good, good, bad), apart=True) == "2 of 3: g 2 of 2; b 0 of 1"
+    assert share_text((good, doubtful), apart=False) == "1 of 2; marginal: m"
 
 
-def test_a_tally_counts_what_is_firm():
-    good, bad = ClaimCase("g", figure(1.0), True), ClaimCase("b", figure(1.0), False)
-    doubtful = ClaimCase("m", figure(1.0), True, marginal=True)
-    assert Tally((good,) * 4).word == "replicated"
-    assert Tally((good, bad)).word == "depends"
-    assert Tally((bad, bad)).word == "contradicted"
-    assert Tally((good, good, doubtful)).word == "depends"
-    assert "marginal: m" in Tally((good, good, doubtful)).share
-    assert Tally((doubtful,)).word == "not testable"
-    assert Tally(()).word == "not testable"
-
-
-def test_the_interval_is_wilson_s():
-    z, n, k = 1.959963984540054, 36, 18
-    p = k / n
-    middle = (p + z * z / (2 * n)) / (1 + z * z / n)
-    half = z * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n)) / (1 + z * z / n)
-    tally = Tally(tuple(ClaimCase("c", figure(1.0), i < k) for i in range(n)))
-    assert f"between {middle - half:.2f} and {middle + half:.2f}" in tally.share
-    assert tally.share.startswith("18 of 36")
-
-
-# -- the push --------------------------------------------------------------------------------------
+# -- single claims ---------------------------------------------------------------------------------
 @pytest.mark.parametrize(
     ("odd", "word"),
     [
-        (outcome(), "replicated"),
-        (outcome(adrc=walk(1.01e-4)), "depends"),  # a ratio of 0.0101
-        (outcome(adrc=walk(0.99e-4)), "replicated"),
-        (outcome(adrc=walk(math.nan)), "depends"),
-        (outcome(adrc=walk(1e-6, change=0.02)), "depends"),  # marginal
-        (outcome(npd=walk(0.0)), "depends"),  # NPD does not deviate: nothing to be rejected
+        (member(), "replicated"),
+        (member(adrc=walk(1.01e-4)), "depends"),  # a ratio of 0.0101
+        (member(adrc=walk(0.99e-4)), "replicated"),
+        (member(adrc=walk(math.nan)), "depends"),
+        (member(adrc=walk(1e-6, change=0.02)), "depends"),  # marginal
+        (member(npd=walk(0.0)), "depends"),  # NPD does not deviate: nothing to be rejected
     ],
 )
 def test_rejection(odd, word):
-    for rule in (rows_push.rejection, rows_push.tracking):
-        claim = of(rule, odd)
-        assert claim.word == word
-        converged, *checks = claim_checks([claim])
-        assert converged.holds == ("marginal" not in claim.share)
-        if rule is rows_push.rejection:
-            assert [check.holds for check in checks] == [word == "replicated"]
-        else:
-            assert checks == []
-    assert of(rows_push.rejection, outcome(adrc=walk(1.0)), usual=0).word == "contradicted"
+    for name in ("rejection", "tracking"):
+        row = judge(name, **with_member(odd))
+        assert row.word == word
+        converged, *checks = claim_checks([row])
+        assert converged.holds == ("marginal" not in row.share)
+        assert [check.holds for check in checks] == [word == "replicated"] * (name == "rejection")
 
 
-def test_the_cycle_after_the_push():
-    assert of(rows_push.unaffected, outcome()).word == "replicated"
-    assert of(rows_push.unaffected, outcome(adrc=walk(1e-6, rate=1.1e-5))).word == "depends"
-    assert of(rows_push.unaffected, outcome(adrc=walk(1e-6, rate=-1.1e-5))).word == "depends"
-
-
-def cell(npd, adrc, doubtful=False):
-    fates = (Fate(x, "FELL" if x == "fell" else "COMPLETED", 100.0, 0.4, 0.5) for x in (npd, adrc))
-    one, other = fates
-    return PushCell("identified", 0.1, 90.0, "all +", None, one, replace(other, marginal=doubtful))
+def test_figure_5_depends_on_one_choice_alone():
+    one, other = (next(m for m in members() if m.theta == x) for x in ("solved", "printed"))
+    chosen = [member(of=one), member(adrc=walk(1e-2), of=other)]
+    row = judge("tracking", members={"identified": chosen})
+    assert row.share == "1 of 2: Theta'' solved 1 of 1; (20) as printed 0 of 1"
 
 
 @pytest.mark.parametrize(
-    ("cells", "word", "number"),
+    ("rate", "word"), [(1e-9, "replicated"), (1.1e-5, "depends"), (math.inf, "depends")]
+)
+def test_the_cycle_after_the_push(rate, word):
+    odd = with_member(member(adrc=walk(1e-6, rate=rate)))
+    assert judge("unaffected", **odd).word == word
+
+
+@pytest.mark.parametrize(
+    ("fates", "word", "number"),
     [
         ([("fell", "feasible")], "replicated", "lost in 1 of 1"),
         ([("fell", "feasible"), ("ended", "fell")], "depends", "lost in 2 of 2"),
         ([("fell", "infeasible")], "contradicted", "walks on in 1, feasible in 0"),
-        ([("fell", "but_impact")], "replicated", "feasible but for the impact in 1"),
-        ([("fell", "fell"), ("feasible", "fell")], "contradicted", "ADRC alone is lost in 1"),
+        ([("fell", "but_impact")], "replicated", "feasible in 1"),
+        ([("fell", "fell"), ("feasible", "fell")], "contradicted", "alone is lost in 1"),
         ([("feasible", "feasible")], "not testable", "lost in 0 of 1"),
     ],
 )
-def test_a_critical_phase_is_judged_over_the_map(cells, word, number):
-    claim = rows_push.critical_phase([outcome()], [cell(*fates) for fates in cells])
-    assert claim.word == word
-    assert number in claim.number
-    table = rows(EVIDENCE, NUMERICS, MADE, 1e-5, [cell(*fates) for fates in cells])
-    assert [c.word for c in table if "critical phase" in c.claim] == [word]
-
-
-# -- the controller --------------------------------------------------------------------------------
-def pair(ratio=1.0, *, made=True, name="identified, 20 N m on the torso", same=True):
-    peaks = {"NPD": figure(1e-2), "ADRC": figure(1e-2 * ratio)}
-    return Pair(name, peaks, peaks, {"NPD": made, "ADRC": made}, same)
-
-
-def order(name, gain, noise, m=1):
-    return Order(name, m, 500.0, gain, noise, 1e-3, 1e-6, 1e-5, figure(1e-4))
-
-
-# -- the gait --------------------------------------------------------------------------------------
-def cycle(multiplier=0.7, rate=-1.25, gait="published", controller="NPD"):
-    f, r = figure(multiplier, 1e-5), figure(rate, 1e-6)
-    return GaitCycle("c", "identified", gait, controller, "solved", f, r, 0.4)
+def test_a_critical_phase_is_judged_over_the_map(fates, word, number):
+    row = judge("critical_phase", map={"": [cell(*x, onset=k) for k, x in enumerate(fates)]})
+    assert row.word == word
+    assert number in row.number
 
 
 @pytest.mark.parametrize(
     ("multiplier", "word"),
     [(0.999, "replicated"), (1.001, "depends"), (1.0, "depends"), (math.nan, "depends")],
 )
-def test_stability(multiplier, word):
-    odd = cycle()._replace(multiplier=AtTwoSteps(multiplier, multiplier))
-    for rule in (rows_gait.stable, rows_gait.recipe_stable):
-        claim = rule([cycle(), odd])
-        assert claim.word == word
-        assert claim_checks([claim])[1].holds == (word == "replicated")
+@pytest.mark.parametrize(("name", "gait"), [("stable", "a"), ("recipe_stable", "b")])
+def test_stability(name, gait, multiplier, word):
+    row = judge(name, cycles={f"gait ({gait}), identified, odd": cycle(multiplier)})
+    assert row.word == word
+    assert claim_checks([row])[1].holds == (word == "replicated")
 
 
-def need(gait="recipe", *, impulse=0.5, cost=1.0, jump=1.0, infeasible=None):
-    return Needs(
-        f"{gait}",
-        "identified",
-        gait,
-        figure(0.5),
-        figure(0.5),
-        figure(impulse),
-        figure(100.0),
-        figure(cost, 1e-5),
-        figure(10.0),
-        jump,
-        infeasible or {},
-        figure(100.0),
-    )
+def test_a_push_on_the_torso_holds_up_to_the_torque_that_the_share_names():
+    odd = {f"120 N m on the torso, identified {c}": outcome(c, impacts=1) for c in CONTROLLERS}
+    row = judge("not_at_risk", claim_runs=odd)
+    assert row.word == "depends"
+    assert "100 N m 1 of 1; 120 N m 0 of 1" in row.share
+    assert "120 N m (identified); NPD does alike" in row.number
+
+
+def test_the_same_numbers_have_their_limit_beside_them():
+    odd = {
+        f"heavier, {kind} ADRC": outcome("ADRC", 5e-3) for kind in ("masses", "masses and inertias")
+    }
+    one, other = (judge(name, runs=odd) for name in ("model_uncertainty", "less_error"))
+    assert one.number == other.number
+    assert (one.word, one.limit[-7:]) == ("contradicted", "<= 0.01")
+    assert (other.word, other.limit[-4:]) == ("replicated", "<= 1")
 
 
 # -- the table -------------------------------------------------------------------------------------
-EVIDENCE = Evidence(
-    members=(outcome(),) * 3,
-    cycles=(cycle(), cycle(gait="recipe"), cycle(gait="recipe", controller="ADRC")),
-    needs=(need(cost=1.1), need("published")),
-    unmatched=(pair(), pair(name="identified, 120 N m on the torso", made=False)),
-    uncertainty=(pair(0.5),),
-    pushed_recipe=(outcome(),),
-    basin=(
-        Start("b", 0.58, 0.97, {"NPD": 0, "ADRC": 0}, 3),
-        Start("a", 0.58, 1.03, {"NPD": 3, "ADRC": 3}, 3),
-    ),
-    jumps=(Jumps("identified", 20.0, 30.0),),
-    orders=(
-        order("Table I", 2.0, 0.5, 7),
-        order("m = 1, equal bandwidth", 1.0, 1.0),
-        order("m = 1, equal delay margin", 1.0, 1.0),
-    ),
-)
-MADE = {"NPD": (25, 25), "ADRC": (25, 25)}
-
-
 def test_every_claim_has_a_row_with_every_column():
-    table = rows(EVIDENCE, NUMERICS, MADE, 1e-5)
-    assert len(table) == len({claim.claim for claim in table}) > 30
-    assert {claim.word for claim in table} == set(MEANINGS)
-    for claim in table:
-        assert tuple(claim.record()) == CLAIM_COLUMNS
-        assert claim.claim
-        assert claim.where
-        assert claim.number
-        assert claim.reason
+    table = rows(results())
+    assert len(table) == len({row.claim for row in table}) == 33
+    assert {row.word for row in table} <= set(texts()["words"])
+    for row in table:
+        assert set(CLAIM_COLUMNS) < set(vars(row))
+        assert row.claim
+        assert row.where
+        assert row.number
+        assert row.reason
+        assert "{" not in row.number + row.reason + row.finding
     assert all(check.holds for check in claim_checks(table))
-    assert {check.kind for check in claim_checks(table)[1:]} == {"reproduced"}
+    counted = tally(table)
+    assert sum(int(x.rpartition(" ")[2]) for x in counted.split(", ")) == 33
+    assert counted.startswith(f"replicated {sum(row.word == 'replicated' for row in table)}, ")
 
 
 def test_one_bad_member_breaks_one_claim_and_its_check():
-    bad = replace(EVIDENCE, members=(*EVIDENCE.members, outcome(adrc=walk(1.01e-4))))
-    words = {
-        name: {claim.claim: claim.word for claim in rows(e, NUMERICS, MADE, 1e-5)}
-        for name, e in (("good", EVIDENCE), ("bad", bad))
-    }
-    changed = [c for c, word in words["good"].items() if words["bad"][c] != word]
+    good, bad = (rows(results(**with_member(m))) for m in (member(), member(adrc=walk(1.01e-4))))
+    changed = [a.claim for a, b in zip(good, bad, strict=True) if a.word != b.word]
     assert len(changed) == 2  # rejection, and what figure 5 shows
-    broken = [c for c in claim_checks(rows(bad, NUMERICS, MADE, 1e-5)) if not c.holds]
-    assert len(broken) == 1
-    assert broken[0].value == 0.75
+    broken = [check for check in claim_checks(bad) if not check.holds]
+    assert [check.value for check in broken] == [pytest.approx(5 / 6)]
 
 
 # -- the runs --------------------------------------------------------------------------------------
 def test_the_least_speed_of_the_zero_dynamics_parts_the_starts():
-    below, above = evidence.basin("identified-bare")
-    assert below.impacts == {"NPD": 0, "ADRC": 0}
-    assert above.impacts == {"NPD": 3, "ADRC": 3}
+    below, above = runs.starts("identified-bare")
+    for c in CONTROLLERS:
+        assert (below.outcomes[c].impacts, above.outcomes[c].impacts) == (0, 3)
     assert 0.5 < below.least < 0.65
 
 
-def test_the_needs_of_the_recipe():
-    a, b = evidence.needs("identified")
-    assert not a.infeasible
-    assert b.infeasible
-    assert b.friction_at_an_instant.at_half == pytest.approx(0.57, abs=0.005)
-    assert b.friction.at_half <= b.friction_at_an_instant.at_half
-    assert b.torque.at_half == pytest.approx(315.0, rel=0.01)
-    assert a.rate_jump < 1e-9 < 1.0 < b.rate_jump
+def test_what_gait_b_needs_of_ground_and_motors():
+    a, b = (runs.execute(plain("NPD", "identified", gait=gait, impacts=2)) for gait in GAITS)
+    assert (
+        member_runs.limits_broken(a.feasibility) == 0.0 < member_runs.limits_broken(b.feasibility)
+    )
+    assert b.feasibility.friction == pytest.approx(0.57, abs=0.005)
+    assert b.peak_torque == pytest.approx(315.0, rel=0.01)
+    found = runs.jumps("identified")
+    assert found["published"] < 1e-9 < 1.0 < found["recipe"]
 
 
-def test_a_torque_on_the_torso_and_a_heavier_plant():
-    *slow, fatal = evidence.unmatched("tac2003")
-    assert [p.made for p in slow] == [{"NPD": True, "ADRC": True}] * 2
-    assert fatal.made == {"NPD": False, "ADRC": False}
-    for p in slow:
-        assert p.delay["ADRC"].at_half == pytest.approx(p.delay["NPD"].at_half, rel=0.02)
-        assert p.peak["ADRC"].at_half < 0.5 * p.peak["NPD"].at_half
+def test_a_torque_on_the_torso_slows_both_controllers_alike():
+    npd, adrc = (
+        runs.execute(loose(c, "tac2003", 1e-3, pushes=(on_torso(20.0),), first_step=19, impacts=4))
+        for c in CONTROLLERS
+    )
+    assert npd.walked
+    assert adrc.walked
+    assert adrc.durations == pytest.approx(npd.durations, rel=2e-3)
+    assert adrc.peak_error < 0.5 * npd.peak_error
 
 
 def test_a_tracking_error_decays_by_the_gains_of_table_two():
-    poles = np.roots([1.0, 50.0, 5000.0])
-    assert evidence.fastest_decay(0.4) == pytest.approx(np.exp(0.4 * poles.real.max()))
-    assert evidence.fastest_decay(evidence.longest_step(0.138)) == pytest.approx(0.138)
+    slowest = np.roots([1.0, 50.0, 5000.0]).real.max()
+    assert np.exp(slowest * longest_step(0.138)) == pytest.approx(0.138)
 
 
 def test_noise_gives_a_spectrum_inside_the_unit_circle():
-    medians = evidence.noise_spectrum()
-    assert np.array_equal(medians, evidence.noise_spectrum())
+    medians = noise_spectrum()
+    assert np.array_equal(medians, noise_spectrum())
     assert np.all(np.diff(medians) < 0)
     assert 0.1 < medians[-1] < medians[0] < 0.8
 
 
 def test_an_observer_with_a_given_margin():
-    bandwidth = bandwidth_with(1e-3, 1)
+    bandwidth = runs.bandwidth_with(1e-3, 1)
     margin = observer_loop(GPIObserver.from_bandwidth(bandwidth, 1)).delay_margin().delay
     assert margin == pytest.approx(1e-3, rel=1e-6)

@@ -14,8 +14,7 @@ import pytest
 from scipy.integrate import LSODA
 
 from biped_adrc.closed_loop.walker import Mode
-from biped_adrc.paper.pair import CONTROLLERS
-from biped_adrc.paper.plan import Plan, pushed_run
+from biped_adrc.paper.scenarios import CONTROLLERS, Plan, pushed_run
 from biped_adrc.scenario.run import walk_scenario
 
 WITHIN = 0.005

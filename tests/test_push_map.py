@@ -10,28 +10,25 @@ import biped_adrc as ba
 from biped_adrc.paper.push_map import (
     Fate,
     PushCell,
-    Tried,
-    certain,
     counts,
     push_map,
 )
+from biped_adrc.paper.scenarios import MapPush
 from biped_adrc.scenario.run import execute
-from biped_adrc.scenario.scenario import Scenario
 
 FEASIBLE = Fate("feasible", "COMPLETED", 200.0, 0.4, 0.5)
 MADE = Fate("infeasible", "COMPLETED", 50.0, 0.8, 0.5)
 FELL = Fate("fell", "FELL", 10.0, 0.9, None)
 
 
-def cell(npd: Fate, adrc: Fate, **place: object) -> PushCell:
-    where = {"preset": "p", "onset": 0.1, "amplitude": 30.0, "pattern": "all +"}
-    return PushCell(**{**where, "torque_limit": None, **place}, npd=npd, adrc=adrc)  # type: ignore[arg-type]
+def cell(npd: Fate, adrc: Fate) -> PushCell:
+    return PushCell(MapPush("p", 0.1, 30.0, "all +", None), npd, adrc)
 
 
 def test_marginal_cells_carry_no_claim():
     sure = [cell(MADE, FEASIBLE), cell(FEASIBLE, FEASIBLE), cell(FEASIBLE, FELL)]
     cells = [*sure, cell(replace(MADE, marginal=True), FEASIBLE)]
-    assert certain(cells) == sure
+    assert [c for c in cells if c.certain] == sure
     assert counts(cells)["p, unlimited"]["NPD"]["marginal"] == 1
     assert counts(cells)["p, unlimited"]["ADRC"] == {
         "feasible": 3,
@@ -46,10 +43,9 @@ def test_marginal_cells_carry_no_claim():
 
 def test_a_fall_of_the_polynomial_is_none_of_the_robot():
     """A late push that throws NPD past the phase range, where the gait's polynomial explodes."""
-    tried = Tried(0.3, 150.0, "swing knee -", None)
-    run = replace(tried.run(Scenario(preset="identified-bare"), "NPD"), continued=False)
-    assert not execute(run).walked
-    (found,) = push_map(Scenario(preset="identified-bare"), [tried])
+    push = MapPush("identified-bare", 0.3, 150.0, "swing knee -", None)
+    assert not execute(replace(push.run("NPD"), continued=False)).walked
+    (found,) = push_map([push])
     assert found.npd.status == "COMPLETED"
     assert found.npd.word not in ("feasible", "but_impact")
 

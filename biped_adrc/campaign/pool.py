@@ -48,7 +48,7 @@ def _timed(task: Task[T]) -> Timed[T]:
     return Timed(value, time.perf_counter() - begin)
 
 
-PRELOADED = ("biped_adrc.paper.plan", "biped_adrc.paper.pictures", "biped_adrc.engine.batch")
+PRELOADED = ("biped_adrc.paper.runs", "biped_adrc.paper.pictures", "biped_adrc.engine.batch")
 """Modules imported once by the process from which the workers are forked: importing them takes seconds."""
 
 

@@ -49,7 +49,7 @@ def draw(name: str, walks: Mapping[str, Walk]) -> Figure:
         return figures.disturbance_figure(first, title, push)
     if name == "ground":
         mu = walk.walker.plant.description.friction_coefficient
-        return figures.ground_figure(first, title, mu, walk.walker.slope)
+        return figures.ground_figure(first, title, mu, walk.walker.slope, push)
     if name == "energy":
         return figures.energy_figure(first, title, push)
     if name == "phase":

@@ -15,9 +15,8 @@ from biped_adrc.files import write_bytes
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.model.biped import Biped
 from biped_adrc.paper.figures import push_window
-from biped_adrc.paper.pair import CONTROLLERS
-from biped_adrc.paper.plan import Plan
 from biped_adrc.paper.results import Results
+from biped_adrc.paper.scenarios import CONTROLLERS
 from biped_adrc.viz.from_the_side.robot_figure import robot_figure
 from biped_adrc.viz.plots import figures
 from biped_adrc.viz.plots.push_map import push_map_figure
@@ -27,9 +26,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def draw_all(plan: Plan, r: Results, out: Path, workers: int | None = None) -> dict[str, str]:
+def draw_all(r: Results, out: Path, workers: int | None = None) -> dict[str, str]:
     """Write every figure to `out` as .png and .svg; returns the SVG text by name, for the report."""
-    named = pictures(plan, r)
+    named = pictures(r)
     drawn = run_tasks(list(named.values()), workers)
     found = {}
     for name, picture in zip(named, drawn, strict=True):
@@ -40,33 +39,33 @@ def draw_all(plan: Plan, r: Results, out: Path, workers: int | None = None) -> d
     return found
 
 
-def pictures(plan: Plan, r: Results) -> dict[str, Task[tuple[bytes, bytes]]]:
+def pictures(r: Results) -> dict[str, Task[tuple[bytes, bytes]]]:
     """The figures of the paper and beyond, by file name, each as a task that draws it.
 
     figure1 (the robot), figure4 to figure6 (the pushed walks) are those of the paper; the others show what it
     does not: the disturbance estimate, the ground's force, energies, multipliers, the return map, and the map
     of pushes.
     """
-    signals, cells = {c: head.signals for c, head in r.heads.items()}, r.cells
+    signals, cells = {c: r.headline[c].signals for c in CONTROLLERS}, r.cells
     npd, adrc, window = signals["NPD"], signals["ADRC"], push_window(signals["NPD"])
     magnitudes = {c: r.multipliers[c].orbit.multipliers for c in CONTROLLERS if c in r.multipliers}
-    mu = Biped.load("rabbit", plan.preset).description.friction_coefficient
+    mu = Biped.load("rabbit", r.plan.preset).description.friction_coefficient
     maps = {
         f"push_map_{preset}": (
             push_map_figure,
-            [cell.row() for cell in cells if cell.preset == preset],
+            [cell.row() for cell in cells if cell.push.preset == preset],
         )
-        for preset in sorted({cell.preset for cell in cells})
+        for preset in (r.plan.presets if r.plan.full else ())
     }
     made: dict[str, tuple[object, ...]] = {
-        "figure1": (draw_robot, plan.preset),
+        "figure1": (draw_robot, r.plan.preset),
         "figure4": (figures.tracking_figure, npd, "NPD under the push", window),
         "figure5": (figures.tracking_figure, adrc, "ADRC under the push", window),
         "figure6": (figures.phase_figure, signals),
         "comparison": (figures.comparison_figure, signals, window),
-        "disturbance": (figures.disturbance_figure, adrc, "ADRC", window),
-        "ground": (figures.ground_figure, adrc, "ADRC", mu),
-        "energy": (figures.energy_figure, adrc, "ADRC", window),
+        "disturbance": (figures.disturbance_figure, adrc, "ADRC under the push", window),
+        "ground": (figures.ground_figure, adrc, "ADRC under the push", mu, 0.0, window),
+        "energy": (figures.energy_figure, adrc, "ADRC under the push", window),
         "multipliers": (figures.multiplier_figure, magnitudes, PUBLISHED_MULTIPLIERS),
         "return_map": (figures.return_map_figure, *r.returns["map"]),
         **maps,
@@ -80,8 +79,8 @@ def draw_robot(preset: str) -> Figure:
 
 
 def rendered(draw: Callable[..., Figure], *arguments: object) -> tuple[bytes, bytes]:
-    """A figure as PNG and as SVG, laid out once so that both are alike."""
+    """A figure as PNG and as SVG, laid out by the first so that both are alike."""
     figure = draw(*arguments)
-    figure.draw_without_rendering()
+    png = render(figure, "png")
     figure.set_layout_engine("none")
-    return render(figure, "png"), render(figure, "svg")
+    return png, render(figure, "svg")

@@ -1,14 +1,8 @@
 """Section VI's other claim as a map: in which phase of the step does a push make which controller fall?
 
 Pushes of 0.2 s in the 19th single support, over onset, amplitude and joint pattern, with and without a torque
-limit. The walk starts on the periodic orbit at that step and has to make three more impacts. The reference is
-continued smoothly past the phase range of the gait, so that a fall is a fall of the robot and no artefact of a
-polynomial outside of its range.
-
-Every walk is computed at two integration steps. A cell in which they end differently is marginal, and no claim
-rests on it. Tasks of `paper.plan`; read by `paper.tables`, the claims, and `viz.plots.push_map`.
-
-What a walk can be:
+limit (`scenarios.MapPush`). Every walk is made at two integration steps. A cell in which they end differently
+is marginal, and no claim rests on it. What a walk can be:
 
     feasible    makes all steps within friction, torque limits and without scuffing
     but_impact  the same but for the impact, whose impulse asks for more friction
@@ -21,40 +15,18 @@ What a walk can be:
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 
-from biped_adrc.engine.run import COMPILED
-from biped_adrc.paper.pair import CONTROLLERS
+from biped_adrc.paper.scenarios import CONTROLLERS, MapPush
 from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.run import execute_twice
-from biped_adrc.scenario.scenario import Scenario
 
-PATTERNS: dict[str, dict[str, float]] = {
-    "all +": {"q1": 1.0, "q2": 1.0, "q3": 1.0, "q4": 1.0},
-    "all -": {"q1": -1.0, "q2": -1.0, "q3": -1.0, "q4": -1.0},
-    "hips +": {"q1": 1.0, "q2": 1.0},
-    "hips -": {"q1": -1.0, "q2": -1.0},
-    "hips apart": {"q1": 1.0, "q2": -1.0},
-    "hips together": {"q1": -1.0, "q2": 1.0},
-    "stance knee +": {"q3": 1.0},
-    "stance knee -": {"q3": -1.0},
-    "swing knee +": {"q4": 1.0},
-    "swing knee -": {"q4": -1.0},
-}
-"""Factors by joint, to be multiplied by the amplitude [N m]."""
-
-IMPACTS = 4
-"""Impacts asked for, from the pushed step on."""
-PUSHED_STEP = 19
-"""Number of the single support in which the push acts."""
-DURATION = 0.2
-"""Of a push [s]."""
-MAP_STEP = 1e-3
-"""Integration step [s]; each walk is repeated at half of it."""
+WORDS = ("feasible", "but_impact", "infeasible", "pulled", "fell", "ended", "marginal")
+"""What a walk of the map can be, and the columns of its table."""
+LOST = ("fell", "ended")
+"""Outcomes of a walk that did not make its steps."""
 
 
 @dataclass(frozen=True)
@@ -106,99 +78,47 @@ class Fate:
 class PushCell:
     """One push and what each controller made of it."""
 
-    preset: str
-    """Of RABBIT."""
-    onset: float
-    """In the step [s]."""
-    amplitude: float
-    """[N m]."""
-    pattern: str
-    """One of `PATTERNS`."""
-    torque_limit: float | None
-    """[N m], None for unlimited."""
+    push: MapPush
     npd: Fate
     adrc: Fate
+
+    @property
+    def setting(self) -> str:
+        """Preset and torque limit, for a reader."""
+        limit = self.push.torque_limit
+        return f"{self.push.preset}, {'unlimited' if limit is None else f'{limit:g} N m'}"
+
+    @property
+    def certain(self) -> bool:
+        """Whether it is marginal under neither controller."""
+        return not (self.npd.marginal or self.adrc.marginal)
 
     def row(self) -> dict[str, object]:
         """In plain values, for the figure and the summary."""
         return {
-            **asdict(self),
-            "onset_ms": 1e3 * self.onset,
+            **asdict(self.push),
+            "npd": asdict(self.npd),
+            "adrc": asdict(self.adrc),
+            "onset_ms": 1e3 * self.push.onset,
             "npd_word": self.npd.word,
             "adrc_word": self.adrc.word,
         }
 
 
-@dataclass(frozen=True)
-class Tried:
-    """One push to be tried."""
-
-    onset: float
-    """In the step [s]."""
-    amplitude: float
-    """[N m]."""
-    pattern: str
-    """One of `PATTERNS`."""
-    torque_limit: float | None
-    """[N m], None for unlimited."""
-
-    def run(self, base: Scenario, controller: str) -> Scenario:
-        """The walk of `base` under this push and this controller."""
-        factors = PATTERNS[self.pattern].items()
-        torque = {joint: self.amplitude * factor for joint, factor in factors}
-        push = Push(torque, step=PUSHED_STEP, start=self.onset, stop=self.onset + DURATION)
-        return replace(
-            base,
-            controller=controller,
-            pushes=(push,),
-            torque_limit=self.torque_limit,
-            continued=True,
-            first_step=PUSHED_STEP,
-            impacts=IMPACTS,
-            h=MAP_STEP,
-            engine=COMPILED,
-        )
-
-
-def push_map(base: Scenario, tried: Sequence[Tried]) -> list[PushCell]:
-    """Both controllers under every push, each at two steps; base: the robot."""
-    cells: list[PushCell] = []
-    for found in tried:
-        npd, adrc = (Fate.of(execute_twice(found.run(base, c))) for c in CONTROLLERS)
-        place = (found.onset, found.amplitude, found.pattern, found.torque_limit)
-        cells.append(PushCell(str(base.preset), *place, npd, adrc))
-    return cells
-
-
-def pushes(
-    onsets: Sequence[float],
-    amplitudes: Sequence[float],
-    patterns: Sequence[str],
-    limits: Sequence[float | None],
-) -> list[Tried]:
-    """All combinations, the limits slowest and the onsets fastest. onsets [s], amplitudes [N m],
-    limits [N m].
-    """
-    every = itertools.product(limits, patterns, amplitudes, onsets)
-    return [Tried(onset, amplitude, of, limit) for limit, of, amplitude, onset in every]
-
-
-WORDS = ("feasible", "but_impact", "infeasible", "pulled", "fell", "ended", "marginal")
-"""What a walk of the map can be, and the columns of its table."""
+def push_map(pushes: Sequence[MapPush]) -> list[PushCell]:
+    """Both controllers under every push, each at two steps."""
+    return [
+        PushCell(push, *(Fate.of(execute_twice(push.run(c))) for c in CONTROLLERS))
+        for push in pushes
+    ]
 
 
 def counts(cells: Sequence[PushCell]) -> dict[str, dict[str, dict[str, int]]]:
     """How many walks are what, by setting, controller and word: the table of the map."""
     found: dict[str, dict[str, dict[str, int]]] = {}
     for cell in cells:
-        limit = "unlimited" if cell.torque_limit is None else f"{cell.torque_limit:g} N m"
         new = {c: dict.fromkeys(WORDS, 0) for c in CONTROLLERS}
-        here = found.setdefault(f"{cell.preset}, {limit}", new)
+        here = found.setdefault(cell.setting, new)
         for c, fate in zip(CONTROLLERS, (cell.npd, cell.adrc), strict=True):
             here[c][fate.word] += 1
     return found
-
-
-def certain(cells: Sequence[PushCell]) -> list[PushCell]:
-    """The cells that are not marginal under either controller."""
-    return [c for c in cells if not (c.npd.marginal or c.adrc.marginal)]

@@ -1,28 +1,22 @@
-"""The tables of a reproduction, and its main findings in sentences, every number taken from the runs.
+"""The tables of a reproduction, every number taken from the runs.
 
-The wording of the findings is in findings.toml, with the values in braces; a function here computes the values
-of each sentence. Called by `paper.reproduction`; the report (`viz.pages`) renders both.
-
-Cells are numbers, texts, lists or None; how they are rounded is decided by the report.
+Cells are numbers, texts, lists or None; the report decides how they are rounded. Called by
+`paper.reproduction`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any
 
 import numpy as np
 
-from biped_adrc.analysis.feasibility import OUTCOMES
 from biped_adrc.control.tracking import TABLE_II
-from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
+from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.observers.gpi import TABLE_I
-from biped_adrc.paper.pair import CONTROLLERS
-from biped_adrc.paper.plan import POLICIES, RISE, Plan
-from biped_adrc.paper.push_map import WORDS, PushCell, certain, counts
+from biped_adrc.paper.metrics import distance
+from biped_adrc.paper.push_map import WORDS, PushCell, counts
 from biped_adrc.paper.results import Results
-from biped_adrc.paper.verdicts import distance
-from biped_adrc.resources import packaged
+from biped_adrc.paper.scenarios import CONTROLLERS, value
 from biped_adrc.scenario.outcome import Outcome
 
 PRINTED_TABLE_I = (-180, -324, -583, -1050, -1890, -3401, -6122, -11020, -19836)
@@ -32,8 +26,8 @@ Table = dict[str, Sequence[object]]
 """`columns`: names; `rows`: one list of as many cells for each row."""
 
 
-def tables(plan: Plan, r: Results) -> dict[str, Table]:
-    """All tables by title; a quick run has no literal equation and no map."""
+def tables(r: Results) -> dict[str, Table]:
+    """All tables by title; a quick run has no literal equation."""
     here = "here, 180 x 1.8^k"
     poles = zip(PRINTED_TABLE_I, TABLE_I, strict=True)
     constants = {"K_p [1/s^2]": (5000, TABLE_II.K_p), "K_d [1/s]": (50, TABLE_II.K_d)}
@@ -46,12 +40,12 @@ def tables(plan: Plan, r: Results) -> dict[str, Table]:
         ),
         "Runs": _runs(r),
         "Stability: multipliers": _multipliers(r),
-        "Gait (b), the paper's recipe": _recipe(plan, r),
+        "Gait (b), the paper's recipe": _recipe(r),
         "Numerics": table({"figure": k, "value": v} for k, v in r.figures.items()),
+        "Map of pushes": _map(r.cells),
     }
-    if not plan.quick:
+    if not r.plan.quick:
         found["Literal equation and resets at impact"] = _literal(r)
-        found["Map of pushes"] = _map(r.cells)
     return found
 
 
@@ -63,9 +57,7 @@ def table(rows: Iterable[dict[str, object]]) -> Table:
 
 def _runs(r: Results) -> Table:
     """Every walk but those of the reset policies: how it ended, errors, torques, forces."""
-    named = {k: o for k, o in r.runs.items() if not k.startswith("reset")}
-    heads = {f"push {c}": r.heads[c].outcome for c in CONTROLLERS}
-    return table(_run(name, o) for name, o in {**heads, **named}.items())
+    return table(_run(name, o) for name, o in r.run_twice.items() if not name.startswith("reset"))
 
 
 def _run(name: str, o: Outcome) -> dict[str, object]:
@@ -73,8 +65,8 @@ def _run(name: str, o: Outcome) -> dict[str, object]:
     steps = o.certificates
     return {
         "run": name,
-        "controller": o.run.controller,
-        "preset": o.run.preset,
+        "controller": value(o.run, "controller"),
+        "preset": value(o.run, "preset"),
         "status": o.status,
         "outcome": o.feasibility.outcome,
         "impacts": o.impacts,
@@ -114,31 +106,25 @@ def _multipliers(r: Results) -> Table:
     )
 
 
-def _recipe(plan: Plan, r: Results) -> Table:
-    """Gait (b) by preset and controller: whether it closes, its multipliers, and what it asks of ground and
-    motors.
-
-    Numbers that a gait which fails does not have are empty.
+def _recipe(r: Results) -> Table:
+    """The cycle of gait (b) by preset and controller, or why there is none; what its walks ask of ground and
+    motors is in "Runs".
     """
-    return table(
-        {
-            "preset": x.preset,
-            "controller": x.controller,
-            "closes": x.closes,
-            "stable": x.record.get("stable"),
-            "largest multipliers": x.record.get("multipliers", [])[:3],
-            "impacts": x.record.get("impacts"),
-            "peak error [rad]": x.record.get("peak_error"),
-            "peak torque [N m]": x.record.get("peak_torque"),
-            "friction needed": x.record.get("certificate", {}).get("friction"),
-            "impulse ratio": x.record.get("certificate", {}).get("impulse_ratio"),
-            "violations": "; ".join(x.record.get("violations", [])),
-            "rate jump at impact [rad/s]": x.record.get("impact_rate_jump"),
-            "x- minus x*": x.record.get("distance_to_x_star"),
-            "remark": x.reason,
-        }
-        for x in r.recipes(plan)
-    )
+    rows = []
+    for name in (name for name in r.cycles if name.startswith("gait (b)")):
+        x = r.cycles[name]
+        found = None if isinstance(x, str) else x.orbit
+        rows.append(
+            {
+                "gait": name,
+                "stable": found and found.stable,
+                "largest multipliers": found and np.abs(found.multipliers[:3]).tolist(),
+                "rate jump at impact [rad/s]": r.jumps[name.split(", ")[1]]["recipe"],
+                "x- minus x*": found and (found.x_minus[: len(X_STAR)] - X_STAR).tolist(),
+                "remark": x if isinstance(x, str) else "",
+            }
+        )
+    return table(rows)
 
 
 def _literal(r: Results) -> Table:
@@ -146,8 +132,7 @@ def _literal(r: Results) -> Table:
 
     A walk that ended early has no peak error or torque in the table: they would be those of a fall.
     """
-    names = [f"as printed {c}" for c in CONTROLLERS]
-    names += [f"reset {p}, {limit}" for p in POLICIES for limit in ("unlimited", "150 N m")]
+    names = [name for name in r.runs if name.startswith(("as printed", "reset"))]
     return table(
         {
             "variant": name,
@@ -170,107 +155,3 @@ def _map(cells: list[PushCell]) -> Table:
         [name, c, *(found[name][c][word] for word in WORDS)] for name in found for c in CONTROLLERS
     ]
     return {"columns": ["preset, torque limit", "controller", *WORDS], "rows": rows}
-
-
-# -- in sentences ----------------------------------------------------------------------------------
-def findings(plan: Plan, r: Results) -> list[str]:
-    """The main findings, one sentence or two each."""
-    named = [_push(plan, r), _heavier(r), _fixed_point(plan, r), _stable_recipes(plan, r)]
-    maps = [_pushes(r.cells)] if r.cells else []
-    return [*named, _stability(r), *maps, _torso(r)]
-
-
-def notes() -> list[str]:
-    """What a reader has to know of the setup."""
-    return [" ".join(text.split()) for text in _texts()["notes"].values()]
-
-
-def _texts() -> dict[str, Any]:
-    """The tables of findings.toml."""
-    return packaged("biped_adrc.paper", "findings.toml")
-
-
-def _said(of: str, /, **values: object) -> str:
-    """A text of findings.toml on one line with these values in it."""
-    return str(" ".join(_texts()[of].split()).format(**values))
-
-
-def _push(plan: Plan, r: Results) -> str:
-    """How both controllers walk under the headline push, with vertical and with slow edges.
-
-    The feasibility of both walks is said once where it is the same.
-    """
-    npd, adrc = (r.heads[c].outcome for c in CONTROLLERS)
-    words = {c: OUTCOMES[r.heads[c].outcome.feasibility.outcome] for c in CONTROLLERS}
-    kind = "carried_alike" if words["NPD"] == words["ADRC"] else "carried_apart"
-    return _said(
-        "push",
-        npd=npd,
-        adrc=adrc,
-        slow=r.pair("rising push"),
-        rise=1e3 * RISE,
-        pushes="; ".join(push.in_words() for push in plan.pushes),
-        carried=_said(kind, npd=words["NPD"], adrc=words["ADRC"]),
-    )
-
-
-def _heavier(r: Results) -> str:
-    """The ratio of the errors with a plant heavier than the model."""
-    pairs = (r.pair(f"heavier, {kind}") for kind in ("masses", "masses and inertias"))
-    masses, both = (adrc.peak_error / npd.peak_error for npd, adrc in pairs)
-    return _said("heavier", masses=masses, both=both)
-
-
-def _fixed_point(plan: Plan, r: Results) -> str:
-    """How near gait (a) comes to x* in all presets."""
-    walks = [o for _, o in r.nominal(plan)]
-    gap = float(np.max([distance(o) for o in walks]))
-    impacts, presets = walks[0].run.impacts, ", ".join(plan.presets)
-    return _said("fixed_point", impacts=impacts, gap=gap, presets=presets)
-
-
-def _stable_recipes(plan: Plan, r: Results) -> str:
-    """In how many cases gait (b) walks in a stable cycle, how far from x*, with what torque."""
-    found = list(r.recipes(plan))
-    stable = [f for f in found if f.closes and f.record.get("stable")]
-    text = _said("recipe", stable=len(stable), count=len(found))
-    if not stable:
-        return f"{text}."
-    gap = max(float(np.max(np.abs(f.record["distance_to_x_star"]))) for f in stable)
-    torques = [f.record["peak_torque"] for f in stable]
-    least, most = np.min(torques), np.max(torques)
-    return _said("recipe_stable", text=text, gap=gap, least=least, most=most)
-
-
-def _stability(r: Results) -> str:
-    """The largest multiplier beside delta^2, and that of ADRC with its observer."""
-    npd, text = r.multipliers["NPD"], ""
-    if "ADRC" in r.multipliers:
-        z = np.abs(r.multipliers["ADRC"].orbit.multipliers)
-        text = " " + _said("stability_of_ADRC", count=len(z), largest=z[0])
-    largest = abs(npd.orbit.multipliers[0])
-    return _said("stability", largest=largest, delta_squared=npd.delta_squared, adrc=text)
-
-
-def _pushes(cells: list[PushCell]) -> str:
-    """The map of pushes in numbers, marginal cells left out."""
-    parts = (
-        _said("map", total=sum(x["NPD"].values()), npd=x["NPD"], adrc=x["ADRC"], name=name)
-        for name, x in counts(certain(cells)).items()
-    )
-    return f"The map of pushes: {'; '.join(parts)}."
-
-
-def _torso(r: Results) -> str:
-    """How the step time changes when the unactuated torso is pushed.
-
-    Of each walk the step that differs most from the first one is named; where a walk makes no step, that is
-    said.
-    """
-    walks = r.pair("torso")
-    short = [f"{o.run.controller} makes no step" for o in walks if len(o.durations) == 0]
-    if short:
-        return _said("torso_stopped", who=" and ".join(short))
-    usual = float(walks[0].durations[0])
-    slow = [float(o.durations[np.argmax(np.abs(o.durations - usual))]) for o in walks]
-    return _said("torso", slow=slow, usual=usual)

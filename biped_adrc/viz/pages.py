@@ -33,7 +33,7 @@ POLICY = (
     "img-src data: blob:; worker-src blob:"
 )
 """Content security policy of a page: the browser itself refuses every load from a network."""
-CLAIM_COLUMNS = ("claim", "where", "word", "number", "share", "convergence", "reason")
+CLAIM_COLUMNS = ("claim", "where", "word", "number", "limit", "share", "reason")
 """Columns of the table of claims in the report, by their key in the summary."""
 KINDS = {
     "reproduced": "what the paper claims and what could have failed",

@@ -14,7 +14,6 @@ from biped_adrc.viz.plots.comparison import error_sizes as error_sizes
 from biped_adrc.viz.plots.comparison import torque_sizes as torque_sizes
 from biped_adrc.viz.plots.over_time import angles as angles
 from biped_adrc.viz.plots.over_time import energy as energy
-from biped_adrc.viz.plots.over_time import external_torque as external_torque
 from biped_adrc.viz.plots.over_time import friction_cone as friction_cone
 from biped_adrc.viz.plots.over_time import ground_reaction as ground_reaction
 from biped_adrc.viz.plots.over_time import joint_tracking as joint_tracking

@@ -49,11 +49,11 @@ def error_sizes(axes: Axes, walks: Mapping[str, Signals]) -> Axes:
             axes.annotate(
                 f"{size:.1e}", (k, size), xytext=(9, 0), textcoords="offset points", va="center"
             )
-    axes.set_xticks([0, 1], ["peak", "rms"])
+    axes.set_xticks([0, 1], ["largest", "root mean square"])
     axes.set_xlim(-0.5, 1.8)
     axes.set_yscale("log")
     axes.margins(y=0.15)
-    label(axes, "kind of error [-]", "tracking error [rad]")
+    label(axes, "", "tracking error [rad]")
     return axes
 
 
@@ -76,5 +76,5 @@ def torque_sizes(axes: Axes, walks: Mapping[str, Signals]) -> Axes:
         hatch = ("", "///", "...", "xxx")[i % 4]
         axes.bar(at, peaks, width, color=PALETTE[i], ec="white", hatch=hatch, label=name)
     axes.set_xticks(np.arange(len(peaks)), [f"$u_{k + 1}$" for k in range(len(peaks))])
-    label(axes, "motor [-]", "peak torque [N m]")
+    label(axes, "", "peak torque [N m]")
     return axes

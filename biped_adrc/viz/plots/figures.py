@@ -1,18 +1,19 @@
 """Whole figures made of the plots in `biped_adrc.viz.plots`: data in, Figure out, in this package's style.
 
-`Walk.plot`, the reproduction of the paper and `biped-adrc plot` draw these. With a push most of
-them get more columns: the time around the push, and the milliseconds after either edge of it, in
-which a fast observer has its say. Lines are thinned to what can be seen (`viz.thin`).
+`Walk.plot`, the reproduction of the paper and `biped-adrc plot` draw these. With a push they show the
+time around it, and most of them the milliseconds after either edge, in which a fast observer has its say.
+Lines are thinned to what can be seen (`viz.thin`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.gridspec import SubplotSpec
+from matplotlib.figure import Figure, FigureBase
+from matplotlib.gridspec import GridSpec, SubplotSpec
 from numpy.typing import ArrayLike
 
 from biped_adrc.analysis.signals import Signals
@@ -35,38 +36,62 @@ def tracking_figure(
 ) -> Figure:
     """The paper's figures 4 and 5: references and joint angles [rad], torques [N m], and the tracking error.
 
-    signals: of a walk with motors. title: above all panels. push: (start, stop) [s]; its window is
-    shaded, a row shows its torque, a second column the time around it, and two more the
-    milliseconds after either edge, without angles, as these do not move within milliseconds.
-    torque_limit [N m]: drawn as a dotted line.
+    signals: of a walk with motors. title: above all panels. push: (start, stop) [s]; the figure then shows the
+    time around it, shaded, and the milliseconds after either edge, without angles, as these do not move within
+    milliseconds. torque_limit [N m]: drawn as a dotted line.
     """
-    k = min(2, signals.q_d.shape[1])  # panels of angles
-    heights = (*(3.0,) * k, 1.6, 3.0, 3.0) if push else (1.0,) * (k + 2)
-    shares = (1.5, 1.5, 1.0, 1.0) if push else (1.0,)
+    p = signals.q_d.shape[1]
+    halves = [half.tolist() for half in np.array_split(np.arange(p), min(2, p))]
     with style():
-        figure = new_figure(13.0 if push else 7.5, 9.6 if push else 9.0)
-        figure.suptitle(title)
-        spec = figure.add_gridspec(
-            len(heights), len(shares), width_ratios=shares, height_ratios=heights
-        )
-        # angles do not move within milliseconds: they have no panels at the edges
-        columns = [
-            _column(figure, [spec[i, j] for i in range(0 if j < 2 else k, len(heights))])
-            for j in range(len(shares))
-        ]
-        for j, column in enumerate(columns):
-            _tracking_column(column, k if j < 2 else 0, signals, push, torque_limit)
-        columns[0][0].set_xlim(signals.t[0], signals.t[-1])
-        columns[0][0].set_title("whole walk", loc="left")
-        if push:
-            _zoom(columns[1], signals, push)
-            columns[1][0].set_title("around the push", loc="left")
-            _edges(columns[2:], signals, push)
-            _one_legend_a_row([*columns[0], *columns[1][k:], *columns[2]], columns[1][:k])
+        figure = new_figure(10.0 if push else 7.5, 7.2 if push else 9.0)
+        figure.suptitle(_titled(title, signals, push))
+        if push is None:
+            spec = figure.add_gridspec(len(halves) + 2, 1)
+            column = _column(figure, [spec[i] for i in range(len(halves) + 2)])
+            for axes, half in zip(column, halves, strict=False):
+                plots.joint_tracking(axes, signals, half).set_xlabel("")
+            _torques_and_errors(column[-2:], signals, push, torque_limit)
+            column[0].set_xlim(signals.t[0], signals.t[-1])
+            return thin(figure)
+        spec = figure.add_gridspec(3, 4)
+        for axes, half in zip(_row(figure, spec, 0, len(halves)), halves, strict=True):
+            plots.joint_tracking(axes, signals, half, push)
+            _zoom([axes], signals, push)
+            _legend_above(axes)
+        columns = _around_and_edges(figure, spec, (1, 2))
+        for column in columns:
+            _torques_and_errors(column, signals, push, torque_limit)
+        _zoom(columns[0], signals, push)
+        _edges(columns[1:], signals, push)
+        _one_legend_a_row(columns)
         return thin(figure)
 
 
-def _column(figure: Figure, places: Sequence[SubplotSpec]) -> list[Axes]:
+def _titled(title: str, s: Signals, push: Window | None) -> str:
+    """The title, with the largest torque from outside behind it [N m]."""
+    if push is None:
+        return title
+    peaks = s.zeta[np.argmax(np.abs(s.zeta), axis=0), np.arange(s.zeta.shape[1])]
+    joints: dict[str, list[str]] = {}
+    for i in np.flatnonzero(peaks):
+        joints.setdefault(f"{peaks[i]:.3g} N m", []).append(f"$q_{i + 1}$")
+    said = "; ".join(f"{torque} on {', '.join(names)}" for torque, names in joints.items())
+    return f"{title}: {said}" if said else title
+
+
+def _row(figure: Figure, spec: GridSpec, row: int, count: int) -> list[Axes]:
+    """One or two panels that fill a row of four places."""
+    ends = (slice(0, 4),) if count == 1 else (slice(0, 2), slice(2, 4))
+    return [figure.add_subplot(spec[row, end]) for end in ends]
+
+
+def _around_and_edges(figure: FigureBase, spec: GridSpec, rows: Sequence[int]) -> list[list[Axes]]:
+    """Three columns of panels in four places: around the push, where it begins, and where it ends."""
+    places = (slice(0, 2), slice(2, 3), slice(3, 4))
+    return [_column(figure, [spec[row, place] for row in rows]) for place in places]
+
+
+def _column(figure: FigureBase, places: Sequence[SubplotSpec]) -> list[Axes]:
     """Panels one above the other that share one time axis, whose numbers stand below the lowest."""
     first = figure.add_subplot(places[0])
     column = [first, *(figure.add_subplot(place, sharex=first) for place in places[1:])]
@@ -75,26 +100,19 @@ def _column(figure: Figure, places: Sequence[SubplotSpec]) -> list[Axes]:
     return column
 
 
-def _tracking_column(
-    column: Sequence[Axes], angles: int, s: Signals, push: Window | None, limit: float | None
+def _torques_and_errors(
+    column: Sequence[Axes], s: Signals, push: Window | None, limit: float | None
 ) -> None:
-    """Fill the panels of a column from top to bottom: so many of angles, the push if any, torques, errors.
-
-    limit [N m]: of the torques, drawn as a line.
-    """
-    halves = np.array_split(np.arange(s.q_d.shape[1]), angles) if angles else []
-    for axes, half in zip(column, halves, strict=False):
-        plots.joint_tracking(axes, s, half.tolist(), push)
-    if push:
-        plots.external_torque(column[-3], s, push)
-    plots.torques(column[-2], s, limit, push)
-    plots.tracking_errors(column[-1], s, push)
-    for axes in column[:-1]:
-        axes.set_xlabel("")
+    """Draw torques, with their limit [N m], above tracking errors."""
+    plots.torques(column[0], s, limit, push).set_xlabel("")
+    plots.tracking_errors(column[1], s, push)
 
 
 def _edges(columns: Sequence[Sequence[Axes]], s: Signals, push: Window) -> None:
-    """Set the limits of two columns around either edge of the push, and label their time in [ms] from it."""
+    """Set the limits of two columns around either edge of the push, and label their time in [ms] from it.
+
+    What they show is named at the left end of their row.
+    """
     for column, edge, name in zip(columns, push, EDGES, strict=True):
         _limits(column, max(edge - EDGE_BEFORE, s.t[0]), min(edge + EDGE_AFTER, s.t[-1]))
         column[0].set_title(name, loc="left")
@@ -102,21 +120,34 @@ def _edges(columns: Sequence[Sequence[Axes]], s: Signals, push: Window) -> None:
         for axes in column:
             axes.set_xticks(edge + at, [f"{1e3 * t:g}" for t in at])
             axes.set_xlabel("")
+            axes.set_ylabel("")
         column[-1].set_xlabel("after the edge [ms]")
 
 
-def _one_legend_a_row(without: Sequence[Axes], beside_empty: Sequence[Axes]) -> None:
-    """Take the legends away from `without`; those of `beside_empty` reach into an empty place and take
-    no room.
-    """
-    for axes in without:
+def _legend_above(axes: Axes) -> None:
+    """Put the legend in a line above a panel, where it takes no width."""
+    handles, names = axes.get_legend_handles_labels()
+    axes.legend(
+        handles,
+        names,
+        ncols=len(names),
+        frameon=False,
+        columnspacing=1.2,
+        handlelength=1.6,
+        loc="lower left",
+        bbox_to_anchor=(-0.01, 1.0),
+        borderaxespad=0.0,
+    )
+
+
+def _one_legend_a_row(columns: Sequence[Sequence[Axes]]) -> None:
+    """Legends above the panels of the first column, none in the others."""
+    for axes in columns[0]:
+        _legend_above(axes)
+    for axes in (axes for column in columns[1:] for axes in column):
         legend = axes.get_legend()
         if legend is not None:
             legend.remove()
-    for axes in beside_empty:
-        legend = axes.get_legend()
-        if legend is not None:
-            legend.set_in_layout(False)
 
 
 def passive_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
@@ -174,56 +205,69 @@ def phase_figure(walks: Mapping[str, Signals]) -> Figure:
 
 
 def disturbance_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
-    """Every actuated joint's total disturbance, and the torque from outside, against their estimates.
+    """The total disturbance of every actuated joint, and the torque from outside, against their estimates.
 
-    A row for each joint: xi of (13) [rad/s^2] at the left, the torque zeta and what the estimate
-    amounts to [N m] at the right. push: (start, stop) [s]; the time around it is shown, and in two
-    more columns the torque at either edge.
+    Above: xi of (13) [rad/s^2], a panel for each joint. Below: the torque zeta and what the estimate amounts to
+    [N m], a colour for each torque, of which joints with the same one share the line. push: (start, stop) [s];
+    the time around it is shown, and below also the milliseconds at either edge.
     """
     p = signals.q_d.shape[1]
     with style():
-        figure = new_figure(13.0 if push else 10.5, 2.1 * p)
-        figure.suptitle(title)
-        shares = [1.5, 1.5, 1.0, 1.0] if push else [1.0, 1.0]
-        grid = figure.subplots(p, len(shares), squeeze=False, sharex="col", width_ratios=shares)
-        for i, row in enumerate(grid):
-            plots.total_disturbance(row[0], signals, i, push)
-            for axes in row[1:]:
-                plots.matched_disturbance(axes, signals, i, push)
-            if i < p - 1:
-                for axes in row:
-                    axes.set_xlabel("")
-        grid[0, 0].set_title("total disturbance", loc="left")
-        grid[0, 1].set_title("matched part: torque from outside", loc="left")
+        figure = new_figure(10.0, 5.2)
+        figure.suptitle(_titled(title, signals, push))
+        parts: Any = figure.subfigures(2, 1)
+        above, below = parts
+        row = above.subplots(1, p, squeeze=False, sharex=True)[0]
+        for i, axes in enumerate(row):
+            plots.total_disturbance(axes, signals, i, push)
+            if push:
+                _zoom([axes], signals, push)
+            _legend_above(axes)
+        spec = below.add_gridspec(1, 4)
+        columns = _around_and_edges(below, spec, (0,)) if push else [[below.add_subplot(spec[:])]]
+        for (axes,) in columns:
+            plots.matched_disturbance(axes, signals, push)
         if push:
-            for column in grid.T[:2]:
-                _zoom(column, signals, push)
-            _edges([list(column) for column in grid.T[2:]], signals, push)
-            for axes in grid[:, :2].flat:
-                axes.legend(loc="best", frameon=False)
-            _one_legend_a_row(list(grid[:, 2:].flat), ())
+            _zoom(columns[0], signals, push)
+            _edges(columns[1:], signals, push)
+        _one_legend_a_row(columns)
         return thin(figure)
 
 
-def ground_figure(signals: Signals, title: str = "", mu: float = 0.6, slope: float = 0.0) -> Figure:
+def ground_figure(
+    signals: Signals,
+    title: str = "",
+    mu: float = 0.6,
+    slope: float = 0.0,
+    push: Window | None = None,
+) -> Figure:
     """The ground reaction [N] over time, and its tangential against its normal part in the friction cone.
 
-    mu [1]: coefficient of friction. slope [rad]: of the ground, positive downhill.
+    mu [1]: coefficient of friction. slope [rad]: of the ground, positive downhill. push: (start, stop) [s],
+    shaded; the time around it is shown.
     """
     with style():
         figure = new_figure(10.0, 4.0)
-        figure.suptitle(title)
+        figure.suptitle(_titled(title, signals, push))
         over_time, cone = figure.subplots(1, 2, width_ratios=(3, 2))
-        plots.ground_reaction(over_time, signals, slope=slope)
+        plots.ground_reaction(over_time, signals, push, slope)
         plots.friction_cone(cone, signals, mu, slope)
+        for axes in (over_time, cone):
+            _legend_above(axes)
+        if push:
+            _zoom([over_time], signals, push)
         return thin(figure)
 
 
 def energy_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
-    """Kinetic, potential and total energy [J] over time [s]. push: (start, stop) [s], shaded."""
+    """Kinetic, potential and total energy [J] over time [s]; around a push (start, stop) [s], shaded."""
     with style():
-        figure = new_figure(8.5, 3.4)
-        plots.energy(figure.subplots(), signals, push).set_title(title, loc="left")
+        figure = new_figure(7.0, 3.4)
+        figure.suptitle(_titled(title, signals, push))
+        axes = plots.energy(figure.subplots(), signals, push)
+        _legend_above(axes)
+        if push:
+            _zoom([axes], signals, push)
         return thin(figure)
 
 
@@ -256,35 +300,28 @@ def return_map_figure(before: Array, after: Array) -> Figure:
 def comparison_figure(walks: Mapping[str, Signals], push: Window | None = None) -> Figure:
     """Controllers side by side: tracking error over time, its size, and the peak torques.
 
-    walks: signals by name of the controller. push: (start, stop) [s]; a row shows it, and two
-    columns the milliseconds after either edge.
+    walks: signals by name of the controller. push: (start, stop) [s]; the time around it is shown, and the
+    milliseconds after either edge.
     """
-    with style():
-        figure = new_figure(11.0 if push else 10.0, 7.2 if push else 5.6)
-        heights = (1.0, 2.6, 2.4) if push else (1.0, 1.0)
-        spec = figure.add_gridspec(len(heights), 4, height_ratios=heights)
-        if push:
-            columns = [
-                _column(figure, [spec[0, place], spec[1, place]])
-                for place in (slice(0, 2), slice(2, 3), slice(3, 4))
-            ]
-            _pushed_columns(columns, walks, push)
-        else:
-            plots.error_over_time(figure.add_subplot(spec[0, :]), walks)
-        plots.error_sizes(figure.add_subplot(spec[-1, :2]), walks)
-        plots.torque_sizes(figure.add_subplot(spec[-1, 2:]), walks)
-        return thin(figure)
-
-
-def _pushed_columns(
-    columns: Sequence[Sequence[Axes]], walks: Mapping[str, Signals], push: Window
-) -> None:
-    """Draw the push, the same for all walks, above their errors: over the whole walk, and at either edge."""
     first = next(iter(walks.values()))
-    for above, axes in columns:
-        plots.external_torque(above, first, push).set_xlabel("")
-        plots.error_over_time(axes, walks, push)
-    _limits(columns[0], float(first.t[0]), float(first.t[-1]))
-    columns[0][0].set_title("whole walk", loc="left")
-    _edges(columns[1:], first, push)
-    _one_legend_a_row([columns[0][0], columns[1][0], columns[1][1], columns[2][1]], ())
+    with style():
+        figure = new_figure(10.0, 5.8)
+        figure.suptitle(_titled(" and ".join(walks), first, push))
+        spec = figure.add_gridspec(2, 4)
+        columns = [[figure.add_subplot(spec[0, :])]]
+        if push:
+            columns[0][0].remove()
+            columns = _around_and_edges(figure, spec, (0,))
+        for (axes,) in columns:
+            plots.error_over_time(axes, walks, push)
+        if push:
+            _zoom(columns[0], first, push)
+            _edges(columns[1:], first, push)
+            for (axes,) in columns[1:]:
+                axes.set_ylim(columns[0][0].get_ylim())
+        _one_legend_a_row(columns)
+        sizes, motors = _row(figure, spec, 1, 2)
+        plots.error_sizes(sizes, walks)
+        plots.torque_sizes(motors, walks)
+        _legend_above(motors)
+        return thin(figure)

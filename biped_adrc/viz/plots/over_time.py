@@ -46,7 +46,7 @@ def curves(axes: Axes, s: Signals, values: Array, symbol: str, unit: str) -> Non
 def shade(axes: Axes, push: Window | None) -> None:
     """Shade the time of a push (start, stop) [s]; nothing without one."""
     if push is not None:
-        axes.axvspan(*push, color=PUSH, alpha=0.45, zorder=0, label="push")
+        axes.axvspan(*push, color=PUSH, alpha=0.3, zorder=0, label="push")
 
 
 def legend(axes: Axes) -> Axes:
@@ -134,18 +134,6 @@ NO_OBSERVER = "no observer: nothing is estimated"
 """Written on a panel in place of an estimate."""
 
 
-def external_torque(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
-    """The torque from outside zeta [N m] over time [s] on every joint that is ever pushed; on all
-    where none is.
-    """
-    shade(axes, push)
-    pushed = np.flatnonzero(np.any(s.zeta != 0.0, axis=0))
-    for i in pushed.tolist() or range(s.zeta.shape[1]):
-        line(axes, s, s.zeta[:, i], i, f"$\\zeta_{i + 1}$")
-    label(axes, "time [s]", r"push $\zeta$ [N m]")
-    return legend(axes)
-
-
 def total_disturbance(axes: Axes, s: Signals, joint: int = 0, push: Window | None = None) -> Axes:
     """xi of (13), q_b'' - kappa u, and its estimate xi^ [rad/s^2] for one actuated joint over time [s].
 
@@ -154,40 +142,44 @@ def total_disturbance(axes: Axes, s: Signals, joint: int = 0, push: Window | Non
     """
     chosen(s, (joint,))
     shade(axes, push)
-    _pair(axes, s, s.xi[:, joint], s.xi_estimate[:, joint], r"\xi", joint)
+    names = f"\\xi_{joint + 1}", f"\\hat{{\\xi}}_{joint + 1}"
+    _pair(axes, s, s.xi[:, joint], s.xi_estimate[:, joint], names, PALETTE[0])
     label(axes, "time [s]", f"$\\xi_{joint + 1}$ [rad/s²]")
     return legend(axes)
 
 
-def matched_disturbance(axes: Axes, s: Signals, joint: int = 0, push: Window | None = None) -> Axes:
-    """The torque from outside on one actuated joint, and what the estimate amounts to there [N m].
+def matched_disturbance(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
+    """The torque from outside on the actuated joints, and what the estimates amount to there [N m].
 
-    Solid: zeta_b, which enters (14) as kappa zeta_b, the matched part. Dashed: kappa^-1 (xi^ - xi_nominal);
-    it also holds the unmatched part and errors of the model, so the lines differ by those.
+    Broad: zeta_b, which enters (14) as kappa zeta_b, the matched part. Dashed: kappa^-1 (xi^ - xi_nominal); it
+    also holds the unmatched part and errors of the model, so the lines differ by those. Joints with the same
+    torque share the first one's lines.
     """
-    chosen(s, (joint,))
     shade(axes, push)
-    _pair(axes, s, s.zeta[:, joint], s.zeta_estimate[:, joint], r"\zeta", joint)
-    label(axes, "time [s]", f"$\\zeta_{joint + 1}$ [N m]")
+    alike: dict[bytes, list[int]] = {}
+    for i in range(s.q_d.shape[1]):
+        alike.setdefault(s.zeta[:, i].tobytes(), []).append(i)
+    for joints in alike.values():
+        names = ", ".join(f"\\zeta_{i + 1}" for i in joints)
+        estimate = f"\\hat{{\\zeta}}_{joints[0] + 1}"
+        i = joints[0]
+        _pair(axes, s, s.zeta[:, i], s.zeta_estimate[:, i], (names, estimate), PALETTE[i])
+    label(axes, "time [s]", r"torque $\zeta$ [N m]")
     return legend(axes)
 
 
-def _pair(axes: Axes, s: Signals, true: Array, estimate: Array, symbol: str, joint: int) -> None:
-    """Draw a signal and its estimate, both (K,), or say that there is no observer."""
-    t, index = broken(s, s.t), f"_{joint + 1}"
-    axes.plot(t, broken(s, true), color=PALETTE[0], lw=2.4, alpha=0.6, label=f"${symbol}{index}$")
+def _pair(
+    axes: Axes, s: Signals, true: Array, estimate: Array, names: tuple[str, str], colour: str
+) -> None:
+    """Draw a signal and its estimate, both (K,), with these symbols, or say that there is no observer."""
+    t = broken(s, s.t)
+    axes.plot(t, broken(s, true), color=colour, lw=2.4, alpha=0.6, label=f"${names[0]}$")
     if np.isnan(estimate).all():
         middle = {"ha": "center", "va": "center", "transform": axes.transAxes}
         axes.text(0.5, 0.9, NO_OBSERVER, **middle)  # type: ignore[arg-type]
         return
-    axes.plot(
-        t,
-        broken(s, estimate),
-        color="black",
-        ls=(0, (4, 2)),
-        lw=1.0,
-        label=f"$\\hat{{{symbol}}}{index}$",
-    )
+    dashed = {"color": "black", "ls": (0, (4, 2)), "lw": 1.0}
+    axes.plot(t, broken(s, estimate), label=f"${names[1]}$", **dashed)  # type: ignore[arg-type]
 
 
 def energy(axes: Axes, s: Signals, push: Window | None = None) -> Axes:

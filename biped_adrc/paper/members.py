@@ -1,0 +1,185 @@
+"""The push on the joints at the declared choices: what it adds to the tracking error, and how the walk goes on.
+
+What a push does is separated from what the controller does anyway: the error of the pushed step is compared
+with that of the same step without a push (`Track.away_from`). The walk starts on the orbit of its gait at the
+pushed step; peaks are taken of an interpolant, since the largest error lies between two nodes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.interpolate import CubicHermiteSpline
+
+from biped_adrc.analysis.certificate import IMPULSE
+from biped_adrc.analysis.feasibility import Feasibility
+from biped_adrc.analysis.quadrature import largest
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
+from biped_adrc.engine.run import COMPILED, simulate_by
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4
+from biped_adrc.paper import scenarios
+from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Member, value, with_values
+from biped_adrc.paper.verdict import AtTwoSteps
+from biped_adrc.scenario.build import RobotAndGait, build
+from biped_adrc.scenario.recording import Walk, watched
+from biped_adrc.scenario.run import method_of
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.types import Array
+
+
+class Track(NamedTuple):
+    """One single support: the tracking error over time, and Theta' before the impact that ends it."""
+
+    t: Array
+    """(K,) from the start of the step [s]."""
+    error: Array
+    """(K, p) [rad]."""
+    derror: Array
+    """(K, p), its derivative in time [rad/s]."""
+    rate: float
+    """Theta' before the impact [rad/s], NaN when there is no impact."""
+
+    @property
+    def peak(self) -> float:
+        """Largest |error|, between the nodes too [rad]."""
+        return largest(self.t, self.error, self.derror)
+
+    def away_from(self, usual: Track, onset: float) -> float:
+        """max |error - that of `usual`| [rad] from the onset [s] on, while both steps last.
+
+        `usual` has no push and is smooth: cubic Hermite interpolants between its nodes. NaN without a common
+        time.
+        """
+        seen = (self.t >= onset) & (self.t <= usual.t[-1])
+        t, first = np.unique(usual.t, return_index=True)
+        if not np.any(seen) or not np.all(np.isfinite(usual.error)):
+            return float("nan")
+        there = CubicHermiteSpline(t, usual.error[first], usual.derror[first])
+        at = self.t[seen]
+        return largest(at, self.error[seen] - there(at), self.derror[seen] - there(at, 1))
+
+
+def track(walk: Walk) -> Track:
+    """The first single support of a walk."""
+    arc = walk.trajectory.arcs[0]
+    s = walk.signals.of_step(arc.mode.step)
+    struck = arc.event is not None and arc.event.guard == FOOT_STRIKE
+    p, rate = s.error.shape[1], float(s.dtheta[-1]) if struck else float("nan")
+    return Track(s.t - s.t[0], s.error, s.v[:, :p] - s.dq_d, rate)
+
+
+@lru_cache(maxsize=8)
+def scene_of(preset: str | None, gait: str) -> RobotAndGait:
+    """RABBIT in a preset and one of its gaits, read once for many walks."""
+    return RobotAndGait.of(scenarios.plain("NPD", str(preset), gait=gait))
+
+
+def pieces(run: Scenario, zero: bool, share: float) -> list[Walk]:
+    """The first single support of a run with steps of share run.h, and the others with share `COARSE`, of which
+    only the ending matters.
+
+    zero: the observer starts at xi^ = 0 instead of the model's xi.
+    """
+    scene = scene_of(value(run, "preset"), value(run, "gait"))
+    walker, n, gait = build(run, scene), scene.biped.n, scene.walked
+    mode, impacts, h = (value(run, name) for name in ("first_step", "impacts", "h"))
+    mode, adrc = Mode(mode), value(run, "controller") == "ADRC"
+    x = walker.initial_state(*gait.start(scene.biped), mode)
+    if zero and adrc:
+        x[2 * n + 2 * scene.biped.p :] = 0.0  # x3^ and its derivatives in the scaled chain
+    later = Exponential(share * COARSE) if adrc else RK4(share * COARSE)
+    parts = (method_of(with_values(run, h=share * h), walker), 1), (later, impacts - 1)
+    found = []
+    for method, count in parts[: 1 + (impacts > 1)]:
+        end = mode.start + count * walker.max_step_time
+        moved = simulate_by(
+            COMPILED, walker, x, mode, method, t0=mode.start, t_end=end, impacts=count
+        )
+        found.append(watched(walker, gait, moved))
+        event = moved.arcs[-1].event
+        if not moved.status.ok or event is None or event.x_plus is None:
+            break
+        x, mode = event.x_plus, Mode(moved.arcs[-1].mode.step + 1, event.t)
+    return found
+
+
+@lru_cache(maxsize=64)
+def undisturbed(usual: Member, controller: str, share: float) -> Track:
+    """The pushed step of a member without its push, computed once for all pushes on it."""
+    run = usual.run(controller, pushed=False)
+    return track(pieces(run, usual.start == "zero", share)[0])
+
+
+class MemberWalk(NamedTuple):
+    """What is kept of a walk from the pushed step on."""
+
+    peak: AtTwoSteps
+    """max |q_b - q_d| in the pushed step, between the nodes too [rad]."""
+    deviation: AtTwoSteps
+    """The same of the error less that of the walk without a push, from the onset on [rad]."""
+    rate: AtTwoSteps
+    """|Theta'| at the end of the pushed step less that of the walk without a push [rad/s]; infinite without an
+    impact.
+    """
+    longest: AtTwoSteps
+    """Duration of the longest step [s]; infinite where not all steps are made."""
+    broken: AtTwoSteps
+    """Limits that it breaks, as `limits_broken`."""
+    infeasible: Mapping[str, str]
+    """What ground or motors could not have given, by the names in `REASONS`."""
+
+
+@dataclass(frozen=True)
+class MemberOutcome:
+    """A member of the set under both controllers."""
+
+    member: Member
+    """The choices."""
+    walked: dict[str, MemberWalk]
+    """By controller."""
+
+
+def limits_broken(f: Feasibility) -> float:
+    """How many limits of ground and motors a walk breaks, the impact aside; infinite where not all steps were
+    made.
+    """
+    return float(len(set(f.reasons) - {IMPULSE})) if f.status.ok else math.inf
+
+
+def member_walk(member: Member, controller: str, **values: Any) -> MemberWalk:
+    """A member carried out under a controller at both steps; values: of the scenario, in place of its own."""
+    usual = replace(member, amplitude=0.0, onset=0.0, joints=("q1",), rise=0.0)
+    at = [_at(member, usual, controller, share, values) for share in (1.0, 0.5)]
+    figures = [AtTwoSteps(*both) for both in zip(*(a[0] for a in at), strict=True)]
+    return MemberWalk(figures[0], figures[1], figures[2], figures[3], figures[4], at[0][1])
+
+
+def _at(
+    member: Member, usual: Member, controller: str, share: float, values: Mapping[str, Any]
+) -> tuple[tuple[float, ...], Mapping[str, str]]:
+    """The numbers of `member_walk` at one step, and what is not feasible."""
+    run = member.run(controller, **values)
+    walks = pieces(run, member.start == "zero", share)
+    one, other = track(walks[0]), undisturbed(usual, controller, share)
+    made = sum(len(walk.trajectory.events(FOOT_STRIKE)) for walk in walks) == value(run, "impacts")
+    why: dict[str, str] = {}
+    for walk in walks:
+        why = walk.feasibility.reasons | why
+    broken = longest = math.inf
+    if made:
+        broken = max(limits_broken(walk.feasibility) for walk in walks)
+        longest = max(arc.t[-1] - arc.t[0] for walk in walks for arc in walk.trajectory.arcs)
+    gap = abs(one.rate - other.rate)
+    rate = math.inf if np.isnan(gap) else gap
+    return (one.peak, one.away_from(other, member.onset), rate, longest, broken), why
+
+
+def member_outcomes(chosen: tuple[Member, ...]) -> list[MemberOutcome]:
+    """Members carried out under both controllers."""
+    return [MemberOutcome(m, {c: member_walk(m, c) for c in CONTROLLERS}) for m in chosen]

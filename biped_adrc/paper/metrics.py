@@ -1,0 +1,257 @@
+"""The scenarios on which claims are tried, from the results of a reproduction, and the metrics of claims.
+
+Where NaN may occur NumPy's max and min are used, since Python's pass over it and a limit would be kept without
+a number.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+
+from biped_adrc.control.tracking import TABLE_II
+from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
+from biped_adrc.paper.members import MemberOutcome
+from biped_adrc.paper.push_map import LOST, PushCell
+from biped_adrc.paper.results import Results
+from biped_adrc.paper.runs import Start
+from biped_adrc.paper.scenarios import KINDS, declared, value
+from biped_adrc.paper.verdict import AtTwoSteps
+from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.studies.cycle_stability import PoincareResult
+from biped_adrc.types import Array
+
+Pair = tuple[Outcome, Outcome, float]
+"""A walk under NPD and under ADRC, and the period of its gait [s]."""
+
+
+def at_two(of: Callable[[Outcome], float], o: Outcome) -> AtTwoSteps:
+    """A number of a walk at the step used and at half of it."""
+    assert o.half is not None
+    return AtTwoSteps(of(o), of(o.half))
+
+
+def share_made(o: Outcome) -> float:
+    """Share of the impacts asked for that are made."""
+    return o.impacts / int(value(o.run, "impacts"))
+
+
+def distance(o: Outcome) -> float:
+    """max |x- - x*| [rad, rad/s] at the last impact, over angles and rates; infinite when the robot fell
+    before.
+    """
+    if not o.walked:
+        return math.inf
+    return float(np.max(np.abs(o.x_minus[-1][: len(X_STAR)] - X_STAR)))
+
+
+def peak(o: Outcome, period: float) -> float:
+    """Largest tracking error [rad]."""
+    return o.peak_error
+
+
+def delay(o: Outcome, period: float) -> float:
+    """Largest change of a step's time against that of the gait [s]."""
+    return float(np.max(np.abs(o.durations - period), initial=0.0))
+
+
+def adrc_over_npd(of: Callable[[Outcome, float], float], pair: Pair) -> AtTwoSteps:
+    """ADRC's value over NPD's; infinite where not both make all impacts."""
+    npd, adrc, period = pair
+
+    def at(a: Outcome | None, b: Outcome | None) -> float:
+        assert a is not None
+        assert b is not None
+        usual = of(b, period)
+        return of(a, period) / usual if a.walked and b.walked and usual else math.inf
+
+    return AtTwoSteps(at(adrc, npd), at(adrc.half, npd.half))
+
+
+def worst(name: str, sign: float, o: Outcome) -> float:
+    """The largest (or with sign -1 the least) value of all steps; without a step it keeps no limit."""
+    found = [sign * getattr(s, name) for s in o.certificates]
+    return sign * float(np.max(found or [math.inf]))
+
+
+def last(name: str, o: Outcome) -> float:
+    """A value of the last step; NaN without one."""
+    return float(getattr(o.certificates[-1], name)) if o.certificates else math.nan
+
+
+def largest_multiplier(found: PoincareResult | str) -> AtTwoSteps:
+    """Of a cycle; NaN where none was found."""
+    if isinstance(found, str) or found.half is None:
+        return AtTwoSteps(math.nan, math.nan)
+    one, other = (float(abs(x.orbit.multipliers[0])) for x in (found, found.half))
+    return AtTwoSteps(one, other)
+
+
+def phase_rate(x_minus: Array) -> float:
+    """Theta' of a state before an impact [rad/s], with Theta = q5 + q1 + q3 / 2."""
+    return float(x_minus[5] + 0.5 * x_minus[7] + x_minus[9])
+
+
+LEAST_PRINTED = min(PUBLISHED_MULTIPLIERS)
+"""The least of the multipliers that section VI prints."""
+PRINTED_SPEED = phase_rate(X_STAR)
+"""Theta' of x* [rad/s]."""
+
+
+def speed_error(found: PoincareResult | str) -> AtTwoSteps:
+    """Relative difference of Theta' before an impact from that of x*."""
+    if isinstance(found, str) or found.half is None:
+        return AtTwoSteps(math.nan, math.nan)
+    one, other = (
+        abs(phase_rate(x.orbit.x_minus) / PRINTED_SPEED - 1.0) for x in (found, found.half)
+    )
+    return AtTwoSteps(one, other)
+
+
+def deviation(o: MemberOutcome) -> AtTwoSteps:
+    """What the push adds to the error under ADRC over what it adds under NPD."""
+    return o.walked["ADRC"].deviation.over(o.walked["NPD"].deviation)
+
+
+def error_ratio(o: MemberOutcome) -> AtTwoSteps:
+    """Peak error of ADRC over that of NPD, whatever causes it."""
+    return o.walked["ADRC"].peak.over(o.walked["NPD"].peak)
+
+
+def longest(o: MemberOutcome) -> AtTwoSteps:
+    """Longest step under either controller [s], infinite where not all are made."""
+    both = zip(*(w.longest for w in o.walked.values()), strict=True)
+    return AtTwoSteps(*(max(each) for each in both))
+
+
+def reached(start: Start) -> AtTwoSteps:
+    """Share of the impacts asked for, of the controller that makes more."""
+    both = zip(*(at_two(share_made, o) for o in start.outcomes.values()), strict=True)
+    return AtTwoSteps(*(max(each) for each in both))
+
+
+def longest_step(multiplier: float) -> float:
+    """Period [s] in which a tracking error, which decays like exp(-K_d t / 2), falls to `multiplier`."""
+    return float(-2.0 * np.log(multiplier) / float(np.max(TABLE_II.K_d)))
+
+
+def period_gap(pair: Pair) -> float:
+    """Largest difference of the step times of two walks, as a share of a usual step; infinite where they make
+    another number of steps.
+    """
+    npd, adrc = (o.durations for o in pair[:2])
+    if len(npd) != len(adrc) or len(npd) == 0:
+        return math.inf
+    return float(np.max(np.abs(npd - adrc)) / np.median(npd[:2]))
+
+
+# -- scenarios -------------------------------------------------------------------------------------
+def members(r: Results) -> dict[str, MemberOutcome]:
+    """The push on the joints at all declared choices."""
+    return {o.member.name: o for part in r.members.values() for o in part}
+
+
+def on_recipe(r: Results) -> dict[str, MemberOutcome]:
+    """The push on gait (b)."""
+    return {o.member.name: o for part in r.pushed_recipe.values() for o in part}
+
+
+def heavier(r: Results) -> dict[str, Pair]:
+    """A plant heavier than the model, in all presets."""
+    return {
+        f"{preset}, heavier {kind}": (
+            *r.pair(f"heavier, {kind}" + ("" if preset == r.plan.preset else f", {preset}")),
+            r.jumps[preset]["period"],
+        )
+        for preset in r.plan.presets
+        for kind in KINDS
+    }
+
+
+def torso(r: Results, most: float = math.inf) -> dict[str, Pair]:
+    """Pushes on the torso of at most so many N m, in all presets."""
+    names = {
+        f"{torque:g} N m on the torso, {preset}": preset
+        for torque in declared()["torso"]["amplitudes"]
+        for preset in r.plan.presets
+        if abs(torque) <= most
+    }
+    return {name: (*r.pair(name), r.jumps[preset]["period"]) for name, preset in names.items()}
+
+
+def usual_torso(r: Results) -> dict[str, Pair]:
+    """Those with which a claim on the rejection of what no motor can cancel is tried."""
+    return torso(r, 20.0)
+
+
+def lost_by_npd(r: Results) -> dict[str, PushCell]:
+    """The pushes of the map, not marginal ones, under which NPD does not make its steps."""
+    cells = [c for c in r.cells if c.certain and c.npd.outcome in LOST]
+    return {
+        f"{c.setting}, {c.push.amplitude:g} N m, {c.push.pattern}, from {c.push.onset:g} s": c
+        for c in cells
+    }
+
+
+def cycles(gait: str, r: Results) -> dict[str, PoincareResult | str]:
+    """The walking cycles of gait "a" or "b"."""
+    return {name: x for name, x in r.cycles.items() if name.startswith(f"gait ({gait})")}
+
+
+def npd_cycles(r: Results) -> dict[str, PoincareResult | str]:
+    """Those of gait (b) under NPD."""
+    return {name: x for name, x in cycles("b", r).items() if name.endswith("NPD")}
+
+
+def undisturbed(gaits: str, r: Results) -> dict[str, Outcome]:
+    """The undisturbed walks under NPD on these gaits."""
+    return {
+        name.removesuffix(", NPD"): o
+        for gait in gaits
+        for name, o in r.on_gait(gait).items()
+        if name.endswith("NPD")
+    }
+
+
+def both_gaits(r: Results) -> dict[str, tuple[Outcome, Outcome]]:
+    """The undisturbed walks under NPD on gait (b) and gait (a), by preset."""
+    a, b = (list(undisturbed(gait, r).values()) for gait in "ab")
+    return dict(zip(r.plan.presets, zip(b, a, strict=True), strict=True))
+
+
+def cost_ratio(pair: tuple[Outcome, Outcome]) -> AtTwoSteps:
+    """Cost of transport of the first walk over that of the second."""
+    one, other = (at_two(partial(last, "cost_of_transport"), o) for o in pair)
+    return one.over(other)
+
+
+def below_least(r: Results) -> dict[str, Start]:
+    """Starts below the least speed."""
+    return {
+        f"{preset}, {s.factor * s.least:.3f} of the gait's speed": s
+        for preset, found in r.starts.items()
+        for s in found
+        if s.factor < 1.0
+    }
+
+
+def gains(r: Results) -> dict[str, tuple[float, float]]:
+    """Gains of Table I and of one extended state."""
+    found: dict[str, tuple[float, float]] = {}
+    for orders in r.orders.values():
+        for name in ("equal bandwidth", "equal delay margin"):
+            a, b = orders["Table I"], orders[name]
+            found[f"gain of (17) at {name}"] = (a.largest_gain, b.largest_gain)
+            found[f"gain from measurement at {name}"] = (a.noise_gain, b.noise_gain)
+    return found
+
+
+def held_joint(r: Results) -> dict[str, AtTwoSteps]:
+    """The error of a joint held under a sine, over what (23) corrected says."""
+    if not r.figures:
+        return {}
+    simulated, half, corrected, _ = tuple(r.figures.values())[:4]
+    return {"sine of 5 Hz": AtTwoSteps(simulated / corrected, half / corrected)}

@@ -1,0 +1,274 @@
+"""The work of the reproduction: what a worker computes, and the tasks of a plan by kind and name.
+
+The walks are those of `paper.scenarios`; most are made at two integration steps, and of many nodes only those
+are kept that a figure of merit needs.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+
+from biped_adrc.analysis.signals import Signals
+from biped_adrc.campaign.pool import Task
+from biped_adrc.errors import BipedError
+from biped_adrc.gait.recipe import impact_smoothness
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.hybrid.trajectory import Trajectory
+from biped_adrc.observer_design.observer_loop import observer_loop
+from biped_adrc.observers.gpi import GPIObserver
+from biped_adrc.paper import scenarios
+from biped_adrc.paper.members import member_outcomes, member_walk
+from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
+from biped_adrc.paper.push_map import push_map
+from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Plan, value, with_values
+from biped_adrc.paper.verdict import AtTwoSteps
+from biped_adrc.scenario.build import RobotAndGait
+from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.recording import Walk, watched
+from biped_adrc.scenario.run import execute, execute_twice, halved, walk_scenario
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.studies.cycle_stability import (
+    PoincareResult,
+    poincare,
+    poincare_twice,
+    return_map_samples,
+)
+from biped_adrc.types import relabelled
+
+NODE_DISTANCE = 5e-4
+"""Distance of the nodes that are kept of a walk with short steps [s]; nothing moves faster between pushes."""
+
+
+def sparse(walk: Walk, apart: float = NODE_DISTANCE) -> Walk:
+    """The walk without the nodes that no figure of merit needs, all of them where a push acts and in the single
+    support after it.
+    """
+    run = walk.scenario
+    assert run is not None
+    pushed = scenarios.pushed_steps(run)
+    arcs = (a if a.mode.step in pushed else a.thinned(apart) for a in walk.trajectory.arcs)
+    return watched(walk.walker, walk.gait, replace(walk.trajectory, arcs=tuple(arcs)), run)
+
+
+def twice(run: Scenario) -> Outcome:
+    """The outcome of a walk, with that at half of its steps in `half`."""
+    h = value(run, "h")
+    if h is None or h > 0.2 * NODE_DISTANCE or value(run, "reset") != "model":
+        return execute_twice(run)
+    half = sparse(walk_scenario(halved(run)), 0.5 * NODE_DISTANCE)
+    return replace(sparse(walk_scenario(run)).outcome, half=half.outcome)
+
+
+@dataclass(frozen=True)
+class Headline:
+    """A pushed run with all that is drawn of it."""
+
+    outcome: Outcome
+    """Its figures of merit, with those at half of the step in `half`, and at a quarter in the half of that."""
+    trajectory: Trajectory
+    """Its nodes, as `sparse` keeps them."""
+    signals: Signals
+    """Errors, torques, forces and energies at the nodes."""
+    laws: Mapping[str, float]
+    """What `physical_laws.walk_laws` found."""
+
+
+def headline(run: Scenario) -> Headline:
+    """A pushed run that is kept; at a quarter of the step only the single supports from the push on."""
+    walk = sparse(walk_scenario(run))
+    half = halved(run)
+    quarter = execute(scenarios.from_the_push(halved(half)))
+    at_half = replace(sparse(walk_scenario(half), 0.5 * NODE_DISTANCE).outcome, half=quarter)
+    return Headline(
+        replace(walk.outcome, half=at_half), walk.trajectory, walk.signals, walk_laws(walk)
+    )
+
+
+def engines(one: Scenario, other: Scenario) -> float:
+    """Largest difference of (q, q') before the impacts of two runs [rad, rad/s]; infinite where they differ in
+    number, or there is none.
+    """
+    a, b = (execute(run).x_minus for run in (one, other))
+    n = RobotAndGait.of(one).biped.n
+    if a.shape != b.shape or len(a) == 0:
+        return math.inf
+    return float(np.max(np.abs(a - b)[:, : 2 * n]))
+
+
+# -- cycles, starts and closed forms ---------------------------------------------------------------
+def cycle(run: Scenario, with_states: bool) -> PoincareResult | str:
+    """A walking cycle at 1 ms and half of it, or why none is found, in words."""
+    try:
+        found, half = (
+            poincare(with_values(run, h=share * COARSE), with_states) for share in (1.0, 0.5)
+        )
+    except BipedError as error:
+        return str(error)
+    return replace(found, half=half)
+
+
+@dataclass(frozen=True)
+class Start:
+    """A walk that starts on the constraint with a chosen speed after the impact."""
+
+    least: float
+    """The speed that just reaches the next impact, relative to the gait's, by one quadrature of the zero
+    dynamics.
+    """
+    factor: float
+    """Speed of this start relative to the least."""
+    outcomes: dict[str, Outcome]
+    """By controller."""
+
+
+def starts(preset: str) -> list[Start]:
+    """Starts just below and just above the least speed that reaches the next impact.
+
+    No controller of the joints helps a start below it, which matters for the promise of global stability.
+    """
+    least = least_speed(preset)
+    return [
+        Start(
+            least,
+            k,
+            {c: execute_twice(scenarios.starting(c, preset, k * least)) for c in CONTROLLERS},
+        )
+        for k in scenarios.declared()["basin"]["factors"]
+    ]
+
+
+def least_speed(preset: str) -> float:
+    """Share of the gait's speed after impact with which sigma^2 stays positive up to the next impact.
+
+    sigma is the angular momentum about the stance foot. On the zero dynamics sigma^2(Theta) is its initial
+    value plus a function of Theta, whose minimum (of a parabola through three nodes) decides whether the robot
+    passes mid-stance.
+    """
+    scene = RobotAndGait.of(scenarios.starting("NPD", preset, 1.0))
+    zero = ZeroDynamics.of(scene.biped, scene.walked.constraint, nodes=120)
+    sigma = scene.biped.angular_momentum(*scene.walked.start(scene.biped))
+    gained = zero.sigma_squared(0.0)
+    k = min(max(int(np.argmin(gained)), 1), len(gained) - 2)
+    near = np.polyfit(zero.theta[k - 1 : k + 2] - zero.theta[k], gained[k - 1 : k + 2], 2)
+    lowest = float(near[2] - near[1] ** 2 / (4.0 * near[0]))
+    return float(np.sqrt(max(-lowest, 0.0)) / abs(sigma))
+
+
+def jumps(preset: str) -> dict[str, float]:
+    """What jumps at an impact, or at the edge of a push of 30 N m on all joints, by name.
+
+    xi of (13), the total disturbance, on gait (a) [rad/s^2]; the rates of the joints from those of their
+    references, by gait [rad/s], 0 for a gait that takes the impact into account.
+    """
+    scenes = {
+        gait: RobotAndGait.of(scenarios.loose("NPD", preset, gait=gait)) for gait in scenarios.GAITS
+    }
+    biped, gait = scenes["published"].biped, scenes["published"].walked
+    before = biped.reduction(gait.q_minus, gait.v_minus)
+    after = biped.reduction(*gait.start(biped))
+    edge = after.kappa @ np.full(biped.p, 30.0)
+    return {
+        "xi at impact": float(np.max(np.abs(after.xi - relabelled(before.xi, biped.swap)))),
+        "xi at an edge": float(np.max(np.abs(edge))),
+        **{
+            name: float(np.max(np.abs(impact_smoothness(of.walked, biped))))
+            for name, of in scenes.items()
+        },
+        "period": gait.period,
+    }
+
+
+class Order(NamedTuple):
+    """An observer, and what its order costs and gives."""
+
+    largest_gain: float
+    """max |l_k|, in the units of (17)."""
+    noise_gain: float
+    """Largest gain from an error of the measured position to the acceleration asked for [1/s^2]."""
+    bandwidth: float
+    """Geometric mean of the poles [rad/s]."""
+    delay_margin: float
+    """Largest delay in the loop with which it is stable [s]."""
+    slow: float
+    """Amplitude of the tracking error at 5 Hz per unit of disturbance [s^2]."""
+    pushed: AtTwoSteps
+    """Peak error under a push of 30 N m on all joints [rad]."""
+
+
+def orders(preset: str) -> dict[str, Order]:
+    """Table I (m = 7), and observers with one extended state of its bandwidth and of its delay margin."""
+    table = GPIObserver.from_poles()
+    margin = observer_loop(table).delay_margin().delay
+    named = {
+        "Table I": table,
+        "equal bandwidth": GPIObserver.from_bandwidth(table.scale, 1),
+        "equal delay margin": GPIObserver.from_bandwidth(bandwidth_with(margin, 1), 1),
+    }
+    return {name: _order(preset, o) for name, o in named.items()}
+
+
+def bandwidth_with(margin: float, m: int) -> float:
+    """The position of m + 2 equal poles [rad/s] whose delay margin is `margin` [s], by roots in log w."""
+
+    def excess(log_w: float) -> float:
+        found = observer_loop(GPIObserver.from_bandwidth(np.exp(log_w), m)).delay_margin().delay
+        return float(np.log(found / margin))
+
+    return float(np.exp(brentq(excess, np.log(10.0), np.log(1e6))))
+
+
+def _order(preset: str, observer: GPIObserver) -> Order:
+    """The record of one observer: closed forms, and a walk."""
+    loop, w = observer_loop(observer), np.geomspace(1.0, 1e7, 2000)
+    poles = tuple(float(np.real(pole)) for pole in observer.poles)
+    pushed = member_walk(
+        replace(scenarios.on_the_recipe(preset), gait="published"), "ADRC", poles=poles
+    )
+    return Order(
+        float(np.max(np.abs(observer.gains))),
+        float(np.max(np.abs(loop.noise(w)))),
+        observer.scale,
+        loop.delay_margin().delay,
+        float(np.abs(loop.tracking_error(np.array([10.0 * np.pi])))[0]),
+        pushed.peak,
+    )
+
+
+# -- tasks -----------------------------------------------------------------------------------------
+def tasks(plan: Plan) -> dict[str, Task[object]]:
+    """Everything to compute, by "kind/name", the longest first so that no core waits at the end."""
+    found: dict[str, Task[object]] = {}
+
+    def add(kind: str, name: str, function: Any, *arguments: object) -> None:
+        found[f"{kind}/{name}"] = Task(f"{kind} {name}", function, arguments)
+
+    for preset in plan.presets:
+        add("members", preset, member_outcomes, scenarios.members(preset))
+    for c in reversed(CONTROLLERS):
+        add("headline", c, headline, scenarios.pushed_run(plan, c))
+        add("engines", c, engines, *scenarios.engine_runs(plan, c))
+    add("numerics", plan.preset, numerics_laws, plan.preset)
+    for name, run in scenarios.base_runs(plan).items():
+        add("runs", name, twice, run)
+    for preset in plan.presets:
+        add("pushed recipe", preset, member_outcomes, (scenarios.on_the_recipe(preset),))
+        add("starts", preset, starts, preset)
+        add("jumps", preset, jumps, preset)
+        add("model", preset, model_laws, preset)
+    for k, part in enumerate(scenarios.map_pushes(plan)):
+        add("map", f"{part[0].preset}, part {k}", push_map, part)
+    for name, run in scenarios.claim_runs(plan).items():
+        add("claim runs", name, twice, run)
+    for name, (run, with_states) in scenarios.cycle_runs(plan).items():
+        add("cycles", name, cycle, run, with_states)
+    for name, run in scenarios.multiplier_runs(plan).items():
+        add("multipliers", name, poincare_twice, run)
+    add("orders", plan.presets[0], orders, plan.presets[0])
+    add("returns", "map", return_map_samples, scenarios.multiplier_runs(plan)["NPD"])
+    return found

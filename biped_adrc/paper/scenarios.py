@@ -1,0 +1,389 @@
+"""Every walk of the reproduction as a scenario, by name; what is left open is declared in admissible.toml.
+
+The paper prints no push amplitude, no masses and no start of the observer. A claim that was tried at one choice
+could be an accident of it, and at choices picked afterwards it would prove nothing. admissible.toml declares
+levels of seven choices, and takes 36 of their 648 combinations (`Member`), an orthogonal array of strength 2:
+any two choices meet in all pairs of levels equally often, so that no effect hides behind another one.
+
+Integration steps are such that halving them changes no figure of merit by more than 1 % (`paper.convergence`).
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+from biped_adrc.engine.run import PINOCCHIO
+from biped_adrc.errors import InputError
+from biped_adrc.observers.gpi import TABLE_I
+from biped_adrc.resources import packaged
+from biped_adrc.scenario.push import Push
+from biped_adrc.scenario.scenario import Scenario
+
+CONTROLLERS = ("NPD", "ADRC")
+"""The two that the paper compares, in the order of every pair: PD with inertia decoupling, and ADRC."""
+GAITS = ("published", "recipe")
+"""Gait (a), through x*, and gait (b), by the recipe of section IV."""
+MOTORS = ("q1", "q2", "q3", "q4")
+"""The actuated joints."""
+PAPER_PUSH = Push(dict.fromkeys(MOTORS, 30.0), step=19, start=0.1, stop=0.3)
+"""The push of figures 4 to 6: 30 N m on all joints for 0.2 s in step 19. The paper prints no amplitude."""
+SINE = Push(dict.fromkeys(MOTORS, 40.0), 19, 0.05, 0.3, kind="sine", frequency=5.0)
+"""A disturbance of 5 Hz on all joints [N m]."""
+HEAVIER = {"torso": 1.2, "thigh": 1.15}
+"""Factors on the links' masses (and inertias) of the plant alone, not of the controller's model."""
+KINDS: dict[str, dict[str, Any]] = {
+    "masses": {"mass": HEAVIER},
+    "masses and inertias": {"mass": HEAVIER, "inertia": HEAVIER},
+}
+"""What is heavier in the plant."""
+POLICIES = ("none", "relabel", "measured", "model")
+"""What the observer's states become at an impact."""
+RISE = 0.01
+"""Time in which the headline push rises and falls [s], in the runs beside those with vertical edges."""
+STEPS = {"NPD": (5e-4, 1e-4), "ADRC": (5e-5, 2.5e-5)}
+"""Steps of RK4 [s]: of the whole walk, and of the single supports where a push switches and the one after."""
+LOOSE = 2e-4
+"""Step of the exponential method [s] under ADRC, where its error is no spike of less than 1e-5 rad."""
+COARSE = 1e-3
+"""Step [s] of walks of which endings and step times are taken."""
+RESET_STEP, DIVERGING_STEP = 2.5e-5, 5e-5
+"""Steps [s] after an impact that the observer does not expect; of the walk that diverges 1.2 ms after it."""
+ENGINES_STEP = 1e-3
+"""Step [s] at which the two engines are compared over the pushed step."""
+TORSO_STEP = 17
+"""Single support in which walks start whose push in single support 19 changes the speed."""
+PATTERNS: dict[str, dict[str, float]] = {
+    "all +": {"q1": 1.0, "q2": 1.0, "q3": 1.0, "q4": 1.0},
+    "all -": {"q1": -1.0, "q2": -1.0, "q3": -1.0, "q4": -1.0},
+    "hips +": {"q1": 1.0, "q2": 1.0},
+    "hips -": {"q1": -1.0, "q2": -1.0},
+    "hips apart": {"q1": 1.0, "q2": -1.0},
+    "hips together": {"q1": -1.0, "q2": 1.0},
+    "stance knee +": {"q3": 1.0},
+    "stance knee -": {"q3": -1.0},
+    "swing knee +": {"q4": 1.0},
+    "swing knee -": {"q4": -1.0},
+}
+"""Factors by joint of the map of pushes, to be multiplied by the amplitude [N m]."""
+MAP_ONSETS = tuple(round(0.05 * k, 2) for k in range(8))
+"""Onsets of the map of pushes [s] after an impact; a single support takes about 0.4 s."""
+MAP_AMPLITUDES = (30.0, 60.0, 90.0, 120.0, 150.0)
+"""Amplitudes of the map of pushes [N m], up to what RABBIT's motors give."""
+
+
+def declared() -> dict[str, Any]:
+    """The tables of admissible.toml."""
+    return packaged("biped_adrc.paper", "admissible.toml")
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What to reproduce. Raises InputError for `full` and `quick` together."""
+
+    preset: str = "identified"
+    """Of RABBIT, for the headline runs."""
+    pushes: tuple[Push, ...] = (PAPER_PUSH,)
+    """In place of the paper's push."""
+    full: bool = False
+    """The whole map of pushes, which takes minutes."""
+    quick: bool = False
+    """A first look, without what `left_out` names."""
+
+    def __post_init__(self) -> None:
+        if self.full and self.quick:
+            raise InputError("'full' and 'quick' exclude one another; choose one of them")
+
+    @property
+    def presets(self) -> tuple[str, ...]:
+        """The presets whose gaits are walked."""
+        return (self.preset,) if self.quick else ("identified", "identified-bare", "tac2003")
+
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """What this plan does not compute, in words."""
+        if self.full:
+            return ()
+        late = "the map of pushes, but for late pushes of 150 N m"
+        if not self.quick:
+            return (f"{late} (--full)",)
+        return (
+            late,
+            "the multipliers of ADRC, its observer's states included",
+            f"presets other than {self.preset}",
+            "(20) as printed",
+            "the observer's resets at impact compared",
+        )
+
+
+def on_torso(torque: float) -> Push:
+    """A push of 0.2 s on the torso, which no motor drives [N m]."""
+    return Push({"q5": torque}, step=declared()["push"]["step"], start=0.1, stop=0.3)
+
+
+def scenario(controller: str, preset: str, **values: Any) -> Scenario:
+    """The only place at which a scenario of the reproduction is made: RABBIT in a preset under a controller."""
+    return Scenario(controller, preset=preset, **values)
+
+
+def with_values(run: Scenario, **values: Any) -> Scenario:
+    """The scenario with other values."""
+    return replace(run, **values)
+
+
+def value(run: Scenario, name: str) -> Any:
+    """A value of the scenario by its name here."""
+    return getattr(run, name)
+
+
+def pushed_steps(run: Scenario) -> set[int]:
+    """The single supports in which a push acts, and those after."""
+    return {push.step + k for push in value(run, "pushes") for k in (0, 1)}
+
+
+def from_the_push(run: Scenario) -> Scenario:
+    """The run from the pushed step on, on its orbit, for two impacts."""
+    return with_values(run, first_step=value(run, "pushes")[0].step, impacts=2)
+
+
+def plain(controller: str, preset: str, **values: Any) -> Scenario:
+    """A walk with RK4, at the step of its controller."""
+    h = STEPS[controller][0]
+    return scenario(controller, preset, **{"method": "rk4", "h": h, **values})
+
+
+def loose(controller: str, preset: str, h: float = LOOSE, **values: Any) -> Scenario:
+    """As `plain`, but the exponential method with a step of h [s] under ADRC."""
+    if controller == "ADRC":
+        values |= {"method": "exponential", "h": h}
+    return plain(controller, preset, **values)
+
+
+def pushed_run(plan: Plan, controller: str) -> Scenario:
+    """The headline run of a controller: the paper's gait under the plan's pushes."""
+    fine = STEPS[controller][1]
+    return plain(controller, plan.preset, pushes=plan.pushes, fine=fine)
+
+
+def engine_runs(plan: Plan, controller: str) -> tuple[Scenario, Scenario]:
+    """The pushed step of the headline run on Pinocchio's dynamics, and compiled, at the same step."""
+    values: dict[str, Any] = {"pushes": plan.pushes, "h": ENGINES_STEP, "impacts": 1}
+    one = scenario(controller, plan.preset, first_step=plan.pushes[0].step, **values)
+    return with_values(one, engine=PINOCCHIO), one
+
+
+def base_runs(plan: Plan) -> dict[str, Scenario]:
+    """The walks that are checked at half their step, by name.
+
+    Undisturbed in every preset on both gaits; the push with slow edges; a sine; a push on the torso; sampled
+    control at 1 kHz; a plant that is heavier than the model; (20) as printed, and every policy of the observer
+    at an impact. Where a walk starts later than in step 1, it starts on the orbit.
+    """
+    runs: dict[str, Scenario] = {}
+    rising = tuple(replace(push, rise=RISE) for push in plan.pushes)
+    first = min(push.step for push in plan.pushes)
+    for c in CONTROLLERS:
+        p, fine = plan.preset, STEPS[c][1]
+        for preset in plan.presets:
+            runs[f"nominal {preset} {c}"] = plain(c, preset)
+            runs[f"gait (b) {preset} {c}"] = loose(c, preset, gait="recipe", impacts=8)
+        runs[f"rising push {c}"] = plain(
+            c, p, pushes=rising, first_step=first, impacts=2, fine=fine
+        )
+        late: dict[str, Any] = {"first_step": TORSO_STEP, "impacts": 9}
+        runs[f"sine {c}"] = plain(c, p, pushes=(SINE,), fine=fine, **late)
+        runs[f"torso {c}"] = loose(c, p, pushes=(on_torso(20.0),), **late)
+        runs[f"1 kHz {c}"] = scenario(c, p, pushes=plan.pushes, period=1e-3, h=1e-3)
+        for kind, factors in KINDS.items():
+            runs[f"heavier, {kind} {c}"] = loose(c, p, impacts=8, **factors)
+        if not plan.quick:
+            runs[f"as printed {c}"] = loose(c, p, solve_theta=False, impacts=8)
+    return runs | ({} if plan.quick else reset_runs(plan.preset))
+
+
+def reset_runs(preset: str) -> dict[str, Scenario]:
+    """Every policy for the observer's states at an impact, with and without RABBIT's torque limit.
+
+    An observer that does not expect the impact asks for torques that no motor gives.
+    """
+    runs = {}
+    for policy, limit in itertools.product(POLICIES, (None, 150.0)):
+        h = DIVERGING_STEP if policy == "none" and limit is None else RESET_STEP
+        values: dict[str, Any] = {"reset": policy, "torque_limit": limit, "impacts": 2}
+        name = f"reset {policy}, {'unlimited' if limit is None else '150 N m'}"
+        runs[name] = loose("ADRC", preset, h, **values)
+    return runs
+
+
+def claim_runs(plan: Plan) -> dict[str, Scenario]:
+    """Walks of the claims alone: pushes on the torso by amplitude, and the heavier plant in other presets."""
+    runs, step = {}, declared()["push"]["step"]
+    for preset, c in itertools.product(plan.presets, CONTROLLERS):
+        for torque in declared()["torso"]["amplitudes"]:
+            values: dict[str, Any] = {
+                "pushes": (on_torso(torque),),
+                "first_step": step,
+                "impacts": 4,
+            }
+            run = loose(c, preset, COARSE, **values)
+            runs[f"{torque:g} N m on the torso, {preset} {c}"] = with_values(run, h=COARSE)
+        for kind, factors in KINDS.items():
+            if preset != plan.preset:
+                runs[f"heavier, {kind}, {preset} {c}"] = loose(c, preset, impacts=8, **factors)
+    return runs
+
+
+def cycle_runs(plan: Plan) -> dict[str, tuple[Scenario, bool]]:
+    """Cycles by name, and whether the observer's states are coordinates of the return map.
+
+    Gait (b) with them, at 1 ms; gait (a) without them, with Theta'' solved for and as printed.
+    """
+    found = {}
+    for preset, c in itertools.product(plan.presets, CONTROLLERS):
+        found[f"gait (b), {preset}, {c}"] = (scenario(c, preset, gait="recipe"), True)
+        for theta in declared()["factors"]["theta"]:
+            run = scenario(c, preset, solve_theta=theta == "solved")
+            found[f"gait (a), {preset}, {c}, Theta'' {theta}"] = (run, False)
+    return found
+
+
+def multiplier_runs(plan: Plan) -> dict[str, Scenario]:
+    """The cycles with all multipliers, by controller (and what the observer's states become at impact)."""
+    npd, adrc = (scenario(c, plan.preset) for c in CONTROLLERS)
+    more = (
+        {} if plan.quick else {"ADRC": adrc, "ADRC measured": with_values(adrc, reset="measured")}
+    )
+    return {"NPD": npd} | more
+
+
+def starting(controller: str, preset: str, speed: float) -> Scenario:
+    """A walk that starts with `speed` times the gait's rates after the impact."""
+    return loose(controller, preset, COARSE, start_speed=speed - 1.0, impacts=3)
+
+
+def sampled_walk(preset: str, h: float, period: float | None = None) -> Scenario:
+    """One step under NPD, in continuous time or with a period [s]; h: integration step [s]."""
+    return scenario("NPD", preset, impacts=1, period=period, h=h)
+
+
+def scaled_observer(preset: str, factor: float) -> Scenario:
+    """ADRC with the poles of Table I times a factor."""
+    return scenario("ADRC", preset, poles=tuple(factor * pole for pole in TABLE_I))
+
+
+@dataclass(frozen=True)
+class Member:
+    """One combination of the choices that the paper leaves open."""
+
+    preset: str
+    """Of RABBIT."""
+    amplitude: float
+    """Of the push [N m]."""
+    onset: float
+    """Of the push [s] after the impact."""
+    joints: tuple[str, ...]
+    """On which the push acts."""
+    rise: float
+    """Time in which the push rises and falls [s]."""
+    start: str
+    """How the observer starts: "model" (xi^ from the model) or "zero"."""
+    theta: str
+    """Theta'' in (20): "solved" from the dynamics, or as "printed"."""
+    gait: str = "published"
+    """One of `GAITS`."""
+
+    @property
+    def name(self) -> str:
+        """For a reader."""
+        gait = "" if self.gait == "published" else f"gait '{self.gait}', "
+        return (
+            f"{gait}{self.preset}, {self.amplitude:g} N m on {'+'.join(self.joints)} from "
+            f"{self.onset:g} s, rise {1e3 * self.rise:g} ms, xi^ {self.start}, Theta'' {self.theta}"
+        )
+
+    def run(self, controller: str, pushed: bool = True, **values: Any) -> Scenario:
+        """The walk from the pushed step on, or the same step without the push; h is that of the pushed step."""
+        k, steps = declared()["push"], declared()["steps"]
+        stop = round(self.onset + k["duration"], 9)
+        torque = dict.fromkeys(self.joints, self.amplitude)
+        push = Push(torque, k["step"], self.onset, stop, rise=self.rise)
+        usual: dict[str, Any] = {
+            "gait": self.gait,
+            "pushes": (push,) if pushed else (),
+            "first_step": k["step"],
+            "impacts": steps["impacts"] if pushed else 1,
+            "solve_theta": self.theta == "solved",
+            "reset": "measured" if self.start == "zero" and controller == "ADRC" else "model",
+            "h": steps[controller],
+        }
+        return plain(controller, self.preset, **usual | values)
+
+
+def members(preset: str | None = None) -> tuple[Member, ...]:
+    """The combinations that the file declares, of all presets or one, always in the same order."""
+    factors, fraction = declared()["factors"], declared()["fraction"]
+    found = []
+    for i, j, k, m in itertools.product(range(3), range(3), range(2), range(2)):
+        at = _levels(fraction["three_levels"], i, j, 3) | _levels(fraction["two_levels"], k, m, 2)
+        chosen = {name: factors[name][level] for name, level in at.items()}
+        found.append(Member(**(chosen | {"joints": tuple(chosen["joints"])})))
+    return tuple(m for m in found if preset in (None, m.preset))
+
+
+def _levels(rule: dict[str, list[int]], i: int, j: int, count: int) -> dict[str, int]:
+    """Level of each choice at (i, j): a i + b j modulo the number of levels, which balances the fraction."""
+    return {name: (a * i + b * j) % count for name, (a, b) in rule.items()}
+
+
+def on_the_recipe(preset: str) -> Member:
+    """Gait (b) under a push of 30 N m on all joints."""
+    return Member(preset, 30.0, 0.12, MOTORS, 0.0, "model", "solved", "recipe")
+
+
+@dataclass(frozen=True)
+class MapPush:
+    """One push of the map."""
+
+    preset: str
+    """Of RABBIT."""
+    onset: float
+    """In the step [s]."""
+    amplitude: float
+    """[N m]."""
+    pattern: str
+    """One of `PATTERNS`."""
+    torque_limit: float | None
+    """[N m], None for unlimited."""
+
+    def run(self, controller: str) -> Scenario:
+        """Four impacts from the push of 0.2 s in single support 19 on, on a reference that goes on past its
+        end, so that a fall is one of the robot and not of a polynomial.
+        """
+        factors = PATTERNS[self.pattern].items()
+        torque = {joint: self.amplitude * factor for joint, factor in factors}
+        push = Push(torque, step=19, start=self.onset, stop=self.onset + 0.2)
+        return scenario(
+            controller,
+            self.preset,
+            pushes=(push,),
+            torque_limit=self.torque_limit,
+            continued=True,
+            first_step=19,
+            impacts=4,
+            h=1e-3,
+        )
+
+
+def map_pushes(plan: Plan) -> Iterator[list[MapPush]]:
+    """The pushes of the map in parts, by preset, torque limit [N m] and pattern; of a plan that is not full
+    the late ones of the largest amplitude within the torque limit alone.
+    """
+    limits = (None, 150.0) if plan.full else (150.0,)
+    onsets, amplitudes = (MAP_ONSETS, MAP_AMPLITUDES) if plan.full else ((0.3,), (150.0,))
+    for preset, limit in itertools.product(plan.presets, limits):
+        parts = [[of] for of in PATTERNS] if plan.full else [list(PATTERNS)]
+        for part in parts:
+            every = itertools.product(part, amplitudes, onsets)
+            yield [MapPush(preset, onset, amplitude, of, limit) for of, amplitude, onset in every]

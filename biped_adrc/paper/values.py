@@ -1,0 +1,238 @@
+"""The numbers in the texts of the claims, by the names that stand in braces in claims.toml."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from biped_adrc.analysis.certificate import IMPULSE
+from biped_adrc.analysis.feasibility import COUNTED
+from biped_adrc.analysis.regression import regress_multipliers
+from biped_adrc.control.tracking import TABLE_II
+from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
+from biped_adrc.observers.gpi import TABLE_I
+from biped_adrc.paper import metrics as m
+from biped_adrc.paper.push_map import LOST
+from biped_adrc.paper.results import Results
+from biped_adrc.paper.scenarios import CONTROLLERS, declared, value
+from biped_adrc.paper.verdict import Extremes
+from biped_adrc.types import Array
+
+
+def of_headline(r: Results) -> dict[str, object]:
+    """How both controllers walk under the headline push."""
+    npd, adrc = r.pair("push")
+    slow = r.pair("rising push")
+    word = {c: r.headline[c].outcome.feasibility.outcome.replace("_", " ") for c in CONTROLLERS}
+    return {
+        "npd": npd,
+        "adrc": adrc,
+        "slow": slow[1],
+        "asked": value(npd.run, "impacts"),
+        "pushes": "; ".join(push.in_words() for push in r.plan.pushes),
+        "words": ", ".join(f"{c} {x}" for c, x in word.items()),
+        "errors": f"{1e3 * npd.peak_error:.3g} mrad under NPD, {1e3 * adrc.peak_error:.2g} mrad under ADRC",
+    }
+
+
+def of_members(r: Results) -> dict[str, object]:
+    """Extremes over the declared choices."""
+    every = [o for part in r.members.values() for o in part]
+    adrc, npd = ([o.walked[c] for o in every] for c in ("ADRC", "NPD"))
+    why = sorted({x for w in adrc for name, x in w.infeasible.items() if name != IMPULSE})
+    by_theta = {
+        theta: Extremes.of(o.walked["ADRC"].peak for o in every if o.member.theta == theta)
+        for theta in declared()["factors"]["theta"]
+    }
+    return {
+        **by_theta,
+        "npd": Extremes.of(w.deviation for w in npd),
+        "adrc": Extremes.of(w.deviation for w in adrc),
+        "ratios": Extremes.of(map(m.deviation, every)),
+        "peaks": Extremes.of(map(m.error_ratio, every)),
+        "rates": Extremes.of(w.rate for w in adrc),
+        "npd_rates": Extremes.of(w.rate for w in npd),
+        "steps": declared()["steps"]["impacts"],
+        "why": "; ".join(why) or "nothing",
+        "apart": sum(bool(w.infeasible) for w in adrc),
+        "count": len(every),
+    }
+
+
+def of_recipe_push(r: Results) -> dict[str, object]:
+    """The push on gait (b)."""
+    found = list(m.on_recipe(r).values())
+    return {
+        "deviations": Extremes.of(map(m.deviation, found)),
+        "peaks": Extremes.of(map(m.error_ratio, found)),
+    }
+
+
+def of_map(r: Results) -> dict[str, object]:
+    """What became of the pushes that throw NPD."""
+    known = [c for c in r.cells if c.certain]
+    fates = [c.adrc.outcome for c in m.lost_by_npd(r).values()]
+    return {
+        "lost": len(fates),
+        "known": len(known),
+        "on": sum(x not in LOST for x in fates),
+        "feasible": sum(x in COUNTED for x in fates),
+        "alone": sum(c.adrc.outcome in LOST and c.npd.outcome not in LOST for c in known),
+        "doubtful": len(r.cells) - len(known),
+    }
+
+
+def of_torso(r: Results) -> dict[str, object]:
+    """How pushes of the torso change a step, and up to which one a walk goes on."""
+    usual = m.usual_torso(r).values()
+    stopped = {
+        preset: [
+            torque
+            for torque in declared()["torso"]["amplitudes"]
+            if not r.pair(f"{torque:g} N m on the torso, {preset}")[1].walked
+        ]
+        for preset in r.plan.presets
+    }
+    said = (f"{min(x):g} N m ({p})" if x else f"none ({p})" for p, x in stopped.items())
+    return {
+        "slow": Extremes(1e3 * m.delay(adrc, period) for _, adrc, period in usual),
+        "ratios": Extremes.of(m.adrc_over_npd(m.delay, pair) for pair in usual),
+        "peaks": Extremes.of(m.adrc_over_npd(m.peak, pair) for pair in usual),
+        "stops": ", ".join(said),
+        "alike": ""
+        if all(npd.walked == adrc.walked for npd, adrc, _ in m.torso(r).values())
+        else "not ",
+    }
+
+
+def of_heavier(r: Results) -> dict[str, object]:
+    """The ratio of the errors with a heavier plant."""
+    return {"ratios": Extremes.of(m.adrc_over_npd(m.peak, pair) for pair in m.heavier(r).values())}
+
+
+def of_orders(r: Results) -> dict[str, object]:
+    """What the order of the observer costs and gives."""
+    orders = next(iter(r.orders.values()))
+    table, band, delay = orders.values()
+    shown = (f"{name} {a:.1e} against {b:.1e}" for name, (a, b) in m.gains(r).items())
+    return {
+        "gains": "; ".join(shown),
+        "margin": 1e6 * table.delay_margin,
+        "bandwidth_margin": 1e3 * band.delay_margin,
+        "bandwidth": delay.bandwidth,
+        "errors": ", ".join(f"{name} {o.pushed.at_half:.1e}" for name, o in orders.items()),
+        "slow": table.slow,
+        "other": delay.slow,
+    }
+
+
+def of_jumps(r: Results) -> dict[str, object]:
+    """What is not smooth at an impact and at an edge."""
+    found = {
+        name: Extremes(x[name] for x in r.jumps.values()) for name in next(iter(r.jumps.values()))
+    }
+    return {name.replace(" ", "_"): x for name, x in found.items()}
+
+
+def of_cycles(r: Results) -> dict[str, object]:
+    """Largest multipliers of both gaits, and of gait (a) beside the closed form."""
+    npd = r.multipliers["NPD"]
+    observer = r.multipliers.get("ADRC")
+    z = None if observer is None else np.abs(observer.orbit.multipliers)
+    more = "" if z is None else f"; under ADRC, {len(z)} with the observer's states, {z[0]:.4f}"
+    return {
+        "a": Extremes.of(map(m.largest_multiplier, m.cycles("a", r).values())),
+        "b": Extremes.of(map(m.largest_multiplier, m.cycles("b", r).values())),
+        "largest": float(abs(npd.orbit.multipliers[0])),
+        "delta_squared": npd.delta_squared,
+        "observer": more,
+    }
+
+
+def of_speed(r: Results) -> dict[str, object]:
+    """Theta' of gait (b), and what a stricter limit would have changed."""
+    found = {
+        name.split(", ")[1]: m.phase_rate(x.orbit.x_minus)
+        for name, x in m.npd_cycles(r).items()
+        if not isinstance(x, str)
+    }
+    apart = {p: 100.0 * (rate / m.PRINTED_SPEED - 1.0) for p, rate in found.items()}
+    shown = (f"{rate:.4f} ({apart[p]:+.1f} %) {p}" for p, rate in found.items())
+    far = max(map(abs, apart.values()), default=math.nan)
+    return {"speed": m.PRINTED_SPEED, "rates": ", ".join(shown), "farthest": far}
+
+
+def of_needs(r: Results) -> dict[str, object]:
+    """What gait (b) asks of ground and motors, undisturbed, beside gait (a)."""
+    b, a = (m.undisturbed(gait, r) for gait in "ba")
+    shown = (
+        f"{name.split(', ')[1]}: friction {o.feasibility.mean_friction:.2f} in the mean over 5 ms and "
+        f"{max((c.friction for c in o.certificates), default=math.nan):.2f} at an instant, {o.peak_torque:.0f} N m"
+        for name, o in b.items()
+    )
+    costs = (
+        f"{name.split(', ')[1]} {m.last('cost_of_transport', o):.3f} against "
+        f"{m.last('cost_of_transport', other):.3f}"
+        for (name, o), other in zip(b.items(), a.values(), strict=True)
+    )
+    return {
+        "needs": "; ".join(shown),
+        "costs": "; ".join(costs),
+        "torques": Extremes(o.peak_torque for o in b.values()),
+        "ratios": Extremes(m.last("impulse_ratio", o) for o in (*a.values(), *b.values())),
+    }
+
+
+def of_starts(r: Results) -> dict[str, object]:
+    """Which starts walk on."""
+    every = [s for found in r.starts.values() for s in found]
+    above = [s for s in every if s.factor > 1.0]
+    on = [s for s in above if all(o.walked for o in s.outcomes.values())]
+    return {
+        "failing": Extremes(s.least * s.factor for s in every if s.factor < 1.0),
+        "passing": Extremes(s.least * s.factor for s in on),
+        "least": Extremes(s.least for s in every),
+        "passed": len(on),
+        "above": len(above),
+    }
+
+
+def noise_spectrum() -> Array:
+    """What the regression (26), (27) makes of noise: medians of the sorted |lambda|, (10,), of random numbers.
+
+    The states at impacts are replaced by independent normal numbers, which have no dynamics at all: a spectrum
+    that the regression gives for them says nothing of a walk.
+    """
+    k, n = declared()["noise"], len(X_STAR)
+    random = np.random.default_rng(k["seed"])
+    found = [
+        regress_multipliers(random.normal(size=(k["impacts"], n)), np.zeros(n)).magnitudes
+        for _ in range(k["draws"])
+    ]
+    return np.median(found, axis=0)
+
+
+def of_printed(r: Results) -> dict[str, object]:
+    """The printed multipliers, what a tracking error does, and what noise gives."""
+    least = min(PUBLISHED_MULTIPLIERS)
+    return {
+        "published": ", ".join(f"{v:g}" for v in PUBLISHED_MULTIPLIERS),
+        "decay": math.exp(-0.2 * float(np.max(TABLE_II.K_d))),
+        "least": least,
+        "longest": 1e3 * m.longest_step(least),
+        "period": 1e3 * min(x["period"] for x in r.jumps.values()),
+        "noise": ", ".join(f"{v:.2f}" for v in noise_spectrum()),
+    }
+
+
+def of_held(r: Results) -> dict[str, object]:
+    """The held joint, simulated and by (23)."""
+    simulated, _, corrected, printed = tuple(r.figures.values())[:4]
+    return {"simulated": simulated, "corrected": corrected, "printed": printed, "gains": TABLE_II}
+
+
+def of_poles(r: Results) -> dict[str, object]:
+    """The poles of the observer, and the distance of the undisturbed walks from x*."""
+    farthest = float(np.max([m.distance(o) for o in r.on_gait("a").values()]))
+    return {"slow": -max(TABLE_I), "fast": -min(TABLE_I), "farthest": farthest}

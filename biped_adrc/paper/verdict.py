@@ -1,0 +1,275 @@
+"""One verdict: a statement, the scenarios on which it is tried, a metric, its limit, and the word they give.
+
+    Claim(name, where, statement, scenarios, metric, limit)
+
+`paper.table` has all of them: what the paper claims, and the laws and consistencies that every run is held
+against. A case is one scenario with the value of the metric at the integration step used and at half of it; it
+is marginal where the number is not converged, or the limit is kept at one step and not at the other. Of the
+cases of a claim, h that hold and m marginal ones:
+
+    no case, or all marginal    not testable
+    h = all cases (m = 0)       replicated
+    h = 0                       contradicted
+    otherwise                   depends, on the variant of the scenario, which the share names
+
+Words for a reader are in claims.toml: {limit} and what `Claim.values` gives stand in braces there.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from biped_adrc.checks import Check, at_least, at_most
+from biped_adrc.resources import packaged
+
+if TYPE_CHECKING:
+    from biped_adrc.paper.results import Results
+
+REPLICATED, DEPENDS, CONTRADICTED = "replicated", "depends", "contradicted"
+NOT_TESTABLE = "not testable"
+CLAIM = "claim"
+"""Kind of a statement of the paper, judged over all its cases; of the others (`checks.KINDS`) every case is a
+check.
+"""
+CONVERGED, ROUND_OFF = 0.01, 1e-9
+"""A number moves by less than this share when the step is halved, or by less than this [rad], [s], [1]."""
+SHOWN = 8
+"""Variants on which a claim may depend that are named."""
+Limit = Callable[[str, str, float], Check]
+"""Makes the check of (name, kind, value), such as partial(at_most, limit=0.01)."""
+
+
+class AtTwoSteps(NamedTuple):
+    """A number at the integration step used and at half of it."""
+
+    value: float
+    at_half: float
+
+    @property
+    def change(self) -> float:
+        """|value - at_half| / |at_half|; NaN where one of them is not finite."""
+        if not (math.isfinite(self.value) and math.isfinite(self.at_half)):
+            return math.nan
+        gap = abs(self.value - self.at_half)
+        return gap / abs(self.at_half) if self.at_half else (0.0 if gap == 0.0 else math.inf)
+
+    def converged(self, round_off: float = ROUND_OFF) -> bool:
+        """Whether halving the step moves it by at most the share `CONVERGED`, or at most by `round_off`.
+
+        Infinite at both steps counts as converged; NaN at either, such as of a search that failed, does not.
+        """
+        if self.value == self.at_half:
+            return True
+        return self.change <= CONVERGED or abs(self.value - self.at_half) <= round_off
+
+    def over(self, other: AtTwoSteps) -> AtTwoSteps:
+        """One over the other at either step; infinite over zero."""
+        return AtTwoSteps(*(a / b if b else math.inf for a, b in zip(self, other, strict=True)))
+
+
+class Case(NamedTuple):
+    """One scenario on which a claim was tried."""
+
+    name: str
+    """For a reader."""
+    figure: AtTwoSteps
+    """The metric."""
+    holds: bool
+    """Whether it keeps the limit, at half of the step."""
+    marginal: bool
+    """Whether it is not converged, or keeps the limit at one of the steps alone."""
+    variant: str
+    """What of the scenario the verdict may depend on."""
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A statement, the scenarios on which it is tried, and the limit that its metric has to keep."""
+
+    name: str
+    """Of its texts in claims.toml."""
+    where: str
+    """Place in the paper."""
+    statement: str
+    """What is claimed."""
+    scenarios: Callable[[Results], Mapping[str, Any]]
+    """What was computed of each scenario, by its name for a reader."""
+    metric: Callable[[Any], AtTwoSteps | float]
+    """The number of one of them."""
+    limit: Limit
+    """That the number has to keep."""
+    kind: str = CLAIM
+    """`CLAIM`, or one of `checks.KINDS`."""
+    variant: Callable[[str, Any], str] = lambda name, _: name
+    """What of (name, scenario) the verdict may depend on; a few words for all scenarios together."""
+    values: Callable[[Results], Mapping[str, object]] = lambda _: {}
+    """Numbers for the texts."""
+    round_off: float = ROUND_OFF
+    """Change at half of the step that is none, in the unit of the metric."""
+
+    def cases(self, r: Results) -> tuple[Case, ...]:
+        """All scenarios with the metric and what it comes to."""
+        return tuple(self._case(name, x) for name, x in self.scenarios(r).items())
+
+    def _case(self, name: str, x: Any) -> Case:
+        found = self.metric(x)
+        figure = found if isinstance(found, AtTwoSteps) else AtTwoSteps(float(found), float(found))
+        used, half = (self.limit("", self.kind, value).holds for value in figure)
+        doubtful = used != half or not figure.converged(self.round_off)
+        return Case(name, figure, half, doubtful, self.variant(name, x))
+
+    def checks(self, r: Results) -> list[Check]:
+        """Every scenario as a check of its own."""
+        found = {name: self.metric(x) for name, x in self.scenarios(r).items()}
+        return [
+            self.limit(f"{name}: {self.statement}" if name else self.statement, self.kind, value)
+            for name, value in found.items()
+            if not isinstance(value, AtTwoSteps)
+        ]
+
+
+@dataclass(frozen=True)
+class Row:
+    """A claim of the paper with what became of it, in words."""
+
+    claim: str
+    where: str
+    word: str
+    number: str
+    """The numbers found."""
+    limit: str
+    """What the metric has to keep."""
+    share: str
+    """How many cases hold, in words, by variant where it depends."""
+    convergence: str
+    """How far the numbers change at half of the step."""
+    reason: str
+    """Why the word is what it is."""
+    finding: str = ""
+    """One line for the head of the report and the terminal, of a main finding."""
+    asserted: float | None = None
+    """Share of the cases that hold, of a claim that a check asks to hold in all; else None."""
+    marginal: int = 0
+    """Number of its cases that are not converged."""
+
+
+@cache
+def texts() -> dict[str, Any]:
+    """The tables of claims.toml, each text on one line."""
+    return {name: _joined(x) for name, x in packaged("biped_adrc.paper", "claims.toml").items()}
+
+
+def _joined(value: object) -> object:
+    """The value with the lines of each text joined to one."""
+    if isinstance(value, dict):
+        return {name: _joined(x) for name, x in value.items()}
+    return " ".join(value.split()) if isinstance(value, str) else value
+
+
+def word_of(cases: Sequence[Case]) -> str:
+    """The word for the cases of a claim, as in the head of this module."""
+    if all(case.marginal for case in cases):
+        return NOT_TESTABLE
+    held = sum(case.holds and not case.marginal for case in cases)
+    if held == len(cases):
+        return REPLICATED
+    return DEPENDS if held else CONTRADICTED
+
+
+def row_of(claim: Claim, r: Results) -> Row:
+    """The row of a claim of the paper; of one without scenarios, with the word that claims.toml has for it."""
+    said, cases = texts()[claim.name], claim.cases(r)
+    word = said.get("word") or word_of(cases)
+    limit = claim.limit("", CLAIM, math.nan).limit if "metric" in said else ""
+    values = {"limit": limit, **claim.values(r)}
+    number, reason, finding = (
+        str(said.get(key, "")).format(**values) for key in ("number", "reason", "finding")
+    )
+    held = [case.holds and not case.marginal for case in cases]
+    return Row(
+        claim.statement.format(**values),
+        claim.where,
+        word,
+        number,
+        f"{said['metric']} {limit}" if limit else "",
+        share_text(cases, word == DEPENDS),
+        changes([case.figure for case in cases if not case.marginal]),
+        reason,
+        finding,
+        sum(held) / max(len(held), 1) if said.get("asserted") else None,
+        sum(case.marginal for case in cases),
+    )
+
+
+def share_text(cases: Sequence[Case], apart: bool) -> str:
+    """How many cases hold; apart: by variant too. Marginal ones are named."""
+    if not cases:
+        return ""
+    every = Counter(case.variant for case in cases)
+    held = Counter(case.variant for case in cases if case.holds and not case.marginal)
+    text = f"{held.total()} of {len(cases)}"
+    if apart and len(every) <= SHOWN:
+        text += ": " + "; ".join(f"{name} {held[name]} of {n}" for name, n in every.items())
+    marginal = [case.name for case in cases if case.marginal]
+    return f"{text}; marginal: {', '.join(marginal)}" if marginal else text
+
+
+def changes(figures: Sequence[AtTwoSteps]) -> str:
+    """The largest change of numbers when the step is halved, in words; empty for counts and closed forms.
+
+    Of numbers that change by more than the share `CONVERGED`, though they are taken as converged, the absolute
+    change is said.
+    """
+    known = [f for f in figures if f.value != f.at_half and math.isfinite(f.change)]
+    small = [abs(f.value - f.at_half) for f in known if f.change > CONVERGED]
+    parts = [f.change for f in known if f.change <= CONVERGED]
+    said = [f"at most {100.0 * max(parts):.2g} %"] if parts else []
+    said += [f"round-off, at most {max(small):.1g}, in {len(small)}"] if small else []
+    return f"half the step: {'; '.join(said)}" if said else ""
+
+
+def claim_checks(rows: Sequence[Row]) -> list[Check]:
+    """The checks of the claims, for the exit code of the reproduction.
+
+    Claims that are said to be replicated have to stay so: all of their cases hold. And no case of any claim may
+    change its number or verdict at half of the step.
+    """
+    doubtful = "claims: cases whose number or verdict is another at half the step"
+    shares = (
+        at_least(
+            f"claim, {row.where}: {row.claim}: share of its cases", "reproduced", row.asserted, 1.0
+        )
+        for row in rows
+        if row.asserted is not None
+    )
+    return [at_most(doubtful, "law", sum(row.marginal for row in rows), 0), *shares]
+
+
+def tally(rows: Iterable[Row]) -> str:
+    """How many claims have which word, in the order of the words."""
+    found = Counter(row.word for row in rows)
+    return ", ".join(f"{word} {found[word]}" for word in texts()["words"])
+
+
+class Extremes(tuple[float, ...]):
+    """Numbers of which a text names the smallest and the largest: "{peaks:.2g}" becomes "0.011 to 0.034"."""
+
+    @classmethod
+    def of(cls, figures: Iterable[AtTwoSteps]) -> Extremes:
+        """The numbers at half of the step."""
+        return cls(f.at_half for f in figures)
+
+    def __format__(self, form: str) -> str:
+        """NaN is counted and said."""
+        known = [v for v in self if not math.isnan(v)]
+        if not known:
+            return "none"
+        low, high = (f"{v:{form or '.3g'}}" for v in (min(known), max(known)))
+        text = low if low == high else f"{low} to {high}"
+        unknown = len(self) - len(known)
+        return f"{text} ({unknown} are no numbers)" if unknown else text
