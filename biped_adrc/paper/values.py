@@ -166,9 +166,12 @@ def of_speed(r: Results) -> dict[str, object]:
 def of_needs(r: Results) -> dict[str, object]:
     """What gait (b) asks of ground and motors, undisturbed, beside gait (a)."""
     b, a = (m.undisturbed(gait, r) for gait in "ba")
+    instant = {
+        name: max((c.friction for c in o.certificates), default=math.nan) for name, o in b.items()
+    }
     shown = (
         f"{name.split(', ')[1]}: friction {o.feasibility.mean_friction:.2f} in the mean over 5 ms and "
-        f"{max((c.friction for c in o.certificates), default=math.nan):.2f} at an instant, {o.peak_torque:.0f} N m"
+        f"{instant[name]:.2f} at an instant, {o.peak_torque:.0f} N m"
         for name, o in b.items()
     )
     costs = (
