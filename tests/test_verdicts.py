@@ -12,7 +12,6 @@ from typer.testing import CliRunner
 from biped_adrc.analysis.certificate import Certificate
 from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.analysis.return_map import PeriodicOrbit
-from biped_adrc.campaign.pool import Timed
 from biped_adrc.checks import at_most
 from biped_adrc.cli.app import EXIT_CHECK_FAILED, app
 from biped_adrc.gait.published import X_STAR
@@ -22,6 +21,7 @@ from biped_adrc.paper.claims.tally import AtTwoSteps, ClaimCase, Tally
 from biped_adrc.paper.claims.words import judged
 from biped_adrc.paper.plan import Plan, RecipeResult
 from biped_adrc.paper.results import Results
+from biped_adrc.processes import Timed
 from biped_adrc.robots.limits import KnownLimits
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.scenario import Scenario

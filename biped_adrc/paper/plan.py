@@ -1,7 +1,7 @@
 """The runs of the reproduction: every simulation on which a claim, check, table or figure of it rests.
 
 A `Plan` says what was asked for (preset, pushes, quick or full); `tasks` turns it into independent tasks for
-`campaign.pool`, each of a function here or in a neighbouring module. The first word of a task's name is its
+`processes`, each of a function here or in a neighbouring module. The first word of a task's name is its
 kind, by which `paper.results` sorts what comes back. Integration steps are chosen so that halving them changes
 no figure of merit by more than 1 % (`paper.convergence`); stiffer situations have shorter ones.
 
@@ -25,7 +25,6 @@ from dataclasses import dataclass, replace
 from typing import TypedDict
 
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.campaign.pool import Task
 from biped_adrc.checks import Check
 from biped_adrc.engine.run import COMPILED, PINOCCHIO
 from biped_adrc.errors import BipedError, InputError
@@ -37,6 +36,7 @@ from biped_adrc.paper.claims.tasks import claim_tasks
 from biped_adrc.paper.pair import CONTROLLERS
 from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.paper.push_map import PATTERNS, push_map, pushes
+from biped_adrc.processes import Task
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.push import Push

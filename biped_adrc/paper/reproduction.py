@@ -1,6 +1,6 @@
 """The paper reproduced end to end: run everything, check it, and write what it came to.
 
-    plan -> tasks (campaign.pool) -> Results -> claims, checks, tables, findings -> summary, figures, report
+    plan -> tasks (processes) -> Results -> claims, checks, tables, findings -> summary, figures, report
 
 Written to the output folder: figures (PNG, SVG, JSON), the two headline runs (npz and JSON), walk.html,
 summary.json and report.html. Each file is written whole or not at all, so that an interrupted run leaves
@@ -20,7 +20,6 @@ from pathlib import Path
 from typing import Any
 
 from biped_adrc.analysis.regression import Regression
-from biped_adrc.campaign.pool import TaskProgress, run_tasks
 from biped_adrc.checks import Check
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.files import check_folder, check_place, plain, write_text
@@ -39,6 +38,7 @@ from biped_adrc.paper.plan import Headline, Plan
 from biped_adrc.paper.plan import tasks as planned_tasks
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.tables import findings, notes, tables
+from biped_adrc.processes import TaskProgress, run_tasks
 from biped_adrc.scenario.stored import replay
 from biped_adrc.versions import versions
 from biped_adrc.viz.meshcat.view import Look, animation_html

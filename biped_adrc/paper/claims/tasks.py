@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, fields
 
-from biped_adrc.campaign.pool import Task
 from biped_adrc.paper.claims.admissible import members
 from biped_adrc.paper.claims.evidence import (
     GaitCycle,
@@ -29,6 +28,7 @@ from biped_adrc.paper.claims.walks import (
     MemberOutcome,
     tried,
 )
+from biped_adrc.processes import Task
 
 
 @dataclass(frozen=True)
