@@ -33,7 +33,7 @@ Asked = Sequence[tuple[int, Values, Mapping[str, Any]]]
 
 
 class NoneKeepsLimits(InputError):
-    """No candidate of a study keeps all of its limits."""
+    """No candidate of a case keeps all limits."""
 
 
 def study(
@@ -49,9 +49,9 @@ def study(
 
     study: its TOML file, or the tables of one. workers: processes, one per core if None, or an executor.
     cluster: address of a Dask scheduler in their place. progress: called now and then. function: rows of
-    records, walks if None. Raises InputError, where no candidate keeps all limits too, OutputError,
-    WorkersError. After Ctrl-C or a kill what is finished is kept, and the same call goes on with the same
-    rows.
+    records, walks if None. Raises InputError, also where no candidate of any case keeps all limits,
+    OutputError, WorkersError. After Ctrl-C or a kill what is finished is kept, and the same call goes on with
+    the same rows.
     """
     asked = study if isinstance(study, Study) else read_study(study)
     if asked.search is not None:
@@ -74,12 +74,21 @@ def study(
             runner.run(asked.points())
             return Results(asked, folder)
         walker = _Searched(asked, asked.search, runner)
-        choices = {name: walker.choice(name) for name in asked.cases or ("",)}
+        choices: dict[str, Choice] = {}
+        failures: list[str] = []
+        for name in asked.cases or ("",):
+            try:
+                choices[name] = walker.choice(name)
+            except NoneKeepsLimits as error:
+                failures.append(str(error))
+                runner.tell(failures[-1])
+        if not choices:
+            raise NoneKeepsLimits("\n".join(failures))
         walker.test(choices)
     for name, found in choices.items():
         comment = f"Chosen by the study '{asked.name}', candidate {found.selected[0].number}."
         write_scenario(folder / chosen_file(name), scenario_of(found.values), comment)
-    return Results(asked, folder, choices)
+    return Results(asked, folder, choices, tuple(failures))
 
 
 def chosen_file(name: str) -> str:

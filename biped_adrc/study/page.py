@@ -41,6 +41,7 @@ def write_page(found: Results) -> Path:
         lines=[texts(line) for line in found.table()],
         figures=figures,
         chosen=chosen,
+        failures=found.failures,
     )
     write_text(path, text)
     return path

@@ -86,6 +86,8 @@ class Results(Shown):
     folder: Path
     choices: Mapping[str, Choice] = field(default_factory=dict)
     """What the search found, by name of the case; empty without a search."""
+    failures: tuple[str, ...] = ()
+    """Of the cases of which no candidate keeps all limits, which are not tested."""
 
     def results(self) -> Iterator[Result]:
         """Finished walks in the order of the study."""

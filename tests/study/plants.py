@@ -91,7 +91,7 @@ def _cost(record):
     found = cost(np.array([[k1, k2]]), np.array([[l1], [l2]]))
     if found is None:
         return {"status": "FALLEN", "survived": 0, "feasible": 0, "rms_error": None}
-    told = {"rms_error": found, "peak_error": k1}
+    told = {"rms_error": found, "peak_error": k1 - record.get("own.bonus", 0.0)}
     return {"status": "COMPLETED", "survived": 1, "feasible": 1, **told}
 
 

@@ -1,6 +1,7 @@
 """The search against an optimum that is known exactly, the same whoever walks, on three sets of walks."""
 
 import math
+import re
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -117,8 +118,14 @@ def test_a_limit_without_a_walk_excludes_candidates_before_their_walks(monkeypat
 def test_limits_that_nothing_keeps_are_named_with_the_nearest_candidate(tmp_path, executor):
     limits = [{"column": "peak_error", "most": 0.5, "over": "median"}]
     tables = plants.tables(budget=8, generation=4, limits=limits)
-    with pytest.raises(InputError, match=r"median peak_error at most 0.5: missed by 8.*nearest is"):
-        ba.study(tables, tmp_path, executor, function=plants.costs)
+    message = r"median peak_error at most 0.5: missed by 8.*nearest is"
+    with pytest.raises(InputError, match=message):
+        ba.study(tables, tmp_path / "none", executor, function=plants.costs)
+    tables["cases"] = {"none": {}, "some": {"own.bonus": 100.0}}
+    found = ba.study(tables, tmp_path / "some", executor, function=plants.costs)
+    assert list(found.choices) == ["some"]
+    assert re.search(f"none: none of .*{message}", found.failures[0])
+    assert [line.name for line in found.table()] == ["some", "some, before"]
 
 
 def walks(*numbers, feasible=1, column="rms_error"):
