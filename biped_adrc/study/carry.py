@@ -149,6 +149,8 @@ class _Searched:
             for named in [{CASE: case} if case else {}]
         ]
         self.walk("test", asked)
+        self.runner.total = self.runner.done
+        self.runner.tell()
 
     def walk(self, kind: str, asked: Asked) -> list[Walks]:
         """The walks of each candidate on a set."""
