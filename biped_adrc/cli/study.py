@@ -60,15 +60,15 @@ def study(
 
 def _print(done: Results) -> None:
     """Print the table, what a search chose, and why some walks could not be made."""
-    from biped_adrc.study.page import headings, texts
+    from biped_adrc.study.page import chosen, headings, texts
     from biped_adrc.study.parameters import NO_WALK
 
     shown = Table(*headings(done))
     for line in done.table():
         shown.add_row(*texts(line, short=True))
     console.print(shown)
-    for name, scenario in done.scenarios.items():
-        say(f"{name or 'chosen'}: {scenario.record()}")
+    for name, words in chosen(done).items():
+        say(f"{name}: {words}")
     for status, (count, detail) in done.statuses().items():
         if status in NO_WALK:
             say(f"{count} {status}, such as: {detail}")

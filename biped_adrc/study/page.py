@@ -14,11 +14,11 @@ from matplotlib.figure import Figure
 from biped_adrc.analysis.statistics import Interval
 from biped_adrc.files import write_text
 from biped_adrc.study.measure import OF_ALL, is_counted
-from biped_adrc.study.parameters import field_of, flat
+from biped_adrc.study.parameters import field_of
 from biped_adrc.study.results import Group, Line, Results
 from biped_adrc.study.run import COLUMNS
 from biped_adrc.study.study import measure_of
-from biped_adrc.viz.pages import data_uri, rendered
+from biped_adrc.viz.pages import data_uri, plain, rendered
 from biped_adrc.viz.plots.study import cells_figure, dots_figure, map_figure, path_figure
 from biped_adrc.viz.style import render
 
@@ -32,7 +32,6 @@ def write_page(found: Results) -> Path:
     """Write the page into the folder of the study. Raises OutputError."""
     path = found.folder / PAGE
     figures = [(question, "", _uri(question, figure)) for question, figure in _figures(found)]
-    chosen = {name or "chosen": _record(s.record()) for name, s in found.scenarios.items()}
     text = rendered(
         "study",
         s=found.study,
@@ -40,7 +39,7 @@ def write_page(found: Results) -> Path:
         columns=headings(found),
         lines=[texts(line) for line in found.table()],
         figures=figures,
-        chosen=chosen,
+        chosen=chosen(found),
         failures=found.failures,
     )
     write_text(path, text)
@@ -60,6 +59,16 @@ def headings(found: Results) -> tuple[str, ...]:
         f"ratio to {first or 'first'}",
         "p",
     )
+
+
+def chosen(found: Results) -> dict[str, str]:
+    """The values that a search chose, as text by case, and the candidate's number."""
+    variables = found.study.search.variables if found.study.search else ()
+    return {
+        name or "chosen": f"candidate {x.selected[0].number}, "
+        + ", ".join(f"{k} = {plain(x.values[k])}" for k in variables if k in x.values)
+        for name, x in found.choices.items()
+    }
 
 
 def texts(line: Line, short: bool = False) -> tuple[str, ...]:
@@ -161,8 +170,3 @@ def _unit_of(name: str) -> str:
 
 def _uri(title: str, figure: Figure) -> str:
     return data_uri(title, render(figure, "svg"))
-
-
-def _record(values: dict[str, Any]) -> str:
-    """The values of a scenario on one line."""
-    return ", ".join(f"{name} = {x}" for name, x in flat(values).items())

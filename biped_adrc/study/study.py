@@ -20,6 +20,7 @@ import hashlib
 import itertools
 import json
 import math
+import sys
 import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -228,14 +229,19 @@ class Study(Part):
 
 
 def read_study(given: Path | str | Mapping[str, Any]) -> Study:
-    """The study of a TOML file, or of its tables. Raises InputError with everything that is wrong in it."""
-    where, tables = "the study", given
+    """The study of a TOML file, or of its tables. Raises InputError with everything that is wrong in it.
+
+    What a file names, modules of the user's and a scenario, may stand beside it.
+    """
+    where, tables, here = "the study", given, Path()
     if not isinstance(given, Mapping):
         where = f"study file '{given}'"
         with reading("study file", given, InputError):
             tables = tomllib.loads(Path(given).read_text(encoding="utf-8-sig"))
+        here = Path(given).absolute().parent
+        sys.path += [str(here)] if str(here) not in sys.path else []
     tables = dict(tables)  # type: ignore[arg-type]
-    below = read_scenario(Path(str(tables.pop("scenario")))) if "scenario" in tables else {}
+    below = read_scenario(here / str(tables.pop("scenario"))) if "scenario" in tables else {}
     try:
         study = Study.model_validate(tables)
         over = {*study.axes, *([SEED] if study.seeds or study.search else [])}

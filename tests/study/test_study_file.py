@@ -2,6 +2,7 @@
 
 import csv
 import math
+import sys
 
 import numpy as np
 import plants
@@ -156,6 +157,16 @@ def test_a_study_takes_the_values_of_a_scenario_file(tmp_path):
     tables = {"name": "s", "scenario": str(path), "grid": {"bandwidth": [1.0, 2.0]}}
     base = read_study(tables | {"base": {"impacts": 5}}).base
     assert base == {"controller": "LESO", "robot": "rabbit", "impacts": 5}
+
+
+def test_a_module_beside_the_study_is_found(tmp_path, monkeypatch):
+    monkeypatch.setattr(sys, "path", list(sys.path))
+    (tmp_path / "beside_it.py").write_text(
+        "import biped_adrc as ba\n\nclass Mine(ba.NPDController):\n    pass\n"
+    )
+    study = read_study(written(tmp_path, 'name = "a"\nbase = { controller = "beside_it:Mine" }\n'))
+    study.rehearse()
+    assert "source beside_it:Mine" in study.versions
 
 
 @pytest.mark.parametrize("name", [n for n in FIELDS if n not in parameters.TABLES])
