@@ -13,6 +13,7 @@ from typing import Any, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
+from biped_adrc.study.parameters import unknown
 from biped_adrc.study.run import COLUMNS, WORDS
 from biped_adrc.study.space import Part
 from biped_adrc.study.without_walk import WITHOUT_WALK
@@ -55,8 +56,6 @@ class Measure(Part):
     @model_validator(mode="after")
     def _known(self) -> Measure:
         """Raises ValueError for a column that there is not, or what is no quantile."""
-        from biped_adrc.scenario.values import unknown
-
         if self.column not in MEASURED:
             raise ValueError(f"column '{self.column}': {unknown(self.column, MEASURED)}")
         if isinstance(self.over, float) and not 0.0 < self.over < 1.0:

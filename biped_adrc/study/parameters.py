@@ -22,7 +22,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.files import one_line, reading, toml_key, toml_value, write_text
 from biped_adrc.scenario.registry import portable
 from biped_adrc.scenario.scenario import DEFAULTS, FIELDS, MOST_SEED, OF_PLANT, UNITS, Scenario
-from biped_adrc.scenario.values import unknown
+from biped_adrc.scenario.values import unknown as unknown
 from biped_adrc.study.units import quantity
 
 Values = Mapping[str, Any]

@@ -30,10 +30,9 @@ from pydantic import Field, ValidationError, model_validator
 
 from biped_adrc.errors import BipedError, InputError
 from biped_adrc.files import reading
-from biped_adrc.scenario.values import unknown
 from biped_adrc.study.build import case, versions_of
 from biped_adrc.study.measure import MEASURED, Limit, Measure, Objective
-from biped_adrc.study.parameters import SEED, Record, read_scenario, scenario_of
+from biped_adrc.study.parameters import SEED, Record, read_scenario, scenario_of, unknown
 from biped_adrc.study.search import Search, Variable, WalkSets
 from biped_adrc.study.space import Draw, Grid, Part, Seeds, Sets, Values
 from biped_adrc.versions import numerical_versions, packages
