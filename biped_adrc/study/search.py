@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 from pydantic import Field, model_validator
 
 from biped_adrc.study.measure import Limit, Measure, Objective, Row
-from biped_adrc.study.parameters import SEED, Refused, Values, field_of, read
+from biped_adrc.study.parameters import SEED, Refused, Values, field_of, flat, read
 from biped_adrc.study.space import Part, Range, Seeds, each, read_range
 
 Walks = Sequence[tuple[str, Row]]
@@ -90,7 +90,8 @@ def _variable(name: str, given: Any) -> Variable:
         raise Refused("the sets of walks have the seeds; a search may not choose its luck")
     if not isinstance(given, Mapping):
         raise Refused(f"found {given!r}, expected {{from, to}} or {{choices}}")
-    lists = {n: x if isinstance(x, list) else [x] for n, x in dict(given.get("when", {})).items()}
+    beside = flat(dict(given.get("when", {})))
+    lists = {n: x if isinstance(x, list) else [x] for n, x in beside.items()}
     when = {n: tuple(read(n, x) for x in values) for n, values in lists.items()}
     rest = {key: x for key, x in given.items() if key != "when"}
     if "choices" not in rest:
