@@ -12,7 +12,6 @@ import:
 from __future__ import annotations
 
 import itertools
-import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
@@ -25,7 +24,7 @@ from biped_adrc.study.results import BEFORE, CANDIDATE, CHOSEN, SET, SETTING, Ch
 from biped_adrc.study.runner import Crew, Function, Progress, Runner
 from biped_adrc.study.search import Candidate, Search, Walks, judged, ranked
 from biped_adrc.study.store import opened
-from biped_adrc.study.study import CASE, CONDITION, Point, Study, read_study
+from biped_adrc.study.study import CASE, CONDITION, Point, Study, chosen_file, read_study
 from biped_adrc.study.without_walk import numbers_without_walk
 
 Asked = Sequence[tuple[int, Values, Mapping[str, Any]]]
@@ -89,11 +88,6 @@ def study(
         comment = f"Chosen by the study '{asked.name}', candidate {found.selected[0].number}."
         write_scenario(folder / chosen_file(name), scenario_of(found.values), comment)
     return Results(asked, folder, choices, tuple(failures))
-
-
-def chosen_file(name: str) -> str:
-    """The name of the scenario file of a case, "" for none."""
-    return "-".join(["chosen", *re.findall(r"\w+", name)]) + ".toml"
 
 
 class _Searched:

@@ -20,6 +20,7 @@ import hashlib
 import itertools
 import json
 import math
+import re
 import sys
 import tomllib
 from collections.abc import Iterator, Mapping
@@ -41,6 +42,8 @@ MOST_POINTS = 10_000_000
 """Most walks of a study; more is taken for a mistake in the file."""
 MOST_LEVELS = 200
 """Levels of one axis, samples, and combinations of texts that a rehearsal builds."""
+LONGEST = 100
+"""Letters of the name of a file that a search writes."""
 CASE, CONDITION = "case", "condition"
 """Names under which the case and the condition of a walk stand beside what is varied."""
 
@@ -103,6 +106,9 @@ class Study(Part):
         """What a search does not go with."""
         if self.grid or self.draw or self.seeds:
             yield "a search has variables and sets of walks; leave out grid, draw and seeds"
+        files = [chosen_file(name) for name in self.cases]
+        if len(set(files)) < len(files) or any(len(name) > LONGEST for name in files):
+            yield f"cases: their files would be {files}, expected different, shorter names"
         for kind, walks in search.walks:
             for name in {*walks.conditions} - self.conditions.keys():
                 yield f"search.walks.{kind}: there is no condition '{name}'"
@@ -270,6 +276,11 @@ def _problem(error: Any) -> str:
     if text.startswith("Input should"):
         text = f"found {error['input']!r}, {text.replace('Input should', 'should')}"
     return f"{place}: {text}" if place else text
+
+
+def chosen_file(case: str) -> str:
+    """The name of the scenario file in which a search writes what it chose for a case, "" for none."""
+    return "-".join(["chosen", *re.findall(r"\w+", case)]) + ".toml"
 
 
 def measure_of(study: Study) -> Measure:

@@ -133,6 +133,8 @@ def test_all_mistakes_are_in_one_error():
 def test_mistakes_of_a_search_are_named_by_their_place(change, message):
     with pytest.raises(InputError, match=message):
         read_study(plants.tables(**change))
+    with pytest.raises(InputError, match="cases: their files would be"):
+        read_study(plants.tables() | {"cases": {"m = 1": {}, "m=1": {}}})
 
 
 SCENARIOS = [
