@@ -1,4 +1,4 @@
-"""Studies beside the walks that they make: a sweep, and a search by `tune`.
+"""Studies beside the walks that they make: a sweep over seeds, and a search.
 
 Run: python benchmarks/studies.py [OUT] [--quick]
 
@@ -11,6 +11,7 @@ its bare walks are the rows of the very same settings.
 
 from __future__ import annotations
 
+import json
 import tempfile
 from collections.abc import Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
@@ -21,17 +22,14 @@ from typing import Any
 
 from report import Run, Table, arguments, forked, rounds, spent
 
-from biped_adrc.bench.build import case
-from biped_adrc.bench.parameters import trial
-from biped_adrc.bench.run import run_trials
-from biped_adrc.bench.study import Study
-from biped_adrc.bench.sweep import sweep
-from biped_adrc.campaign.chunk import Record
-from biped_adrc.campaign.execute import LARGEST_CHUNK
-from biped_adrc.campaign.workers import Threads, Workers
+import biped_adrc as ba
 from biped_adrc.engine.batch import Case, simulate_many
-from biped_adrc.tuning.study import TuningStudy
-from biped_adrc.tuning.study_file import read_tuning
+from biped_adrc.study.build import case
+from biped_adrc.study.parameters import Record, scenario_of
+from biped_adrc.study.run import run_trials
+from biped_adrc.study.runner import LARGEST_CHUNK
+from biped_adrc.study.store import opened
+from biped_adrc.study.study import Study, read_study
 
 PUSH: dict[str, Any] = {"push": "pulse", "on": "random joints", "amplitude": 40.0}
 CASES: list[Case] = []
@@ -40,14 +38,20 @@ CASES: list[Case] = []
 
 def study(walks: int) -> Study:
     """Pushes drawn by seed."""
-    fixed = {"controller": "ADRC", "impacts": 25, **PUSH}
-    return Study(name=f"{walks} walks", fixed=fixed, seeds=tuple(range(walks)))
+    base = {"controller": "ADRC", "impacts": 25, **PUSH}
+    return read_study({"name": f"{walks} walks", "base": base, "seeds": walks})
 
 
-def swept(asked: Study, workers: Workers | Executor) -> None:
+def swept(asked: Study, executor: Executor) -> None:
     """Carry a study out in a folder of its own."""
     with tempfile.TemporaryDirectory() as folder:
-        sweep(asked, Path(folder), workers)
+        ba.study(asked, folder, executor)
+
+
+def in_a_thread(run: Any) -> None:
+    """A call with one thread of its own."""
+    with ThreadPoolExecutor(1) as executor:
+        run(executor)
 
 
 def walk(first: int, last: int) -> int:
@@ -71,11 +75,11 @@ def on_two(run: Any) -> None:
 def sweeps(size: int, count: int) -> Table:
     """A sweep in one thread and in two processes."""
     asked = study(size)
-    CASES[:] = [case(trial(point.record)) for point in asked.points()]
+    CASES[:] = [case(scenario_of(point.record)) for point in asked.points()]
     table = Table("Sweep", "walk", f"{size} walks", ("numba",))
     runs: dict[str, Run] = {
         "bare walks, 1 thread": partial(walk, 0, size),
-        "sweep, 1 thread": partial(swept, asked, Threads(1)),
+        "sweep, 1 thread": partial(in_a_thread, partial(swept, asked)),
         "bare walks, 2 processes": partial(on_two, bare),
         "sweep, 2 processes": partial(on_two, partial(swept, asked)),
     }
@@ -84,34 +88,40 @@ def sweeps(size: int, count: int) -> Table:
     return table
 
 
-def search(budget: int, walks: int) -> TuningStudy:
+def search(budget: int, walks: int) -> Study:
     """Gains and bandwidth of m = 1."""
-    about = {"name": "m = 1", "budget": budget, "generation": 20, "finalists": 1, "seed": 1}
     ranges = {"K_p": (1000.0, 9000.0), "K_d": (30.0, 150.0), "bandwidth": (200.0, 900.0)}
-    return read_tuning(
+    return read_study(
         {
-            "study": about,
-            "fixed": {"controller": "LESO", "impacts": 10, "pushed_step": 3, **PUSH},
-            "variables": {
-                name: {"from": low, "to": high, "scale": "log"}
-                for name, (low, high) in ranges.items()
+            "name": "m = 1",
+            "base": {"controller": "LESO", "impacts": 10, "pushed_step": 3, **PUSH},
+            "search": {
+                "budget": budget,
+                "generation": 20,
+                "finalists": 1,
+                "seed": 1,
+                "objective": {"column": "rms_error", "counts": "made"},
+                "variables": {
+                    name: {"from": low, "to": high, "scale": "log"}
+                    for name, (low, high) in ranges.items()
+                },
+                "walks": {
+                    "search": {"seeds": walks},
+                    "choice": {"seeds": [1000]},
+                    "test": {"seeds": [2000]},
+                },
             },
-            "objectives": [{"column": "rms_error", "counts": "made"}],
-            "training": {"seeds": {"from": 0, "count": walks}},
-            "selection": {"seeds": [1000]},
-            "test": {"seeds": [2000]},
         }
     )
 
 
-def searched(asked: TuningStudy, executor: Executor) -> list[Record]:
-    """Search in a folder of its own; the records of all walks of the training set."""
-    from biped_adrc.tuning.tune import tune
-
+def searched(asked: Study, executor: Executor) -> list[Record]:
+    """Search in a folder of its own; the records of all walks of the first set."""
     with tempfile.TemporaryDirectory() as folder:
-        found = tune(asked, Path(folder), executor).candidates
-    values = [asked.values(one.chosen) for one in found]
-    return [point.record for one in values for point in asked.walks("training").points(one, {})]
+        ba.study(asked, folder, executor)
+        with opened(Path(folder), asked) as store:
+            found = store.db.execute("SELECT record FROM walks WHERE at LIKE '%\"search\"%'")
+            return [json.loads(record) for (record,) in found]
 
 
 def rows(records: Sequence[Record], executor: Executor) -> None:
@@ -151,7 +161,7 @@ def searches(budget: int, walks: int) -> Table:
 def main() -> None:
     """Print both tables, and write them when asked."""
     asked = arguments(__doc__).parse_args()
-    swept(study(4), Threads(1))  # whatever is compiled once
+    in_a_thread(partial(swept, study(4)))  # whatever is compiled once
     sweeps(*(40, 1) if asked.quick else (500, 3)).finish(asked.out)
     searches(*(10, 5) if asked.quick else (100, 20)).finish(asked.out)
 

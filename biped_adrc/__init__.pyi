@@ -115,8 +115,8 @@ from biped_adrc.studies.cycle_stability import find_cycle as find_cycle
 from biped_adrc.studies.gait_design import DesignedGait as DesignedGait
 from biped_adrc.studies.gait_design import GaitLibrary as GaitLibrary
 from biped_adrc.studies.gait_design import design_gait as design_gait
+from biped_adrc.study.carry import study as study
 from biped_adrc.timing import ContinuousTime as ContinuousTime
 from biped_adrc.timing import SampledTime as SampledTime
-from biped_adrc.tuning.tune import tune as tune
 
 __version__: str

@@ -84,7 +84,7 @@ def preloaded():
         process.close()
 
 
-WAIT = ("viz", "bench")
+WAIT = ("viz", "study")
 """Folders whose tests wait, for browsers and processes: first, as other work goes on beside the suite then."""
 
 

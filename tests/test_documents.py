@@ -27,9 +27,9 @@ import pytest
 from markdown_it import MarkdownIt
 
 import biped_adrc as ba
-from biped_adrc.bench.study_file import load_study
 from biped_adrc.cli import app, gait_app
 from biped_adrc.cli.robot import robot_app
+from biped_adrc.study.study import read_study
 
 from .preloaded import Preloaded
 
@@ -39,6 +39,7 @@ PAGES = sorted(
 )
 DOCUMENTS = [ROOT / "README.md", *PAGES]
 EXAMPLES = sorted((ROOT / "examples").rglob("*.py"))
+STUDIES = sorted((ROOT / "examples" / "studies").glob("*.toml"))
 
 LARGE = (
     "make reproduce",
@@ -197,13 +198,13 @@ def test_tests_that_a_page_names_exist(page):
             assert function in {n.name for n in tree.body if isinstance(n, ast.FunctionDef)}, name
 
 
-@pytest.mark.parametrize(
-    "name", ["sweep.toml", "robustness.toml", "soft_ground.toml", "soft_ground_held_out.toml"]
-)
-def test_a_study_has_as_many_walks_as_it_says(name):
-    path = ROOT / "examples" / name
-    said = re.search(r"(\d+) walks\.", path.read_text())[1]
-    assert load_study(path).count == int(said)
+@pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.name)
+def test_a_study_is_short_and_has_as_many_walks_as_it_says(path):
+    text = path.read_text()
+    assert len(text.splitlines()) <= 25
+    study = read_study(path)
+    assert study.count == int(re.search(r"(\d+) walks\b", text)[1])
+    study.rehearse()
 
 
 def test_results_are_counts_and_numbers_of_the_stored_rows():

@@ -14,15 +14,16 @@ from biped_adrc.gait.gait import Gait
 
 LONG = "n" * 300
 URDF = Path(__file__).parents[1] / "urdf" / "rabbit" / "floating.urdf"
-STUDY = '[study]\nname = "a"\n[fixed]\ncontroller = "NPD"\nimpacts = 1\n[grid]\nK_p = [5000.0]\n'
+STUDY = 'name = "a"\n[base]\ncontroller = "NPD"\nimpacts = 1\n[grid]\nK_p = [5000.0]\n'
 SEARCH = """
-study = {name = "s", budget = 10, generation = 4, seed = 0}
-fixed = {controller = "LESO"}
+name = "s"
+base = {controller = "LESO"}
+[search]
+budget = 10
+generation = 4
 variables = {bandwidth = {from = 50, to = 500}}
-objectives = [{column = "rms_error"}]
-training = {seeds = [0]}
-selection = {seeds = [10]}
-test = {seeds = [20]}
+objective = {column = "rms_error"}
+walks = {search = {seeds = [0]}, choice = {seeds = [10]}, test = {seeds = [20]}}
 """
 
 MISTAKES = [
@@ -31,13 +32,12 @@ MISTAKES = [
     (f"simulate -o {LONG}", 5, "too long"),
     ("simulate -o 'a\nb.npz'", 3, "control characters"),
     ("simulate -o pipe.npz", 5, "not a regular file"),
-    (f"sweep study.toml -o {LONG}", 5, "too long"),
-    ("sweep study.toml -o afile", 3, "is a file"),
-    ("sweep study.toml -o afile/below", 3, "is a file"),
-    ("sweep /dev/full -o out", 3, "not a regular file"),
-    ("sweep pipe.toml -o out", 3, "not a regular file"),
-    (f"tune search.toml -o {LONG}", 5, "too long"),
-    (f"compare --seeds 2 -o {LONG}", 5, "too long"),
+    (f"study study.toml -o {LONG}", 5, "too long"),
+    ("study study.toml -o afile", 3, "is a file"),
+    ("study study.toml -o afile/below", 3, "is a file"),
+    ("study /dev/full -o out", 3, "not a regular file"),
+    ("study pipe.toml -o out", 3, "not a regular file"),
+    (f"study search.toml -o {LONG}", 5, "too long"),
     ("reproduce --out afile", 3, "is a file"),
     (f"gait library --out {LONG}", 5, "too long"),
     ("gait import zero.json", 3, "no name of a file"),

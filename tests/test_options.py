@@ -193,8 +193,7 @@ OBSERVER = {
     ),
     "out": Row("-o own.png", same("path"), Path("own.png"), "viz.style:write_figure"),
 }  # fmt: skip
-SWEEP_FILE = """
-[study]
+STUDY_FILE = """
 name = "own"
 [grid]
 bandwidth = [100, 200]
@@ -217,28 +216,16 @@ DESIGNED = "studies.gait_design:design_gait"
 ZERO_FIGURE = "viz.plots.zero_dynamics:zero_dynamics_figure"
 
 
-COMPARE = {
-    "controllers": Row("--controllers NPD,PD", same("controllers"), ("NPD", "PD")),
-    "conditions": Row("--conditions nothing", same("conditions"), ("nothing",)),
-    "seeds": Row("--seeds 4", same("seeds"), 4),
-    "plant": Row("--plant mujoco", same("plant"), "mujoco"),
-}
-SWEEP = {
-    "workers": Row("--workers 3", same("workers.number"), 3),
-    "threads": Row("--threads", lambda a: type(a.workers).__name__, "Threads"),
-    "export": Row("--export csv", same("path"), Path("folder/results.csv"), "bench.export:export"),
-    "plot": Row(
-        "--plot bandwidth,period:rms_error",
-        lambda a: (a.maps.x, a.maps.y, a.maps.value),
-        ("bandwidth", "period", "rms_error"),
-        "bench.export:write_map",
-    ),
+STUDY = {
+    "workers": Row("--workers 3", same("workers"), 3),
+    "cluster": Row("--cluster tcp://host:1", same("cluster"), "tcp://host:1"),
+    "table": Row("--table r.csv", same("path"), Path("r.csv"), "study.results:check_table"),
 }
 ZERO_REPORT = "analysis.zero_report:zero_report"
 IMPORTED = "gait.exchange.importing:import_gait"
 REPORT = "observer_design.observer_report:observer_report"
 PRINTED = f"{REPORT} cli.observer:_print_report"
-SWEPT = ("sweep own.toml -o folder", "bench.sweep:sweep")
+STUDIED = ("study own.toml -o folder", "study.carry:study")
 COMMANDS = {
     "simulate": Command("simulate", "cli.walk:_walk", SIMULATE),
     "poincare": Command(
@@ -269,11 +256,7 @@ COMMANDS = {
             ),
         },
     ),
-    "compare": Command("compare", "bench.compare_study:run_comparison", COMPARE),
-    "sweep": Command(
-        SWEPT[0], SWEPT[1], SWEEP,
-        others=dict.fromkeys(("bench.export:export", "bench.export:write_map"), SWEPT),
-    ),
+    "study": Command(*STUDIED, STUDY, others={"study.results:check_table": (STUDIED[0], "")}),
 }  # fmt: skip
 ROWS = [(name, option) for name, command in COMMANDS.items() for option in command.rows]
 
@@ -282,7 +265,7 @@ ROWS = [(name, option) for name, command in COMMANDS.items() for option in comma
 def folder(tmp_path, monkeypatch):
     """A folder with a study and a scenario."""
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "own.toml").write_text(SWEEP_FILE)
+    (tmp_path / "own.toml").write_text(STUDY_FILE)
     (tmp_path / "best.toml").write_text("K_d = 33.0\n")
     return tmp_path
 

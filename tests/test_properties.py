@@ -11,11 +11,10 @@ from hypothesis import strategies as st
 
 import biped_adrc as ba
 from biped_adrc.analysis.feasibility import OUTCOMES
-from biped_adrc.bench.study_file import load_study
+from biped_adrc.study.study import read_study
 
 FIXED = settings(deadline=None, derandomize=True, database=None)
 STUDY = """
-[study]
 name = "walks"
 seeds = 2
 [grid]
@@ -76,7 +75,7 @@ def files(tmp_path_factory, biped, gait):
     read = {
         "run": ba.load_walk,
         "gait": lambda path: ba.load_gait(path, biped),
-        "study": load_study,
+        "study": read_study,
         "log": lambda path: ba.read_log(path, biped),
     }
     return {kind: (path.read_bytes(), path, read[kind]) for kind, path in paths.items()}

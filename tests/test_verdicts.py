@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from biped_adrc.campaign.pool import Timed
 from biped_adrc.cli.app import EXIT_CHECK_FAILED, app
 from biped_adrc.cli.reproduce import lines
 from biped_adrc.gait.published import X_STAR
@@ -18,6 +17,7 @@ from biped_adrc.paper import reproduction
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.table import checks
 from biped_adrc.paper.verdict import AtTwoSteps
+from biped_adrc.processes import Timed
 
 from .made_up_results import CERTIFICATE, cycle, head, outcome, results
 

@@ -1,28 +1,23 @@
-"""Statistics over many walks: shares and medians, each with an interval of 95 %.
+"""Statistics over many walks, by SciPy: shares, medians and paired ratios, each with an interval of 95 %.
 
-Shares have Wilson's interval (J. Am. Stat. Assoc. 22, 1927), medians the percentile bootstrap
-(Efron, 1979) with a fixed seed. The comparison in `bench` and the tuning call this module.
+A share has Wilson's interval (J. Am. Stat. Assoc. 22, 1927); a median that of the order statistics, which is
+exact for any distribution and takes infinite numbers; a paired ratio that of its median, and the sign test.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from scipy import stats
 
-from biped_adrc.types import Array
-
 CONFIDENCE = 0.95
 """Of every interval."""
-RESAMPLES = 2000
-"""Number of bootstrap samples of a median."""
 
 
 class Interval(NamedTuple):
-    """Point estimate with its 95 % confidence interval."""
+    """Point estimate with its 95 % confidence interval; NaN where there are too few walks for one."""
 
     value: float
     low: float
@@ -35,26 +30,30 @@ def share(successes: int, count: int) -> Interval:
     return Interval(successes / count, float(found.low), float(found.high))
 
 
-def median(values: Sequence[float | None]) -> Interval | None:
-    """Median of the values that are finite numbers, with its interval; None if there are none."""
-    x = np.array([v for v in values if v is not None and math.isfinite(v)])
-    if len(x) == 0:
+def median(values: Sequence[float]) -> Interval:
+    """Median of numbers, at least one, which may be infinite, with the interval of its order statistics."""
+    found = stats.quantile_test(values, q=0.0, p=0.5).confidence_interval(CONFIDENCE)
+    return Interval(float(np.median(values)), float(found.low), float(found.high))
+
+
+class Paired(NamedTuple):
+    """How the numbers of two series of walks compare, walk by walk."""
+
+    ratio: Interval
+    """Median of the ratios, with its interval."""
+    p: float
+    """Of the sign test: how likely as many ratios on one side of 1 are, were both sides equally likely."""
+    pairs: int
+    """Pairs of walks with a ratio: those without an infinite number on both sides."""
+
+
+def paired(x: Sequence[float], y: Sequence[float]) -> Paired | None:
+    """The ratios x / y of the same walks, positive numbers or infinity; None where no pair has one."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        r = np.divide(x, y)
+    r = r[~np.isnan(r)]
+    if not r.size:
         return None
-    random = np.random.default_rng(0)
-    draws = np.median(x[random.integers(0, len(x), (RESAMPLES, len(x)))], axis=1)
-    low, high = np.quantile(draws, [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2])
-    return Interval(float(np.median(x)), float(low), float(high))
-
-
-def over_seeds(x: Array, statistic: Callable[[Array], Array]) -> Interval:
-    """A statistic of walks with its bootstrap interval; seeds are drawn, each with all of its conditions.
-
-    x: a number of each walk (conditions, seeds), which may be infinite. statistic: from B sets of walks (B, N)
-    to their B numbers. The draws are the same for the same number of seeds.
-    """
-    seeds = x.shape[1]
-    drawn = np.random.default_rng(0).integers(0, seeds, (RESAMPLES, seeds))
-    sets = np.moveaxis(x[:, drawn], 0, 1).reshape(RESAMPLES, -1)
-    edges = [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2]
-    low, high = np.quantile(statistic(sets), edges, method="inverted_cdf")
-    return Interval(float(statistic(x.reshape(1, -1))[0]), float(low), float(high))
+    apart = r[r != 1.0]
+    p = float(stats.binomtest(int(np.sum(apart < 1.0)), apart.size).pvalue) if apart.size else 1.0
+    return Paired(median(r.tolist()), p, r.size)

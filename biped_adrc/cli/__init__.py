@@ -1,7 +1,7 @@
 """The command `biped-adrc`.
 
 Each module of this folder adds its commands to the one typer app of `cli.app`; a command reads its
-options, checks the names of its outputs, calls one function of `studies`, `scenario`, `bench` or
+options, checks the names of its outputs, calls one function of `studies`, `scenario`, `study` or
 `paper`, and prints or writes what comes back. No number is computed here. `main` is the entry
 point: it turns errors of the package into one line of text and an exit code.
 
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
 __all__ = ["app", "gait_app", "main"]
 
 COMMANDS = (
-    "compare",
     "design",
     "export",
     "gait",
@@ -40,8 +39,7 @@ COMMANDS = (
     "replay",
     "reproduce",
     "robot",
-    "sweep",
-    "tune",
+    "study",
     "walk",
 )
 """Modules, each of which adds its commands to the app, in the order of the help."""

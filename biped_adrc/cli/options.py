@@ -136,8 +136,7 @@ def values_of(
     own parameters. Raises InputError for a text or a file that cannot be read, and for a value that
     is given twice.
     """
-    from biped_adrc.bench.parameters import TABLES, Refused, nested, read
-    from biped_adrc.bench.scenario_file import read_scenario
+    from biped_adrc.study.parameters import TABLES, Refused, nested, read, read_scenario
 
     values = dict(given)
     if push:
@@ -162,7 +161,7 @@ def _plain(name: str, text: str) -> object:
     """The text of --set as a value: a number, truth value or list where it is one, also a list without
     brackets.
 
-    Texts of fields with units stay texts, as `bench.parameters.read` reads those.
+    Texts of fields with units stay texts, as `study.parameters.read` reads those.
     """
     if not name.startswith("own.") and DEFAULTS.get(name) not in (True, False):
         return text

@@ -42,7 +42,7 @@ def check_options(options: dict[str, Any] | None) -> None:
 class WalkEnv(gymnasium.Env[Any, Any]):
     """One walk.
 
-    - scenario: `biped_adrc.Scenario`, or a condition of the bench by name ("nothing" without), on the base of
+    - scenario: `biped_adrc.Scenario`, or a condition by name ("nothing" without), on the base of
       its comparisons. values: fields of the scenario by name, such as plant, gait, push, amplitude.
     - action: "torques", all of the torque, or "added", beside that of the scenario's controller. For each motor
       a share of its limit, `torque` [N m]; the motors give no more than that, whatever is asked.

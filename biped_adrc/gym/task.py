@@ -11,16 +11,24 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from biped_adrc.bench.conditions import BASE, CONDITIONS, conditions_on
 from biped_adrc.errors import InputError
 from biped_adrc.parts import check_part
+from biped_adrc.resources import packaged
 from biped_adrc.robots.limits import KnownLimits
 from biped_adrc.scenario.build import RIGID, RobotAndGait, limits
 from biped_adrc.scenario.controllers import OF_CONTROLLER
-from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.scenario import OF_RIGID, Scenario
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
+_TABLES = packaged("biped_adrc.gym", "conditions.toml")
+BASE: dict[str, object] = _TABLES["base"]
+"""Values that all conditions share."""
+CONDITIONS: dict[str, dict[str, object]] = {
+    name: {k: x for k, x in table.items() if k != "words"}
+    for name, table in _TABLES["conditions"].items()
+}
+"""Values of a scenario by name of the condition, on top of `BASE`."""
 TORQUES, ADDED = "torques", "added"
 """What an action is: all of the torque, or an addition to that of the scenario's controller."""
 ACTIONS = (TORQUES, ADDED)
@@ -75,7 +83,7 @@ class LearnerTask(Shown):
         values: Mapping[str, object],
         *how: object,
     ) -> LearnerTask:
-        """A scenario, or a condition of the bench on its base, with other values by name.
+        """A scenario, or a condition on its base, with other values by name.
 
         how: the fields of a task behind its scenario, in their order.
         Raises InputError for a condition that there is not on this plant, and values that are no scenario.
@@ -85,12 +93,14 @@ class LearnerTask(Shown):
         given = dict(values)
         if scenario is None:
             plant = str(given.get("plant", RIGID))
-            name, there = condition or "nothing", conditions_on(plant)
+            alone = set() if plant == RIGID else set(OF_RIGID)
+            there = [name for name, x in CONDITIONS.items() if not alone & x.keys()]
+            name = condition or "nothing"
             if name not in there:
                 raise InputError(
-                    f"there is no condition {name!r} on plant '{plant}', expected one of {list(there)}"
+                    f"there is no condition {name!r} on plant '{plant}', expected one of {there}"
                 )
-            given = {**BASE, **CONDITIONS[name].values, **given}
+            given = {**BASE, **CONDITIONS[name], **given}
         try:
             s = Scenario(**given) if scenario is None else replace(scenario, **given)  # type: ignore[arg-type]
         except TypeError as error:

@@ -20,7 +20,6 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.bench.parameters import NONE
 from biped_adrc.errors import InputError
 from biped_adrc.files import output_path, write_text
 from biped_adrc.hybrid.status import Status
@@ -29,6 +28,7 @@ from biped_adrc.live.walks import MOST, PageWalk, numbers
 from biped_adrc.parts import check_part
 from biped_adrc.resources import packaged
 from biped_adrc.scenario.scenario import DEFAULTS, Scenario
+from biped_adrc.study.parameters import NONE
 from biped_adrc.viz.meshcat import objects as draw
 from biped_adrc.viz.meshcat.view import Look, captions, scene_settings
 from biped_adrc.viz.pages import with_viewer

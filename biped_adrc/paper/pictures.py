@@ -1,6 +1,6 @@
 """The figures of the reproduction, drawn in several processes and written as PNG and SVG.
 
-Drawing takes longer than some of the runs, so each figure is a task of `campaign.pool`. What is drawn comes
+Drawing takes longer than some of the runs, so each figure is a task of `processes`. What is drawn comes
 from `viz`; this module only chooses the data. Called by `paper.reproduction`.
 """
 
@@ -10,13 +10,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from biped_adrc.campaign.pool import Task, run_tasks
 from biped_adrc.files import write_bytes
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.model.biped import Biped
 from biped_adrc.paper.figures import push_window
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.scenarios import CONTROLLERS
+from biped_adrc.processes import Task, run_tasks
 from biped_adrc.viz.from_the_side.robot_figure import robot_figure
 from biped_adrc.viz.plots import figures
 from biped_adrc.viz.plots.push_map import push_map_figure

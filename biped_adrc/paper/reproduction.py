@@ -1,6 +1,6 @@
 """The paper reproduced end to end: run everything, judge it, and write what it came to.
 
-    Plan -> tasks (campaign.pool) -> Results -> the one table of claims and checks -> summary, figures, report
+    Plan -> tasks (processes) -> Results -> the one table of claims and checks -> summary, figures, report
 
 Written to the output folder: figures (PNG, SVG), the two headline runs (npz and JSON), walk.html, summary.json
 and report.html. Each file is written whole or not at all, so that an interrupted run leaves readable files. The
@@ -18,7 +18,6 @@ import time
 from pathlib import Path
 from typing import Any
 
-from biped_adrc.campaign.pool import TaskProgress, run_tasks
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.files import check_folder, check_place, plain, write_text
 from biped_adrc.observers.gpi import TABLE_I
@@ -31,6 +30,7 @@ from biped_adrc.paper.scenarios import Plan
 from biped_adrc.paper.table import checks, rows
 from biped_adrc.paper.tables import tables
 from biped_adrc.paper.verdict import Row, tally, texts
+from biped_adrc.processes import TaskProgress, run_tasks
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.stored import replay
 from biped_adrc.versions import versions

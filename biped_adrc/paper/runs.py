@@ -15,7 +15,6 @@ import numpy as np
 from scipy.optimize import brentq
 
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.campaign.pool import Task
 from biped_adrc.errors import BipedError
 from biped_adrc.gait.recipe import impact_smoothness
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
@@ -28,6 +27,7 @@ from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.paper.push_map import push_map
 from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Plan, value, with_values
 from biped_adrc.paper.verdict import AtTwoSteps
+from biped_adrc.processes import Task
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.recording import Walk, watched

@@ -3,10 +3,10 @@
     plots/            matplotlib: curves on the user's axes, and whole figures made of them
     from_the_side/    the robot in its sagittal plane: figure 1, strips of stick figures, GIFs
     meshcat/          the robot in the browser: one offline page, or live from this process
-    pages, comparison_text    HTML pages, and the tables of a comparison as text
+    pages             HTML pages
     placement, style, thin, export    what these share
 
 Everything becomes a figure, bytes or a file; no window is opened and pyplot's global state is not
 used. The data are a walk (`Recorded`: walker and trajectory), its `Signals`, or plain summaries.
-Studies, paper and bench import this folder; it knows nothing of them.
+Studies and paper import this folder; it knows nothing of them.
 """

@@ -1,10 +1,9 @@
 """HTML pages from Jinja2 templates: each is one offline file that holds all it needs.
 
-The pages are the report of a reproduction, a comparison of controllers, a tuning study, the player of
-animated walks, and a walk inside a notebook; their templates are in the folder `templates`. Figures go in as
-data URIs, scripts and styles as text, and a content security policy makes the browser refuse every
-load from a network. All values are escaped, unless they are `Markup` made here. The same values
-give the same text, byte for byte.
+The pages are the report of a reproduction, a study, the player of animated walks, and a walk inside a
+notebook; their templates are in the folder `templates`. Figures go in as data URIs, scripts and styles as
+text, and a content security policy makes the browser refuse every load from a network. All values are
+escaped, unless they are `Markup` made here. The same values give the same text, byte for byte.
 """
 
 from __future__ import annotations
@@ -24,8 +23,6 @@ from biped_adrc.errors import InputError
 from biped_adrc.files import write_text
 from biped_adrc.resources import packaged
 from biped_adrc.types import PlainRecord
-from biped_adrc.viz import comparison_text as t
-from biped_adrc.viz import tuning_text
 from biped_adrc.viz.style import render
 
 POLICY = (
@@ -52,7 +49,7 @@ Captions = dict[str, tuple[str, str]]
 
 @cache
 def captions(page: str) -> Captions:
-    """The headings and captions of the figures of a page ("report" or "comparison"), from captions.toml."""
+    """The headings and captions of the figures of a page ("report"), from captions.toml."""
     found = packaged("biped_adrc.viz", "captions.toml")[page].items()
     return {name: (x["title"], " ".join(x["text"].split())) for name, x in found}
 
@@ -162,41 +159,6 @@ def _figure(name: str, source: str | Path) -> tuple[str, str, str]:
     rest = name.removeprefix(key).replace("_", " ").strip() if key else ""
     title = f"{title}, {rest}" if rest else title
     return title, caption, data_uri(title, source)
-
-
-def comparison_html(summary: PlainRecord, figures: Mapping[str, str]) -> str:
-    """The text of the page of a comparison.
-
-    summary: as `bench.compare_study.write` makes it. figures: name -> text of an SVG; those that
-    have a caption are shown, in the order of the captions.
-    """
-    shown, cells = captions("comparison").items(), t.by_condition(summary["cells"])
-    return rendered(
-        "comparison",
-        s=summary,
-        figures=[(*said, data_uri(said[0], figures[n])) for n, said in shown if n in figures],
-        t=t,
-        shares=[t.share_texts(cell) for cell in cells],
-        medians=[t.median_texts(cell) for cell in cells],
-    )
-
-
-def tuning_html(summary: PlainRecord, figures: Mapping[str, str]) -> str:
-    """The text of the page of a tuning study.
-
-    summary: as `tuning.page.summary` makes it. figures: name -> text of an SVG.
-    """
-    shown, goals = captions("tuning").items(), summary["objectives"]
-    return rendered(
-        "tuning",
-        s=summary,
-        figures=[(*said, data_uri(said[0], figures[n])) for n, said in shown if n in figures],
-        questions=[*(f"{of['goal']} {of['words']}" for of in goals), *summary["limits"]],
-        columns=("candidate", "setting", *(of["words"] for of in goals), "limits"),
-        held=[tuning_text.held_out_texts(row) for row in summary["held_out"]],
-        selected=[tuning_text.candidate_texts(c) for c in summary["selected"]],
-        candidates=[tuning_text.candidate_texts(c) for c in summary["candidates"]],
-    )
 
 
 def player(settings: Mapping[str, object], title: str, legend: Sequence[tuple[str, str]]) -> str:

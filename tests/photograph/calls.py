@@ -18,7 +18,6 @@ class Call(NamedTuple):
 
 PUSH = "--push 'q1,q2,q3,q4=30@2:0.1-0.2'"
 FAST = "--engine compiled --impacts 3"
-COMPARE = "compare --controllers NPD,ADRC --conditions 'push on joints,encoders' --seeds 2"
 SCOUT = "--feet left_leg,right_leg --tip 0,0,0.7"
 
 CHAINS: dict[str, tuple[Call, ...]] = {
@@ -84,10 +83,8 @@ CHAINS: dict[str, tuple[Call, ...]] = {
         Call("observer", "observer --bandwidth 500 --order 1 --period 0.0015 -o observer.svg"),
         Call("observer by Table I", "observer --delay 0.0005 --known --period 0.0005"),
         Call("observer confirmed", "observer --bandwidth 300 --order 1 --confirm"),
-        Call("sweep dry", "sweep study.toml -o sweep --dry-run"),
-        Call("sweep", "sweep study.toml -o sweep --workers 1 --export csv --plot start.q5,case"),
-        Call("sweep again", "sweep study.toml -o sweep --no-run --threads"),
-        Call("compare", f"{COMPARE} --workers 1 -o comparison"),
+        Call("study dry", "study study.toml -o study --dry-run"),
+        Call("study", "study study.toml -o study --workers 1 --table study.csv"),
     ),
     "wrong": (
         Call("no command", ""),
@@ -118,9 +115,8 @@ CHAINS: dict[str, tuple[Call, ...]] = {
         Call("wrong state", "gait design --through 1,2,3"),
         Call("convention", "gait export v0.8 --convention mine -o x.json"),
         Call("observer twice", "observer --poles=-100,-200 --bandwidth 300"),
-        Call("no study", "sweep nowhere.toml -o there"),
-        Call("wrong study", "sweep wrong.toml -o there"),
-        Call("condition", "compare --conditions storm -o there"),
+        Call("no study", "study nowhere.toml -o there"),
+        Call("wrong study", "study wrong.toml -o there"),
         Call("no urdf", "robot check nowhere.urdf"),
     ),
     "reproduction": (Call("reproduce", "reproduce --out out"),),
@@ -128,10 +124,9 @@ CHAINS: dict[str, tuple[Call, ...]] = {
 """Chains are run in parallel."""
 
 STUDY = """\
-[study]
 name = "a small study"
 
-[fixed]
+[base]
 impacts = 2
 counts = 8192
 velocity = "differences"
@@ -141,21 +136,14 @@ max_step_time = 0.9
 [grid]
 start.q5 = { from = "-3 deg", to = "3 deg", count = 3 }
 
-[[cases]]
-name = "NPD"
-controller = "NPD"
-
-[[cases]]
-name = "ADRC"
-controller = "ADRC"
-bandwidth = "500 rad/s"
-order = 1
+[cases]
+NPD = { controller = "NPD" }
+ADRC = { controller = "ADRC", bandwidth = "500 rad/s", order = 1 }
 """
 WRONG_STUDY = """\
-[study]
 name = "wrong"
 
-[fixed]
+[base]
 impact = 2
 bandwidth = "500 kg"
 

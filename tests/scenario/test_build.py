@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.bench.run import run_trial
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.scenario.build import RobotAndGait, build, plant_of, start
 from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario, drawn
+from biped_adrc.study.run import run_trial
 
 
 def drawn_start(seed: int, **values: object) -> np.ndarray:

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import json
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
 
 import biped_adrc as ba
-from biped_adrc.bench.study_file import read_study
-from biped_adrc.bench.sweep import sweep
-from biped_adrc.campaign.workers import Processes, Threads
 from biped_adrc.cli import app
 from biped_adrc.errors import InputError
 from biped_adrc.scenario import registry
@@ -64,21 +62,21 @@ def test_an_observer_and_a_push_of_ones_own(own: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("crew", "name"), [(Processes(1), ""), (Threads(1), ""), (Processes(1), "of mine")]
+    ("workers", "name"), [(1, ""), (ThreadPoolExecutor(1), ""), (1, "of mine")]
 )
-def test_a_sweep_over_its_own_gain(own: str, tmp_path, monkeypatch, crew, name: str) -> None:
+def test_a_study_of_its_own_gain(own: str, tmp_path, monkeypatch, workers, name: str) -> None:
     if name:
         monkeypatch.setattr(registry, "REGISTRY", {k: {**v} for k, v in registry.REGISTRY.items()})
         ba.register("controller", name, registry.own("controller", f"{own}:Mine"))
     tables = {
-        "study": {"name": "gains"},
-        "fixed": {"controller": name or f"{own}:Mine", "impacts": 1},
+        "name": "gains",
+        "base": {"controller": name or f"{own}:Mine", "impacts": 1},
         "grid": {"own.gain": [0.5, 1.0]},
     }
-    table = sweep(read_study(tables), tmp_path / "out", crew).table()
-    assert list(table["own.gain"]) == [0.5, 1.0]
-    assert all(table["survived"] == 1)
-    assert table["peak_error"][0] > 1.2 * table["peak_error"][1]
+    low, high = ba.study(tables, tmp_path / "out", workers).rows()
+    assert (low["own.gain"], high["own.gain"]) == (0.5, 1.0)
+    assert low["survived"] == high["survived"] == 1
+    assert low["peak_error"] > 1.2 * high["peak_error"]
 
 
 def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:

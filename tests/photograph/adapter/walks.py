@@ -15,9 +15,6 @@ from unittest.mock import patch
 import numpy as np
 
 import biped_adrc as ba
-from biped_adrc.bench import build
-from biped_adrc.bench.parameters import trial
-from biped_adrc.bench.run import measured, run_trial
 from biped_adrc.engine.batch import run_case
 from biped_adrc.gait.published import passive_cycle
 from biped_adrc.scenario import build as scenario
@@ -25,6 +22,9 @@ from biped_adrc.scenario.push import parse_push
 from biped_adrc.scenario.run import parts_of
 from biped_adrc.scenario.scenario import FREE
 from biped_adrc.scenario.walk import Part, default_parts, walk_in_parts
+from biped_adrc.study import build
+from biped_adrc.study.parameters import scenario_of
+from biped_adrc.study.run import measured, run_trial
 from tests.photograph.adapter import walkers
 
 ENGINES = ("pinocchio", "compiled")
@@ -81,7 +81,7 @@ def _walker(s: Plain) -> Ready:
 
 
 def _trial(s: Plain) -> Ready:
-    t = trial(s["fields"])
+    t = scenario_of(s["fields"])
     case = build.case(t)
     parts = (Part(case.impacts, case.method),)
     g = build.scene_of(t).walked
@@ -240,7 +240,7 @@ def rows(s: Plain) -> Plain:
     numbers = {name: [float(x)] for name, x in row.items() if isinstance(x, int | float)}
     if row["status"] in ("REFUSED", "RAISED"):
         return {"words": words, "numbers": numbers, "deviation": None}
-    t = trial(s["fields"])
+    t = scenario_of(s["fields"])
     case = build.case(t)
     q, v = moved(s, case.q, case.v)
     case = replace(case, q=q, v=v)

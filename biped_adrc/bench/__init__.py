@@ -1,1 +1,0 @@
-"""The disturbance-rejection bench: trials, studies of many of them, and comparisons."""

@@ -1,1 +1,0 @@
-"""Many independent tasks on processes, threads or Dask, stored so that a kill loses nothing; no robots."""

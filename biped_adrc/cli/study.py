@@ -1,0 +1,105 @@
+"""`biped-adrc study`: all walks of a study, on all cores or a cluster; what is finished is never lost."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.table import Table
+
+from biped_adrc.cli.app import EXIT_INTERRUPTED, app, console, say
+from biped_adrc.cli.options import texts
+from biped_adrc.files import output_path
+
+if TYPE_CHECKING:
+    from biped_adrc.study.results import Results
+    from biped_adrc.study.runner import Progress as Done
+
+
+@app.command()
+@texts("study")
+def study(
+    study: Path,
+    out: Path,
+    workers: int | None = None,
+    cluster: str | None = None,
+    table: Path | None = None,
+    dry_run: bool = False,
+) -> None:
+    """Walk a study: cases, conditions, grids, draws, or a search; killed, the same command goes on."""
+    from biped_adrc.study.study import read_study
+
+    found = read_study(study)
+    if table is not None:
+        from biped_adrc.study.results import check_table
+
+        check_table(output_path(table, (".csv", ".parquet")))
+    if dry_run:
+        found.rehearse()
+        most = "at most " if found.search else ""
+        say(f"{found.name}: {most}{found.count} walks, over {', '.join(found.axes) or 'no grid'}")
+        return
+    from biped_adrc.study.carry import study as carry_out
+    from biped_adrc.study.page import write_page
+
+    with _shown(found.name, out) as progress:
+        done = carry_out(found, out, workers, cluster=cluster, progress=progress)
+    _print(done)
+    written = [write_page(done)]
+    if table is not None:
+        done.export(table)
+        written.append(table)
+    say(f"written to {', '.join(map(str, written))}")
+
+
+def _print(done: Results) -> None:
+    """Print the table, what a search chose, and why some walks could not be made."""
+    from biped_adrc.study.page import chosen, headings, texts
+    from biped_adrc.study.parameters import NO_WALK
+
+    shown = Table(*headings(done))
+    for line in done.table():
+        shown.add_row(*texts(line, short=True))
+    console.print(shown)
+    for name, words in chosen(done).items():
+        say(f"{name}: {words}")
+    for status, (count, detail) in done.statuses().items():
+        if status in NO_WALK:
+            say(f"{count} {status}, such as: {detail}")
+
+
+@contextmanager
+def _shown(name: str, out: Path) -> Iterator[Callable[[Done], None]]:
+    """Context with a progress bar; on Ctrl-C it says how to go on, and raises the exit."""
+    text = TextColumn("{task.description:<24.24}", markup=False)
+    told = TextColumn("{task.fields[left]}")
+    columns = (text, BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), told)
+    with Progress(*columns, console=console) as shown:
+        task = shown.add_task(name, total=None, left="")
+
+        def progress(p: Done) -> None:
+            words = "" if p.left is None else clock(p.left)
+            shown.update(task, completed=p.done, total=p.total, left=words)
+            if p.note:
+                shown.console.print(p.note)
+
+        try:
+            yield progress
+        except KeyboardInterrupt:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
+            shown.stop()
+            begun = "what is finished is in" if os.path.exists(out) else "nothing was begun in"
+            say(f"{begun} {out}; the same command goes on from there")
+            raise typer.Exit(EXIT_INTERRUPTED) from None
+
+
+def clock(seconds: float) -> str:
+    """Seconds to go as "h:mm:ss left"."""
+    minutes, rest = divmod(round(seconds), 60)
+    return f"{minutes // 60}:{minutes % 60:02}:{rest:02} left"

@@ -1,0 +1,141 @@
+"""Worker processes of this machine, and a few different tasks carried out by them.
+
+Processes are forked from a server that has imported `preload`, so that they share what it has loaded. They
+ignore Ctrl-C, which reaches every process of a terminal and which the parent answers, and end with it.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import time
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
+from dataclasses import dataclass
+from multiprocessing import forkserver, resource_tracker
+from threading import Thread
+from typing import Generic, NamedTuple, TypeVar
+
+from biped_adrc.errors import InputError
+
+T = TypeVar("T")
+"""What a task returns."""
+T_co = TypeVar("T_co", covariant=True)
+
+TaskProgress = Callable[[int, int, str], None]
+"""Called with tasks done, tasks in all, and the name of the one that has just finished."""
+MOST_WORKERS = 1024
+"""Of one machine; more are a mistake, which would take its memory."""
+SAFE_PATH = "PYTHONSAFEPATH"
+"""Environment variable: the working directory is not put first on the path."""
+PRELOADED = ("biped_adrc.paper.runs", "biped_adrc.paper.pictures", "biped_adrc.engine.batch")
+"""Modules that the processes of `run_tasks` share."""
+
+
+@dataclass(frozen=True)
+class Task(Generic[T_co]):
+    """function(*arguments) under a name; function and arguments are pickled to reach another process."""
+
+    name: str
+    """Shown while it runs."""
+    function: Callable[..., T_co]
+    arguments: tuple[object, ...] = ()
+
+
+class Timed(NamedTuple, Generic[T]):
+    """A result and the wall time it took [s]."""
+
+    value: T
+    seconds: float
+
+
+def cores() -> int:
+    """Cores that this process may use; fewer than the machine has under a batch system."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def processes(count: int | None = None, preload: Sequence[str] = PRELOADED) -> ProcessPoolExecutor:
+    """Start worker processes, one per core if None.
+
+    Raises InputError for less than 1 or more than `MOST_WORKERS`, and in a script without a main guard.
+    """
+    if count is not None and not 1 <= count <= MOST_WORKERS:
+        raise InputError(f"{count} workers were asked for, expected 1 to {MOST_WORKERS}")
+    if getattr(multiprocessing.current_process(), "_inheriting", False):
+        raise InputError(
+            "worker processes import the script that starts them: put what starts them under "
+            "if __name__ == '__main__':"
+        )
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(list(preload))
+    with _safe_path():
+        resource_tracker.ensure_running()
+        forkserver.ensure_running()
+    return ProcessPoolExecutor(count or cores(), context, initializer=_begin)
+
+
+def stop(executor: Executor) -> None:
+    """End an executor at once, its processes also in the middle of their work."""
+    for process in list((getattr(executor, "_processes", None) or {}).values()):
+        process.terminate()
+    executor.shutdown(wait=True, cancel_futures=True)
+
+
+def run_tasks(
+    tasks: Sequence[Task[T]], workers: int | None = None, progress: TaskProgress | None = None
+) -> list[Timed[T]]:
+    """Results in the order of `tasks`, with the wall time of each [s].
+
+    workers: processes (one per core if None); with 1 the tasks run in this process, which helps a debugger. An
+    error in one task, or Ctrl-C, terminates all workers and is raised.
+    """
+    told = progress or (lambda *_: None)
+    if (workers or cores()) == 1:
+        results = []
+        for done, task in enumerate(tasks, 1):
+            results.append(_timed(task))
+            told(done, len(tasks), task.name)
+        return results
+    executor = processes(workers)
+    try:
+        futures = {executor.submit(_timed, task): task.name for task in tasks}
+        for done, future in enumerate(as_completed(futures), 1):
+            future.result()
+            told(done, len(tasks), futures[future])
+        return [future.result() for future in futures]
+    finally:
+        stop(executor)
+
+
+def _timed(task: Task[T]) -> Timed[T]:
+    """Carry a task out in the worker, and measure it there: waiting for a core does not count."""
+    begin = time.perf_counter()
+    value = task.function(*task.arguments)
+    return Timed(value, time.perf_counter() - begin)
+
+
+@contextmanager
+def _safe_path() -> Iterator[None]:
+    """Context in which interpreters are started that import nothing from the working directory."""
+    before = os.environ.get(SAFE_PATH, "")
+    os.environ[SAFE_PATH] = "1"
+    try:
+        yield
+    finally:
+        os.environ[SAFE_PATH] = before
+
+
+def _begin() -> None:
+    """First call in each worker: ignore Ctrl-C, and end with the parent, even where that is killed."""
+
+    def end_with_parent() -> None:
+        if (parent := multiprocessing.parent_process()) is not None:
+            parent.join()
+            os._exit(1)
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    Thread(target=end_with_parent, daemon=True).start()

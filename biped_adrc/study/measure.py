@@ -1,0 +1,152 @@
+"""One number of many walks, from a column of their rows: what a search minimises, limits, and a page shows.
+
+A walk that is not feasible (the impact at most aside), or has no number in the column, ranks worst: it counts
+as plus infinity where less is better and as minus infinity where more is better, and is never left out.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from biped_adrc.study.parameters import unknown
+from biped_adrc.study.run import COLUMNS, WORDS
+from biped_adrc.study.space import Part
+from biped_adrc.study.without_walk import WITHOUT_WALK
+from biped_adrc.types import Array
+
+OF_ALL = ("survived", "feasible", "but_impact", "impacts", "feasible_impacts", "distance")
+"""Columns that every walk has, however it ended."""
+SMALLEST_SCALE = 1e-12
+"""Of a limit: below this a bound counts as 0, and what is beyond it is not divided by it."""
+MOST_EXCESS = 1e6
+"""Of a limit that is missed: more counts as this, so that sums are finite."""
+MEASURED = (*(name for name in COLUMNS if name not in WORDS), *WITHOUT_WALK)
+"""Columns with numbers, of walks and of linear loops."""
+
+Row = Mapping[str, Any]
+"""Results of one walk by column: numbers, texts or None."""
+
+
+def is_made(row: Row) -> bool:
+    """Whether the walk made all steps that were asked for."""
+    return row.get("survived") == 1
+
+
+def is_counted(row: Row) -> bool:
+    """Whether the walk is feasible, the impact at most aside, so that its error enters the statistics."""
+    return is_made(row) and 1 in (row.get("feasible"), row.get("but_impact"))
+
+
+class Measure(Part):
+    """A column, and how many walks become one number of it."""
+
+    column: str
+    over: Literal["median", "mean", "worst"] | float = "median"
+    """What is taken over all walks: a float in (0, 1) is a quantile, of which the next worse walk counts."""
+    condition: str | None = None
+    """The walks under this condition alone; None for all."""
+    counts: Literal["feasible", "made"] = "feasible"
+    """Walks that count with their number; all others rank worst."""
+
+    @model_validator(mode="after")
+    def _known(self) -> Measure:
+        """Raises ValueError for a column that there is not, or what is no quantile."""
+        if self.column not in MEASURED:
+            raise ValueError(f"column '{self.column}': {unknown(self.column, MEASURED)}")
+        if isinstance(self.over, float) and not 0.0 < self.over < 1.0:
+            raise ValueError(f"found over = {self.over}, expected a quantile between 0 and 1")
+        return self
+
+    @property
+    def less_is_better(self) -> bool:
+        """The direction in which walks are ranked."""
+        return True
+
+    @property
+    def words(self) -> str:
+        """Of the measure, for tables and axes: "median rms_error under push"."""
+        over = f"{self.over:g} quantile of" if isinstance(self.over, float) else self.over
+        return f"{over} {self.column}" + (f" under {self.condition}" if self.condition else "")
+
+    @property
+    def worst(self) -> float:
+        """The number of a walk that ranks worst."""
+        return math.inf if self.less_is_better else -math.inf
+
+    def number(self, row: Row) -> float:
+        """The number of a walk, infinite where it ranks worst."""
+        x = row.get(self.column)
+        if self.column in OF_ALL:
+            return float(x or 0.0)
+        fine = is_counted(row) if self.counts == "feasible" else is_made(row)
+        return float(x) if fine and isinstance(x, int | float) else self.worst
+
+    def of(self, walks: Sequence[tuple[str, Row]], known: Mapping[str, float | None]) -> float:
+        """The measure of walks, each under a condition. known: columns that need no walk; None ranks worst."""
+        if self.column in known:
+            x = known[self.column]
+            return self.worst if x is None else x
+        return self.over_all(
+            [self.number(row) for name, row in walks if self.condition in (None, name)]
+        )
+
+    def over_all(self, numbers: Sequence[float]) -> float:
+        """The measure of these numbers of walks."""
+        x: Array = np.asarray(numbers, dtype=float)
+        if self.over == "mean":
+            return float(x.mean())
+        sign = 1.0 if self.less_is_better else -1.0
+        if self.over == "median":
+            return float(np.median(x))
+        p = 1.0 if self.over == "worst" else float(self.over)
+        return sign * float(np.quantile(sign * x, p, method="inverted_cdf"))
+
+
+class Objective(Measure):
+    """A measure that is to be small, or large."""
+
+    goal: Literal["minimise", "maximise"] = "minimise"
+
+    @property
+    def less_is_better(self) -> bool:
+        return self.goal == "minimise"
+
+
+class Limit(Measure):
+    """A measure that has to be at least, or at most, so large."""
+
+    over: Literal["median", "mean", "worst"] | float = "mean"
+    least: float | None = Field(default=None)
+    most: float | None = Field(default=None)
+
+    @model_validator(mode="after")
+    def _one(self) -> Limit:
+        """Raises ValueError for two bounds, or none."""
+        if (self.least is None) == (self.most is None):
+            raise ValueError("expected one of least and most")
+        return self
+
+    @property
+    def less_is_better(self) -> bool:
+        return self.most is not None
+
+    @property
+    def bound(self) -> float:
+        """The one of both that there is."""
+        return float(self.least if self.most is None else self.most)  # type: ignore[arg-type]
+
+    @property
+    def sentence(self) -> str:
+        """ "mean feasible at least 0.9"."""
+        return f"{self.words} at {'most' if self.less_is_better else 'least'} {self.bound:g}"
+
+    def excess(self, x: float) -> float:
+        """By how much x misses the limit, as a share of its bound; 0 where the limit is kept."""
+        beyond = x - self.bound if self.less_is_better else self.bound - x
+        scale = abs(self.bound) if abs(self.bound) > SMALLEST_SCALE else 1.0
+        return min(max(beyond / scale, 0.0), MOST_EXCESS)

@@ -1,0 +1,172 @@
+"""The page of a study: its table, and one picture for each question that its rows answer."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from biped_adrc.analysis.statistics import Interval
+from biped_adrc.files import write_text
+from biped_adrc.study.measure import OF_ALL, is_counted
+from biped_adrc.study.parameters import field_of
+from biped_adrc.study.results import Group, Line, Results
+from biped_adrc.study.run import COLUMNS
+from biped_adrc.study.study import measure_of
+from biped_adrc.viz.pages import data_uri, plain, rendered
+from biped_adrc.viz.plots.study import cells_figure, dots_figure, map_figure, path_figure
+from biped_adrc.viz.style import render
+
+PAGE = "study.html"
+"""Name of the page in the folder of a study."""
+CASES_AS_AXIS = "case"
+"""Name of the axis of a map over one field."""
+
+
+def write_page(found: Results) -> Path:
+    """Write the page into the folder of the study. Raises OutputError."""
+    path = found.folder / PAGE
+    figures = [(question, "", _uri(question, figure)) for question, figure in _figures(found)]
+    text = rendered(
+        "study",
+        s=found.study,
+        statuses={status: n for status, (n, _) in found.statuses().items()},
+        columns=headings(found),
+        lines=[texts(line) for line in found.table()],
+        figures=figures,
+        chosen=chosen(found),
+        failures=found.failures,
+    )
+    write_text(path, text)
+    return path
+
+
+def headings(found: Results) -> tuple[str, ...]:
+    """Of the table of a study."""
+    column = measure_of(found.study).column
+    first = next((line.name for line in found.table()), "")
+    return (
+        "case",
+        "condition",
+        "feasible",
+        "made",
+        f"median {column}",
+        f"ratio to {first or 'first'}",
+        "p",
+    )
+
+
+def chosen(found: Results) -> dict[str, str]:
+    """The values that a search chose, as text by case, and the candidate's number."""
+    variables = found.study.search.variables if found.study.search else ()
+    return {
+        name or "chosen": f"candidate {x.selected[0].number}, "
+        + ", ".join(f"{k} = {plain(x.values[k])}" for k in variables if k in x.values)
+        for name, x in found.choices.items()
+    }
+
+
+def texts(line: Line, short: bool = False) -> tuple[str, ...]:
+    """A line of the table as text: "17 of 20 (0.64 to 0.95)", and a dash for what there is not.
+
+    short: with the interval of the ratio alone.
+    """
+    count = f"{round(line.feasible.value * line.walks)} of {line.walks}"
+    ratio, p = "–", "–"
+    if line.ratio is not None:
+        ratio = interval(line.ratio.ratio)
+        p = "–" if math.isnan(line.ratio.p) else f"{line.ratio.p:.2g}"
+    middle = interval(line.median)
+    if short:
+        middle = middle.partition(" ")[0]
+    else:
+        count = f"{count} {interval(line.feasible).partition(' ')[2]}".strip()
+    return line.name, line.condition, count, str(line.made), middle, ratio, p
+
+
+def interval(x: Interval) -> str:
+    """ "value (low to high)", without the ends where there are none; a dash for a number that is not finite."""
+    if not math.isfinite(x.value):
+        return "–"
+    value, low, high = (f"{y:.3g}" for y in x)
+    return value if math.isnan(x.low) else f"{value} ({low} to {high})"
+
+
+def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
+    """The questions that a study answers, each with its picture."""
+    lines, measure = found.table(), measure_of(found.study)
+    if not lines:
+        return
+    by = {(x.name, x.condition): x for x in lines}
+    ratios = {key: x.ratio.ratio for key, x in by.items() if x.ratio is not None}
+    shares = {key: (round(x.feasible.value * x.walks), x.walks) for key, x in by.items()}
+    yield "Whose walks are feasible?", cells_figure(shares)
+    column = _named(measure.column)
+    counts = measure.column in OF_ALL
+    for question, title, numbers, at in (
+        ("How large is the error?", f"median {column}", {k: x.median for k, x in by.items()}, None),
+        ("Who is better on the same walk?", f"ratio to {lines[0].name} in {column}", ratios, 1.0),
+    ):
+        if not counts and any(0.0 < x.value < math.inf for x in numbers.values()):
+            yield question, dots_figure(numbers, title, at)
+    if found.study.axes:
+        shown = [[float(is_counted(x.row)) for x in g.rows] for g in found.groups]
+        yield "Where are walks feasible?", _map(found, shown, "share of feasible walks", False)
+        mean, means = f"mean {column}", [list(g.numbers) for g in found.groups]
+        if any(0.0 < x < math.inf for one in means for x in one):
+            yield (
+                f"How large is {measure.column}, and where?",
+                _map(found, means, mean, not counts),
+            )
+    if found.choices:
+        paths = {
+            name: [(c.number, c.objective, c.feasible) for c in x.candidates if c.walked]
+            for name, x in found.choices.items()
+        }
+        title = f"{measure.words}, first set of walks"
+        yield "Where did the search lead?", path_figure(paths, title, measure.less_is_better)
+
+
+def _map(found: Results, numbers: Sequence[Sequence[float]], title: str, log: bool) -> Figure:
+    """A map over the two fields with the most levels; a third one, or case and condition, make the panels."""
+    study, groups = found.study, found.groups
+    levels = {name: len({repr(x.at[name]) for g in groups for x in g.rows}) for name in study.axes}
+    axes = sorted(levels, key=lambda name: -levels[name])
+    panels: dict[str, tuple[list[Any], list[Any], list[float]]] = {}
+    for g, told in zip(groups, numbers, strict=True):
+        for x, number in zip(g.rows, told, strict=True):
+            where = _panel(g, x.at, axes)
+            xs, ys, values = panels.setdefault(where, ([], [], []))
+            xs.append(x.at[axes[0]])
+            ys.append(x.at[axes[1]] if len(axes) > 1 else g.name)
+            values.append(number)
+    shown = {name: (x, y, np.array(v)) for name, (x, y, v) in panels.items()}
+    names = [_unit_of(name) for name in axes[:2]]
+    return map_figure(shown, (names[0], names[1] if len(axes) > 1 else CASES_AS_AXIS), title, log)
+
+
+def _panel(g: Group, at: dict[str, Any], axes: Sequence[str]) -> str:
+    """The panel in which a walk is drawn."""
+    words = [g.condition, *([g.name] if len(axes) > 1 else [])]
+    words += [f"{name} = {at[name]}" for name in axes[2:3]]
+    return ", ".join(filter(None, words))
+
+
+def _named(column: str) -> str:
+    """A column with its unit in brackets, for a label."""
+    return " ".join([column, *re.findall(r"\[[^]]+\]", COLUMNS.get(column, ""))])
+
+
+def _unit_of(name: str) -> str:
+    """A field with its unit in brackets, for a label."""
+    unit = field_of(name).unit
+    return name if unit == "1" else f"{name} [{unit}]"
+
+
+def _uri(title: str, figure: Figure) -> str:
+    return data_uri(title, render(figure, "svg"))

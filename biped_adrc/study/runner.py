@@ -1,0 +1,279 @@
+"""Walks carried out: handed out in chunks to an executor, and every finished chunk stored at once.
+
+A kill at any moment loses the chunks on their way and nothing else; the same command walks them again. A worker
+that dies takes its chunk with it, and a pool all chunks on their way: their walks are then made one by one, and
+one that kills its worker again has a row with the status CRASHED. Rows depend on their records alone, not on
+workers, their number, or the size of chunks.
+"""
+
+from __future__ import annotations
+
+import itertools
+import json
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+from biped_adrc.errors import InputError, SimulationError
+from biped_adrc.processes import cores, processes, stop
+from biped_adrc.study.parameters import CRASHED, RAISED, Record
+from biped_adrc.study.store import Store
+from biped_adrc.study.study import Point
+from biped_adrc.types import DaskClient
+from biped_adrc.versions import differences, numerical_versions
+
+PRELOADED = ("biped_adrc.study.run",)
+"""Modules that worker processes share."""
+LOOK_UP = 256
+"""Points that are made and looked up in the store at once."""
+LARGEST_CHUNK = 16
+"""Most walks handed to a worker at once: what a kill may lose, and what progress is counted in."""
+AHEAD = 3
+"""Chunks on their way for each worker, so that none waits for this process."""
+MOST_CRASHED = 20
+"""Walks that kill their workers one after the other, and so end the study."""
+TIMEOUT = 10.0
+"""For a Dask scheduler to answer, and for its first worker to appear [s]."""
+
+Function = Callable[[Sequence[Record]], Sequence[Any]]
+"""What workers run: a row of plain values for each record, in their order."""
+
+
+class WorkersError(SimulationError):
+    """Workers, or the connection to them, are gone; no walk is to blame (exit code 3)."""
+
+    exit_code = 3
+
+
+class Progress(NamedTuple):
+    """How far a study is: walks done and in all, the time left [s], None while unknown, and what is new."""
+
+    done: int
+    total: int
+    left: float | None
+    note: str = ""
+
+
+def rows_of(function: Function, records: Sequence[Record]) -> list[tuple[str, str | None]]:
+    """For each record its row as JSON, and the row's status. Called in a worker.
+
+    Where the function raises on a chunk it is called again with one record at a time; a record on which it
+    raises has a row with the status RAISED, so that one bad record spoils no other.
+    """
+    try:
+        rows = function(records)
+        if len(rows) != len(records):
+            raise ValueError(f"the function gave {len(rows)} rows for {len(records)} records")
+        return [(json.dumps(dict(row), allow_nan=False), row.get("status")) for row in rows]
+    except (Exception, SystemExit) as error:
+        if len(records) > 1:
+            return [one for record in records for one in rows_of(function, [record])]
+        detail = f"{type(error).__name__}: {error}"
+        return [(json.dumps({"status": RAISED, "detail": detail}), RAISED)]
+
+
+@dataclass
+class Crew:
+    """Who walks: processes of this machine, the workers of a Dask scheduler, or an executor of the user's.
+
+    workers: a number of processes, one per core if None, or an executor, which is used as it is and not ended.
+    cluster: address of the scheduler, such as tcp://host:8786. A context manager.
+    """
+
+    workers: Executor | int | None = None
+    cluster: str | None = None
+
+    def __enter__(self) -> Crew:
+        if self.cluster is not None and self.workers is not None:
+            raise InputError("a cluster brings its own workers; leave out their number")
+        self.executor = self._start()
+        return self
+
+    def __exit__(self, kind: object, *_: object) -> None:
+        if self.cluster is not None:
+            _client_of(self.executor).close(timeout=2)
+        elif self.executor is not self.workers:
+            stop(self.executor)
+
+    def _start(self) -> Executor:
+        if isinstance(self.workers, Executor):
+            return self.workers
+        return processes(self.workers, PRELOADED) if self.cluster is None else dask(self.cluster)
+
+    @property
+    def count(self) -> int:
+        """How many chunks are walked at the same time."""
+        if self.cluster is not None:
+            return max(1, sum(_client_of(self.executor).nthreads().values()))
+        return int(getattr(self.executor, "_max_workers", None) or cores())
+
+    def renew(self) -> None:
+        """Start another pool in place of one of which a process died. Raises WorkersError for a user's."""
+        if self.cluster is not None:
+            return  # which starts workers itself
+        if self.executor is self.workers:
+            raise WorkersError("a worker of the executor died, which the study cannot start anew")
+        stop(self.executor)
+        self.executor = self._start()
+
+
+def dask(address: str) -> Executor:
+    """The workers of a Dask scheduler as an executor.
+
+    Raises InputError where none answers, it has no workers, or they have other versions than this machine.
+    """
+    try:
+        from distributed import Client
+    except ImportError:
+        raise InputError(
+            "a study on a cluster needs Dask, which is not installed; pip install 'biped-adrc[cluster]'"
+        ) from None
+    try:
+        connect: Callable[..., DaskClient] = Client
+        client = connect(address, timeout=TIMEOUT, set_as_default=False)
+    except (OSError, ValueError, TypeError) as error:
+        raise InputError(
+            f"no Dask scheduler answers at '{address}' within {TIMEOUT:g} s ({type(error).__name__}: {error}); "
+            "expected an address such as tcp://host:8786, which 'dask scheduler' prints when it starts"
+        ) from error
+    try:
+        client.wait_for_workers(1, timeout=TIMEOUT)
+        there = client.run(numerical_versions)
+        for worker, found in there.items():
+            if text := differences(found, numerical_versions()):
+                raise InputError(
+                    f"worker {worker} of the scheduler at {address} would give other numbers: {text}"
+                )
+    except (TimeoutError, ImportError) as error:
+        client.close(timeout=1)
+        raise InputError(
+            f"the scheduler at {address} has no workers with biped-adrc after {TIMEOUT:g} s; start some with "
+            f"'dask worker {address}' where it is installed"
+        ) from error
+    except BaseException:
+        client.close(timeout=1)
+        raise
+    executor: Executor = client.get_executor(pure=False)
+    return executor
+
+
+def _client_of(executor: Executor) -> DaskClient:
+    """The client behind Dask's executor."""
+    return vars(executor)["_client"]
+
+
+@dataclass
+class Runner:
+    """Walks points and stores their rows; counts over all of its calls.
+
+    total: walks of the study. progress: called with how far it is.
+    """
+
+    function: Function
+    store: Store
+    crew: Crew
+    total: int
+    progress: Callable[[Progress], None] | None = None
+    done: int = 0
+    fresh: int = 0
+    crashed: int = 0
+    begin: float = field(default_factory=time.monotonic)
+    pending: dict[Future[Any], Sequence[Point]] = field(default_factory=dict)
+    lost: list[Point] = field(default_factory=list)
+
+    def run(self, points: Iterable[Point], count: int | None = None) -> None:
+        """Walk those of the points that have no row yet; they may come from a generator.
+
+        count: how many they are. Raises OutputError, and WorkersError where one worker dies after the other.
+        """
+        workers = self.crew.count
+        size = max(1, min(LARGEST_CHUNK, (self.total if count is None else count) // (4 * workers)))
+        missing = self._missing(iter(points))
+        while part := tuple(itertools.islice(missing, size)):
+            self._send(part)
+            while len(self.pending) >= AHEAD * workers or self.lost:
+                self._collect()
+        while self.pending or self.lost:
+            self._collect()
+
+    def tell(self, note: str = "") -> None:
+        """Report progress; the time left is estimated from the walks of this call."""
+        if self.progress is None:
+            return
+        seconds = time.monotonic() - self.begin
+        left = seconds / self.fresh * max(self.total - self.done, 0) if self.fresh else None
+        self.progress(Progress(self.done, max(self.total, self.done), left, note))
+
+    def _missing(self, points: Iterator[Point]) -> Iterator[Point]:
+        """The points without a row."""
+        while batch := list(itertools.islice(points, LOOK_UP)):
+            there = self.store.there(batch[0].place, batch[-1].place)
+            self.done += sum(p.place in there for p in batch)
+            self.tell()
+            yield from (p for p in batch if p.place not in there)
+
+    def _send(self, chunk: Sequence[Point]) -> None:
+        """Hand a chunk to the executor; one of which a process has died takes none."""
+        try:
+            future = self.crew.executor.submit(rows_of, self.function, [p.record for p in chunk])
+        except BrokenExecutor:
+            self.lost += chunk
+        else:
+            self.pending[future] = chunk
+
+    def _collect(self) -> None:
+        """Wait for a chunk; store what is finished, and walk again, one by one, what was lost."""
+        self._finished()
+        if self.lost:
+            while self.pending:  # nothing may be beside them
+                self._finished()
+            again, self.lost = self.lost, []
+            self.tell("a worker died; what it was walking is walked again, one by one")
+            self.crew.renew()
+            for point in again:
+                self._alone(point)
+
+    def _finished(self) -> None:
+        """Store finished chunks, waiting for one; those whose worker died are lost."""
+        for future in wait(self.pending, return_when=FIRST_COMPLETED).done:
+            chunk, error = self.pending.pop(future), future.exception()
+            if error is None:
+                self._keep(chunk, future.result())
+            elif isinstance(error, BrokenExecutor) or type(error).__name__ == "KilledWorker":
+                self.lost += chunk
+            else:
+                raise WorkersError(
+                    f"walks could not be handed to a worker or back: {error!r}; what was finished is kept"
+                ) from error
+
+    def _alone(self, point: Point) -> None:
+        """Walk one point with nothing beside it; its row says CRASHED where its worker dies again."""
+        self._send([point])
+        if self.pending:
+            self._finished()
+        if not self.lost:
+            self.crashed = 0
+            return
+        self.lost = []
+        self.crashed += 1
+        self.crew.renew()
+        row = {
+            "status": CRASHED,
+            "detail": "the worker that walked it died, each time it was tried",
+        }
+        self._keep([point], [(json.dumps(row), CRASHED)])
+        self.tell(f"left out, since it kills its worker: {dict(point.at)}")
+        if self.crashed >= MOST_CRASHED:
+            raise WorkersError(
+                f"{self.crashed} walks one after the other killed their workers; which is in the results. Look "
+                "for lack of memory; the same command goes on with the others"
+            )
+
+    def _keep(self, chunk: Sequence[Point], rows: Sequence[tuple[str, str | None]]) -> None:
+        """Store a chunk and count it."""
+        self.store.add((p, *said) for p, said in zip(chunk, rows, strict=True))
+        self.done += len(chunk)
+        self.fresh += len(chunk)
+        self.tell()

@@ -1,0 +1,288 @@
+"""A study: a base scenario, named cases, conditions, a grid or draws, seeds, and perhaps a search.
+
+    name, description, seeds           the head
+    scenario = "best.toml"             values that all others override
+    column = "rms_error"               whose median the table and the page show
+    [base]                             values of all walks
+    [cases]       NAME = {..}          sets of values, the first one is what the others are compared with
+    [conditions]  NAME = {..}          sets of other values, each crossed with each case
+    [grid]        p = [..] or {from, to, count, scale}
+    [draw]        kind, count, seed, p = {from, to, scale}
+    [search]                           `study.search`
+
+The points are the Cartesian product of cases, conditions, levels, samples and seeds, the seeds varying fastest.
+Whatever is wrong in a file is reported in one error. Values are numbers in the SI unit or texts with a unit.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import itertools
+import json
+import math
+import re
+import sys
+import tomllib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from pydantic import Field, ValidationError, model_validator
+
+from biped_adrc.errors import BipedError, InputError
+from biped_adrc.files import reading
+from biped_adrc.study.build import case, versions_of
+from biped_adrc.study.measure import MEASURED, Limit, Measure, Objective
+from biped_adrc.study.parameters import SEED, Record, read_scenario, scenario_of, unknown
+from biped_adrc.study.search import Search, Variable, WalkSets
+from biped_adrc.study.space import Draw, Grid, Part, Seeds, Sets, Values
+from biped_adrc.versions import numerical_versions, packages
+
+MOST_POINTS = 10_000_000
+"""Most walks of a study; more is taken for a mistake in the file."""
+MOST_LEVELS = 200
+"""Levels of one axis, samples, and combinations of texts that a rehearsal builds."""
+LONGEST = 100
+"""Letters of the name of a file that a search writes."""
+CASE, CONDITION = "case", "condition"
+"""Names under which the case and the condition of a walk stand beside what is varied."""
+
+
+class Point(NamedTuple):
+    """A walk of a study: its place, the values that locate it, and those of its scenario."""
+
+    place: int
+    at: Record
+    record: Record
+
+
+class Study(Part):
+    """What is varied and what is not, in SI units, checked; `read_study` makes it of a file or of tables."""
+
+    name: str = Field(min_length=1)
+    description: str = ""
+    """A text for the reader; it takes no part in the hash."""
+    column: str = "rms_error"
+    """Of the results: whose median the table and the page show."""
+    base: Values = Field(default_factory=dict)
+    cases: Sets = Field(default_factory=dict)
+    conditions: Sets = Field(default_factory=dict)
+    grid: Grid = Field(default_factory=dict)
+    draw: Draw | None = None
+    seeds: Seeds = ()
+    search: Search | None = None
+
+    @model_validator(mode="after")
+    def _together(self) -> Study:
+        """Raises ValueError with what no single entry shows."""
+        wrong = [*self._twice(), *(() if self.search is None else self._searched(self.search))]
+        if self.column not in MEASURED:
+            wrong.append(f"column '{self.column}': {unknown(self.column, MEASURED)}")
+        if self.count > MOST_POINTS:
+            wrong.append(f"has {self.count:.3g} walks, expected at most {MOST_POINTS:.0e}")
+        if wrong:
+            raise ValueError("; ".join(wrong))
+        return self
+
+    def _twice(self) -> Iterator[str]:
+        """Fields that two places set; the base may be overridden by cases, conditions and variables."""
+        drawn = {} if self.draw is None else self.draw.ranges
+        places: dict[str, Mapping[str, object]] = {
+            "base": self.base,
+            "cases": dict.fromkeys(n for x in self.cases.values() for n in x),
+            "conditions": dict.fromkeys(n for x in self.conditions.values() for n in x),
+            "grid": self.grid,
+            "draw": drawn,
+            "seeds": dict.fromkeys([SEED] if self.seeds or self.search else []),
+            "search.variables": {} if self.search is None else self.search.variables,
+        }
+        over = {("base", "cases"), ("base", "conditions"), ("base", "search.variables")}
+        over |= {("cases", "search.variables")}
+        for (a, x), (b, y) in itertools.combinations(places.items(), 2):
+            for name in x.keys() & y.keys() if (a, b) not in over else ():
+                yield f"{name} is in '{a}' and in '{b}', expected one place"
+
+    def _searched(self, search: Search) -> Iterator[str]:
+        """What a search does not go with."""
+        if self.grid or self.draw or self.seeds:
+            yield "a search has variables and sets of walks; leave out grid, draw and seeds"
+        files = [chosen_file(name) for name in self.cases]
+        if len(set(files)) < len(files) or any(len(name) > LONGEST for name in files):
+            yield f"cases: their files would be {files}, expected different, shorter names"
+        for kind, walks in search.walks:
+            for name in {*walks.conditions} - self.conditions.keys():
+                yield f"search.walks.{kind}: there is no condition '{name}'"
+        for m in search.measures:
+            for kind, walks in search.walks:
+                if m.condition is not None and m.condition not in self.conditions_of(walks):
+                    yield f"'{m.words}': the walks of {kind} have no condition '{m.condition}'"
+
+    def conditions_of(self, walks: Any) -> tuple[str, ...]:
+        """The conditions of a set of walks; one without a name where the study has none."""
+        return tuple(walks.conditions or self.conditions or ("",))
+
+    @property
+    def count(self) -> int:
+        """The number of its walks; of a search what it walks at most, but for candidates that no walk needs."""
+        if self.search is not None:
+            sets = {
+                kind: len(x.seeds) * len(self.conditions_of(x)) for kind, x in self.search.walks
+            }
+            return max(len(self.cases), 1) * self.search.count(sets)
+        sizes = [
+            len(self.cases),
+            len(self.conditions),
+            len(self.seeds),
+            *map(len, self.grid.values()),
+        ]
+        samples = 1 if self.draw is None else self.draw.count
+        return samples * math.prod(max(size, 1) for size in sizes)
+
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """The fields that the grid and the samples vary."""
+        return (*self.grid, *(() if self.draw is None else self.draw.ranges))
+
+    @property
+    def drawn(self) -> bool:
+        """Whether its walks are a sample, so that intervals mean something; not those of a declared grid."""
+        return bool(self.search or self.draw or len(self.seeds) > 1) and not self.grid
+
+    @property
+    def hash(self) -> str:
+        """A hash of everything but the description: results of another hash are never mixed with these."""
+        text = json.dumps(self.model_dump(mode="json", exclude={"description"}), sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+    @property
+    def versions(self) -> dict[str, str]:
+        """Versions of all that decides the numbers: packages, files and classes that it names.
+
+        Raises InputError for a class that cannot be imported.
+        """
+        found = dict(numerical_versions()) | versions_of(self._values())
+        return {**found, **(packages(["optuna", "cmaes"]) if self.search else {})}
+
+    def _values(self) -> Iterator[tuple[str, object]]:
+        """Names and values that any walk uses, apart from numbers of ranges."""
+        for values in (self.base, *self.cases.values(), *self.conditions.values()):
+            yield from values.items()
+        yield from ((name, x) for name, levels in self.grid.items() for x in levels)
+        if self.search is not None:
+            for name, variable in self.search.variables.items():
+                yield from ((name, x) for x in variable.choices)
+
+    def sets(self) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
+        """For each case under each condition: the values that its walks share, and its names."""
+        for case_, condition in itertools.product(self.cases or ("",), self.conditions or ("",)):
+            names = {CASE: case_} if case_ else {}
+            names |= {CONDITION: condition} if condition else {}
+            yield self.values_of(case_) | self.conditions.get(condition, {}), names
+
+    def values_of(self, name: str) -> dict[str, Any]:
+        """The values of a case, "" for none."""
+        return {**self.base, **self.cases.get(name, {})}
+
+    def points(self) -> Iterator[Point]:
+        """All walks of a study without a search; values that do not fit together make a row that says so."""
+        places = itertools.count()
+        samples = [{}] if self.draw is None else self.draw.samples()
+        seeds = [{SEED: seed} for seed in self.seeds] or [{}]
+        for values, named in self.sets():
+            for levels in itertools.product(*self.grid.values()):
+                level = dict(zip(self.grid, levels, strict=True))
+                for sample, seed in itertools.product(samples, seeds):
+                    at = level | sample | seed
+                    yield Point(next(places), named | at, values | at)
+
+    def rehearse(self) -> None:
+        """Build the walkers of points that stand for all, without walking them.
+
+        Case by case under each condition: each level of each axis, and combinations of texts; of a search the
+        values of the case, the middle of all variables, and each choice. Raises InputError, with the point.
+        """
+        for values, names in self.sets():
+            for at in self._some(values):
+                try:
+                    case(scenario_of(values | at))
+                except BipedError as error:
+                    where = ", ".join(f"{k} = {x}" for k, x in (names | at).items())
+                    raise InputError(
+                        f"study '{self.name}', at {where or 'base'}: {error}"
+                    ) from error
+
+    def _some(self, values: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+        """Points of one case and condition, as values by axis."""
+        if self.search is not None:
+            seed = {SEED: self.search.walks.search.seeds[0]}
+            yield seed
+            yield from (seed | at for at in self.search.some(values))
+            return
+        axes = self.grid | ({SEED: self.seeds[:1]} if self.seeds else {})
+        first = {name: levels[0] for name, levels in axes.items()}
+        samples = [{}] if self.draw is None else self.draw.samples()[:MOST_LEVELS]
+        yield from (first | sample for sample in samples)
+        for name, levels in axes.items():
+            step = math.ceil(len(levels) / MOST_LEVELS)
+            yield from (first | samples[0] | {name: x} for x in levels[1::step])
+        worded = [
+            levels if any(isinstance(x, str) for x in levels) else levels[:1]
+            for levels in axes.values()
+        ]
+        for combined in itertools.islice(itertools.product(*worded), 1, MOST_LEVELS):
+            yield dict(zip(axes, combined, strict=True)) | samples[0]
+
+
+def read_study(given: Path | str | Mapping[str, Any]) -> Study:
+    """The study of a TOML file, or of its tables. Raises InputError with everything that is wrong in it.
+
+    What a file names, modules of the user's and a scenario, may stand beside it.
+    """
+    where, tables, here = "the study", given, Path()
+    if not isinstance(given, Mapping):
+        where = f"study file '{given}'"
+        with reading("study file", given, InputError):
+            tables = tomllib.loads(Path(given).read_text(encoding="utf-8-sig"))
+        here = Path(given).absolute().parent
+        sys.path += [str(here)] if str(here) not in sys.path else []
+    tables = dict(tables)  # type: ignore[arg-type]
+    below = read_scenario(here / str(tables.pop("scenario"))) if "scenario" in tables else {}
+    try:
+        study = Study.model_validate(tables)
+        over = {*study.axes, *([SEED] if study.seeds or study.search else [])}
+        kept = {name: x for name, x in below.items() if name not in over}
+        return study.model_copy(update={"base": kept | study.base})
+    except ValidationError as error:
+        lines = [_problem(one) for one in error.errors()]
+        many = [f"{where} has {len(lines)} problems:", *lines]
+        raise InputError(
+            f"{where}, {lines[0]}" if len(lines) == 1 else "\n  ".join(many)
+        ) from error
+
+
+def _problem(error: Any) -> str:
+    """One thing that is wrong in a file: its place, what was found and what was expected."""
+    place = ".".join(map(str, error["loc"]))
+    if error["type"] == "extra_forbidden":
+        known = {
+            n
+            for of in (Study, Search, WalkSets, Variable, Objective, Limit)
+            for n in of.model_fields
+        }
+        return (
+            f"{place}: {unknown(str(error['loc'][-1]), sorted(known)).replace('parameter', 'key')}"
+        )
+    text = error["msg"].removeprefix("Value error, ")
+    if text.startswith("Input should"):
+        text = f"found {error['input']!r}, {text.replace('Input should', 'should')}"
+    return f"{place}: {text}" if place else text
+
+
+def chosen_file(case: str) -> str:
+    """The name of the scenario file in which a search writes what it chose for a case, "" for none."""
+    return "-".join(["chosen", *re.findall(r"\w+", case)]) + ".toml"
+
+
+def measure_of(study: Study) -> Measure:
+    """What the table and the page show: the objective of a search, or the median of the study's column."""
+    return Measure(column=study.column) if study.search is None else study.search.objective

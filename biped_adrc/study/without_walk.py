@@ -1,0 +1,42 @@
+"""Columns of a candidate that need no walk: numbers of its linear loop, in some 40 ms.
+
+A candidate that misses a limit on such a column is not walked. The numbers are those of the candidate's
+scenario without seed and condition, and on soft ground those of the rigid plant, which is linearised.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable
+from functools import lru_cache
+
+from biped_adrc.errors import BipedError
+from biped_adrc.observer_design.specification import Specification
+from biped_adrc.scenario.specified import specification_of
+from biped_adrc.study.build import scene_of
+from biped_adrc.study.parameters import Values, on_rigid_ground, scenario_of
+
+WITHOUT_WALK = ("stable", "delay_margin", "disk_margin", "ripple")
+"""Such columns: numbers of a `Specification`."""
+
+
+@lru_cache(maxsize=1)
+def _specification(text: str) -> Specification:
+    """Of the values of a scenario as JSON, kept for its other columns. Raises InputError."""
+    s = on_rigid_ground(scenario_of(json.loads(text)))
+    return specification_of(s, scene_of(s))
+
+
+def numbers_without_walk(columns: Iterable[str], values: Values) -> dict[str, float | None]:
+    """Those of the columns that need no walk, for a candidate with these values of a scenario.
+
+    None where there is no finite number, or where the values do not fit together.
+    """
+    asked = [name for name in columns if name in WITHOUT_WALK]
+    text = json.dumps(values, sort_keys=True)
+    try:
+        found = {name: float(getattr(_specification(text), name)) for name in asked}
+    except BipedError:
+        return dict.fromkeys(asked)
+    return {name: x if math.isfinite(x) else None for name, x in found.items()}

@@ -1,0 +1,255 @@
+"""The same rows whoever makes them and whenever they are killed; what cannot run is refused before."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import plants
+import pytest
+from typer.testing import CliRunner
+
+import biped_adrc as ba
+from biped_adrc.cli import app
+from biped_adrc.errors import InputError, SimulationError
+from biped_adrc.resources import data_folder
+from biped_adrc.study import runner
+from biped_adrc.study.store import RESULTS
+
+FOLDER = Path(plants.__file__).parent
+
+
+def made(folder, workers, base=(), **more):
+    study = {**plants.ROWS, "base": {**plants.ROWS["base"], **dict(base)}}
+    return list(ba.study(study, folder, workers, function=plants.rows, **more).rows())
+
+
+@pytest.fixture(scope="module")
+def expected(tmp_path_factory):
+    with ThreadPoolExecutor(1) as pool:
+        found = made(tmp_path_factory.mktemp("one"), pool)
+    assert [row["impacts"] for row in found] == [*range(1, 31), *range(101, 131)]
+    return found
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_rows_do_not_depend_on_the_number_of_workers(tmp_path, expected, workers):
+    assert made(tmp_path, workers) == expected
+
+
+SCHEDULER = """
+import sys
+sys.path.insert(0, sys.argv[1])
+from distributed import LocalCluster
+if __name__ == "__main__":
+    with LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None,
+                      silence_logs=50) as cluster:
+        # a nanny gives up a worker that is killed while it starts: others are started, as on real clusters
+        cluster.adapt(minimum=2, maximum=2, interval="500ms")
+        print(cluster.scheduler_address, flush=True)
+        sys.stdin.read()
+"""
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_dask_cluster_makes_the_same_rows_and_names_what_kills_its_workers(tmp_path, expected):
+    pytest.importorskip("distributed")
+    process = subprocess.Popen(
+        [sys.executable, "-c", SCHEDULER, str(FOLDER)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        env={**os.environ, "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "0"},
+    )
+    try:
+        address = process.stdout.readline().strip()
+        assert made(tmp_path / "whole", None, cluster=address) == expected
+        found = made(tmp_path / "killed", None, {"own.kill": 105}, cluster=address)
+        check_killed(found, expected)
+        with pytest.raises(InputError, match="brings its own workers"):
+            made(tmp_path / "both", 2, cluster=address)
+    finally:
+        process.communicate("")
+
+
+def test_a_scheduler_that_does_not_answer(tmp_path, monkeypatch):
+    monkeypatch.setattr(runner, "TIMEOUT", 1.0)
+    with pytest.raises(InputError, match=r"no Dask scheduler answers at 'tcp://127\.0\.0\.1:9'"):
+        made(tmp_path, None, cluster="tcp://127.0.0.1:9")
+
+
+def check_killed(found, expected):
+    """All rows but that of 105 are there."""
+    (crashed,) = [i for i, row in enumerate(found) if row["status"] == "CRASHED"]
+    assert expected[crashed]["impacts"] == 105
+    assert "died" in found[crashed]["detail"]
+    pairs = zip(found, expected, strict=True)
+    assert all(a == b for i, (a, b) in enumerate(pairs) if i != crashed)
+
+
+def test_a_row_that_kills_its_worker_is_named_and_left_out(tmp_path, expected):
+    notes = []
+    found = made(tmp_path, 2, {"own.kill": 105}, progress=lambda p: notes.append(p.note))
+    check_killed(found, expected)
+    assert any("left out, since it kills its worker" in x and "'impacts': 5" in x for x in notes)
+    again = []
+    assert made(tmp_path, 1, {"own.kill": 105}, progress=again.append) == found
+    assert {p.done for p in again} == {60}
+
+
+def test_a_worker_that_dies_once_changes_nothing(tmp_path, expected):
+    marked = tmp_path / "died"
+    assert made(tmp_path / "out", 2, {"own.once": str(marked)}) == expected
+    assert marked.exists()
+
+
+def test_workers_that_all_die_end_the_study(tmp_path, monkeypatch):
+    monkeypatch.setattr(runner, "MOST_CRASHED", 2)
+    study = {"name": "bad", "base": {"own.pause": 0.0, "own.of": 0}, "grid": {"impacts": [5]}}
+    study["cases"] = {f"{k}": {"own.kill": 5, "own.k": k} for k in range(4)}
+    with pytest.raises(SimulationError, match="2 walks one after the other killed"):
+        ba.study(study, tmp_path, 1, function=plants.rows)
+
+
+def test_a_row_that_raises_spoils_no_other(tmp_path, expected):
+    with ThreadPoolExecutor(2) as pool:
+        found = made(tmp_path, pool, {"own.raise": 105})
+        assert pool.submit(int, "3").result() == 3
+    (raised,) = [i for i, row in enumerate(found) if row["status"] == "RAISED"]
+    assert found[raised]["detail"] == "ValueError: no row for 105"
+    pairs = zip(found, expected, strict=True)
+    assert all(a == b for i, (a, b) in enumerate(pairs) if i != raised)
+
+
+@pytest.mark.parametrize(
+    ("function", "message"),
+    [
+        (lambda records: plants.rows(records)[1:], "0 rows for 1 records"),
+        (lambda records: [{"y": object()} for _ in records], "not JSON serializable"),
+        (lambda records: [{"y": float("nan")} for _ in records], "Out of range float"),
+        (lambda records: sys.exit(3), "SystemExit: 3"),
+    ],
+)
+def test_rows_that_are_none_have_the_reason(tmp_path, function, message):
+    with ThreadPoolExecutor(1) as pool:
+        found = ba.study(plants.ROWS, tmp_path, pool, function=function)
+    ((status, (count, detail)),) = found.statuses().items()
+    assert (status, count) == ("RAISED", 60)
+    assert message in detail
+
+
+@pytest.mark.parametrize("kind", ["rows", "costs"])
+def test_a_study_that_is_killed_goes_on_to_the_same_rows(tmp_path, started, kind):
+    """Three kills at random moments, one by Ctrl-C, of a study and of a search."""
+    script, random = FOLDER / "plants.py", np.random.default_rng(38)
+    out = tmp_path / "killed"
+    for by in (signal.SIGKILL, signal.SIGINT, signal.SIGKILL):
+        process = started(sys.executable, str(script), kind, str(out), "0.05")
+        process.stdout.readline()  # it has begun
+        time.sleep(random.uniform(0.1, 0.4))
+        process.send_signal(by)
+        assert process.wait() == -by
+    for folder in (out, tmp_path / "whole"):
+        ended = started(sys.executable, str(script), kind, str(folder), "0.05")
+        assert ended.communicate()[0].split()[-1] == "end"
+    study = {**plants.ROWS, "base": {"own.pause": 0.05}}
+    if kind == "costs":
+        study = plants.tables(base={"own.pause": 0.05}, budget=40, generation=8)
+    function = {"rows": plants.rows, "costs": plants.costs}[kind]
+    with ThreadPoolExecutor(1) as pool:
+        found, whole = (
+            list(ba.study(study, folder, pool, function=function).results())
+            for folder in (out, tmp_path / "whole")
+        )
+    assert found == whole
+    assert len(found) >= 47
+
+
+STUDY = {
+    "name": "walks",
+    "seeds": 2,
+    "base": {"impacts": 2, "start_rate_spread": 0.05},
+    "cases": {"ADRC": {"controller": "ADRC"}, "NPD": {"controller": "NPD"}},
+    "grid": {"period": ["1 ms", "2 ms"]},
+}
+
+
+def test_walks_are_the_same_in_processes_and_threads(tmp_path):
+    apart = ba.study(STUDY, tmp_path / "apart", 2)
+    with ThreadPoolExecutor(2) as pool:
+        beside = ba.study(STUDY, tmp_path / "beside", pool)
+    assert list(apart.rows()) == list(beside.rows())
+    assert apart.statuses() == {"COMPLETED": (8, "")}
+
+
+@pytest.mark.parametrize(
+    ("tables", "message"),
+    [
+        ({"base": {"robot": "rabit"}}, "study 'typo', at base: .*rabit"),
+        ({"grid": {"controller": ["ADRC", "ADCR"]}}, "at controller = ADCR: .*ADCR"),
+        ({"base": {"start.q9": 0.1}}, "q9"),
+        ({"cases": {"a": {}, "b": {"friction_error": 0.1}}}, "at case = b: .*without friction"),
+    ],
+)
+def test_a_study_that_cannot_run_is_refused_before_the_first_walk(tmp_path, tables, message):
+    with pytest.raises(InputError, match=message):
+        ba.study({"name": "typo", **tables}, tmp_path / "out", 1)
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_file_of_another_study_is_never_gone_on_over(tmp_path, expected):
+    made(tmp_path, 1)
+    before = (tmp_path / RESULTS).read_bytes()
+    with pytest.raises(InputError, match="holds the rows of the study 'stand-in'"):
+        made(tmp_path, 1, {"own.more": 1})
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / RESULTS).write_text("a text that is long enough to be no database" * 9)
+    with pytest.raises(InputError, match="no results file"):
+        made(tmp_path / "other", 1)
+    (tmp_path / "cut").mkdir()
+    (tmp_path / "cut" / RESULTS).write_bytes(before[: len(before) // 2])
+    with pytest.raises(InputError, match="damaged"):
+        made(tmp_path / "cut", 1)
+    assert (tmp_path / RESULTS).read_bytes() == before
+
+
+def test_a_file_that_a_study_names_belongs_to_its_numbers(tmp_path):
+    gait, out = tmp_path / "mine.json", tmp_path / "out"
+    gait.write_text((data_folder("gaits") / "rabbit" / "published-identified.json").read_text())
+    study = {"name": "a", "base": {"gait": str(gait), "impacts": 1}}
+    with ThreadPoolExecutor(1) as pool:
+        ba.study(study, out, pool)
+        gait.write_text(json.dumps(json.loads(gait.read_text()), indent=3))
+        with pytest.raises(InputError, match=r"other versions.*file .*mine.json"):
+            ba.study(study, out, pool)
+    with pytest.raises(InputError, match="workers elsewhere"):
+        ba.study(study, tmp_path / "there", cluster="tcp://127.0.0.1:9")
+
+
+def test_the_command_walks_writes_and_goes_on(tmp_path):
+    path, out, table = tmp_path / "walks.toml", tmp_path / "out", tmp_path / "rows.csv"
+    path.write_text(
+        'name = "a <b> $x$"\nseeds = 2\nbase = { impacts = 1, start_rate_spread = 0.05 }\n'
+        'grid = { period = ["1 ms", "2 ms"] }\n'
+        '[cases]\nADRC = { controller = "ADRC" }\nNPD = { controller = "NPD" }\n'
+    )
+    line = ["study", str(path), "-o", str(out), "--workers", "1"]
+    dry = CliRunner().invoke(app, [*line, "--dry-run"])
+    assert dry.output.strip() == "a <b> $x$: 8 walks, over period"
+    assert not out.exists()
+    done = CliRunner().invoke(app, [*line, "--table", str(table)])
+    assert done.exit_code == 0, done.output
+    assert {p.name for p in out.iterdir()} == {"results.sqlite", "study.html"}
+    assert len(table.read_text().splitlines()) == 9
+    page = (out / "study.html").read_text()
+    assert "a &lt;b&gt; $x$" in page
+    assert page.count("<figure>") == 5
+    again = CliRunner().invoke(app, line)
+    assert again.exit_code == 0, again.output
+    assert (out / "study.html").read_text() == page
