@@ -79,7 +79,7 @@ def multiplier_rows(preset: str, gait: str) -> tuple[Row, ...]:
 
     Twice: by the variational equation along the walk, and by two walks whose starts differ by 2 % of the speed.
     """
-    cycle = gait_cycle(Scenario("NPD", preset=preset, gait=gait))
+    cycle = gait_cycle(Scenario("NPD", robot={"preset": preset}, gait=gait))
     biped = cycle.P.walker.plant
     delta2 = ZeroDynamics.of(biped, load_gait(gait, biped).constraint).delta ** 2
     _, step = periodic_orbit(cycle.P, cycle.guess, 1e-7)

@@ -26,14 +26,15 @@ from biped_adrc.errors import InputError
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, soft_loop, start
 from biped_adrc.scenario.registry import find, is_own, source_hash
 from biped_adrc.scenario.run import method_of
-from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario
 
-SUFFIXES = {"robot": ".toml", "gait": ".json"}
+SUFFIXES = {"robot.name": ".toml", "gait.name": ".json"}
 """By parameter the suffix by which a path is told from a registered name."""
 
-OWN = {name: name for name in ("controller", "observer", "robot", "gait")}
+OWN = {f"{name}.name": name for name in ("controller", "robot", "gait")}
 """Parameters that may name a class of the user as module:Class, and the registry's kind of it."""
-OWN |= {"own.inner": "controller", "push": "disturbance", "plant": "plant"}
+OWN |= {"controller.observer.name": "observer", "controller.inner.name": "controller"}
+OWN |= {"pushes.0.shape": "disturbance", "ground.plant": "plant"}
 """Parameters that may name a class of the user's own, and its kind."""
 
 
@@ -50,7 +51,7 @@ def own_of_study(study: Study) -> dict[str, str]:
 
 def plants_of_study(study: Study) -> dict[str, str]:
     """Versions of the engines of the plants that any point names, by "engine of PLANT". Raises InputError."""
-    return engines_of({str(x) for name, x in study.given() if name == "plant"})
+    return engines_of({str(x) for name, x in study.given() if name == "ground.plant"})
 
 
 def engines_of(plants: Iterable[str]) -> dict[str, str]:
@@ -67,7 +68,7 @@ def files_of(name: str, value: object) -> tuple[Path, ...]:
     if not isinstance(value, str) or Path(value).suffix != SUFFIXES.get(name):
         return ()
     path = Path(value)
-    if name != "robot" or not os.path.isfile(path):
+    if name != "robot.name" or not os.path.isfile(path):
         return (path,)
     try:
         return path, path.parent / tomllib.loads(path.read_text(encoding="utf-8"))["urdf"]
@@ -93,19 +94,16 @@ def scene_of(s: Scenario) -> RobotAndGait:
 
     Raises InputError where there is none.
     """
-    paths = (*files_of("robot", s.robot), *files_of("gait", s.gait))
+    paths = (*files_of("robot.name", s.robot.name), *files_of("gait.name", s.gait.name))
     there = [(str(path), path.stat()) for path in paths if os.path.isfile(path)]
     stamp = tuple((path, found.st_mtime_ns, found.st_size) for path, found in there)
-    return _scene(s.robot, s.preset, s.gait, s.friction, s.continued, stamp)
+    return _scene(s.robot, s.gait, s.hardware.friction, stamp)
 
 
 @lru_cache(maxsize=16)
-def _scene(
-    robot: str, preset: str | None, gait: str, friction: bool, continued: bool, stamp: Stamp
-) -> RobotAndGait:
-    """The cached part of `scene_of`: the fields that robot and gait depend on, and the stamp of their files."""
-    alone = Scenario(robot=robot, preset=preset, gait=gait, friction=friction, continued=continued)
-    return RobotAndGait.of(alone)
+def _scene(robot: RobotRecord, gait: GaitRecord, friction: bool, stamp: Stamp) -> RobotAndGait:
+    """The cached part of `scene_of`: the values that robot and gait depend on, and the stamp of their files."""
+    return RobotAndGait.of(Scenario(robot=robot, gait=gait, hardware={"friction": friction}))
 
 
 def case(s: Scenario) -> Case:
@@ -114,20 +112,20 @@ def case(s: Scenario) -> Case:
     Raises InputError for values that do not fit together, or that a study cannot use: continuous time, fine
     steps besides, another engine.
     """
-    if s.period is None or s.fine is not None:
-        what = "has no period" if s.period is None else f"has fine = {s.fine:g} s"
+    if s.hardware.period is None or s.run.fine is not None:
+        what = "has no period" if s.run.fine is None else f"has run.fine = {s.run.fine:g} s"
         raise InputError(
             f"the scenario {what}; a study walks in sampled time, with one step: expected a period [s], "
             "such as 1 ms, and no fine step"
         )
-    if s.engine != COMPILED:
+    if s.run.engine != COMPILED:
         raise InputError(
-            f"a study walks on the engine '{COMPILED}'; leave out engine = '{s.engine}'"
+            f"a study walks on the engine '{COMPILED}'; leave out run.engine = '{s.run.engine}'"
         )
     scene = scene_of(s)
     q, v = start(s, scene)
     walker = build(s, scene)
-    if s.plant != RIGID:
+    if s.ground.plant != RIGID:
         soft_loop(s, walker)
-    mode = Mode(s.first_step)
-    return Case(walker, q, v, method_of(s, walker), s.impacts, mode, s.plant == RIGID)
+    mode = Mode(s.run.first_step)
+    return Case(walker, q, v, method_of(s, walker), s.run.impacts, mode, s.ground.plant == RIGID)

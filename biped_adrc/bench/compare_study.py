@@ -115,7 +115,7 @@ def run_comparison(
     every = conditions_on(plant, settings.alike)
     conditions = list(every if conditions is None else conditions)
     check(controllers, conditions, seeds, settings)
-    shared = {} if plant == RIGID else {"plant": plant}
+    shared = {} if plant == RIGID else {"ground.plant": plant}
     asked = {
         "settings": settings.name,
         "controllers": controllers,

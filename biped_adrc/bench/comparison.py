@@ -29,7 +29,7 @@ Carry = Callable[[Sequence[Record]], Sequence[Row]]
 def nominal_trial(settings: Settings) -> Record:
     """The trial that nothing disturbs, started on the gait: what the gait itself needs of ground and motors."""
     on_the_gait = {k: v for k, v in BASE.items() if k != "start_speed_spread"}
-    return {**on_the_gait, **settings.values, "controller": "NPD"}
+    return {**on_the_gait, **settings.values, "controller.name": "NPD"}
 
 
 class Comparison(NamedTuple):

@@ -14,7 +14,7 @@ from typing import NamedTuple
 from biped_adrc.campaign.chunk import Record
 from biped_adrc.resources import packaged
 from biped_adrc.scenario.build import RIGID
-from biped_adrc.scenario.scenario import OF_RIGID
+from biped_adrc.scenario.records import flat
 from biped_adrc.types import PlainRecord
 
 
@@ -31,12 +31,12 @@ class ComparisonCondition(NamedTuple):
 
 SAID: PlainRecord = packaged("biped_adrc.bench", "comparison.toml")
 """The tables of comparison.toml: base, conditions and texts of the page."""
-BASE: Record = SAID["base"]
+BASE: Record = flat(SAID["base"])
 """Values that all trials of a comparison share."""
 CONDITIONS = {
     name: ComparisonCondition(
         said["words"],
-        {k: x for k, x in said.items() if k not in ("words", "place")},
+        flat({k: x for k, x in said.items() if k not in ("words", "place")}),
         said.get("place"),
     )
     for name, said in SAID["conditions"].items()
@@ -46,7 +46,7 @@ CONDITIONS = {
 
 def conditions_on(plant: str, alike: bool = False) -> tuple[str, ...]:
     """Those of the conditions that walks on a plant can have; alike: for which settings were tuned, too."""
-    alone = set() if plant == RIGID else set(OF_RIGID)
+    alone = set() if plant == RIGID else {"errors.impact_width"}
     return tuple(
         name
         for name, known in CONDITIONS.items()

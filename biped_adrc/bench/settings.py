@@ -53,13 +53,13 @@ class Settings(NamedTuple):
 
     def of(self, contestant: str, place: str | None) -> Record:
         """All values of a contestant at a place. A name that the set has not is that of a controller."""
-        known = self.contestants.get(contestant, {"controller": contestant})
+        known = self.contestants.get(contestant, {"controller.name": contestant})
         chosen = {} if place is None else self.places.get(place, {}).get(contestant, {})
         return {**self.values, **known, **chosen}
 
     def controller(self, contestant: str) -> str:
         """The name in the registry, or module:Class, of a contestant's controller."""
-        return str(self.of(contestant, None)["controller"])
+        return str(self.of(contestant, None)["controller.name"])
 
     def as_published(self, contestant: str, place: str | None) -> bool:
         """Whether a contestant of a tuned set is not tuned there; a class of one's own is never told so."""
@@ -69,13 +69,13 @@ class Settings(NamedTuple):
     def record(self, condition: str, contestant: str, seed: int) -> dict[str, object]:
         """The values of one trial of the table."""
         given = CONDITIONS[condition]
-        return {**BASE, **given.values, **self.of(contestant, given.place), "seed": seed}
+        return {**BASE, **given.values, **self.of(contestant, given.place), "run.seed": seed}
 
     def described(self, contestant: str) -> str:
         """A contestant in words: those of its controller, or its controller with the values that it has."""
         if contestant not in self.contestants or contestant in names("controller"):
             return words("controller", self.controller(contestant))
-        fixed = (f"{k} = {x}" for k, x in self.contestants[contestant].items() if k != "controller")
+        fixed = (f"{k} = {x}" for k, x in self.contestants[contestant].items() if k != "controller.name")
         return ", ".join((self.controller(contestant), *fixed))
 
     def said(self, contestants: Sequence[str], conditions: Sequence[str]) -> str:
@@ -131,7 +131,7 @@ AS_PUBLISHED = Settings(
     "as-published",
     SAID["texts"]["as_published"],
     {},
-    {name: {"controller": name} for name in COMPARED},
+    {name: {"controller.name": name} for name in COMPARED},
     {},
 )
 """Each controller at its author's or its example's settings."""
@@ -166,7 +166,7 @@ def read_settings(path: Path) -> Settings:
                 f"found the places {list(given)}, expected some of {list(TUNED.places)}"
             )
         own = {
-            n: {"controller": n} for of in given.values() for n in of if n not in TUNED.contestants
+            n: {"controller.name": n} for of in given.values() for n in of if n not in TUNED.contestants
         }
         own |= {n: _values(x, n) for n, x in tables.get("contestants", {}).items()}
         chosen = _places(given)

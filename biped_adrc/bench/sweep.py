@@ -38,7 +38,7 @@ from biped_adrc.campaign.workers import Crew, Workers, workers_of
 from biped_adrc.errors import InputError
 from biped_adrc.files import check_folder
 from biped_adrc.scenario.registry import read_from_a_file
-from biped_adrc.scenario.values import reason
+from biped_adrc.bench.parameters import reason
 from biped_adrc.shown import Shown
 from biped_adrc.versions import numerical_versions
 

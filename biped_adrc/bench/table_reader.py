@@ -29,7 +29,7 @@ from biped_adrc.bench.study import Named, Range
 from biped_adrc.errors import InputError
 from biped_adrc.files import check_regular
 from biped_adrc.scenario.scenario import MOST_SEED
-from biped_adrc.scenario.values import reason
+from biped_adrc.bench.parameters import reason
 
 T = TypeVar("T")
 """What is read of one value."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from biped_adrc.bench.scenario_file import scenario_lines
+from biped_adrc.scenario.file import scenario_lines
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.deploy.computer import Computer
 from biped_adrc.deploy.fmu import fmu_of

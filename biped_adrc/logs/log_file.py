@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from biped_adrc.bench.parameters import unit_of
+from biped_adrc.scenario.units import unit_of
 from biped_adrc.errors import InputError
 from biped_adrc.files import number_in, reading
 from biped_adrc.logs.plausible import check_plausible

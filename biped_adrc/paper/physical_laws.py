@@ -14,7 +14,7 @@ Functions return checks (`checks.Check`); they are tasks of `paper.plan`, judged
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -131,7 +131,7 @@ def work_identity(o: Outcome) -> Check:
     if o.certificates:
         last = o.certificates[-1]
         gap = abs(last.joint_work - last.energy_lost) / last.energy_lost
-    name = f"gait (a), {o.run.preset}, {o.run.controller}: joint work against energy lost at impact, relative"
+    name = f"gait (a), {o.run.robot.preset}, {o.run.controller.name}: joint work against energy lost at impact, relative"
     return at_most(name, "law", gap, 1e-4)
 
 
@@ -204,9 +204,14 @@ def sampling_order(run: Scenario, periods: tuple[float, ...] = (2e-3, 1e-3, 5e-4
     def end(r: Scenario) -> Array:
         return walk_scenario(r).trajectory.before(FOOT_STRIKE)[-1][:10]
 
-    exact = end(replace(run, impacts=1, h=2.5e-4))
+    exact = end(run.replace(run={"impacts": 1, "h": 2.5e-4}))
     gaps = [
-        float(np.linalg.norm(end(replace(run, impacts=1, period=T, h=min(T, 5e-4))) - exact))
+        float(
+            np.linalg.norm(
+                end(run.replace(run={"impacts": 1, "h": min(T, 5e-4)}, hardware={"period": T}))
+                - exact
+            )
+        )
         for T in periods
     ]
     return float(np.polyfit(np.log(periods), np.log(gaps), 1)[0])
@@ -218,7 +223,10 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
     Over 0.1 s of walking with the poles of Table I times `factor`. Longer steps do not resolve the fast joints
     of a robot without rotors.
     """
-    run = Scenario("ADRC", preset=preset, poles=tuple(factor * pole for pole in TABLE_I))
+    run = Scenario(
+        {"name": "ADRC", "observer": {"poles": tuple(factor * pole for pole in TABLE_I)}},
+        robot={"preset": preset},
+    )
     scene = RobotAndGait.of(run)
     walker = build(run, scene)
     x0 = walker.initial_state(*scene.walked.start(scene.biped))
@@ -237,7 +245,7 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
 def numerics_laws(preset: str) -> tuple[list[Check], dict[str, float]]:
     """The checks of the methods, and their figures by name."""
     (simulated, corrected, printed), (half, *_) = held_joint(), held_joint(h=0.5 * HELD_STEP)
-    order = sampling_order(Scenario("NPD", preset=preset, engine=COMPILED))
+    order = sampling_order(Scenario("NPD", robot={"preset": preset}, run={"engine": COMPILED}))
     etd, _ = exponential_order(preset, 0.05)
     etd_table, error = exponential_order(preset, 1.0)
     gap = abs(simulated - corrected) / corrected

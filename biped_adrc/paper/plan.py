@@ -44,13 +44,22 @@ from biped_adrc.scenario.run import execute, execute_twice, halved, walk_scenari
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.cycle_stability import poincare_twice, return_map_samples
 
-MOTORS = ("q1", "q2", "q3", "q4")
+MOTORS = "q1,q2,q3,q4"
 """The actuated joints."""
-PAPER_PUSH = Push(dict.fromkeys(MOTORS, 30.0), step=19, start=0.1, stop=0.3)
+PAPER_PUSH = Push(joints=MOTORS, torque=30.0, step=19, onset=0.1, duration=0.2)
 """The push of figures 4 to 6: 30 N m on all joints for 0.2 s in step 19. The paper prints no amplitude."""
-SINE = Push(dict.fromkeys(MOTORS, 40.0), 19, 0.05, 0.3, kind="sine", frequency=5.0)
+SINE = Push(
+    shape="sine",
+    joints=MOTORS,
+    torque=40.0,
+    step=19,
+    onset=0.05,
+    duration=0.25,
+    frequency=5.0,
+    across_impacts=False,
+)
 """A disturbance of 5 Hz on all joints [N m]."""
-TORSO = Push({"q5": 20.0}, step=19, start=0.1, stop=0.3)
+TORSO = Push(joints="q5", torque=20.0, step=19, onset=0.1, duration=0.2)
 """A push on the torso, which no motor drives [N m]."""
 HEAVIER = {"torso": 1.2, "thigh": 1.15}
 """Factors on the links' masses (and inertias) of the plant alone, not of the controller's model."""
@@ -131,11 +140,18 @@ def headline(run: Scenario) -> tuple[Headline, list[Check]]:
     the push on, from which the order of convergence follows.
     """
     full = walk_scenario(run)
-    laws = walk_laws(f"{run.controller}, {run.preset}", full)
+    laws = walk_laws(f"{run.controller.name}, {run.robot.preset}", full)
     half = halved(run)
-    quarter = execute(replace(halved(half), first_step=run.pushes[0].step, impacts=2))
+    quarter = execute(from_push(halved(half), 2))
     found = replace(full.outcome, half=replace(execute(half), half=quarter))
     return Headline(found, full.trajectory, full.signals), laws
+
+
+def from_push(run: Scenario, impacts: int) -> Scenario:
+    """The run from its first push on, for some impacts, with the pushes that act then."""
+    first = min(push.step for push in run.pushes)
+    acting = tuple(push for push in run.pushes if push.step < first + impacts)
+    return run.replace(pushes=acting, run={"first_step": first, "impacts": impacts})
 
 
 def engines(run: Scenario) -> Outcome:
@@ -144,10 +160,9 @@ def engines(run: Scenario) -> Outcome:
 
     `half` is used as the place for the second run, though its step is the same.
     """
-    pushed = run.pushes[0].step
-    one = replace(run, first_step=pushed, impacts=1, engine=PINOCCHIO)
-    one = replace(one, method=None, h=ENGINES_STEP, fine=None)
-    return replace(execute(one), half=execute(replace(one, engine=COMPILED)))
+    one = from_push(run, 1).replace(run={"engine": PINOCCHIO, "h": ENGINES_STEP})
+    one = one.replace(run={"method": None, "fine": None})
+    return replace(execute(one), half=execute(one.replace(run={"engine": COMPILED})))
 
 
 def base_runs(plan: Plan) -> dict[str, Scenario]:
@@ -159,34 +174,39 @@ def base_runs(plan: Plan) -> dict[str, Scenario]:
     """
     runs: dict[str, Scenario] = {}
     for c in CONTROLLERS:
-        run = stepped(Scenario(c, preset=plan.preset))
+        run = stepped(Scenario(c, robot={"preset": plan.preset}))
         for preset in plan.presets:
-            runs[f"nominal {preset} {c}"] = replace(run, preset=preset)
-        rising = tuple(replace(push, rise=RISE) for push in plan.pushes)
-        first = min(push.step for push in plan.pushes)
-        runs[f"rising push {c}"] = replace(run, pushes=rising, first_step=first, impacts=2)
-        runs[f"sine {c}"] = replace(run, pushes=(SINE,), first_step=17, impacts=9)
-        runs[f"torso {c}"] = replace(run, pushes=(TORSO,), first_step=17, impacts=9)
+            runs[f"nominal {preset} {c}"] = run.replace(robot={"preset": preset})
+        rising = tuple(push.replace(rise=RISE) for push in plan.pushes)
+        runs[f"rising push {c}"] = from_push(run.replace(pushes=rising), 2)
+        runs[f"sine {c}"] = run.replace(pushes=(SINE,), run={"first_step": 17, "impacts": 9})
+        runs[f"torso {c}"] = run.replace(pushes=(TORSO,), run={"first_step": 17, "impacts": 9})
         runs[f"1 kHz {c}"] = Scenario(
-            c, preset=plan.preset, pushes=plan.pushes, period=1e-3, h=1e-3
+            c,
+            robot={"preset": plan.preset},
+            pushes=plan.pushes,
+            hardware={"period": 1e-3},
+            run={"h": 1e-3},
         )
-        heavier = replace(run, mass=HEAVIER, impacts=8, fine=None)
+        heavier = run.replace(errors={"mass": HEAVIER}, run={"impacts": 8, "fine": None})
         runs[f"heavier, masses {c}"] = heavier
-        runs[f"heavier, masses and inertias {c}"] = replace(heavier, inertia=HEAVIER)
+        runs[f"heavier, masses and inertias {c}"] = heavier.replace(errors={"inertia": HEAVIER})
     if not plan.quick:
         runs |= literal_runs(plan)
-    return {name: replace(run, engine=COMPILED) for name, run in runs.items()}
+    return {name: run.replace(run={"engine": COMPILED}) for name, run in runs.items()}
 
 
 def stepped(run: Scenario) -> Scenario:
     """The run with the steps of the reproduction."""
-    h, fine = STEPS[run.controller]
-    return replace(run, method="rk4", h=h, fine=fine)
+    h, fine = STEPS[run.controller.name]
+    return run.replace(run={"method": "rk4", "h": h, "fine": fine})
 
 
 def pushed_run(plan: Plan, controller: str) -> Scenario:
     """The headline run of a controller: the paper's gait under the plan's pushes."""
-    run = Scenario(controller, preset=plan.preset, pushes=plan.pushes, engine=COMPILED)
+    run = Scenario(
+        controller, robot={"preset": plan.preset}, pushes=plan.pushes, run={"engine": COMPILED}
+    )
     return stepped(run)
 
 
@@ -199,15 +219,24 @@ def literal_runs(plan: Plan) -> dict[str, Scenario]:
     """
     runs = {}
     for c in CONTROLLERS:
-        printed = stepped(Scenario(c, preset=plan.preset, solve_theta=False, impacts=8))
+        printed = stepped(
+            Scenario(
+                {"name": c, "solve_theta": False}, robot={"preset": plan.preset}, run={"impacts": 8}
+            )
+        )
         runs[f"as printed {c}"] = printed
     for policy in POLICIES:
         for limit in (None, 150.0):
             name = f"reset {policy}, {'unlimited' if limit is None else '150 N m'}"
-            run = Scenario(preset=plan.preset, reset=policy, torque_limit=limit, impacts=2)
+            run = Scenario(
+                {"observer": {"reset": policy}},
+                robot={"preset": plan.preset},
+                hardware={"torque_limit": limit},
+                run={"impacts": 2},
+            )
             diverges = policy == "none" and limit is None
             h = DIVERGING_STEP if diverges else RESET_STEP
-            runs[name] = replace(run, method="exponential", h=h)
+            runs[name] = run.replace(run={"method": "exponential", "h": h})
     return runs
 
 
@@ -260,8 +289,10 @@ def recipe_result(preset: str, controller: str) -> RecipeResult:
     A gait that falls, or for which no cycle is found, is a result too: it gives `closes` False, the reason, and
     the numbers found until then, and raises nothing.
     """
-    run = replace(stepped(Scenario(controller, preset=preset, gait="recipe", impacts=8)), fine=None)
-    run = replace(run, engine=COMPILED)
+    run = stepped(
+        Scenario(controller, robot={"preset": preset}, gait="recipe", run={"impacts": 8})
+    ).replace(run={"fine": None})
+    run = run.replace(run={"engine": COMPILED})
     biped = RobotAndGait.of(run).biped
     record: RecipeRecord = {}
     found = None
@@ -278,7 +309,7 @@ def recipe_result(preset: str, controller: str) -> RecipeResult:
         if found.certificates:
             last = found.certificates[-1]
             record |= {"certificate": last.record(), "violations": list(last.violations())}
-        cycle = poincare_twice(replace(run, method=None, h=1e-3))
+        cycle = poincare_twice(run.replace(run={"method": None, "h": 1e-3}))
         orbit, n = cycle.orbit, biped.n
         record |= {
             "distance_to_x_star": (orbit.x_minus[: 2 * n] - X_STAR).tolist(),
@@ -296,14 +327,17 @@ def tasks(plan: Plan) -> dict[str, Task[object]]:
 
     A quick plan leaves out the multipliers of ADRC, which take one walk per coordinate, and the reset policies.
     """
-    adrc, npd = Scenario("ADRC", preset=plan.preset), Scenario("NPD", preset=plan.preset)
+    adrc, npd = (
+        Scenario("ADRC", robot={"preset": plan.preset}),
+        Scenario("NPD", robot={"preset": plan.preset}),
+    )
     pushed = {c: pushed_run(plan, c) for c in CONTROLLERS}
     out: dict[str, Task[object]] = {}
     for c in reversed(CONTROLLERS):
         out[f"headline {c}"] = Task(f"{c} under the push", headline, (pushed[c],))
         out[f"engines {c}"] = Task(f"{c}: the two engines", engines, (pushed[c],))
     if not plan.quick:
-        remembering = replace(adrc, reset="measured")
+        remembering = adrc.replace(controller={"observer": {"reset": "measured"}})
         out["multipliers ADRC"] = Task("multipliers ADRC", poincare_twice, (adrc,))
         out["multipliers ADRC measured"] = Task(
             "multipliers ADRC, reset measured", poincare_twice, (remembering,)
@@ -332,7 +366,10 @@ def map_tasks(plan: Plan) -> dict[str, Task[object]]:
         f"map {preset}, {limit}, {pattern}": Task(
             f"map of pushes, {preset}, {pattern}",
             push_map,
-            (Scenario(preset=preset), pushes(MAP_ONSETS, MAP_AMPLITUDES, (pattern,), (limit,))),
+            (
+                Scenario(robot={"preset": preset}),
+                pushes(MAP_ONSETS, MAP_AMPLITUDES, (pattern,), (limit,)),
+            ),
         )
         for preset in plan.presets
         for limit in (None, 150.0)

@@ -146,17 +146,18 @@ class Tried:
         """The walk of `base` under this push and this controller."""
         factors = PATTERNS[self.pattern].items()
         torque = {joint: self.amplitude * factor for joint, factor in factors}
-        push = Push(torque, step=PUSHED_STEP, start=self.onset, stop=self.onset + DURATION)
-        return replace(
-            base,
+        push = Push(torque=torque, step=PUSHED_STEP, onset=self.onset, duration=DURATION)
+        return base.replace(
             controller=controller,
             pushes=(push,),
-            torque_limit=self.torque_limit,
-            continued=True,
-            first_step=PUSHED_STEP,
-            impacts=IMPACTS,
-            h=MAP_STEP,
-            engine=COMPILED,
+            hardware={"torque_limit": self.torque_limit},
+            gait={"continued": True},
+            run={
+                "first_step": PUSHED_STEP,
+                "impacts": IMPACTS,
+                "h": MAP_STEP,
+                "engine": COMPILED,
+            },
         )
 
 
@@ -166,7 +167,7 @@ def push_map(base: Scenario, tried: Sequence[Tried]) -> list[PushCell]:
     for found in tried:
         npd, adrc = (Fate.of(execute_twice(found.run(base, c))) for c in CONTROLLERS)
         place = (found.onset, found.amplitude, found.pattern, found.torque_limit)
-        cells.append(PushCell(str(base.preset), *place, npd, adrc))
+        cells.append(PushCell(str(base.robot.preset), *place, npd, adrc))
     return cells
 
 

@@ -163,7 +163,7 @@ def _settings(plan: Plan) -> dict[str, object]:
     return {
         **{name: getattr(plan, name) for name in fields},
         "presets": list(plan.presets),
-        "pushes": [push.text() for push in plan.pushes],
+        "pushes": [push.in_words() for push in plan.pushes],
         "Table I, observer eigenvalues [rad/s]": list(TABLE_I),
         "Table II": {"K_p": TABLE_II.K_p, "K_d": TABLE_II.K_d},
     }
@@ -178,7 +178,7 @@ def _three_steps(head: Headline) -> dict[str, object]:
     assert o.half.half is not None
     peaks = [x.peak_error for x in (o, o.half, o.half.half)]
     order = observed_order(o, lambda x: x.peak_error)
-    return {"step": o.run.fine, "peak_error": peaks, "order": order}
+    return {"step": o.run.run.fine, "peak_error": peaks, "order": order}
 
 
 STORED_APART = 1e-3

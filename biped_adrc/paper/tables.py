@@ -73,8 +73,8 @@ def _run(name: str, o: Outcome) -> dict[str, object]:
     steps = o.certificates
     return {
         "run": name,
-        "controller": o.run.controller,
-        "preset": o.run.preset,
+        "controller": o.run.controller.name,
+        "preset": o.run.robot.preset,
         "status": o.status,
         "outcome": o.feasibility.outcome,
         "impacts": o.impacts,
@@ -225,7 +225,7 @@ def _fixed_point(plan: Plan, r: Results) -> str:
     """How near gait (a) comes to x* in all presets."""
     walks = [o for _, o in r.nominal(plan)]
     gap = float(np.max([distance(o) for o in walks]))
-    impacts, presets = walks[0].run.impacts, ", ".join(plan.presets)
+    impacts, presets = walks[0].run.run.impacts, ", ".join(plan.presets)
     return _said("fixed_point", impacts=impacts, gap=gap, presets=presets)
 
 
@@ -268,7 +268,7 @@ def _torso(r: Results) -> str:
     said.
     """
     walks = r.pair("torso")
-    short = [f"{o.run.controller} makes no step" for o in walks if len(o.durations) == 0]
+    short = [f"{o.run.controller.name} makes no step" for o in walks if len(o.durations) == 0]
     if short:
         return _said("torso_stopped", who=" and ".join(short))
     usual = float(walks[0].durations[0])

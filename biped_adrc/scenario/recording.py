@@ -195,7 +195,7 @@ class Walk(Shown):
     def controller_name(self) -> str:
         """Its name in the scenario, or of its class without "Controller"."""
         if self.scenario is not None and self.gait is not None:
-            return self.scenario.controller.rpartition(":")[2]
+            return self.scenario.controller.name.rpartition(":")[2]
         law = self.walker.controller
         name = law.home.rpartition(":")[2] if isinstance(law, MissingPart) else type(law).__name__
         return name.removesuffix("Controller")

@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from biped_adrc.bench.scenario_file import write_scenario
+from biped_adrc.scenario.file import write_scenario
 from biped_adrc.files import plain, write_bytes, write_text
 from biped_adrc.tuning.candidate import Candidate
 from biped_adrc.tuning.proposals import importances, optuna_quiet, optuna_study

@@ -19,7 +19,7 @@ from pydantic import Field
 from biped_adrc.bench.parameters import Value
 from biped_adrc.bench.study import Part, Range
 from biped_adrc.scenario.registry import find
-from biped_adrc.scenario.scenario import DEFAULTS
+from biped_adrc.scenario.scenario import field_of
 
 Values = Mapping[str, Value]
 """Values of a scenario by name, in SI units; those of tables with a dot, as in "own.gain"."""
@@ -48,7 +48,7 @@ class Variable(Part):
 
     def acts(self, values: Values) -> bool:
         """Whether it has an effect beside these values of a scenario."""
-        return all(values.get(name, DEFAULTS.get(name)) in told for name, told in self.when.items())
+        return all(values.get(name, field_of(name).default) in told for name, told in self.when.items())
 
 
 def scenario_values(
@@ -71,8 +71,8 @@ def published_place(variables: Mapping[str, Variable], fixed: Values) -> dict[st
     usual = _constructor_defaults(fixed)
     place = {}
     for name, variable in variables.items():
-        known = fixed.get(name, DEFAULTS.get(name))
-        x = usual.get(name.removeprefix("own.")) if known is None else known
+        known = fixed.get(name, field_of(name).default)
+        x = usual.get(name.rpartition(".")[2]) if known is None else known
         idle = not variable.acts(fixed)
         if not idle and not variable.holds(x):
             return None
@@ -82,7 +82,7 @@ def published_place(variables: Mapping[str, Variable], fixed: Values) -> dict[st
 
 def _constructor_defaults(fixed: Values) -> dict[str, Value]:
     """Numbers that the controller takes where the scenario has none, by name."""
-    entry = find("controller", str(fixed.get("controller", DEFAULTS["controller"])))
+    entry = find("controller", str(fixed.get("controller.name", "ADRC")))
     parameters = signature(entry.load()).parameters.values()
     own = {p.name: p.default for p in parameters if p.default is not Parameter.empty}
     return {**{k: x for k, x in own.items() if isinstance(x, float | int)}, **entry.defaults}

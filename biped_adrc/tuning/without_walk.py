@@ -13,14 +13,13 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import replace
 from functools import lru_cache
 
 from biped_adrc.bench.build import scene_of
 from biped_adrc.bench.parameters import trial
 from biped_adrc.errors import BipedError
 from biped_adrc.observer_design.specification import Specification
-from biped_adrc.scenario.scenario import DEFAULTS, OF_PLANT, Scenario
+from biped_adrc.scenario.scenario import GroundRecord, Scenario
 from biped_adrc.scenario.specified import specification_of
 from biped_adrc.tuning.variables import Values
 
@@ -37,7 +36,7 @@ def _specification(text: str) -> Specification:
 
 def on_rigid_ground(s: Scenario) -> Scenario:
     """The scenario with the rigid plant in place of another one."""
-    return replace(s, **{name: DEFAULTS[name] for name in ("plant", *OF_PLANT)})
+    return s.replace(ground=GroundRecord(slope=s.ground.slope))
 
 
 def _number(name: str) -> Linear:

@@ -64,24 +64,37 @@ class Member:
     def push(self) -> Push:
         """The push, in the step that the file declares."""
         k = declared()["push"]
-        stop = round(self.onset + k["duration"], 9)
-        torque = dict.fromkeys(self.joints, self.amplitude)
-        return Push(torque, k["step"], self.onset, stop, rise=self.rise)
+        return Push(
+            joints=",".join(self.joints),
+            torque=self.amplitude,
+            step=k["step"],
+            onset=self.onset,
+            duration=k["duration"],
+            rise=self.rise,
+        )
 
     def run(self, controller: str, h: float, impacts: int = 1) -> Scenario:
         """The walk from the pushed step on, on the compiled engine; h: integration step [s]."""
         return Scenario(
-            controller,
-            preset=self.preset,
+            {
+                "name": controller,
+                "solve_theta": self.theta == "solved",
+                "observer": {
+                    "reset": "measured"
+                    if self.start == "zero" and controller == "ADRC"
+                    else "model"
+                },
+            },
+            robot={"preset": self.preset},
             gait=self.gait,
             pushes=(self.push,),
-            first_step=self.push.step,
-            impacts=impacts,
-            solve_theta=self.theta == "solved",
-            reset="measured" if self.start == "zero" and controller == "ADRC" else "model",
-            method="rk4",
-            h=h,
-            engine=COMPILED,
+            run={
+                "first_step": self.push.step,
+                "impacts": impacts,
+                "method": "rk4",
+                "h": h,
+                "engine": COMPILED,
+            },
         )
 
 

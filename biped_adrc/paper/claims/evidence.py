@@ -15,7 +15,6 @@ are declared in admissible.toml. `claims.tasks` joins them to the `Evidence`.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -86,13 +85,15 @@ def _cycle(preset: str, gait: str, controller: str, theta: str) -> GaitCycle:
     The return map is that of (q, q') alone: the observer's states are no coordinates of it.
     """
     h = declared()["steps"]["plain"]
-    run = Scenario(controller, preset=preset, gait=gait, solve_theta=theta == "solved")
-    run = replace(run, engine=COMPILED)
+    run = Scenario(
+        {"name": controller, "solve_theta": theta == "solved"}, robot={"preset": preset}, gait=gait
+    )
+    run = run.replace(run={"engine": COMPILED})
     biped, of = nominal(preset, gait)
 
     def at(step: float) -> tuple[float, float]:
         try:
-            orbit = poincare(replace(run, h=step), with_states=False).orbit
+            orbit = poincare(run.replace(run={"h": step}), with_states=False).orbit
         except BipedError:
             return float("nan"), float("nan")
         rate = biped.phase @ orbit.x_minus[biped.n : 2 * biped.n]
@@ -146,7 +147,7 @@ def needs(preset: str) -> tuple[Needs, ...]:
 def _needs(preset: str, gait: str) -> Needs:
     """What the second step of an undisturbed walk needs, at both integration steps."""
     h = declared()["steps"]["needs"]
-    run = Scenario("NPD", preset=preset, gait=gait, engine=COMPILED)
+    run = Scenario("NPD", robot={"preset": preset}, gait=gait, run={"engine": COMPILED})
     made = prepared(run)
     walks = (made.simulate(step, 2) for step in (h, 0.5 * h))
     steps = [watched(made.walker, made.gait, walk).certificates[-1] for walk in walks]
@@ -197,20 +198,22 @@ def _pair(name: str, runs: dict[str, Scenario]) -> Pair:
     same = True
     for c, run in runs.items():
         ready, h = prepared(run), step_of(c, "plain")
-        walks = [ready.simulate(step, run.impacts) for step in (h, 0.5 * h)]
+        walks = [ready.simulate(step, run.run.impacts) for step in (h, 0.5 * h)]
         found = [tracks(ready, walk) for walk in walks]
         # NumPy's, since max passes over the NaN of a step that never ends
         peak[c] = AtTwoSteps(*(float(np.max([t.peak for t in at])) for at in found))
         late = ([abs(t.period - ready.gait.period) for t in at] for at in found)
         delay[c] = AtTwoSteps(*(float(np.max(at)) for at in late))
         impacts = [len(walk.events(FOOT_STRIKE)) for walk in walks]
-        made[c], same = min(impacts) == run.impacts, same and impacts[0] == impacts[1]
+        made[c], same = min(impacts) == run.run.impacts, same and impacts[0] == impacts[1]
     return Pair(name, peak, delay, made, same)
 
 
 def _both(run: Scenario) -> dict[str, Scenario]:
     """The run under NPD and under ADRC, on the compiled engine."""
-    return {c: replace(run, controller=c, method="rk4", engine=COMPILED) for c in CONTROLLERS}
+    return {
+        c: run.replace(controller=c, run={"method": "rk4", "engine": COMPILED}) for c in CONTROLLERS
+    }
 
 
 def unmatched(preset: str) -> tuple[Pair, ...]:
@@ -221,8 +224,12 @@ def unmatched(preset: str) -> tuple[Pair, ...]:
     k, step = declared()["unmatched"], declared()["push"]["step"]
     found = []
     for torque in (*k["amplitudes"], k["fatal"]):
-        push = Push({"q5": torque}, step=step, start=0.1, stop=0.3)
-        runs = _both(Scenario(preset=preset, pushes=(push,), first_step=step, impacts=4))
+        push = Push(joints="q5", torque=torque, step=step, onset=0.1, duration=0.2)
+        runs = _both(
+            Scenario(
+                robot={"preset": preset}, pushes=(push,), run={"first_step": step, "impacts": 4}
+            )
+        )
         found.append(_pair(f"{preset}, {torque:g} N m on the torso", runs))
     return tuple(found)
 
@@ -233,7 +240,8 @@ def uncertainty(preset: str) -> tuple[Pair, ...]:
     impacts = k.pop("impacts")
     return tuple(
         _pair(
-            f"{preset}, heavier {kind}", _both(Scenario(preset=preset, impacts=impacts, **factors))
+            f"{preset}, heavier {kind}",
+            _both(Scenario(robot={"preset": preset}, run={"impacts": impacts}, errors=factors)),
         )
         for kind, factors in k.items()
     )
@@ -272,7 +280,7 @@ def basin(preset: str) -> tuple[Start, ...]:
     matters for the paper's promise of global stability: no controller of the joints helps a start below it.
     """
     k = declared()["basin"]
-    runs = _both(Scenario(preset=preset))
+    runs = _both(Scenario(robot={"preset": preset}))
     least = least_speed(runs["NPD"])
     found = []
     for factor in k["factors"]:
@@ -300,7 +308,7 @@ def least_speed(run: Scenario) -> float:
     value plus a function of Theta, whose minimum (of a parabola through three nodes) decides whether the robot
     passes mid-stance.
     """
-    biped, gait = nominal(run.preset, run.gait)
+    biped, gait = nominal(run.robot.preset, run.gait.name)
     zero = ZeroDynamics.of(biped, gait.constraint, nodes=120)
     sigma = biped.angular_momentum(*gait.start(biped))
     gained = zero.sigma_squared(0.0)
@@ -329,8 +337,8 @@ def jumps(preset: str) -> tuple[Jumps, ...]:
 
     The observer models xi as a polynomial in time; at an impact and at the edge of a push it is none.
     """
-    run = Scenario("NPD", preset=preset)
-    biped, gait = nominal(run.preset, run.gait)
+    run = Scenario("NPD", robot={"preset": preset})
+    biped, gait = nominal(run.robot.preset, run.gait.name)
     before = biped.reduction(gait.q_minus, gait.v_minus)
     after = biped.reduction(*gait.start(biped))
     edge = after.kappa @ np.full(biped.p, 30.0)

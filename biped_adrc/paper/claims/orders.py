@@ -11,7 +11,6 @@ Table I there are nine, so that m = 7.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -101,4 +100,4 @@ def _pushed(preset: str, observer: GPIObserver) -> AtTwoSteps:
     member = Member(preset, 30.0, 0.12, joints, 0.0, "model", "solved")
     run = member.run("ADRC", declared()["steps"]["ADRC"])
     poles = tuple(float(np.real(pole)) for pole in observer.poles)
-    return walked(replace(run, poles=poles)).peak
+    return walked(run.replace(controller={"observer": {"poles": poles}})).peak

@@ -27,7 +27,7 @@ UNDECIDED = ("lumped", "smooth_references", "same_gains", "curves", "earlier_app
 
 def claims(plan: Plan, r: Results) -> list[Claim]:
     """All rows, from the results of a reproduction."""
-    made = {c: (head.outcome.impacts, head.outcome.run.impacts) for c, head in r.heads.items()}
+    made = {c: (head.outcome.impacts, head.outcome.run.run.impacts) for c, head in r.heads.items()}
     farthest = float(np.max([distance(o) for _, o in r.nominal(plan)]))
     return rows(gathered(r.claims.values()), r.figures, made, farthest, r.cells)
 

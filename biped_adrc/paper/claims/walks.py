@@ -106,13 +106,13 @@ class Prepared(NamedTuple):
 
     def simulate(self, h: float, impacts: int) -> Trajectory:
         """The trajectory with this integration step h [s] and number of impacts."""
-        mode = Mode(self.run.first_step)
+        mode = Mode(self.run.run.first_step)
         return simulate_by(
-            self.run.engine,
+            self.run.run.engine,
             self.walker,
             self.x0,
             mode,
-            method_of(replace(self.run, h=h), self.walker),
+            method_of(self.run.replace(run={"h": h}), self.walker),
             t_end=impacts * self.walker.max_step_time,
             impacts=impacts,
         )
@@ -121,7 +121,7 @@ class Prepared(NamedTuple):
 @lru_cache(maxsize=16)
 def nominal(preset: str | None, gait: str) -> tuple[Biped, Gait]:
     """RABBIT in a preset and one of its gaits, shared and read-only."""
-    scene = RobotAndGait.of(Scenario(preset=preset, gait=gait))
+    scene = RobotAndGait.of(Scenario(robot={"preset": preset}, gait=gait))
     biped, found = scene.biped, scene.walked
     for shared in (found.q_minus, found.v_minus):
         shared.flags.writeable = False
@@ -134,11 +134,11 @@ def prepared(run: Scenario, zero: bool = False, speed: float = 1.0) -> Prepared:
     zero: the observer starts at xi^ = 0 instead of the model's xi. speed: factor on the rates after impact,
     which keeps the state on the constraint and takes it off the orbit.
     """
-    biped, gait = nominal(run.preset, run.gait)
+    biped, gait = nominal(run.robot.preset, run.gait.name)
     walker = build(run, RobotAndGait(biped, gait))
     q, v = gait.start(biped)
-    x = walker.initial_state(q, speed * v, Mode(run.first_step))
-    if zero and run.controller == "ADRC":
+    x = walker.initial_state(q, speed * v, Mode(run.run.first_step))
+    if zero and run.controller.name == "ADRC":
         x[2 * biped.n + 2 * biped.p :] = 0.0  # x3^ and its derivatives in the scaled chain
     return Prepared(run, gait, walker, x)
 
@@ -207,23 +207,23 @@ def _undisturbed(
 def walked(run: Scenario, start: str = "model") -> MemberWalk:
     """A run under the push, reduced to numbers.
 
-    The pushed step with run.h and half of it, since its error is a spike of milliseconds; then all impacts with
+    The pushed step with run.run.h and half of it, since its error is a spike of milliseconds; then all impacts with
     the longer step declared for what comes later, of which only ending and feasibility are kept.
     """
     made = prepared(run, start == "zero")
-    assert run.h is not None
-    onset = min(push.start for push in run.pushes)
-    theta = "solved" if run.solve_theta else "printed"
-    of = (run.preset, run.controller, run.gait, start, theta)
-    pushed = [tracks(made, made.simulate(share * run.h, 1))[0] for share in (1.0, 0.5)]
-    usual = [_undisturbed(*of, share * run.h) for share in (1.0, 0.5)]
+    assert run.run.h is not None
+    onset = min(push.onset or 0.0 for push in run.pushes)
+    theta = "solved" if run.controller.solve_theta else "printed"
+    of = (run.robot.preset, run.controller.name, run.gait.name, start, theta)
+    pushed = [tracks(made, made.simulate(share * run.run.h, 1))[0] for share in (1.0, 0.5)]
+    usual = [_undisturbed(*of, share * run.run.h) for share in (1.0, 0.5)]
     both = list(zip(pushed, usual, strict=True))
     first, second = (
-        _ending(made, share * step_of(run.controller, "later")) for share in (1.0, 0.5)
+        _ending(made, share * step_of(run.controller.name, "later")) for share in (1.0, 0.5)
     )
     return MemberWalk(
         *first[:2],
-        run.impacts,
+        run.run.impacts,
         AtTwoSteps(*(one.peak for one in pushed)),
         AtTwoSteps(*(one.away_from(other, onset) for one, other in both)),
         AtTwoSteps(*(one.rate - other.rate for one, other in both)),
@@ -243,7 +243,7 @@ class Ending(NamedTuple):
 
 def _ending(made: Prepared, h: float) -> Ending:
     """Of all impacts of a run, with integration steps of h [s]."""
-    walk = made.simulate(h, made.run.impacts)
+    walk = made.simulate(h, made.run.run.impacts)
     why = {"normal_force": "not finite"}
     if all(bool(np.all(np.isfinite(arc.x))) for arc in walk.arcs):
         why = watched(made.walker, made.gait, walk).feasibility.reasons

@@ -1,0 +1,131 @@
+"""Numbers with units in text: "1.5 ms", "30 N m", "300 rad/s".
+
+A unit is a product of powers, "kg m^2/s^2"; each symbol may carry an SI prefix, and what follows a slash
+divides. An angle has a dimension of its own here, so that a frequency [Hz] cannot be taken for an angular rate
+[rad/s], a factor of 2 pi that no check of SI would find.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import NamedTuple
+
+
+class Unit(NamedTuple):
+    """A unit as its value in SI units and its dimension."""
+
+    factor: float
+    """How many SI units one of it is: 1e-3 for g, since the SI unit of mass is kg."""
+    powers: tuple[int, int, int, int]
+    """Exponents of (m, kg, s, rad)."""
+
+
+SYMBOLS: dict[str, Unit] = {
+    "m": Unit(1.0, (1, 0, 0, 0)),
+    "g": Unit(1e-3, (0, 1, 0, 0)),
+    "s": Unit(1.0, (0, 0, 1, 0)),
+    "Hz": Unit(1.0, (0, 0, -1, 0)),
+    "N": Unit(1.0, (1, 1, -2, 0)),
+    "J": Unit(1.0, (2, 1, -2, 0)),
+    "W": Unit(1.0, (2, 1, -3, 0)),
+    "rad": Unit(1.0, (0, 0, 0, 1)),
+}
+"""Symbols that take an SI prefix; the N m of a torque and J are the same unit."""
+WHOLE: dict[str, Unit] = {
+    "1": Unit(1.0, (0, 0, 0, 0)),
+    "%": Unit(1e-2, (0, 0, 0, 0)),
+    "min": Unit(60.0, (0, 0, 1, 0)),
+    "deg": Unit(math.pi / 180.0, (0, 0, 0, 1)),
+    "rev": Unit(2.0 * math.pi, (0, 0, 0, 1)),
+    "Nm": Unit(1.0, (2, 1, -2, 0)),
+    "rpm": Unit(2.0 * math.pi / 60.0, (0, 0, -1, 1)),
+}
+"""Symbols that take no prefix: "mmin" or "krpm" is refused."""
+PREFIXES = {"k": 1e3, "M": 1e6, "c": 1e-2, "m": 1e-3, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "n": 1e-9}
+"""SI prefixes and their factors; the two letters for micro are different characters that look alike."""
+MOST_POWER = 9
+"""Largest exponent of a symbol; more is a mistake and would overflow."""
+
+_QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
+"""A decimal number, and what follows it."""
+_FACTOR = re.compile(r"([^\d\s/*^·+-]+|1)(?:\^?(-?\d+))?")
+"""A symbol and its exponent, such as "m", "s2" or "s^-2"."""
+
+
+def quantity(text: str, unit: str) -> float:
+    """The number of a text such as "1.5 ms" in the unit `unit`; a number without a unit is in `unit` already.
+
+    Raises ValueError, which says why, for what is no number, another dimension, or out of range.
+    """
+    match = _QUANTITY.fullmatch(text)
+    if match is None:
+        raise ValueError(f"expected a number [{unit}] or a number and its unit")
+    number, given = float(match[1]), match[2]
+    if not math.isfinite(number):
+        raise ValueError(f"{match[1]} is too large, expected a finite number [{unit}]")
+    if not given:
+        return number
+    found, expected = unit_of(given), unit_of(unit)
+    if found.powers != expected.powers:
+        raise ValueError(f"'{given}' is another dimension, expected a unit such as '{unit}'")
+    scaled = _scaled(number, found.factor / expected.factor)
+    if not math.isfinite(scaled):
+        raise ValueError(f"it is too large, expected a finite number [{unit}]")
+    return scaled
+
+
+def unit_of(text: str) -> Unit:
+    """The unit that a text such as "kg m^2/s^2" names.
+
+    Raises ValueError for an unknown symbol, an exponent beyond `MOST_POWER`, or a factor out of range.
+    """
+    factor, powers = 1.0, (0, 0, 0, 0)
+    over, *under = text.split("/")
+    for sign, part in [(1, over), *((-1, part) for part in under)]:
+        for word in re.split(r"[\s*·]+", part.strip()):
+            symbol, power = _factor(word, text)
+            factor *= symbol.factor ** (sign * power)
+            powers = tuple(  # type: ignore[assignment]
+                a + sign * power * b for a, b in zip(powers, symbol.powers, strict=True)
+            )
+    if not 0.0 < factor < math.inf:
+        raise ValueError(f"the unit '{text}' is out of range")
+    return Unit(factor, powers)
+
+
+def _factor(word: str, text: str) -> tuple[Unit, int]:
+    """One symbol of a unit's text and its exponent; `text` is the whole of it, for the error."""
+    match = _FACTOR.fullmatch(word)
+    symbol = None if match is None else _symbol(match[1])
+    if match is None or symbol is None:
+        known = ", ".join([*SYMBOLS, *WHOLE])
+        raise ValueError(
+            f"the unit '{text}' is not known; units are products such as 'N m' or 'rad/s', of {known}"
+        )
+    power = match[2] or "1"
+    if len(power) > 4 or abs(int(power)) > MOST_POWER:
+        raise ValueError(f"the unit '{text}' has the power {power}, expected at most {MOST_POWER}")
+    return symbol, int(power)
+
+
+def _symbol(name: str) -> Unit | None:
+    """The unit of one symbol, with or without a prefix; None where it is unknown ("min" is minutes, not
+    milli-in).
+    """
+    if name in WHOLE or name in SYMBOLS:
+        return WHOLE.get(name) or SYMBOLS[name]
+    prefix, rest = PREFIXES.get(name[:1]), SYMBOLS.get(name[1:])
+    return None if prefix is None or rest is None else Unit(prefix * rest.factor, rest.powers)
+
+
+def _scaled(number: float, factor: float) -> float:
+    """number x factor. A factor 10^k shifts the decimal point of the text of the number:
+
+    1.5 ms becomes the float nearest to 1.5e-3, where 1.5 * 1e-3 may be its neighbour and another key of a run.
+    """
+    digits = math.log10(factor)
+    shift = round(digits)
+    if abs(digits - shift) < 1e-12:
+        return float(f"{number!r}e{shift}") if "e" not in repr(number) else number * 10.0**shift
+    return number * factor
