@@ -52,7 +52,7 @@ def test_what_is_not_finite_has_no_peak_and_no_integral():
 
 
 def made_up(**values: object) -> Outcome:
-    run = Scenario("ADRC", h=1e-3)
+    run = Scenario("ADRC", run={"h": 1e-3})
     found = Outcome(
         run,
         "COMPLETED",

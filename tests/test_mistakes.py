@@ -69,7 +69,7 @@ PYTHON = {
     "one number for errors of masses": (lambda r: r.biped.with_errors(mass=1.2), "{'torso': 1.2}"),
     "a scenario as a walker": (lambda r: ba.walk(ba.Scenario("NPD")), "expected a Walker"),
     "a value of a sensor that is not chosen": (
-        lambda r: ba.walk_scenario(ba.Scenario("NPD", own={"bias": 0.1})),
+        lambda r: ba.walk_scenario(ba.Scenario({"name": "NPD", "bias": 0.1})),
         "'pitch sensor'",
     ),
     "a gait for a passive cycle": (
@@ -148,5 +148,5 @@ def test_a_public_name_that_is_not_there_has_a_nearest_one():
 
 
 def test_a_value_that_does_nothing_is_said():
-    walk = ba.walk_scenario(ba.Scenario("NPD", impacts=1, seed=5))
+    walk = ba.walk_scenario(ba.Scenario("NPD", run={"impacts": 1, "seed": 5}))
     assert any("seed = 5 does nothing" in remark for remark in walk.remarks)

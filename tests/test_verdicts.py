@@ -55,7 +55,7 @@ FEASIBILITY = Feasibility(Status.COMPLETED, (CERTIFICATE,), KnownLimits(0.6, 150
 def outcome(controller, peak=1e-2, impacts=9, asked=9, **more):
     status = "COMPLETED" if impacts == asked else "FELL"
     made = Outcome(
-        Scenario(controller, impacts=asked),
+        Scenario(controller, run={"impacts": asked}),
         status,
         "",
         impacts,

@@ -12,7 +12,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from biped_adrc.errors import InputError
-from biped_adrc.scenario.records import flat, merged, nested
+from biped_adrc.scenario.records import merged, nested
 from biped_adrc.scenario.scenario import Scenario, field_of, scenario_of, value_of
 
 Value = float | int | bool | str | None | tuple[float, ...]
@@ -32,6 +32,17 @@ def trial(values: Mapping[str, object]) -> Scenario:
     Raises InputError for values that do not fit together.
     """
     return scenario_of(merged({"hardware": {"profile": "ideal"}}, nested(values)))
+
+
+def flat(values: Mapping[str, Any], before: str = "") -> dict[str, Any]:
+    """The inverse of `nested`, of tables as a file of a study has them."""
+    made: dict[str, Any] = {}
+    for name, x in values.items():
+        if isinstance(x, Mapping) and not {"from", "values", "choices"} & set(x):
+            made |= flat(x, f"{before}{name}.")
+        else:
+            made[before + name] = x
+    return made
 
 
 def unit(name: str) -> str:

@@ -264,7 +264,7 @@ def _named(kind: str, s: Scenario, known: Mapping[str, object], base: type[_T]) 
     entry = find(kind, str(record.name))
     values = {**known, "seed": drawn(s, kind), **record.own, **entry.defaults}
     _all_taken(f"hardware.{kind}", record.own, takes(entry.load()))
-    return construct(f"{kind} '{record.name}'", entry.load(), values, base)
+    return construct(f"{kind} '{record.name}'", entry.load(), values, base, f"hardware.{kind}")
 
 
 def _all_taken(place: str, own: Mapping[str, object], known: Iterable[str]) -> None:

@@ -60,13 +60,13 @@ def _made(place: str, c: ControllerRecord, known: Values) -> Controller:
     accepted = takes(make)
     if "inner" in accepted:
         inner = _made(f"{place}.inner", c.inner or ControllerRecord(), known)
-        made = construct(what, make, {**known, **c.own, "inner": inner}, Controller)
+        made = construct(what, make, {**known, **c.own, "inner": inner}, Controller, place)
         _all_taken(place, c.name, c.replace(inner=None), set(accepted), accepted)
         return made  # around the policies: its state does not begin anew at a touchdown
     if c.inner is not None:
         raise Misfit(f"{place}.inner", f"{what} is no outer loop, and takes none")
     values, used = _values(what, make, c, entry.defaults)
-    made = construct(what, make, {**known, **values}, Controller)
+    made = construct(what, make, {**known, **values}, Controller, place)
     if type(made).output is Controller.output:
         raise InputError(f"{what} has no method output(s, m); write it")
     _all_taken(place, c.name, c, used, accepted)
@@ -79,9 +79,10 @@ def _around(place: str, c: ControllerRecord, made: Controller, known: Values) ->
     if contact.name is not None:
         make = find("contact", contact.name).load()
         given = contact.own | ({} if contact.window is None else {"window": contact.window})
-        _all_taken(f"{place}.contact", contact.name, given, set(takes(make)), takes(make))
+        at = f"{place}.contact"
+        _all_taken(at, contact.name, given, set(takes(make)), takes(make))
         what = f"contact '{contact.name}'"
-        made = construct(what, make, {**known, **given, "inner": made}, AcrossContact)
+        made = construct(what, make, {**known, **given, "inner": made}, AcrossContact, at)
     for name in REGISTRY["around"]:
         if number := getattr(c, name):
             given = {**known, "inner": made, name: number}
@@ -136,7 +137,7 @@ def _observer(
     fitting = [way for way in ways if not lacking(way, offered)] or ways[:1]
     best = max(fitting, key=lambda way: len(set(offered) & set(takes(way))))
     taken = {"name", *takes(best)} | ({"order"} if "m" in takes(best) else set())
-    made = construct(f"the observer of {what}", best, offered, Observer)  # type: ignore[type-abstract]
+    made = construct(f"the observer of {what}", best, offered, Observer, "controller.observer")  # type: ignore[type-abstract]
     return made, taken
 
 

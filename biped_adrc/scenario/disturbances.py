@@ -40,7 +40,8 @@ def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) 
     _check_taken(i, push, set(accepted))
     values: dict[str, Any] = {**push.own, **window(s, i, period), "rise": push.rise}
     values |= {"force": tuple(along[:2].tolist()), "amplitude": amplitude, "biped": plant}
-    made = construct(what, make, values | entry.defaults, Disturbance)  # type: ignore[type-abstract]
+    values |= entry.defaults
+    made = construct(what, make, values, Disturbance, f"pushes.{i}")  # type: ignore[type-abstract]
     return made if push.link is None else OnLink(plant, push.link, cast(Windowed, made))
 
 

@@ -338,7 +338,7 @@ def flat(values: Mapping[str, Any], before: str = "") -> dict[str, Any]:
             x = {str(i): y for i, y in enumerate(x)}
         made |= (
             flat(x, f"{before}{name}.")
-            if isinstance(x, Mapping) and x
+            if isinstance(x, Mapping)
             else {f"{before}{name}": tuple(x) if isinstance(x, list) else x}
         )
     return made

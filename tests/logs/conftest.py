@@ -15,7 +15,7 @@ PULSE = "q1,q2=20@2:0.1-0.3"
 @cache
 def walk_of(**values):
     """A walk of three steps under the pulse; own values are pairs."""
-    values = {"controller": "NPD", "impacts": 3, "pushes": PULSE, **values}
+    values = {"controller.name": "NPD", "run.impacts": 3, "pushes": PULSE, **values}
     return ba.walk_scenario(ba.Scenario(**{**values, "own": dict(values.get("own", ()))}))
 
 

@@ -11,8 +11,8 @@ from scipy.signal import cont2discrete, dlsim
 import biped_adrc as ba
 from biped_adrc.errors import InputError
 
-LESO = {"controller": "LESO", "bandwidth": 160.0}
-RABBIT = {"hardware": "rabbit", "filter_time": 5e-3}
+LESO = {"controller.name": "LESO", "controller.observer.bandwidth": 160.0}
+RABBIT = {"hardware.profile": "rabbit", "hardware.encoders.filter_time": 5e-3}
 ROUND_OFF = 1e-9
 """[N m] of the two engines, through these observers."""
 
@@ -25,11 +25,11 @@ def asked(walk, log=None):
 @pytest.mark.parametrize(
     "values",
     [
-        {"controller": "NPD", "period": 1e-3},
+        {"controller.name": "NPD", "hardware.period": 1e-3},
         {**LESO, **RABBIT},
-        {**LESO, "period": 1e-3, "touchdown": "kinematics"},
-        {"controller": "DOB", "period": 1e-3},
-        {**LESO, "hardware": "rabbit", "plant": "mujoco"},
+        {**LESO, "hardware.period": 1e-3, "hardware.touchdown.name": "kinematics"},
+        {"controller.name": "DOB", "hardware.period": 1e-3},
+        {**LESO, "hardware.profile": "rabbit", "ground.plant": "mujoco"},
     ],
     ids=lambda values: "-".join(f"{x}" for x in values.values()),
 )
@@ -83,7 +83,9 @@ def missed(walk, controller, order, bandwidth, unit):
     unit: "N m", or "rad/s^2" for an observer that filters kappa zeta.
     """
     period = walk.scenario.period
-    x = ba.replay(ba.logged(walk), ba.Scenario(controller, bandwidth=bandwidth)).signals
+    x = ba.replay(
+        ba.logged(walk), ba.Scenario({"name": controller, "observer": {"bandwidth": bandwidth}})
+    ).signals
     found, true = x.zeta_estimate, pulse(x)
     if unit == "rad/s^2":
         model = walk.walker.nominal
@@ -153,14 +155,14 @@ def test_without_an_observer_nothing_is_estimated(log):
 
 def test_another_period_is_resampled_and_said(log):
     half = replace(log, t=log.t, remarks=())
-    found = ba.replay(half, ba.Scenario(**LESO, period=2e-3))
+    found = ba.replay(half, ba.Scenario(hardware={"period": 2e-3}, **LESO))
     first = found.log.step == 1
     rows = np.flatnonzero(log.step == 1)[::2]
     assert np.allclose(found.log.q[first], log.q[rows], atol=1e-12)
     pairs = 0.5 * (log.u[rows] + log.u[rows + 1])
     assert np.allclose(found.log.u[first][:-1], pairs[:-1], atol=1e-9)
     assert "resampled from 0.001 s to 0.002 s" in found.remarks[0]
-    assert ba.replay(half, ba.Scenario(**LESO, period=1e-3)).remarks == ()
+    assert ba.replay(half, ba.Scenario(hardware={"period": 1e-3}, **LESO)).remarks == ()
 
 
 @pytest.mark.parametrize(

@@ -22,7 +22,7 @@ from biped_adrc.resources import data_folder
 from biped_adrc.scenario import registry
 from biped_adrc.scenario.walker_record import Reader, Writer
 
-FAST = {"engine": "compiled", "impacts": 1}
+FAST = {"run.engine": "compiled", "run.impacts": 1}
 
 
 def same(one: ba.Walk, other: ba.Walk) -> None:
@@ -38,11 +38,26 @@ def same(one: ba.Walk, other: ba.Walk) -> None:
 @pytest.mark.parametrize(
     "values",
     [
-        {"controller": "LESO", "hardware": "rabbit", "noise": 1e-4, "lag": 2e-3},
-        {"controller": "stride PI", "own": {"inner": "DOB"}, "push": "step", "on": "link torso"}
-        | {"force": 3.0, "pushed_step": 1, "onset": 0.0},
-        {"controller": "NPD", "period": 1e-3, "push": "noise", "amplitude": 5.0, "pushed_step": 1}
-        | {"ground_rms": 2e-3, "impact_error": 0.02, "mass_error": 0.1},
+        {
+            "controller.name": "LESO",
+            "hardware.profile": "rabbit",
+            "hardware.encoders.noise": 1e-4,
+            "hardware.lag": 2e-3,
+        },
+        {
+            "controller": {"name": "stride PI", "inner": "DOB"},
+            "pushes.0.shape": "step",
+            "pushes.0.link": "torso",
+        }
+        | {"pushes.0.force": 3.0, "pushes.0.step": 1, "pushes.0.onset": 0.0},
+        {
+            "controller.name": "NPD",
+            "hardware.period": 1e-3,
+            "pushes.0.shape": "noise",
+            "pushes.0.torque": 5.0,
+            "pushes.0.step": 1,
+        }
+        | {"ground.rms": 2e-3, "errors.impact_width": 0.02, "errors.mass_width": 0.1},
         {"controller": "passive", "robot": "compass"},
     ],
 )
@@ -101,7 +116,7 @@ def test_neither_the_folder_nor_the_urdf_matters(tmp_path: Path, monkeypatch) ->
 
 def stored(own: str, period: float | None = 1e-3) -> ba.Walk:
     """Of a controller of one's own, which is forgotten then."""
-    s = ba.Scenario(f"{own}:Mine", own={"gain": 0.8}, period=period, **FAST)
+    s = ba.Scenario({"name": f"{own}:Mine", "gain": 0.8}, hardware={"period": period}, **FAST)
     walk = ba.walk_scenario(s)
     walk.save("mine.npz")
     del sys.modules[own]
@@ -169,7 +184,7 @@ def test_a_file_makes_nothing_but_parts_of_a_walker(change, biped, gait, tmp_pat
 @pytest.fixture(scope="module")
 def sound(tmp_path_factory) -> Path:
     """A run of two steps, whole."""
-    s = ba.Scenario("NPD", engine="compiled", impacts=2)
+    s = ba.Scenario("NPD", run={"engine": "compiled", "impacts": 2})
     return ba.walk_scenario(s).save(tmp_path_factory.mktemp("sound") / "a.npz")
 
 

@@ -59,10 +59,16 @@ def test_mistakes_of_a_tuning_file_are_named_by_their_place(changes, message):
 
 
 SCENARIOS = [
-    ba.Scenario("LESO", hardware="rabbit", torque_limit=None, bandwidth=1 / 3, impacts=8),
+    ba.Scenario(
+        {"name": "LESO", "observer": {"bandwidth": 1 / 3}},
+        hardware={"profile": "rabbit", "torque_limit": None},
+        run={"impacts": 8},
+    ),
     ba.Scenario(pushes="q1,q2=30@3:0.1-0.3 q5=-10@2:0.1-", start={"q5": 0.1}),
-    ba.Scenario(poles=(-1.0, -2.0, -3.0), own={"inner": 'x"y\n', "flag": True, "t": (1.0, 2)}),
-    ba.Scenario(mass={"the torso": 1.1}, robot="three_link"),
+    ba.Scenario(
+        {"observer": {"poles": (-1.0, -2.0, -3.0)}, "inner": 'x"y\n', "flag": True, "t": (1.0, 2)}
+    ),
+    ba.Scenario(errors={"mass": {"the torso": 1.1}}, robot="three_link"),
 ]
 
 
@@ -76,7 +82,9 @@ def test_a_scenario_file_reads_back_to_the_same_scenario(s, tmp_path):
 
 def test_a_study_takes_the_values_of_a_scenario_file(tmp_path):
     path = tmp_path / "s.toml"
-    write_scenario(path, ba.Scenario("LESO", bandwidth=77.0, impacts=3))
+    write_scenario(
+        path, ba.Scenario({"name": "LESO", "observer": {"bandwidth": 77.0}}, run={"impacts": 3})
+    )
     study = read_tuning(changed(study__scenario=str(path), fixed={"impacts": 5}))
     assert {"controller": "LESO", "bandwidth": 77.0, "impacts": 5}.items() <= study.fixed.items()
     tables = {"study": {"name": "s", "scenario": str(path)}, "grid": {"bandwidth": [1.0, 2.0]}}
