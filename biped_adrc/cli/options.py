@@ -177,20 +177,23 @@ def _own(text: str) -> object:
     return text
 
 
-def with_sets(make: Callable[..., T], sets: list[str] | None, **values: object) -> T:
-    """make(**values), with what --set NAME=VALUE says of its other arguments, read by their types.
+def with_sets(
+    make: type[T], sets: list[str] | None, usual: PlainRecord | None = None, **fixed: object
+) -> T:
+    """A dataclass of these values, and of what --set NAME=VALUE says of its other fields, read by their types.
 
-    Raises InputError for a name that it does not take, and a text of another type.
+    usual: values where --set has none; fixed: values that it may not have. Raises InputError for a name that
+    there is not, and a text of another type.
     """
-    hints = get_type_hints(make.__init__ if isinstance(make, type) else make)  # type: ignore[misc]
-    known = [name for name in signature(make).parameters if name not in values]
+    hints, values = get_type_hints(make), dict(usual or {})
+    known = [name for name in signature(make).parameters if name not in fixed]
     for name, text in pairs(sets).items():
         if name not in known:
             raise InputError(f"--set {name}: {unknown(name, known)}")
+        x = text.split(",") if "tuple" in str(hints[name]) else None if text == "none" else text
         try:
-            x = text.split(",") if "tuple" in str(hints[name]) else text
             values[name] = TypeAdapter(hints[name]).validate_python(x)
         except ValidationError as error:
             said = error.errors()[0]["msg"].replace("Input should", "should")
             raise InputError(f"--set {name}: found '{text}', {said}") from None
-    return make(**values)
+    return make(**values, **fixed)

@@ -13,7 +13,7 @@ from biped_adrc.types import PlainRecord
 
 
 @app.command("play")
-@of_scenario(*WALKS, "period", "torque_limit")
+@of_scenario(*WALKS)
 @texts("play")
 def play_command(
     given: PlainRecord,

@@ -16,7 +16,7 @@ from biped_adrc.types import PlainRecord
 
 
 @app.command("replay")
-@of_scenario(*WALKS, "period")
+@of_scenario(*WALKS)
 @texts("replay")
 def replay_command(
     given: PlainRecord,

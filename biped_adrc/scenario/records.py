@@ -31,11 +31,13 @@ from pydantic.fields import FieldInfo
 
 from biped_adrc.errors import InputError
 from biped_adrc.scenario.registry import portable, spelled
-from biped_adrc.scenario.units import quantity
+from biped_adrc.scenario.units import in_si, quantity
 from biped_adrc.shown import LONGEST
 
 NAME = ""
 """Key of a record's obvious name in plain values."""
+MANY = 20
+"""Names that a message lists at most, before it names the records alone."""
 NONE = "none"
 """Text for no value."""
 
@@ -216,6 +218,9 @@ def read(what: Described, x: Any) -> Any:
             return None
         if what.kind:
             return spelled(what.kind, x)
+        if not types:
+            found = in_si(x)
+            return x if found is None else found
         if number:
             x = _in_unit(x, what.unit)
         elif bool in types and x in ("true", "false"):
@@ -381,4 +386,6 @@ def unknown(name: str, known: Iterable[str]) -> str:
     near = list(dict.fromkeys(near))[:3]
     if near:
         return f"unknown name; did you mean {' or '.join(map(repr, near))}?"
+    if len(known) > MANY:
+        known = list(dict.fromkeys(whole.partition(".")[0] for whole in known))
     return f"unknown name; choose from {known}" if known else "unknown name; leave it out"

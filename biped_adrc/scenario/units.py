@@ -75,6 +75,17 @@ def quantity(text: str, unit: str) -> float:
     return scaled
 
 
+def in_si(text: str) -> float | None:
+    """The number of a text such as "2 mm" in SI units, whatever its unit; None for another text."""
+    match = _QUANTITY.fullmatch(text)
+    if match is None or not match[2]:
+        return None
+    try:
+        return _scaled(float(match[1]), unit_of(match[2]).factor)
+    except ValueError:
+        return None
+
+
 def unit_of(text: str) -> Unit:
     """The unit that a text such as "kg m^2/s^2" names.
 

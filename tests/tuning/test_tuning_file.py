@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 
 import biped_adrc as ba
 from biped_adrc.bench.parameters import nested
-from biped_adrc.bench.scenario_file import read_scenario, write_scenario
+from biped_adrc.scenario.file import read_scenario, write_scenario
 from biped_adrc.bench.study_file import read_study
 from biped_adrc.bench.sweep import sweep
 from biped_adrc.campaign.workers import Threads
