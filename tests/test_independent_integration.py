@@ -53,7 +53,7 @@ def test_the_peak_under_the_push(preset, controller):
     walk = walk_scenario(run.replace(run={"first_step": push.step, "impacts": 1}))
     arc, signals = walk.trajectory.arcs[0], walk.signals
     peak_at = signals.t[np.argmax(np.max(np.abs(signals.error), axis=1))]
-    first = np.searchsorted(arc.t, arc.t[0] + push.start - AROUND)
+    first = np.searchsorted(arc.t, arc.t[0] + push.onset - AROUND)
     t_end = min(peak_at + AROUND, float(arc.t[-1]))
     mode, constraint = Mode(*arc.mode), walk.gait.constraint
     found = peak_error(walk.walker, constraint, mode, float(arc.t[first]), arc.x[first], t_end)

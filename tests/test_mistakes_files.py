@@ -14,11 +14,11 @@ from biped_adrc.gait.gait import Gait
 
 LONG = "n" * 300
 URDF = Path(__file__).parents[1] / "urdf" / "rabbit" / "floating.urdf"
-STUDY = '[study]\nname = "a"\n[fixed]\ncontroller = "NPD"\nimpacts = 1\n[grid]\nK_p = [5000.0]\n'
+STUDY = '[study]\nname = "a"\n[fixed]\ncontroller.name = "NPD"\nrun.impacts = 1\n[grid]\ncontroller.K_p = [5000.0]\n'
 SEARCH = """
 study = {name = "s", budget = 10, generation = 4, seed = 0}
-fixed = {controller = "LESO"}
-variables = {bandwidth = {from = 50, to = 500}}
+fixed = {controller.name = "LESO"}
+variables = {controller.observer.bandwidth = {from = 50, to = 500}}
 objectives = [{column = "rms_error"}]
 training = {seeds = [0]}
 selection = {seeds = [10]}
@@ -39,7 +39,7 @@ MISTAKES = [
     (f"tune search.toml -o {LONG}", 5, "too long"),
     (f"compare --seeds 2 -o {LONG}", 5, "too long"),
     ("reproduce --out afile", 3, "is a file"),
-    (f"gait library --out {LONG}", 5, "too long"),
+    (f"gait design --speeds 0.5 -o {LONG}", 5, "too long"),
     ("gait import zero.json", 3, "no name of a file"),
     ("gait import pipe.json", 3, "not a regular file"),
     ("gait import pipe.mat", 3, "not a regular file"),

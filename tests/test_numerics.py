@@ -66,7 +66,7 @@ def test_the_bounds_are_the_walkers(biped, gait, timing, plain):
     walker = ba.Walker(biped, Strong(law) if plain else law, timing=timing)
     peak = np.max(np.abs(ba.walk(walker, gait, impacts=1).signals.u)) / 150.0
     fast = np.max(np.abs(ba.walk(walker, gait, impacts=1).trajectory.arcs[0].x[:, 5:10])) / 50.0
-    for bound in ({"run.runaway_torque": 0.7 * peak}, {"run.runaway_speed": 0.7 * fast}):
+    for bound in ({"runaway_torque": 0.7 * peak}, {"runaway_speed": 0.7 * fast}):
         ends = [
             ba.walk(replace(walker, **bound), gait, impacts=1, engine=e).trajectory for e in ENGINES
         ]

@@ -63,7 +63,7 @@ def contents(folder: Path) -> dict[Path, bytes]:
         ("gait export keep.json -o keep.json", ["keep.json"]),
         ("gait import keep.json -o link.json", ["link.json", "keep.json"]),
         ("animate run.html -o run.html", ["run.html"]),
-        ("gait zero keep.json --plot keep.json", ["keep.json", ".png or .svg"]),
+        ("gait show keep.json --plot keep.json", ["keep.json", ".png or .svg"]),
         ("robot new own/floating.urdf -o own", ["own/floating.urdf", "exists already"]),
     ],
 )

@@ -47,7 +47,9 @@ def test_marginal_cells_carry_no_claim():
 def test_a_fall_of_the_polynomial_is_none_of_the_robot():
     """A late push that throws NPD past the phase range, where the gait's polynomial explodes."""
     tried = Tried(0.3, 150.0, "swing knee -", None)
-    run = replace(tried.run(Scenario(robot={"preset": "identified-bare"}), "NPD"), continued=False)
+    run = tried.run(Scenario(robot={"preset": "identified-bare"}), "NPD").replace(
+        gait={"continued": False}
+    )
     assert not execute(run).walked
     (found,) = push_map(Scenario(robot={"preset": "identified-bare"}), [tried])
     assert found.npd.status == "COMPLETED"

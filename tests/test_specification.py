@@ -80,7 +80,7 @@ def missed(T, **values):
     The walks are those of the walker itself; what lasts a while in `values` is given in periods.
     """
     times = ("delay", "lag", "filter_time", "prediction")
-    lasting = {name: x * T for name, x in values.items() if name in times}
+    lasting = {name: x * T for name, x in values.items() if name.endswith(times)}
     walker, gait, loop = loop_of(**{**values, **lasting, "hardware.period": T})
     n, p = walker.plant.n, walker.plant.p
     point = ba.FrozenGait.of(walker.plant, gait, spread=0.0).points[0]
@@ -150,13 +150,13 @@ def test_a_delay_that_is_predicted_leaves_the_modes_of_the_loop_without_it(contr
     """But for the change of q'' in that time, which goes with it."""
 
     def modes(**more):
-        loop = loop_of(controller=controller, period=1e-3, **more)[2]
+        loop = loop_of(**{"controller.name": controller, "hardware.period": 1e-3, **more})[2]
         return np.sort(np.abs(np.linalg.eigvals(loop.matrices().M)))[::-1]
 
     free, hidden, predicted = (
         modes(),
-        modes(delay=1e-3),
-        modes(delay=1e-3, prediction=1e-3),
+        modes(**{"hardware.delay": 1e-3}),
+        modes(**{"hardware.delay": 1e-3, "controller.prediction": 1e-3}),
     )
     gaps = [np.max(np.abs(x[: len(free)] - free)) for x in (hidden, predicted)]
     assert gaps[1] < 0.05 * gaps[0]
@@ -164,7 +164,13 @@ def test_a_delay_that_is_predicted_leaves_the_modes_of_the_loop_without_it(contr
 
 # -- the matrices ----------------------------------------------------------------------------------
 def test_the_derivative_of_a_tick_is_that_of_differences():
-    walker, gait, _ = loop_of(controller="LESO", delay=1e-3, velocity="differences")
+    walker, gait, _ = loop_of(
+        **{
+            "controller": "LESO",
+            "hardware.delay": 1e-3,
+            "hardware.encoders.velocity": "differences",
+        }
+    )
     twin = linear_twin(walker)
     q, v = gait.start(walker.plant)
     x = twin.tick(0.0, twin.initial_state(q, v), ba.Mode())
@@ -186,7 +192,7 @@ def test_a_controller_in_plain_python_has_a_specification():
             a = -5000.0 * (m.q_b - r.q_d) - 50.0 * (m.v_b - r.dq_d)
             return m.terms.kappa_inverse @ (a - m.terms.xi)
 
-    walker, gait, _ = loop_of(controller="NPD", solve_theta=False)
+    walker, gait, _ = loop_of(controller={"name": "NPD", "solve_theta": False})
     one = replace(walker, controller=Spring(gait.constraint))
     by_differences, by_laws = (specified(w, gait) for w in (one, walker))
     assert by_differences.worst.growth == pytest.approx(by_laws.worst.growth, rel=0.3)
@@ -229,8 +235,8 @@ def test_a_torque_that_changes_within_the_period():
 
 
 def test_a_hidden_delay_is_as_one_of_the_clock_that_the_controller_does_not_know():
-    _, _, loop = loop_of(controller="LESO", delay=1e-3)
-    _, _, later = loop_of(controller="LESO", delay=2.7e-3)
+    _, _, loop = loop_of(controller="LESO", hardware={"delay": 1e-3})
+    _, _, later = loop_of(controller="LESO", hardware={"delay": 2.7e-3})
     assert loop.growth(1.7e-3) == pytest.approx(later.growth(), rel=1e-6)
     margin = loop.delay_margin(0.05)
     assert loop.growth(0.999 * margin) < 0.0 < loop.growth(1.001 * margin)

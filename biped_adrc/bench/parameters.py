@@ -82,7 +82,6 @@ def is_whole(name: str) -> bool:
     return int in types and float not in types
 
 
-
 def reason(error: Exception) -> str:
     """The text of an error; of a pydantic error the first thing that is wrong, as "name: found, expected"."""
     if not isinstance(error, ValidationError):

@@ -75,7 +75,9 @@ class Settings(NamedTuple):
         """A contestant in words: those of its controller, or its controller with the values that it has."""
         if contestant not in self.contestants or contestant in names("controller"):
             return words("controller", self.controller(contestant))
-        fixed = (f"{k} = {x}" for k, x in self.contestants[contestant].items() if k != "controller.name")
+        fixed = (
+            f"{k} = {x}" for k, x in self.contestants[contestant].items() if k != "controller.name"
+        )
         return ", ".join((self.controller(contestant), *fixed))
 
     def said(self, contestants: Sequence[str], conditions: Sequence[str]) -> str:
@@ -166,7 +168,10 @@ def read_settings(path: Path) -> Settings:
                 f"found the places {list(given)}, expected some of {list(TUNED.places)}"
             )
         own = {
-            n: {"controller.name": n} for of in given.values() for n in of if n not in TUNED.contestants
+            n: {"controller.name": n}
+            for of in given.values()
+            for n in of
+            if n not in TUNED.contestants
         }
         own |= {n: _values(x, n) for n, x in tables.get("contestants", {}).items()}
         chosen = _places(given)

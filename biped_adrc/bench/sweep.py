@@ -29,6 +29,7 @@ from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from biped_adrc.bench.build import files_of_study, hashes, own_of_study, plants_of_study
+from biped_adrc.bench.parameters import reason
 from biped_adrc.bench.study import MOST_POINTS, Study, rehearse, too_many
 from biped_adrc.bench.study_file import load_study
 from biped_adrc.campaign.chunk import Function
@@ -38,7 +39,6 @@ from biped_adrc.campaign.workers import Crew, Workers, workers_of
 from biped_adrc.errors import InputError
 from biped_adrc.files import check_folder
 from biped_adrc.scenario.registry import read_from_a_file
-from biped_adrc.bench.parameters import reason
 from biped_adrc.shown import Shown
 from biped_adrc.versions import numerical_versions
 

@@ -23,13 +23,13 @@ from biped_adrc.bench.parameters import (
     is_number,
     is_whole,
     read,
+    reason,
 )
 from biped_adrc.bench.scenario_file import read_scenario
 from biped_adrc.bench.study import Named, Range
 from biped_adrc.errors import InputError
 from biped_adrc.files import check_regular
 from biped_adrc.scenario.scenario import MOST_SEED
-from biped_adrc.bench.parameters import reason
 
 T = TypeVar("T")
 """What is read of one value."""

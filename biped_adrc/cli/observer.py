@@ -73,8 +73,8 @@ class Clock(NamedTuple):
 
     period: float
     """[s]."""
-    counts: float
-    """Per revolution."""
+    counts: float | None
+    """Per revolution; None: exact."""
     delay: float
     """[s]."""
     known: bool

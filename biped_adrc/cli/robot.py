@@ -153,8 +153,8 @@ def _derived(
     """The robot of a URDF, with what the options say about it, so that it need not be guessed."""
     from biped_adrc.robot_import.import_robot import Hints, derive
 
-    named = {"feet": _names(feet), "actuated": _names(actuated), "torque": torque}
-    return derive(file, with_sets(Hints, sets, **named))
+    links, joints = _names(feet), _names(actuated)
+    return derive(file, with_sets(Hints, sets, feet=links, actuated=joints, torque=torque))
 
 
 def _names(text: str | None) -> tuple[str, ...] | None:

@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from biped_adrc.scenario.file import scenario_lines
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.deploy.computer import Computer
 from biped_adrc.deploy.fmu import fmu_of
@@ -20,6 +19,7 @@ from biped_adrc.errors import OutputError
 from biped_adrc.files import write_bytes
 from biped_adrc.parts import check_part
 from biped_adrc.scenario.build import build
+from biped_adrc.scenario.file import scenario_lines
 from biped_adrc.scenario.scenario import Scenario
 
 

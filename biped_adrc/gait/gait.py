@@ -134,8 +134,8 @@ class Gait(Shown):
         made, given = (self.robot, self.preset), (biped.description.name, biped.preset)
         if made != given:
             raise GaitError(
-                f"gait '{self.name}' was made for robot '{made[0]}', preset '{made[1]}', and this is '{given[0]}', "
-                f"'{given[1]}'; take a gait of this robot, or say gait.other_robot = true"
+                f"gait '{self.name}' was made for robot '{made[0]}', preset '{made[1]}', and this is "
+                f"'{given[0]}', '{given[1]}'; take a gait of this robot, or say gait.other_robot = true"
             )
         return self
 

@@ -131,7 +131,8 @@ def work_identity(o: Outcome) -> Check:
     if o.certificates:
         last = o.certificates[-1]
         gap = abs(last.joint_work - last.energy_lost) / last.energy_lost
-    name = f"gait (a), {o.run.robot.preset}, {o.run.controller.name}: joint work against energy lost at impact, relative"
+    who = f"{o.run.robot.preset}, {o.run.controller.name}"
+    name = f"gait (a), {who}: joint work against energy lost at impact, relative"
     return at_most(name, "law", gap, 1e-4)
 
 

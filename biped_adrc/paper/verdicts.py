@@ -129,7 +129,9 @@ def _made(name: str, pair: tuple[Outcome, Outcome]) -> list[Check]:
     """The checks that both walks make all impacts asked for."""
     label = f"{name}, {{}}: impacts made of {{}}"
     return [
-        at_least(label.format(r.controller, r.impacts), "reproduced", o.impacts, r.impacts)
+        at_least(
+            label.format(r.controller.name, r.run.impacts), "reproduced", o.impacts, r.run.impacts
+        )
         for o in pair
         for r in [o.run]
     ]

@@ -131,8 +131,8 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
     biped, gait = scene.biped, scene.walked
     if s.controller.name == "passive":
         raise InputError(
-            f"controller 'passive' does not fit robot '{s.robot.name}' with {biped.p} motors; choose another one, "
-            "such as 'NPD'"
+            f"controller 'passive' does not fit robot '{s.robot.name}' with {biped.p} motors; choose another "
+            "one, such as 'NPD'"
         )
     plant = plant_of(s, biped)
     width, hardware = s.errors.impact_width, s.hardware
@@ -299,8 +299,8 @@ def plant_around(name: str, walker: Walker, given: Mapping[str, object]) -> Step
 def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
     """The walker's controller around the plant of a scenario; None for the rigid one.
 
-    The plant takes by name values of the walker, and of the record of the ground. Raises InputError for one that
-    cannot be made.
+    The plant takes by name values of the walker, and of the record of the ground. Raises InputError for one
+    that cannot be made.
     """
     g = s.ground
     if g.plant == RIGID:

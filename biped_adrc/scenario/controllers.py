@@ -61,7 +61,7 @@ def _made(place: str, c: ControllerRecord, known: Values) -> Controller:
     if "inner" in accepted:
         inner = _made(f"{place}.inner", c.inner or ControllerRecord(), known)
         made = construct(what, make, {**known, **c.own, "inner": inner}, Controller, place)
-        _all_taken(place, c.name, c.replace(inner=None), set(accepted), accepted)
+        _all_taken(place, c.name, c, set(accepted), accepted)
         return made  # around the policies: its state does not begin anew at a touchdown
     if c.inner is not None:
         raise Misfit(f"{place}.inner", f"{what} is no outer loop, and takes none")
@@ -84,11 +84,11 @@ def _around(place: str, c: ControllerRecord, made: Controller, known: Values) ->
         what = f"contact '{contact.name}'"
         made = construct(what, make, {**known, **given, "inner": made}, AcrossContact, at)
     for name in REGISTRY["around"]:
-        if number := getattr(c, name):
-            given = {**known, "inner": made, name: number}
-            made = construct(
-                f"{name} = {number:g}", find("around", name).load(), given, Controller
-            )
+        number = getattr(c, name)
+        if number:
+            values = {**known, "inner": made, name: number}
+            outer = find("around", name).load()
+            made = construct(f"{name} = {number:g}", outer, values, Controller)
     return made
 
 

@@ -13,7 +13,6 @@ It is a torque on joints, or a force on a link, of a shape in time. The texts of
 
 from __future__ import annotations
 
-import math
 import re
 from decimal import Decimal
 from typing import Any
@@ -159,7 +158,11 @@ def parse_push(text: str) -> Push:
     except ValueError as error:
         raise InputError(f"push '{text}': {error}; {_FORM}") from error
     alike = set(torque.values())
-    on = {"joints": ",".join(torque), "torque": alike.pop()} if len(alike) == 1 else {"torque": torque}
+    on = (
+        {"joints": ",".join(torque), "torque": alike.pop()}
+        if len(alike) == 1
+        else {"torque": torque}
+    )
     over = False if values["shape"] == "sine" else None
     return Push(**on, **values, across_impacts=over)
 

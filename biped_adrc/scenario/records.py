@@ -44,7 +44,9 @@ NONE = "none"
 
 def field(text: str, default: Any, unit: str = "1", kind: str = "", **limits: Any) -> Any:
     """A field with its help text, unit and range (ge, gt, le, lt); kind: of the registry, for a name."""
-    return Field(default, description=text, json_schema_extra={"unit": unit, "kind": kind}, **limits)
+    return Field(
+        default, description=text, json_schema_extra={"unit": unit, "kind": kind}, **limits
+    )
 
 
 class Misfit(InputError):
@@ -304,7 +306,9 @@ def described_in(cls: type[Record], name: str) -> Described:
             return described(at, last, name)
         if inner.SHORT in inner.model_fields:
             return described_in(inner, inner.SHORT)._replace(name=name)
-        raise Misfit(name, f"is a record; name a value in it, as {name}.{next(iter(inner.model_fields))}")
+        raise Misfit(
+            name, f"is a record; name a value in it, as {name}.{next(iter(inner.model_fields))}"
+        )
     if at.model_config.get("extra") == "allow":
         return at.own_value(last)._replace(name=name)
     raise Misfit(name, unknown(name, names_of(cls)))

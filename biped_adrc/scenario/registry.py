@@ -315,8 +315,8 @@ def construct(
 ) -> _T:
     """make(**values) with those of the values that it takes; the result has to be a `kind`.
 
-    what: what is made, for messages, such as "controller 'NPD'"; place: the dotted name of its record. Raises InputError for values that are missing,
-    an error inside of make, and a result of another class.
+    what: what is made, for messages, such as "controller 'NPD'"; place: the dotted name of its record.
+    Raises InputError for values that are missing, an error inside of make, and a result of another class.
     """
     names, missing = takes(make), lacking(make, values)
     if missing and isinstance(make, type) and not issubclass(make, kind):
@@ -324,8 +324,8 @@ def construct(
     if missing:
         role = "" if isinstance(make, type) else f", a function that has to make a {kind.__name__},"
         raise InputError(
-            f"{what}{role} needs {', '.join(missing)}; give {place}{'.' * bool(place)}{missing[0]}; it gets by "
-            f"themselves {sorted(values)}"
+            f"{what}{role} needs {', '.join(missing)}; give {place}{'.' * bool(place)}{missing[0]}; it "
+            f"gets by themselves {sorted(values)}"
         )
     try:
         made = make(**{name: x for name, x in values.items() if name in names})

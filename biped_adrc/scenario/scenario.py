@@ -26,10 +26,10 @@ from biped_adrc.scenario.records import (
     Described,
     Misfit,
     Record,
+    described_in,
     field,
     flat,
     merged,
-    described_in,
     names_of,
     nested,
     plain,
@@ -200,7 +200,10 @@ class HardwareRecord(Record):
     def filled(cls, values: dict[str, Any]) -> dict[str, Any]:
         """Values of the profile where none are given."""
         profile = PROFILES.get(str(values.get("profile")), {})
-        return {**values, **merged(profile, {name: values[name] for name in profile if name in values})}
+        return {
+            **values,
+            **merged(profile, {name: values[name] for name in profile if name in values}),
+        }
 
     @field_validator("profile")
     @classmethod
@@ -328,11 +331,12 @@ class RunRecord(Record):
     engine: Literal["compiled", "pinocchio"] = field(
         "compiled where it can run, or pinocchio, which it is checked against.", "compiled"
     )
-    max_step_time: float = field(
-        "A longer single support ends as stalled.", 2.0, "s", gt=0, le=100
-    )
+    max_step_time: float = field("A longer single support ends as stalled.", 2.0, "s", gt=0, le=100)
     runaway_speed: float = field(
-        "Rates beyond this multiple of the URDF's limits end a walk as run away.", 20.0, gt=0, le=1e9
+        "Rates beyond this multiple of the URDF's limits end a walk as run away.",
+        20.0,
+        gt=0,
+        le=1e9,
     )
     runaway_torque: float = field(
         "The same of the peak torque in the robot's record.", 1000.0, gt=0, le=1e9
@@ -364,7 +368,7 @@ class Scenario(Record):
     pushes: tuple[Push, ...] = field("", ())
     errors: ErrorRecord = field("", ErrorRecord())
     ground: GroundRecord = field("", GroundRecord())
-    start: StartRecord = field("", StartRecord())
+    start: StartRecord = field("", StartRecord.model_construct())
     limits: LimitRecord = field("", LimitRecord())
     run: RunRecord = field("", RunRecord())
 

@@ -17,6 +17,7 @@ from biped_adrc.observer_design.specification import Specification, specificatio
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_of
 from biped_adrc.scenario.scenario import ErrorRecord, Scenario
 
+
 def specification_of(
     s: Scenario, scene: RobotAndGait | None = None, frozen: FrozenGait | None = None
 ) -> Specification:
@@ -28,8 +29,8 @@ def specification_of(
     """
     if s.ground.plant != RIGID:
         raise InputError(
-            f"a specification was asked for on plant '{s.ground.plant}', expected '{RIGID}', whose equations it "
-            "linearises"
+            f"a specification was asked for on plant '{s.ground.plant}', expected '{RIGID}', whose equations "
+            "it linearises"
         )
     scene = RobotAndGait.of(s) if scene is None else scene
     walker = build(s, scene)

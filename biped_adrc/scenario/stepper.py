@@ -72,8 +72,8 @@ class Stepper:
     """`count` walks of a scenario, or of a walker, in sampled time.
 
     walker_of(scenario, robot and gait): the walker in place of `scenario.build`. recorded: whether the nodes of
-    single supports are kept, for `over`. Raises InputError for continuous time, a scenario with `run.fine`, a robot
-    without motors, and parts that do not fit together.
+    single supports are kept, for `over`. Raises InputError for continuous time, a scenario with `run.fine`, a
+    robot without motors, and parts that do not fit together.
     """
 
     def __init__(
@@ -89,8 +89,8 @@ class Stepper:
         self.curve: Reference | None = None
         if what.hardware.period is None if isinstance(what, Scenario) else not what.sampled:
             raise InputError(
-                "walks go from one sample instant to the next here, and there are none; give hardware.period, as "
-                "'1 ms', or hardware = 'ideal', or timing=SampledTime(1e-3) of a walker"
+                "walks go from one sample instant to the next here, and there are none; give hardware.period, "
+                "as '1 ms', or hardware = 'ideal', or timing=SampledTime(1e-3) of a walker"
             )
         if isinstance(what, Scenario):
             if what.run.fine is not None:

@@ -62,7 +62,15 @@ BESIDE = 1e-3
 """Relative increase of the rates with which the walk of the regression starts beside the cycle."""
 
 
-NO_MAP = ("run.impacts", "run.first_step", "run.fine", "run.engine", "pushes", "ground.drop", "start")
+NO_MAP = (
+    "run.impacts",
+    "run.first_step",
+    "run.fine",
+    "run.engine",
+    "pushes",
+    "ground.drop",
+    "start",
+)
 """Values and records of a scenario that have no effect on a return map."""
 FIXED = ("run.method", "run.h", "run.tolerance", "run.runaway_speed")
 """The same of a robot without motors."""
@@ -127,7 +135,11 @@ def find_cycle(
     another ground. own: own values of the controller. Raises InputError for a controller that does not fit the
     robot, and as Biped.load, load_gait, known_cycle.
     """
-    s = Scenario({"name": controller or "NPD", **(own or {})}, robot={"name": robot, "preset": preset}, gait=gait)
+    s = Scenario(
+        {"name": controller or "NPD", **(own or {})},
+        robot={"name": robot, "preset": preset},
+        gait=gait,
+    )
     if controller is None and RobotAndGait.of(s).gait is None:
         s = s.replace(controller="passive")
     return cycle_of(s, observer_states, slope)

@@ -13,8 +13,8 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-from biped_adrc.scenario.file import write_scenario
 from biped_adrc.files import plain, write_bytes, write_text
+from biped_adrc.scenario.file import write_scenario
 from biped_adrc.tuning.candidate import Candidate
 from biped_adrc.tuning.proposals import importances, optuna_quiet, optuna_study
 from biped_adrc.tuning.study import SETS, TuningStudy

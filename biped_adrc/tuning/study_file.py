@@ -19,7 +19,7 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from biped_adrc.bench.parameters import Refused, Value, check_name, read
+from biped_adrc.bench.parameters import Refused, Value, check_name, read, reason
 from biped_adrc.bench.run import COLUMNS, WORDS
 from biped_adrc.bench.study import SEED, Range
 from biped_adrc.bench.table_reader import (
@@ -32,7 +32,6 @@ from biped_adrc.bench.table_reader import (
     read_toml,
 )
 from biped_adrc.errors import InputError
-from biped_adrc.bench.parameters import reason
 from biped_adrc.scenario.records import unknown
 from biped_adrc.tuning.measure import Aim, Limit, Measure
 from biped_adrc.tuning.study import SETS, TuningStudy, WalkSet

@@ -48,7 +48,9 @@ class Variable(Part):
 
     def acts(self, values: Values) -> bool:
         """Whether it has an effect beside these values of a scenario."""
-        return all(values.get(name, field_of(name).default) in told for name, told in self.when.items())
+        return all(
+            values.get(name, field_of(name).default) in told for name, told in self.when.items()
+        )
 
 
 def scenario_values(

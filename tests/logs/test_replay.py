@@ -43,7 +43,12 @@ def test_the_torque_asked_for_is_the_one_that_the_walk_had(walked, values):
 
 
 def test_a_known_delay_of_one_period_moves_the_torques_by_one_row(walked):
-    x = asked(walked(**LESO, period=1e-3, delay=1e-3, delay_known=True))
+    x = asked(
+        walked(
+            **LESO,
+            **{"hardware.period": 1e-3, "hardware.delay": 1e-3, "hardware.delay_known": True},
+        )
+    )
     same = np.diff(x.step) == 0.0
     assert np.max(np.abs(x.torque[:-1] - x.u[1:])[same]) < ROUND_OFF
     assert np.max(np.abs(x.torque[:-1] - x.u[:-1])[same]) > 1.0
@@ -82,7 +87,7 @@ def missed(walk, controller, order, bandwidth, unit):
 
     unit: "N m", or "rad/s^2" for an observer that filters kappa zeta.
     """
-    period = walk.scenario.period
+    period = walk.scenario.hardware.period
     x = ba.replay(
         ba.logged(walk), ba.Scenario({"name": controller, "observer": {"bandwidth": bandwidth}})
     ).signals
@@ -102,7 +107,7 @@ def missed(walk, controller, order, bandwidth, unit):
 )
 def test_the_estimate_is_the_pulse_behind_the_observers_own_lag(walked, controller, order, unit):
     """(w / (s + w))^2 with the two poles of the momentum observer, ^3 with m = 1: late by order / w."""
-    walks = [walked(period=T, impacts=2) for T in (4e-3, 2e-3, 1e-3)]
+    walks = [walked(**{"hardware.period": T, "run.impacts": 2}) for T in (4e-3, 2e-3, 1e-3)]
     errors = [missed(walk, controller, order, 100.0, unit) for walk in walks]
     off, late = np.array(errors).T
     assert np.all(off < 0.1 * late)
@@ -110,7 +115,7 @@ def test_the_estimate_is_the_pulse_behind_the_observers_own_lag(walked, controll
 
 
 def test_the_estimate_converges_to_the_pulse_as_the_bandwidth_grows(walked):
-    walk = walked(period=1e-3, impacts=2)
+    walk = walked(**{"hardware.period": 1e-3, "run.impacts": 2})
     late = [missed(walk, "DOB", 2, w, "N m")[1] for w in (25.0, 50.0, 100.0)]
     # the rms of exp(-w t) after each of two edges goes with w^(-1/2)
     assert np.allclose(np.divide(late[:-1], late[1:]), np.sqrt(2.0), rtol=0.02)
@@ -118,7 +123,10 @@ def test_the_estimate_converges_to_the_pulse_as_the_bandwidth_grows(walked):
 
 def test_in_mujoco_the_pulse_is_found_beside_the_contact(walked):
     pytest.importorskip("mujoco")
-    soft, rigid = (walked(period=1e-3, impacts=2, plant=x) for x in ("mujoco", "rigid"))
+    soft, rigid = (
+        walked(**{"hardware.period": 1e-3, "run.impacts": 2, "ground.plant": x})
+        for x in ("mujoco", "rigid")
+    )
     found = ba.replay(ba.logged(soft), ba.Scenario("DOB"))
     x = found.signals
     rows = (x.step == 2) & (x.t_step > 0.15) & (x.t_step < 0.3)

@@ -10,12 +10,12 @@ from typer.testing import CliRunner
 
 import biped_adrc as ba
 from biped_adrc.bench.parameters import nested
-from biped_adrc.scenario.file import read_scenario, write_scenario
 from biped_adrc.bench.study_file import read_study
 from biped_adrc.bench.sweep import sweep
 from biped_adrc.campaign.workers import Threads
 from biped_adrc.cli import app
 from biped_adrc.errors import InputError
+from biped_adrc.scenario.file import read_scenario, write_scenario
 from biped_adrc.tuning.study_file import load_tuning, read_tuning
 from biped_adrc.tuning.tune import tune
 

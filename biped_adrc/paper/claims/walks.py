@@ -14,7 +14,7 @@ at half.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -197,7 +197,7 @@ def _undisturbed(
 ) -> Track:
     """The same walk without a push, computed once for all pushes on it; h [s]."""
     plain = Member(preset, 0.0, 0.0, ("q1",), 0.0, start, theta).run(controller, h)
-    made = prepared(replace(plain, pushes=(), gait=gait), start == "zero")
+    made = prepared(plain.replace(pushes=(), gait=gait), start == "zero")
     found = tracks(made, made.simulate(h, 1))[0]
     for shared in (found.t, found.error, found.derror):
         shared.flags.writeable = False
@@ -207,8 +207,8 @@ def _undisturbed(
 def walked(run: Scenario, start: str = "model") -> MemberWalk:
     """A run under the push, reduced to numbers.
 
-    The pushed step with run.run.h and half of it, since its error is a spike of milliseconds; then all impacts with
-    the longer step declared for what comes later, of which only ending and feasibility are kept.
+    The pushed step with run.h and half of it, since its error is a spike of milliseconds; then all impacts
+    with the longer step declared for what comes later, of which only ending and feasibility are kept.
     """
     made = prepared(run, start == "zero")
     assert run.run.h is not None
