@@ -14,7 +14,15 @@ from biped_adrc.gait.gait import Gait
 
 LONG = "n" * 300
 URDF = Path(__file__).parents[1] / "urdf" / "rabbit" / "floating.urdf"
-STUDY = '[study]\nname = "a"\n[fixed]\ncontroller.name = "NPD"\nrun.impacts = 1\n[grid]\ncontroller.K_p = [5000.0]\n'
+STUDY = """
+[study]
+name = "a"
+[fixed]
+controller.name = "NPD"
+run.impacts = 1
+[grid]
+controller.K_p = [5000.0]
+"""
 SEARCH = """
 study = {name = "s", budget = 10, generation = 4, seed = 0}
 fixed = {controller.name = "LESO"}
