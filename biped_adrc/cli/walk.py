@@ -19,8 +19,9 @@ from rich.table import Table
 from biped_adrc.cli.app import EXIT_FELL, app, bar, console, inputs, run_path, say, say_written
 from biped_adrc.cli.options import WALKS, of_scenario, scenario_from, texts
 from biped_adrc.cli.steps import print_on_ground, print_supports
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, RaisedError
 from biped_adrc.files import keep_inputs, output_path
+from biped_adrc.hybrid.status import Status
 from biped_adrc.types import PlainRecord
 
 if TYPE_CHECKING:
@@ -86,7 +87,9 @@ def _walk(
     with bar() as shown:
         task = shown.add_task(f"walking, {s.controller.name}", total=s.run.impacts)
         full = walk_scenario(s, lambda t, n: shown.update(task, completed=n))
-        half = None
+        half, run = None, full.trajectory
+        if run.status is Status.RAISED:
+            raise RaisedError(f"{run.status.value}, after {run.t_end:.4g} s:\n{run.detail}")
         if full.gait is not None:
             shown.update(task, description="the same at half the step", completed=0)
             finer = halved(s, full.walker).replace(run={"engine": "compiled"})
