@@ -150,3 +150,15 @@ def robot_rows(robot: str) -> tuple[Row, ...]:
         Row(name, "largest |multiplier|, variational equation", one, other, 1e-6, by),
         at_most(name, f"gap of all {count}, in units of {unit}", 1.0, table.gap(central), by),
     )
+
+
+def write_stored() -> None:
+    """Design the paper's gaits (a) and (b) anew in every preset, and write the files in `gaits/`."""
+    for preset in ("identified", "identified-bare", "tac2003"):
+        biped = Biped.load("rabbit", preset)
+        for gait in (design_published_gait(biped), design_recipe_orbit(biped)):
+            gait.save(data_folder("gaits") / "rabbit" / gait.file_name)
+
+
+if __name__ == "__main__":
+    write_stored()
