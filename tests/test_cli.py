@@ -1,6 +1,5 @@
 """The command: help, exit codes, one clear message for bad input, files that survive an interruption."""
 
-import json
 import subprocess
 import sys
 from pathlib import Path
@@ -43,7 +42,7 @@ def test_walk_store_and_animate(tmp_path, command):
     assert done.code == 0, done.stderr
     assert "COMPLETED" in done.stdout
     assert "least and largest mean over 5 ms" in done.stdout
-    settings = json.loads(run.with_suffix(".json").read_text())["settings"]
+    settings = ba.load_walk(run).trajectory.settings
     assert settings["scenario"]["pushes"][0]["torque"] == 10.0
     assert "pin" in settings["versions"]
     done = command("animate", str(run), "-o", str(page))

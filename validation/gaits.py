@@ -30,13 +30,15 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.npd import NPDController
 from biped_adrc.gait.design.request import StepLimits
 from biped_adrc.gait.gait import Gait, gait_names, load_gait
+from biped_adrc.gait.published import design_published_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
+from biped_adrc.resources import data_folder
 from biped_adrc.scenario.run import Cycle
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.cycle_stability import find_cycle, gait_cycle
-from biped_adrc.studies.gait_design import design_gait
+from biped_adrc.studies.gait_design import design_gait, design_recipe_orbit
 from biped_adrc.types import Array
 from validation.passive import simplest
 from validation.row import Row, at_most

@@ -31,7 +31,13 @@ def trial(values: Mapping[str, object]) -> Scenario:
     That is the profile ideal: what a study reports is counted at sample instants, so each trial needs some.
     Raises InputError for values that do not fit together.
     """
+    values = {_full(name): x for name, x in values.items()}
     return scenario_of(merged({"hardware": {"profile": "ideal"}}, nested(values)))
+
+
+def _full(name: str) -> str:
+    """The axis of seeds by its name in a scenario."""
+    return "run.seed" if name == "seed" else name
 
 
 def flat(values: Mapping[str, Any], before: str = "") -> dict[str, Any]:
@@ -47,13 +53,13 @@ def flat(values: Mapping[str, Any], before: str = "") -> dict[str, Any]:
 
 def unit(name: str) -> str:
     """The SI unit of a parameter, "1" for none: "rad" for "start.q5"."""
-    return field_of(name).unit
+    return field_of(_full(name)).unit
 
 
 def check_name(name: str) -> None:
     """Raises Refused, with the nearest names, for a parameter that there is not."""
     try:
-        field_of(name)
+        field_of(_full(name))
     except InputError as error:
         raise Refused(getattr(error, "text", str(error))) from None
 
@@ -64,21 +70,21 @@ def read(name: str, given: Any) -> Value:
     "none" is no value, where the field allows it. Raises Refused for an unknown name or a value out of range.
     """
     try:
-        x: Value = value_of(name, given)
+        x: Value = value_of(_full(name), given)
     except InputError as error:
         raise Refused(getattr(error, "text", str(error))) from None
-    return float(x) if float in field_of(name).types and type(x) is int else x
+    return float(x) if float in field_of(_full(name)).types and type(x) is int else x
 
 
 def is_number(name: str) -> bool:
     """Whether a parameter is a number, so that it has a range; an own parameter may be one."""
-    what = field_of(name)
+    what = field_of(_full(name))
     return what.number or not what.types
 
 
 def is_whole(name: str) -> bool:
     """Whether a parameter takes whole numbers only."""
-    types = field_of(name).types
+    types = field_of(_full(name)).types
     return int in types and float not in types
 
 

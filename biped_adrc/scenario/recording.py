@@ -2,8 +2,7 @@
 
 The simulation stores states only. Everything else (references, torques, estimates, forces) is computed from
 them by the pure functions of the closed loop when it is first asked for, so a walk has all signals without
-having recorded any. The one exception is a stored walk whose controller is not at hand: its signals are in the
-file.
+having recorded any; those of a stored walk are in its file.
 
 `walk`, `run.walk_scenario` and `stored.load_walk` return a `Walk`; the command line, notebooks, studies and the
 reproduction of the paper read it.
@@ -75,7 +74,7 @@ class Walk(Shown):
     scenario: Scenario | None = None
     """None for a walker made in Python."""
     recorded: Signals | None = None
-    """Signals from the file of a stored walk whose controller is not at hand."""
+    """Signals from the file of a stored walk."""
     said: tuple[str, ...] = ()
     """Remarks from reading a file, such as a changed source of a class."""
 
@@ -177,7 +176,11 @@ class Walk(Shown):
         run, ground = self.trajectory, self._soft_ground()
         slipped = None if ground is None else slip_times(run, *ground)
         cut = until_infeasible(self.walker, run, self.signals, limits, slipped)
-        return self if cut is self.trajectory else replace(self, trajectory=cut)
+        if cut is run:
+            return self
+        count = sum(len(arc.t) for arc in cut.arcs)
+        kept = {name: x[:count] for name, x in vars(self.signals).items()}
+        return replace(self, trajectory=cut, recorded=self.recorded and Signals(**kept))
 
     def saying(self, said: tuple[str, ...]) -> Self:
         """The same walk with more sentences among its remarks."""

@@ -1,14 +1,13 @@
-"""Walks on disk, complete in themselves: trajectory, walker, gait, scenario and torques in one .npz file.
+"""Walks on disk, complete in themselves: scenario, states, signals, walker and gait in one .npz file.
 
 Robot and gait are in the file as they were, so that neither the working directory nor later changes of their
-files matter. Reading a file imports no code of the user's: for a controller that is not at hand a stand-in
-takes its place, and the signals, which are then in the file, are used as they are. A stored walk is checked
-before it is handed over (`_check`), so that a damaged file is noticed on reading.
+files matter. Reading a file imports no code of the user: a stand-in takes the place of a controller that is not
+at hand. A stored walk is checked before it is handed over (`_check`), so that damage is noticed on reading.
 
 Entries of the file, beside the trajectory that `hybrid.storage` writes:
 
     walker      JSON: {"parts": records of all objects, "walker": place of the walker, "gait": the gait}
-    signal.*    arrays over the nodes: u alone, or all signals where a class of the user's takes part
+    signal.*    arrays over the nodes
     settings    versions, the scenario's record, names of the user's classes, and what the caller adds
 """
 
@@ -23,7 +22,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from biped_adrc.analysis.signals import Signals, signals
+from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.feet import NAMES
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller, Measurement
@@ -67,21 +66,18 @@ def save_walk(walk: Walk, path: Path | str, settings: Mapping[str, object] | Non
 
     settings: more plain values to be stored beside it.
 
-    All signals are stored where a class of the user's takes part, and those that were recorded; torques only
-    elsewhere, since the others can be computed again. Raises InputError and OutputError.
+    Raises InputError and OutputError.
     """
     writer = Writer()
     walker, gait = writer.part(walk.walker), writer.plain(walk.gait)
     record = {"parts": writer.records, "walker": walker, "gait": gait}
-    whole = bool(writer.own) or walk.recorded is not None
-    seen = vars(walk.signals) if whole else {"u": walk.signals.u}
     about: dict[str, object] = {"versions": versions()}
     if walk.scenario is not None:
         about["scenario"] = walk.scenario.record()
     if writer.own:
         about["own"] = sorted(set(writer.own))
     arrays: dict[str, ArrayLike] = {"walker": json.dumps(record)}
-    arrays |= {f"signal.{k}": x for k, x in seen.items()}
+    arrays |= {f"signal.{k}": x for k, x in vars(walk.signals).items()}
     return storage.save(walk.trajectory, path, {**about, **(settings or {})}, arrays)
 
 
@@ -125,7 +121,7 @@ def _stored(trajectory: Trajectory, beside: Mapping[str, Array], controller: obj
         for home in dict.fromkeys(reader.changed)
     )
     made = watched(walker, gait, trajectory, _scenario(trajectory))
-    return replace(made, recorded=Signals(**seen) if len(seen) > 1 else None, said=changed)
+    return replace(made, recorded=Signals(**seen), said=changed)
 
 
 def _check_readings(walk: Walk) -> None:
@@ -145,27 +141,18 @@ def _check_readings(walk: Walk) -> None:
 
 
 def _check(walk: Walk) -> None:
-    """Raise ValueError where gait, states or signals of a file do not fit the walker.
-
-    The signals of one node are computed as a test: a walker that cannot do this would fail at the first plot.
-    """
+    """Raise ValueError where gait, states or signals of a file do not fit the walker."""
     walker, arcs, n = walk.walker, walk.trajectory.arcs, walk.walker.plant.n
     _check_readings(walk)
     expected = Gait if walker.plant.p else type(None)
     if not isinstance(walk.gait, expected):
         raise ValueError(f"its gait is a {type(walk.gait).__name__}")
-    if walk.recorded is not None:
-        t = np.concatenate([arc.t for arc in arcs])
-        rows = {len(signal) for signal in vars(walk.recorded).values()}
-        if rows != {len(t)} or not np.array_equal(walk.recorded.t, t):
-            raise ValueError(f"its signals are not of its {len(t)} nodes")
-        return
-    first = arcs[0]
-    size = len(walker.initial_state(first.x[0, :n], first.x[0, n : 2 * n], first.mode))
-    if any(arc.x.shape[1] != size for arc in arcs):
-        raise ValueError(f"its states have {first.x.shape[1]} numbers, its walker's {size}")
-    node = replace(first, t=first.t[:1], x=first.x[:1], dx=first.dx[:1], event=None)
-    signals(walker, Trajectory((node,), walk.trajectory.status), walk.reference)
+    t = np.concatenate([arc.t for arc in arcs])
+    rows = {len(signal) for signal in vars(walk.signals).values()}
+    if rows != {len(t)} or not np.array_equal(walk.signals.t, t):
+        raise ValueError(f"its signals are not of its {len(t)} nodes")
+    if any(arc.x.shape[1] < 2 * n for arc in arcs):
+        raise ValueError(f"its states have {arcs[0].x.shape[1]} numbers, expected {2 * n} or more")
 
 
 def _given(parts: Sequence[PartRecord], thing: Any) -> dict[str, object]:

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
-
 import pytest
 from typer.testing import CliRunner
 
@@ -47,7 +44,7 @@ def test_on_the_command_line(own: str) -> None:
         "compiled", "--period", "0.001", "--set", "hardware.delay=1 ms", "-o", "mine.npz",
     )  # fmt: skip
     assert "1 impacts" in done
-    record = json.loads(Path("mine.json").read_text())["settings"]["scenario"]
+    record = ba.load_walk("mine.npz").trajectory.settings["scenario"]
     assert record["controller"]["gain"] == 0.5
     assert record["hardware"]["delay"] == 1e-3
     leso = command(
