@@ -14,7 +14,7 @@ from typing import NamedTuple
 from biped_adrc.campaign.chunk import Record
 from biped_adrc.resources import packaged
 from biped_adrc.scenario.build import RIGID
-from biped_adrc.scenario.records import flat
+from biped_adrc.scenario.dotted import flat
 from biped_adrc.types import PlainRecord
 
 

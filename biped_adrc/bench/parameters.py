@@ -12,7 +12,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from biped_adrc.errors import InputError
-from biped_adrc.scenario.records import merged, nested
+from biped_adrc.scenario.dotted import merged, nested
 from biped_adrc.scenario.scenario import Scenario, field_of, scenario_of, value_of
 
 Value = float | int | bool | str | None | tuple[float, ...]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from biped_adrc.bench.parameters import Value
 from biped_adrc.scenario import file
-from biped_adrc.scenario.records import flat
+from biped_adrc.scenario.dotted import flat
 
 
 def read_scenario(path: Path) -> dict[str, Value]:

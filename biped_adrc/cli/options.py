@@ -21,8 +21,8 @@ from pydantic import TypeAdapter, ValidationError
 
 from biped_adrc.errors import InputError
 from biped_adrc.resources import packaged
+from biped_adrc.scenario.dotted import unknown
 from biped_adrc.scenario.file import read_scenario
-from biped_adrc.scenario.records import unknown
 from biped_adrc.scenario.scenario import Scenario, field_of
 from biped_adrc.types import PlainRecord
 

@@ -16,7 +16,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.parts import check_part
 from biped_adrc.robots.limits import KnownLimits
 from biped_adrc.scenario.build import RIGID, RobotAndGait, limits
-from biped_adrc.scenario.records import flat, merged, nested
+from biped_adrc.scenario.dotted import flat, merged, nested
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array

@@ -26,7 +26,7 @@ from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.live.walks import MOST, PageWalk, numbers
 from biped_adrc.parts import check_part
 from biped_adrc.resources import packaged
-from biped_adrc.scenario.records import merged, nested
+from biped_adrc.scenario.dotted import merged, nested
 from biped_adrc.scenario.scenario import ObserverRecord, Scenario
 from biped_adrc.viz.meshcat import objects as draw
 from biped_adrc.viz.meshcat.view import Look, captions, scene_settings

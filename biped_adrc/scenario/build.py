@@ -35,9 +35,11 @@ from biped_adrc.model.model_errors import ModelErrors, impact_error
 from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.disturbances import disturbances
-from biped_adrc.scenario.records import Misfit, flat, unknown
+from biped_adrc.scenario.dotted import flat, unknown
+from biped_adrc.scenario.hardware import EncoderRecord, PartRecord
+from biped_adrc.scenario.records import Misfit
 from biped_adrc.scenario.registry import construct, find, own, takes
-from biped_adrc.scenario.scenario import EncoderRecord, PartRecord, Scenario, drawn
+from biped_adrc.scenario.scenario import Scenario, drawn
 from biped_adrc.soft.ground import SoftGround
 from biped_adrc.soft.walking import stepping_loop
 from biped_adrc.timing import ContinuousTime, SampledTime

@@ -28,7 +28,8 @@ from biped_adrc.gait.outputs import LinearOutputs
 from biped_adrc.model.biped import Biped
 from biped_adrc.observers.base import Observer, ResetPolicy
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.scenario.records import Misfit, flat, unknown
+from biped_adrc.scenario.dotted import flat, unknown
+from biped_adrc.scenario.records import Misfit
 from biped_adrc.scenario.registry import REGISTRY, construct, find, lacking, takes
 from biped_adrc.scenario.scenario import ControllerRecord, ObserverRecord, Scenario
 
@@ -48,7 +49,12 @@ def controller(s: Scenario, gait: Gait, biped: Biped) -> Controller:
     Raises InputError for a class that is not there or lacks something, and a value that nothing takes.
     """
     h, rows = gait.constraint, np.eye(biped.n)[: biped.p]
-    known = {"biped": biped, "gait": gait, "reference": h, "outputs": LinearOutputs(rows, h)}
+    known: Values = {
+        "biped": biped,
+        "gait": gait,
+        "reference": h,
+        "outputs": LinearOutputs(rows, h),
+    }
     known["torque_limit"] = s.hardware.torque_limit
     return _made("controller", s.controller, known)
 

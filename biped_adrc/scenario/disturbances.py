@@ -11,8 +11,9 @@ from biped_adrc.disturbances.base import Disturbance, Sum, Windowed
 from biped_adrc.disturbances.link import OnLink
 from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
+from biped_adrc.scenario.dotted import unknown
 from biped_adrc.scenario.push import RANDOM, Push
-from biped_adrc.scenario.records import Misfit, unknown
+from biped_adrc.scenario.records import Misfit
 from biped_adrc.scenario.registry import construct, find, takes
 from biped_adrc.scenario.scenario import Scenario, drawn
 from biped_adrc.types import Array

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from biped_adrc.errors import InputError
 from biped_adrc.files import one_line, reading, toml_key, toml_value, write_text
-from biped_adrc.scenario.records import flat
+from biped_adrc.scenario.dotted import flat
 from biped_adrc.scenario.scenario import Scenario
 
 

@@ -43,29 +43,30 @@ class Push(Record):
     model_config = ConfigDict(extra="allow")
     SHORT = "shape"
 
-    shape: str = field(
-        "In time: pulse, step, sine, noise, recorded, hip force, or module:Class.",
-        "pulse",
-        kind="disturbance",
-    )
-    torque: float | dict[str, float] = field("On each of the joints, or by joint.", 0.0, "N m")
-    joints: str = field(
-        "Such as 'q1,-q3' (minus is the other sign), or 'random' for drawn factors on all that are driven.",
-        "q1,q2,q3,q4",
-    )
-    force: float = field("On a link, or on the hip.", 0.0, "N", ge=0, le=100000.0)
-    link: str | None = field("Link on whose origin the force acts.", None)
-    direction: float = field("Of a force, from forwards to up.", 0.0, "rad", ge=-7, le=7)
-    step: int = field("Single support in which it begins.", 3, ge=1, le=100000)
-    onset: float | None = field(
-        "In that step; by default drawn, to end within it.", None, "s", ge=0, le=100
-    )
-    duration: float = field("Of a pulse, a sine or noise.", 0.2, "s", gt=0, le=100.0)
-    rise: float = field("Time that each edge of a pulse takes.", 0.0, "s", ge=0, le=10.0)
-    frequency: float = field("Of a sine; the highest of noise.", 5.0, "Hz", gt=0, le=1000.0)
-    across_impacts: bool | None = field(
-        "Whether it goes on over impacts; by default as its shape does.", None
-    )
+    shape: str = field("pulse", kind="disturbance")
+    """In time: pulse, step, sine, noise, recorded, hip force, or module:Class."""
+    torque: float | dict[str, float] = field(0.0, "N m")
+    """On each of the joints, or by joint."""
+    joints: str = field("q1,q2,q3,q4")
+    """Such as 'q1,-q3' (minus is the other sign), or 'random' for drawn factors on all that are driven."""
+    force: float = field(0.0, "N", ge=0, le=100000.0)
+    """On a link, or on the hip."""
+    link: str | None = field(None)
+    """Link on whose origin the force acts."""
+    direction: float = field(0.0, "rad", ge=-7, le=7)
+    """Of a force, from forwards to up."""
+    step: int = field(3, ge=1, le=100000)
+    """Single support in which it begins."""
+    onset: float | None = field(None, "s", ge=0, le=100)
+    """In that step; by default drawn, to end within it."""
+    duration: float = field(0.2, "s", gt=0, le=100.0)
+    """Of a pulse, a sine or noise."""
+    rise: float = field(0.0, "s", ge=0, le=10.0)
+    """Time that each edge of a pulse takes."""
+    frequency: float = field(5.0, "Hz", gt=0, le=1000.0)
+    """Of a sine; the highest of noise."""
+    across_impacts: bool | None = field(None)
+    """Whether it goes on over impacts; by default as its shape does."""
 
     @field_validator("shape")
     @classmethod

@@ -1,7 +1,8 @@
 """Records of plain values: units, ranges and texts declared at the field, checked when a record is made.
 
     class Motors(Record):
-        torque_limit: float | None = field("Of every motor.", None, "N m", gt=0)
+        torque_limit: float | None = field(None, "N m", gt=0)
+        ...and its help text as the docstring below
 
 A number may be text with a unit, "150 N m" or "1 ms"; "none" is no value where a field allows it. A record that
 has one obvious name, `SHORT`, may be that name alone. Values of records inside records have dotted names,
@@ -12,8 +13,7 @@ Records of parts of the user's own are open: they keep other names in `own`, and
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from difflib import get_close_matches
+from collections.abc import Mapping
 from types import NoneType, UnionType
 from typing import Any, ClassVar, Literal, NamedTuple, Self, Union, get_args, get_origin
 
@@ -30,23 +30,21 @@ from pydantic import (
 from pydantic.fields import FieldInfo
 
 from biped_adrc.errors import InputError
+from biped_adrc.scenario.dotted import NAME, flat, merged, nested, unknown
 from biped_adrc.scenario.registry import portable, spelled
 from biped_adrc.scenario.units import in_si, quantity
 from biped_adrc.shown import LONGEST
 
-NAME = ""
-"""Key of a record's obvious name in plain values."""
-MANY = 20
-"""Names that a message lists at most, before it names the records alone."""
 NONE = "none"
 """Text for no value."""
 
 
-def field(text: str, default: Any, unit: str = "1", kind: str = "", **limits: Any) -> Any:
-    """A field with its help text, unit and range (ge, gt, le, lt); kind: of the registry, for a name."""
-    return Field(
-        default, description=text, json_schema_extra={"unit": unit, "kind": kind}, **limits
-    )
+def field(default: Any, unit: str = "1", kind: str = "", **limits: Any) -> Any:
+    """A field with its unit and range (ge, gt, le, lt); kind: of the registry, for a name.
+
+    The docstring below the field is its help text.
+    """
+    return Field(default, json_schema_extra={"unit": unit, "kind": kind}, **limits)
 
 
 class Misfit(InputError):
@@ -99,7 +97,11 @@ class Record(BaseModel):
     """A frozen record of plain values. Raises InputError that names the value by its dotted name."""
 
     model_config = ConfigDict(
-        frozen=True, extra="forbid", allow_inf_nan=False, protected_namespaces=()
+        frozen=True,
+        extra="forbid",
+        allow_inf_nan=False,
+        protected_namespaces=(),
+        use_attribute_docstrings=True,
     )
     SHORT: ClassVar[str] = "name"
     """Field that a text in place of the record stands for."""
@@ -314,45 +316,6 @@ def described_in(cls: type[Record], name: str) -> Described:
     raise Misfit(name, unknown(name, names_of(cls)))
 
 
-def nested(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Values by dotted name as nested ones: {"run.seed": 1} becomes {"run": {"seed": 1}}."""
-    made: dict[str, Any] = {}
-    for name, x in values.items():
-        head, dot, rest = str(name).partition(".")
-        inner = nested({rest: x}) if dot else nested(x) if isinstance(x, Mapping) else x
-        made[head] = merged(made.get(head), inner)
-    return made
-
-
-def merged(before: Any, more: Any) -> Any:
-    """Nested values with others put on top; the items of a list are named by their numbers."""
-    if not isinstance(more, dict):
-        return more
-    if isinstance(before, list | tuple) and all(name.isdigit() for name in more):
-        before = {str(i): x for i, x in enumerate(before)}
-    if isinstance(before, str):
-        before = {NAME: before}
-    if isinstance(before, Record):
-        before = before.record()
-    if not isinstance(before, dict):
-        return more
-    return before | {name: merged(before.get(name), x) for name, x in more.items()}
-
-
-def flat(values: Mapping[str, Any], before: str = "") -> dict[str, Any]:
-    """The inverse of `nested`; records in a list have numbers in their names."""
-    made: dict[str, Any] = {}
-    for name, x in values.items():
-        if isinstance(x, list) and x and all(isinstance(y, Mapping) for y in x):
-            x = {str(i): y for i, y in enumerate(x)}
-        made |= (
-            flat(x, f"{before}{name}.")
-            if isinstance(x, Mapping)
-            else {f"{before}{name}": tuple(x) if isinstance(x, list) else x}
-        )
-    return made
-
-
 def misfit(error: ValidationError, cls: type[Record]) -> Misfit:
     """The first thing that is wrong, as an error with the dotted name of the value."""
     found = error.errors()[0]
@@ -373,23 +336,3 @@ def misfit(error: ValidationError, cls: type[Record]) -> Misfit:
 
 _LABELS = ("float", "int", "bool", "str")
 """What pydantic names the members of a union in the place of an error."""
-
-
-def unknown(name: str, known: Iterable[str]) -> str:
-    """The sentence for a name that does not exist: those that end alike, the nearest ones, or all."""
-    known, last = list(known), name.rpartition(".")[2]
-    ends: dict[str, list[str]] = {}
-    for whole in known:
-        parts = whole.split(".")
-        for k in range(len(parts)):  # records have names too
-            ends.setdefault(parts[k], []).append(".".join(parts[: k + 1]))
-    near = ends.get(last) or [
-        *get_close_matches(name, known, 2, 0.8),
-        *(ends[end][0] for end in get_close_matches(last, ends, 2)),
-    ]
-    near = list(dict.fromkeys(near))[:3]
-    if near:
-        return f"unknown name; did you mean {' or '.join(map(repr, near))}?"
-    if len(known) > MANY:
-        known = list(dict.fromkeys(whole.partition(".")[0] for whole in known))
-    return f"unknown name; choose from {known}" if known else "unknown name; leave it out"

@@ -20,7 +20,8 @@ from typing import Any, ClassVar, Literal, Self
 import numpy as np
 from pydantic import ConfigDict, field_validator, model_validator
 
-from biped_adrc.resources import packaged
+from biped_adrc.scenario.dotted import nested
+from biped_adrc.scenario.hardware import HardwareRecord
 from biped_adrc.scenario.push import Push, parse_push
 from biped_adrc.scenario.records import (
     Described,
@@ -28,19 +29,12 @@ from biped_adrc.scenario.records import (
     Record,
     described_in,
     field,
-    flat,
-    merged,
     names_of,
-    nested,
     plain,
     read,
 )
 from biped_adrc.scenario.registry import find
 
-PROFILES: dict[str, dict[str, Any]] = packaged("biped_adrc.scenario", "hardware.toml")
-"""Values that `hardware.profile` fills in: none, continuous time; ideal, exact measurements at 1 kHz; rabbit,
-sampling, encoders, torque and friction published for RABBIT (Chevallereau et al., IEEE Control Systems Magazine
-2003; Westervelt, Buche, Grizzle, IJRR 2004), whose rotors are in the preset 'identified'."""
 MOST_SEED = 2**63 - 1
 """Largest seed: the largest integer that a file of results can hold."""
 FREE = ("adaptive", "stiff")
@@ -51,44 +45,37 @@ Own = ConfigDict(extra="allow")
 class RobotRecord(Record):
     """Which robot walks."""
 
-    name: str = field(
-        "By name ('biped-adrc robot list'), the path of a robot.toml, or module:Class.",
-        "rabbit",
-        kind="robot",
-    )
-    preset: str | None = field("Of its parameters; its record's default if not given.", None)
+    name: str = field("rabbit", kind="robot")
+    """By name ('biped-adrc robot list'), the path of a robot.toml, or module:Class."""
+    preset: str | None = field(None)
+    """Of its parameters; its record's default if not given."""
 
 
 class GaitRecord(Record):
     """Which gait is the reference."""
 
-    name: str = field(
-        "published (through x*), recipe (section IV), v0.4 to v1.1 (by speed), a .json file, or module:Class.",
-        "published",
-        kind="gait",
-    )
-    continued: bool = field("The constraint goes on smoothly past its ends.", False)
-    other_robot: bool = field("Walk a gait that was made for another robot or preset.", False)
+    name: str = field("published", kind="gait")
+    """published (through x*), recipe (section IV), v0.4 to v1.1 (by speed), a .json file, or module:Class."""
+    continued: bool = field(False)
+    """The constraint goes on smoothly past its ends."""
+    other_robot: bool = field(False)
+    """Walk a gait that was made for another robot or preset."""
 
 
 class ObserverRecord(Record):
     """The observer of the controller; its further parameters by name."""
 
     model_config = Own
-    name: str | None = field(
-        "Of the registry, or module:Class; by default the controller's own.", None, kind="observer"
-    )
-    bandwidth: float | None = field(
-        "All poles at minus this; by default the controller's own.", None, "rad/s", gt=0, le=1e6
-    )
-    order: int | None = field("m of the observer.", None, ge=0, le=12)
-    poles: tuple[float, ...] | None = field(
-        "m + 2 poles, comma separated; by default the controller's own.", None, "rad/s"
-    )
-    reset: Literal["none", "relabel", "measured", "model"] = field(
-        "At impact nothing, legs swapped, states from the measurement, or from the nominal model.",
-        "model",
-    )
+    name: str | None = field(None, kind="observer")
+    """Of the registry, or module:Class; by default the controller's own."""
+    bandwidth: float | None = field(None, "rad/s", gt=0, le=1e6)
+    """All poles at minus this; by default the controller's own."""
+    order: int | None = field(None, ge=0, le=12)
+    """m of the observer."""
+    poles: tuple[float, ...] | None = field(None, "rad/s")
+    """m + 2 poles, comma separated; by default the controller's own."""
+    reset: Literal["none", "relabel", "measured", "model"] = field("model")
+    """At impact nothing, legs swapped, states from the measurement, or from the nominal model."""
 
     @model_validator(mode="after")
     def _once(self) -> Self:
@@ -103,129 +90,32 @@ class ContactRecord(Record):
     """What the controller does while contact settles after touchdown; further parameters by name."""
 
     model_config = Own
-    name: str | None = field(
-        "A policy of the registry ('hold'), or module:Class.", None, kind="contact"
-    )
-    window: float | None = field(
-        "Time after touchdown that it takes; by default the policy's own.", None, "s", ge=0, le=1.0
-    )
+    name: str | None = field(None, kind="contact")
+    """A policy of the registry ('hold'), or module:Class."""
+    window: float | None = field(None, "s", ge=0, le=1.0)
+    """Time after touchdown that it takes; by default the policy's own."""
 
 
 class ControllerRecord(Record):
     """The controller; its further parameters by name."""
 
     model_config = Own
-    name: str = field("Of the registry, or module:Class.", "ADRC", kind="controller")
-    K_p: float | None = field(
-        "Proportional gain; by default the controller's own.", None, "1/s^2", gt=0
-    )
-    K_d: float | None = field(
-        "Derivative gain; by default the controller's own.", None, "1/s", gt=0
-    )
-    solve_theta: bool = field("Solve the loop through Theta''; if not, as printed.", True)
-    observer: ObserverRecord = field("", ObserverRecord())
-    contact: ContactRecord = field("", ContactRecord())
-    prediction: float = field(
-        "The controller gets the state so much ahead, by its model and the torques on their way.",
-        0.0,
-        "s",
-        ge=0,
-        le=0.1,
-    )
-    feedforward: float = field(
-        "Share of the record's joint friction added to the torque, at the reference's rates.",
-        0.0,
-        ge=0,
-        le=2,
-    )
-    inner: ControllerRecord | None = field("The controller inside an outer loop.", None)
-
-
-class EncoderRecord(Record):
-    """Encoders and rates."""
-
-    SHORT = ""
-    counts: float | None = field("Per revolution; by default exact.", None, ge=1)
-    noise: float = field("Standard deviation of the joints' angles.", 0.0, "rad", ge=0, le=1.0)
-    pitch_noise: float = field("That of the unactuated pitch.", 0.0, "rad", ge=0, le=1.0)
-    rate_noise: float = field("That of measured rates.", 0.0, "rad/s", ge=0, le=100.0)
-    velocity: Literal["measured", "differences", "gyro"] = field(
-        "Rates: exact, from differences of angles, or so but for the pitch's.", "measured"
-    )
-    filter_time: float = field("Low-pass of the differences.", 0.0, "s", ge=0, le=1.0)
-
-
-class PartRecord(Record):
-    """A part by name, with its parameters."""
-
-    model_config = Own
-    name: str | None = field("", None)
-
-
-class SensorRecord(PartRecord):
-    """One more sensor behind the encoders, with its parameters."""
-
-    name: str | None = field("Of the registry, or module:Class.", None, kind="sensor")
-
-
-class TouchdownRecord(PartRecord):
-    """How the controller notices touchdowns, with parameters."""
-
-    name: str | None = field(
-        "Of the registry ('told', 'force', 'kinematics'), or module:Class; by default at once.",
-        None,
-        kind="touchdown",
-    )
-
-
-class HardwareRecord(Record):
-    """Sampling, sensors, motors and joint friction."""
-
-    SHORT = "profile"
-    profile: str = field("Fills in what is not given: none, ideal (1 kHz) or rabbit.", "none")
-    period: float | None = field(
-        "Sampling period of the controller; by default continuous time.", None, "s", ge=1e-5, le=0.1
-    )
-    delay: float = field("From a tick to the torque's effect.", 0.0, "s", ge=0, le=1.0)
-    delay_known: bool = field("Whether the observer knows the delay.", False)
-    encoders: EncoderRecord = field("", EncoderRecord())
-    sensor: SensorRecord = field("", SensorRecord())
-    touchdown: TouchdownRecord = field("", TouchdownRecord())
-    torque_limit: float | None = field("Of every motor.", None, "N m", gt=0)
-    rate_limit: float | None = field("Of every motor's torque.", None, "N m/s", gt=0)
-    lag: float = field("Time constant of the motors.", 0.0, "s", ge=0, le=1.0)
-    friction: bool = field("Joint friction of the robot's record in the plant.", False)
-
-    @classmethod
-    def filled(cls, values: dict[str, Any]) -> dict[str, Any]:
-        """Values of the profile where none are given."""
-        profile = PROFILES.get(str(values.get("profile")), {})
-        return {
-            **values,
-            **merged(profile, {name: values[name] for name in profile if name in values}),
-        }
-
-    @field_validator("profile")
-    @classmethod
-    def _there(cls, profile: str) -> str:
-        if profile not in PROFILES:
-            raise ValueError(f"found '{profile}', expected one of {list(PROFILES)}")
-        return profile
-
-    @model_validator(mode="after")
-    def _sampled(self) -> Self:
-        """Raise Misfit for a value that would do nothing in continuous time."""
-        idle = flat(Record.record(self)).keys() - {"torque_limit", "friction", "profile"}
-        if self.period is None and idle:
-            raise Misfit(
-                min(idle), "does nothing in continuous time; give hardware.period too, as '1 ms'"
-            )
-        return self
-
-    def record(self, usual: Record | None = None) -> dict[str, Any]:
-        if self.profile == "none":
-            return super().record()
-        return {"profile": self.profile, **super().record(HardwareRecord(profile=self.profile))}
+    name: str = field("ADRC", kind="controller")
+    """Of the registry, or module:Class."""
+    K_p: float | None = field(None, "1/s^2", gt=0)
+    """Proportional gain; by default the controller's own."""
+    K_d: float | None = field(None, "1/s", gt=0)
+    """Derivative gain; by default the controller's own."""
+    solve_theta: bool = field(True)
+    """Solve the loop through Theta''; if not, as printed."""
+    observer: ObserverRecord = field(ObserverRecord())
+    contact: ContactRecord = field(ContactRecord())
+    prediction: float = field(0.0, "s", ge=0, le=0.1)
+    """The controller gets the state so much ahead, by its model and the torques on their way."""
+    feedforward: float = field(0.0, ge=0, le=2)
+    """Share of the record's joint friction added to the torque, at the reference's rates."""
+    inner: ControllerRecord | None = field(None)
+    """The controller inside an outer loop."""
 
 
 class GroundRecord(Record):
@@ -233,27 +123,24 @@ class GroundRecord(Record):
 
     model_config = Own
     SHORT = "plant"
-    plant: str = field(
-        "What walks: rigid (pinned foot, plastic impact), mujoco (soft ground), or module:Class.",
-        "rigid",
-        kind="plant",
-    )
-    friction: float = field("Of soft ground.", 0.6, gt=0, le=10)
-    time_constant: float = field(
-        "Of soft ground: how fast a foot in it is driven out.", 2e-3, "s", ge=1e-5, le=1.0
-    )
-    damping_ratio: float = field("Of soft ground.", 1.0, gt=0, le=100)
-    plant_step: float | None = field(
-        "Step of its engine; by default a tenth of the time constant, at most 0.2 ms.",
-        None,
-        "s",
-        ge=1e-6,
-        le=0.01,
-    )
-    slope: float = field("Downhill, beside the gait's own.", 0.0, "rad", ge=-0.5, le=0.5)
-    drop: float = field("The ground falls by this in one step.", 0.0, "m", ge=-0.2, le=0.2)
-    drop_step: int = field("Single support in which it falls.", 3, ge=1, le=100000)
-    rms: float = field("Unevenness, drawn.", 0.0, "m", ge=0, le=0.1)
+    plant: str = field("rigid", kind="plant")
+    """What walks: rigid (pinned foot, plastic impact), mujoco (soft ground), or module:Class."""
+    friction: float = field(0.6, gt=0, le=10)
+    """Of soft ground."""
+    time_constant: float = field(2e-3, "s", ge=1e-5, le=1.0)
+    """Of soft ground: how fast a foot in it is driven out."""
+    damping_ratio: float = field(1.0, gt=0, le=100)
+    """Of soft ground."""
+    plant_step: float | None = field(None, "s", ge=1e-6, le=0.01)
+    """Step of its engine; by default a tenth of the time constant, at most 0.2 ms."""
+    slope: float = field(0.0, "rad", ge=-0.5, le=0.5)
+    """Downhill, beside the gait's own."""
+    drop: float = field(0.0, "m", ge=-0.2, le=0.2)
+    """The ground falls by this in one step."""
+    drop_step: int = field(3, ge=1, le=100000)
+    """Single support in which it falls."""
+    rms: float = field(0.0, "m", ge=0, le=0.1)
+    """Unevenness, drawn."""
 
     @field_validator("plant")
     @classmethod
@@ -266,16 +153,22 @@ class ErrorRecord(Record):
     """How the plant differs from the model that the controller has."""
 
     SHORT = ""
-    mass: dict[str, float] = field("Factors of the plant's bodies, by body.", {})
-    inertia: dict[str, float] = field("The same of inertias.", {})
-    mass_width: float = field("Half-width of relative errors drawn for bodies.", 0.0, ge=0, lt=1)
-    com_width: float = field("The same for centres of mass.", 0.0, ge=0, lt=1)
-    inertia_width: float = field("The same for inertias.", 0.0, ge=0, lt=1)
-    friction_width: float = field("The same for friction.", 0.0, ge=0, lt=1)
-    trunk_load: float = field("Relative error of the torso's mass, not drawn.", 0.0, gt=-1, le=10)
-    impact_width: float = field(
-        "Half-width of relative errors of rates after impact.", 0.0, ge=0, lt=1
-    )
+    mass: dict[str, float] = field({})
+    """Factors of the plant's bodies, by body."""
+    inertia: dict[str, float] = field({})
+    """The same of inertias."""
+    mass_width: float = field(0.0, ge=0, lt=1)
+    """Half-width of relative errors drawn for bodies."""
+    com_width: float = field(0.0, ge=0, lt=1)
+    """The same for centres of mass."""
+    inertia_width: float = field(0.0, ge=0, lt=1)
+    """The same for inertias."""
+    friction_width: float = field(0.0, ge=0, lt=1)
+    """The same for friction."""
+    trunk_load: float = field(0.0, gt=-1, le=10)
+    """Relative error of the torso's mass, not drawn."""
+    impact_width: float = field(0.0, ge=0, lt=1)
+    """Half-width of relative errors of rates after impact."""
 
 
 class StartRecord(Record):
@@ -285,10 +178,14 @@ class StartRecord(Record):
     __pydantic_extra__: dict[str, float]
     SHORT = ""
     _COORDINATE: ClassVar[re.Pattern[str]] = re.compile("[qv][1-9][0-9]*", re.ASCII)
-    speed: float = field("Relative change of all rates.", 0.0, gt=-1, le=2)
-    speed_spread: float = field("Standard deviation of it, drawn.", 0.0, ge=0, le=1)
-    spread: float = field("Standard deviation added to all angles.", 0.0, "rad", ge=0, le=1)
-    rate_spread: float = field("The same for rates.", 0.0, "rad/s", ge=0, le=10)
+    speed: float = field(0.0, gt=-1, le=2)
+    """Relative change of all rates."""
+    speed_spread: float = field(0.0, ge=0, le=1)
+    """Standard deviation of it, drawn."""
+    spread: float = field(0.0, "rad", ge=0, le=1)
+    """Standard deviation added to all angles."""
+    rate_spread: float = field(0.0, "rad/s", ge=0, le=10)
+    """The same for rates."""
 
     @classmethod
     def own_value(cls, name: str) -> Described:
@@ -301,46 +198,38 @@ class LimitRecord(Record):
     """What ground and motors can give, for a feasible walk."""
 
     SHORT = ""
-    friction: float | None = field(
-        "Friction of the ground; by default the robot's record.", None, gt=0, le=1
-    )
-    window: float = field("Over which the ground's force is averaged.", 5e-3, "s", gt=0, le=0.1)
+    friction: float | None = field(None, gt=0, le=1)
+    """Friction of the ground; by default the robot's record."""
+    window: float = field(5e-3, "s", gt=0, le=0.1)
+    """Over which the ground's force is averaged."""
 
 
 class RunRecord(Record):
     """How far, from which seed, and by which numerics."""
 
     SHORT = ""
-    impacts: int = field("To walk (12.5 steps of the paper are 25).", 25, ge=1, le=10000)
-    first_step: int = field("Number of the first single support.", 1, ge=1, le=100000)
-    seed: int = field("Of all that is drawn.", 0, ge=0, le=MOST_SEED)
-    method: Literal["rk4", "exponential", "adaptive", "stiff"] | None = field(
-        "Of integration; by default what fits the walker.", None
-    )
-    h: float | None = field(
-        "Step of rk4 and exponential; by default 1 ms or what fits.", None, "s", ge=1e-6, le=0.1
-    )
-    fine: float | None = field(
-        "The step where a push switches and in the single support after.",
-        None,
-        "s",
-        ge=1e-6,
-        le=0.1,
-    )
-    tolerance: float = field("Of adaptive and stiff.", 1e-9, gt=0, le=1)
-    engine: Literal["compiled", "pinocchio"] = field(
-        "compiled where it can run, or pinocchio, which it is checked against.", "compiled"
-    )
-    max_step_time: float = field("A longer single support ends as stalled.", 2.0, "s", gt=0, le=100)
-    runaway_speed: float = field(
-        "Rates beyond this multiple of the URDF's limits end a walk as run away.",
-        20.0,
-        gt=0,
-        le=1e9,
-    )
-    runaway_torque: float = field(
-        "The same of the peak torque in the robot's record.", 1000.0, gt=0, le=1e9
-    )
+    impacts: int = field(25, ge=1, le=10000)
+    """To walk (12.5 steps of the paper are 25)."""
+    first_step: int = field(1, ge=1, le=100000)
+    """Number of the first single support."""
+    seed: int = field(0, ge=0, le=MOST_SEED)
+    """Of all that is drawn."""
+    method: Literal["rk4", "exponential", "adaptive", "stiff"] | None = field(None)
+    """Of integration; by default what fits the walker."""
+    h: float | None = field(None, "s", ge=1e-6, le=0.1)
+    """Step of rk4 and exponential; by default 1 ms or what fits."""
+    fine: float | None = field(None, "s", ge=1e-6, le=0.1)
+    """The step where a push switches and in the single support after."""
+    tolerance: float = field(1e-9, gt=0, le=1)
+    """Of adaptive and stiff."""
+    engine: Literal["compiled", "pinocchio"] = field("compiled")
+    """compiled where it can run, or pinocchio, which it is checked against."""
+    max_step_time: float = field(2.0, "s", gt=0, le=100)
+    """A longer single support ends as stalled."""
+    runaway_speed: float = field(20.0, gt=0, le=1e9)
+    """Rates beyond this multiple of the URDF's limits end a walk as run away."""
+    runaway_torque: float = field(1000.0, gt=0, le=1e9)
+    """The same of the peak torque in the robot's record."""
 
     @model_validator(mode="after")
     def _own_step(self) -> Self:
@@ -361,16 +250,16 @@ class Scenario(Record):
     """
 
     SHORT = "controller"
-    controller: ControllerRecord = field("", ControllerRecord())
-    robot: RobotRecord = field("", RobotRecord())
-    gait: GaitRecord = field("", GaitRecord())
-    hardware: HardwareRecord = field("", HardwareRecord())
-    pushes: tuple[Push, ...] = field("", ())
-    errors: ErrorRecord = field("", ErrorRecord())
-    ground: GroundRecord = field("", GroundRecord())
-    start: StartRecord = field("", StartRecord.model_construct())
-    limits: LimitRecord = field("", LimitRecord())
-    run: RunRecord = field("", RunRecord())
+    controller: ControllerRecord = field(ControllerRecord())
+    robot: RobotRecord = field(RobotRecord())
+    gait: GaitRecord = field(GaitRecord())
+    hardware: HardwareRecord = field(HardwareRecord())
+    pushes: tuple[Push, ...] = field(())
+    errors: ErrorRecord = field(ErrorRecord())
+    ground: GroundRecord = field(GroundRecord())
+    start: StartRecord = field(StartRecord.model_construct())
+    limits: LimitRecord = field(LimitRecord())
+    run: RunRecord = field(RunRecord())
 
     def __init__(self, controller: object = None, **values: object) -> None:
         named = {} if controller is None else {"controller": controller}

@@ -48,8 +48,8 @@ from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.parts import check_part
 from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.build import RobotAndGait, build
+from biped_adrc.scenario.dotted import flat
 from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.scenario.records import flat
 from biped_adrc.scenario.run import SETTLES, Cycle, known_cycle, method_of
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import default_method

@@ -32,7 +32,7 @@ from biped_adrc.bench.table_reader import (
     read_toml,
 )
 from biped_adrc.errors import InputError
-from biped_adrc.scenario.records import unknown
+from biped_adrc.scenario.dotted import unknown
 from biped_adrc.tuning.measure import Aim, Limit, Measure
 from biped_adrc.tuning.study import SETS, TuningStudy, WalkSet
 from biped_adrc.tuning.variables import Variable

@@ -12,8 +12,8 @@ from biped_adrc.bench.run import run_trial
 from biped_adrc.cli.options import scenario_from
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.scenario.build import RobotAndGait, build, plant_of, start
+from biped_adrc.scenario.dotted import flat
 from biped_adrc.scenario.file import read_scenario
-from biped_adrc.scenario.records import flat
 from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario, drawn, field_of, names, scenario_of
 from biped_adrc.scenario.units import unit_of

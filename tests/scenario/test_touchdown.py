@@ -12,7 +12,7 @@ from biped_adrc.bench.run import run_trial
 from biped_adrc.hardware.touchdown_by_foot import ByForce, ByKinematics
 from biped_adrc.hardware.touchdown_told import Told
 from biped_adrc.scenario.build import build
-from biped_adrc.scenario.records import flat
+from biped_adrc.scenario.dotted import flat
 
 USUAL = {"controller.name": "NPD", "hardware.period": 1e-3, "run.impacts": 2}
 
