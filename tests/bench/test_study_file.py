@@ -5,12 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from biped_adrc.bench import parameters
-from biped_adrc.bench.parameters import quantity, unit_of
 from biped_adrc.bench.study import BLOCK, Draw, Range, Study
 from biped_adrc.bench.study_file import load_study, read_study
 from biped_adrc.errors import InputError
-from biped_adrc.scenario.scenario import DEFAULTS, FIELDS, UNITS, Scenario
+from biped_adrc.scenario.scenario import Scenario
 
 STUDY = """
 [study]
@@ -175,35 +173,6 @@ def test_values_that_do_not_fit_together_are_named_by_their_point(tmp_path):
     assert (
         next(beyond.points()).record["friction_error"] == 0.1
     )  # a row that is refused, no end of the study
-
-
-@pytest.mark.parametrize("name", [n for n in FIELDS if n not in parameters.TABLES])
-def test_every_parameter_reads_its_own_default(name):
-    default = DEFAULTS[name]
-    assert parameters.read(name, "none" if default is None else default) == default
-    unit_of(UNITS[name])
-
-
-@pytest.mark.parametrize(
-    ("text", "unit", "number"),
-    [
-        ("1.5 ms", "s", 1.5e-3),
-        ("180 deg", "rad", math.pi),
-        ("30 N m", "N m", 30.0),
-        ("2 kN*m/s", "N m/s", 2000.0),
-        ("5 %", "1", 0.05),
-        ("7 1/min", "Hz", 7 / 60),
-        ("1 kg m^2/s^2", "N m", 1.0),
-    ],
-)
-def test_units(text, unit, number):
-    assert quantity(text, unit) == pytest.approx(number, rel=4e-16)
-
-
-def test_decimal_prefixes_are_exact():
-    for k in range(1, 2000):
-        assert quantity(f"{k / 100} ms", "s") == float(f"{k / 100}e-3")
-        assert quantity(f"{k} us", "s") == float(f"{k}e-6")
 
 
 def test_levels_have_both_ends_and_even_steps():
