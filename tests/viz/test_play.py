@@ -246,7 +246,7 @@ def test_the_spring_pulls_towards_the_hand_and_not_more_than_it_may(browser: Chr
 TORQUES = {"pushes": "q1,q5=25@1:0.1-0.2"}
 PULSE = {
     "pushes.0.shape": "pulse",
-    "pushes.0.joints": "link right_shin",
+    "pushes.0.link": "right_shin",
     "pushes.0.force": 40.0,
     "pushes.0.direction": math.pi,
 }
@@ -276,7 +276,9 @@ return { states, began, still: [...play.leader.q] };
 def test_it_pushes_as_the_scenario_of_the_same_push_and_goes_back(
     browser: Chrome, as_scenario: dict[str, Any], by_hand: dict[str, Any]
 ) -> None:
-    walk = ba.walk_scenario(replace(scenario_of("NPD"), impacts=1, **as_scenario)).trajectory
+    walk = ba.walk_scenario(
+        scenario_of("NPD").replace({"run.impacts": 1, **as_scenario})
+    ).trajectory
     found = browser.execute_script(PUSHED, by_hand | {"seconds": 0.1}, [0.15, 0.22])
     for t, *state in found["states"]:
         assert state == pytest.approx(walk(t)[:10], abs=1e-7)
@@ -499,8 +501,8 @@ def test_another_controller_comes_without_the_observer_of_the_one_before() -> No
     s = ba.Scenario(
         {"name": "ADRC", "observer": {"bandwidth": 200.0, "order": 1}}, hardware="ideal"
     )
-    assert revised(s, {"controller": "NPD"}).bandwidth is None
-    assert revised(s, {"controller.observer.bandwidth": 250.0}).order == 1
+    assert revised(s, {"controller": "NPD"}).controller.observer.bandwidth is None
+    assert revised(s, {"controller.observer.bandwidth": 250.0}).controller.observer.order == 1
 
 
 def test_the_command_writes_a_page_or_opens_one(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -508,12 +510,12 @@ def test_the_command_writes_a_page_or_opens_one(monkeypatch: pytest.MonkeyPatch)
     shown: list[str] = []
     monkeypatch.setattr("biped_adrc.live.page.play", lambda *given: asked.append(given))
     monkeypatch.setattr("webbrowser.open", lambda url: shown.append(url))
-    words = ["play", "--ghost", "NPID", "--K-p", "900"]
+    words = ["play", "--ghost", "NPID", "--set", "controller.K_p=900"]
     for more in (["-o", "own.html"], []):
         done = CliRunner().invoke(app, words + more, catch_exceptions=False)
         path, scenario, others = asked[-1]
         assert f"written to {path}" in done.output
-        assert (scenario.K_p, scenario.hardware) == (900.0, "ideal")
+        assert (scenario.controller.K_p, scenario.hardware.period) == (900.0, 1e-3)
         assert next(iter(others)) == "NPID"
     assert asked[0][0] == Path("own.html")
     assert shown == [path.as_uri()]
