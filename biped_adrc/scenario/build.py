@@ -35,7 +35,7 @@ from biped_adrc.model.model_errors import ModelErrors, impact_error
 from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.disturbances import disturbances
-from biped_adrc.scenario.dotted import flat, unknown
+from biped_adrc.scenario.dotted import unknown
 from biped_adrc.scenario.hardware import EncoderRecord, PartRecord
 from biped_adrc.scenario.records import Misfit
 from biped_adrc.scenario.registry import construct, find, own, takes
@@ -173,7 +173,7 @@ def _passive(s: Scenario, biped: Biped, known: PassiveCycle) -> Walker:
         raise InputError(
             f"controller '{s.controller.name}' does not fit robot '{robot}' with 0 motors; choose 'passive'"
         )
-    for name in flat(s.record()):
+    for name in s.dotted():
         if not name.startswith(WITHOUT_MOTORS):
             raise InputError(
                 f"robot '{robot}' has no motors, so it takes no {name}; leave that out, or take a robot with "

@@ -43,7 +43,6 @@ from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.columns import columns_of, data_frame, write_csv
 from biped_adrc.scenario.edges import edge_remarks, step_remarks
 from biped_adrc.scenario.outcome import Outcome, outcome_of
-from biped_adrc.scenario.walker_record import MissingPart
 from biped_adrc.shown import Shown
 from biped_adrc.soft.meters import SoftStep, recorded_steps, slip_times
 from biped_adrc.types import Array
@@ -76,7 +75,7 @@ class Walk(Shown):
     recorded: Signals | None = None
     """Signals from the file of a stored walk."""
     said: tuple[str, ...] = ()
-    """Remarks from reading a file, such as a changed source of a class."""
+    """Remarks that came with it, as from a file."""
 
     def __repr__(self) -> str:
         run = self.trajectory
@@ -191,6 +190,8 @@ class Walk(Shown):
         """Sentences to know before using its numbers: a push that an impact cut off, too long a step at an
         edge.
         """
+        if self.recorded is not None:
+            return self.said
         walker, trajectory = self.walker, self.trajectory
         return (*self.said, *edge_remarks(walker, trajectory), *step_remarks(walker, trajectory))
 
@@ -200,8 +201,8 @@ class Walk(Shown):
         if self.scenario is not None and self.gait is not None:
             return self.scenario.controller.name.rpartition(":")[2]
         law = self.walker.controller
-        name = law.home.rpartition(":")[2] if isinstance(law, MissingPart) else type(law).__name__
-        return name.removesuffix("Controller")
+        name: str = getattr(law, "home", type(law).__name__)
+        return name.rpartition(":")[2].removesuffix("Controller")
 
     def plot(self, title: str = "", push: tuple[float, float] | None = None) -> Figure:
         """References against joint angles, and torques, as figures 4 and 5; push is marked [s].

@@ -170,6 +170,10 @@ class Record(BaseModel):
         others = usual.own
         return found | {name: listed(x) for name, x in self.own.items() if others.get(name) != x}
 
+    def dotted(self) -> dict[str, Any]:
+        """`record` by dotted names, such as {"controller.observer.bandwidth": 300.0}."""
+        return flat(self.record())
+
     def replace(self, values: Mapping[str, Any] | None = None, **more: Any) -> Self:
         """The record with other values, nested or by dotted names; a text or a record replaces a whole one.
 
@@ -178,14 +182,14 @@ class Record(BaseModel):
         return type(self)(**merged(self.record(), nested({**(values or {}), **more})))
 
     def __repr__(self) -> str:
-        told = ", ".join(f"{name}={x!r}" for name, x in flat(self.record()).items())
+        told = ", ".join(f"{name}={x!r}" for name, x in self.dotted().items())
         room = LONGEST - len(type(self).__name__) - 2
         return f"{type(self).__name__}({told if len(told) <= room else told[: room - 3] + '...'})"
 
     __str__ = __repr__
 
     def __hash__(self) -> int:
-        return hash(repr(sorted(flat(self.record()).items())))
+        return hash(repr(sorted(self.dotted().items())))
 
 
 def plain(x: Any) -> Any:

@@ -48,7 +48,6 @@ from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.parts import check_part
 from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.build import RobotAndGait, build
-from biped_adrc.scenario.dotted import flat
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.run import SETTLES, Cycle, known_cycle, method_of
 from biped_adrc.scenario.scenario import Scenario
@@ -154,7 +153,7 @@ def cycle_of(s: Scenario, observer_states: bool = True, slope: float | None = No
     without = NO_MAP if scene.gait else (*NO_MAP, *FIXED)
     if slope is not None:
         without = (*without, "ground.slope")
-    useless = [name for name in flat(s.record()) if name.startswith(without)]
+    useless = [name for name in s.dotted() if name.startswith(without)]
     if useless:
         on = "" if slope is None else f" on a slope of {slope:g} rad"
         raise InputError(

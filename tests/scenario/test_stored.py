@@ -19,7 +19,6 @@ from biped_adrc.cli import app
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.storage import load, load_beside, save
 from biped_adrc.resources import data_folder
-from biped_adrc.scenario import registry
 from biped_adrc.scenario.walker_record import Reader, Writer
 
 FAST = {"run.engine": "compiled", "run.impacts": 1}
@@ -138,25 +137,14 @@ def test_an_own_controller_is_read_without_it(
         line = ["animate" if out.endswith("html") else "plot", "mine.npz", "-o", out]
         assert CliRunner().invoke(app, line, catch_exceptions=False).exit_code == 0
     assert own not in sys.modules
-    with pytest.raises(InputError, match=rf"cannot go on without.*'{own}:Mine'.*load_walk\(path"):
+    with pytest.raises(InputError, match=rf"cannot go on without '{own}:Mine'; walk it again"):
         ba.walk(again.walker, again.gait, 1)
 
 
-def test_and_walks_on_when_it_is_given(own: str, monkeypatch) -> None:
+def test_and_is_walked_again_by_its_scenario(own: str) -> None:
     walk = stored(own)
-    Mine = registry.own("controller", f"{own}:Mine")
-    given = ba.load_walk("mine.npz", controller=Mine)
-    assert given.walker.controller == Mine(given.gait.constraint, 0.8)
-    assert given.remarks == walk.remarks
-    again = ba.walk(given.walker, given.gait, 1, engine="compiled")
+    again = ba.walk_scenario(ba.load_walk("mine.npz").scenario)
     np.testing.assert_array_equal(again.trajectory.final_state, walk.trajectory.final_state)
-    as_object = ba.load_walk("mine.npz", controller=Mine(given.gait.constraint, 0.8))
-    assert isinstance(as_object.walker.controller, Mine)
-    monkeypatch.setattr(registry, "REGISTRY", {k: dict(v) for k, v in registry.REGISTRY.items()})
-    ba.register("controller", "mine", Mine)
-    assert isinstance(ba.load_walk("mine.npz").walker.controller, Mine)
-    with pytest.raises(InputError, match="expected a Controller or its class"):
-        ba.load_walk("mine.npz", controller=Path)
 
 
 @pytest.mark.parametrize(
@@ -199,7 +187,7 @@ def test_plain_values_come_back() -> None:
     del values["h"]
     writer = Writer()
     record = json.loads(json.dumps(writer.plain(values)))
-    again = Reader(writer.records, {}).made(record)
+    again = Reader(writer.records).made(record)
     assert again.keys() == values.keys()
     for name, x in values.items():
         np.testing.assert_array_equal(again[name], x) if isinstance(x, np.ndarray) else None
