@@ -26,7 +26,7 @@ import json, time
 begin = time.perf_counter()
 import biped_adrc as ba
 from walks import setting
-found = setting(period=PERIOD)
+found = setting(**{"hardware.period": PERIOD})
 method = ba.RK4(1e-3) if PERIOD else ba.Exponential(5e-4)
 times = [begin, time.perf_counter()]
 for _ in range(2):

@@ -53,9 +53,17 @@ def rigid() -> Iterator[tuple[str, Setting, Method]]:
     """Compiled walks; the first is what all others are compared with."""
     yield "ADRC", setting(), RK4(TICK)
     yield "ADRC, pushed", setting(push=True), RK4(TICK)
-    yield "ADRC, m = 1", setting(order=1, bandwidth=160.0), RK4(TICK)
+    yield (
+        "ADRC, m = 1",
+        setting(**{"controller.observer": {"order": 1, "bandwidth": 160.0}}),
+        RK4(TICK),
+    )
     yield "NPD", setting("NPD"), RK4(TICK)
-    yield "ADRC in continuous time, ETD-RK4 0.5 ms", setting(period=None), Exponential(5e-4)
+    yield (
+        "ADRC in continuous time, ETD-RK4 0.5 ms",
+        setting(**{"hardware.period": None}),
+        Exponential(5e-4),
+    )
 
 
 def compiled(table: Table, quick: bool) -> None:

@@ -31,14 +31,14 @@ from biped_adrc.study.runner import LARGEST_CHUNK
 from biped_adrc.study.store import opened
 from biped_adrc.study.study import Study, read_study
 
-PUSH: dict[str, Any] = {"push": "pulse", "on": "random joints", "amplitude": 40.0}
+PUSH: dict[str, Any] = {"pushes.0.joints": "random", "pushes.0.torque": 40.0}
 CASES: list[Case] = []
 """The walks of the bare batch; processes that are forked have them too."""
 
 
 def study(walks: int) -> Study:
     """Pushes drawn by seed."""
-    base = {"controller": "ADRC", "impacts": 25, **PUSH}
+    base = {"controller.name": "ADRC", "run.impacts": 25, **PUSH}
     return read_study({"name": f"{walks} walks", "base": base, "seeds": walks})
 
 
@@ -90,11 +90,15 @@ def sweeps(size: int, count: int) -> Table:
 
 def search(budget: int, walks: int) -> Study:
     """Gains and bandwidth of m = 1."""
-    ranges = {"K_p": (1000.0, 9000.0), "K_d": (30.0, 150.0), "bandwidth": (200.0, 900.0)}
+    ranges = {
+        "controller.K_p": (1000.0, 9000.0),
+        "controller.K_d": (30.0, 150.0),
+        "controller.observer.bandwidth": (200.0, 900.0),
+    }
     return read_study(
         {
             "name": "m = 1",
-            "base": {"controller": "LESO", "impacts": 10, "pushed_step": 3, **PUSH},
+            "base": {"controller.name": "LESO", "run.impacts": 10, "pushes.0.step": 3, **PUSH},
             "search": {
                 "budget": budget,
                 "generation": 20,

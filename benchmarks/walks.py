@@ -36,7 +36,7 @@ class Setting(NamedTuple):
 def setting(controller: str = "ADRC", push: bool = False, **values: Any) -> Setting:
     """That of a scenario; the period [s] of sampled control is TICK unless it is given."""
     pushes = (PAPER_PUSH,) if push else ()
-    run = Scenario(controller, pushes=pushes, **{"period": TICK, **values})
+    run = Scenario(controller, pushes=pushes, **{"hardware.period": TICK, **values})
     scene = RobotAndGait.of(run)
     return Setting(build(run, scene), scene.walked)
 

@@ -3,7 +3,7 @@
 <!-- table of biped_adrc -->            the public names, each with its first sentence
 <!-- names of control observers -->     the documentation of the public names of these rooms
 <!-- help of biped-adrc simulate -->    what the command prints for --help
-<!-- fields of biped_adrc.scenario.scenario.Scenario -->   a table of what a study may vary
+<!-- fields of biped_adrc.scenario.scenario -->   a table of the values of a scenario
 """
 
 import importlib
@@ -44,22 +44,12 @@ def _names(rooms: str) -> str:
 
 
 def _fields(model: str) -> str:
-    module, _, name = model.rpartition(".")
+    home = importlib.import_module(model)
     rows = ["| name | unit | default | range | what |", "|---|---|---|---|---|"]
-    home = importlib.import_module(module)
-    for field, info in getattr(home, name).__pydantic_fields__.items():
-        unit = home.UNITS[field]
-        ends = [
-            f"{sign} {getattr(part, key):g}"
-            for part in info.metadata
-            for key, sign in (("ge", "≥"), ("gt", ">"), ("le", "≤"), ("lt", "<"))
-            if hasattr(part, key)
-        ]
-        usual = "none" if info.default is None else info.get_default(call_default_factory=True)
-        shown = f"{usual:g}" if isinstance(usual, float) else str(usual)
-        rows.append(
-            f"| `{field}` | {'' if unit == '1' else unit} | {shown} | {', '.join(ends)} | {info.description} |"
-        )
+    for what in map(home.field_of, home.names()):
+        unit = "" if what.unit == "1" else what.unit
+        usual = "" if what.default in (None, {}) else what.default
+        rows.append(f"| `{what.name}` | {unit} | {usual} | {what.range_text} | {what.text} |")
     return "\n".join(rows)
 
 

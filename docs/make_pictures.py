@@ -28,7 +28,7 @@ TOP, BOTTOM, WORDS = 75, 545, (0, 40, 800, 58)
 
 def push_picture(path: Path) -> None:
     """Both controllers under the same push, from just before it until one robot lies on the ground."""
-    values = {"gait": "v0.8", "torque_limit": 150.0, "pushes": (PUSH,), "impacts": 9}
+    values = {"gait": "v0.8", "hardware.torque_limit": 150.0, "pushes": PUSH, "run.impacts": 9}
     walks = {name: walk_scenario(Scenario(name, **values)) for name in ("NPD", "ADRC")}
     assert walks["ADRC"].feasibility.outcome == "feasible"
     assert walks["NPD"].feasibility.outcome == "fell"

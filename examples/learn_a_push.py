@@ -13,10 +13,7 @@ envs = gymnasium.make_vec(
     num_envs=SEEDS * CANDIDATES,
     action="added",
     controller="NPD",
-    push="pulse",
-    on="-q5",
-    amplitude=34.0,  # [N m], at a time that the seed draws
-    pushed_step=1,
+    pushes=[{"joints": "-q5", "torque": "34 N m", "step": 1}],  # at a time that the seed draws
     seconds=0.8,
 )
 

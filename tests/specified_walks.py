@@ -57,7 +57,13 @@ def torques(walker, gait, end):
 def rippled(values):
     """Ripple [N m] of the motor with most on RABBIT's hardware, by the specification and in a walk."""
     walker, gait = candidate(
-        {"hardware": "rabbit", "friction": False, "torque_limit": 1e6, "impacts": 2, **values}
+        {
+            "hardware.profile": "rabbit",
+            "hardware.friction": False,
+            "hardware.torque_limit": 1e6,
+            "run.impacts": 2,
+            **values,
+        }
     )
     spec = specified(walker, gait)
     exact = replace(walker, sensors=walker.sensors.smooth())

@@ -88,9 +88,14 @@ def test_certificate_says_what_dry_ground_would_not_bear(biped, gait):
 
 
 def test_runs_are_records_and_come_back():
-    run = Scenario("NPD", pushes=(Push({"torso_pitch": 5.0}, step=2),), period=1e-3, impacts=2)
+    run = Scenario(
+        "NPD",
+        pushes=(Push(torque={"torso_pitch": 5.0}, step=2, onset=0.1),),
+        hardware={"period": 1e-3},
+        run={"impacts": 2},
+    )
     assert Scenario(**run.record()) == run
-    with pytest.raises(InputError, match="colour: unknown parameter"):
+    with pytest.raises(InputError, match="colour: unknown name"):
         Scenario(colour="red")
     outcome = execute(run)
     assert outcome.walked

@@ -52,7 +52,7 @@ def test_what_is_not_finite_has_no_peak_and_no_integral():
 
 
 def made_up(**values: object) -> Outcome:
-    run = Scenario("ADRC", h=1e-3)
+    run = Scenario("ADRC", run={"h": 1e-3})
     found = Outcome(
         run,
         "COMPLETED",
@@ -146,8 +146,8 @@ def test_the_default_of_adrc_resolves_the_spike_after_a_push(biped, gait):
 
 @pytest.mark.parametrize("controller", CONTROLLERS)
 def test_the_headline_does_not_depend_on_its_step(controller):
-    run = replace(pushed_run(Plan(), controller), first_step=19, impacts=2)
-    assert run.engine == COMPILED
+    run = pushed_run(Plan(), controller).replace(run={"first_step": 19, "impacts": 2})
+    assert run.run.engine == COMPILED
     found = halved(execute_twice(run))
     assert all(h.agrees for h in found), found
 

@@ -103,8 +103,14 @@ def test_a_step_too_long_for_the_observer_is_named_where_it_spoils_the_errors(ob
     assert right == pytest.approx(observed(500.0, 5e-5)[0], rel=1e-2)
 
 
-def test_a_fall_cuts_nothing_off(walked):
+def test_a_fall_cuts_nothing_off_and_what_comes_after_it_did_not_act(walked):
     fallen = walked(pulse(1, 0.05, 0.9, [0.0, 0.0, 0.0, 0.0, 300.0]), pulse(7, 0.1, 0.3))
     assert not fallen.trajectory.status.ok
     assert not fallen.trajectory.events("foot_strike")
-    assert fallen.remarks == ()
+    (remark,) = fallen.remarks
+    assert "from 0.1 to 0.3 s in single support 7 did not act" in remark
+
+
+def test_a_push_without_torque_did_not_act():
+    walk = ba.walk_scenario(ba.Scenario("NPD", pushes=[{"step": 1}], run={"impacts": 1}))
+    assert any("did not act: it was zero" in remark for remark in walk.remarks)

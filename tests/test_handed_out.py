@@ -209,7 +209,9 @@ def test_what_is_stored_cannot_be_written_to(biped, gait):
     kept = [arc.t, arc.x, arc.dx, arc.event.x_minus, arc.event.x_plus, gait.q_minus, gait.v_minus]
     kept += [c.phase, c.curve.coefficients, c.curve.stacked, gains.K_p]
     kept += [biped.B, biped.phase, biped.R, biped.swap, *biped.friction_coefficients]
-    told = ba.Scenario("NPD", impacts=1, period=1e-3, touchdown="told")
+    told = ba.Scenario(
+        "NPD", run={"impacts": 1}, hardware={"period": 1e-3, "touchdown": {"name": "told"}}
+    )
     found = ba.walk_scenario(told)
     kept += [*vars(found.signals).values(), found.outcome.x_minus, found.outcome.durations]
     kept += [found.touchdowns.t, found.touchdowns.late, found.touchdowns.false]

@@ -7,8 +7,6 @@ it is implicit where the fastest pole of Table I, 19836 rad/s, would have an exp
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from scipy.integrate import LSODA
@@ -51,10 +49,10 @@ def peak_error(walker, constraint, mode, t, x, t_end):
 def test_the_peak_under_the_push(preset, controller):
     run = pushed_run(Plan(preset), controller)
     push = run.pushes[0]
-    walk = walk_scenario(replace(run, first_step=push.step, impacts=1))
+    walk = walk_scenario(run.replace(run={"first_step": push.step, "impacts": 1}))
     arc, signals = walk.trajectory.arcs[0], walk.signals
     peak_at = signals.t[np.argmax(np.max(np.abs(signals.error), axis=1))]
-    first = np.searchsorted(arc.t, arc.t[0] + push.start - AROUND)
+    first = np.searchsorted(arc.t, arc.t[0] + push.onset - AROUND)
     t_end = min(peak_at + AROUND, float(arc.t[-1]))
     mode, constraint = Mode(*arc.mode), walk.gait.constraint
     found = peak_error(walk.walker, constraint, mode, float(arc.t[first]), arc.x[first], t_end)

@@ -68,9 +68,9 @@ PYTHON = {
     "a method in words": (lambda r: r.walk(method="RK4"), "RK4(1e-3)"),
     "one number for errors of masses": (lambda r: r.biped.with_errors(mass=1.2), "{'torso': 1.2}"),
     "a scenario as a walker": (lambda r: ba.walk(ba.Scenario("NPD")), "expected a Walker"),
-    "a value of a sensor that is not chosen": (
-        lambda r: ba.walk_scenario(ba.Scenario("NPD", own={"bias": 0.1})),
-        "'pitch sensor'",
+    "a misspelt gain": (
+        lambda r: ba.walk_scenario(ba.Scenario({"name": "NPD", "Kp": 0.1})),
+        "did you mean 'K_p'",
     ),
     "a gait for a passive cycle": (
         lambda r: ba.find_cycle("compass", gait="v0.8"),
@@ -80,7 +80,7 @@ PYTHON = {
 COMMANDS = {
     "simulate --preset foo": (3, "no preset 'foo'"),
     "simulate --gait foo": (3, "no gait 'foo'"),
-    "simulate --poles=-1,2": (3, "pole 2 rad/s is not stable"),
+    "simulate --set controller.observer.poles=-1,2": (3, "pole 2 rad/s is not stable"),
     "simulate --push q1=5": (3, "JOINTS=TORQUE@STEP"),
     "simulate --push q7=5@1:0-1": (3, "no joint 'q7'"),
     "simulate --period -1": (3, "period"),
@@ -90,7 +90,7 @@ COMMANDS = {
     "simulate --torque-limit 5 --impacts 4": (4, ""),
     "animate nowhere.npz": (3, "not found"),
     "poincare --controller pid": (3, "'pid' is unknown"),
-    "poincare --robot compass --slope 0.6": (4, "no return to the section"),
+    "poincare --robot compass --set ground.slope=0.5": (4, "no return to the section"),
     "reproduce --out file/out": (3, "file"),
 }
 TABLES = {
@@ -145,8 +145,3 @@ def test_a_mistake_in_a_table_names_its_line(text, biped, tmp_path):
 def test_a_public_name_that_is_not_there_has_a_nearest_one():
     with pytest.raises(AttributeError, match="did you mean 'NPDController'"):
         _ = ba.PDController
-
-
-def test_a_value_that_does_nothing_is_said():
-    walk = ba.walk_scenario(ba.Scenario("NPD", impacts=1, seed=5))
-    assert any("seed = 5 does nothing" in remark for remark in walk.remarks)

@@ -14,14 +14,21 @@ from biped_adrc.gait.gait import Gait
 
 LONG = "n" * 300
 URDF = Path(__file__).parents[1] / "urdf" / "rabbit" / "floating.urdf"
-STUDY = 'name = "a"\n[base]\ncontroller = "NPD"\nimpacts = 1\n[grid]\nK_p = [5000.0]\n'
+STUDY = """
+name = "a"
+[base]
+controller.name = "NPD"
+run.impacts = 1
+[grid]
+controller.K_p = [5000.0]
+"""
 SEARCH = """
 name = "s"
-base = {controller = "LESO"}
+base = {controller.name = "LESO"}
 [search]
 budget = 10
 generation = 4
-variables = {bandwidth = {from = 50, to = 500}}
+variables = {controller.observer.bandwidth = {from = 50, to = 500}}
 objective = {column = "rms_error"}
 walks = {search = {seeds = [0]}, choice = {seeds = [10]}, test = {seeds = [20]}}
 """
@@ -39,7 +46,7 @@ MISTAKES = [
     ("study pipe.toml -o out", 3, "not a regular file"),
     (f"study search.toml -o {LONG}", 5, "too long"),
     ("reproduce --out afile", 3, "is a file"),
-    (f"gait library --out {LONG}", 5, "too long"),
+    (f"gait design --speeds 0.5 -o {LONG}", 5, "too long"),
     ("gait import zero.json", 3, "no name of a file"),
     ("gait import pipe.json", 3, "not a regular file"),
     ("gait import pipe.mat", 3, "not a regular file"),

@@ -30,7 +30,7 @@ def all_finite(run):
     ("controller", "push"), [("ADRC", "q5=90@1:0.1-"), ("NPD", "q1,q2,q3,q4,q5=120@1:0.1-")]
 )
 def test_a_walk_that_explodes_has_run_away(tmp_path, engine, controller, push):
-    s = ba.Scenario(controller, pushes=push, impacts=1, engine=engine)
+    s = ba.Scenario(controller, pushes=push, run={"impacts": 1, "engine": engine})
     made = ba.walk_scenario(s)
     run = made.trajectory
     assert run.status is ba.Status.RAN_AWAY
@@ -93,7 +93,9 @@ def test_a_torque_beyond_the_bound_ends_a_run_of_every_method(biped, gait, metho
 def test_robots_without_motors_run_away_by_their_speed_alone():
     assert ba.Walker(ba.Biped.load("compass"), ba.Passive()).bounds.strongest == math.inf
     for engine in ENGINES:
-        s = ba.Scenario("passive", robot="compass", impacts=1, engine=engine, runaway_speed=0.02)
+        s = ba.Scenario(
+            "passive", robot="compass", run={"impacts": 1, "engine": engine, "runaway_speed": 0.02}
+        )
         assert ba.walk_scenario(s).trajectory.status is ba.Status.RAN_AWAY
 
 

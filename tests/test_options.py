@@ -19,7 +19,7 @@ import typer.main
 
 import biped_adrc as ba
 from biped_adrc.cli import app
-from biped_adrc.cli.observer import _confirm
+from biped_adrc.cli.observer import Clock, _confirm
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
 
@@ -116,7 +116,7 @@ class Command:
 
 
 def scenario_field(name: str) -> Callable[[Any], object]:
-    return lambda a: getattr(a.s, name)
+    return lambda a: reduce(getattr, name.split("."), a.s)
 
 
 def same(name: str) -> Callable[[Any], object]:
@@ -129,33 +129,34 @@ ROBOT_ROWS = {
     "preset": Row("--preset tac2003", same("biped.preset"), "tac2003"),
 }
 SIMULATE = {
-    "scenario": Row("--scenario best.toml", scenario_field("K_d"), 33.0),
-    "controller": Row("--controller npd", scenario_field("controller"), "NPD"),
-    "gait": Row("--gait recipe", scenario_field("gait"), "recipe"),
-    "seed": Row("--seed 5", scenario_field("seed"), 5),
-    "hardware": Row("--hardware rabbit", scenario_field("hardware"), "rabbit"),
-    "torque_limit": Row("--torque-limit 80", scenario_field("torque_limit"), 80.0),
-    "poles": Row("--poles=-1,-2,-3", scenario_field("poles"), (-1.0, -2.0, -3.0)),
-    "order": Row("--bandwidth 333 --order 2", scenario_field("order"), 2),
-    "reset": Row("--reset measured", scenario_field("reset"), "measured"),
-    "friction": Row("--friction", scenario_field("friction"), True),
-    "ground_friction": Row(
-        "--plant mujoco --ground-friction 0.7", scenario_field("ground_friction"), 0.7
-    ),
-    "method": Row("--method stiff", scenario_field("method"), "stiff"),
-    "friction_limit": Row("--friction-limit 0.4", same("limits.friction"), 0.4),
-    "h": Row("--step 0.0003", scenario_field("h"), 0.0003),
+    "scenario": Row("--scenario best.toml", scenario_field("controller.K_d"), 33.0),
+    "controller": Row("--controller npd", scenario_field("controller.name"), "NPD"),
+    "gait": Row("--gait recipe", scenario_field("gait.name"), "recipe"),
+    "impacts": Row("--impacts 5", scenario_field("run.impacts"), 5),
+    "period": Row(["--period", "2 ms"], scenario_field("hardware.period"), 0.002),
+    "torque_limit": Row("--torque-limit 80Nm", scenario_field("hardware.torque_limit"), 80.0),
+    "plant": Row("--plant mujoco", scenario_field("ground.plant"), "mujoco"),
+    "engine": Row("--engine pinocchio", scenario_field("run.engine"), "pinocchio"),
     "push": Row(
-        "--push q1=5@3:0.1-0.2", lambda a: [p.text() for p in a.s.pushes], ["q1=5@3:0.1-0.2"]
+        "--push q1=5@3:0.1-0.2",
+        lambda a: [p.in_words() for p in a.s.pushes],
+        ["5 N m on q1 from 0.1 to 0.2 s in single support 3"],
     ),
-    "sets": Row(["--set", "max_step_time=900 ms"], scenario_field("max_step_time"), 0.9),
-    "as_printed": Row("--as-printed", scenario_field("solve_theta"), False),
+    "sets": Row(["--set", "run.max_step_time=900 ms"], scenario_field("run.max_step_time"), 0.9),
+    "a record's name": Row("--set hardware=rabbit", scenario_field("hardware.profile"), "rabbit"),
+    "poles": Row(
+        "--set controller.observer.poles=-1,-2,-3",
+        scenario_field("controller.observer.poles"),
+        (-1.0, -2.0, -3.0),
+    ),
+    "limits": Row("--set limits.friction=0.4", same("limits.friction"), 0.4),
+    "own": Row("--set controller.own=[1,2]", scenario_field("controller.own"), {"own": (1, 2)}),
     "end_infeasible": Row("--end-infeasible", same("end_infeasible"), True),
     "out": Row("-o own.csv", same("out"), Path("own.csv")),
     "log": Row("--period 0.002 --log own", same("log"), Path("own.csv")),
 }
 POINCARE = {
-    "slope": Row("--slope 0.03", same("slope"), 0.03),
+    "slope": Row("--set ground.slope=0.03", scenario_field("ground.slope"), 0.03),
     "observer_states": Row("--no-observer-states", same("observer_states"), False),
     "samples": Row(
         "--samples 7", same("samples"), 7, "studies.cycle_stability:cycle_stability"
@@ -165,15 +166,17 @@ STATE = ",".join(str(0.1 * k) for k in range(10))
 DESIGN = {
     "speed": Row("--speed 0.75", same("speed"), 0.75),
     "through": Row(
-        f"--through {STATE}",
+        f"--set through={STATE}",
         lambda a: a.through and ",".join(f"{x:.1f}" for part in a.through for x in part),
         ",".join(f"{0.1 * k:.1f}" for k in range(10)),
     ),
-    "curve": Row("--curve bspline", same("curve"), "bspline"),
-    "torque": Row("--torque 77", same("limits.torque"), 77.0),
-    "friction": Row("--friction 0.44", same("limits.friction"), 0.44),
-    "impulse_friction": Row("--impulse-friction 0.55", same("limits.impulse_friction"), 0.55),
-    "clearance": Row("--clearance 0.03", same("limits.clearance"), 0.03),
+    "curve": Row("--set curve=bspline", same("curve"), "bspline"),
+    "torque": Row("--set limits.torque=77", same("limits.torque"), 77.0),
+    "friction": Row("--set limits.friction=0.44", same("limits.friction"), 0.44),
+    "impulse_friction": Row(
+        "--set limits.impulse_friction=0.55", same("limits.impulse_friction"), 0.55
+    ),
+    "clearance": Row("--set limits.clearance=0.03", same("limits.clearance"), 0.03),
     "out": Row("-o own.json", same("path"), Path("own.json"), SAVE),
 }
 
@@ -186,9 +189,10 @@ def poles_of(a: Any) -> list[int]:
 OBSERVER = {
     "bandwidth": Row("--bandwidth 99", poles_of, [-99] * 3),
     "order": Row("--bandwidth 99 --order 3", lambda a: len(a.observer.poles), 5),
-    "known": Row("--known", same("known"), True),
+    "known": Row("--set hardware.delay_known=true", same("known"), True),
     "confirm": Row(
-        "--confirm --known --delay 0.001 --counts 99 --period 0.002",
+        "--confirm --set hardware.delay_known=true --set hardware.delay=0.001 "
+        "--set hardware.encoders.counts=99 --period 0.002",
         same("clock"), (0.002, 99.0, 0.001, True), "cli.observer:_confirm",
     ),
     "out": Row("-o own.png", same("path"), Path("own.png"), "viz.style:write_figure"),
@@ -196,8 +200,8 @@ OBSERVER = {
 STUDY_FILE = """
 name = "own"
 [grid]
-bandwidth = [100, 200]
-period = [0.001, 0.002]
+controller.observer.bandwidth = [100, 200]
+hardware.period = [0.001, 0.002]
 """
 IMPORT = {
     **ROBOT_ROWS,
@@ -207,9 +211,8 @@ IMPORT = {
     "out": OUT_GAIT,
 }
 ZERO = {
-    "gait": Row("v0.8", same("gait"), "v0.8", "gait.gait:load_gait"),
-    "friction": Row("--friction 0.44", same("limits.friction"), 0.44),
-    "slope": Row("--slope 0.04", same("limits.slope"), 0.04),
+    "friction": Row("--set friction=0.44", same("limits.friction"), 0.44),
+    "slope": Row("--set slope=0.04", same("limits.slope"), 0.04),
     "plot": Row("--plot own.png", same("path"), Path("own.png"), "viz.style:write_figure"),
 }  # fmt: skip
 DESIGNED = "studies.gait_design:design_gait"
@@ -239,11 +242,11 @@ COMMANDS = {
         "gait import own.mat", IMPORTED, IMPORT,
         others={"cli.gait:_save": ("gait import own.mat", IMPORTED)},
     ),
-    "gait zero": Command(
-        "gait zero", ZERO_REPORT, ZERO,
+    "gait show": Command(
+        "gait show published", ZERO_REPORT, ZERO,
         others={
             "viz.style:write_figure": (
-                "gait zero", f"{ZERO_REPORT} {ZERO_FIGURE}"
+                "gait show published", f"{ZERO_REPORT} {ZERO_FIGURE}"
             )
         },
     ),
@@ -266,7 +269,7 @@ def folder(tmp_path, monkeypatch):
     """A folder with a study and a scenario."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "own.toml").write_text(STUDY_FILE)
-    (tmp_path / "best.toml").write_text("K_d = 33.0\n")
+    (tmp_path / "best.toml").write_text("controller.K_d = 33.0\n")
     return tmp_path
 
 
@@ -294,6 +297,8 @@ def test_walks_that_confirm_have_the_clock_that_was_asked_for(monkeypatch):
     )
     biped = ba.Biped.load("rabbit")
     gait = ba.load_gait("published", biped)
-    _confirm(biped, gait, GPIObserver.from_poles(TABLE_I), TABLE_II, (0.002, 99.0, 0.001, True))
+    _confirm(
+        biped, gait, GPIObserver.from_poles(TABLE_I), TABLE_II, Clock(0.002, 99.0, 0.001, True)
+    )
     shared = {"period": 0.002, "delay": 0.001, "known": True}
     assert called == [{**shared, "counts": None}, {**shared, "counts": 99.0}]

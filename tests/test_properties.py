@@ -23,18 +23,20 @@ period = ["1 ms", "2 ms"]
 """
 SCENARIOS = st.fixed_dictionaries(
     {
-        "controller": st.sampled_from(["NPD", "ADRC"]),
-        "K_p": st.floats(1.0, 1e7),
-        "K_d": st.floats(0.1, 1e4),
-        "amplitude": st.floats(0.1, 1e4),
-        "start_speed": st.floats(-0.9, 2.0),
-        "slope": st.floats(-0.3, 0.3),
+        "controller.name": st.sampled_from(["NPD", "ADRC"]),
+        "controller.K_p": st.floats(1.0, 1e7),
+        "controller.K_d": st.floats(0.1, 1e4),
+        "pushes.0.torque": st.floats(0.1, 1e4),
+        "start.speed": st.floats(-0.9, 2.0),
+        "ground.slope": st.floats(-0.3, 0.3),
     }
 )
 
 
 def ends_with_finite_numbers(values, engine):
-    s = ba.Scenario(**values, push="pulse", pushed_step=1, impacts=1, engine=engine)
+    s = ba.Scenario(
+        pushes=[{"shape": "pulse", "step": 1}], run={"impacts": 1, "engine": engine}, **values
+    )
     try:
         walk = ba.walk_scenario(s)
     except ba.BipedError:
@@ -63,7 +65,7 @@ def test_a_walk_on_pinocchio_ends_with_a_status_and_finite_numbers(values):
 def files(tmp_path_factory, biped, gait):
     """By kind: the bytes of a whole file, where changed ones go, and what reads them."""
     folder = tmp_path_factory.mktemp("files")
-    walk = ba.walk_scenario(ba.Scenario("NPD", impacts=1, period=1e-3))
+    walk = ba.walk_scenario(ba.Scenario("NPD", run={"impacts": 1}, hardware={"period": 1e-3}))
     paths = {
         "run": walk.save(folder / "run.npz"),
         "gait": folder / "gait.json",

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import pytest
-
 from biped_adrc.paper.runs import tasks
-from biped_adrc.paper.scenarios import PAPER_PUSH, SINE, Plan, base_runs
-from biped_adrc.scenario.push import Push, parse_push
+from biped_adrc.paper.scenarios import Plan, base_runs
 
 
 def test_a_quick_plan_leaves_out_what_it_says() -> None:
@@ -28,19 +25,8 @@ def test_both_controllers_are_run_alike() -> None:
     for name, run in runs.items():
         if name.endswith(" NPD"):
             other = runs[f"{name.removesuffix('NPD')}ADRC"]
-            assert (other.pushes, other.mass, other.impacts) == (run.pushes, run.mass, run.impacts)
-
-
-@pytest.mark.parametrize(
-    "push",
-    [
-        PAPER_PUSH,
-        SINE,
-        Push({"q1": 30.0, "q3": -20.5, "q4": -20.5}, 7, 0.05, 0.15),
-        Push({"q5": 20.0}, 2, 0.1, float("inf"), "step"),
-        Push({"q1": 30.0}, 19, 0.1, 0.3, rise=0.01),
-        Push({"q1": 30.0}, 19, 0.1, 0.3, rise=1e-05),
-    ],
-)
-def test_a_push_is_said_as_it_is_read(push: Push) -> None:
-    assert parse_push(push.text()) == push
+            assert (other.pushes, other.errors, other.run.impacts) == (
+                run.pushes,
+                run.errors,
+                run.run.impacts,
+            )

@@ -30,18 +30,23 @@ from tests.specified_walks import candidate, multiplier, rippled, specified
 
 def loop_of(**values):
     """The walker of some values, its gait, and the loop at the first phase."""
-    walker, gait = candidate({"impacts": 2, "period": 1.5e-3, **values})
+    walker, gait = candidate({"run.impacts": 2, "hardware.period": 1.5e-3, **values})
     return walker, gait, specified(walker, gait).loops[0, 0]
 
 
 # -- against walks ---------------------------------------------------------------------------------
-LOOP = {"controller": "LESO", "period": 1e-3, "velocity": "differences", "filter_time": 2e-3}
+LOOP = {
+    "controller.name": "LESO",
+    "hardware.period": 1e-3,
+    "hardware.encoders.velocity": "differences",
+    "hardware.encoders.filter_time": 2e-3,
+}
 """One structure, which is compiled once."""
 
 
 @pytest.mark.parametrize("bandwidth", [120.0, 300.0])
 def test_a_walk_bears_nine_tenths_of_the_delay_margin_and_not_eleven(bandwidth):
-    walker, gait = candidate({"impacts": 2, "bandwidth": bandwidth, **LOOP})
+    walker, gait = candidate({"run.impacts": 2, "controller.observer.bandwidth": bandwidth, **LOOP})
     spec = specified(walker, gait)
     found = []
     for share in (0.9, 1.1):
@@ -56,7 +61,12 @@ def test_a_walk_bears_nine_tenths_of_the_delay_margin_and_not_eleven(bandwidth):
     "values",
     [
         {"controller": "NPD"},
-        {"controller": "LESO", "bandwidth": 160.0, "order": 2, "filter_time": 5e-3},
+        {
+            "controller.name": "LESO",
+            "controller.observer.bandwidth": 160.0,
+            "controller.observer.order": 2,
+            "hardware.encoders.filter_time": 5e-3,
+        },
     ],
 )
 def test_ripple_is_that_of_a_walk_with_counts(values):
@@ -70,8 +80,8 @@ def missed(T, **values):
     The walks are those of the walker itself; what lasts a while in `values` is given in periods.
     """
     times = ("delay", "lag", "filter_time", "prediction")
-    lasting = {name: x * T for name, x in values.items() if name in times}
-    walker, gait, loop = loop_of(**{**values, **lasting, "period": T})
+    lasting = {name: x * T for name, x in values.items() if name.endswith(times)}
+    walker, gait, loop = loop_of(**{**values, **lasting, "hardware.period": T})
     n, p = walker.plant.n, walker.plant.p
     point = ba.FrozenGait.of(walker.plant, gait, spread=0.0).points[0]
     deviation = 1e-6 * np.array(
@@ -97,11 +107,36 @@ def missed(T, **values):
 @pytest.mark.parametrize(
     "values",
     [
-        {"controller": "LESO", "bandwidth": 200.0, "delay": 1.6, "lag": 0.7},
-        {"controller": "LESO", "bandwidth": 200.0, "delay": 1.6, "delay_known": True},
-        {"controller": "DOB", "delay": 2, "velocity": "differences", "filter_time": 1.5},
-        {"controller": "LESO", "bandwidth": 200.0, "delay": 1.6, "prediction": 1.6},
-        {"controller": "NPD", "friction": True, "feedforward": 0.8, "delay": 0.5},
+        {
+            "controller.name": "LESO",
+            "controller.observer.bandwidth": 200.0,
+            "hardware.delay": 1.6,
+            "hardware.lag": 0.7,
+        },
+        {
+            "controller.name": "LESO",
+            "controller.observer.bandwidth": 200.0,
+            "hardware.delay": 1.6,
+            "hardware.delay_known": True,
+        },
+        {
+            "controller.name": "DOB",
+            "hardware.delay": 2,
+            "hardware.encoders.velocity": "differences",
+            "hardware.encoders.filter_time": 1.5,
+        },
+        {
+            "controller.name": "LESO",
+            "controller.observer.bandwidth": 200.0,
+            "hardware.delay": 1.6,
+            "controller.prediction": 1.6,
+        },
+        {
+            "controller.name": "NPD",
+            "hardware.friction": True,
+            "controller.feedforward": 0.8,
+            "hardware.delay": 0.5,
+        },
     ],
 )
 def test_a_small_deviation_goes_as_the_matrices_say(values):
@@ -115,13 +150,13 @@ def test_a_delay_that_is_predicted_leaves_the_modes_of_the_loop_without_it(contr
     """But for the change of q'' in that time, which goes with it."""
 
     def modes(**more):
-        loop = loop_of(controller=controller, period=1e-3, **more)[2]
+        loop = loop_of(**{"controller.name": controller, "hardware.period": 1e-3, **more})[2]
         return np.sort(np.abs(np.linalg.eigvals(loop.matrices().M)))[::-1]
 
     free, hidden, predicted = (
         modes(),
-        modes(delay=1e-3),
-        modes(delay=1e-3, prediction=1e-3),
+        modes(**{"hardware.delay": 1e-3}),
+        modes(**{"hardware.delay": 1e-3, "controller.prediction": 1e-3}),
     )
     gaps = [np.max(np.abs(x[: len(free)] - free)) for x in (hidden, predicted)]
     assert gaps[1] < 0.05 * gaps[0]
@@ -129,7 +164,13 @@ def test_a_delay_that_is_predicted_leaves_the_modes_of_the_loop_without_it(contr
 
 # -- the matrices ----------------------------------------------------------------------------------
 def test_the_derivative_of_a_tick_is_that_of_differences():
-    walker, gait, _ = loop_of(controller="LESO", delay=1e-3, velocity="differences")
+    walker, gait, _ = loop_of(
+        **{
+            "controller": "LESO",
+            "hardware.delay": 1e-3,
+            "hardware.encoders.velocity": "differences",
+        }
+    )
     twin = linear_twin(walker)
     q, v = gait.start(walker.plant)
     x = twin.tick(0.0, twin.initial_state(q, v), ba.Mode())
@@ -151,7 +192,7 @@ def test_a_controller_in_plain_python_has_a_specification():
             a = -5000.0 * (m.q_b - r.q_d) - 50.0 * (m.v_b - r.dq_d)
             return m.terms.kappa_inverse @ (a - m.terms.xi)
 
-    walker, gait, _ = loop_of(controller="NPD", solve_theta=False)
+    walker, gait, _ = loop_of(controller={"name": "NPD", "solve_theta": False})
     one = replace(walker, controller=Spring(gait.constraint))
     by_differences, by_laws = (specified(w, gait) for w in (one, walker))
     assert by_differences.worst.growth == pytest.approx(by_laws.worst.growth, rel=0.3)
@@ -194,8 +235,8 @@ def test_a_torque_that_changes_within_the_period():
 
 
 def test_a_hidden_delay_is_as_one_of_the_clock_that_the_controller_does_not_know():
-    _, _, loop = loop_of(controller="LESO", delay=1e-3)
-    _, _, later = loop_of(controller="LESO", delay=2.7e-3)
+    _, _, loop = loop_of(controller="LESO", hardware={"delay": 1e-3})
+    _, _, later = loop_of(controller="LESO", hardware={"delay": 2.7e-3})
     assert loop.growth(1.7e-3) == pytest.approx(later.growth(), rel=1e-6)
     margin = loop.delay_margin(0.05)
     assert loop.growth(0.999 * margin) < 0.0 < loop.growth(1.001 * margin)
@@ -226,7 +267,9 @@ def test_errors_of_sensors_are_those_of_what_they_show():
 
 def test_an_error_of_the_pitch_alone_reaches_the_torque():
     """No joint turns by it: it enters through Theta and Theta' only."""
-    walker, gait = candidate({"controller": "NPD", "hardware": "rabbit", "impacts": 2})
+    walker, gait = candidate(
+        {"controller.name": "NPD", "hardware.profile": "rabbit", "run.impacts": 2}
+    )
     spec = specified(walker, gait)
     pitch = spec.errors * (np.arange(10) == 4)
     assert 0.2 * spec.ripple < replace(spec, errors=pitch).ripple < spec.ripple
@@ -280,7 +323,10 @@ def test_the_structured_value_is_reached_by_a_diagonal_matrix(p):
     assert value <= balanced_bound(M[np.newaxis])[0] * (1 + 1e-9)
 
 
-@pytest.mark.parametrize("late", [{"delay": 1.2e-3, "lag": 1e-3}, {"velocity": "measured"}])
+@pytest.mark.parametrize(
+    "late",
+    [{"hardware.delay": 1.2e-3, "hardware.lag": 1e-3}, {"hardware.encoders.velocity": "measured"}],
+)
 def test_sensitivity_of_a_walker_is_that_of_its_open_loop(late):
     """S = 1 / (1 - G), with G from the torque to the torque that the controller then asks for; controller and
     robot one after the other, as `sensitivity` takes them, are the whole loop.
@@ -298,7 +344,10 @@ def test_sensitivity_of_a_walker_is_that_of_its_open_loop(late):
 # -- all loops together ----------------------------------------------------------------------------
 def test_loops_together_are_the_loops_one_by_one():
     """With a filter and old angles in z, and a torque that changes within the period."""
-    s = ba.Scenario("LESO", hardware="rabbit", bandwidth=160.0, filter_time=2e-3, delay=1e-3)
+    s = ba.Scenario(
+        {"name": "LESO", "observer": {"bandwidth": 160.0}},
+        hardware={"profile": "rabbit", "encoders": {"filter_time": 2e-3}, "delay": 1e-3},
+    )
     loops = specification_of(s).loops
     each = [loops[i, j] for i in range(4) for j in range(5)]
     np.testing.assert_allclose(loops.growth().ravel(), [one.growth() for one in each], rtol=1e-9)

@@ -147,7 +147,7 @@ def test_simplest_walker_against_its_own_equations() -> None:
 @pytest.mark.parametrize("name", ["published", "recipe"])
 def test_multipliers_of_rabbit(biped: ba.Biped, name: str) -> None:
     """The stored gaits of all presets, and delta^2 where the impact keeps to the constraint."""
-    cycle = gait_cycle(Scenario("NPD", preset=biped.preset, gait=name))
+    cycle = gait_cycle(Scenario("NPD", robot={"preset": biped.preset}, gait=name))
     P = replace(cycle.P, method=ba.RK4(7e-4), difference=2e-5)
     step = solved(replace(cycle, P=P), 1e-7)
     check(step.multipliers, sorted_eigenvalues(P.jacobian(step.s)))

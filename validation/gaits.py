@@ -30,13 +30,15 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.npd import NPDController
 from biped_adrc.gait.design.request import StepLimits
 from biped_adrc.gait.gait import Gait, gait_names, load_gait
+from biped_adrc.gait.published import design_published_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
+from biped_adrc.resources import data_folder
 from biped_adrc.scenario.run import Cycle
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.studies.cycle_stability import find_cycle, gait_cycle
-from biped_adrc.studies.gait_design import design_gait
+from biped_adrc.studies.gait_design import design_gait, design_recipe_orbit
 from biped_adrc.types import Array
 from validation.passive import simplest
 from validation.row import Row, at_most
@@ -79,7 +81,7 @@ def multiplier_rows(preset: str, gait: str) -> tuple[Row, ...]:
 
     Twice: by the variational equation along the walk, and by two walks whose starts differ by 2 % of the speed.
     """
-    cycle = gait_cycle(Scenario("NPD", preset=preset, gait=gait))
+    cycle = gait_cycle(Scenario("NPD", robot={"preset": preset}, gait=gait))
     biped = cycle.P.walker.plant
     delta2 = ZeroDynamics.of(biped, load_gait(gait, biped).constraint).delta ** 2
     _, step = periodic_orbit(cycle.P, cycle.guess, 1e-7)
@@ -150,3 +152,15 @@ def robot_rows(robot: str) -> tuple[Row, ...]:
         Row(name, "largest |multiplier|, variational equation", one, other, 1e-6, by),
         at_most(name, f"gap of all {count}, in units of {unit}", 1.0, table.gap(central), by),
     )
+
+
+def write_stored() -> None:
+    """Design the paper's gaits (a) and (b) anew in every preset, and write the files in `gaits/`."""
+    for preset in ("identified", "identified-bare", "tac2003"):
+        biped = Biped.load("rabbit", preset)
+        for gait in (design_published_gait(biped), design_recipe_orbit(biped)):
+            gait.save(data_folder("gaits") / "rabbit" / gait.file_name)
+
+
+if __name__ == "__main__":
+    write_stored()

@@ -73,18 +73,13 @@ class HipCase:
 
     def scenario(self, force: float) -> Scenario:
         """The walk from the gait's orbit under a rearward force [N], which acts from its first instant on."""
-        around = {"inner": self.tracking, "direction": self.direction, "limit": self.limit}
+        around = {"direction": self.direction, "limit": self.limit, "inner": self.tracking}
         return Scenario(
-            controller="stride PI" if self.stride else self.tracking,
-            own=around if self.stride else {},
-            preset=self.preset,
+            {"name": "stride PI", **around} if self.stride else self.tracking,
+            robot={"preset": self.preset},
             gait=self.gait,
-            impacts=self.steps,
-            h=self.h,
-            push="hip force",
-            pushed_step=1,
-            force=force,
-            direction=math.pi,
+            run={"impacts": self.steps, "h": self.h},
+            pushes=[{"shape": "hip force", "step": 1, "force": force, "direction": math.pi}],
         )
 
     def parts(self) -> Parts:

@@ -60,7 +60,7 @@ def fixed_point_rows(preset: str) -> tuple[Row, ...]:
     The height of the swing foot at x* shows how exact the printed angles are.
     """
     biped, (q, v) = Biped.load("rabbit", preset), np.split(X_STAR, 2)
-    cycle = gait_cycle(Scenario("NPD", preset=preset))
+    cycle = gait_cycle(Scenario("NPD", robot={"preset": preset}))
     _, step = periodic_orbit(cycle.P, cycle.guess, 1e-8)
     gap = np.abs(cycle.P.lift(step.image) - X_STAR)
     name = f"RABBIT {preset}, published gait"

@@ -102,20 +102,12 @@ def inputs(robot: str, *others: str) -> tuple[Path, ...]:
 def run_path(out: Path | None, read: Iterable[Path]) -> Path | None:
     """The path that a run is written to, checked before the walk; None for none.
 
-    Raises InputError for a name that is no run's or that is read, and OutputError for what cannot
-    be written.
+    Raises InputError for a name that is no run's or that is read, and OutputError.
     """
-    from biped_adrc.hybrid.storage import check_beside, run_files
-
     if out is None:
         return None
     path = output_path(out, (".npz", ".mat", ".csv"), default=True)
-    if path.suffix.lower() != ".npz":
-        keep_inputs((path,), read)
-        return path
-    path, beside = run_files(path)
-    keep_inputs((path, beside), read)
-    check_beside(beside)
+    keep_inputs((path,), read)
     return path
 
 

@@ -1,26 +1,43 @@
-"""`biped-adrc gait design` and `gait library`: gaits found by optimisation.
+"""`biped-adrc gait design`: gaits by optimisation, one or a library by speed.
 
-Both call `studies.gait_design.design_gait`, which solves the programme with IPOPT and certifies the
-gait by walking it; `library` repeats that for a range of speeds and stores each gait that was
-found. The line that moves while IPOPT runs is fed by its iterations.
+`studies.gait_design.design_gait` solves the programme with IPOPT and certifies the gait by walking
+it. The line that moves while IPOPT runs is fed by its iterations.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rich.status import Status
 from rich.table import Table
 
 from biped_adrc.cli.app import GAITS, console, gait_app, inputs, say_written
-from biped_adrc.cli.options import texts
+from biped_adrc.cli.options import texts, with_sets
 from biped_adrc.errors import GaitError, InputError
 from biped_adrc.files import check_folder, keep_inputs, output_path
+from biped_adrc.types import PlainRecord
 
 if TYPE_CHECKING:
     from biped_adrc.gait.design.ipopt import IpoptProgress
+    from biped_adrc.model.biped import Biped
+    from biped_adrc.studies.gait_design import DesignedGait
     from biped_adrc.types import Array
+
+
+@dataclass(frozen=True)
+class Curves:
+    """What --set says of a design besides `limits.NAME` (`gait.design.request.StepLimits`)."""
+
+    curve: str = "bezier"
+    """Kind of the curves, of the registry: bezier or bspline."""
+    degree: int = 6
+    """One less than they have coefficients."""
+    nodes: int = 24
+    """Gauss nodes at which the limits are kept."""
+    through: tuple[float, ...] | None = None
+    """Pre-impact state q-, q'- (2 n numbers) that the orbit passes, in place of speed and step."""
 
 
 @gait_app.command("design")
@@ -28,70 +45,58 @@ if TYPE_CHECKING:
 def gait_design(
     speed: float | None = None,
     step: float | None = None,
-    through: str | None = None,
+    speeds: str | None = None,
     robot: str = "rabbit",
     preset: str | None = None,
     slope: float = 0.0,
     minimise: str = "torque",
-    curve: str = "bezier",
-    degree: int = 6,
-    nodes: int = 24,
-    torque: float | None = None,
-    friction: float | None = None,
-    impulse_friction: float | None = None,
-    clearance: float = 0.02,
+    sets: list[str] | None = None,
     out: Path | None = None,
 ) -> None:
     """Design a periodic, feasible, stable gait for a speed, a step, or both, and certify it by walking."""
     from biped_adrc.gait.design.request import StepLimits
     from biped_adrc.model.biped import Biped
-    from biped_adrc.studies.gait_design import design_gait
 
-    out = None if out is None else output_path(out, GAITS, default=True)
-    keep_inputs((out,) if out else (), inputs(robot))
+    of_limits = [text for text in sets or () if text.startswith("limits.")]
+    c = with_sets(Curves, [text for text in sets or () if text not in of_limits])
+    limits = with_sets(StepLimits, [text.removeprefix("limits.") for text in of_limits])
+    if speeds is None:
+        out = None if out is None else output_path(out, GAITS, default=True)
+        keep_inputs((out,) if out else (), inputs(robot))
+    elif speed is not None or step is not None:
+        raise InputError("--speeds is given beside a --speed or a --step; give one of them")
     biped = Biped.load(robot, preset)
-    limits = StepLimits(friction, impulse_friction, torque, clearance=clearance or None)
+    how = {"slope": slope, "objective": minimise, "limits": limits}
+    how |= {"curve": c.curve, "degree": c.degree, "nodes": c.nodes}
+    if speeds is not None:
+        _library(biped, speeds, how, Path("gait-library") if out is None else out)
+        return
+    through = None if c.through is None else _state(c.through, biped.n)
     with console.status("building the programme") as shown:
-        found = design_gait(
-            biped,
-            speed,
-            step,
-            slope=slope,
-            objective=minimise,
-            through=None if through is None else _state(through, biped.n),
-            curve=curve,
-            degree=degree,
-            nodes=nodes,
-            limits=limits,
-            progress=_progress(shown),
-        )
+        found = _designed(biped, speed, step, through=through, progress=_progress(shown), **how)
     console.print(found.text(), highlight=False)
     path = out or Path(found.gait.file_name)
     found.gait.save(path)
     say_written(path)
 
 
-@gait_app.command("library")
-@texts("gait.library")
-def gait_library(
-    speeds: str = "0.4:1.1:0.1",
-    robot: str = "rabbit",
-    preset: str | None = None,
-    minimise: str = "torque",
-    out: Path = Path("gait-library"),
-) -> None:
-    """Design a gait for every speed, each from a cold start, and store those that were found."""
-    from biped_adrc.model.biped import Biped
-    from biped_adrc.studies.gait_design import design_gait, speeds_named
+def _designed(*words: Any, **how: Any) -> DesignedGait:
+    from biped_adrc.studies.gait_design import design_gait
+
+    return design_gait(*words, **how)
+
+
+def _library(biped: Biped, speeds: str, how: PlainRecord, out: Path) -> None:
+    """Design a gait for every speed, each from a cold start, and store those that were found in a folder."""
+    from biped_adrc.studies.gait_design import speeds_named
 
     check_folder(out)
-    biped = Biped.load(robot, preset)
     table = Table("m/s", "step [m]", "torque [N m]", "friction", "delta^2", "transport", "s")
     missed = []
     for speed in speeds_named(speeds):
         with console.status(f"{speed:g} m/s") as shown:
             try:
-                found = design_gait(biped, speed, objective=minimise, progress=_progress(shown))
+                found = _designed(biped, speed, progress=_progress(shown), **how)
             except GaitError as error:
                 missed.append(f"{speed:g} m/s: {error}")
                 continue
@@ -122,19 +127,12 @@ def _progress(shown: Status) -> IpoptProgress:
     return say
 
 
-def _state(text: str, n: int) -> tuple[Array, Array]:
-    """(q-, q'-), each (n,) [rad], [rad/s], from a text of 2 n numbers between commas.
-
-    Raises InputError for what is no number, and for too many or too few.
-    """
+def _state(values: tuple[float, ...], n: int) -> tuple[Array, Array]:
+    """(q-, q'-), each (n,) [rad], [rad/s], of 2 n numbers. Raises InputError for too many or too few."""
     import numpy as np
 
-    try:
-        values = np.array([float(word) for word in text.split(",")])
-    except ValueError:
-        values = np.zeros(0)
     if len(values) != 2 * n:
         raise InputError(
-            f"--through is '{text}', expected {2 * n} numbers separated by commas: q- [rad], then q'- [rad/s]"
+            f"through has {len(values)} numbers, expected {2 * n}: q- [rad], then q'- [rad/s]"
         )
-    return values[:n], values[n:]
+    return np.array(values[:n]), np.array(values[n:])

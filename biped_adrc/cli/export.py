@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from biped_adrc.cli.app import app, say
-from biped_adrc.cli.options import texts, values_of
+from biped_adrc.cli.options import scenario_from, texts
 
 if TYPE_CHECKING:
     from biped_adrc.deploy.source import Source
@@ -34,9 +34,8 @@ def export_command(
     from biped_adrc.deploy.computer import Computer
     from biped_adrc.deploy.export import export_c
     from biped_adrc.scenario.build import RobotAndGait, build
-    from biped_adrc.scenario.scenario import Scenario
 
-    s = Scenario(**values_of({}, None, sets, scenario))
+    s = scenario_from({}, sets, scenario)
     source = export_c(s, out, prefix, real, fmu)
     _print(source, out, fmu)
     scene = RobotAndGait.of(s)

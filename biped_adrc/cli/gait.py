@@ -1,9 +1,8 @@
-"""`biped-adrc gait` for gaits that are there: published, recipe, show, export, import, zero.
+"""`biped-adrc gait` for gaits that are there: show, export, import.
 
 Each command checks the name of its output first, then loads robot and gait and calls one function:
-`gait.published` and `studies.gait_design` for the paper's gaits (a) and (b), `gait.exchange` for
-files of other programs, `analysis.zero_report` for the zero dynamics. The commands that design
-gaits are in `cli.design`.
+`gait.exchange` for files of other programs, `analysis.zero_report` for the zero dynamics. Gaits are
+designed in `cli.design`.
 """
 
 from __future__ import annotations
@@ -12,58 +11,70 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from rich.table import Table
+
 from biped_adrc.cli.app import FIGURES, GAITS, console, gait_app, inputs, say, say_written
-from biped_adrc.cli.options import texts
+from biped_adrc.cli.options import texts, with_sets
 from biped_adrc.errors import InputError
 from biped_adrc.files import keep_inputs, output_path
 
 if TYPE_CHECKING:
     from biped_adrc.gait.gait import Gait
-
-
-@gait_app.command("published")
-@texts("gait.paper")
-def gait_published(preset: str = "identified", out: Path | None = None) -> None:
-    """Design gait (a): the constraint of least torque whose orbit passes through the published x*."""
-    out = None if out is None else output_path(out, GAITS, default=True)
-    from biped_adrc.gait.published import design_published_gait
     from biped_adrc.model.biped import Biped
-
-    _save(design_published_gait(Biped.load("rabbit", preset)), out)
-
-
-@gait_app.command("recipe")
-@texts("gait.paper")
-def gait_recipe(preset: str = "identified", out: Path | None = None) -> None:
-    """Design gait (b): hip sine, inverse kinematics and polynomial regression, section IV."""
-    out = None if out is None else output_path(out, GAITS, default=True)
-    from biped_adrc.model.biped import Biped
-    from biped_adrc.studies.gait_design import design_recipe_orbit
-
-    _save(design_recipe_orbit(Biped.load("rabbit", preset)), out)
 
 
 @gait_app.command("show")
-@texts("gait.stored")
-def gait_show(gait: str = "published", robot: str = "rabbit", preset: str | None = None) -> None:
-    """Print a stored gait's provenance and its zero dynamics."""
+@texts("gait.show")
+def gait_show(
+    gait: str | None = None,
+    robot: str = "rabbit",
+    preset: str | None = None,
+    plot: Path | None = None,
+    sets: list[str] | None = None,
+) -> None:
+    """List the gaits of a robot, or say what one is and what its zero dynamics allow."""
     from biped_adrc.gait.gait import load_gait
-    from biped_adrc.gait.zero_dynamics import ZeroDynamics
     from biped_adrc.model.biped import Biped
 
+    plot = None if plot is None else output_path(plot, FIGURES)
     biped = Biped.load(robot, preset)
+    if gait is None:
+        _list(biped)
+        return
     found = load_gait(gait, biped)
     for key, value in found.provenance.items():
         say(f"{key}: {value}")
-    if (found.robot, found.preset) != (biped.description.name, biped.preset):
-        console.print(
-            f"of robot {found.robot}, preset {found.preset}; below with {biped.description.name}, "
-            f"{biped.preset}"
-        )
-    zero = ZeroDynamics.of(biped, found.constraint)
-    console.print(
-        f"period {found.period:.6f} s, delta^2 {zero.delta**2:.6f}, slope {found.slope:g} rad"
-    )
+    console.print(f"period {found.period:.6f} s, slope {found.slope:g} rad", highlight=False)
+    _print_zero(biped, found, plot, sets)
+
+
+def _list(biped: Biped) -> None:
+    """Print the stored gaits of a robot in its preset."""
+    from biped_adrc.gait.gait import gait_names, load_gait
+
+    table = Table("gait", "speed [m/s]", "step [m]", "period [s]", "slope [rad]")
+    for name in gait_names(biped.description.name, biped.preset):
+        found = load_gait(name, biped)
+        length = float(biped.swing_foot(found.q_minus)[0])
+        numbers = (length / found.period, length, found.period, found.slope)
+        table.add_row(name, *(f"{x:.4g}" for x in numbers))
+    console.print(table)
+
+
+def _print_zero(biped: Biped, found: Gait, plot: Path | None, sets: list[str] | None) -> None:
+    """Print what the zero dynamics of a gait allow, and draw it where `plot` says."""
+    from biped_adrc.analysis.zero_report import zero_report
+    from biped_adrc.gait.zero_domain import DomainLimits
+
+    usual = {"friction": biped.description.friction_coefficient, "slope": found.slope}
+    report = zero_report(biped, found.constraint, with_sets(DomainLimits, sets, usual))
+    say(report.text())
+    if plot is not None:
+        from biped_adrc.viz.plots.zero_dynamics import zero_dynamics_figure
+        from biped_adrc.viz.style import write_figure
+
+        write_figure(plot, zero_dynamics_figure(report))
+        say_written(plot)
 
 
 def _save(gait: Gait, out: Path | None, read: Iterable[Path] = ()) -> None:
@@ -78,7 +89,7 @@ def _save(gait: Gait, out: Path | None, read: Iterable[Path] = ()) -> None:
 
 
 @gait_app.command("export")
-@texts("gait.stored")
+@texts("gait.export")
 def gait_export(
     gait: str,
     out: Path,
@@ -130,35 +141,3 @@ def _pairs(texts: list[str]) -> dict[str, str]:
                 f"--name is '{text}', expected OURS=THEIRS, such as coefficients=R.alpha"
             )
     return {ours.strip(): theirs.strip() for ours, _, theirs in (t.partition("=") for t in texts)}
-
-
-@gait_app.command("zero")
-@texts("gait.stored")
-def gait_zero(
-    gait: str = "published",
-    robot: str = "rabbit",
-    preset: str | None = None,
-    friction: float | None = None,
-    torque: float | None = None,
-    slope: float | None = None,
-    plot: Path | None = None,
-) -> None:
-    """Say what the zero dynamics of a gait allow: orbit, stability, domain of attraction, speeds."""
-    from biped_adrc.analysis.zero_report import zero_report
-    from biped_adrc.gait.gait import load_gait
-    from biped_adrc.gait.zero_domain import DomainLimits
-    from biped_adrc.model.biped import Biped
-
-    plot = None if plot is None else output_path(plot, FIGURES)
-    biped = Biped.load(robot, preset)
-    mu = biped.description.friction_coefficient if friction is None else friction
-    found = load_gait(gait, biped)
-    angle = found.slope if slope is None else slope
-    report = zero_report(biped, found.constraint, DomainLimits(mu, torque, angle))
-    say(report.text())
-    if plot is not None:
-        from biped_adrc.viz.plots.zero_dynamics import zero_dynamics_figure
-        from biped_adrc.viz.style import write_figure
-
-        write_figure(plot, zero_dynamics_figure(report))
-        say_written(plot)

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from biped_adrc.cli.app import FIGURES, app, say_written
-from biped_adrc.cli.options import texts
+from biped_adrc.cli.options import texts, with_sets
 from biped_adrc.files import keep_inputs, output_path
 
 if TYPE_CHECKING:
@@ -23,19 +23,15 @@ def animate(
     run: Path,
     ghost: list[Path] | None = None,
     out: Path = Path("walk.html"),
-    view: str = "side",
     start: float | None = None,
     stop: float | None = None,
-    fps: float | None = None,
-    apart: bool = False,
-    magnify: float | None = None,
-    slower: float = 1.0,
+    sets: list[str] | None = None,
 ) -> None:
     """Write the walk as a page, a picture or a strip."""
     from biped_adrc.scenario.stored import load_walks
     from biped_adrc.viz.export import SUFFIXES, Clip, check_suffix, export
 
-    runs, clip = [run, *(ghost or [])], Clip(start, stop, fps, view, apart, magnify, slower)
+    runs, clip = [run, *(ghost or [])], with_sets(Clip, sets, start=start, stop=stop)
     check_suffix(out)
     keep_inputs((output_path(out, SUFFIXES),), runs)
     export(out, _solid_last(load_walks(runs)), clip)

@@ -8,15 +8,16 @@ the robot agrees.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from rich.table import Table
 
 from biped_adrc.cli.app import FIGURES, app, bar, console, say, say_written
-from biped_adrc.cli.options import texts
-from biped_adrc.errors import InputError
+from biped_adrc.cli.options import of_scenario, pairs, scenario_from, texts
 from biped_adrc.files import output_path
+from biped_adrc.types import PlainRecord
 
 if TYPE_CHECKING:
     from biped_adrc.control.tracking import Gains
@@ -24,49 +25,60 @@ if TYPE_CHECKING:
     from biped_adrc.model.biped import Biped
     from biped_adrc.observer_design.observer_report import ObserverReport
     from biped_adrc.observers.gpi import GPIObserver
+    from biped_adrc.scenario.scenario import ObserverRecord
     from biped_adrc.studies.observer_check import CheckedWalk, DelayCheck
 
 
 @app.command("observer")
+@of_scenario("gait", "preset", "robot", "period", "poles", "bandwidth", "order")
 @texts("observer")
 def observer_command(
-    poles: str | None = None,
-    bandwidth: float | None = None,
-    order: int | None = None,
-    k_p: float = 5000.0,
-    k_d: float = 50.0,
-    period: float = 1.5e-3,
-    counts: float = 8192.0,
-    delay: float = 0.0,
-    known: bool = False,
-    robot: str = "rabbit",
-    preset: str | None = None,
-    gait: str = "published",
+    given: PlainRecord,
+    sets: list[str] | None = None,
     confirm: bool = False,
     out: Path | None = None,
 ) -> None:
-    """Say what an observer asks of encoders, clock and motors, and which one a robot allows."""
-    from biped_adrc.control.tracking import Gains
-    from biped_adrc.gait.gait import load_gait
-    from biped_adrc.model.biped import Biped
-    from biped_adrc.observer_design.observer_report import observer_report
+    """Say what an observer asks of encoders, clock and motors, and which one a robot allows.
 
-    chosen, gains = _observer(poles, bandwidth, order), Gains(k_p, k_d)
+    Encoders and clock are RABBIT's if not said otherwise.
+    """
+    from biped_adrc.control.tracking import TABLE_II
+    from biped_adrc.observer_design.observer_report import observer_report
+    from biped_adrc.scenario.build import RobotAndGait
+
     path = None if out is None else output_path(out, FIGURES)
-    biped = Biped.load(robot, preset)
-    found = load_gait(gait, biped)
-    report = observer_report(
-        chosen, gains, period, robot=biped, gait=found, counts=counts, delay=delay, known=known
+    if not {"hardware", "hardware.profile"} & pairs(sets).keys():
+        given = {"hardware.profile": "rabbit", **given}
+    s = scenario_from(given, sets)
+    c, h, scene = s.controller, s.hardware, RobotAndGait.of(s)
+    gains = replace(TABLE_II, **{k: x for k in ("K_p", "K_d") if (x := getattr(c, k)) is not None})
+    chosen, clock = (
+        _observer(c.observer),
+        Clock(h.period or 1e-3, h.encoders.counts or 8192.0, h.delay, h.delay_known),
     )
+    report = observer_report(chosen, gains, robot=scene.biped, gait=scene.walked, **clock._asdict())
     _print_report(report)
     if confirm:
-        _confirm(biped, found, chosen, gains, (period, counts, delay, known))
+        _confirm(scene.biped, scene.walked, chosen, gains, clock)
     if path is not None:
         from biped_adrc.viz.plots.observer_figure import observer_figure
         from biped_adrc.viz.style import write_figure
 
         write_figure(path, observer_figure([report]))
         say_written(path)
+
+
+class Clock(NamedTuple):
+    """Sampling and encoders."""
+
+    period: float
+    """[s]."""
+    counts: float | None
+    """Per revolution; None: exact."""
+    delay: float
+    """[s]."""
+    known: bool
+    """Whether the observer knows the delay."""
 
 
 def _print_report(report: ObserverReport) -> None:
@@ -79,26 +91,13 @@ def _print_report(report: ObserverReport) -> None:
         console.print(table)
 
 
-def _observer(poles: str | None, bandwidth: float | None, order: int | None) -> GPIObserver:
-    """The observer that the options describe; Table I of the paper where they say nothing.
-
-    Raises InputError where poles and a bandwidth are both given, or a pole is no number.
-    """
+def _observer(o: ObserverRecord) -> GPIObserver:
+    """The observer that the options describe; Table I of the paper where they say nothing."""
     from biped_adrc.observers.gpi import TABLE_I, GPIObserver
 
-    if poles is not None and bandwidth is not None:
-        raise InputError("both --poles and --bandwidth are given; give one of them")
-    if bandwidth is not None:
-        return GPIObserver.from_bandwidth(bandwidth, 1 if order is None else order)
-    if poles is None:
-        return GPIObserver.from_poles(TABLE_I, order)
-    try:
-        values = [complex(text) for text in poles.replace(" ", "").split(",")]
-    except ValueError:
-        raise InputError(
-            f"--poles is '{poles}', expected numbers separated by commas, as -300,-400+50j,-400-50j"
-        ) from None
-    return GPIObserver.from_poles(values, order)
+    if o.bandwidth is not None:
+        return GPIObserver.from_bandwidth(o.bandwidth, 1 if o.order is None else o.order)
+    return GPIObserver.from_poles(o.poles or TABLE_I, o.order)
 
 
 def _confirm(
@@ -106,17 +105,13 @@ def _confirm(
     gait: Gait,
     observer: GPIObserver,
     gains: Gains,
-    clock: tuple[float, float, float, bool],
+    clock: Clock,
 ) -> None:
     """Walk at the delay margin with unknown and known delay, then without and with encoders, and print
     the walks.
-
-    clock: period [s], counts of an encoder per turn, delay [s], and whether the observer knows the
-    delay.
     """
     from biped_adrc.studies.observer_check import DelayCase, check_delay, check_encoders
 
-    period, counts, delay, known = clock
     with bar() as progress:
         task = progress.add_task("walks with a late torque, then with encoders", total=4)
         checks = []
@@ -124,17 +119,14 @@ def _confirm(
             checks.append(check_delay(DelayCase(biped, gait, observer, gains, aware)))
             progress.advance(task)
         walks = []
-        for seen in (None, counts):
+        for seen in (None, clock.counts):
             walks.append(
                 check_encoders(
                     biped,
                     gait,
                     observer,
                     gains,
-                    period=period,
-                    counts=seen,
-                    delay=delay,
-                    known=known,
+                    **clock._replace(counts=seen)._asdict(),
                 )
             )
             progress.advance(task)

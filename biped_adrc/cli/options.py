@@ -1,14 +1,10 @@
 """Options of commands, without writing each of them out in every command.
 
-Two decorators change the signature that typer reads:
-
     texts          puts the help texts of options.toml on the parameters of a command
-    of_scenario    puts options in front for fields of `Scenario`, with the field's own type,
-    unit and text
+    of_scenario    puts short options in front for values of a scenario, with the value's own text
 
-A new field of a scenario is an option of `simulate` by one name in a list. `values_of` joins what
-was on the command line, pushes and --set NAME=VALUE to the values of a scenario. --set reads values
-with units, as in the file of a study.
+`scenario_from` joins a scenario file, what was on the command line, pushes, and --set NAME=VALUE with the
+dotted names that values have everywhere. All of them read units: `--period "1 ms"`.
 """
 
 from __future__ import annotations
@@ -18,19 +14,39 @@ from collections.abc import Callable
 from functools import reduce, wraps
 from inspect import Parameter, signature
 from pathlib import Path
-from typing import Annotated, Any, get_args
+from typing import Annotated, Any, TypeVar, get_type_hints
 
 import typer
+from pydantic import TypeAdapter, ValidationError
 
 from biped_adrc.errors import InputError
 from biped_adrc.resources import packaged
-from biped_adrc.scenario.push import parse_push
-from biped_adrc.scenario.scenario import DEFAULTS, FIELDS, UNITS
+from biped_adrc.scenario.dotted import unknown
+from biped_adrc.scenario.file import read_scenario
+from biped_adrc.scenario.scenario import Scenario, field_of
 from biped_adrc.types import PlainRecord
 
 TEXTS = packaged("biped_adrc.cli", "options.toml")
 """The content of options.toml."""
+SHORT = {
+    "controller": "controller.name",
+    "gait": "gait.name",
+    "preset": "robot.preset",
+    "robot": "robot.name",
+    "impacts": "run.impacts",
+    "period": "hardware.period",
+    "torque_limit": "hardware.torque_limit",
+    "plant": "ground.plant",
+    "engine": "run.engine",
+    "poles": "controller.observer.poles",
+    "bandwidth": "controller.observer.bandwidth",
+    "order": "controller.observer.order",
+}
+"""Values of a scenario that have short options."""
+WALKS = ("controller", "gait", "preset", "robot")
+"""Options of all commands that take a scenario: what walks."""
 Command = Callable[..., None]
+T = TypeVar("T")
 
 
 def texts(name: str) -> Callable[[Command], Command]:
@@ -41,13 +57,13 @@ def texts(name: str) -> Callable[[Command], Command]:
     def decorate(command: Command) -> Command:
         """Give typer a signature in which the parameters that have a text are annotated with it."""
         plain = signature(command, eval_str=True)
-        told = [
+        parameters = [
             p.replace(annotation=Annotated[p.annotation, _shown(said[p.name])])
             if p.name in said
             else p
             for p in plain.parameters.values()
         ]
-        command.__signature__ = plain.replace(parameters=told)  # type: ignore[attr-defined]
+        command.__signature__ = plain.replace(parameters=parameters)  # type: ignore[attr-defined]
         command.__annotations__ = {}
         return command
 
@@ -62,38 +78,25 @@ def _shown(text: str | PlainRecord) -> object:
     return typer.Option(*entry.get("flags", ()), help=entry["help"])
 
 
-def of_scenario(
-    *names: str, controller: str = "ADRC", **flags: str
-) -> Callable[[Command], Command]:
-    """Decorator: options for fields of a scenario, put in front of a command's own.
+def of_scenario(*names: str, **usual: str) -> Callable[[Command], Command]:
+    """Decorator: short options for values of a scenario, put in front of a command's own.
 
-    names: fields whose option is called as they are. flags: field=flag for others. controller: what
-    the command takes by default, for the help.
-
-    The command gets as `given` the values that are on the command line, and no defaults: whether a
-    value was asked for decides, for instance, whether it may be given by --set too.
+    names: of SHORT. usual: by name, what the help says is taken by default. The command gets as `given` the
+    texts that are on the command line, by dotted name.
     """
-    usual = {"controller": f"{controller}; passive for a robot without motors"}
-    shown = {**{name: "--" + name.replace("_", "-") for name in names}, **flags}
 
     def decorate(command: Command) -> Command:
-        """Give typer a signature with the fields of the scenario in front of the command's own parameters."""
+        """Give typer a signature with the short options in front of the command's own parameters."""
 
         @wraps(command)
-        def with_given(context: typer.Context, **values: object) -> None:
-            """What typer calls: gathers the options that were on the command line, and calls the command."""
-            given = {name: values.pop(name) for name in shown}
-            command({name: x for name, x in given.items() if _told(context, name)}, **values)
+        def with_given(**values: Any) -> None:
+            given = {SHORT[name]: values.pop(name) for name in names}
+            command({name: x for name, x in given.items() if x is not None}, **values)
 
         own = [
             p for p in signature(command, eval_str=True).parameters.values() if p.name != "given"
         ]
-        first = Parameter("context", Parameter.KEYWORD_ONLY, annotation=typer.Context)
-        options = [
-            first,
-            *(_option(*pair, usual.get(pair[0], True)) for pair in shown.items()),
-            *own,
-        ]
+        options = [*(_option(name, usual.get(name)) for name in names), *own]
         options = [p.replace(kind=Parameter.KEYWORD_ONLY) for p in options]
         with_given.__signature__ = signature(with_given).replace(parameters=options)  # type: ignore[attr-defined]
         with_given.__annotations__ = {}
@@ -102,72 +105,95 @@ def of_scenario(
     return decorate
 
 
-def _option(name: str, flag: str, usual: str | bool) -> Parameter:
-    """The parameter, for typer, of one field; usual: what the help shows as its default."""
-    field, default = FIELDS[name], DEFAULTS[name]
-    kinds = [
-        kind
-        for kind in (*get_args(field.annotation), field.annotation)
-        if kind in (bool, int, float)
-    ]
-    kind: Any = kinds[0] if kinds else str
-    unit = "" if UNITS[name] == "1" else f" [{UNITS[name]}]"
-    help_text = f"{str(field.description).removesuffix('.')}{unit}."
-    kind = kind if default is not None else kind | None
-    option = Annotated[kind, typer.Option(flag, help=help_text, show_default=usual)]
-    return Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=option)
+def _option(name: str, usual: str | None) -> Parameter:
+    """The parameter, for typer, of one value; usual: what the help shows as its default."""
+    what = field_of(SHORT[name])
+    default = what.default if usual is None else usual
+    unit = "" if what.unit == "1" else f" [{what.unit}]"
+    text = f"{what.text.removesuffix('.')}{unit}."
+    flag = "--" + name.replace("_", "-")
+    shown = typer.Option(flag, help=text, show_default=False if default is None else str(default))
+    annotation = Annotated[str | None, shown]
+    return Parameter(name, Parameter.KEYWORD_ONLY, default=None, annotation=annotation)
 
 
-def _told(context: typer.Context, name: str) -> bool:
-    """Whether an option was on the command line, and not taken from its default."""
-    source = context.get_parameter_source(name)
-    return source is not None and source.name == "COMMANDLINE"
-
-
-def values_of(
+def scenario_from(
     given: PlainRecord,
-    push: list[str] | None,
     sets: list[str] | None,
-    scenario: Path | None = None,
-) -> PlainRecord:
-    """The values of a scenario that options, pushes and --set name, as its constructor takes them.
+    file: Path | None = None,
+    push: list[str] | None = None,
+    usual: str = "ADRC",
+) -> Scenario:
+    """The scenario of a file, options, pushes and --set, which go before the file.
 
-    scenario: a file of values that they go before. A name that is no field goes to the controller's
-    own parameters. Raises InputError for a text or a file that cannot be read, and for a value that
-    is given twice.
+    usual: the controller where none of them names one; a robot without motors has "passive". Raises InputError
+    for a text or a file that cannot be read, and for a value that is given twice.
     """
-    from biped_adrc.study.parameters import TABLES, Refused, nested, read, read_scenario
-
-    values = dict(given)
-    if push:
-        values["pushes"] = tuple(parse_push(text) for text in push)
-    for text in sets or ():
-        name, equals, said = (word.strip() for word in text.partition("="))
-        if not equals or not name:
-            raise InputError(f"--set is '{text}', expected NAME=VALUE, such as 'delay=2 ms'")
-        table = name.partition(".")[0]
-        known = table in TABLES or (name in FIELDS and name not in TABLES)
-        name = name if known else f"own.{name}"
+    values = {**given, **({"pushes": list(push)} if push else {})}
+    for name, x in pairs(sets).items():
         if name in values:
+            raise InputError(f"'{name}' is given twice, as --set {name} too; leave one of them out")
+        values[name] = x if field_of(name).types else _own(x)
+    base = Scenario() if file is None else read_scenario(file)
+    if not any(name.startswith("controller.name") for name in values):
+        values = {**_passive(base, values, usual), **values}
+    return base.replace(values)
+
+
+def _passive(base: Scenario, values: PlainRecord, usual: str) -> PlainRecord:
+    """The controller where no other one is chosen: "passive" for a robot without motors."""
+    from biped_adrc.robots.robot_toml import load_description
+    from biped_adrc.scenario.registry import is_own
+
+    if base.controller.name != usual and base.controller != Scenario().controller:
+        return {}
+    robot = str(values.get("robot.name", base.robot.name))
+    motors = is_own(robot) or load_description(robot).actuated
+    return {"controller.name": usual if motors else "passive"}
+
+
+def pairs(sets: list[str] | None) -> dict[str, str]:
+    """Texts by name of --set NAME=VALUE. Raises InputError for another form, and a name that comes twice."""
+    found: dict[str, str] = {}
+    for text in sets or ():
+        name, equals, x = (word.strip() for word in text.partition("="))
+        if not equals or not name:
+            raise InputError(
+                f"--set is '{text}', expected NAME=VALUE, such as 'hardware.delay=2 ms'"
+            )
+        if name in found:
             raise InputError(f"'{name}' is given twice, as --set {text} too; leave one of them out")
-        try:
-            values[name] = read(name, _plain(name, said))
-        except Refused as error:
-            raise InputError(f"--set {text}: {error}") from None
-    return nested(({} if scenario is None else read_scenario(scenario)) | values)
+        found[name] = x
+    return found
 
 
-def _plain(name: str, text: str) -> object:
-    """The text of --set as a value: a number, truth value or list where it is one, also a list without
-    brackets.
-
-    Texts of fields with units stay texts, as `study.parameters.read` reads those.
-    """
-    if not name.startswith("own.") and DEFAULTS.get(name) not in (True, False):
-        return text
+def _own(text: str) -> object:
+    """A value that only the user's part knows: a number, truth value or list where the text is one."""
     for candidate in (text, f"[{text}]"):
         try:
             return json.loads(candidate)
         except ValueError:
             continue
     return text
+
+
+def with_sets(
+    make: type[T], sets: list[str] | None, usual: PlainRecord | None = None, **fixed: object
+) -> T:
+    """A dataclass of these values, and of what --set NAME=VALUE says of its other fields, read by their types.
+
+    usual: values where --set has none; fixed: values that it may not have. Raises InputError for a name that
+    there is not, and a text of another type.
+    """
+    hints, values = get_type_hints(make), dict(usual or {})
+    known = [name for name in signature(make).parameters if name not in fixed]
+    for name, text in pairs(sets).items():
+        if name not in known:
+            raise InputError(f"--set {name}: {unknown(name, known)}")
+        x = text.split(",") if "tuple" in str(hints[name]) else None if text == "none" else text
+        try:
+            values[name] = TypeAdapter(hints[name]).validate_python(x)
+        except ValidationError as error:
+            said = error.errors()[0]["msg"].replace("Input should", "should")
+            raise InputError(f"--set {name}: found '{text}', {said}") from None
+    return make(**values, **fixed)

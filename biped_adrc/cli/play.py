@@ -7,19 +7,13 @@ import webbrowser
 from pathlib import Path
 
 from biped_adrc.cli.app import app, say, say_written
-from biped_adrc.cli.options import of_scenario, texts, values_of
-from biped_adrc.cli.walk import LAW, usual
+from biped_adrc.cli.options import WALKS, of_scenario, scenario_from, texts
 from biped_adrc.files import keep_inputs, output_path
 from biped_adrc.types import PlainRecord
 
-WHO = ("controller", "gait", "robot", "preset", "seed", "hardware", "period")
-"""Fields of a scenario that are options: what walks."""
-GROUND = ("friction", "slope")
-"""Those of joint friction and ground."""
-
 
 @app.command("play")
-@of_scenario(*WHO, *LAW, *GROUND)
+@of_scenario(*WALKS)
 @texts("play")
 def play_command(
     given: PlainRecord,
@@ -28,19 +22,18 @@ def play_command(
     ghost: str | None = None,
     out: Path | None = None,
 ) -> None:
-    """Push a walk yourself, on a page with a guided tour; 'hardware' is ideal if not given."""
+    """Push a walk yourself, on a page with a guided tour; sampled at 1 kHz if not said otherwise."""
     from biped_adrc.live.page import OTHERS, play
-    from biped_adrc.scenario.scenario import Scenario
 
     if out is not None:
         keep_inputs((output_path(out, (".html",)),), () if scenario is None else (scenario,))
-    values = {"controller": usual(given), **values_of(given, None, sets, scenario)}
-    if not {"hardware", "period"} & set(values):
-        values["hardware"] = "ideal"
-    ghost = ghost or ("ADRC" if values["controller"] == "NPD" else "NPD")
-    others = {ghost: {"controller": ghost}, **OTHERS}
+    s = scenario_from(given, sets, scenario)
+    if s.hardware.period is None:
+        s = s.replace({"hardware.period": 1e-3})
+    ghost = ghost or ("ADRC" if s.controller.name == "NPD" else "NPD")
+    others = {ghost: {"controller.name": ghost}, **OTHERS}
     path = Path(tempfile.mkdtemp(prefix="biped-adrc-")) / "walk.html" if out is None else out
-    play(path, Scenario(**values), others)
+    play(path, s, others)
     say_written(path)
     if out is None and not webbrowser.open(path.as_uri()):
         say("no browser could be opened here: open the page in one")

@@ -10,18 +10,13 @@ from pathlib import Path
 from rich.table import Table
 
 from biped_adrc.cli.app import app, console, inputs, say, say_written
-from biped_adrc.cli.options import of_scenario, texts, values_of
+from biped_adrc.cli.options import WALKS, of_scenario, scenario_from, texts
 from biped_adrc.files import check_folder, keep_inputs, output_path, write_text
 from biped_adrc.types import PlainRecord
 
-WHO = ("controller", "gait", "robot", "preset", "period", "torque_limit")
-"""Fields of a scenario that are options of `replay`: whose sample instants they are."""
-LAW = ("K_p", "K_d", "observer", "poles", "bandwidth", "order", "reset")
-"""Those of the controller."""
-
 
 @app.command("replay")
-@of_scenario(*WHO, *LAW)
+@of_scenario(*WALKS)
 @texts("replay")
 def replay_command(
     given: PlainRecord,
@@ -29,17 +24,15 @@ def replay_command(
     sets: list[str] | None = None,
     scenario: Path | None = None,
     window: float = 0.02,
-    filter_time: float | None = None,
     out: Path | None = None,
 ) -> None:
     """Show a robot's log to a controller and its observer, and print what they make of it."""
     from biped_adrc.logs.replay import HEADER, cells, replay
-    from biped_adrc.scenario.scenario import Scenario
     from biped_adrc.viz.style import write_figure
 
-    s = Scenario(**values_of(given, None, sets, scenario))
-    paths = _paths(out, (log, *inputs(s.robot, s.gait)))
-    found = replay(log, s, window, filter_time)
+    s = scenario_from(given, sets, scenario)
+    paths = _paths(out, (log, *inputs(s.robot.name, s.gait.name)))
+    found = replay(log, s, window)
     if paths is not None:
         table, text, figure = paths
         found.to_csv(table)

@@ -38,7 +38,7 @@ def reproduce(
     pushes = tuple(parse_push(text) for text in push or ())
     description = load_description("rabbit")
     description.preset(preset)
-    for joint in (joint for p in pushes for joint in p.torque):
+    for joint in (joint for p in pushes for joint in p.factors):
         description.joint_index(joint)
     plan = Plan(preset, pushes=pushes or (PAPER_PUSH,), full=full, quick=quick)
     with bar() as shown:

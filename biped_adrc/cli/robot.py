@@ -1,8 +1,8 @@
 """`biped-adrc robot`: the robots that come with the package, and robots from a user's own URDF.
 
 `check` and `new` derive a biped from a URDF (`robot_import.derive`): what the file does not say is
-guessed, each guess is printed, and the model is checked against laws of mechanics. `list` and
-`show` print the records (robot.toml), `export` writes a robot for MuJoCo's own viewer (`soft.mjcf`).
+guessed, each guess is printed, and the model is checked against laws of mechanics. `list` prints
+the records (robot.toml), `export` writes a robot for MuJoCo's own viewer (`soft.mjcf`).
 """
 
 from __future__ import annotations
@@ -22,14 +22,13 @@ from biped_adrc.cli.app import (
     say,
     say_written,
 )
-from biped_adrc.cli.options import texts
-from biped_adrc.errors import InputError, ModelError
+from biped_adrc.cli.options import scenario_from, texts, with_sets
+from biped_adrc.errors import ModelError
 from biped_adrc.files import check_folder, keep_inputs, output_path
-from biped_adrc.robots.robot_toml import GRAVITY
 
 if TYPE_CHECKING:
     from biped_adrc.model.biped import Biped
-    from biped_adrc.robot_import.import_robot import Derived, Hints
+    from biped_adrc.robot_import.import_robot import Derived
 
 robot_app = typer.Typer(
     no_args_is_help=True,
@@ -39,26 +38,60 @@ robot_app = typer.Typer(
 app.add_typer(robot_app, name="robot")
 
 
+@robot_app.command("list")
+@texts("robot.list")
+def robot_list(robot: str | None = None, preset: str | None = None) -> None:
+    """The robots of the package, and all values of a scenario that --set takes; or the record of one robot."""
+    from biped_adrc.model.biped import Biped
+    from biped_adrc.robots.robot_toml import load_description, robot_names
+
+    if robot is not None:
+        biped = Biped.load(robot, preset)
+        d = biped.description
+        say(f"{d.name}, preset {biped.preset}: {d.preset(biped.preset).source}")
+        _describe(biped)
+        return
+    table = Table("robot", "preset", "n", "p", "source")
+    for name in robot_names():
+        d = load_description(name)
+        for each in d.presets.values():
+            default = " (default)" if each.name == d.default_preset else ""
+            n, p = str(len(d.joints)), str(len(d.actuated))
+            table.add_row(name, each.name + default, n, p, each.source)
+    console.print(table)
+    _print_values()
+
+
+def _print_values() -> None:
+    """Print what a scenario may say: names, units, ranges, defaults and texts."""
+    from biped_adrc.scenario.scenario import field_of, names
+
+    say("Values of a scenario, for --set NAME=VALUE: unit, default, range, what it is")
+    for what in map(field_of, names()):
+        unit = "" if what.unit == "1" else f" [{what.unit}]"
+        default = "" if what.default in (None, {}) else f"{what.default}"
+        told = ", ".join(x for x in (default, what.range_text) if x)
+        say(f"  {what.name}{unit}{f' ({told})' if told else ''}: {what.text}")
+    say(
+        "A controller, observer, contact, sensor, touchdown, push or plant takes its own parameters the same "
+        "way, such as controller.K_i=90000 of NPID."
+    )
+
+
 @robot_app.command("check")
 @texts("robot.own")
 def robot_check(
     file: Path,
     feet: str | None = None,
     actuated: str | None = None,
-    hip: str | None = None,
     torque: float | None = None,
-    friction: float | None = None,
-    armature: float = 0.0,
-    gravity: float = GRAVITY,
-    tip: str | None = None,
+    sets: list[str] | None = None,
 ) -> None:
     """Read a URDF as a biped: say what was guessed, and check it against the laws of mechanics.
 
     Exit code 0 when every law holds, 1 when one does not, 3 when the URDF is refused.
     """
-    from biped_adrc.robot_import.import_robot import derive
-
-    derived = derive(file, _hints(feet, actuated, hip, torque, friction, armature, gravity, tip))
+    derived = _derived(file, feet, actuated, torque, sets)
     _explain(derived)
     if derived.broken:
         for check in derived.broken:
@@ -73,18 +106,12 @@ def robot_new(
     out: Path,
     feet: str | None = None,
     actuated: str | None = None,
-    hip: str | None = None,
     torque: float | None = None,
-    friction: float | None = None,
-    armature: float = 0.0,
-    gravity: float = GRAVITY,
-    tip: str | None = None,
+    sets: list[str] | None = None,
 ) -> None:
     """Write floating.urdf and robot.toml of a URDF, for Biped.load("FOLDER/robot.toml")."""
-    from biped_adrc.robot_import.import_robot import derive
-
     check_folder(out)
-    derived = derive(file, _hints(feet, actuated, hip, torque, friction, armature, gravity, tip))
+    derived = _derived(file, feet, actuated, torque, sets)
     if derived.broken:
         raise ModelError(f"URDF '{file}': {'; '.join(map(str, derived.broken))}")
     record = derived.write(out)
@@ -92,88 +119,42 @@ def robot_new(
     say(f"written to {record}")
 
 
-@robot_app.command("list")
-def robot_list() -> None:
-    """The robots that come with the package: presets, coordinates n, motors p, sources."""
-    from biped_adrc.robots.robot_toml import load_description, robot_names
-
-    table = Table("robot", "preset", "n", "p", "source")
-    for name in robot_names():
-        d = load_description(name)
-        for preset in d.presets.values():
-            default = " (default)" if preset.name == d.default_preset else ""
-            n, p = str(len(d.joints)), str(len(d.actuated))
-            table.add_row(name, preset.name + default, n, p, preset.source)
-    console.print(table)
-
-
-@robot_app.command("show")
-@texts("robot.show")
-def robot_show(robot: str, preset: str | None = None) -> None:
-    """Print what the record of a robot says, and its masses."""
-    from biped_adrc.model.biped import Biped
-
-    biped = Biped.load(robot, preset)
-    d = biped.description
-    say(f"{d.name}, preset {biped.preset}: {d.preset(biped.preset).source}")
-    _describe(biped)
-
-
 @robot_app.command("export")
 @texts("robot.export")
 def robot_export(
     robot: str,
-    mjcf: Path,
+    out: Path,
     preset: str | None = None,
-    joint_friction: bool = False,
-    friction: float = 0.6,
-    time_constant: float = 2e-3,
-    foot_radius: float = 1e-3,
-    slope: float = 0.0,
     gait: str | None = None,
+    sets: list[str] | None = None,
 ) -> None:
     """Write a robot with feet and motors on soft ground as MJCF, for MuJoCo's own viewer."""
     from biped_adrc.gait.gait import load_gait
     from biped_adrc.model.biped import Biped
+    from biped_adrc.scenario.build import plant_step
     from biped_adrc.soft.ground import SoftGround
     from biped_adrc.soft.mjcf import write_mjcf
     from biped_adrc.soft.mujoco_plant import MuJoCoPlant
 
-    path = output_path(mjcf, (".xml",), default=True)
+    path = output_path(out, (".xml",), default=True)
     keep_inputs((path,), inputs(robot, *(() if gait is None else (gait,))))
-    biped = Biped.load(robot, preset, joint_friction)
-    ground = SoftGround(friction, time_constant, foot_radius=foot_radius)
+    s = scenario_from({"robot.name": robot}, sets)
+    biped = Biped.load(robot, preset, s.hardware.friction)
+    g = s.ground
+    ground = SoftGround(g.friction, g.time_constant, g.damping_ratio, **g.own)
     start = None if gait is None else load_gait(gait, biped)
-    plant = MuJoCoPlant(biped, ground, slope, h=min(MuJoCoPlant.h, 0.1 * time_constant))
-    say_written(write_mjcf(plant, path, start))
+    say_written(write_mjcf(MuJoCoPlant(biped, ground, g.slope, h=plant_step(s)), path, start))
 
 
 # -- parts -----------------------------------------------------------------------------------------
-def _hints(
-    feet: str | None,
-    actuated: str | None,
-    hip: str | None,
-    torque: float | None,
-    friction: float | None,
-    armature: float,
-    gravity: float,
-    tip: str | None,
-) -> Hints:
-    """What the options say about the robot, so that it need not be guessed."""
-    from biped_adrc.robot_import.import_robot import Hints
+def _derived(
+    file: Path, feet: str | None, actuated: str | None, torque: float | None, sets: list[str] | None
+) -> Derived:
+    """The robot of a URDF, with what the options say about it, so that it need not be guessed."""
+    from biped_adrc.robot_import.import_robot import Hints, derive
 
-    place = None if tip is None else _place(tip)
-    given = {"armature": armature, "gravity": gravity, "tip": place}
-    return Hints(_names(feet), _names(actuated), hip, torque, friction, **given)  # type: ignore[arg-type]
-
-
-def _place(text: str) -> tuple[float, float, float]:
-    """Three numbers x, y, z [m] between commas. Raises InputError."""
-    try:
-        x, y, z = (float(word) for word in text.split(","))
-    except ValueError as error:
-        raise InputError(f"--tip {text}: expected three numbers x,y,z [m], as 0,0,0.4") from error
-    return x, y, z
+    links, joints = _names(feet), _names(actuated)
+    return derive(file, with_sets(Hints, sets, feet=links, actuated=joints, torque=torque))
 
 
 def _names(text: str | None) -> tuple[str, ...] | None:

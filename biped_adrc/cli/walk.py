@@ -17,10 +17,11 @@ import typer
 from rich.table import Table
 
 from biped_adrc.cli.app import EXIT_FELL, app, bar, console, inputs, run_path, say, say_written
-from biped_adrc.cli.options import of_scenario, texts, values_of
+from biped_adrc.cli.options import WALKS, of_scenario, scenario_from, texts
 from biped_adrc.cli.steps import print_on_ground, print_supports
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, RaisedError
 from biped_adrc.files import keep_inputs, output_path
+from biped_adrc.hybrid.status import Status
 from biped_adrc.types import PlainRecord
 
 if TYPE_CHECKING:
@@ -36,47 +37,26 @@ WHY = {
     "pinocchio": "as asked for",
 }
 """Why the engine is the one it is, where the run itself gives no reason."""
-COMMON = ("controller", "gait", "robot", "preset", "impacts", "seed", "hardware", "period")
-"""Fields of a scenario that are options of `simulate`: what walks."""
-LAW = ("torque_limit", "K_p", "K_d", "observer", "poles", "bandwidth", "order", "reset")
-"""Those of the controller."""
-GROUND = ("friction", "slope", "plant", "ground_friction", "time_constant")
-"""Those of joint friction, plant and ground."""
-NUMERICS = ("method", "engine", "friction_limit", "force_window")
-"""Those of method and limits."""
 
 
 @app.command()
-@of_scenario(*COMMON, *LAW, *GROUND, *NUMERICS, h="--step")
+@of_scenario(*WALKS, "impacts", "period", "torque_limit", "plant", "engine")
 @texts("simulate")
 def simulate(
     given: PlainRecord,
     push: list[str] | None = None,
     sets: list[str] | None = None,
     scenario: Path | None = None,
-    as_printed: bool = False,
     end_infeasible: bool = False,
     out: Path | None = None,
     log: Path | None = None,
 ) -> None:
     """Walk, and print what each step needed of the ground and of the motors."""
     from biped_adrc.scenario.build import limits
-    from biped_adrc.scenario.scenario import Scenario
 
-    printed = {"solve_theta": False} if as_printed else {}
-    values = {"controller": usual(given), **values_of(given, push, sets, scenario), **printed}
-    s = Scenario(**values)
-    read = inputs(s.robot, s.gait)
+    s = scenario_from(given, sets, scenario, push)
+    read = inputs(s.robot.name, s.gait.name)
     _walk(s, limits(s), end_infeasible, run_path(out, read), log_path(log, s, read))
-
-
-def usual(given: PlainRecord, motors: str = "ADRC") -> str:
-    """The controller where none is given: `motors` for a robot that has some, else "passive"."""
-    from biped_adrc.robots.robot_toml import load_description
-    from biped_adrc.scenario.registry import is_own
-
-    robot = str(given.get("robot", "rabbit"))
-    return motors if is_own(robot) or load_description(robot).actuated else "passive"
 
 
 def log_path(log: Path | None, s: Scenario, read: Iterable[Path]) -> Path | None:
@@ -88,9 +68,9 @@ def log_path(log: Path | None, s: Scenario, read: Iterable[Path]) -> Path | None
         return None
     path = output_path(log, (".csv",), default=True)
     keep_inputs((path,), read)
-    if s.period is None:
+    if s.hardware.period is None:
         raise InputError(
-            "--log needs sample instants, and this walk is in continuous time; give a --period, such as 0.001"
+            "--log needs sample instants, and this walk is in continuous time; give a --period, such as '1 ms'"
         )
     return path
 
@@ -105,12 +85,14 @@ def _walk(
     from biped_adrc.scenario.run import halved, walk_scenario
 
     with bar() as shown:
-        task = shown.add_task(f"walking, {s.controller}", total=s.impacts)
+        task = shown.add_task(f"walking, {s.controller.name}", total=s.run.impacts)
         full = walk_scenario(s, lambda t, n: shown.update(task, completed=n))
-        half = None
+        half, run = None, full.trajectory
+        if run.status is Status.RAISED:
+            raise RaisedError(f"{run.status.value}, after {run.t_end:.4g} s:\n{run.detail}")
         if full.gait is not None:
             shown.update(task, description="the same at half the step", completed=0)
-            finer = replace(halved(s, full.walker), engine="compiled")
+            finer = halved(s, full.walker).replace(run={"engine": "compiled"})
             half = walk_scenario(finer, lambda t, n: shown.update(task, completed=n))
     if end_infeasible:
         full, half = full.until_infeasible(limits), half and half.until_infeasible(limits)
@@ -197,11 +179,10 @@ def _nominal(c: Certificate) -> str:
 
 
 @app.command()
-@of_scenario("robot", "preset", "gait", "controller", controller="NPD")
+@of_scenario(*WALKS, controller="NPD, or passive")
 @texts("poincare")
 def poincare(
     given: PlainRecord,
-    slope: float | None = None,
     sets: list[str] | None = None,
     scenario: Path | None = None,
     observer_states: bool = True,
@@ -209,26 +190,23 @@ def poincare(
 ) -> None:
     """Fixed point of the return map, and its multipliers by every method beside each other."""
     from biped_adrc.scenario.build import limits
-    from biped_adrc.scenario.idle import idle
-    from biped_adrc.scenario.scenario import Scenario
     from biped_adrc.studies.cycle_stability import (
         cycle_of,
         cycle_stability,
         nominal_step,
     )
 
-    s = Scenario(**{"controller": usual(given, "NPD"), **values_of(given, None, sets, scenario)})
-    cycle = cycle_of(s, observer_states, slope)
+    s = scenario_from(given, sets, scenario, usual="NPD")
+    cycle = cycle_of(s, observer_states)
     with console.status("Newton on the return map"):
         found = cycle_stability(cycle, samples)
     walker, o = cycle.P.walker, found.orbit
     law = type(walker.controller).__name__.removesuffix("Controller")
     lines = (
-        f"{s.robot}, {walker.plant.preset}, {law}, slope {walker.slope:g} rad, {cycle.P.method.label}",
+        f"{s.robot.name}, {walker.plant.preset}, {law}, slope {walker.slope:g} rad, {cycle.P.method.label}",
         "x- = " + " ".join(f"{value:.6f}" for value in o.x_minus[: 2 * walker.plant.n]),
         _nominal(nominal_step(cycle, o, limits(s))),
         f"residual {o.residual:.1e}; |lambda| by every method:",
         found.table.text(),
-        *(f"note: {remark}" for remark in idle(s)),
     )
     say("\n".join(lines))

@@ -19,8 +19,8 @@ from biped_adrc.errors import OutputError
 from biped_adrc.files import write_bytes
 from biped_adrc.parts import check_part
 from biped_adrc.scenario.build import build
+from biped_adrc.scenario.file import scenario_lines
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.study.parameters import scenario_lines
 
 
 def export_c(

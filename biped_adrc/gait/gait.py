@@ -129,6 +129,16 @@ class Gait(Shown):
         robot, preset, period = zero.biped.description.name, zero.biped.preset, zero.cycle.period
         return cls(name, robot, preset, zero.constraint, q, v, period, provenance, slope)
 
+    def check_robot(self, biped: Biped) -> Gait:
+        """The gait itself. Raises GaitError for another robot or preset than it was made for."""
+        made, given = (self.robot, self.preset), (biped.description.name, biped.preset)
+        if made != given:
+            raise GaitError(
+                f"gait '{self.name}' was made for robot '{made[0]}', preset '{made[1]}', and this is "
+                f"'{given[0]}', '{given[1]}'; take a gait of this robot, or say gait.other_robot = true"
+            )
+        return self
+
     def check(self, biped: Biped) -> Gait:
         """The gait itself, when it fits the robot and its curve closes.
 
@@ -247,10 +257,11 @@ def gait_names(robot: str, preset: str) -> tuple[str, ...]:
     return tuple(sorted(name for name in known if (folder / f"{name}{end}").is_file()))
 
 
-def load_gait(gait: str | Path, biped: Biped) -> Gait:
+def load_gait(gait: str | Path, biped: Biped, other_robot: bool = False) -> Gait:
     """A stored gait by name for this robot and preset, or a gait file by its path.
 
-    Raises GaitError that names the file, the key, what was found and what was expected.
+    other_robot: accept a file that was made for another robot or preset. Raises GaitError that names the file,
+    the key, what was found and what was expected.
     """
     check_part(gait, "gait", str, Path)
     check_part(biped, "biped", Biped)
@@ -266,7 +277,8 @@ def load_gait(gait: str | Path, biped: Biped) -> Gait:
                 "of a .json file"
             )
     with reading("gait file", path, GaitError):
-        return _from_record(json.loads(path.read_text(encoding="utf-8"))).check(biped)
+        found = _from_record(json.loads(path.read_text(encoding="utf-8"))).check(biped)
+        return found if other_robot else found.check_robot(biped)
 
 
 def _from_record(record: GaitFile) -> Gait:

@@ -75,7 +75,9 @@ class Drawn:
     def __init__(self, stage: Stage, i: int):
         self.stage, self.i = stage, i
         scenario, gait = stage.task.scenario, stage.scene.walked
-        self.scene = Picture(stage.plant, gait.slope + scenario.slope, stage.scene.on_orbit[0])
+        self.scene = Picture(
+            stage.plant, gait.slope + scenario.ground.slope, stage.scene.on_orbit[0]
+        )
         self.foot, self.step = np.zeros(2), 0
 
     @property

@@ -42,7 +42,7 @@ class Stage:
         self.stepper = Stepper(task.scenario, count, self._walker, limits(task.scenario))
         self.scene = self.stepper.scene
         self.limits = task.limits(self.scene)
-        self.task = replace(task, scenario=replace(task.scenario, torque_limit=self.limits.torque))
+        self.task = replace(task, scenario=self._limited(task.scenario))
         self.plant, self.phase = self.scene.biped, self.scene.walked.constraint.phase
         n, p = self.plant.n, self.plant.p
         self.first = 2 * n + 3 * p
@@ -51,19 +51,22 @@ class Stage:
         )
         self.needs = Needs(count)
         self.seeds, self._seen = np.zeros(count, dtype=np.int64), np.zeros(0)
-        self.begin(0, self.task.scenario.seed)  # what is wrong is said here
+        self.begin(0, self.task.scenario.run.seed)  # what is wrong is said here
         self.stepper.codes[:] = -1
 
     def _walker(self, s: Scenario, scene: RobotAndGait) -> Walker:
         """The walker of a scenario, of which an action is an addition to its controller, or in its place."""
-        limited = replace(s, torque_limit=self.limits.torque)
-        walker = build(limited, scene)
+        walker = build(self._limited(s), scene)
         return walker if self.task.action == ADDED else replace(walker, controller=Passive())
+
+    def _limited(self, s: Scenario) -> Scenario:
+        """The scenario with the limit of the motors that actions are shares of."""
+        return s.replace({"hardware.torque_limit": self.limits.torque})
 
     def _fastest(self) -> Array:
         """Bounds of q, q', e and e', one after the other, for what is measured."""
         n, p = self.plant.n, self.plant.p
-        v = self.task.scenario.runaway_speed * self.plant.speed_limits
+        v = self.task.scenario.run.runaway_speed * self.plant.speed_limits
         v = np.where(np.isfinite(v), v, FASTEST)
         return np.concatenate((np.full(n, TURNS), v, np.full(p, 2.0 * TURNS), 2.0 * v[:p]))
 
@@ -105,10 +108,10 @@ class Stage:
 
     def ended(self) -> tuple[Flags, Flags]:
         """Whether each walk has fallen, or was lost (N,), and whether its time or its impacts are over (N,)."""
-        s, seen = self.task.scenario, self.seen
+        run, seen = self.task.scenario.run, self.seen
         fallen = self.stepper.codes != 0
         late = seen[:, self.first] >= self.task.seconds - FALLEN_FROM
-        late |= seen[:, self.first + 1] >= s.first_step + s.impacts
+        late |= seen[:, self.first + 1] >= run.first_step + run.impacts
         return fallen, late & ~fallen
 
     def infos(self) -> dict[str, Any]:

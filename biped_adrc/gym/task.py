@@ -9,26 +9,28 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from biped_adrc.errors import InputError
 from biped_adrc.parts import check_part
 from biped_adrc.resources import packaged
 from biped_adrc.robots.limits import KnownLimits
 from biped_adrc.scenario.build import RIGID, RobotAndGait, limits
-from biped_adrc.scenario.controllers import OF_CONTROLLER
-from biped_adrc.scenario.scenario import OF_RIGID, Scenario
+from biped_adrc.scenario.dotted import flat, merged, nested
+from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 _TABLES = packaged("biped_adrc.gym", "conditions.toml")
-BASE: dict[str, object] = _TABLES["base"]
+BASE: dict[str, object] = flat(_TABLES["base"])
 """Values that all conditions share."""
 CONDITIONS: dict[str, dict[str, object]] = {
-    name: {k: x for k, x in table.items() if k != "words"}
+    name: flat({k: x for k, x in table.items() if k != "words"})
     for name, table in _TABLES["conditions"].items()
 }
 """Values of a scenario by name of the condition, on top of `BASE`."""
+OF_RIGID = "errors.impact_width"
+"""A value that walks on the rigid plant alone have."""
 TORQUES, ADDED = "torques", "added"
 """What an action is: all of the torque, or an addition to that of the scenario's controller."""
 ACTIONS = (TORQUES, ADDED)
@@ -67,8 +69,7 @@ class LearnerTask(Shown):
                 raise InputError(f"{name} is {x!r}, expected a finite number, 0 or more")
         if not self.seconds > 0.0:
             raise InputError(f"seconds is {self.seconds}, expected a positive time")
-        s = self.scenario
-        mine = [x for x in ("controller", *OF_CONTROLLER, "contact") if s.given(x)]
+        mine = flat({"controller": self.scenario.controller.record()})
         if self.action == TORQUES and mine:
             raise InputError(
                 f"{', '.join(mine)} would do nothing where the action is all of the torque; leave it out, or "
@@ -90,29 +91,24 @@ class LearnerTask(Shown):
         """
         if scenario is not None and condition is not None:
             raise InputError("a scenario and a condition were given, expected one of them")
-        given = dict(values)
+        given = nested(values)
         if scenario is None:
-            plant = str(given.get("plant", RIGID))
-            alone = set() if plant == RIGID else set(OF_RIGID)
-            there = [name for name, x in CONDITIONS.items() if not alone & x.keys()]
+            ground = given.get("ground", RIGID)
+            plant = ground if isinstance(ground, str) else ground.get("plant", RIGID)
+            there = [name for name, x in CONDITIONS.items() if plant == RIGID or OF_RIGID not in x]
             name = condition or "nothing"
             if name not in there:
                 raise InputError(
                     f"there is no condition {name!r} on plant '{plant}', expected one of {there}"
                 )
-            given = {**BASE, **CONDITIONS[name], **given}
-        try:
-            s = Scenario(**given) if scenario is None else replace(scenario, **given)  # type: ignore[arg-type]
-        except TypeError as error:
-            raise InputError(
-                f"{error}; expected fields of a scenario, such as gait = 'published' or push = 'pulse'"
-            ) from error
-        return cls(s, *how)  # type: ignore[arg-type]
+            given = merged(nested({**BASE, **CONDITIONS[name]}), given)
+            return cls(Scenario(**given), *how)  # type: ignore[arg-type]
+        return cls(scenario.replace(given), *how)  # type: ignore[arg-type]
 
     def limits(self, scene: RobotAndGait) -> KnownLimits:
         """Of ground and motors; the torque limit is the scenario's where it has one."""
         known = limits(self.scenario).of(scene.biped.description)
-        limit = self.scenario.torque_limit
+        limit = self.scenario.hardware.torque_limit
         return known if limit is None else known._replace(torque=min(limit, known.torque))
 
     def rewards(self, squares: Array, goes_on: Array) -> Array:

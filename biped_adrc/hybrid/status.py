@@ -41,7 +41,7 @@ class Status(Enum):
     """A matrix of the controller was singular: in compiled code, a pivot of exactly zero."""
     STEP_FAILED = "the one-step method could not go on; try another method or a looser tolerance"
     """The integration method could not go on: no acceptable step, or too many steps."""
-    RAISED = "a class of your own raised an exception; the detail says where"
+    RAISED = "a class of your own raised an exception"
     """An exception in a class of the user's, or an array of another shape from it, in the middle of a run."""
     INFEASIBLE = (
         "the ground or the motors could not have carried this step; push less, walk slower, or change the gait "

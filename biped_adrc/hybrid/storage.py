@@ -1,8 +1,7 @@
-"""Runs on disk: one npz of plain arrays with the settings as JSON inside, and the same JSON beside it.
+"""Runs on disk: one npz of plain arrays with the settings as JSON inside.
 
 For arc i the npz holds t{i}, x{i}, dx{i}, mode{i}, read{i}_NAME and, at an event, x_minus{i},
-x_plus{i}; `meta` is the JSON text with status, settings and the events' names and times. The JSON
-beside it is for people and for `grep`; only the npz is read again.
+x_plus{i}; `meta` is the JSON text with status, settings and the events' names and times.
 
 Nothing is pickled, so reading a file of somebody else's runs no code. Files are written whole or
 not at all. `scenario.stored` adds the walker's record by `beside_it`.
@@ -23,8 +22,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from biped_adrc.errors import BipedError, InputError, OutputError
-from biped_adrc.files import check_place, check_regular, output_path, write_bytes, write_text
+from biped_adrc.errors import BipedError, InputError
+from biped_adrc.files import check_regular, output_path, write_bytes
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 
@@ -39,30 +38,12 @@ BESIDE = "beside."
 """Before the names of arrays that are no part of the trajectory."""
 
 
-def run_files(path: Path | str) -> tuple[Path, Path]:
-    """The .npz of a run and the .json beside it; .npz is put behind a name without a kind, such as
-    'push_0.1'.
+def run_path(path: Path | str) -> Path:
+    """The .npz of a run; .npz is put behind a name without a kind, such as 'push_0.1'.
 
     Raises InputError for a name of another kind.
     """
-    path = output_path(path, (".npz",), default=True)
-    return path, path.with_suffix(".json")
-
-
-def check_beside(path: Path) -> None:
-    """Raise OutputError where the .json of a run would take the place of something else, such as a gait."""
-    check_place(path)
-    try:
-        record = json.loads(path.read_text(encoding="utf-8"))
-        ours = isinstance(record, dict) and record.get("format") == FORMAT
-    except FileNotFoundError:
-        return
-    except (OSError, ValueError):
-        ours = False
-    if not ours:
-        raise OutputError(
-            f"a run has its settings beside it, and '{path}' is there and is not of a run; choose another name"
-        )
+    return output_path(path, (".npz",), default=True)
 
 
 def save(
@@ -71,18 +52,15 @@ def save(
     settings: Mapping[str, object] | None = None,
     beside_it: Mapping[str, ArrayLike] | None = None,
 ) -> Path:
-    """Write `path` (.npz) and the same name with .json; returns the path. Modes are stored as
-    tuples of numbers.
+    """Write `path` (.npz), and return it. Modes are stored as tuples of numbers.
 
     - trajectory: states (K, nx) and what else its arcs hold, in full precision.
     - settings: noted beside those of the trajectory.
     - beside_it: arrays by name that `load_beside` gives back, such as the walker's record.
 
-    Raises InputError for a name of another kind or settings that JSON has not, and OutputError when
-    the files cannot be written or the .json would take the place of something else.
+    Raises InputError for a name of another kind or settings that JSON has not, and OutputError.
     """
-    path, beside = run_files(path)
-    check_beside(beside)
+    path = run_path(path)
     meta = {
         "format": FORMAT,
         "status": trajectory.status.name,
@@ -112,7 +90,6 @@ def save(
     buffer = io.BytesIO()
     np.savez_compressed(buffer, **arrays)
     write_bytes(path, buffer.getvalue())
-    write_text(beside, text + "\n")
     return path
 
 

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -27,28 +26,28 @@ from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.live.walks import MOST, PageWalk, numbers
 from biped_adrc.parts import check_part
 from biped_adrc.resources import packaged
-from biped_adrc.scenario.scenario import DEFAULTS, Scenario
-from biped_adrc.study.parameters import NONE
+from biped_adrc.scenario.dotted import merged, nested
+from biped_adrc.scenario.scenario import ObserverRecord, Scenario
 from biped_adrc.viz.meshcat import objects as draw
 from biped_adrc.viz.meshcat.view import Look, captions, scene_settings
 from biped_adrc.viz.pages import with_viewer
 from biped_adrc.viz.placement import WalkScene
 from biped_adrc.viz.style import TORQUE
 
-FIRST = Scenario("ADRC", hardware="ideal", torque_limit=150.0)
+FIRST = Scenario("ADRC", hardware={"profile": "ideal", "torque_limit": 150.0})
 """What walks on a page that was given nothing: as in the tour."""
 OTHERS: Mapping[str, Mapping[str, object]] = {
-    "NPD": {"controller": "NPD"},
-    "NPID": {"controller": "NPID"},
-    "ADRC": {"controller": "ADRC"},
+    "NPD": {"controller.name": "NPD"},
+    "NPID": {"controller.name": "NPID"},
+    "ADRC": {"controller.name": "ADRC"},
     **{
-        f"ADRC, m = {m}, 300 rad/s": {"controller": "ADRC", "order": m, "bandwidth": 300.0}
+        f"ADRC, m = {m}, 300 rad/s": {
+            "controller": {"name": "ADRC", "observer": {"order": m, "bandwidth": 300.0}}
+        }
         for m in (1, 2, 3, 7)
     },
 }
 """Walks to choose from on a page: values by which they differ from its scenario, by name."""
-OF_CONTROLLER = ("observer", "poles", "bandwidth", "order", "reset")
-"""Fields that go back to their defaults with another controller, unless they are given with it."""
 AROUND = 4.0
 """How far [m] the ground reaches before and behind the robot."""
 PRINTS = 12
@@ -85,7 +84,7 @@ def page(scenario: Scenario, others: Mapping[str, Mapping[str, object]]) -> str:
     """The text of the page. Raises InputError."""
     scenarios = {name: revised(scenario, x) for name, x in others.items()}
     own = (name for name, x in scenarios.items() if x == scenario)
-    first = next(own, f"{scenario.controller}, as given")
+    first = next(own, f"{scenario.controller.name}, as given")
     scenarios[first] = scenario
     stations = guided(scenario, scenarios)
     walks = {first: PageWalk.of(first, scenario)}
@@ -95,7 +94,7 @@ def page(scenario: Scenario, others: Mapping[str, Mapping[str, object]]) -> str:
         "tour": stations,
         "numbers": numbers(walks) | {"first": first, "ghost": next(iter(others), None)},
     }
-    title = f"{scenario.robot}, live"
+    title = f"{scenario.robot.name}, live"
     legend = captions({"walk": scene})[1:]
     return with_viewer("play", given, title=title, captions=legend, style="play/play.css")
 
@@ -105,21 +104,17 @@ def revised(s: Scenario, values: Mapping[str, object]) -> Scenario:
 
     Raises InputError for values that it does not take.
     """
-    if values.get("controller", s.controller) != s.controller:
-        values = {name: DEFAULTS[name] for name in OF_CONTROLLER} | dict(values)
-    try:
-        return replace(s, **values)  # type: ignore[arg-type]
-    except TypeError as error:
-        raise InputError(f"{error}; expected fields of a scenario, such as bandwidth") from error
+    name = nested(values).get("controller", {})
+    name = name if isinstance(name, str) else name.get("name", s.controller.name)
+    if name != s.controller.name:
+        s = s.replace({"controller.observer": ObserverRecord()})
+    return s.replace(values)
 
 
 def tour() -> list[dict[str, Any]]:
     """The stations of tour.toml, each with all values that it sets; there "none" stands for no value."""
     table = packaged("biped_adrc.live", "tour.toml")
-    stations = [x | {"values": table["base"] | x["values"]} for x in table["station"]]
-    for x in stations:
-        x["values"] = {k: None if y == NONE else y for k, y in x["values"].items()}
-    return stations
+    return [x | {"values": merged(table["base"], x["values"])} for x in table["station"]]
 
 
 def guided(scenario: Scenario, scenarios: dict[str, Scenario]) -> list[dict[str, Any]]:

@@ -68,11 +68,12 @@ class PageWalk:
     @classmethod
     def of(cls, name: str, s: Scenario) -> Self:
         """Raises InputError, with the name, for a scenario that a page cannot walk."""
-        if s.plant != RIGID:
-            raise InputError(f"the walk '{name}' is on plant '{s.plant}'; a page takes '{RIGID}'")
-        if s.fine is not None:
+        plant, fine = s.ground.plant, s.run.fine
+        if plant != RIGID:
+            raise InputError(f"the walk '{name}' is on plant '{plant}'; a page takes '{RIGID}'")
+        if fine is not None:
             raise InputError(
-                f"the walk '{name}' has fine = {s.fine:g} s; leave it out: a page takes steps of one length"
+                f"the walk '{name}' has run.fine = {fine:g} s; leave it out: a page takes steps of one length"
             )
         scene = RobotAndGait.of(s)
         scene.walked  # noqa: B018  # a robot without motors is refused
@@ -80,13 +81,13 @@ class PageWalk:
         if not isinstance(walker.timing, SampledTime):
             raise InputError(
                 f"the walk '{name}' is controlled at every instant, and that of a page at sample instants; "
-                "give a period, as hardware = 'ideal' or period = 0.001 in a scenario"
+                "give a period, as hardware = 'ideal' or hardware.period = '1 ms'"
             )
         if walker.disturbance is not None or walker.ground_steps:
             raise InputError(
                 f"the walk '{name}' has a push or ground steps of its own; leave them out"
             )
-        x = walker.initial_state(*start(s, scene), Mode(s.first_step))
+        x = walker.initial_state(*start(s, scene), Mode(s.run.first_step))
         size, method = walker.controller_size(x), method_of(s, walker)
         try:
             reference = scene.walked.constraint
@@ -100,7 +101,7 @@ class PageWalk:
     @property
     def mode(self) -> Mode:
         """Its first single support."""
-        return Mode(self.scenario.first_step)
+        return Mode(self.scenario.run.first_step)
 
 
 def with_hand(walker: Walker) -> Walker:
@@ -151,7 +152,7 @@ def packed(data: bytes | Ints) -> str:
 def walk_numbers(walk: PageWalk, web: WebWalker) -> dict[str, Any]:
     """Of one walk: its block, clock, limits of ground and motors, places of the hand."""
     timing, s = cast(SampledTime, walk.walker.timing), walk.scenario
-    known = limits(s).of(walk.walker.plant.description)
+    known, limit = limits(s).of(walk.walker.plant.description), s.hardware.torque_limit
     return {
         "cells": packed(web.plan.start(walk.x, 0.0, *walk.mode, 0.0).block),
         "pointers": web.plan.pointers.tolist(),
@@ -162,7 +163,7 @@ def walk_numbers(walk: PageWalk, web: WebWalker) -> dict[str, Any]:
         "slope": walk.walker.slope,
         "limits": {
             "friction": known.friction,
-            "torque": known.torque if s.torque_limit is None else s.torque_limit,
+            "torque": known.torque if limit is None else limit,
         },
         "hand": hand_places(walk.made),
     }

@@ -26,7 +26,7 @@ from biped_adrc.logs.plausible import check_plausible
 from biped_adrc.logs.robot_log import RobotLog, check_rows
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.columns import write_csv
-from biped_adrc.study.units import unit_of
+from biped_adrc.scenario.units import unit_of
 from biped_adrc.types import Array, relabelled
 
 UNITS = {"t": "s", "q": "rad", "v": "rad/s", "u": "N m"}

@@ -1,6 +1,6 @@
 """A log through the controller of a scenario: the result, its table by single support, its files and figure.
 
-    found = replay("log.csv", Scenario("LESO", bandwidth=160.0))
+    found = replay("log.csv", Scenario({"name": "LESO", "observer": {"bandwidth": 160.0}}))
     found.signals     xi^, its parts, residuals and torques over time
     found.rows        what they come to in each single support
     found.plot()      the same as a figure
@@ -11,7 +11,7 @@ pushes, errors of the model and ground are the robot's own business.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -92,7 +92,7 @@ class Replay(Shown):
     """[s] after a touchdown that count as contact."""
 
     def __repr__(self) -> str:
-        return f"Replay({self.scenario.controller}: {self.signals!r})"
+        return f"Replay({self.scenario.controller.name}: {self.signals!r})"
 
     @property
     def remarks(self) -> tuple[str, ...]:
@@ -113,7 +113,7 @@ class Replay(Shown):
         """Torque beyond the model, residuals and torques over time, a line for each joint."""
         from biped_adrc.logs.replay_figure import replay_figure
 
-        return replay_figure(self.signals, self.scenario.controller)
+        return replay_figure(self.signals, self.scenario.controller.name)
 
     def to_csv(self, path: Path | str) -> Path:
         """Write the signals as a table (.csv), a row for each sample; its path.
@@ -150,23 +150,23 @@ def replay(
     check_part(log, "the log", RobotLog, Path, str)
     check_part(scenario, "what is to see the log", Scenario)
     check_positive(window, f"the window of contact is {window} s")
-    filter_time = scenario.filter_time if filter_time is None else filter_time
+    filter_time = scenario.hardware.encoders.filter_time if filter_time is None else filter_time
     scene = RobotAndGait.of(scenario)
     if scene.biped.p == 0:
         raise InputError(
-            f"robot '{scenario.robot}' has no motors and no controller, expected one with motors"
+            f"robot '{scenario.robot.name}' has no motors and no controller, expected one with motors"
         )
     found = log if isinstance(log, RobotLog) else read_log(log, scene.biped)
     has, wants = (found.q.shape[1], found.u.shape[1]), (scene.biped.n, scene.biped.p)
     if has != wants:
         raise InputError(
             f"the log has {has[0]} angles and {has[1]} torques, expected {wants[0]} and {wants[1]} of robot "
-            f"'{scenario.robot}'"
+            f"'{scenario.robot.name}'"
         )
-    period = found.period if scenario.period is None else scenario.period
+    period = scenario.hardware.period or found.period
     if not found.even(period):
         found = found.resampled(period)
-    scenario = replace(scenario, period=period)
+    scenario = scenario.replace(hardware={"period": period})
     walker = build(scenario, scene)
     with np.errstate(over="ignore", invalid="ignore"):  # what overflows is refused
         signals = replayed(walker, found, filter_time, window)

@@ -96,7 +96,9 @@ class GPIObserver(InjectedChain):
         """
         poles = stable_poles(poles, "a GPI observer", " (m >= 0)")
         if m is not None and len(poles) != m + 2:
-            raise InputError(f"a GPI observer with m = {m} has {m + 2} poles, found {len(poles)}")
+            raise InputError(
+                f"a GPI observer with m = {m} has {m + 2} poles, found {len(poles)}; give its bandwidth too"
+            )
         w = float(np.exp(np.mean(np.log(np.abs(poles)))))
         return cls(len(poles) - 2, w, poles)
 

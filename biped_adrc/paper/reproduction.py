@@ -126,7 +126,7 @@ def _settings(plan: Plan) -> dict[str, object]:
     """What was asked for, and the constants of the paper that all runs use."""
     return {
         **{name: getattr(plan, name) for name in ("preset", "presets", "full", "quick")},
-        "pushes": [push.text() for push in plan.pushes],
+        "pushes": [push.in_words() for push in plan.pushes],
         "Table I, observer eigenvalues [rad/s]": list(TABLE_I),
         "Table II": {"K_p": TABLE_II.K_p, "K_d": TABLE_II.K_d},
     }

@@ -12,7 +12,8 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from operator import attrgetter
 from typing import Any
 
 from biped_adrc.engine.run import PINOCCHIO
@@ -24,13 +25,39 @@ from biped_adrc.scenario.scenario import Scenario
 
 CONTROLLERS = ("NPD", "ADRC")
 """The two that the paper compares, in the order of every pair: PD with inertia decoupling, and ADRC."""
+PLACES = {
+    "controller": "controller.name",
+    "solve_theta": "controller.solve_theta",
+    "reset": "controller.observer.reset",
+    "poles": "controller.observer.poles",
+    "preset": "robot.preset",
+    "gait": "gait.name",
+    "continued": "gait.continued",
+    "period": "hardware.period",
+    "torque_limit": "hardware.torque_limit",
+    "pushes": "pushes",
+    "mass": "errors.mass",
+    "inertia": "errors.inertia",
+    "start_speed": "start.speed",
+    **{x: f"run.{x}" for x in ("impacts", "first_step", "method", "h", "fine", "engine")},
+}
+"""Names in a scenario of the values that the reproduction sets."""
 GAITS = ("published", "recipe")
 """Gait (a), through x*, and gait (b), by the recipe of section IV."""
 MOTORS = ("q1", "q2", "q3", "q4")
 """The actuated joints."""
-PAPER_PUSH = Push(dict.fromkeys(MOTORS, 30.0), step=19, start=0.1, stop=0.3)
+PAPER_PUSH = Push(joints=",".join(MOTORS), torque=30.0, step=19, onset=0.1, duration=0.2)
 """The push of figures 4 to 6: 30 N m on all joints for 0.2 s in step 19. The paper prints no amplitude."""
-SINE = Push(dict.fromkeys(MOTORS, 40.0), 19, 0.05, 0.3, kind="sine", frequency=5.0)
+SINE = Push(
+    shape="sine",
+    joints=",".join(MOTORS),
+    torque=40.0,
+    step=19,
+    onset=0.05,
+    duration=0.25,
+    frequency=5.0,
+    across_impacts=False,
+)
 """A disturbance of 5 Hz on all joints [N m]."""
 HEAVIER = {"torso": 1.2, "thigh": 1.15}
 """Factors on the links' masses (and inertias) of the plant alone, not of the controller's model."""
@@ -120,22 +147,27 @@ class Plan:
 
 def on_torso(torque: float) -> Push:
     """A push of 0.2 s on the torso, which no motor drives [N m]."""
-    return Push({"q5": torque}, step=declared()["push"]["step"], start=0.1, stop=0.3)
+    step = declared()["push"]["step"]
+    return Push(joints="q5", torque=torque, step=step, onset=0.1, duration=0.2)
 
 
 def scenario(controller: str, preset: str, **values: Any) -> Scenario:
-    """The only place at which a scenario of the reproduction is made: RABBIT in a preset under a controller."""
-    return Scenario(controller, preset=preset, **values)
+    """The only place at which a scenario of the reproduction is made: RABBIT in a preset under a controller.
+
+    values: by the names of PLACES.
+    """
+    named = {PLACES[name]: x for name, x in values.items()}
+    return Scenario(controller, **{PLACES["preset"]: preset, **named})
 
 
 def with_values(run: Scenario, **values: Any) -> Scenario:
     """The scenario with other values."""
-    return replace(run, **values)
+    return run.replace({PLACES[name]: x for name, x in values.items()})
 
 
 def value(run: Scenario, name: str) -> Any:
-    """A value of the scenario by its name here."""
-    return getattr(run, name)
+    """A value of the scenario by its name in PLACES."""
+    return attrgetter(PLACES[name])(run)
 
 
 def pushed_steps(run: Scenario) -> set[int]:
@@ -182,7 +214,7 @@ def base_runs(plan: Plan) -> dict[str, Scenario]:
     at an impact. Where a walk starts later than in step 1, it starts on the orbit.
     """
     runs: dict[str, Scenario] = {}
-    rising = tuple(replace(push, rise=RISE) for push in plan.pushes)
+    rising = tuple(push.replace(rise=RISE) for push in plan.pushes)
     first = min(push.step for push in plan.pushes)
     for c in CONTROLLERS:
         p, fine = plan.preset, STEPS[c][1]
@@ -306,9 +338,14 @@ class Member:
     def run(self, controller: str, pushed: bool = True, **values: Any) -> Scenario:
         """The walk from the pushed step on, or the same step without the push; h is that of the pushed step."""
         k, steps = declared()["push"], declared()["steps"]
-        stop = round(self.onset + k["duration"], 9)
-        torque = dict.fromkeys(self.joints, self.amplitude)
-        push = Push(torque, k["step"], self.onset, stop, rise=self.rise)
+        push = Push(
+            joints=",".join(self.joints),
+            torque=self.amplitude,
+            step=k["step"],
+            onset=self.onset,
+            duration=k["duration"],
+            rise=self.rise,
+        )
         usual: dict[str, Any] = {
             "gait": self.gait,
             "pushes": (push,) if pushed else (),
@@ -363,7 +400,7 @@ class MapPush:
         """
         factors = PATTERNS[self.pattern].items()
         torque = {joint: self.amplitude * factor for joint, factor in factors}
-        push = Push(torque, step=19, start=self.onset, stop=self.onset + 0.2)
+        push = Push(torque=torque, step=19, onset=self.onset, duration=0.2)
         return scenario(
             controller,
             self.preset,

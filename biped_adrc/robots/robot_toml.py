@@ -232,8 +232,10 @@ def load_description(robot: str | Path) -> RobotDescription:
         )
     if path.suffix != ".toml":
         if str(robot) not in robot_names():
+            inside = path / "robot.toml"
+            meant = f"did you mean '{inside}'? C" if inside.is_file() else "c"
             raise ModelError(
-                f"there is no robot '{robot}'; choose one of {list(robot_names())}, "
+                f"there is no robot '{robot}'; {meant}hoose one of {list(robot_names())}, "
                 "or give the path of a robot.toml"
             )
         path = data_folder("urdf") / str(robot) / "robot.toml"

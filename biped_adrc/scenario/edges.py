@@ -28,16 +28,35 @@ LONGER = 1.1
 
 
 def edge_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
-    """A sentence for each window that an impact cuts off, that never opens, or with an edge at an impact.
+    """A sentence for each push that did not act, that an impact cuts off, or with an edge at an impact.
 
     An edge within `NEAR` of an impact is named on both sides of it. One at s = 0 of a single support is not: it
     is how "from the impact on" is written.
     """
     if walker.disturbance is None:
         return ()
-    parts = (_edges(part) for part in summands(walker.disturbance))
-    found = [remark for edges in parts for remark in _remarks(edges, trajectory)]
+    found = list[str]()
+    for part in summands(walker.disturbance):
+        said = list(_remarks(_edges(part), trajectory))
+        n = walker.plant.n
+        found += said if said or _acted(part, trajectory, n) else [_idle(part)]
     return tuple(dict.fromkeys(found))
+
+
+def _acted(part: Disturbance, trajectory: Trajectory, n: int) -> bool:
+    """Whether a disturbance was other than zero at some node of the walk, of n coordinates."""
+    return any(
+        np.any(part.zeta(t, arc.mode.step, arc.mode.start, x[:n], x[n : 2 * n]))
+        for arc in trajectory.arcs
+        for t, x in zip(arc.t, arc.x, strict=True)
+    )
+
+
+def _idle(part: Disturbance) -> str:
+    """The sentence for one that did not act."""
+    edges = _edges(part)
+    name = _name(*next(iter(edges.items()))) if edges else f"the push {type(part).__name__}"
+    return f"{name} did not act: it was zero at every instant of the walk"
 
 
 def step_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
@@ -83,8 +102,10 @@ def _remarks(edges: dict[int, list[float]], trajectory: Trajectory) -> Iterator[
     walked = {arc.mode.step for arc in trajectory.arcs}
     for step, times in edges.items():
         name = _name(step, times)
-        if step > 0 and step not in walked and trajectory.status.ok:
+        if step > 0 and step not in walked:
             yield f"{name} did not act: the walk has no single support {step}"
+        elif step == 0 and times[0] > trajectory.t_end:
+            yield f"{name} did not act: the walk ended at {trajectory.t_end:.4g} s"
         for arc in arcs:
             if step in (0, arc.mode.step):
                 yield from _beside(name, times, 0.0 if step == 0 else arc.mode.start, step > 0, arc)

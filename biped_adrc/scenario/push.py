@@ -1,7 +1,9 @@
-"""A push on joints in plain values, and its short text on the command line, JOINTS=TORQUE@STEP:START-STOP.
+"""A push as a record, and its short text on the command line, JOINTS=TORQUE@STEP:START-STOP.
 
-The paper's pushes are of this form: torques on the driven joints in one single support, for a window of time.
-`Push` is checked when it is made; `Push.disturbance` gives the object that the closed loop evaluates.
+    ba.Push(joints="q1,-q2", torque=30.0, step=3, onset=0.1, duration=0.2)
+    ba.Push(shape="sine", link="torso", force=60.0, frequency=5.0)
+
+It is a torque on joints, or a force on a link, of a shape in time. The texts of a command line:
 
     q1,q2,q3,q4=30@19:0.1-0.3            30 N m on four joints in single support 19, from 0.1 to 0.3 s
     q1=20,q5=-5@3:0.05-0.2:rise=0.01     two torques, each edge taking 10 ms
@@ -11,118 +13,171 @@ The paper's pushes are of this form: torques on the driven joints in one single 
 
 from __future__ import annotations
 
-import math
 import re
-from itertools import groupby
-from typing import TYPE_CHECKING
+from decimal import Decimal
+from typing import Any
 
-from pydantic import ConfigDict
-from pydantic.dataclasses import dataclass
+from pydantic import ConfigDict, field_validator, model_validator
 
 from biped_adrc.errors import InputError
+from biped_adrc.scenario.records import Misfit, Record, field
 from biped_adrc.scenario.registry import find
-from biped_adrc.scenario.values import clear
-from biped_adrc.shown import Shown
+from biped_adrc.scenario.units import quantity
 
-if TYPE_CHECKING:
-    from biped_adrc.disturbances.base import Disturbance
-    from biped_adrc.model.biped import Biped
-
+RANDOM = "random"
+"""Joints of a push with factors that are drawn."""
+_NUMBER = r"[0-9.eE+-]+?\s*[^\s@:,=0-9-]*"
 _PUSH = re.compile(
-    r"(?P<joints>[^@]+)@(?P<step>\d+):(?P<start>[0-9.eE+]+)-(?P<stop>[0-9.eE+]*)"
-    r"(:sine=(?P<frequency>[0-9.eE+]+)|:rise=(?P<rise>[0-9.eE+-]+))?"
+    rf"(?P<joints>[^@]+)@(?P<step>\d+):(?P<start>{_NUMBER})-(?P<stop>({_NUMBER})?)"
+    rf"(:sine=(?P<frequency>{_NUMBER})|:rise=(?P<rise>{_NUMBER}))?"
 )
+_FORM = "expected JOINTS=TORQUE@STEP:START-STOP, such as 'q1,q2=30@19:0.1-0.3'"
 
 
-@clear()
-@dataclass(frozen=True, config=ConfigDict(extra="forbid"))
-class Push(Shown):
-    """Torques on joints during the window [start, stop) of one single support.
+class Push(Record):
+    """A torque on joints or a force on a link, of a shape in time; further values are those of the shape.
 
-    Raises InputError for a kind that is not in the registry or a value of the wrong type.
+    Raises InputError for a shape that there is not and for a value out of its range.
     """
 
-    torque: dict[str, float]
-    """[N m] by joint."""
-    step: int = 19
-    """Number of the single support, the first one being 1."""
-    start: float = 0.1
-    """From the start of that single support [s]."""
-    stop: float = 0.3
-    """From the start of that single support [s]; infinite for the kind "step", which stays for good."""
-    kind: str = "pulse"
-    """Of the registry: pulse, sine, step, or one of the user's own."""
-    frequency: float = 5.0
-    """Of a sine [Hz]."""
-    rise: float = 0.0
-    """Duration of each edge of a pulse [s]."""
+    model_config = ConfigDict(extra="allow")
+    SHORT = "shape"
 
-    def __post_init__(self) -> None:
-        find("disturbance", self.kind)
-        if self.kind == "step":
-            object.__setattr__(self, "stop", math.inf)
+    shape: str = field("pulse", kind="disturbance")
+    """In time: pulse, step, sine, noise, recorded, hip force, or module:Class."""
+    torque: float | dict[str, float] = field(0.0, "N m")
+    """On each of the joints, or by joint."""
+    joints: str = field("q1,q2,q3,q4")
+    """Such as 'q1,-q3' (minus is the other sign), or 'random' for drawn factors on all that are driven."""
+    force: float = field(0.0, "N", ge=0, le=100000.0)
+    """On a link, or on the hip."""
+    link: str | None = field(None)
+    """Link on whose origin the force acts."""
+    direction: float = field(0.0, "rad", ge=-7, le=7)
+    """Of a force, from forwards to up."""
+    step: int = field(3, ge=1, le=100000)
+    """Single support in which it begins."""
+    onset: float | None = field(None, "s", ge=0, le=100)
+    """In that step; by default drawn, to end within it."""
+    duration: float = field(0.2, "s", gt=0, le=100.0)
+    """Of a pulse, a sine or noise."""
+    rise: float = field(0.0, "s", ge=0, le=10.0)
+    """Time that each edge of a pulse takes."""
+    frequency: float = field(5.0, "Hz", gt=0, le=1000.0)
+    """Of a sine; the highest of noise."""
+    across_impacts: bool | None = field(None)
+    """Whether it goes on over impacts; by default as its shape does."""
 
-    def disturbance(self, biped: Biped) -> Disturbance:
-        """The disturbance for this robot. Raises InputError for an unknown kind or joint."""
-        from biped_adrc.scenario.disturbances import on_joints
+    @field_validator("shape")
+    @classmethod
+    def _there(cls, shape: str) -> str:
+        find("disturbance", shape)
+        return shape
 
-        values = {"step": self.step, "start": self.start, "stop": self.stop, "rise": self.rise}
-        values["frequency"] = self.frequency
-        return on_joints(self.kind, biped, self.torque, values)
+    @model_validator(mode="after")
+    def _one_kind(self) -> Push:
+        """Raise Misfit for a torque and a force at once."""
+        if self.force > 0.0 and self.torque not in (0.0, {}):
+            raise Misfit("force", "is given beside a torque; write two pushes")
+        if self.link is not None and self.torque not in (0.0, {}):
+            raise Misfit("torque", f"is on joints, and the link '{self.link}' takes a force [N]")
+        return self
 
-    def _groups(self) -> list[tuple[float, list[str]]]:
-        """Torques [N m], each with the joints in a row that have it."""
-        alike = groupby(self.torque.items(), lambda item: item[1])
-        return [(torque, [joint for joint, _ in group]) for torque, group in alike]
+    @property
+    def over_impacts(self) -> bool:
+        """Whether its window goes on over impacts."""
+        by_shape = find("disturbance", self.shape).over_steps
+        return by_shape if self.across_impacts is None else self.across_impacts
+
+    @property
+    def factors(self) -> dict[str, float]:
+        """Torque [N m] by joint, empty for random joints."""
+        if isinstance(self.torque, dict):
+            return dict(self.torque)
+        made: dict[str, float] = {}
+        for word in () if self.joints == RANDOM else self.joints.split(","):
+            joint, sign = word.strip().lstrip("+-"), -1.0 if word.strip()[0:1] == "-" else 1.0
+            made[joint] = made.get(joint, 0.0) + sign * self.torque
+        return made
+
+    def stop(self, onset: float) -> float:
+        """The end of its window [s]: the sum as decimal numbers, so that 0.1 and 0.2 make 0.3."""
+        if self.onset is None:
+            return onset + self.duration
+        return float(Decimal(repr(onset)) + Decimal(repr(self.duration)))
 
     def in_words(self) -> str:
         """The push as part of a sentence, such as "30 N m on q1, q2 from 0.1 to 0.3 s in single support 19"."""
-        parts = [f"{torque:g} N m on {', '.join(joints)}" for torque, joints in self._groups()]
-        sine = f", a sine of {self.frequency:g} Hz," if self.kind == "sine" else ""
+        if self.link is not None or self.force:
+            what = f"{self.force:g} N on {self.link or 'the hip'}"
+        elif self.joints == RANDOM and not isinstance(self.torque, dict):
+            what = f"up to {self.torque:g} N m on random joints"
+        else:
+            what = " and ".join(f"{x:g} N m on {', '.join(on)}" for x, on in self._groups())
+        shape = f", a sine of {self.frequency:g} Hz," if self.shape == "sine" else ""
+        shape = shape or ("" if self.shape in ("pulse", "step") else f" ({self.shape})")
         edges = f", each edge taking {self.rise:g} s" if self.rise else ""
-        until = " s on" if self.kind == "step" else f" to {self.stop:g} s"
-        return f"{' and '.join(parts)}{sine} from {self.start:g}{until} in single support {self.step}{edges}"
+        if self.onset is None:
+            when = f" for {self.duration:g} s"
+        else:
+            until = " s on" if self.shape == "step" else f" to {self.stop(self.onset):g} s"
+            when = f" from {self.onset:g}{until}"
+        return f"{what}{shape}{when} in single support {self.step}{edges}"
 
-    def text(self) -> str:
-        """The text for the command line, JOINTS=TORQUE@STEP:START-STOP [N m], [s]; `parse_push` reads it.
-
-        A sine ends in :sine=HERTZ, a pulse with sloping edges in :rise=SECONDS.
-        """
-        groups = [f"{','.join(joints)}={torque:g}" for torque, joints in self._groups()]
-        stop = "" if self.kind == "step" else f"{self.stop:g}"
-        sine = f":sine={self.frequency:g}" if self.kind == "sine" else ""
-        rise = f":rise={self.rise:g}" if self.rise else ""
-        return f"{','.join(groups)}@{self.step}:{self.start:g}-{stop}{sine}{rise}"
+    def _groups(self) -> list[tuple[float, list[str]]]:
+        """Torques [N m], each with the joints that have it, in their order."""
+        found: dict[float, list[str]] = {}
+        for joint, torque in self.factors.items():
+            found.setdefault(torque, []).append(joint)
+        return list(found.items())
 
 
 def parse_push(text: str) -> Push:
     """A push from its text: torques [N m] by joint, step, window [s], and :sine=HERTZ or :rise=SECONDS.
 
-    Joints without a torque of their own take the next one given: "q1,q2=30,q5=20@19:0.1-0.3". Without a stop
+    Joints without a torque of their own take the next one: "q1,q2=30,q5=20@19:0.1-0.3". Without a stop
     ("@19:0.1-") it is a step that stays. Raises InputError with the form expected.
     """
     match = _PUSH.fullmatch(text.strip())
     if match is None:
-        raise InputError(
-            f"push '{text}' is not understood; expected JOINTS=TORQUE@STEP:START-STOP, such as "
-            "'q1,q2=30@19:0.1-0.3'"
-        )
+        raise InputError(f"push '{text}' is not understood; {_FORM}")
     try:
-        torque: dict[str, float] = {}
-        waiting: list[str] = []
-        for part in match["joints"].split(","):
-            joint, equals, value = part.partition("=")
-            waiting.append(joint.strip())
-            if equals:
-                torque |= dict.fromkeys(waiting, float(value))
-                waiting = []
-        if waiting:
-            raise ValueError(f"no torque for {waiting}")
-        names = [name for name in ("start", "stop", "frequency", "rise") if match[name]]
-        numbers = {"stop": math.inf} | {name: float(match[name]) for name in names}
-        if numbers.get("rise") and not match["stop"]:
+        torque = _torques(match["joints"])
+        start, stop = quantity(match["start"], "s"), match["stop"]
+        values: dict[str, Any] = {"step": int(match["step"]), "onset": start}
+        values["shape"] = "sine" if match["frequency"] else "pulse" if stop else "step"
+        if stop:
+            end = quantity(stop, "s")
+            if not end > start:
+                raise ValueError(f"it stops at {end:g} s, expected after {start:g} s")
+            values["duration"] = float(Decimal(repr(end)) - Decimal(repr(start)))
+        for name, unit in (("frequency", "Hz"), ("rise", "s")):
+            if match[name]:
+                values[name] = quantity(match[name], unit)
+        if values.get("rise") and not stop:
             raise ValueError("only a pulse, which has a stop, has a rise")
     except ValueError as error:
-        raise InputError(f"push '{text}': {error}") from error
-    kind = "sine" if match["frequency"] else "pulse" if match["stop"] else "step"
-    return Push(torque, int(match["step"]), kind=kind, **numbers)
+        raise InputError(f"push '{text}': {error}; {_FORM}") from error
+    alike = set(torque.values())
+    on = (
+        {"joints": ",".join(torque), "torque": alike.pop()}
+        if len(alike) == 1
+        else {"torque": torque}
+    )
+    over = False if values["shape"] == "sine" else None
+    return Push(**on, **values, across_impacts=over)
+
+
+def _torques(text: str) -> dict[str, float]:
+    """Torque [N m] by joint of "q1,q2=30,q5=20". Raises ValueError."""
+    torque: dict[str, float] = {}
+    waiting: list[str] = []
+    for part in text.split(","):
+        joint, equals, value = part.partition("=")
+        waiting.append(joint.strip())
+        if equals:
+            torque |= dict.fromkeys(waiting, quantity(value, "N m"))
+            waiting = []
+    if waiting:
+        raise ValueError(f"no torque for {waiting}")
+    return torque

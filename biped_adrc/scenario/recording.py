@@ -2,8 +2,7 @@
 
 The simulation stores states only. Everything else (references, torques, estimates, forces) is computed from
 them by the pure functions of the closed loop when it is first asked for, so a walk has all signals without
-having recorded any. The one exception is a stored walk whose controller is not at hand: its signals are in the
-file.
+having recorded any; those of a stored walk are in its file.
 
 `walk`, `run.walk_scenario` and `stored.load_walk` return a `Walk`; the command line, notebooks, studies and the
 reproduction of the paper read it.
@@ -50,7 +49,6 @@ from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.columns import columns_of, data_frame, write_csv
 from biped_adrc.scenario.edges import edge_remarks, step_remarks
 from biped_adrc.scenario.outcome import Outcome, outcome_of
-from biped_adrc.scenario.walker_record import MissingPart
 from biped_adrc.shown import Shown
 from biped_adrc.soft.meters import SoftStep, recorded_steps, slip_times
 from biped_adrc.types import Array
@@ -81,9 +79,9 @@ class Walk(Shown):
     scenario: Scenario | None = None
     """None for a walker made in Python."""
     recorded: Signals | None = None
-    """Signals from the file of a stored walk whose controller is not at hand."""
+    """Signals from the file of a stored walk."""
     said: tuple[str, ...] = ()
-    """Remarks from reading a file, such as a changed source of a class."""
+    """Remarks that came with it, as from a file."""
 
     def __repr__(self) -> str:
         run = self.trajectory
@@ -184,7 +182,11 @@ class Walk(Shown):
         run, ground = self.trajectory, self._soft_ground()
         slipped = None if ground is None else slip_times(run, *ground)
         cut = until_infeasible(self.walker, run, self.signals, limits, slipped)
-        return self if cut is self.trajectory else replace(self, trajectory=cut)
+        if cut is run:
+            return self
+        count = sum(len(arc.t) for arc in cut.arcs)
+        kept = {name: x[:count] for name, x in vars(self.signals).items()}
+        return replace(self, trajectory=cut, recorded=self.recorded and Signals(**kept))
 
     def saying(self, said: tuple[str, ...]) -> Self:
         """The same walk with more sentences among its remarks."""
@@ -195,6 +197,8 @@ class Walk(Shown):
         """Sentences to know before using its numbers: a push that an impact cut off, too long a step at an
         edge.
         """
+        if self.recorded is not None:
+            return self.said
         walker, trajectory = self.walker, self.trajectory
         return (*self.said, *edge_remarks(walker, trajectory), *step_remarks(walker, trajectory))
 
@@ -202,10 +206,10 @@ class Walk(Shown):
     def controller_name(self) -> str:
         """Its name in the scenario, or of its class without "Controller"."""
         if self.scenario is not None and self.gait is not None:
-            return self.scenario.controller.rpartition(":")[2]
+            return self.scenario.controller.name.rpartition(":")[2]
         law = self.walker.controller
-        name = law.home.rpartition(":")[2] if isinstance(law, MissingPart) else type(law).__name__
-        return name.removesuffix("Controller")
+        name: str = getattr(law, "home", type(law).__name__)
+        return name.rpartition(":")[2].removesuffix("Controller")
 
     def plot(self, title: str = "", push: tuple[float, float] | None = None) -> Figure:
         """References against joint angles, and torques, as figures 4 and 5; push is marked [s].

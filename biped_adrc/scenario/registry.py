@@ -104,7 +104,7 @@ def register(kind: str, name: str, thing: Callable[..., object], words: str = ""
     """Make a class or function of one's own known by a name, in this process.
 
         ba.register("controller", "my law", MyController, "PD with my feedforward")
-        ba.walk_scenario(ba.Scenario("my law", own={"stiffness": 300.0}))
+        ba.walk_scenario(ba.Scenario({"name": "my law", "stiffness": 300.0}))
 
     kind: "controller", "contact", "observer", "sensor", "touchdown", "disturbance", "plant", "curve", "robot"
     or "gait". words: for a reader. Records of scenarios write it as `module:Class`, so that other processes
@@ -307,12 +307,16 @@ def lacking(make: Callable[..., object], values: Container[str]) -> list[str]:
 
 
 def construct(
-    what: str, make: Callable[..., object], values: Mapping[str, object], kind: type[_T]
+    what: str,
+    make: Callable[..., object],
+    values: Mapping[str, object],
+    kind: type[_T],
+    place: str = "",
 ) -> _T:
     """make(**values) with those of the values that it takes; the result has to be a `kind`.
 
-    what: what is made, for messages, such as "controller 'NPD'". Raises InputError for values that are missing,
-    an error inside of make, and a result of another class.
+    what: what is made, for messages, such as "controller 'NPD'"; place: the dotted name of its record.
+    Raises InputError for values that are missing, an error inside of make, and a result of another class.
     """
     names, missing = takes(make), lacking(make, values)
     if missing and isinstance(make, type) and not issubclass(make, kind):
@@ -320,9 +324,8 @@ def construct(
     if missing:
         role = "" if isinstance(make, type) else f", a function that has to make a {kind.__name__},"
         raise InputError(
-            f"{what}{role} needs {', '.join(missing)}; give --set {missing[0]}=VALUE, "
-            f"`own.{missing[0]} = VALUE` in a study, or Scenario(own={{'{missing[0]}': VALUE}}); given by "
-            f"themselves are {sorted(values)}"
+            f"{what}{role} needs {', '.join(missing)}; give {place}{'.' * bool(place)}{missing[0]}; it "
+            f"gets by themselves {sorted(values)}"
         )
     try:
         made = make(**{name: x for name, x in values.items() if name in names})

@@ -30,7 +30,6 @@ from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_step, soft_loop, start
-from biped_adrc.scenario.idle import idle
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.scenario.scenario import FREE, Scenario
@@ -66,20 +65,22 @@ def method_of(s: Scenario, walker: Walker) -> OneStepMethod:
     """The integration method of a scenario, with its step or tolerance; the walker's default where none is
     given.
     """
-    if s.method in FREE:
-        return METHODS[s.method](s.tolerance, s.tolerance)
-    method = default_method(walker) if s.method is None else METHODS[s.method]()
-    return method if s.h is None else replace(method, h=s.h)  # type: ignore[type-var]
+    run = s.run
+    if run.method in FREE:
+        return METHODS[run.method](run.tolerance, run.tolerance)
+    method = default_method(walker) if run.method is None else METHODS[run.method]()
+    return method if run.h is None else replace(method, h=run.h)  # type: ignore[type-var]
 
 
 def parts_of(s: Scenario, walker: Walker) -> tuple[Part, ...]:
     """The parts of the walk and their methods: steps of `fine` where a push switches, of h elsewhere [s]."""
-    if s.fine is not None:
-        usual, fine = (method_of(replace(s, h=h), walker) for h in (s.h, s.fine))
-        return refined(walker, s.impacts, s.first_step, usual, fine)
-    if s.h is None and s.method is None:
-        return default_parts(walker, s.impacts, s.first_step, s.engine)
-    return (Part(s.impacts, method_of(s, walker)),)
+    run = s.run
+    if run.fine is not None:
+        usual, fine = (method_of(s.replace({"run.h": h}), walker) for h in (run.h, run.fine))
+        return refined(walker, run.impacts, run.first_step, usual, fine)
+    if run.h is None and run.method is None:
+        return default_parts(walker, run.impacts, run.first_step, run.engine)
+    return (Part(run.impacts, method_of(s, walker)),)
 
 
 def halved(s: Scenario, walker: Walker | None = None) -> Scenario:
@@ -87,18 +88,19 @@ def halved(s: Scenario, walker: Walker | None = None) -> Scenario:
 
     A method that chooses its own step becomes the explicit adaptive one with a hundredth of the tolerance.
     """
-    if s.plant != RIGID:
-        return replace(s, plant_step=0.5 * plant_step(s))
-    if s.method in FREE:
-        return replace(s, method="adaptive", tolerance=1e-2 * s.tolerance)
-    h, fine = s.h, s.fine
+    run = s.run
+    if s.ground.plant != RIGID:
+        return s.replace({"ground.plant_step": 0.5 * plant_step(s)})
+    if run.method in FREE:
+        return s.replace(run={"method": "adaptive", "tolerance": 1e-2 * run.tolerance})
+    h, fine = run.h, run.fine
     if h is None:
         usual = method_of(s, build(s) if walker is None else walker)
         assert isinstance(usual, RK4 | Exponential)
         h = usual.h
-        if fine is None and s.method is None and s.engine == COMPILED:
+        if fine is None and run.method is None and run.engine == COMPILED:
             fine = FINE_STEP if isinstance(usual, Exponential) else None
-    return replace(s, h=0.5 * h, fine=None if fine is None else 0.5 * fine)
+    return s.replace(run={"h": 0.5 * h, "fine": None if fine is None else 0.5 * fine})
 
 
 @dataclass(frozen=True)
@@ -157,18 +159,18 @@ def walk_scenario(
         walker = replace(walker, controller=controller)
     begin = start(s, scene) if scene.gait else cycle_start(scene.biped, walker.slope)
     if (loop := soft_loop(s, walker)) is not None:
-        run = walk_on(loop, walker, begin, Mode(s.first_step), s.impacts, progress)
-        return watched(walker, scene.gait, run, kept).saying(idle(s))
+        run = walk_on(loop, walker, begin, Mode(s.run.first_step), s.run.impacts, progress)
+        return watched(walker, scene.gait, run, kept)
     return walk_in_parts(
         walker,
         scene.gait,
-        parts_of(s, walker) if method is None else (Part(s.impacts, method),),
+        parts_of(s, walker) if method is None else (Part(s.run.impacts, method),),
         start=begin,
-        first_step=s.first_step,
+        first_step=s.run.first_step,
         progress=progress,
-        engine=s.engine,
+        engine=s.run.engine,
         scenario=kept,
-    ).saying(idle(s))
+    )
 
 
 def passive_walk(
@@ -193,7 +195,12 @@ def passive_walk(
             "take 'compass', 'rimless_wheel' or 'simplest', or walk a gait with biped_adrc.walk"
         )
     beside = 0.0 if slope is None else slope - passive_cycle(biped).slope
-    s = Scenario("passive", robot=str(robot), preset=preset, impacts=int(impacts), slope=beside)
+    s = Scenario(
+        "passive",
+        robot={"name": str(robot), "preset": preset},
+        ground={"slope": beside},
+        run={"impacts": int(impacts)},
+    )
     return walk_scenario(s, progress, method)
 
 

@@ -1,6 +1,6 @@
 """The specification of a scenario: columns of a candidate that need no walk.
 
-    ba.specified(ba.Scenario("LESO", hardware="rabbit", bandwidth=160.0, order=2))
+    ba.specified(ba.Scenario({"name": "LESO", "observer": {"bandwidth": 160.0, "order": 2}}, hardware="rabbit"))
 
 gives `stable`, `growth` [1/s], `delay_margin` [s], `disk_margin`, `ripple` [N m] by name, each a number. An
 unstable loop has margins 0 and an infinite ripple. What the scenario does to the walk, such as pushes,
@@ -9,20 +9,13 @@ ground and start, has no part in it; what it does to the robot has, as plant bes
 
 from __future__ import annotations
 
-import json
 from functools import lru_cache
 
 from biped_adrc.errors import InputError
 from biped_adrc.observer_design.frozen_gait import FrozenGait
 from biped_adrc.observer_design.specification import Specification, specification
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_of
-from biped_adrc.scenario.scenario import Scenario
-
-OF_PLANT = (
-    *("mass", "inertia", "trunk_load", "seed"),
-    *("mass_error", "com_error", "inertia_error", "friction_error"),
-)
-"""Fields of a scenario that `build.plant_of` makes the plant with."""
+from biped_adrc.scenario.scenario import ErrorRecord, Scenario
 
 
 def specification_of(
@@ -34,26 +27,25 @@ def specification_of(
     the same scene, whose linearisations are kept. Raises InputError for a scenario in continuous time, on
     another plant than the rigid one, without motors, or whose controller has to notice touchdowns.
     """
-    if s.plant != RIGID:
+    if s.ground.plant != RIGID:
         raise InputError(
-            f"a specification was asked for on plant '{s.plant}', expected '{RIGID}', whose equations it "
-            "linearises"
+            f"a specification was asked for on plant '{s.ground.plant}', expected '{RIGID}', whose equations "
+            "it linearises"
         )
     scene = RobotAndGait.of(s) if scene is None else scene
     walker = build(s, scene)
     if frozen is None:
-        wrong = {name: x for name, x in s.record().items() if name in OF_PLANT}
-        frozen = _frozen(scene, json.dumps(wrong, sort_keys=True))
+        frozen = _frozen(scene, s.errors, s.run.seed)
     return specification(walker, frozen)
 
 
 @lru_cache(maxsize=16)
-def _frozen(scene: RobotAndGait, wrong: str) -> FrozenGait:
-    """The gait linearised for a plant with the model errors of a scenario; wrong: those as JSON.
+def _frozen(scene: RobotAndGait, errors: ErrorRecord, seed: int) -> FrozenGait:
+    """The gait linearised for a plant with the model errors of a scenario.
 
     No controller has a part in it, so the candidates of a search share it.
     """
-    plant = plant_of(Scenario(**json.loads(wrong)), scene.biped)
+    plant = plant_of(Scenario(errors=errors, run={"seed": seed}), scene.biped)
     return FrozenGait.of(plant, scene.walked, scene.biped)
 
 

@@ -3,7 +3,7 @@
 A learner, a search or a controller of another program gives torque and force before each sample and reads the
 states after it:
 
-    stepper = ba.Stepper(ba.Scenario("NPD", period=1e-3), count=2)
+    stepper = ba.Stepper(ba.Scenario("NPD", hardware="ideal"), count=2)
     sample = stepper.reset()
     begin = stepper.save(0)
     while sample.t[0] < 0.1:
@@ -19,7 +19,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any, NamedTuple, cast
 
 import numpy as np
@@ -83,7 +82,7 @@ class Stepper:
 
     walker_of(scenario, robot and gait): the walker in place of `scenario.build`. within: limits by which the
     single supports of a scenario are judged when they end, for `over`. Raises InputError for continuous time, a
-    scenario with `fine`, a robot without motors, and parts that do not fit together.
+    scenario with `run.fine`, a robot without motors, and parts that do not fit together.
     """
 
     def __init__(
@@ -98,15 +97,15 @@ class Stepper:
         self.what, self.walker_of = what, walker_of
         self.within = within if isinstance(what, Scenario) else None
         self.curve: Reference | None = None
-        if what.period is None if isinstance(what, Scenario) else not what.sampled:
+        if what.hardware.period is None if isinstance(what, Scenario) else not what.sampled:
             raise InputError(
-                "walks go from one sample instant to the next here, and there are none; give a period, as "
-                "period = 0.001 or hardware = 'ideal', or timing=SampledTime(1e-3) of a walker"
+                "walks go from one sample instant to the next here, and there are none; give hardware.period, "
+                "as '1 ms', or hardware = 'ideal', or timing=SampledTime(1e-3) of a walker"
             )
         if isinstance(what, Scenario):
-            if what.fine is not None:
+            if what.run.fine is not None:
                 raise InputError(
-                    f"steps of a sample have one length; leave out fine = {what.fine:g} s"
+                    f"steps of a sample have one length; leave out run.fine = {what.run.fine:g} s"
                 )
             self.scene = RobotAndGait.of(what)
             self.curve = self.scene.walked.constraint
@@ -159,7 +158,7 @@ class Stepper:
         """Walk i as `reset` has it."""
         s, mode = self.what, Mode()
         if isinstance(s, Scenario):
-            s, mode = replace(s, seed=s.seed if seed is None else seed), Mode(s.first_step)
+            s, mode = s if seed is None else s.replace({"run.seed": seed}), Mode(s.run.first_step)
             walker, outside = with_inputs(self.walker_of(s, self.scene))
             start = start_of(s, self.scene) if start is None else start
             loop, method = soft_loop(s, walker) or walker, method_of(s, walker)

@@ -1,29 +1,27 @@
-"""Walks on disk, complete in themselves: trajectory, walker, gait, scenario and torques in one .npz file.
+"""Walks on disk, complete in themselves: scenario, states, signals, walker and gait in one .npz file.
 
 Robot and gait are in the file as they were, so that neither the working directory nor later changes of their
-files matter. Reading a file imports no code of the user's: for a controller that is not at hand a stand-in
-takes its place, and the signals, which are then in the file, are used as they are. A stored walk is checked
-before it is handed over (`_check`), so that a damaged file is noticed on reading.
+files matter. Reading a file imports no code of the user: a stand-in takes the place of a controller that is not
+at hand. A stored walk is checked before it is handed over (`_check`), so that damage is noticed on reading.
 
 Entries of the file, beside the trajectory that `hybrid.storage` writes:
 
     walker      JSON: {"parts": records of all objects, "walker": place of the walker, "gait": the gait}
-    signal.*    arrays over the nodes: u alone, or all signals where a class of the user's takes part
-    settings    versions, the scenario's record, names of the user's classes, and what the caller adds
+    signal.*    arrays over the nodes
+    settings    versions, the scenario's record, remarks, and what the caller adds
 """
 
 from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from biped_adrc.analysis.signals import Signals, signals
+from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.feet import NAMES
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller, Measurement
@@ -36,64 +34,62 @@ from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.scenario.registry import read_from_a_file
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.scenario.walker_record import MissingPart, PartRecord, Reader, Writer, home_of
+from biped_adrc.scenario.walker_record import MissingPart, PartRecord, Reader, Writer
 from biped_adrc.types import Array
 from biped_adrc.versions import versions
 
 
-class AbsentController(MissingPart, Controller):
-    """Stand-in for the controller of a stored walk whose class is not at hand.
+@dataclass(frozen=True)
+class AbsentController(Controller):
+    """Stand-in for the controller of a stored walk that is the user's. Raises InputError when called."""
 
-    Raises InputError when called.
-    """
+    home: str
+    """Its class, module:Class."""
 
     def output(self, s: Array, m: Measurement) -> Array:
-        raise InputError(f"the walk cannot go on without its controller: {self.why}")
+        raise InputError(_again(self.home))
 
 
-class AbsentDisturbance(MissingPart, Disturbance):
-    """Stand-in for a disturbance whose class is not at hand. Raises InputError when called."""
+@dataclass(frozen=True)
+class AbsentDisturbance(Disturbance):
+    """Stand-in for a disturbance that is the user's. Raises InputError when called."""
+
+    home: str
+    """Its class, module:Class."""
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        raise InputError(f"the walk cannot go on without its disturbance: {self.why}")
+        raise InputError(_again(self.home))
+
+
+def _again(home: str) -> str:
+    return f"a stored walk cannot go on without '{home}'; walk it again with walk_scenario(walk.scenario)"
 
 
 STAND_INS = {"controller": AbsentController, "disturbance": AbsentDisturbance}
-"""Fields of a walker in which a missing part is accepted, and the class that takes its place."""
+"""Fields of a walker in which a part of the user's is replaced; other ones are left out."""
 
 
 def save_walk(walk: Walk, path: Path | str, settings: Mapping[str, object] | None = None) -> Path:
     """Write a walk (.npz) that `load_walk` reads anywhere; returns its path.
 
-    settings: more plain values to be stored beside it.
-
-    All signals are stored where a class of the user's takes part, and those that were recorded; torques only
-    elsewhere, since the others can be computed again. Raises InputError and OutputError.
+    settings: more plain values to be stored beside it. Raises InputError and OutputError.
     """
     writer = Writer()
     walker, gait = writer.part(walk.walker), writer.plain(walk.gait)
     record = {"parts": writer.records, "walker": walker, "gait": gait}
-    whole = bool(writer.own) or walk.recorded is not None
-    seen = vars(walk.signals) if whole else {"u": walk.signals.u}
-    about: dict[str, object] = {"versions": versions()}
+    about: dict[str, object] = {"versions": versions(), "remarks": list(walk.remarks)}
     if walk.scenario is not None:
         about["scenario"] = walk.scenario.record()
-    if writer.own:
-        about["own"] = sorted(set(writer.own))
     arrays: dict[str, ArrayLike] = {"walker": json.dumps(record)}
-    arrays |= {f"signal.{k}": x for k, x in seen.items()}
+    arrays |= {f"signal.{k}": x for k, x in vars(walk.signals).items()}
     return storage.save(walk.trajectory, path, {**about, **(settings or {})}, arrays)
 
 
-def load_walk(path: Path | str, controller: object = None) -> Walk:
+def load_walk(path: Path | str) -> Walk:
     """The walk in a run file (.npz) written by `Walk.save`, `simulate` or `reproduce`.
 
-        walk = ba.load_walk("walk.npz")
-        walk = ba.load_walk("walk.npz", controller=MyController)
-
-    controller: class or object of one's own, of the controller or of another part such as its observer, with
-    which the walk can go on; without, its signals, figures and pictures are those of the file. Raises
-    InputError.
+    Nothing of the user's is imported: signals, figures and pictures are those of the file, and a walk of an own
+    controller is walked again with `walk_scenario(walk.scenario)`. Raises InputError.
     """
     trajectory = storage.load(path, _mode)
     beside = storage.load_beside(path)
@@ -103,7 +99,7 @@ def load_walk(path: Path | str, controller: object = None) -> Walk:
                 "it does not say which robot, gait and controller it is of; runs written by Walk.save, "
                 "'biped-adrc simulate' and 'reproduce' do"
             )
-        found = _stored(trajectory, beside, controller)
+        found = _stored(trajectory, beside)
         _check(found)
     return found
 
@@ -113,19 +109,15 @@ def _mode(step: float, start: float) -> Mode:
     return Mode(int(step), start)
 
 
-def _stored(trajectory: Trajectory, beside: Mapping[str, Array], controller: object) -> Walk:
+def _stored(trajectory: Trajectory, beside: Mapping[str, Array]) -> Walk:
     """The walk of a trajectory, from the record of its walker and the signals beside it in the file."""
     record = json.loads(str(beside["walker"]))
-    reader = Reader(record["parts"], _given(record["parts"], controller))
+    reader = Reader(record["parts"])
     walker = _walker(reader, record["parts"][record["walker"]])
-    gait = reader.whole(record["gait"])
     seen = {k.removeprefix("signal."): x for k, x in beside.items() if k.startswith("signal.")}
-    changed = tuple(
-        f"the source of {home} has changed since this walk"
-        for home in dict.fromkeys(reader.changed)
-    )
-    made = watched(walker, gait, trajectory, _scenario(trajectory))
-    return replace(made, recorded=Signals(**seen) if len(seen) > 1 else None, said=changed)
+    made = watched(walker, reader.whole(record["gait"]), trajectory, _scenario(trajectory))
+    said = tuple(map(str, trajectory.settings.get("remarks", ())))
+    return replace(made, recorded=Signals(**seen), said=said)
 
 
 def _check_readings(walk: Walk) -> None:
@@ -145,58 +137,29 @@ def _check_readings(walk: Walk) -> None:
 
 
 def _check(walk: Walk) -> None:
-    """Raise ValueError where gait, states or signals of a file do not fit the walker.
-
-    The signals of one node are computed as a test: a walker that cannot do this would fail at the first plot.
-    """
+    """Raise ValueError where gait, states or signals of a file do not fit the walker."""
     walker, arcs, n = walk.walker, walk.trajectory.arcs, walk.walker.plant.n
     _check_readings(walk)
     expected = Gait if walker.plant.p else type(None)
     if not isinstance(walk.gait, expected):
         raise ValueError(f"its gait is a {type(walk.gait).__name__}")
-    if walk.recorded is not None:
-        t = np.concatenate([arc.t for arc in arcs])
-        rows = {len(signal) for signal in vars(walk.recorded).values()}
-        if rows != {len(t)} or not np.array_equal(walk.recorded.t, t):
-            raise ValueError(f"its signals are not of its {len(t)} nodes")
-        return
-    first = arcs[0]
-    size = len(walker.initial_state(first.x[0, :n], first.x[0, n : 2 * n], first.mode))
-    if any(arc.x.shape[1] != size for arc in arcs):
-        raise ValueError(f"its states have {first.x.shape[1]} numbers, its walker's {size}")
-    node = replace(first, t=first.t[:1], x=first.x[:1], dx=first.dx[:1], event=None)
-    signals(walker, Trajectory((node,), walk.trajectory.status), walk.reference)
-
-
-def _given(parts: Sequence[PartRecord], thing: Any) -> dict[str, object]:
-    """A class or object of the user's, by the module:Class under which the file has it.
-
-    The name of the class has to agree; its module may be another one, as in a notebook. Raises InputError for
-    what the file does not have.
-    """
-    if thing is None:
-        return {}
-    kind = thing if hasattr(thing, "__qualname__") else type(thing)
-    own = sorted({part["class"] for part in parts if "source" in part})
-    found = [home for home in own if home == home_of(kind)]
-    found = found or [home for home in own if home.partition(":")[2] == kind.__qualname__]
-    if not found:
-        needed = " and ".join(map(repr, own)) or "nothing, so leave it out"
-        raise InputError(
-            f"{thing!r} is given, expected a Controller or its class, or those of another part, of a name that "
-            f"the file has from outside the package: {needed}"
-        )
-    return dict.fromkeys(found, thing)
+    t = np.concatenate([arc.t for arc in arcs])
+    rows = {len(signal) for signal in vars(walk.signals).values()}
+    if rows != {len(t)} or not np.array_equal(walk.signals.t, t):
+        raise ValueError(f"its signals are not of its {len(t)} nodes")
+    if any(arc.x.shape[1] < 2 * n for arc in arcs):
+        raise ValueError(f"its states have {arcs[0].x.shape[1]} numbers, expected {2 * n} or more")
 
 
 def _walker(reader: Reader, record: PartRecord) -> Walker:
-    """The walker of a record, with a stand-in for a controller or a disturbance that is not at hand."""
-    values = dict[str, Any]()
-    for name, x in record["values"].items():
-        values[name] = reader.made(x) if name in STAND_INS else reader.whole(x)
-        if isinstance(part := values[name], MissingPart):
-            values[name] = STAND_INS[name](part.home, part.values, part.source)
-    return Walker(**values)
+    """The walker of a record, with a stand-in for a controller or a disturbance of the user's."""
+    values = {name: reader.made(x) for name, x in record["values"].items()}
+    for name, x in list(values.items()):
+        if isinstance(x, MissingPart) and name in STAND_INS:
+            values[name] = STAND_INS[name](x.home)
+        elif isinstance(x, MissingPart):
+            del values[name]
+    return Walker(**values)  # type: ignore[arg-type]
 
 
 def _scenario(trajectory: Trajectory) -> Scenario | None:

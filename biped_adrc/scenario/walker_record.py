@@ -4,9 +4,8 @@
 with inner objects in records of their own, each once, referred to by number. `Reader` makes the objects again.
 
 Only classes of this package are imported when a record is read (`is_ours`), so that a file cannot run code of
-its own. A class of the user's is stored by name, values and a hash of its source, and becomes a `MissingPart`
-unless the user hands it over. `stored` uses both to write walks that can be read without the files they were
-made from.
+its own. A class of the user's is stored by name, and becomes a `MissingPart`. `stored` uses both to write walks
+that can be read without the files they were made from.
 
 How values are written:
 
@@ -25,57 +24,36 @@ from dataclasses import dataclass, field, fields, is_dataclass
 from enum import Enum
 from importlib import import_module
 from pathlib import Path
-from typing import Any, NotRequired, TypedDict
+from typing import Any
 
 import numpy as np
 
 from biped_adrc.errors import BipedError, InputError
-from biped_adrc.scenario.registry import registered, source_hash, takes
+from biped_adrc.scenario.registry import takes
 
 _ROOMS = re.compile(
     r"biped_adrc\.((control|observers|disturbances|gait|hardware|model|robots)\.[a-z_]+|timing|ground|closed_loop\.walker)"
 )
 """Modules whose classes are made when a record is read."""
 
-PartRecord = TypedDict(
-    "PartRecord", {"class": str, "values": dict[str, object], "source": NotRequired[str]}
-)
-"""One object: its class as module:Class, what its constructor takes, and for the user's own a hash of its
-source."""
+PartRecord = dict[str, Any]
+"""One object: `class` as module:Class, `values` that its constructor takes; without them it is the user's."""
 
 
 @dataclass(frozen=True, eq=False)
 class MissingPart:
-    """In place of an object whose class, or that of an object inside of it, is the user's and not at hand."""
+    """In place of an object whose class, or that of an object inside of it, is the user's."""
 
     home: str
-    """Its class, module:Class."""
-    values: Mapping[str, object]
-    """What its constructor takes, made as far as possible."""
-    source: str | None
-    """Hash of its source; None for a class of the package that has something of the user's inside."""
-
-    @property
-    def wanted(self) -> list[str]:
-        """The user's classes that are missing in it, module:Class."""
-        inner = [home for part in _missing(self.values) for home in part.wanted]
-        return ([] if self.source is None else [self.home]) + inner
-
-    @property
-    def why(self) -> str:
-        """End of an error message: what is missing, and what to do."""
-        return (
-            f"{' and '.join(map(repr, self.wanted))} not of this package; give it, as in load_walk(path, "
-            "controller=Class) for the class of any one part, or ba.register it first"
-        )
+    """The user's class, module:Class."""
 
 
-def _missing(x: object) -> list[MissingPart]:
-    """All missing parts in a value, also inside lists and mappings."""
+def _missing(x: object) -> MissingPart | None:
+    """A missing part in a value, also inside lists and mappings."""
     if isinstance(x, MissingPart):
-        return [x]
+        return x
     inner = x.values() if isinstance(x, Mapping) else x if isinstance(x, list | tuple) else ()
-    return [part for value in inner for part in _missing(value)]
+    return next((found for value in inner if (found := _missing(value))), None)
 
 
 def home_of(kind: Any) -> str:
@@ -99,8 +77,6 @@ class Writer:
 
     records: list[PartRecord] = field(default_factory=list)
     """Of all objects seen, each once; an object is referred to by its place here."""
-    own: list[str] = field(default_factory=list)
-    """Classes of the user's among them, module:Class."""
     _known: dict[int, tuple[int, object]] = field(default_factory=dict)
     """By id of an object its place, and the object itself, so that its id is not used again."""
 
@@ -135,28 +111,12 @@ class Writer:
         return self._known[id(x)][0]
 
     def _record(self, x: object) -> PartRecord:
-        """The record of one object; with a hash of its source where it is not wholly the package's."""
-        if isinstance(x, MissingPart):
-            return self._carried(x)
-        kind = type(x)
-        home = home_of(kind)
+        """The record of one object; of one that is the user's its class alone."""
+        home = x.home if isinstance(x, MissingPart) else home_of(type(x))
         values = {name: self.plain(getattr(x, name)) for name in _names(x) if hasattr(x, name)}
         if is_ours(home) and values.keys() >= set(_names(x)):
             return {"class": home, "values": values}
-        home = home_of(x) if hasattr(x, "__qualname__") else home
-        self.own.append(home)
-        return {"class": home, "values": values, "source": source_hash(kind)}
-
-    def _carried(self, x: MissingPart) -> PartRecord:
-        """The record that a missing part was read from: a walk can be stored again without its class."""
-        record: PartRecord = {
-            "class": x.home,
-            "values": {k: self.plain(y) for k, y in x.values.items()},
-        }
-        if x.source is not None:
-            self.own.append(x.home)
-            record["source"] = x.source
-        return record
+        return {"class": home_of(x) if hasattr(x, "__qualname__") else home}
 
 
 def _names(x: Any) -> list[str]:
@@ -168,17 +128,9 @@ def _names(x: Any) -> list[str]:
 
 @dataclass
 class Reader:
-    """Makes objects of records; the inverse of `Writer`.
-
-    A part whose class is missing does not stop the others: what contains it becomes a
-    `MissingPart` too, and the rest is made. `whole` is for parts that must not be missing.
-    """
+    """Makes objects of records; the inverse of `Writer`. What contains a part of the user's is missing too."""
 
     records: list[PartRecord]
-    given: Mapping[str, object]
-    """Classes or objects that the user hands over, by module:Class."""
-    changed: list[str] = field(default_factory=list)
-    """The user's classes whose source has changed since they were stored."""
     _made: dict[int, object] = field(default_factory=dict)
 
     def made(self, x: object) -> object:
@@ -206,8 +158,8 @@ class Reader:
     def whole(self, x: object) -> Any:
         """As `made`, of whatever class was stored. Raises InputError where something is missing."""
         made = self.made(x)
-        for part in _missing(made):
-            raise InputError(part.why)
+        if missing := _missing(made):
+            raise InputError(f"'{missing.home}' is not of this package")
         return made
 
     def _part(self, i: int) -> object:
@@ -217,35 +169,20 @@ class Reader:
         return self._made[i]
 
     def _new(self, record: PartRecord) -> object:
-        """The object of a record; an object that the user handed over takes its place as it is."""
+        """The object of a record. Raises InputError for values that its class does not take."""
         home = record["class"]
-        own = "source" in record or not is_ours(home)
-        kind: object = self._own(home, record["source"]) if own else _class(home)
-        if not (kind is None or isinstance(kind, type)):
-            return kind
+        if "values" not in record:
+            return MissingPart(home)
+        kind = _class(home)
         values = {name: self.made(x) for name, x in record["values"].items()}
-        if kind is None or _missing(values):
-            return MissingPart(home, values, record.get("source"))
+        if missing := _missing(values):
+            return missing
         try:
             return kind(**values)
         except BipedError:
             raise
-        except (Exception, SystemExit) as error:  # whatever a class of the user's may raise
-            raise InputError(
-                f"'{home}' cannot be made of {sorted(values)}: {error}; give an object of it, as in "
-                "load_walk(path, controller=object)"
-            ) from error
-
-    def _own(self, home: str, source: str) -> object:
-        """The user's class or object, handed over or registered; None where it is not at hand.
-
-        source: hash of the source it was stored with.
-        """
-        found = self.given.get(home) or registered(home)
-        kind = found if isinstance(found, type) else type(found)
-        if found is not None and source_hash(kind) != source:
-            self.changed.append(home)
-        return found
+        except Exception as error:
+            raise InputError(f"'{home}' cannot be made of {sorted(values)}: {error}") from error
 
 
 def _class(home: str) -> Any:

@@ -62,10 +62,17 @@ BESIDE = 1e-3
 
 
 NO_MAP = (
-    *("impacts", "first_step", "fine", "pushes", "push", "pushed_step", "ground_step", "engine"),
-    *("start", "start_speed", "start_speed_spread", "start_spread", "start_rate_spread"),
+    "run.impacts",
+    "run.first_step",
+    "run.fine",
+    "run.engine",
+    "pushes",
+    "ground.drop",
+    "start",
 )
-"""Fields of a scenario that have no effect on a return map."""
+"""Values and records of a scenario that have no effect on a return map."""
+FIXED = ("run.method", "run.h", "run.tolerance", "run.runaway_speed")
+"""The same of a robot without motors."""
 
 
 @dataclass(frozen=True)
@@ -91,7 +98,7 @@ def gait_cycle(s: Scenario, observer_states: bool = True, slope: float | None = 
     walker = cycle.P.walker if slope is None else replace(cycle.P.walker, slope=slope)
     has_states = walker.split(Mode()) is not None
     method = default_method(walker) if has_states else RK4(5e-4)
-    if s.method is not None or s.h is not None:
+    if s.run.method is not None or s.run.h is not None:
         method = cycle.P.method
     difference = cycle.P.difference if has_states else DIFFERENCE
     return replace(cycle, P=replace(cycle.P, walker=walker, method=method, difference=difference))
@@ -102,7 +109,7 @@ def gait_map(s: Scenario, observer_states: bool = True) -> Cycle:
     orbit.
     """
     scene = RobotAndGait.of(s)
-    walker = build(replace(s, pushes=()), scene)
+    walker = build(s.replace(pushes=()), scene)
     q, v = scene.walked.q_minus, scene.walked.v_minus
     upright = math.pi * round(q[-1] / math.pi)  # a leg that stands is at pi
     P = ReturnMap(walker, method_of(s, walker), observer_states, pitch=upright)
@@ -127,9 +134,14 @@ def find_cycle(
     another ground. own: own values of the controller. Raises InputError for a controller that does not fit the
     robot, and as Biped.load, load_gait, known_cycle.
     """
-    s = Scenario(robot=robot, preset=preset, gait=gait, own=dict(own or {}))
-    usual = "NPD" if RobotAndGait.of(s).gait else "passive"
-    return cycle_of(replace(s, controller=controller or usual), observer_states, slope)
+    s = Scenario(
+        {"name": controller or "NPD", **(own or {})},
+        robot={"name": robot, "preset": preset},
+        gait=gait,
+    )
+    if controller is None and RobotAndGait.of(s).gait is None:
+        s = s.replace(controller="passive")
+    return cycle_of(s, observer_states, slope)
 
 
 def cycle_of(s: Scenario, observer_states: bool = True, slope: float | None = None) -> Cycle:
@@ -138,10 +150,10 @@ def cycle_of(s: Scenario, observer_states: bool = True, slope: float | None = No
     Raises as `find_cycle`, and InputError for values that have no effect on a return map.
     """
     scene = RobotAndGait.of(s)
-    without = NO_MAP if scene.gait else (*NO_MAP, "method", "h", "tolerance", "runaway_speed")
+    without = NO_MAP if scene.gait else (*NO_MAP, *FIXED)
     if slope is not None:
-        without = (*without, "slope")
-    useless = [name for name in s.record() if name in without]
+        without = (*without, "ground.slope")
+    useless = [name for name in s.dotted() if name.startswith(without)]
     if useless:
         on = "" if slope is None else f" on a slope of {slope:g} rad"
         raise InputError(
@@ -275,9 +287,9 @@ class PoincareResult(Shown):
 
 def poincare_twice(run: Scenario) -> PoincareResult:
     """As `poincare` at the step of the scenario (by default 1 ms), and once more at half of it."""
-    h = run.h or 1e-3
-    found = poincare(replace(run, h=h))
-    return replace(found, half=poincare(replace(run, h=0.5 * h)))
+    h = run.run.h or 1e-3
+    found = poincare(run.replace(run={"h": h}))
+    return replace(found, half=poincare(run.replace(run={"h": 0.5 * h})))
 
 
 def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
@@ -285,14 +297,15 @@ def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
 
     with_states: whether the controller's states belong to the state of the return map.
     """
-    cycle = gait_map(replace(run, h=run.h or 1e-3, method=None), with_states)
+    cycle = gait_map(run.replace(run={"h": run.run.h or 1e-3, "method": None}), with_states)
     P, guess = cycle.P, cycle.guess
     scene = RobotAndGait.of(run)
     biped, gait = scene.biped, scene.walked
     # an observer in continuous time settles to about 1e-8 between impacts, so the residual may too
     orbit = P.fixed_point(guess if with_states else guess[: 2 * biped.n])
     delta2 = ZeroDynamics.of(biped, gait.constraint).delta ** 2
-    return PoincareResult(run.controller, biped.preset, run.reset, with_states, orbit, delta2)
+    law = run.controller
+    return PoincareResult(law.name, biped.preset, law.observer.reset, with_states, orbit, delta2)
 
 
 def regression_of(outcome: Outcome) -> Regression:

@@ -20,8 +20,8 @@ from biped_adrc.errors import InputError
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, soft_loop, start
 from biped_adrc.scenario.registry import find, is_own, source_hash
 from biped_adrc.scenario.run import method_of
-from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.study.parameters import OWN, PLANT, SUFFIXES
+from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario
+from biped_adrc.study.parameters import PLANT, SUFFIXES, field_of
 
 
 def versions_of(values: Iterable[tuple[str, object]]) -> dict[str, str]:
@@ -34,10 +34,11 @@ def versions_of(values: Iterable[tuple[str, object]]) -> dict[str, str]:
         for path in files_of(name, x):
             text = path.read_bytes() if os.path.isfile(path) else b""
             found[f"file {path}"] = hashlib.sha256(text).hexdigest()[:12]
-        if name in OWN and is_own(str(x)):
-            found[f"source {x}"] = source_hash(find(OWN[name], str(x)).load())
+        kind = field_of(name).kind
+        if kind and is_own(str(x)):
+            found[f"source {x}"] = source_hash(find(kind, str(x)).load())
         if name == PLANT:
-            version = getattr(find(PLANT, str(x)).load(), "engine_version", None)
+            version = getattr(find(kind, str(x)).load(), "engine_version", None)
             found |= {} if version is None else {f"engine of {x}": str(version())}
     return dict(sorted(found.items()))
 
@@ -47,7 +48,7 @@ def files_of(name: str, value: object) -> tuple[Path, ...]:
     if not isinstance(value, str) or Path(value).suffix != SUFFIXES.get(name):
         return ()
     path = Path(value)
-    if name != "robot" or not os.path.isfile(path):
+    if name != "robot.name" or not os.path.isfile(path):
         return (path,)
     try:
         return path, path.parent / tomllib.loads(path.read_text(encoding="utf-8"))["urdf"]
@@ -64,19 +65,16 @@ def scene_of(s: Scenario) -> RobotAndGait:
 
     Raises InputError where there is none.
     """
-    paths = (*files_of("robot", s.robot), *files_of("gait", s.gait))
+    paths = (*files_of("robot.name", s.robot.name), *files_of("gait.name", s.gait.name))
     there = [(str(path), path.stat()) for path in paths if os.path.isfile(path)]
     stamp = tuple((path, found.st_mtime_ns, found.st_size) for path, found in there)
-    return _scene(s.robot, s.preset, s.gait, s.friction, s.continued, stamp)
+    return _scene(s.robot, s.gait, s.hardware.friction, stamp)
 
 
 @lru_cache(maxsize=16)
-def _scene(
-    robot: str, preset: str | None, gait: str, friction: bool, continued: bool, stamp: Stamp
-) -> RobotAndGait:
-    """The cached part of `scene_of`: the fields that robot and gait depend on, and the stamp of their files."""
-    alone = Scenario(robot=robot, preset=preset, gait=gait, friction=friction, continued=continued)
-    return RobotAndGait.of(alone)
+def _scene(robot: RobotRecord, gait: GaitRecord, friction: bool, stamp: Stamp) -> RobotAndGait:
+    """The cached part of `scene_of`: the values that robot and gait depend on, and the stamp of their files."""
+    return RobotAndGait.of(Scenario(robot=robot, gait=gait, hardware={"friction": friction}))
 
 
 def case(s: Scenario) -> Case:
@@ -85,21 +83,21 @@ def case(s: Scenario) -> Case:
     Raises InputError for values that do not fit together, or that a study cannot use: continuous time, fine
     steps besides, another engine.
     """
-    if s.period is None or s.fine is not None:
-        what = "has no period" if s.period is None else f"has fine = {s.fine:g} s"
+    if s.hardware.period is None or s.run.fine is not None:
+        what = "has no period" if s.run.fine is None else f"has run.fine = {s.run.fine:g} s"
         raise InputError(
             f"the scenario {what}; a study walks in sampled time, with one step: expected a period [s], "
             "such as 1 ms, and no fine step"
         )
-    if s.engine != COMPILED:
+    if s.run.engine != COMPILED:
         raise InputError(
-            f"a study walks on the engine '{COMPILED}'; leave out engine = '{s.engine}'"
+            f"a study walks on the engine '{COMPILED}'; leave out run.engine = '{s.run.engine}'"
         )
     scene = scene_of(s)
     q, v = start(s, scene)
     walker = build(s, scene)
-    if s.plant != RIGID:
+    if s.ground.plant != RIGID:
         soft_loop(s, walker)
-    mode = Mode(s.first_step)
-    curve = scene.walked.constraint if s.plant == RIGID else None
-    return Case(walker, q, v, method_of(s, walker), s.impacts, mode, curve)
+    mode = Mode(s.run.first_step)
+    curve = scene.walked.constraint if s.ground.plant == RIGID else None
+    return Case(walker, q, v, method_of(s, walker), s.run.impacts, mode, curve)

@@ -18,7 +18,8 @@ from pathlib import Path
 from typing import Any
 
 from biped_adrc.errors import InputError
-from biped_adrc.study.parameters import SEED, Values, scenario_of, write_scenario
+from biped_adrc.scenario.file import write_scenario
+from biped_adrc.study.parameters import SEED, Values, scenario_of
 from biped_adrc.study.proposals import optuna_library, searched
 from biped_adrc.study.results import BEFORE, CANDIDATE, CHOSEN, SET, SETTING, Choice, Results
 from biped_adrc.study.runner import Crew, Function, Progress, Runner

@@ -53,7 +53,7 @@ def run_trial(record: Record) -> WalkRow:
         s = scenario_of(record)
         with _PREPARING:
             made = case(s)
-            run = None if s.plant != RIGID else run_case(made)
+            run = None if s.ground.plant != RIGID else run_case(made)
         if run is None:
             return _row(_recorded(s, made))
     except BipedError as error:

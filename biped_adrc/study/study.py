@@ -269,9 +269,7 @@ def _problem(error: Any) -> str:
             for of in (Study, Search, WalkSets, Variable, Objective, Limit)
             for n in of.model_fields
         }
-        return (
-            f"{place}: {unknown(str(error['loc'][-1]), sorted(known)).replace('parameter', 'key')}"
-        )
+        return f"{place}: {unknown(str(error['loc'][-1]), sorted(known)).replace('name;', 'key;')}"
     text = error["msg"].removeprefix("Value error, ")
     if text.startswith("Input should"):
         text = f"found {error['input']!r}, {text.replace('Input should', 'should')}"

@@ -24,13 +24,14 @@ class Damping(ContactWindow):
 
 ba.register("contact", "damping", Damping, "the joints are damped while contact settles")
 
-walks = {"period": 1e-3, "torque_limit": 150.0, "impacts": 3}
+walks = {"hardware": {"period": 1e-3, "torque_limit": 150.0}, "run": {"impacts": 3}}
+short = {"name": "damping", "window": 5e-3}
 for name, policy in (
     ("NPD", {}),
-    ("5 N m s/rad", {"contact": "damping", "contact_window": 5e-3}),
-    ("no torque", {"contact": "damping", "contact_window": 5e-3, "own": {"damping": 0.0}}),
+    ("5 N m s/rad", short),
+    ("no torque", {**short, "damping": 0.0}),
 ):
-    walk = ba.walk_scenario(ba.Scenario("NPD", **walks, **policy))
+    walk = ba.walk_scenario(ba.Scenario({"name": "NPD", "contact": policy}, **walks))
     print(f"{name:12s} largest error {1e3 * walk.signals.peak_error:.2f} mrad")
 
-# It does not pay. To try: plant="mujoco", time_constant=0.01, and controller LESO.
+# It does not pay. To try: ground={"plant": "mujoco", "time_constant": 0.01}, and controller LESO.

@@ -204,9 +204,10 @@ def test_what_does_not_fit_is_refused(biped, gait, h):
         lambda: ImpactInvariant(PDGravityController(h)),
         lambda: Hold(ba.NPDController(h), -0.01),
         lambda: Hold(h),
-        lambda: build(ba.Scenario("LESO", contact="hold")),
-        lambda: build(ba.Scenario("LESO", contact_window=0.01, period=PERIOD)),
-        lambda: build(ba.Scenario("LESO", contact="hodl", period=PERIOD)),
+        lambda: build(ba.Scenario({"name": "LESO", "contact": {"name": "hold"}})),
+        lambda: build(
+            ba.Scenario({"name": "LESO", "contact": {"name": "hodl"}}, hardware={"period": PERIOD})
+        ),
     ):
         with pytest.raises(InputError):
             make()
@@ -218,9 +219,11 @@ def test_what_does_not_fit_is_refused(biped, gait, h):
 
 def test_a_scenario_names_the_policy():
     for name, policy in (("Hold", Hold), ("impact invariant", ImpactInvariant)):
-        s = ba.Scenario("LESO", contact=name, contact_window=0.02, period=PERIOD)
+        s = ba.Scenario(
+            {"name": "LESO", "contact": {"name": name, "window": 0.02}}, hardware={"period": PERIOD}
+        )
         made = build(s).controller
         assert (type(made), type(made.inner)) == (policy, ba.ADRCController)
         assert made.window == 0.02
-        assert build(replace(s, contact_window=None)).controller.window == 0.015
+        assert build(s.replace(controller={"contact": {"window": None}})).controller.window == 0.015
         assert ba.Scenario(**s.record()) == s

@@ -5,16 +5,29 @@ import pytest
 
 import biped_adrc as ba
 
-KIND = {"controller": "ADRC assisted", "gait": "v0.5", "impacts": 2, "engine": "compiled"}
+KIND = {
+    "controller.name": "ADRC assisted",
+    "gait.name": "v0.5",
+    "run.impacts": 2,
+    "run.engine": "compiled",
+}
 
 
 @pytest.mark.parametrize("order", [0, 1])
 def test_on_the_exact_model_it_walks_as_npd(order):
     """In continuous time nothing is left for the observer, so both walks are one to integration accuracy."""
-    steps = {"method": "rk4", "h": 5e-4, "impacts": 2, "gait": "v0.5", "start_speed": 0.02}
+    steps = {
+        "run.method": "rk4",
+        "run.h": 5e-4,
+        "run.impacts": 2,
+        "gait.name": "v0.5",
+        "start.speed": 0.02,
+    }
     npd = ba.walk_scenario(ba.Scenario("NPD", **steps)).trajectory
     told = ba.walk_scenario(
-        ba.Scenario("ADRC assisted", order=order, bandwidth=200.0, **steps)
+        ba.Scenario(
+            {"name": "ADRC assisted", "observer": {"order": order, "bandwidth": 200.0}}, **steps
+        )
     ).trajectory
     n = 10
     assert np.max(np.abs(told.final_state[:n] - npd.final_state[:n])) < 1e-8
@@ -22,7 +35,12 @@ def test_on_the_exact_model_it_walks_as_npd(order):
 
 def test_the_estimate_is_the_whole_disturbance():
     """Under a torque that stays, xi^ of m = 1 is near xi of the plant, where the model alone is not."""
-    s = ba.Scenario(**KIND, bandwidth=300.0, pushes="q1,q2,q3,q4=10@1:0-9", period=1e-3)
+    s = ba.Scenario(
+        {"observer": {"bandwidth": 300.0}},
+        pushes="q1,q2,q3,q4=10@1:0-9",
+        hardware={"period": 1e-3},
+        **KIND,
+    )
     found = ba.walk_scenario(s).signals
     settled = (found.t > 0.2) & (found.t < 0.3)
     missed = np.abs(found.xi_estimate - found.xi)[settled]
@@ -31,10 +49,15 @@ def test_the_estimate_is_the_whole_disturbance():
 
 
 def test_an_order_takes_the_steady_error_away():
-    s = {**KIND, "pushes": "q1,q2,q3,q4=10@1:0-9", "period": 1e-3, "bandwidth": 300.0}
+    s = {
+        **KIND,
+        "pushes": "q1,q2,q3,q4=10@1:0-9",
+        "hardware.period": 1e-3,
+        "controller.observer.bandwidth": 300.0,
+    }
 
     def settled(order):
-        found = ba.walk_scenario(ba.Scenario(**s, order=order)).signals
+        found = ba.walk_scenario(ba.Scenario({"observer": {"order": order}}, **s)).signals
         return np.max(np.abs(found.error[(found.t > 0.2) & (found.t < 0.3)]))
 
     assert settled(1) < 0.1 * settled(0)

@@ -20,7 +20,6 @@ from biped_adrc.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.model.pinned import frame_index
 from biped_adrc.scenario.build import RobotAndGait, disturbances
 from biped_adrc.scenario.disturbances import window
-from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.registry import find
 from biped_adrc.scenario.scenario import Scenario
 
@@ -31,7 +30,7 @@ PULSE = ba.TorquePulse(F, step=1, start=0.1, stop=0.2)
 def single_push(s):
     """The disturbance of a scenario's own push."""
     scene = RobotAndGait.of(s)
-    return disturbances(s, scene.biped, scene.walked, scene.biped)
+    return disturbances(s, scene.biped, scene.walked.period, scene.biped)
 
 
 def links(biped):
@@ -280,12 +279,22 @@ def test_a_sine_is_its_amplitude_after_a_quarter_of_its_period(biped):
     amplitude, rest = np.array([3.0, 0.0, 0.0, 0.0, 0.0]), np.zeros(5)
     made = (
         ba.TorqueSine(amplitude, 4, 0.1, 0.9, 2.0),
-        Push({"q1": 3.0}, 4, 0.1, 0.9, "sine", 2.0).disturbance(biped),
         single_push(
-            Scenario(push="sine", on="q1", amplitude=3.0, frequency=2.0, onset=0.1, pushed_step=1)
+            Scenario(
+                pushes=[
+                    {
+                        "shape": "sine",
+                        "joints": "q1",
+                        "torque": 3.0,
+                        "frequency": 2.0,
+                        "onset": 0.1,
+                        "step": 1,
+                    }
+                ]
+            )
         ),
     )
-    for one, (step, begin) in zip(made, ((4, 0.0), (4, 0.0), (1, 0.0)), strict=True):
+    for one, (step, begin) in zip(made, ((4, 0.0), (1, 0.0)), strict=True):
         for s, share in ((0.1, 0.0), (0.225, 1.0), (0.35 - 1e-12, 0.0), (0.475, -1.0)):
             zeta = one.zeta(begin + s, step, begin, rest, rest)
             if s <= one.stop:
@@ -294,8 +303,11 @@ def test_a_sine_is_its_amplitude_after_a_quarter_of_its_period(biped):
 
 @pytest.mark.parametrize("kind", ["sine", "noise"])
 def test_a_push_that_goes_on_over_impacts_begins_with_its_single_support(gait, kind):
-    s = Scenario(push=kind, amplitude=3.0, on="q1", onset=0.1, pushed_step=4, first_step=2)
-    when = window(s, gait)
+    s = Scenario(
+        pushes=[{"shape": kind, "torque": 3.0, "joints": "q1", "onset": 0.1, "step": 4}],
+        run={"first_step": 2},
+    )
+    when = window(s, 0, gait.period)
     begin = 2.0 * gait.period if find("disturbance", kind).over_steps else 0.0
     assert (when["start"], when["stop"]) == pytest.approx((begin + 0.1, begin + 0.3))
 

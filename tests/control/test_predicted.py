@@ -121,10 +121,20 @@ def test_torques_on_their_way_are_relabelled_at_an_impact_and_move_up_at_a_tick(
 
 
 def test_both_engines_walk_alike_with_all_leaves(gait):
-    shared = {"hardware": "rabbit", "delay": 2e-3, "prediction": 2e-3, "feedforward": 0.9}
-    shared |= {"contact": "hold", "impacts": 2, "bandwidth": 150.0, "filter_time": 5e-3}
+    shared = {
+        "hardware.profile": "rabbit",
+        "hardware.delay": 2e-3,
+        "controller.prediction": 2e-3,
+        "controller.feedforward": 0.9,
+    }
+    shared |= {
+        "controller.contact.name": "hold",
+        "run.impacts": 2,
+        "controller.observer.bandwidth": 150.0,
+        "hardware.encoders.filter_time": 5e-3,
+    }
     walks = [
-        ba.walk_scenario(ba.Scenario("LESO", **shared, engine=engine)).trajectory
+        ba.walk_scenario(ba.Scenario("LESO", run={"engine": engine}, **shared)).trajectory
         for engine in ("compiled", "pinocchio")
     ]
     assert [walk.settings["engine"] for walk in walks] == ["compiled", "pinocchio"]
@@ -161,17 +171,30 @@ def test_what_does_not_fit_is_refused(gait):
         lambda: Predicted(inner, 0.2).sampled(T),
         lambda: Predicted(inner, T).continuous(),
         lambda: Predicted(inner, T).output(np.zeros(2), looked(0.0, np.zeros(2), np.zeros(2))),
-        lambda: ba.Scenario("NPD", period=T, delay=T, delay_known=True, prediction=T),
-        lambda: ba.Scenario("NPD", prediction=T),
+        lambda: ba.Scenario(
+            {"name": "NPD", "prediction": T},
+            hardware={"period": T, "delay": T, "delay_known": True},
+        ),
+        lambda: ba.Scenario({"name": "NPD", "prediction": T}),
     ):
         with pytest.raises(InputError):
             wrong()
 
 
 def test_no_prediction_is_the_controller_itself_and_both_leaves_go_around_the_policies():
-    s = ba.Scenario("LESO", hardware="rabbit", contact="hold", prediction=T, feedforward=0.5)
+    s = ba.Scenario(
+        {"name": "LESO", "contact": {"name": "hold"}, "prediction": T, "feedforward": 0.5},
+        hardware="rabbit",
+    )
     outer = build(s).controller
     assert (type(outer), outer.share) == (FrictionFeedforward, 0.5)
     assert (type(outer.inner), outer.inner.prediction) == (Predicted, T)
     assert type(outer.inner.inner) is Hold
-    assert type(build(ba.Scenario("NPD", period=T, prediction=0.0)).controller) is ba.NPDController
+    assert (
+        type(
+            build(
+                ba.Scenario({"name": "NPD", "prediction": 0.0}, hardware={"period": T})
+            ).controller
+        )
+        is ba.NPDController
+    )

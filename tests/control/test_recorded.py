@@ -58,13 +58,19 @@ def test_bad_recordings(biped, text, message):
 
 def test_by_name_and_without_its_file(biped):
     file = str(written("t,q1\n0,0\n0.1,20\n0.3,0\n"))
-    named = {"push": "recorded", "pushed_step": 1, "onset": 0.05, "impacts": 1}
-    walk = ba.walk_scenario(ba.Scenario("NPD", own={"file": file}, **named))
+    named = {
+        "pushes.0.shape": "recorded",
+        "pushes.0.step": 1,
+        "pushes.0.onset": 0.05,
+        "run.impacts": 1,
+    }
+    walk = ba.walk_scenario(ba.Scenario("NPD", **{"pushes.0.file": file, **named}))
     assert walk.walker.disturbance.switches == ((0, 0.05), (0, 0.35))
-    for idle in ({"amplitude": 30.0}, {"duration": 0.1}, {"on": "q1"}, {"direction": 0.5}):
-        with pytest.raises(InputError, match=f"'recorded' on .* takes no {next(iter(idle))}"):
-            ba.walk_scenario(ba.Scenario("NPD", own={"file": file}, **named, **idle))
+    with pytest.raises(InputError, match=r"pushes\.0\.torque: the push 'recorded' takes no torque"):
+        ba.walk_scenario(
+            ba.Scenario("NPD", **{"pushes.0.file": file, "pushes.0.torque": 3.0, **named})
+        )
     with pytest.raises(ba.BipedError, match="needs file"):
         ba.walk_scenario(ba.Scenario("NPD", **named))
     with pytest.raises(ba.BipedError, match=r"gone\.csv' not found"):
-        ba.walk_scenario(ba.Scenario("NPD", own={"file": "gone.csv"}, **named))
+        ba.walk_scenario(ba.Scenario("NPD", **{"pushes.0.file": "gone.csv", **named}))

@@ -49,21 +49,23 @@ class Recorder(Loaded):
 
 PUSH = "q1,q2=20@1:0.1-0.3"
 SCENARIOS = {
-    "NPD": ba.Scenario("NPD", hardware="ideal", impacts=2, pushes=PUSH),
-    "on a robot": ba.Scenario(  # on a free-running clock: touchdowns are noticed at sample instants
-        "LESO",
-        hardware="rabbit",
-        counts=1e5,
-        filter_time=1e-3,
-        delay=2e-3,
-        delay_known=True,
-        rate_limit=3e4,
-        bandwidth=100.0,
-        contact="hold",
-        contact_window=0.015,
-        touchdown="kinematics",
+    "NPD": ba.Scenario("NPD", hardware="ideal", run={"impacts": 2}, pushes=PUSH),
+    "on a robot": ba.Scenario(
+        {
+            "name": "LESO",
+            "observer": {"bandwidth": 100.0},
+            "contact": {"name": "hold", "window": 0.015},
+        },
+        hardware={
+            "profile": "rabbit",
+            "encoders": {"counts": 1e5, "filter_time": 1e-3},
+            "delay": 2e-3,
+            "delay_known": True,
+            "rate_limit": 3e4,
+            "touchdown": {"name": "kinematics"},
+        },
         pushes=PUSH,
-        impacts=3,
+        run={"impacts": 3},
     ),
 }
 

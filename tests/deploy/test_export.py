@@ -66,7 +66,7 @@ def test_no_difference_is_taken_over_a_sample_that_is_not_measured():
 
 
 def test_a_walk_that_runs_away_ends_as_that_of_python():
-    scenario = ba.Scenario("NPD", period=1e-3, delay=2e-2, impacts=1)
+    scenario = ba.Scenario("NPD", hardware={"period": 1e-3, "delay": 2e-2}, run={"impacts": 1})
     controller = ba.ExportedController(source_of(Computer(build(scenario))))
     here = ba.walk_scenario(scenario).trajectory
     there = ba.walk_scenario(scenario, controller=controller).trajectory
@@ -156,7 +156,7 @@ def test_a_folder_with_other_files_is_left_alone(tmp_path):
 
 @pytest.mark.parametrize(("name", "grows"), [("ADRC", True), ("NPD", False)])
 def test_the_growth_is_that_of_two_controllers_beside_one_motion(name, grows, gait, biped):
-    computer = Computer(build(ba.Scenario(name, period=1e-3)))
+    computer = Computer(build(ba.Scenario(name, hardware={"period": 1e-3})))
     law, (q, v) = computer.alone.law, gait.start(biped)
     m = computer.alone.measure(0.0, q, v, ba.Mode())
     states, apart = [law.initial_state(m), law.initial_state(m)], []

@@ -1,7 +1,5 @@
 """Walks as environments of Gymnasium: the interface, and that they are the walks of their scenarios."""
 
-from dataclasses import replace
-
 import gymnasium
 import numpy as np
 import pytest
@@ -11,7 +9,7 @@ import biped_adrc as ba
 from biped_adrc.errors import InputError
 
 ID = "biped_adrc.gym:biped_adrc/Walk-v0"
-SLOW = {"bandwidth": 160.0, "order": 1}
+SLOW = {"controller.observer.bandwidth": 160.0, "controller.observer.order": 1}
 
 
 def made(**values):
@@ -34,7 +32,7 @@ def state(env):
 
 @pytest.mark.parametrize(
     "values",
-    [{}, {"action": "added", "condition": "push on joints", **SLOW}, {"plant": "mujoco"}],
+    [{}, {"action": "added", "condition": "push on joints", **SLOW}, {"ground.plant": "mujoco"}],
     ids=["torques", "added", "mujoco"],
 )
 def test_gymnasium_finds_no_fault(values):
@@ -47,10 +45,10 @@ CASES = {
     "a touchdown to be noticed": {
         "condition": "uneven ground",
         "controller": "NPD",
-        "touchdown": "told",
-        "delay": 0.0015,
+        "hardware.touchdown": "told",
+        "hardware.delay": 0.0015,
     },
-    "MuJoCo": {"plant": "mujoco", "period": 7e-4, **SLOW},  # sums of 0.7 ms round
+    "MuJoCo": {"ground.plant": "mujoco", "hardware.period": 7e-4, **SLOW},  # sums of 0.7 ms round
 }
 
 
@@ -61,7 +59,7 @@ def test_nothing_added_is_the_scenarios_own_walk_bit_for_bit(name):
     *_, infos = walked(env, 3, 80 if slow else 480)
     t, step = infos[-1]["t"], infos[-1]["step"]
     assert step == (1 if slow else 2)
-    s = replace(env.unwrapped.stage.task.scenario, seed=3, impacts=3)
+    s = env.unwrapped.stage.task.scenario.replace(run={"seed": 3, "impacts": 3})
     arc = ba.walk_scenario(s).trajectory.arcs[step - 1]
     row = int(np.searchsorted(arc.t, t))
     assert arc.t[row] == t
@@ -69,7 +67,7 @@ def test_nothing_added_is_the_scenarios_own_walk_bit_for_bit(name):
 
 
 def test_a_torque_is_the_share_of_the_limit_and_acts_over_the_sample():
-    env = made(start_speed_spread=0.0)
+    env = made(start={"speed_spread": 0.0})
     q, v = env.unwrapped.stage.scene.on_orbit
     action = np.array([0.2, -0.1, 0.3, 0.05])
     env.reset(seed=0)
@@ -89,7 +87,7 @@ def test_a_torque_is_the_share_of_the_limit_and_acts_over_the_sample():
 
 
 ADDED = [
-    {"action": "added", "controller": "NPD", "plant": "mujoco"},
+    {"action": "added", "controller": "NPD", "ground": "mujoco"},
     {"action": "added", "controller": "CLF-QP"},
 ]
 
@@ -108,7 +106,7 @@ def test_an_addition_is_added(values):
 def test_observation_and_reward_are_those_of_the_walks_signals():
     env = made(action="added", condition="push on joints", tracking=3.0, effort=2e-4, **SLOW)
     rows = walked(env, 5, 460)
-    s = replace(env.unwrapped.stage.task.scenario, seed=5, impacts=3)
+    s = env.unwrapped.stage.task.scenario.replace(run={"seed": 5, "impacts": 3})
     signals = ba.walk_scenario(s).signals
     for k in (200, 450):
         observation, reward, info = rows[0][k], rows[1][k], rows[4][k]
@@ -129,7 +127,7 @@ def test_a_fall_terminates_and_time_truncates():
     assert (rows[2][-1], rows[3][-1]) == (True, False)
     assert infos[-1]["status"] == "fell"
     assert rows[1][-1] < rows[1][-2] - 0.9  # the last sample is not paid for being alive
-    for limit, value in (("seconds", 0.1), ("impacts", 1)):
+    for limit, value in (("seconds", 0.1), ("run.impacts", 1)):
         rows = walked(made(action="added", **{limit: value}, **SLOW), 1, 2000)
         assert (rows[2][-1], rows[3][-1]) == (False, True)
     assert rows[4][-1]["step"] == 2
@@ -139,11 +137,17 @@ def test_a_fall_terminates_and_time_truncates():
 @pytest.mark.parametrize("push", [0.0, 60.0])
 def test_feasibility_is_that_of_the_walk(push):
     """As the certificate of the walk has it, which goes by the same nodes."""
-    pushed = {"push": "pulse", "on": "-q5", "amplitude": push, "pushed_step": 1, "onset": 0.1}
-    given = {"controller": "NPD", "impacts": 2, "start_speed_spread": 0.0}
+    pushed = {
+        "pushes.0.shape": "pulse",
+        "pushes.0.joints": "-q5",
+        "pushes.0.torque": push,
+        "pushes.0.step": 1,
+        "pushes.0.onset": 0.1,
+    }
+    given = {"controller.name": "NPD", "run.impacts": 2, "start.speed_spread": 0.0}
     env = made(action="added", **given, **(pushed if push else {}))
     info = walked(env, 0, 2000)[4][-1]
-    found = ba.walk_scenario(replace(env.unwrapped.stage.task.scenario, seed=0)).outcome.feasibility
+    found = ba.walk_scenario(env.unwrapped.stage.task.scenario).outcome.feasibility
     assert info["feasible"] is (not found.reasons) is (push == 0.0)
     assert info["friction"] == pytest.approx(found.mean_friction, rel=1e-9)
     assert info["normal_force"] == pytest.approx(found.mean_normal_force, rel=1e-9)
@@ -164,10 +168,10 @@ def test_seeds():
 
 WRONG = (
     {"condition": "windy"},
-    {"condition": "wrong impact", "plant": "mujoco"},
+    {"condition": "wrong impact", "ground": "mujoco"},
     {"gate": 3},
     {"action": "wishes"},
-    {"period": None},
+    {"hardware.period": None},
     {"controller": "NPD"},
     {"seconds": 0.0},
     {"scenario": ba.Scenario(), "condition": "delay"},
@@ -189,5 +193,5 @@ def test_what_is_no_action_is_refused():
         with pytest.raises(InputError):
             env.step(action)
     with pytest.raises(InputError, match="expected none"):
-        env.reset(options={"amplitude": 3.0})
+        env.reset(options={"pushes.0.torque": 3.0})
     assert env.step(np.zeros(4))[4]["t"] == 0.001  # and the walk goes on

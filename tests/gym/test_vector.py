@@ -18,13 +18,13 @@ def made(count, **values):
     "values",
     [
         {"condition": "RABBIT pushed", "seconds": 0.5},
-        {"plant": "mujoco", "seconds": 0.04},
+        {"ground": "mujoco", "seconds": 0.04},
     ],
     ids=["rigid", "mujoco"],
 )
 def test_each_walk_is_that_of_one_environment_bit_for_bit(values):
     """Until after falls and time limits, by NEXT_STEP: what ends begins anew at the step after."""
-    count, samples = 3, 60 if "plant" in values else 450
+    count, samples = 3, 60 if "ground" in values else 450
     envs, single = made(count, **values), [gymnasium.make(ID, **values) for _ in range(count)]
     assert isinstance(envs, VectorEnv)
     assert envs.metadata["autoreset_mode"] is AutoresetMode.NEXT_STEP

@@ -14,9 +14,9 @@ PULSE = "q1,q2=20@2:0.1-0.3"
 
 @cache
 def walk_of(**values):
-    """A walk of three steps under the pulse; own values are pairs."""
-    values = {"controller": "NPD", "impacts": 3, "pushes": PULSE, **values}
-    return ba.walk_scenario(ba.Scenario(**{**values, "own": dict(values.get("own", ()))}))
+    """A walk of three steps under the pulse."""
+    values = {"controller.name": "NPD", "run.impacts": 3, "pushes": PULSE, **values}
+    return ba.walk_scenario(ba.Scenario(**values))
 
 
 @pytest.fixture(scope="session")
@@ -28,4 +28,4 @@ def walked():
 @pytest.fixture(scope="session")
 def log(walked):
     """Of a walk with exact angles and rates, at 1 kHz."""
-    return ba.logged(walked(period=1e-3))
+    return ba.logged(walked(hardware="ideal"))

@@ -117,7 +117,7 @@ DAMAGE = {
     "back": (lambda x: [*x[:5], x[2], *x[5:]], "line 6 .* 0.002 s before the row before"),
     "nan": (put(3, "q2", "nan"), "line 4, column 'q2 \\[rad\\]': found 'nan'"),
     "no unit": (put(0, "q1", "q1"), "column 'q1' has no unit, .* 'q1 \\[rad\\]'"),
-    "unknown unit": (put(0, "u1", "u1 [Nm]"), "column 'u1 \\[Nm\\]': the unit 'Nm' is not known"),
+    "unknown unit": (put(0, "u1", "u1 [Nn]"), "column 'u1 \\[Nn\\]': the unit 'Nn' is not known"),
     "degrees": (scaled("q1", 57.3), "line 2 has q1 = .* call it 'q1 \\[deg\\]'"),
     "rates in degrees": (scaled("v3", 57.3), "q3 changes by 0.0175 times what v3 says"),
     "a rate that rests": (scaled("v3", 0.0), "q3 changes by inf times what v3 says"),

@@ -11,8 +11,8 @@ from scipy.signal import cont2discrete, dlsim
 import biped_adrc as ba
 from biped_adrc.errors import InputError
 
-LESO = {"controller": "LESO", "bandwidth": 160.0}
-RABBIT = {"hardware": "rabbit", "filter_time": 5e-3}
+LESO = {"controller.name": "LESO", "controller.observer.bandwidth": 160.0}
+RABBIT = {"hardware.profile": "rabbit", "hardware.encoders.filter_time": 5e-3}
 ROUND_OFF = 1e-9
 """[N m] of the two engines, through these observers."""
 
@@ -25,11 +25,11 @@ def asked(walk, log=None):
 @pytest.mark.parametrize(
     "values",
     [
-        {"controller": "NPD", "period": 1e-3},
+        {"controller.name": "NPD", "hardware.period": 1e-3},
         {**LESO, **RABBIT},
-        {**LESO, "period": 1e-3, "touchdown": "kinematics"},
-        {"controller": "DOB", "period": 1e-3},
-        {**LESO, "hardware": "rabbit", "plant": "mujoco"},
+        {**LESO, "hardware.period": 1e-3, "hardware.touchdown.name": "kinematics"},
+        {"controller.name": "DOB", "hardware.period": 1e-3},
+        {**LESO, "hardware.profile": "rabbit", "ground.plant": "mujoco"},
     ],
     ids=lambda values: "-".join(f"{x}" for x in values.values()),
 )
@@ -43,7 +43,12 @@ def test_the_torque_asked_for_is_the_one_that_the_walk_had(walked, values):
 
 
 def test_a_known_delay_of_one_period_moves_the_torques_by_one_row(walked):
-    x = asked(walked(**LESO, period=1e-3, delay=1e-3, delay_known=True))
+    x = asked(
+        walked(
+            **LESO,
+            **{"hardware.period": 1e-3, "hardware.delay": 1e-3, "hardware.delay_known": True},
+        )
+    )
     same = np.diff(x.step) == 0.0
     assert np.max(np.abs(x.torque[:-1] - x.u[1:])[same]) < ROUND_OFF
     assert np.max(np.abs(x.torque[:-1] - x.u[:-1])[same]) > 1.0
@@ -82,8 +87,10 @@ def missed(walk, controller, order, bandwidth, unit):
 
     unit: "N m", or "rad/s^2" for an observer that filters kappa zeta.
     """
-    period = walk.scenario.period
-    x = ba.replay(ba.logged(walk), ba.Scenario(controller, bandwidth=bandwidth)).signals
+    period = walk.scenario.hardware.period
+    x = ba.replay(
+        ba.logged(walk), ba.Scenario({"name": controller, "observer": {"bandwidth": bandwidth}})
+    ).signals
     found, true = x.zeta_estimate, pulse(x)
     if unit == "rad/s^2":
         model = walk.walker.nominal
@@ -100,7 +107,7 @@ def missed(walk, controller, order, bandwidth, unit):
 )
 def test_the_estimate_is_the_pulse_behind_the_observers_own_lag(walked, controller, order, unit):
     """(w / (s + w))^2 with the two poles of the momentum observer, ^3 with m = 1: late by order / w."""
-    walks = [walked(period=T, impacts=2) for T in (4e-3, 2e-3, 1e-3)]
+    walks = [walked(**{"hardware.period": T, "run.impacts": 2}) for T in (4e-3, 2e-3, 1e-3)]
     errors = [missed(walk, controller, order, 100.0, unit) for walk in walks]
     off, late = np.array(errors).T
     assert np.all(off < 0.1 * late)
@@ -108,7 +115,7 @@ def test_the_estimate_is_the_pulse_behind_the_observers_own_lag(walked, controll
 
 
 def test_the_estimate_converges_to_the_pulse_as_the_bandwidth_grows(walked):
-    walk = walked(period=1e-3, impacts=2)
+    walk = walked(**{"hardware.period": 1e-3, "run.impacts": 2})
     late = [missed(walk, "DOB", 2, w, "N m")[1] for w in (25.0, 50.0, 100.0)]
     # the rms of exp(-w t) after each of two edges goes with w^(-1/2)
     assert np.allclose(np.divide(late[:-1], late[1:]), np.sqrt(2.0), rtol=0.02)
@@ -116,7 +123,10 @@ def test_the_estimate_converges_to_the_pulse_as_the_bandwidth_grows(walked):
 
 def test_in_mujoco_the_pulse_is_found_beside_the_contact(walked):
     pytest.importorskip("mujoco")
-    soft, rigid = (walked(period=1e-3, impacts=2, plant=x) for x in ("mujoco", "rigid"))
+    soft, rigid = (
+        walked(**{"hardware.period": 1e-3, "run.impacts": 2, "ground.plant": x})
+        for x in ("mujoco", "rigid")
+    )
     found = ba.replay(ba.logged(soft), ba.Scenario("DOB"))
     x = found.signals
     rows = (x.step == 2) & (x.t_step > 0.15) & (x.t_step < 0.3)
@@ -153,14 +163,14 @@ def test_without_an_observer_nothing_is_estimated(log):
 
 def test_another_period_is_resampled_and_said(log):
     half = replace(log, t=log.t, remarks=())
-    found = ba.replay(half, ba.Scenario(**LESO, period=2e-3))
+    found = ba.replay(half, ba.Scenario(hardware={"period": 2e-3}, **LESO))
     first = found.log.step == 1
     rows = np.flatnonzero(log.step == 1)[::2]
     assert np.allclose(found.log.q[first], log.q[rows], atol=1e-12)
     pairs = 0.5 * (log.u[rows] + log.u[rows + 1])
     assert np.allclose(found.log.u[first][:-1], pairs[:-1], atol=1e-9)
     assert "resampled from 0.001 s to 0.002 s" in found.remarks[0]
-    assert ba.replay(half, ba.Scenario(**LESO, period=1e-3)).remarks == ()
+    assert ba.replay(half, ba.Scenario(hardware={"period": 1e-3}, **LESO)).remarks == ()
 
 
 @pytest.mark.parametrize(

@@ -2,32 +2,37 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.cli.options import scenario_from
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.scenario.build import RobotAndGait, build, plant_of, start
+from biped_adrc.scenario.file import read_scenario
 from biped_adrc.scenario.run import walk_scenario
-from biped_adrc.scenario.scenario import Scenario, drawn
+from biped_adrc.scenario.scenario import Scenario, drawn, field_of, names, scenario_of
+from biped_adrc.scenario.units import unit_of
 from biped_adrc.study.run import run_trial
 
 
 def drawn_start(seed: int, **values: object) -> np.ndarray:
-    s = Scenario(seed=seed, **{"start_speed_spread": 0.02, **values})
+    s = Scenario(run={"seed": seed}, **{"start.speed_spread": 0.02, **values})
     return np.concatenate(start(s, RobotAndGait.of(s)))
 
 
-@pytest.mark.parametrize("name", ["start_speed_spread", "start_spread", "start_rate_spread"])
+@pytest.mark.parametrize("name", ["start.speed_spread", "start.spread", "start.rate_spread"])
 def test_every_seed_has_its_own_start_which_all_controllers_share(name: str) -> None:
-    values = {"start_speed_spread": 0.0, name: 0.02}
+    values = {"start.speed_spread": 0.0, name: 0.02}
     starts = np.array([drawn_start(seed, **values) for seed in range(6)])
     assert len(np.unique(starts.round(12), axis=0)) == 6
     np.testing.assert_array_equal(drawn_start(3, controller="NPD", **values), starts[3])
 
 
 def test_the_speed_of_the_start_is_the_last_number_drawn() -> None:
-    s = Scenario(seed=3, start_speed=0.1, start_speed_spread=0.02)
+    s = Scenario(run={"seed": 3}, start={"speed": 0.1, "speed_spread": 0.02})
     scene = RobotAndGait.of(s)
     q, v = scene.on_orbit
     *_, last = np.random.default_rng(drawn(s, "start")).standard_normal(len(q) + len(v) + 1)
@@ -37,13 +42,14 @@ def test_the_speed_of_the_start_is_the_last_number_drawn() -> None:
 def test_the_load_of_the_trunk_is_a_share_of_its_mass() -> None:
     biped = ba.Biped.load("rabbit")
     torso = biped.tree.links[biped.description.trunk].inertial.mass
-    loaded = plant_of(Scenario(trunk_load=0.3), biped)
+    loaded = plant_of(Scenario(errors={"trunk_load": 0.3}), biped)
     assert loaded.mass - biped.mass == pytest.approx(0.3 * torso, rel=1e-12)
 
 
 def test_rabbit_s_hardware_is_what_was_published_for_it() -> None:
     s = Scenario(hardware="rabbit")
-    found = (s.period, s.counts, s.velocity, s.torque_limit, s.friction)
+    h = s.hardware
+    found = (h.period, h.encoders.counts, h.encoders.velocity, h.torque_limit, h.friction)
     assert found == (1.5e-3, 8192.0, "differences", 150.0, True)
     rubbing = RobotAndGait.of(s).biped.friction_torque(np.full(5, 0.3))
     assert np.all(rubbing[:4] < 0.0)
@@ -51,7 +57,12 @@ def test_rabbit_s_hardware_is_what_was_published_for_it() -> None:
 
 def test_the_columns_of_a_walk_are_means_over_ticks_and_joints() -> None:
     """By the stored nodes of the same walk, which lie on the ticks."""
-    values = {"controller": "NPD", "impacts": 2, "period": 1e-3, "start_speed": 0.05}
+    values = {
+        "controller.name": "NPD",
+        "run.impacts": 2,
+        "hardware.period": 1e-3,
+        "start.speed": 0.05,
+    }
     row = run_trial(values)
     s = Scenario(**values)
     walk, scene = walk_scenario(s), RobotAndGait.of(s)
@@ -72,22 +83,76 @@ def test_the_columns_of_a_walk_are_means_over_ticks_and_joints() -> None:
 @pytest.mark.parametrize(
     ("said", "idle", "with_effect"),
     [
-        (
-            "rate_noise with rates from differences",
-            {"period": 1e-3, "rate_noise": 1e-3, "velocity": "differences"},
-            {"velocity": "measured"},
-        ),
-        ("amplitude or force without a push", {"amplitude": 9.0}, {"push": "pulse"}),
-        ("a tolerance without the method adaptive", {"tolerance": 1e-8}, {"method": "adaptive"}),
+        ("hardware.delay", {"hardware.delay": 1e-3}, {"hardware.period": 1e-3}),
+        ("observer.order", {"controller.observer": {"poles": (-1, -2), "order": 0}}, None),
+        ("pushes.0.step", {"pushes": "q1=3@30:0-0.1"}, {"run.impacts": 30}),
     ],
 )
-def test_a_value_that_would_do_nothing_is_refused(
-    said: str, idle: dict[str, object], with_effect: dict[str, object]
-) -> None:
-    with pytest.raises(ValueError, match=said):
+def test_a_value_that_cannot_act_is_refused(said, idle, with_effect) -> None:
+    with pytest.raises(ba.BipedError, match=said):
         Scenario(**idle)
-    s = Scenario(**idle | with_effect)
-    assert Scenario(**s.record()) == s
+    if with_effect is not None:
+        s = Scenario(**idle | with_effect)
+        assert Scenario(**s.record()) == s
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "number"),
+    [
+        ("hardware.period", "1.5 ms", 0.0015),
+        ("controller.observer.bandwidth", "3 krad/s", 3000.0),
+        ("start.q5", "90 deg", math.pi / 2),
+        ("pushes.0.torque", "30 Nm", 30.0),
+        ("errors.mass.torso", "110 %", 1.1),
+        ("run.impacts", "8", 8),
+    ],
+)
+def test_a_number_may_have_a_unit_wherever_it_is_given(name, text, number, tmp_path) -> None:
+    by_text, by_number = scenario_of({name: text}), scenario_of({name: number})
+    assert by_text == by_number
+    assert by_text.dotted()[name] == pytest.approx(number, rel=1e-15)
+    file = tmp_path / "walk.toml"
+    file.write_text(f'{name} = "{text}"\n')
+    assert read_scenario(file) == by_text
+    assert scenario_from({}, [f"{name}={text}"]) == by_text
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        ({"bandwidth": 3.0}, "did you mean 'controller.observer.bandwidth'"),
+        ({"hardware": {"perod": 1e-3}}, "hardware.perod: .* 'hardware.period'"),
+        ({"hardware.period": "1 m"}, "'m' is another dimension, expected a unit such as 's'"),
+        ({"controller.K_p": -1.0}, "controller.K_p: found -1.0, should be greater than 0"),
+        ({"run.impacts": True}, "run.impacts: found True, expected a number"),
+        ({"pushes.0.shape": "puls"}, "pushes.0.shape: .*did you mean 'pulse'"),
+        ({"controller": {"observr": {"order": 1}}}, "controller.observr: unknown name"),
+        ({"start.q": 1.0}, "start.q: expected"),
+        ({"run.method": "rk5"}, "should be 'rk4'"),
+    ],
+)
+def test_what_is_wrong_is_named(values, message) -> None:
+    with pytest.raises(ba.BipedError, match=message):
+        Scenario(**values)
+
+
+def test_every_value_is_known_by_its_name() -> None:
+    for name in names():
+        what = field_of(name)
+        unit_of(what.unit)
+        assert what.text, name
+        if not name.startswith(("pushes", "controller.inner")):
+            assert scenario_of({name: what.default}) == Scenario()
+
+
+def test_a_gait_of_another_robot_is_refused_unless_it_is_asked_for(tmp_path) -> None:
+    gait = ba.load_gait("published", ba.Biped.load("rabbit"))
+    path = tmp_path / "gait.json"
+    gait.save(path)
+    s = Scenario(robot={"preset": "tac2003"}, gait=str(path))
+    with pytest.raises(ba.BipedError, match="made for robot 'rabbit', preset 'identified'"):
+        RobotAndGait.of(s)
+    assert RobotAndGait.of(s.replace({"gait.other_robot": True})).gait.preset == "identified"
 
 
 def test_a_class_and_its_name_have_the_same_settings() -> None:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
@@ -15,7 +13,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.scenario import registry
 from biped_adrc.scenario.build import build
 
-FAST = {"engine": "compiled", "impacts": 1, "hardware": "ideal"}
+FAST = {"run.engine": "compiled", "run.impacts": 1, "hardware.profile": "ideal"}
 
 
 def command(*arguments: str) -> str:
@@ -31,33 +29,37 @@ def peak(**values: object) -> float:
 def test_an_own_controller_walks_as_the_one_that_it_copies(own: str) -> None:
     usual = peak(controller="NPD")
     assert peak(controller=f"{own}:Mine") == pytest.approx(usual, rel=1e-6)
-    softer = peak(controller=f"{own}:Mine", own={"gain": 0.5})
-    assert softer == pytest.approx(peak(controller="NPD", K_p=2500.0, K_d=25.0), rel=1e-6)
+    softer = peak(controller={"name": f"{own}:Mine", "gain": 0.5})
+    assert softer == pytest.approx(
+        peak(controller={"name": "NPD", "K_p": 2500.0, "K_d": 25.0}), rel=1e-6
+    )
     assert softer > 1.2 * usual
 
 
 def test_on_the_command_line(own: str) -> None:
     name = f"{own}:Mine"
     done = command(
-        "simulate", "--controller", name, "--set", "gain=0.5", "--impacts", "1", "--engine",
-        "compiled", "--period", "0.001", "--set", "delay=1 ms", "-o", "mine.npz",
+        "simulate", "--controller", name, "--set", "controller.gain=0.5", "--impacts", "1", "--engine",
+        "compiled", "--period", "0.001", "--set", "hardware.delay=1 ms", "-o", "mine.npz",
     )  # fmt: skip
     assert "1 impacts" in done
-    record = json.loads(Path("mine.json").read_text())["settings"]["scenario"]
-    assert record["own"] == {"gain": 0.5}
-    assert record["delay"] == 1e-3
+    record = ba.load_walk("mine.npz").trajectory.settings["scenario"]
+    assert record["controller"]["gain"] == 0.5
+    assert record["hardware"]["delay"] == 1e-3
     leso = command(
         "simulate", "--controller", "leso", "--impacts", "1", "--engine", "compiled",
-        "--hardware", "ideal",
+        "--set", "hardware=ideal",
     )  # fmt: skip
     assert "1 impacts" in leso
 
 
 def test_an_observer_and_a_push_of_ones_own(own: str) -> None:
-    push = build(ba.Scenario(push=f"{own}:Shove", amplitude=3.0)).disturbance
+    push = build(ba.Scenario(pushes=[{"shape": f"{own}:Shove", "torque": 3.0}])).disturbance
     assert type(push).__name__ == "Shove"
     assert push.amplitude[0] == 3.0
-    seen = build(ba.Scenario(observer="high gain", own={"epsilon": 2e-3}, order=2)).controller
+    seen = build(
+        ba.Scenario({"observer": {"name": "high gain", "epsilon": 2e-3, "order": 2}})
+    ).controller
     assert (type(seen.observer).__name__, seen.observer.m) == ("HighGainObserver", 2)
 
 
@@ -70,11 +72,11 @@ def test_a_study_of_its_own_gain(own: str, tmp_path, monkeypatch, workers, name:
         ba.register("controller", name, registry.own("controller", f"{own}:Mine"))
     tables = {
         "name": "gains",
-        "base": {"controller": name or f"{own}:Mine", "impacts": 1},
-        "grid": {"own.gain": [0.5, 1.0]},
+        "base": {"controller.name": name or f"{own}:Mine", "run.impacts": 1},
+        "grid": {"controller.gain": [0.5, 1.0]},
     }
     low, high = ba.study(tables, tmp_path / "out", workers).rows()
-    assert (low["own.gain"], high["own.gain"]) == (0.5, 1.0)
+    assert (low["controller.gain"], high["controller.gain"]) == (0.5, 1.0)
     assert low["survived"] == high["survived"] == 1
     assert low["peak_error"] > 1.2 * high["peak_error"]
 
@@ -99,14 +101,26 @@ def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
         ({"controller": "nowhere_at_all.x:Mine"}, "no module 'nowhere_at_all'.*installed"),
         ({"controller": "OWN:Mien"}, "no class 'Mien'; it has .'Mine'"),
         ({"controller": "OWN:Lawless"}, "Lawless' has no method output"),
-        ({"controller": "OWN:Needy"}, "needs stiffness; give --set stiffness="),
-        ({"controller": "OWN:Mine", "own": {"gian": 1.0}}, "'gian'.*did you mean 'gain'"),
-        ({"controller": "OWN:Mine", "K_p": 3.0}, "takes no K_p: this would do nothing"),
-        ({"controller": "NPD", "bandwidth": 3.0}, "takes no bandwidth: this would do nothing"),
-        ({"lag": 1e-3}, "lag without a period: this would do nothing"),
-        ({"own": {"solve_theta": "no"}}, "'solve_theta'.*from solve_theta of the scenario"),
-        ({"push": "pulse", "own": {"step": 1}}, "'step'.*from pushed_step of the scenario"),
-        ({"controller": "CLF-QP", "solve_theta": False}, "takes no solve_theta"),
+        ({"controller": "OWN:Needy"}, "needs stiffness; give controller.stiffness"),
+        (
+            {"controller": "OWN:Mine", "controller.gian": 1.0},
+            "controller.gian.*did you mean 'gain'",
+        ),
+        (
+            {"controller.name": "OWN:Mine", "controller.K_p": 3.0},
+            "controller.K_p: .* does not take it",
+        ),
+        (
+            {"controller.name": "NPD", "controller.observer.bandwidth": 3.0},
+            "bandwidth: 'NPD' does not take it",
+        ),
+        ({"hardware.lag": 1e-3}, "hardware.lag: does nothing in continuous time"),
+        ({"pushes.0.gain": 1.0}, "pushes.0.gain: unknown name"),
+        ({"pushes.0.torque": 1.0, "pushes.0.step": 26}, "it cannot act"),
+        (
+            {"controller.name": "CLF-QP", "controller.solve_theta": False},
+            "solve_theta: 'CLF-QP' does not take it",
+        ),
     ],
 )
 def test_what_is_wrong_is_said(own: str, values: dict, message: str) -> None:
@@ -121,18 +135,24 @@ def test_what_is_made_of_the_scenarios_values() -> None:
 
     leso = made(controller="LESO")
     assert (leso.observer.m, set(leso.observer.poles)) == (1, {-500.0})
-    assert made(controller="LESO", bandwidth=300.0).observer.m == 1
-    assert made(controller="LESO", poles="-10,-20,-30,-40").observer.m == 2
+    assert made(controller={"name": "LESO", "observer": {"bandwidth": 300.0}}).observer.m == 1
+    poles = {"controller": "LESO", "controller.observer.poles": "-10,-20,-30,-40"}
+    assert made(**poles).observer.m == 2
     assert made(controller="ADRC").observer == ba.GPIObserver.from_poles(ba.TABLE_I)
-    assert made(controller="PD", K_d=9.0).gains == type(made(controller="PD").gains)(K_d=9.0)
-    assert made(controller="NPD", K_p=9.0, solve_theta=False).gains == ba.Gains(9.0, 50.0)
-    around = made(controller="stride PI", own={"inner": "DOB", "limit": 0.4}, bandwidth=99.0)
+    assert made(controller={"name": "PD", "K_d": 9.0}).gains == type(made(controller="PD").gains)(
+        K_d=9.0
+    )
+    npd = {"name": "NPD", "K_p": 9.0, "solve_theta": False}
+    assert made(controller=npd).gains == ba.Gains(9.0, 50.0)
+    dob = {"name": "DOB", "observer": {"bandwidth": 99.0}}
+    around = made(controller={"name": "stride PI", "limit": 0.4, "inner": dob})
     assert type(around.inner.observer).__name__ == "MomentumObserver"
     assert set(around.inner.observer.poles) == {-99.0}
     assert around.gains.limit == 0.4
     assert made(controller="DOB").observer == type(made(controller="DOB"))(leso.reference).observer
-    assert made(controller="CLF-QP", own={"epsilon": 0.02}).torque_limit is None
-    late = made(controller="delayed", own={"delay": 1e-3, "order": 2}, bandwidth=300.0, order=1)
+    assert made(controller={"name": "CLF-QP", "epsilon": 0.02}).torque_limit is None
+    adrc = {"observer": {"bandwidth": 300.0, "order": 1}}
+    late = made(controller={"name": "delayed", "delay": 1e-3, "order": 2, "inner": adrc})
     assert (late.order, late.inner.observer.m) == (2, 1)
 
 

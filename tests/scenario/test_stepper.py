@@ -9,10 +9,12 @@ import biped_adrc as ba
 from biped_adrc.closed_loop.instant_signals import signals_at
 from biped_adrc.errors import InputError
 
-NPD = ba.Scenario("NPD", period=1e-3, impacts=2)
-TOUCHDOWN = replace(NPD, hardware="rabbit", touchdown="told", delay=0.0015)
-IN_PYTHON = replace(NPD, controller="CLF-QP", impacts=1)
-WAITING = replace(NPD, plant="mujoco", delay=0.0004, impacts=1)
+NPD = ba.Scenario("NPD", hardware={"period": 1e-3}, run={"impacts": 2})
+TOUCHDOWN = NPD.replace(
+    hardware={"profile": "rabbit", "touchdown": {"name": "told"}, "delay": 0.0015}
+)
+IN_PYTHON = NPD.replace(controller="CLF-QP", run={"impacts": 1})
+WAITING = NPD.replace(ground="mujoco", hardware={"delay": 0.0004}, run={"impacts": 1})
 U = np.array([4.0, -3.0, 2.0, 5.0])
 
 
@@ -67,7 +69,7 @@ def test_save_and_restore_repeat_exactly(s):
 
 
 def test_many_walks_are_single_ones_bit_for_bit():
-    s, rng = replace(NPD, mass_error=0.05), np.random.default_rng(0)
+    s, rng = NPD.replace(errors={"mass_width": 0.05}), np.random.default_rng(0)
     many, single = ba.Stepper(s, 3), [ba.Stepper(s) for _ in range(3)]
     rows = [many.reset(seed=5)] + [one.reset(seed=5 + i) for i, one in enumerate(single)]
     for _ in range(450):
@@ -113,10 +115,12 @@ def test_an_input_is_the_same_push_as_a_disturbance(biped, gait, name, in_python
         assert largest(arc.x[row, :10], sample.x[0, :10]) < 1e-9
 
 
-@pytest.mark.parametrize("s", [WAITING, replace(WAITING, delay=0.0)], ids=["waiting", "at once"])
+@pytest.mark.parametrize(
+    "s", [WAITING, WAITING.replace(hardware={"delay": 0.0})], ids=["waiting", "at once"]
+)
 def test_inputs_act_on_a_plant_that_moves_by_itself(s):
     """Compiled sample instants and Python's read the same inputs."""
-    walks = [ba.Stepper(s), ba.Stepper(replace(s, engine="pinocchio"))]
+    walks = [ba.Stepper(s), ba.Stepper(s.replace(run={"engine": "pinocchio"}))]
     rest = ba.Stepper(s)
     rest.reset()
     still = moved(rest, 12)[-1]
@@ -132,7 +136,7 @@ def test_inputs_act_on_a_plant_that_moves_by_itself(s):
 def test_signals_are_read_where_the_walks_are():
     """In machine code and in Python."""
     found = []
-    for s in (NPD, replace(NPD, method="adaptive")):
+    for s in (NPD, NPD.replace(run={"method": "adaptive"})):
         stepper = ba.Stepper(s, 2)
         stepper.reset()
         for _ in range(5):
@@ -152,10 +156,10 @@ def test_a_walk_that_has_ended_stays_where_it_is():
 
 
 def test_what_is_no_step_is_refused(biped, gait):
-    with pytest.raises(InputError, match="give a period"):
+    with pytest.raises(InputError, match=r"give hardware\.period"):
         ba.Stepper(ba.Scenario("NPD"))
     with pytest.raises(InputError, match="fine"):
-        ba.Stepper(replace(NPD, h=1e-3, fine=1e-4))
+        ba.Stepper(NPD.replace(run={"h": 1e-3, "fine": 1e-4}))
     stepper = ba.Stepper(NPD, 2)
     with pytest.raises(InputError, match="call reset"):
         stepper.step()

@@ -19,10 +19,9 @@ from biped_adrc.cli import app
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.storage import load, load_beside, save
 from biped_adrc.resources import data_folder
-from biped_adrc.scenario import registry
 from biped_adrc.scenario.walker_record import Reader, Writer
 
-FAST = {"engine": "compiled", "impacts": 1}
+FAST = {"run.engine": "compiled", "run.impacts": 1}
 
 
 def same(one: ba.Walk, other: ba.Walk) -> None:
@@ -38,11 +37,26 @@ def same(one: ba.Walk, other: ba.Walk) -> None:
 @pytest.mark.parametrize(
     "values",
     [
-        {"controller": "LESO", "hardware": "rabbit", "noise": 1e-4, "lag": 2e-3},
-        {"controller": "stride PI", "own": {"inner": "DOB"}, "push": "step", "on": "link torso"}
-        | {"force": 3.0, "pushed_step": 1, "onset": 0.0},
-        {"controller": "NPD", "period": 1e-3, "push": "noise", "amplitude": 5.0, "pushed_step": 1}
-        | {"ground_rms": 2e-3, "impact_error": 0.02, "mass_error": 0.1},
+        {
+            "controller.name": "LESO",
+            "hardware.profile": "rabbit",
+            "hardware.encoders.noise": 1e-4,
+            "hardware.lag": 2e-3,
+        },
+        {
+            "controller": {"name": "stride PI", "inner": "DOB"},
+            "pushes.0.shape": "step",
+            "pushes.0.link": "torso",
+        }
+        | {"pushes.0.force": 3.0, "pushes.0.step": 1, "pushes.0.onset": 0.0},
+        {
+            "controller.name": "NPD",
+            "hardware.period": 1e-3,
+            "pushes.0.shape": "noise",
+            "pushes.0.torque": 5.0,
+            "pushes.0.step": 1,
+        }
+        | {"ground.rms": 2e-3, "errors.impact_width": 0.02, "errors.mass_width": 0.1},
         {"controller": "passive", "robot": "compass"},
     ],
 )
@@ -101,7 +115,7 @@ def test_neither_the_folder_nor_the_urdf_matters(tmp_path: Path, monkeypatch) ->
 
 def stored(own: str, period: float | None = 1e-3) -> ba.Walk:
     """Of a controller of one's own, which is forgotten then."""
-    s = ba.Scenario(f"{own}:Mine", own={"gain": 0.8}, period=period, **FAST)
+    s = ba.Scenario({"name": f"{own}:Mine", "gain": 0.8}, hardware={"period": period}, **FAST)
     walk = ba.walk_scenario(s)
     walk.save("mine.npz")
     del sys.modules[own]
@@ -123,25 +137,14 @@ def test_an_own_controller_is_read_without_it(
         line = ["animate" if out.endswith("html") else "plot", "mine.npz", "-o", out]
         assert CliRunner().invoke(app, line, catch_exceptions=False).exit_code == 0
     assert own not in sys.modules
-    with pytest.raises(InputError, match=rf"cannot go on without.*'{own}:Mine'.*load_walk\(path"):
+    with pytest.raises(InputError, match=rf"cannot go on without '{own}:Mine'; walk it again"):
         ba.walk(again.walker, again.gait, 1)
 
 
-def test_and_walks_on_when_it_is_given(own: str, monkeypatch) -> None:
+def test_and_is_walked_again_by_its_scenario(own: str) -> None:
     walk = stored(own)
-    Mine = registry.own("controller", f"{own}:Mine")
-    given = ba.load_walk("mine.npz", controller=Mine)
-    assert given.walker.controller == Mine(given.gait.constraint, 0.8)
-    assert given.remarks == walk.remarks
-    again = ba.walk(given.walker, given.gait, 1, engine="compiled")
+    again = ba.walk_scenario(ba.load_walk("mine.npz").scenario)
     np.testing.assert_array_equal(again.trajectory.final_state, walk.trajectory.final_state)
-    as_object = ba.load_walk("mine.npz", controller=Mine(given.gait.constraint, 0.8))
-    assert isinstance(as_object.walker.controller, Mine)
-    monkeypatch.setattr(registry, "REGISTRY", {k: dict(v) for k, v in registry.REGISTRY.items()})
-    ba.register("controller", "mine", Mine)
-    assert isinstance(ba.load_walk("mine.npz").walker.controller, Mine)
-    with pytest.raises(InputError, match="expected a Controller or its class"):
-        ba.load_walk("mine.npz", controller=Path)
 
 
 @pytest.mark.parametrize(
@@ -169,7 +172,7 @@ def test_a_file_makes_nothing_but_parts_of_a_walker(change, biped, gait, tmp_pat
 @pytest.fixture(scope="module")
 def sound(tmp_path_factory) -> Path:
     """A run of two steps, whole."""
-    s = ba.Scenario("NPD", engine="compiled", impacts=2)
+    s = ba.Scenario("NPD", run={"engine": "compiled", "impacts": 2})
     return ba.walk_scenario(s).save(tmp_path_factory.mktemp("sound") / "a.npz")
 
 
@@ -184,7 +187,7 @@ def test_plain_values_come_back() -> None:
     del values["h"]
     writer = Writer()
     record = json.loads(json.dumps(writer.plain(values)))
-    again = Reader(writer.records, {}).made(record)
+    again = Reader(writer.records).made(record)
     assert again.keys() == values.keys()
     for name, x in values.items():
         np.testing.assert_array_equal(again[name], x) if isinstance(x, np.ndarray) else None

@@ -13,16 +13,16 @@ from biped_adrc.hardware.touchdown_told import Told
 from biped_adrc.scenario.build import build
 from biped_adrc.study.run import run_trial
 
-USUAL = {"controller": "NPD", "period": 1e-3, "impacts": 2}
+USUAL = {"controller.name": "NPD", "hardware.period": 1e-3, "run.impacts": 2}
 
 
 def made(name, **own):
-    return build(ba.Scenario(**USUAL, touchdown=name, own=own)).touchdown
+    return build(ba.Scenario(hardware={"touchdown": {"name": name, **own}}, **USUAL)).touchdown
 
 
-def test_values_come_by_name_with_or_without_the_prefix():
+def test_values_come_by_name():
     assert made("told", late=5e-3) == Told(5e-3, seed=made("told").seed)
-    assert made("Force", touchdown_delay=2e-3, on=40.0) == ByForce(on=40.0, delay=2e-3)
+    assert made("Force", delay=2e-3, on=40.0) == ByForce(on=40.0, delay=2e-3)
     assert made("kinematics", height=1e-3) == ByKinematics(height=1e-3)
     assert build(ba.Scenario(**USUAL)).touchdown is None
 
@@ -31,7 +31,9 @@ def test_values_come_by_name_with_or_without_the_prefix():
 def test_a_walk_says_when_its_controller_noticed(plant, tmp_path):
     if plant == "mujoco":
         pytest.importorskip("mujoco")
-    walk = ba.walk_scenario(ba.Scenario(**USUAL, touchdown="told", plant=plant, own={"late": 4e-3}))
+    walk = ba.walk_scenario(
+        ba.Scenario(hardware={"touchdown": {"name": "told", "late": 4e-3}}, ground=plant, **USUAL)
+    )
     found = walk.touchdowns
     assert len(found.t) == 2
     assert 4e-3 - 1e-9 < found.late[0] < 5e-3
@@ -47,15 +49,23 @@ def test_a_row_of_a_study_says_how_touchdowns_were_noticed(plant):
     """Step 1 is noticed early, step 2 late by 4 ms to the next tick, step 3 waits when the walk ends."""
     if plant == "mujoco":
         pytest.importorskip("mujoco")
-    own = {"late": 4e-3, "false_at": [1, 0.4105]}
-    values = {**USUAL, "impacts": 3, "touchdown": "told", "plant": plant, "torque_limit": 150.0}
-    row = run_trial({**values, **{f"own.{name}": x for name, x in own.items()}})
+    values = {
+        **USUAL,
+        "run.impacts": 3,
+        "hardware.touchdown.name": "told",
+        "hardware.touchdown.late": 4e-3,
+        "hardware.touchdown.false_at": [1, 0.4105],
+        "ground.plant": plant,
+        "hardware.torque_limit": 150.0,
+    }
+    row = run_trial(values)
     assert row["status"] == "COMPLETED"
     assert (row["early_share"], row["missed_share"], row["false_notices"]) == (0.5, 0.0, 0)
     assert 4e-3 - 1e-9 < row["late_mean"] == row["late_max"] < 5e-3
-    rates = ba.walk_scenario(ba.Scenario(**values, own=own)).touchdowns.rates
+    rates = ba.walk_scenario(ba.Scenario(**values)).touchdowns.rates
     assert {name: row[name] for name in rates._fields} == pytest.approx(rates._asdict(), abs=1e-9)
-    assert run_trial({**values, "touchdown": None})["false_notices"] is None
+    at_once = {name: x for name, x in values.items() if "touchdown" not in name}
+    assert run_trial(at_once)["false_notices"] is None
 
 
 @dataclass(frozen=True)
@@ -66,6 +76,6 @@ class Mine(ByKinematics):
 
 
 def test_one_of_the_user_s_is_found_by_its_module():
-    scenario = ba.Scenario(**USUAL, touchdown=f"{__name__}:Mine")
+    scenario = ba.Scenario(hardware={"touchdown": {"name": f"{__name__}:Mine"}}, **USUAL)
     assert build(scenario).touchdown == Mine()
-    assert scenario.record()["touchdown"] == f"{__name__}:Mine"
+    assert scenario.dotted()["hardware.touchdown.name"] == f"{__name__}:Mine"

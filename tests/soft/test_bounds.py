@@ -96,7 +96,9 @@ def test_a_walk_that_the_engine_loses_can_be_read(
         return row + (math.nan if lost == "nan" else 1e4)
 
     monkeypatch.setattr(MuJoCoEngine, "moved", fails)
-    s = ba.Scenario("NPD", plant="mujoco", period=1e-3, impacts=2, engine=engine)
+    s = ba.Scenario(
+        "NPD", ground="mujoco", hardware={"period": 1e-3}, run={"impacts": 2, "engine": engine}
+    )
     walk = ba.walk_scenario(s)
     assert walk.trajectory.status.name == status
     assert all_finite(walk.trajectory)

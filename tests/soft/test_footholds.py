@@ -15,7 +15,7 @@ from biped_adrc.soft.mujoco_robot import mujoco
 from biped_adrc.soft.walking import stepping_loop
 
 TICK = ba.SampledTime(1e-3)
-SOFT = {"plant": "mujoco", "period": 1e-3, "torque_limit": 150.0}
+SOFT = {"ground.plant": "mujoco", "hardware.period": 1e-3, "hardware.torque_limit": 150.0}
 
 
 def walker_on(biped, gait, *steps):
@@ -105,7 +105,9 @@ def test_each_foot_touches_its_own_level_along_the_vertical(biped, gait, slope):
 
 
 def test_uneven_ground_of_a_scenario_is_that_of_the_rigid_plant():
-    walk = ba.walk_scenario(ba.Scenario("NPD", **SOFT, impacts=3, ground_rms=2e-3, seed=4))
+    walk = ba.walk_scenario(
+        ba.Scenario("NPD", run={"impacts": 3, "seed": 4}, ground={"rms": 2e-3}, **SOFT)
+    )
     assert walk.trajectory.status is ba.Status.COMPLETED
     feet = [arc.read["foot_place"][-1] for arc in walk.trajectory.arcs]
     falls = [foot[1] - foot[3] for foot in feet]

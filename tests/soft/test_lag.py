@@ -21,7 +21,13 @@ from biped_adrc.soft.walking import stepping_loop
 
 TICK = ba.SampledTime(1e-3)
 TAU = 5e-3
-SOFT = {"plant": "mujoco", "period": 1e-3, "torque_limit": 150.0, "impacts": 1, "lag": TAU}
+SOFT = {
+    "ground.plant": "mujoco",
+    "hardware.period": 1e-3,
+    "hardware.torque_limit": 150.0,
+    "run.impacts": 1,
+    "hardware.lag": TAU,
+}
 
 
 class Holds(ba.Controller):
@@ -125,7 +131,8 @@ def test_it_moves_as_the_rigid_plant_with_this_lag(biped, gait):
 
 def test_a_walk_of_a_scenario_has_u_m_as_on_the_rigid_plant(biped, gait):
     walks = [
-        ba.walk_scenario(ba.Scenario("NPD", **SOFT, engine=e)) for e in ("compiled", "pinocchio")
+        ba.walk_scenario(ba.Scenario("NPD", run={"engine": e}, **SOFT))
+        for e in ("compiled", "pinocchio")
     ]
     for walk in walks:
         assert walk.trajectory.settings["plant"]["lag"] == TAU

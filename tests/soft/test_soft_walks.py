@@ -14,7 +14,12 @@ from biped_adrc.scenario.registry import find
 from biped_adrc.scenario.run import halved
 from biped_adrc.soft.walking import stepping_loop
 
-SOFT = {"plant": "mujoco", "period": 1e-3, "torque_limit": 150.0, "impacts": 2}
+SOFT = {
+    "ground.plant": "mujoco",
+    "hardware.period": 1e-3,
+    "hardware.torque_limit": 150.0,
+    "run.impacts": 2,
+}
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +35,7 @@ def test_it_is_the_walk_of_a_loop_around_the_plant(made, biped, gait):
     run = loop.run(
         loop.initial_state(*gait.start(biped)), ba.RunOptions(4.0, stop_after=(FOOT_STRIKE, 2))
     )
-    plain = ba.walk_scenario(ba.Scenario("NPD", **SOFT, engine="pinocchio"))
+    plain = ba.walk_scenario(ba.Scenario("NPD", run={"engine": "pinocchio"}, **SOFT))
     assert plain.trajectory.settings["engine"] == "pinocchio"
     assert made.trajectory.settings["engine"] == "compiled"
     for walk, apart in ((plain, 0.0), (made, 1e-9)):
@@ -87,12 +92,11 @@ def test_what_a_finished_walk_offers(made, tmp_path):
 @pytest.mark.parametrize(
     "values",
     [
-        {"ground_friction": 0.5},
-        {**SOFT, "h": 1e-3},
-        {**SOFT, "impact_error": 0.01},
-        {"plant": "mujocco"},
-        {"plant": "mujoco", "impacts": 1},
-        {**SOFT, "own": {"impratio": -1.0}},
+        {"ground.friction": 0.0},
+        {**SOFT, "errors.impact_width": 0.01},
+        {"ground.plant": "mujocco"},
+        {"ground.plant": "mujoco", "run.impacts": 1},
+        {**SOFT, "ground.impratio": -1.0},
     ],
 )
 def test_what_does_not_fit_is_refused(values):
@@ -111,32 +115,34 @@ def test_what_only_the_rigid_plant_has_is_named(biped, gait):
 
 def test_values_of_ground_and_engine_come_from_the_scenario():
     s = ba.Scenario(
-        "NPD", **{**SOFT, "impacts": 1}, ground_friction=0.9, time_constant=5e-3, plant_step=5e-4,
-        own={"impratio": 40.0, "touchdown_force": 20.0},
-    )  # fmt: skip
+        "NPD",
+        ground={"friction": 0.9, "time_constant": 5e-3, "plant_step": 5e-4}
+        | {"impratio": 40.0, "touchdown_force": 20.0},
+        **{**SOFT, "run.impacts": 1},
+    )
     plant = ba.walk_scenario(s).trajectory.settings["plant"]
     assert plant["ground"]["friction"] == 0.9
     assert plant["ground"]["time_constant"] == 5e-3
     assert plant["ground"]["impratio"] == 40.0
     assert plant["h"] == 5e-4
     assert plant["touchdown_force"] == 20.0
-    assert halved(s).plant_step == 2.5e-4
+    assert halved(s).ground.plant_step == 2.5e-4
 
 
 @pytest.mark.parametrize(("time_constant", "h"), [(1e-3, 1e-4), (2e-2, 2e-4)])
 def test_the_step_of_the_engine_is_a_tenth_of_the_time_constant_and_at_most_one_fifth_of_a_ms(
     time_constant, h
 ):
-    s = ba.Scenario("NPD", **{**SOFT, "impacts": 1}, time_constant=time_constant)
+    s = ba.Scenario("NPD", ground={"time_constant": time_constant}, **{**SOFT, "run.impacts": 1})
     made = ba.walk_scenario(s)
     assert made.trajectory.settings["plant"]["h"] == pytest.approx(h)
-    assert halved(s).plant_step == pytest.approx(0.5 * h)
+    assert halved(s).ground.plant_step == pytest.approx(0.5 * h)
     assert find("plant", "MuJoCo").words
 
 
 def test_a_step_that_takes_too_long_is_told():
-    common = {"period": 1e-3, "impacts": 2, "max_step_time": 0.1}
-    walk = ba.walk_scenario(ba.Scenario("NPD", plant="mujoco", **common))
+    common = {"hardware.period": 1e-3, "run.impacts": 2, "run.max_step_time": 0.1}
+    walk = ba.walk_scenario(ba.Scenario("NPD", ground="mujoco", **common))
     assert walk.trajectory.status is ba.Status.STALLED
 
 

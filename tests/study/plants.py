@@ -26,9 +26,9 @@ W, V = B @ B.T + 1e-6 * np.eye(2), np.array([[1e-4]])
 Q, R = np.diag([100.0, 1.0]), np.array([[0.1]])
 ROWS = {
     "name": "stand-in",
-    "base": {"own.pause": 0.0},
-    "grid": {"impacts": list(range(1, 31))},
-    "cases": {"a": {"own.of": 0}, "b": {"own.of": 1}},
+    "base": {"controller.pause": 0.0},
+    "grid": {"run.impacts": list(range(1, 31))},
+    "cases": {"a": {"controller.of": 0}, "b": {"controller.of": 1}},
 }
 """A study of 60 rows."""
 
@@ -39,11 +39,13 @@ def rows(records):
 
 
 def _row(record):
-    time.sleep(record["own.pause"])
-    x = record["impacts"] + 100 * record["own.of"]
-    if x == record.get("own.raise"):
+    time.sleep(record["controller.pause"])
+    x = record["run.impacts"] + 100 * record["controller.of"]
+    if x == record.get("controller.raise"):
         raise ValueError(f"no row for {x}")
-    if x == record.get("own.kill") or (x == 7 and _first_time(record.get("own.once"))):
+    if x == record.get("controller.kill") or (
+        x == 7 and _first_time(record.get("controller.once"))
+    ):
         os.kill(os.getpid(), signal.SIGKILL)
     return {
         "status": "COMPLETED",
@@ -86,33 +88,39 @@ def costs(records):
 
 
 def _cost(record):
-    time.sleep(record.get("own.pause", 0.0))
-    k1, k2, l1, l2 = (record[f"own.{name}"] for name in ("k1", "k2", "l1", "l2"))
+    time.sleep(record.get("controller.pause", 0.0))
+    k1, k2, l1, l2 = (record[f"controller.{name}"] for name in ("k1", "k2", "l1", "l2"))
     found = cost(np.array([[k1, k2]]), np.array([[l1], [l2]]))
     if found is None:
         return {"status": "FALLEN", "survived": 0, "feasible": 0, "rms_error": None}
-    told = {"rms_error": found, "peak_error": k1 - record.get("own.bonus", 0.0)}
+    told = {"rms_error": found, "peak_error": k1 - record.get("controller.bonus", 0.0)}
     return {"status": "COMPLETED", "survived": 1, "feasible": 1, **told}
 
 
 def tables(seeds=([0], [1], [2]), base=(), **search):
     """The tables of a search on the linear plant."""
     spans = {"k1": (1.0, 100.0), "k2": (1.0, 100.0), "l1": (0.05, 2.0), "l2": (0.1, 10.0)}
-    log = {f"own.{k}": {"from": a, "to": b, "scale": "log"} for k, (a, b) in spans.items()}
+    log = {f"controller.{k}": {"from": a, "to": b, "scale": "log"} for k, (a, b) in spans.items()}
     walks = {k: {"seeds": x} for k, x in zip(("search", "choice", "test"), seeds, strict=True)}
     given = {"budget": 200, "generation": 10, "seed": 1, "objective": {"column": "rms_error"}}
     return {
         "name": "linear plant",
-        "base": {"own.k1": 5.0, "own.k2": 5.0, "own.l1": 0.5, "own.l2": 1.0, **dict(base)},
+        "base": {
+            "controller.k1": 5.0,
+            "controller.k2": 5.0,
+            "controller.l1": 0.5,
+            "controller.l2": 1.0,
+            **dict(base),
+        },
         "search": {"variables": log, "walks": walks, **given, **search},
     }
 
 
 def main(kind, folder, pause):
     pause = float(pause)
-    study = {**ROWS, "base": {"own.pause": pause}}
+    study = {**ROWS, "base": {"controller.pause": pause}}
     if kind == "costs":
-        study = tables(base={"own.pause": pause}, budget=40, generation=8)
+        study = tables(base={"controller.pause": pause}, budget=40, generation=8)
 
     def progress(p):
         print(p.done, flush=True)

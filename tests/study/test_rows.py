@@ -70,7 +70,7 @@ def test_a_dask_cluster_makes_the_same_rows_and_names_what_kills_its_workers(tmp
     try:
         address = process.stdout.readline().strip()
         assert made(tmp_path / "whole", None, cluster=address) == expected
-        found = made(tmp_path / "killed", None, {"own.kill": 105}, cluster=address)
+        found = made(tmp_path / "killed", None, {"controller.kill": 105}, cluster=address)
         check_killed(found, expected)
         with pytest.raises(InputError, match="brings its own workers"):
             made(tmp_path / "both", 2, cluster=address)
@@ -95,31 +95,37 @@ def check_killed(found, expected):
 
 def test_a_row_that_kills_its_worker_is_named_and_left_out(tmp_path, expected):
     notes = []
-    found = made(tmp_path, 2, {"own.kill": 105}, progress=lambda p: notes.append(p.note))
+    found = made(tmp_path, 2, {"controller.kill": 105}, progress=lambda p: notes.append(p.note))
     check_killed(found, expected)
-    assert any("left out, since it kills its worker" in x and "'impacts': 5" in x for x in notes)
+    assert any(
+        "left out, since it kills its worker" in x and "'run.impacts': 5" in x for x in notes
+    )
     again = []
-    assert made(tmp_path, 1, {"own.kill": 105}, progress=again.append) == found
+    assert made(tmp_path, 1, {"controller.kill": 105}, progress=again.append) == found
     assert {p.done for p in again} == {60}
 
 
 def test_a_worker_that_dies_once_changes_nothing(tmp_path, expected):
     marked = tmp_path / "died"
-    assert made(tmp_path / "out", 2, {"own.once": str(marked)}) == expected
+    assert made(tmp_path / "out", 2, {"controller.once": str(marked)}) == expected
     assert marked.exists()
 
 
 def test_workers_that_all_die_end_the_study(tmp_path, monkeypatch):
     monkeypatch.setattr(runner, "MOST_CRASHED", 2)
-    study = {"name": "bad", "base": {"own.pause": 0.0, "own.of": 0}, "grid": {"impacts": [5]}}
-    study["cases"] = {f"{k}": {"own.kill": 5, "own.k": k} for k in range(4)}
+    study = {
+        "name": "bad",
+        "base": {"controller.pause": 0.0, "controller.of": 0},
+        "grid": {"run.impacts": [5]},
+    }
+    study["cases"] = {f"{k}": {"controller.kill": 5, "controller.k": k} for k in range(4)}
     with pytest.raises(SimulationError, match="2 walks one after the other killed"):
         ba.study(study, tmp_path, 1, function=plants.rows)
 
 
 def test_a_row_that_raises_spoils_no_other(tmp_path, expected):
     with ThreadPoolExecutor(2) as pool:
-        found = made(tmp_path, pool, {"own.raise": 105})
+        found = made(tmp_path, pool, {"controller.raise": 105})
         assert pool.submit(int, "3").result() == 3
     (raised,) = [i for i, row in enumerate(found) if row["status"] == "RAISED"]
     assert found[raised]["detail"] == "ValueError: no row for 105"
@@ -158,9 +164,9 @@ def test_a_study_that_is_killed_goes_on_to_the_same_rows(tmp_path, started, kind
     for folder in (out, tmp_path / "whole"):
         ended = started(sys.executable, str(script), kind, str(folder), "0.05")
         assert ended.communicate()[0].split()[-1] == "end"
-    study = {**plants.ROWS, "base": {"own.pause": 0.05}}
+    study = {**plants.ROWS, "base": {"controller.pause": 0.05}}
     if kind == "costs":
-        study = plants.tables(base={"own.pause": 0.05}, budget=40, generation=8)
+        study = plants.tables(base={"controller.pause": 0.05}, budget=40, generation=8)
     function = {"rows": plants.rows, "costs": plants.costs}[kind]
     with ThreadPoolExecutor(1) as pool:
         found, whole = (
@@ -174,9 +180,9 @@ def test_a_study_that_is_killed_goes_on_to_the_same_rows(tmp_path, started, kind
 STUDY = {
     "name": "walks",
     "seeds": 2,
-    "base": {"impacts": 2, "start_rate_spread": 0.05},
-    "cases": {"ADRC": {"controller": "ADRC"}, "NPD": {"controller": "NPD"}},
-    "grid": {"period": ["1 ms", "2 ms"]},
+    "base": {"run.impacts": 2, "start.rate_spread": 0.05},
+    "cases": {"ADRC": {"controller.name": "ADRC"}, "NPD": {"controller.name": "NPD"}},
+    "grid": {"hardware.period": ["1 ms", "2 ms"]},
 }
 
 
@@ -191,10 +197,13 @@ def test_walks_are_the_same_in_processes_and_threads(tmp_path):
 @pytest.mark.parametrize(
     ("tables", "message"),
     [
-        ({"base": {"robot": "rabit"}}, "study 'typo', at base: .*rabit"),
-        ({"grid": {"controller": ["ADRC", "ADCR"]}}, "at controller = ADCR: .*ADCR"),
+        ({"base": {"robot.name": "rabit"}}, "study 'typo', at base: .*rabit"),
+        ({"grid": {"controller.name": ["ADRC", "ADCR"]}}, "at controller.name = ADCR: .*ADCR"),
         ({"base": {"start.q9": 0.1}}, "q9"),
-        ({"cases": {"a": {}, "b": {"friction_error": 0.1}}}, "at case = b: .*without friction"),
+        (
+            {"cases": {"a": {}, "b": {"controller.contact.name": "hold", "hardware.period": None}}},
+            "at case = b: .*period",
+        ),
     ],
 )
 def test_a_study_that_cannot_run_is_refused_before_the_first_walk(tmp_path, tables, message):
@@ -207,7 +216,7 @@ def test_a_file_of_another_study_is_never_gone_on_over(tmp_path, expected):
     made(tmp_path, 1)
     before = (tmp_path / RESULTS).read_bytes()
     with pytest.raises(InputError, match="holds the rows of the study 'stand-in'"):
-        made(tmp_path, 1, {"own.more": 1})
+        made(tmp_path, 1, {"controller.more": 1})
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / RESULTS).write_text("a text that is long enough to be no database" * 9)
     with pytest.raises(InputError, match="no results file"):
@@ -222,7 +231,7 @@ def test_a_file_of_another_study_is_never_gone_on_over(tmp_path, expected):
 def test_a_file_that_a_study_names_belongs_to_its_numbers(tmp_path):
     gait, out = tmp_path / "mine.json", tmp_path / "out"
     gait.write_text((data_folder("gaits") / "rabbit" / "published-identified.json").read_text())
-    study = {"name": "a", "base": {"gait": str(gait), "impacts": 1}}
+    study = {"name": "a", "base": {"gait.name": str(gait), "run.impacts": 1}}
     with ThreadPoolExecutor(1) as pool:
         ba.study(study, out, pool)
         gait.write_text(json.dumps(json.loads(gait.read_text()), indent=3))
@@ -235,13 +244,13 @@ def test_a_file_that_a_study_names_belongs_to_its_numbers(tmp_path):
 def test_the_command_walks_writes_and_goes_on(tmp_path):
     path, out, table = tmp_path / "walks.toml", tmp_path / "out", tmp_path / "rows.csv"
     path.write_text(
-        'name = "a <b> $x$"\nseeds = 2\nbase = { impacts = 1, start_rate_spread = 0.05 }\n'
-        'grid = { period = ["1 ms", "2 ms"] }\n'
-        '[cases]\nADRC = { controller = "ADRC" }\nNPD = { controller = "NPD" }\n'
+        'name = "a <b> $x$"\nseeds = 2\nbase = { run.impacts = 1, start.rate_spread = 0.05 }\n'
+        'grid = { hardware.period = ["1 ms", "2 ms"] }\n'
+        '[cases]\nADRC = { controller.name = "ADRC" }\nNPD = { controller.name = "NPD" }\n'
     )
     line = ["study", str(path), "-o", str(out), "--workers", "1"]
     dry = CliRunner().invoke(app, [*line, "--dry-run"])
-    assert dry.output.strip() == "a <b> $x$: 8 walks, over period"
+    assert dry.output.strip() == "a <b> $x$: 8 walks, over hardware.period"
     assert not out.exists()
     done = CliRunner().invoke(app, [*line, "--table", str(table)])
     assert done.exit_code == 0, done.output

@@ -14,7 +14,7 @@ from biped_adrc.cli import app
 from biped_adrc.errors import InputError
 from biped_adrc.study import proposals
 from biped_adrc.study.measure import Limit, Objective
-from biped_adrc.study.parameters import nested, read_scenario
+from biped_adrc.study.parameters import read_scenario, scenario_of
 from biped_adrc.study.proposals import searched
 from biped_adrc.study.search import Candidate, ranked
 from biped_adrc.study.study import read_study
@@ -67,7 +67,7 @@ def test_the_sets_are_disjoint_and_the_test_set_is_walked_once_after_every_choic
     seen = []
 
     def rows(records):
-        seen.extend(record["seed"] for record in records)
+        seen.extend(record["run.seed"] for record in records)
         return plants.costs(records)
 
     tables = plants.tables(budget=6, generation=3, finalists=2)
@@ -83,13 +83,17 @@ def test_the_sets_are_disjoint_and_the_test_set_is_walked_once_after_every_choic
 
 def test_each_case_is_searched_over_the_variables_that_act_there(tmp_path):
     tables = plants.tables(budget=12, generation=4)
-    tables["cases"] = {"narrow": {"impacts": 2}, "all": {"impacts": 3}}
-    tables["search"]["variables"]["own.l2"] |= {"when": {"impacts": 3}}
+    tables["cases"] = {"narrow": {"run.impacts": 2}, "all": {"run.impacts": 3}}
+    tables["search"]["variables"]["controller.l2"] |= {"when": {"run.impacts": 3}}
     with ThreadPoolExecutor(1) as pool:
         found = ba.study(tables, tmp_path, pool, function=plants.costs)
     narrow, every = found.choices.values()
-    assert {name for c in narrow.candidates for name in c.chosen} == {"own.k1", "own.k2", "own.l1"}
-    assert "own.l2" in every.candidates[-1].chosen
+    assert {name for c in narrow.candidates for name in c.chosen} == {
+        "controller.k1",
+        "controller.k2",
+        "controller.l1",
+    }
+    assert "controller.l2" in every.candidates[-1].chosen
     assert [line.name for line in found.table()] == [
         "narrow",
         "all",
@@ -101,7 +105,7 @@ def test_each_case_is_searched_over_the_variables_that_act_there(tmp_path):
 
 def test_a_limit_without_a_walk_excludes_candidates_before_their_walks(monkeypatch):
     def known(columns, values):
-        return {"ripple": values["own.k1"]}
+        return {"ripple": values["controller.k1"]}
 
     monkeypatch.setattr(proposals, "numbers_without_walk", known)
     search, found = found_by(
@@ -110,7 +114,7 @@ def test_a_limit_without_a_walk_excludes_candidates_before_their_walks(monkeypat
     assert sum(c.walked for c in found) == 30
     excluded = [c for c in found if not c.walked]
     assert excluded
-    assert all((c.chosen["own.k1"] > 20.0) is not c.walked for c in found if c.number)
+    assert all((c.chosen["controller.k1"] > 20.0) is not c.walked for c in found if c.number)
     assert [c.number for c in found] == list(range(len(found)))
     assert all(c.walked for c in ranked(search, found))
 
@@ -121,7 +125,7 @@ def test_limits_that_nothing_keeps_are_named_with_the_nearest_candidate(tmp_path
     message = r"median peak_error at most 0.5: missed by 8.*nearest is"
     with pytest.raises(InputError, match=message):
         ba.study(tables, tmp_path / "none", executor, function=plants.costs)
-    tables["cases"] = {"none": {}, "some": {"own.bonus": 100.0}}
+    tables["cases"] = {"none": {}, "some": {"controller.bonus": 100.0}}
     found = ba.study(tables, tmp_path / "some", executor, function=plants.costs)
     assert list(found.choices) == ["some"]
     assert re.search(f"none: none of .*{message}", found.failures[0])
@@ -186,25 +190,30 @@ def test_candidates_are_ranked_by_limits_then_objective():
 def test_columns_without_a_walk_are_those_of_the_specification():
     """Numbers of the loop, margins 0 where it is unstable; on soft ground those of the rigid plant."""
     names = ("stable", "delay_margin", "disk_margin", "ripple")
-    values = {"controller": "NPD", "period": 1e-3, "delay": 1e-3, "impacts": 2}
-    told = ba.specified(ba.Scenario(**values))
+    values = {
+        "controller.name": "NPD",
+        "hardware.period": 1e-3,
+        "hardware.delay": 1e-3,
+        "run.impacts": 2,
+    }
+    told = ba.specified(scenario_of(values))
     assert numbers_without_walk(names, values) == {name: told[name] for name in names}
-    late = numbers_without_walk(names, values | {"delay": 0.012})
+    late = numbers_without_walk(names, values | {"hardware.delay": 0.012})
     assert late == {"stable": 0.0, "delay_margin": 0.0, "disk_margin": 0.0, "ripple": None}
-    soft = values | {"plant": "mujoco", "ground_friction": 0.8, "time_constant": 5e-3}
+    soft = values | {"ground.plant": "mujoco", "ground.friction": 0.8, "ground.time_constant": 5e-3}
     assert numbers_without_walk(names, soft) == {name: told[name] for name in names}
-    assert numbers_without_walk(names, values | {"period": None}) == dict.fromkeys(names)
+    assert numbers_without_walk(names, values | {"hardware.period": None}) == dict.fromkeys(names)
 
 
 WALKS = """
 name = "walks"
-base = { controller = "NPD", impacts = 1 }
+base = { controller.name = "NPD", run.impacts = 1 }
 [search]
 budget = 3
 generation = 3
 finalists = 1
 objective = { column = "rms_error" }
-variables = { K_p = { from = 2000.0, to = 9000.0, scale = "log" } }
+variables = { controller.K_p = { from = 2000.0, to = 9000.0, scale = "log" } }
 walks = { search = { seeds = [0] }, choice = { seeds = [1] }, test = { seeds = [2] } }
 """
 
@@ -224,9 +233,14 @@ def test_the_command_searches_and_simulate_takes_what_it_wrote(tmp_path):
     assert "2 impacts" in simulated.output
     with ThreadPoolExecutor(1) as pool:
         found = ba.study(path, out, pool)
-        K_p = [c.chosen["K_p"] for c in found.choices[""].candidates[1:]]
-        swept = {"name": "x", "seeds": [0], "base": found.study.base, "grid": {"K_p": K_p}}
+        K_p = [c.chosen["controller.K_p"] for c in found.choices[""].candidates[1:]]
+        swept = {
+            "name": "x",
+            "seeds": [0],
+            "base": found.study.base,
+            "grid": {"controller.K_p": K_p},
+        }
         rows = ba.study(swept, tmp_path / "swept", pool).rows()
-    assert ba.Scenario(**nested(read_scenario(out / "chosen.toml"))) == found.scenarios[""]
+    assert scenario_of(read_scenario(out / "chosen.toml")) == found.scenarios[""]
     expected = [row["rms_error"] if row["feasible"] else INF for row in rows]
     assert [c.objective for c in found.choices[""].candidates[1:]] == expected

@@ -40,7 +40,11 @@ ODD = '</script><script>document.title = "run"</script>'
 OTHERS: dict[str, dict[str, object]] = {
     "NPD": {"controller": "NPD"},
     "ADRC": {"controller": "ADRC"},
-    "m = 3": {"controller": "ADRC", "order": 3, "bandwidth": 300.0},
+    "m = 3": {
+        "controller.name": "ADRC",
+        "controller.observer.order": 3,
+        "controller.observer.bandwidth": 300.0,
+    },
     ODD: {"controller": "NPID"},
 }
 
@@ -240,8 +244,13 @@ def test_the_spring_pulls_towards_the_hand_and_not_more_than_it_may(browser: Chr
 
 
 TORQUES = {"pushes": "q1,q5=25@1:0.1-0.2"}
-PULSE = {"push": "pulse", "on": "link right_shin", "force": 40.0, "direction": math.pi}
-PULSE |= {"onset": 0.1, "duration": 0.1, "pushed_step": 1}
+PULSE = {
+    "pushes.0.shape": "pulse",
+    "pushes.0.link": "right_shin",
+    "pushes.0.force": 40.0,
+    "pushes.0.direction": math.pi,
+}
+PULSE |= {"pushes.0.onset": 0.1, "pushes.0.duration": 0.1, "pushes.0.step": 1}
 PUSHED = """
 const [hand, ends] = arguments;
 play.begin("NPD", null);
@@ -267,7 +276,9 @@ return { states, began, still: [...play.leader.q] };
 def test_it_pushes_as_the_scenario_of_the_same_push_and_goes_back(
     browser: Chrome, as_scenario: dict[str, Any], by_hand: dict[str, Any]
 ) -> None:
-    walk = ba.walk_scenario(replace(scenario_of("NPD"), impacts=1, **as_scenario)).trajectory
+    walk = ba.walk_scenario(
+        scenario_of("NPD").replace({"run.impacts": 1, **as_scenario})
+    ).trajectory
     found = browser.execute_script(PUSHED, by_hand | {"seconds": 0.1}, [0.15, 0.22])
     for t, *state in found["states"]:
         assert state == pytest.approx(walk(t)[:10], abs=1e-7)
@@ -464,11 +475,15 @@ def test_a_module_begins_as_webassembly_does() -> None:
     ("scenario", "others", "said"),
     [
         (ba.Scenario("ADRC"), {}, "at every instant"),
-        (ba.Scenario("ADRC", hardware="ideal", plant="mujoco"), {}, "on plant 'mujoco'"),
-        (FIRST, {"soft": {"plant": "mujoco"}}, "'soft' is on plant 'mujoco'"),
+        (ba.Scenario("ADRC", hardware="ideal", ground="mujoco"), {}, "on plant 'mujoco'"),
+        (FIRST, {"soft": {"ground.plant": "mujoco"}}, "'soft' is on plant 'mujoco'"),
         (FIRST, {"own": {"controller": "CLF-QP"}}, "'own' does not run in machine code"),
-        (ba.Scenario("ADRC", hardware="ideal", push="step"), {}, "push or ground steps of its own"),
-        (ba.Scenario("ADRC", hardware="ideal", fine=1e-4), {}, "fine"),
+        (
+            ba.Scenario("ADRC", hardware="ideal", pushes=[{"shape": "step"}]),
+            {},
+            "push or ground steps of its own",
+        ),
+        (ba.Scenario("ADRC", hardware="ideal", run={"fine": 1e-4}), {}, "fine"),
         (ba.Scenario("passive", robot="compass", hardware="ideal"), {}, "motors"),
         (FIRST, {"x": {"robot": "rabbit", "gain": 3.0}}, "gain"),
         (FIRST, {"x": 3.0}, "values of a scenario by name"),
@@ -483,9 +498,11 @@ def test_what_a_page_cannot_walk(tmp_path: Path, scenario: Any, others: Any, sai
 
 
 def test_another_controller_comes_without_the_observer_of_the_one_before() -> None:
-    s = ba.Scenario("ADRC", hardware="ideal", bandwidth=200.0, order=1)
-    assert revised(s, {"controller": "NPD"}).bandwidth is None
-    assert revised(s, {"bandwidth": 250.0}).order == 1
+    s = ba.Scenario(
+        {"name": "ADRC", "observer": {"bandwidth": 200.0, "order": 1}}, hardware="ideal"
+    )
+    assert revised(s, {"controller": "NPD"}).controller.observer.bandwidth is None
+    assert revised(s, {"controller.observer.bandwidth": 250.0}).controller.observer.order == 1
 
 
 def test_the_command_writes_a_page_or_opens_one(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -493,12 +510,12 @@ def test_the_command_writes_a_page_or_opens_one(monkeypatch: pytest.MonkeyPatch)
     shown: list[str] = []
     monkeypatch.setattr("biped_adrc.live.page.play", lambda *given: asked.append(given))
     monkeypatch.setattr("webbrowser.open", lambda url: shown.append(url))
-    words = ["play", "--ghost", "NPID", "--K-p", "900"]
+    words = ["play", "--ghost", "NPID", "--set", "controller.K_p=900"]
     for more in (["-o", "own.html"], []):
         done = CliRunner().invoke(app, words + more, catch_exceptions=False)
         path, scenario, others = asked[-1]
         assert f"written to {path}" in done.output
-        assert (scenario.K_p, scenario.hardware) == (900.0, "ideal")
+        assert (scenario.controller.K_p, scenario.hardware.period) == (900.0, 1e-3)
         assert next(iter(others)) == "NPID"
     assert asked[0][0] == Path("own.html")
     assert shown == [path.as_uri()]

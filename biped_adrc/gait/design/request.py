@@ -206,24 +206,26 @@ class GaitRequest(Shown):
         A robot of the user's own appears by its name; whoever repeats the command has to give its robot.toml.
         """
         limits, usual = self.limits, StepLimits()
-        values: dict[str, object] = {
+        options = {
             "robot": biped.description.name,
             "preset": biped.preset,
             "speed": self.speed,
             "step": self.step,
             "slope": self.slope or None,
             "minimise": self.objective.value,
+        }
+        sets = {
             "degree": self.degree,
-            **({} if self.curve == "bezier" else {"curve": self.curve}),
+            "curve": None if self.curve == "bezier" else self.curve,
             "nodes": self.nodes,
-            "torque": limits.torque,
-            "friction": limits.friction,
-            "impulse-friction": limits.impulse_friction,
+            "through": None if self.through is None else ",".join(map(repr, self.through)),
+            **{
+                f"limits.{x}": getattr(limits, x)
+                for x in ("torque", "friction", "impulse_friction")
+            },
         }
         if limits.clearance != usual.clearance:
-            values["clearance"] = limits.clearance or 0
-        if self.through is not None:
-            values["through"] = ",".join(map(repr, self.through))
-        return "biped-adrc gait design" + "".join(
-            f" --{name} {value}" for name, value in values.items() if value is not None
-        )
+            sets["limits.clearance"] = limits.clearance or "none"
+        words = [f"--{name} {x}" for name, x in options.items() if x is not None]
+        words += [f"--set {name}={x}" for name, x in sets.items() if x is not None]
+        return f"biped-adrc gait design {' '.join(words)}"

@@ -12,9 +12,9 @@ import numpy as np
 
 import biped_adrc as ba
 from biped_adrc.observer_design.observer_report import observer_report
-from biped_adrc.scenario.push import parse_push
 from tests.photograph import files
 from tests.photograph.adapter import walkers
+from tests.photograph.adapter.names import dotted
 from validation.groups import groups
 
 Plain = dict[str, Any]
@@ -100,8 +100,7 @@ MADE: dict[str, Plain] = {
 
 def stored(name: str) -> Plain:
     """A run, written and read again."""
-    given = {"engine": "compiled", "impacts": 3, **STORED[name]}
-    given["pushes"] = tuple(parse_push(text) for text in given.get("pushes", ()))
+    given = dotted({"engine": "compiled", "impacts": 3, **STORED[name]})
     return reread(ba.walk_scenario(ba.Scenario(**given)))
 
 

@@ -26,6 +26,7 @@ from biped_adrc.study import build
 from biped_adrc.study.parameters import scenario_of
 from biped_adrc.study.run import measured, run_trial
 from tests.photograph.adapter import walkers
+from tests.photograph.adapter.names import dotted
 
 ENGINES = ("pinocchio", "compiled")
 MOVE = 1e-14
@@ -81,7 +82,7 @@ def _walker(s: Plain) -> Ready:
 
 
 def _trial(s: Plain) -> Ready:
-    t = scenario_of(s["fields"])
+    t = scenario_of(dotted(s["fields"]))
     case = build.case(t)
     parts = (Part(case.impacts, case.method),)
     g = build.scene_of(t).walked
@@ -90,7 +91,7 @@ def _trial(s: Plain) -> Ready:
 
 def _run(s: Plain) -> Ready:
     pushes = tuple(parse_push(text) for text in s["pushes"])
-    run = ba.Scenario(pushes=pushes, **effective(s["fields"]))
+    run = ba.Scenario(pushes=pushes, **dotted(effective(s["fields"])))
     scene = scenario.RobotAndGait.of(run)
     g, w = scene.walked, scenario.build(run, scene)
     q, v = g.start(w.nominal)
@@ -100,9 +101,9 @@ def _run(s: Plain) -> Ready:
         return {"outcome": [o.peak_error, o.rms_error, o.peak_torque]}
 
     def parts(engine: str) -> Any:
-        return parts_of(replace(run, engine=engine), w)
+        return parts_of(run.replace(run={"engine": engine}), w)
 
-    return Ready(w, g, q, v, parts, run.first_step, more)
+    return Ready(w, g, q, v, parts, run.run.first_step, more)
 
 
 def _passive(s: Plain) -> Ready:
@@ -235,12 +236,13 @@ def named_before(row: Plain) -> Plain:
 
 def rows(s: Plain) -> Plain:
     """The row of a trial, compiled, and its change from the moved start."""
-    row = named_before(run_trial(s["fields"]))
+    fields = dotted(s["fields"])
+    row = named_before(run_trial(fields))
     words = {name: x for name, x in row.items() if isinstance(x, str) or x is None}
     numbers = {name: [float(x)] for name, x in row.items() if isinstance(x, int | float)}
     if row["status"] in ("REFUSED", "RAISED"):
         return {"words": words, "numbers": numbers, "deviation": None}
-    t = scenario_of(s["fields"])
+    t = scenario_of(fields)
     case = build.case(t)
     q, v = moved(s, case.q, case.v)
     case = replace(case, q=q, v=v)

@@ -1,8 +1,8 @@
-"""Numbers with units: "1.5 ms", "30 N m".
+"""Numbers with units in text: "1.5 ms", "30 N m", "300 rad/s".
 
 A unit is a product of powers, "kg m^2/s^2"; each symbol may carry an SI prefix, and what follows a slash
-divides. An angle has a dimension of its own here, so that a frequency [Hz] cannot be taken for an angular
-rate [rad/s], a factor of 2 pi that no check of SI would find.
+divides. An angle has a dimension of its own here, so that a frequency [Hz] cannot be taken for an angular rate
+[rad/s], a factor of 2 pi that no check of SI would find.
 """
 
 from __future__ import annotations
@@ -38,6 +38,7 @@ WHOLE: dict[str, Unit] = {
     "min": Unit(60.0, (0, 0, 1, 0)),
     "deg": Unit(math.pi / 180.0, (0, 0, 0, 1)),
     "rev": Unit(2.0 * math.pi, (0, 0, 0, 1)),
+    "Nm": Unit(1.0, (2, 1, -2, 0)),
     "rpm": Unit(2.0 * math.pi / 60.0, (0, 0, -1, 1)),
 }
 """Symbols that take no prefix: "mmin" or "krpm" is refused."""
@@ -74,6 +75,17 @@ def quantity(text: str, unit: str) -> float:
     return scaled
 
 
+def in_si(text: str) -> float | None:
+    """The number of a text such as "2 mm" in SI units, whatever its unit; None for another text."""
+    match = _QUANTITY.fullmatch(text)
+    if match is None or not match[2]:
+        return None
+    try:
+        return _scaled(float(match[1]), unit_of(match[2]).factor)
+    except ValueError:
+        return None
+
+
 def unit_of(text: str) -> Unit:
     """The unit that a text such as "kg m^2/s^2" names.
 
@@ -99,7 +111,9 @@ def _factor(word: str, text: str) -> tuple[Unit, int]:
     symbol = None if match is None else _symbol(match[1])
     if match is None or symbol is None:
         known = ", ".join([*SYMBOLS, *WHOLE])
-        raise ValueError(f"the unit '{text}' is not known; units are made of {known}")
+        raise ValueError(
+            f"the unit '{text}' is not known; units are products such as 'N m' or 'rad/s', of {known}"
+        )
     power = match[2] or "1"
     if len(power) > 4 or abs(int(power)) > MOST_POWER:
         raise ValueError(f"the unit '{text}' has the power {power}, expected at most {MOST_POWER}")

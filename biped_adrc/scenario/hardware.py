@@ -1,0 +1,111 @@
+"""Records of a scenario's hardware: sampling, sensors, motors and joint friction."""
+
+from __future__ import annotations
+
+from typing import Any, Literal, Self
+
+from pydantic import ConfigDict, field_validator, model_validator
+
+from biped_adrc.resources import packaged
+from biped_adrc.scenario.dotted import flat, merged
+from biped_adrc.scenario.records import Misfit, Record, field
+
+PROFILES: dict[str, dict[str, Any]] = packaged("biped_adrc.scenario", "hardware.toml")
+"""Values that `hardware.profile` fills in: none, continuous time; ideal, exact measurements at 1 kHz; rabbit,
+sampling, encoders, torque and friction published for RABBIT (Chevallereau et al., IEEE Control Systems Magazine
+2003; Westervelt, Buche, Grizzle, IJRR 2004), whose rotors are in the preset 'identified'."""
+
+
+class EncoderRecord(Record):
+    """Encoders and rates."""
+
+    SHORT = ""
+    counts: float | None = field(None, ge=1)
+    """Per revolution; by default exact."""
+    noise: float = field(0.0, "rad", ge=0, le=1.0)
+    """Standard deviation of the joints' angles."""
+    pitch_noise: float = field(0.0, "rad", ge=0, le=1.0)
+    """That of the unactuated pitch."""
+    rate_noise: float = field(0.0, "rad/s", ge=0, le=100.0)
+    """That of measured rates."""
+    velocity: Literal["measured", "differences", "gyro"] = field("measured")
+    """Rates: exact, from differences of angles, or so but for the pitch's."""
+    filter_time: float = field(0.0, "s", ge=0, le=1.0)
+    """Low-pass of the differences."""
+
+
+class PartRecord(Record):
+    """A part by name, with its parameters."""
+
+    model_config = ConfigDict(extra="allow")
+    name: str | None = field(None)
+
+
+class SensorRecord(PartRecord):
+    """One more sensor behind the encoders, with its parameters."""
+
+    name: str | None = field(None, kind="sensor")
+    """Of the registry, or module:Class."""
+
+
+class TouchdownRecord(PartRecord):
+    """How the controller notices touchdowns, with parameters."""
+
+    name: str | None = field(None, kind="touchdown")
+    """Of the registry ('told', 'force', 'kinematics'), or module:Class; by default at once."""
+
+
+class HardwareRecord(Record):
+    """Sampling, sensors, motors and joint friction."""
+
+    SHORT = "profile"
+    profile: str = field("none")
+    """Fills in what is not given: none, ideal (1 kHz) or rabbit."""
+    period: float | None = field(None, "s", ge=1e-5, le=0.1)
+    """Sampling period of the controller; by default continuous time."""
+    delay: float = field(0.0, "s", ge=0, le=1.0)
+    """From a tick to the torque's effect."""
+    delay_known: bool = field(False)
+    """Whether the observer knows the delay."""
+    encoders: EncoderRecord = field(EncoderRecord())
+    sensor: SensorRecord = field(SensorRecord())
+    touchdown: TouchdownRecord = field(TouchdownRecord())
+    torque_limit: float | None = field(None, "N m", gt=0)
+    """Of every motor."""
+    rate_limit: float | None = field(None, "N m/s", gt=0)
+    """Of every motor's torque."""
+    lag: float = field(0.0, "s", ge=0, le=1.0)
+    """Time constant of the motors."""
+    friction: bool = field(False)
+    """Joint friction of the robot's record in the plant."""
+
+    @classmethod
+    def filled(cls, values: dict[str, Any]) -> dict[str, Any]:
+        """Values of the profile where none are given."""
+        profile = PROFILES.get(str(values.get("profile")), {})
+        return {
+            **values,
+            **merged(profile, {name: values[name] for name in profile if name in values}),
+        }
+
+    @field_validator("profile")
+    @classmethod
+    def _there(cls, profile: str) -> str:
+        if profile not in PROFILES:
+            raise ValueError(f"found '{profile}', expected one of {list(PROFILES)}")
+        return profile
+
+    @model_validator(mode="after")
+    def _sampled(self) -> Self:
+        """Raise Misfit for a value that would do nothing in continuous time."""
+        idle = flat(Record.record(self)).keys() - {"torque_limit", "friction", "profile"}
+        if self.period is None and idle:
+            raise Misfit(
+                min(idle), "does nothing in continuous time; give hardware.period too, as '1 ms'"
+            )
+        return self
+
+    def record(self, usual: Record | None = None) -> dict[str, Any]:
+        if self.profile == "none":
+            return super().record()
+        return {"profile": self.profile, **super().record(HardwareRecord(profile=self.profile))}

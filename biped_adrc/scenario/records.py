@@ -1,0 +1,342 @@
+"""Records of plain values: units, ranges and texts declared at the field, checked when a record is made.
+
+    class Motors(Record):
+        torque_limit: float | None = field(None, "N m", gt=0)
+        ...and its help text as the docstring below
+
+A number may be text with a unit, "150 N m" or "1 ms"; "none" is no value where a field allows it. A record that
+has one obvious name, `SHORT`, may be that name alone. Values of records inside records have dotted names,
+"controller.observer.bandwidth", the same in Python, in TOML and on the command line.
+
+Records of parts of the user's own are open: they keep other names in `own`, and the part takes them by name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import NoneType, UnionType
+from typing import Any, ClassVar, Literal, NamedTuple, Self, Union, get_args, get_origin
+
+import numpy as np
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    ValidationError,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
+from pydantic.fields import FieldInfo
+
+from biped_adrc.errors import InputError
+from biped_adrc.scenario.dotted import NAME, flat, merged, nested, unknown
+from biped_adrc.scenario.registry import portable, spelled
+from biped_adrc.scenario.units import in_si, quantity
+from biped_adrc.shown import LONGEST
+
+NONE = "none"
+"""Text for no value."""
+
+
+def field(default: Any, unit: str = "1", kind: str = "", **limits: Any) -> Any:
+    """A field with its unit and range (ge, gt, le, lt); kind: of the registry, for a name.
+
+    The docstring below the field is its help text.
+    """
+    return Field(default, json_schema_extra={"unit": unit, "kind": kind}, **limits)
+
+
+class Misfit(InputError):
+    """A value that a record does not take; `place` is its dotted name."""
+
+    def __init__(self, place: str, text: str, known: bool = True) -> None:
+        super().__init__(f"{place}: {text}" if place else text)
+        self.place, self.text, self.known = place, text, known
+
+
+class Described(NamedTuple):
+    """What is known of one value by its dotted name."""
+
+    name: str
+    types: tuple[type, ...]
+    """float, int, bool, str, tuple, dict and NoneType; empty for a value that only the user's part knows."""
+    unit: str = "1"
+    limits: tuple[tuple[str, float], ...] = ()
+    """Of the range: (ge, gt, le or lt, value)."""
+    default: Any = None
+    text: str = ""
+    choices: tuple[str, ...] = ()
+    kind: str = ""
+    """Of the registry, where it is a name of it."""
+
+    @property
+    def number(self) -> bool:
+        """Whether it may be a number."""
+        return bool({int, float} & set(self.types))
+
+    def check(self, x: Any) -> None:
+        """Raise ValueError for a value of another type, or out of its range."""
+        wrong = self.types and not isinstance(x, (*self.types, *((int,) * self.number)))
+        if wrong or (self.choices and x is not None and x not in self.choices):
+            kinds = " or ".join(self.choices or (kind.__name__ for kind in self.types))
+            raise ValueError(f"found {x!r}, expected {kinds.replace('NoneType', 'none')}")
+        for sign, limit in self.limits if isinstance(x, int | float) else ():
+            if not {"ge": x >= limit, "gt": x > limit, "le": x <= limit, "lt": x < limit}[sign]:
+                raise ValueError(f"found {x:g}, expected {self.range_text} [{self.unit}]")
+
+    @property
+    def range_text(self) -> str:
+        """Its range, or its choices, in a few words."""
+        signs = {"ge": ">=", "gt": ">", "le": "<=", "lt": "<"}
+        parts = [f"{signs[sign]} {x:g}" for sign, x in self.limits]
+        return " or ".join(self.choices) or ", ".join(parts)
+
+
+class Record(BaseModel):
+    """A frozen record of plain values. Raises InputError that names the value by its dotted name."""
+
+    model_config = ConfigDict(
+        frozen=True,
+        extra="forbid",
+        allow_inf_nan=False,
+        protected_namespaces=(),
+        use_attribute_docstrings=True,
+    )
+    SHORT: ClassVar[str] = "name"
+    """Field that a text in place of the record stands for."""
+
+    def __init__(self, **values: Any) -> None:
+        try:
+            super().__init__(**values)
+        except ValidationError as error:
+            raise misfit(error, type(self)) from None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _opened(cls, values: Any) -> Any:
+        """The name alone as a record, and lists of a part of the user's own as tuples."""
+        if isinstance(values, str) and cls.SHORT in cls.model_fields:
+            values = {cls.SHORT: values}
+        if not isinstance(values, Mapping):
+            return values
+        found = {cls.SHORT if name == NAME else str(name): x for name, x in values.items()}
+        for name in found.keys() - cls.model_fields.keys():
+            if isinstance(found[name], Mapping | Record):
+                raise Misfit(name, unknown(name, names_of(cls)), known=False)
+            what = cls.own_value(name)
+            try:
+                found[name] = read(what, plain(found[name]))
+            except ValueError as error:
+                raise Misfit(name, str(error)) from None
+        return cls.filled(found)
+
+    @classmethod
+    def filled(cls, values: dict[str, Any]) -> dict[str, Any]:
+        """Values with what others of them fill in."""
+        return values
+
+    @classmethod
+    def own_value(cls, name: str) -> Described:
+        """What is known of a value that only the user's part knows: nothing."""
+        return Described(name, ())
+
+    @field_validator("*", mode="before")
+    @classmethod
+    def _read(cls, x: Any, info: ValidationInfo) -> Any:
+        """A value as its field takes it: numbers from text with a unit, names as the registry spells them."""
+        name = str(info.field_name)
+        return read(described(cls, name), plain(x))
+
+    @property
+    def own(self) -> dict[str, Any]:
+        """Values by name that only the user's part knows."""
+        return dict(self.model_extra or {})
+
+    def record(self, usual: Record | None = None) -> dict[str, Any]:
+        """Nested plain values that differ from the defaults, or from those of another record, as JSON has them.
+
+        What was registered in this process is written as module:Class, by which any other process finds it.
+        """
+        usual = type(self).model_construct() if usual is None else usual
+        found = {}
+        for name, info in type(self).model_fields.items():
+            x, before = getattr(self, name), getattr(usual, name)
+            if isinstance(x, Record) and isinstance(before, Record):
+                x, before = x.record(before), {}
+            if x != before:
+                kind = extra(info)["kind"]
+                found[name] = portable(kind, x) if kind and x is not None else listed(x)
+        others = usual.own
+        return found | {name: listed(x) for name, x in self.own.items() if others.get(name) != x}
+
+    def dotted(self) -> dict[str, Any]:
+        """`record` by dotted names, such as {"controller.observer.bandwidth": 300.0}."""
+        return flat(self.record())
+
+    def replace(self, values: Mapping[str, Any] | None = None, **more: Any) -> Self:
+        """The record with other values, nested or by dotted names; a text or a record replaces a whole one.
+
+        s.replace(run={"seed": 3}), s.replace({"run.seed": 3}), s.replace(controller="NPD")
+        """
+        return type(self)(**merged(self.record(), nested({**(values or {}), **more})))
+
+    def __repr__(self) -> str:
+        told = ", ".join(f"{name}={x!r}" for name, x in self.dotted().items())
+        room = LONGEST - len(type(self).__name__) - 2
+        return f"{type(self).__name__}({told if len(told) <= room else told[: room - 3] + '...'})"
+
+    __str__ = __repr__
+
+    def __hash__(self) -> int:
+        return hash(repr(sorted(self.dotted().items())))
+
+
+def plain(x: Any) -> Any:
+    """A value without NumPy's types, and lists of numbers and texts as tuples."""
+    if isinstance(x, np.generic | np.ndarray):
+        x = x.tolist()
+    if isinstance(x, list | tuple) and all(isinstance(y, int | float | str) for y in x):
+        return tuple(x)
+    return x
+
+
+def listed(x: Any) -> Any:
+    """A value as JSON has it."""
+    if isinstance(x, Record):
+        return x.record()
+    if isinstance(x, list | tuple):
+        return [listed(y) for y in x]
+    return dict(x) if isinstance(x, Mapping) else x
+
+
+def extra(info: FieldInfo) -> dict[str, str]:
+    """Unit and kind of a field."""
+    found: Any = info.json_schema_extra
+    return found or {"unit": "1", "kind": ""}
+
+
+def read(what: Described, x: Any) -> Any:
+    """A value as a field takes it. Raises ValueError with what was found and expected."""
+    types, number = set(what.types), what.number
+    if isinstance(x, Mapping) and dict in types:
+        return {key: _in_unit(y, what.unit) if isinstance(y, str) else y for key, y in x.items()}
+    if isinstance(x, str):
+        if x == NONE and NoneType in types:
+            return None
+        if what.kind:
+            return spelled(what.kind, x)
+        if not types:
+            found = in_si(x)
+            return x if found is None else found
+        if number:
+            x = _in_unit(x, what.unit)
+        elif bool in types and x in ("true", "false"):
+            return x == "true"
+        elif tuple in types and what.unit != "1":
+            return tuple(_in_unit(word, what.unit) for word in x.split(","))
+    if number and isinstance(x, bool):
+        raise ValueError(f"found {x!r}, expected a number [{what.unit}]")
+    if int in types and isinstance(x, float) and x.is_integer():
+        return int(x)
+    return x
+
+
+def _in_unit(text: str, unit: str) -> float:
+    try:
+        return quantity(text, unit)
+    except ValueError as error:
+        raise ValueError(f"found {text!r}: {error}") from None
+
+
+def described(cls: type[Record], name: str, place: str = "") -> Described:
+    """One field of a record."""
+    info = cls.model_fields[name]
+    kinds = _members(info.annotation)
+    choices = tuple(x for kind in kinds if get_origin(kind) is Literal for x in get_args(kind))
+    types = tuple(str if get_origin(k) is Literal else get_origin(k) or k for k in kinds)
+    limits = tuple(
+        (sign, getattr(rule, sign))
+        for rule in info.metadata
+        for sign in ("ge", "gt", "le", "lt")
+        if hasattr(rule, sign)
+    )
+    default, text = info.get_default(call_default_factory=True), str(info.description or "")
+    told = extra(info)
+    return Described(
+        place or name, types, told["unit"], limits, default, text, choices, told["kind"]
+    )
+
+
+def _members(hint: Any) -> tuple[Any, ...]:
+    return get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
+
+
+def record_in(cls: type[Record], name: str) -> type[Record] | None:
+    """The class of the record, or of the records, that a field holds; None for a value."""
+    for kind in _members(cls.model_fields[name].annotation):
+        for inner in (kind, *get_args(kind)):
+            if isinstance(inner, type) and issubclass(inner, Record):
+                return inner
+    return None
+
+
+def names_of(cls: type[Record], before: str = "") -> list[str]:
+    """Dotted names of all values; of a list of records those of its first, and of itself none inside."""
+    found = []
+    for name, info in cls.model_fields.items():
+        inner = record_in(cls, name)
+        if inner is None or inner is cls:
+            found.append(before + name)
+        else:
+            place = "0." if get_origin(info.annotation) is tuple else ""
+            found += names_of(inner, f"{before}{name}.{place}")
+    return found
+
+
+def described_in(cls: type[Record], name: str) -> Described:
+    """What is known of a value by its dotted name. Raises InputError with the nearest names."""
+    at: type[Record] = cls
+    *path, last = [part for part in name.split(".") if not part.isdigit()]
+    for part in path:
+        if part not in at.model_fields:
+            raise Misfit(name, unknown(name, names_of(cls)))
+        inner = record_in(at, part)
+        if inner is None:  # a table
+            types = (str,) if dict not in described(at, part).types else (float,)
+            return Described(name, types, text=str(at.model_fields[part].description))
+        at = inner
+    if last in at.model_fields:
+        inner = record_in(at, last)
+        if inner is None:
+            return described(at, last, name)
+        if inner.SHORT in inner.model_fields:
+            return described_in(inner, inner.SHORT)._replace(name=name)
+        raise Misfit(
+            name, f"is a record; name a value in it, as {name}.{next(iter(inner.model_fields))}"
+        )
+    if at.model_config.get("extra") == "allow":
+        return at.own_value(last)._replace(name=name)
+    raise Misfit(name, unknown(name, names_of(cls)))
+
+
+def misfit(error: ValidationError, cls: type[Record]) -> Misfit:
+    """The first thing that is wrong, as an error with the dotted name of the value."""
+    found = error.errors()[0]
+    parts = map(str, found["loc"])
+    place = ".".join(part for part in parts if part not in _LABELS and "[" not in part)
+    inner = found.get("ctx", {}).get("error")
+    if isinstance(inner, Misfit):
+        place = ".".join(part for part in (place, inner.place) if part)
+        if inner.known:
+            return Misfit(place, inner.text)
+    if found["type"] == "extra_forbidden" or isinstance(inner, Misfit):
+        return Misfit(place, unknown(place, names_of(cls)), known=False)
+    text = found["msg"].removeprefix("Value error, ")
+    if text.startswith("Input should"):
+        text = f"found {found['input']!r}, {text.replace('Input should', 'should')}"
+    return Misfit(place, text)
+
+
+_LABELS = ("float", "int", "bool", "str")
+"""What pydantic names the members of a union in the place of an error."""
