@@ -155,7 +155,7 @@ def test_the_headline_does_not_depend_on_its_step(controller):
 def test_energy_is_balanced_in_the_pushed_step():
     from biped_adrc.paper.physical_laws import walk_laws
 
-    run = replace(pushed_run(Plan(), "ADRC"), first_step=19, impacts=1)
+    run = pushed_run(Plan(), "ADRC").replace(run={"first_step": 19, "impacts": 1})
     assert walk_laws(walk_scenario(run))["energy"] <= 1e-4
 
 

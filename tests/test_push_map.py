@@ -44,7 +44,7 @@ def test_marginal_cells_carry_no_claim():
 def test_a_fall_of_the_polynomial_is_none_of_the_robot():
     """A late push that throws NPD past the phase range, where the gait's polynomial explodes."""
     push = MapPush("identified-bare", 0.3, 150.0, "swing knee -", None)
-    assert not execute(replace(push.run("NPD"), continued=False)).walked
+    assert not execute(push.run("NPD").replace(gait={"continued": False})).walked
     (found,) = push_map([push])
     assert found.npd.status == "COMPLETED"
     assert found.npd.word not in ("feasible", "but_impact")

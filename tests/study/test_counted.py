@@ -8,20 +8,22 @@ from biped_adrc.scenario.build import limits
 from biped_adrc.study.counted import counted_in
 from biped_adrc.study.run import run_trial
 
-PULL = {"push": "sine", "on": "link torso", "force": 40.0, "pushed_step": 2, "duration": 0.3}
-PULSE = {**PULL, "push": "pulse"}
+PULL = {"shape": "sine", "link": "torso", "force": 40.0, "step": 2, "duration": 0.3}
+PULSE = {**PULL, "shape": "pulse"}
+WRONG = {"impact_width": 0.02, "mass_width": 0.05}
+BETWEEN = {**PULSE, "onset": 0.1004, "duration": 0.0503}
 CASES = {
-    "pulled by a sine": {"controller": "ADRC", "period": 1e-3, **PULL},
-    "pulse between instants": {"period": 1.5e-3, **PULSE, "onset": 0.1004, "duration": 0.0503},
-    "encoders, delay, lag": {"hardware": "rabbit", "delay": 0.7e-3, "lag": 1e-3},
-    "other impacts": {"period": 1e-3, "impact_error": 0.02, "mass_error": 0.05, "slope": 0.01},
-    "falls": {"period": 1e-3, **PULSE, "force": 900.0},
+    "pulled by a sine": {"controller": "ADRC", "hardware.period": 1e-3, "pushes": [PULL]},
+    "pulse between instants": {"hardware.period": 1.5e-3, "pushes": [BETWEEN]},
+    "encoders, delay, lag": {"hardware": {"profile": "rabbit", "delay": 0.7e-3, "lag": 1e-3}},
+    "other impacts": {"hardware.period": 1e-3, "errors": WRONG, "ground.slope": 0.01},
+    "falls": {"hardware.period": 1e-3, "pushes": [{**PULSE, "force": 900.0}]},
 }
 
 
 @pytest.mark.parametrize("name", CASES)
 def test_both_give_the_same_numbers(name):
-    s = ba.Scenario(**{"controller": "NPD", "impacts": 3, **CASES[name]})
+    s = ba.Scenario(**{"controller": "NPD", "run.impacts": 3, **CASES[name]})
     row, walk = run_trial(s.record()), ba.walk_scenario(s)
     assert row["status"] == walk.trajectory.status.name
     for column, x in counted_in(walk, limits(s)).items():

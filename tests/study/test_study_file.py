@@ -12,7 +12,8 @@ import biped_adrc as ba
 from biped_adrc.analysis.statistics import median, paired, share
 from biped_adrc.errors import InputError
 from biped_adrc.scenario import scenario
-from biped_adrc.study.parameters import read_scenario, scenario_of, write_scenario
+from biped_adrc.scenario.file import write_scenario
+from biped_adrc.study.parameters import read_scenario, scenario_of
 from biped_adrc.study.space import Draw, Range
 from biped_adrc.study.study import read_study
 from biped_adrc.viz.plots.study import cut

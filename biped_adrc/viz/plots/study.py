@@ -63,7 +63,7 @@ def dots_figure(numbers: Numbers, title: str, reference: float | None = None) ->
     with style():
         figure = new_figure(6.5, 1.1 + 0.36 * len(rows))
         axes = figure.subplots()
-        axes.set_xscale("log")
+        axes.set_xscale("log" if any(x[0] > 0.0 for x in numbers.values()) else "linear")
         if reference is not None:
             axes.axvline(reference, color=GREY, lw=0.8)
         for i, name in enumerate(series):
