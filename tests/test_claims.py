@@ -78,9 +78,11 @@ def test_the_set_is_in_the_package_and_is_balanced():
 def test_a_member_carried_out_is_what_it_says():
     member = Member("identified", 30.0, 0.12, ("q3", "q4"), 0.01, "zero", "printed")
     run = member.run("ADRC", 1e-4, 4)
-    assert (run.solve_theta, run.reset, run.first_step) == (False, "measured", 19)
+    law = run.controller
+    assert (law.solve_theta, law.observer.reset) == (False, "measured")
+    assert run.run.first_step == 19
     assert run.pushes[0].rise == 0.01
-    assert run.pushes[0].torque == {"q3": 30.0, "q4": 30.0}
+    assert run.pushes[0].factors == {"q3": 30.0, "q4": 30.0}
     done = tried(member)
     assert done.walked["ADRC"].made
     assert done.walked["NPD"].made

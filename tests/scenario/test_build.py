@@ -12,7 +12,6 @@ from biped_adrc.bench.run import run_trial
 from biped_adrc.cli.options import scenario_from
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.scenario.build import RobotAndGait, build, plant_of, start
-from biped_adrc.scenario.dotted import flat
 from biped_adrc.scenario.file import read_scenario
 from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario, drawn, field_of, names, scenario_of
@@ -111,7 +110,7 @@ def test_a_value_that_cannot_act_is_refused(said, idle, with_effect) -> None:
 def test_a_number_may_have_a_unit_wherever_it_is_given(name, text, number, tmp_path) -> None:
     by_text, by_number = scenario_of({name: text}), scenario_of({name: number})
     assert by_text == by_number
-    assert flat(by_text.record())[name] == pytest.approx(number, rel=1e-15)
+    assert by_text.dotted()[name] == pytest.approx(number, rel=1e-15)
     file = tmp_path / "walk.toml"
     file.write_text(f'{name} = "{text}"\n')
     assert read_scenario(file) == by_text

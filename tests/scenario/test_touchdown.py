@@ -12,7 +12,6 @@ from biped_adrc.bench.run import run_trial
 from biped_adrc.hardware.touchdown_by_foot import ByForce, ByKinematics
 from biped_adrc.hardware.touchdown_told import Told
 from biped_adrc.scenario.build import build
-from biped_adrc.scenario.dotted import flat
 
 USUAL = {"controller.name": "NPD", "hardware.period": 1e-3, "run.impacts": 2}
 
@@ -79,4 +78,4 @@ class Mine(ByKinematics):
 def test_one_of_the_user_s_is_found_by_its_module():
     scenario = ba.Scenario(hardware={"touchdown": {"name": f"{__name__}:Mine"}}, **USUAL)
     assert build(scenario).touchdown == Mine()
-    assert flat(scenario.record())["hardware.touchdown.name"] == f"{__name__}:Mine"
+    assert scenario.dotted()["hardware.touchdown.name"] == f"{__name__}:Mine"
