@@ -122,7 +122,13 @@ def _places(given: Mapping[str, Any]) -> dict[str, dict[str, Record]]:
 def _packaged() -> dict[str, Settings]:
     """The sets of tuned.toml by name."""
     return {
-        name: Settings(name, x["words"], x["values"], x["contestants"], _places(x["places"]))
+        name: Settings(
+            name,
+            x["words"],
+            flat(x["values"]),
+            {each: flat(values) for each, values in x["contestants"].items()},
+            _places(x["places"]),
+        )
         for name, x in packaged("biped_adrc.bench", "tuned.toml").items()
     }
 
