@@ -102,7 +102,8 @@ def test_the_start_of_a_gait_is_a_keyframe_on_the_ground(biped, gait):
 
 def test_the_command_writes_it(tmp_path):
     path = tmp_path / "rabbit.xml"
-    line = ["robot", "export", "rabbit", "--mjcf", str(path), "--gait", "published", "--slope", "0"]
+    line = ["robot", "export", "rabbit", "--mjcf", str(path), "--gait", "published"]
+    line += ["--set", "ground.slope=0"]
     done = CliRunner().invoke(app, line, catch_exceptions=False)
     assert done.exit_code == 0
     assert f"written to {path}" in done.output.replace("\n", "")
