@@ -83,6 +83,9 @@ def dots_figure(numbers: Numbers, title: str, reference: float | None = None) ->
                 lw=1.0,
                 label=literal(name) or None,
             )
+        left, right = axes.get_xlim()
+        if right < 1.01 * left:  # a single number
+            axes.set_xlim(0.5 * left, 2.0 * right)
         axes.set_yticks(range(len(rows)), [literal(row) for row in rows])
         axes.set_ylim(len(rows) - 0.5, -0.5)
         label(axes, title, "")
