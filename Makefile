@@ -27,7 +27,7 @@ check: .venv/.dev
 # the pages, in docs/_build/html
 docs: .venv/.dev
 	$(BIN)/sphinx-build -W --keep-going -n -E -q -b html docs docs/_build/html
-	$(BIN)/biped-adrc play --torque-limit 150 -o docs/_build/html/_static/play.html
+	$(BIN)/biped-adrc play --set hardware.torque_limit=150 -o docs/_build/html/_static/play.html
 	$(BIN)/python docs/check_pages.py docs/_build/html
 
 # the pictures of README.md and of the first page
