@@ -144,7 +144,8 @@ def learners(table: Table, quick: bool) -> None:
         return
     import gymnasium
 
-    values = {"action": "added", "bandwidth": 160.0, "order": 1}
+    observer = {"bandwidth": 160.0, "order": 1}
+    values = {"action": "added", "controller": {"observer": observer}}
     env = gymnasium.make(ENVIRONMENT, **values)
     envs = gymnasium.make_vec(ENVIRONMENT, num_envs=MANY, **values)
     actions = np.random.default_rng(0).uniform(-0.02, 0.02, (SAMPLES, MANY, 4))
