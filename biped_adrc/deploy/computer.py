@@ -134,10 +134,6 @@ class Computer:
             None,
             self.walker.law,
             math.inf if limit is None else float(limit),
-            tan_slope=0.0,
-            lowest_hip=0.0,
-            longest=math.inf,
-            friction=(),
             strongest=float(self.alone.bounds.strongest),
             held=self.held,
         )

@@ -230,11 +230,6 @@ def _checksum(path: Path) -> bytes:
     return hashlib.sha256(path.name.encode() + path.read_bytes()).hexdigest().encode()
 
 
-def forget(module: ModuleType) -> None:
-    """Remove the machine code that numba keeps of a module, where it cannot be used."""
-    shutil.rmtree(Path(str(module.__file__)).parent / "__pycache__", ignore_errors=True)
-
-
 def _written(path: Path, source: str) -> Path:
     """The file with this text; where it has another one it is rewritten, without the machine code beside it.
 

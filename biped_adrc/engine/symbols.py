@@ -331,17 +331,16 @@ class Vector:
 
     def like(self, tree: T) -> T:
         """A tree of parts, tuples and arrays with its floats as symbols; ints stay what they are."""
-        return self._like(tree)
-
-    def _like(self, tree: object) -> Any:
-        """The same for any part of a tree of tuples, lists, arrays and numbers."""
+        found: Any = tree
         if isinstance(tree, tuple | list):
-            return rebuilt(tree, [self._like(x) for x in tree])
-        if isinstance(tree, np.ndarray):
-            return self.take(*tree.shape) if tree.dtype.kind == "f" else tree
-        if is_part(tree) and not isinstance(tree, HIDDEN):
-            return with_content(tree, {name: self._like(x) for name, x in content(tree).items()})
-        return self.take() if isinstance(tree, float | np.floating) else tree
+            found = rebuilt(tree, [self.like(x) for x in tree])
+        elif isinstance(tree, np.ndarray):
+            found = self.take(*tree.shape) if tree.dtype.kind == "f" else tree
+        elif is_part(tree) and not isinstance(tree, HIDDEN):
+            found = with_content(tree, {name: self.like(x) for name, x in content(tree).items()})
+        elif isinstance(tree, float | np.floating):
+            found = self.take()
+        return found
 
 
 def floats(tree: object) -> list[float]:

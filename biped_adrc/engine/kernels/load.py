@@ -16,7 +16,7 @@ from types import ModuleType
 
 from numba.core import config
 
-from biped_adrc.engine.machine import forget, load_source, note_checksums
+from biped_adrc.engine.machine import load_source, note_checksums
 from biped_adrc.errors import ModelError
 
 _HERE = "biped_adrc.engine.kernels"
@@ -61,17 +61,11 @@ def _step_kernels() -> ModuleType:
 
 @lru_cache(maxsize=1)
 def _kernels() -> ModuleType:
-    """The module, compiled or loaded. Where loading fails, all machine code is forgotten and made again."""
+    """The module, compiled or loaded."""
     if getattr(config, "DISABLE_JIT", 0):
         raise ModelError("NUMBA_DISABLE_JIT is set, so nothing can be compiled; unset it")
-    text = source()
-    module = load_source(text)
-    try:
-        module.compile_those(lambda name: name not in module.FOR_STEPPERS)
-    except Exception:  # numba does not say what it raises for machine code that is damaged
-        forget(module)
-        module = load_source(text)
-        module.compile_those(lambda name: name not in module.FOR_STEPPERS)
+    module = load_source(source())
+    module.compile_those(lambda name: name not in module.FOR_STEPPERS)
     note_checksums(module)
     return module
 

@@ -1,8 +1,7 @@
-"""The plan of a compiled run: its block of cells as it begins, checked, and what the codes that it ends with
-mean.
+"""The plan of a compiled run: its block of cells as it begins, and what the codes that it ends with mean.
 
 `engine.compiled_walker` fills the records below (addresses, sizes, ground, disturbance, clock, method) with
-names; `plan` checks that they fit together and lays them out as `record` says. A plan is read only and serves
+names; `plan` lays them out as `record` says. A plan is read only and serves
 any number of runs, in any thread: each has a copy of the block.
 
 In all records t is the time [s], `step` the number of the single support, t_start [s] when that began, x (nx,)
@@ -29,21 +28,11 @@ from biped_adrc.engine.kernels.record import (
     Ints,
 )
 from biped_adrc.errors import InputError
-from biped_adrc.hybrid.constants import ETD, MATRICES
+from biped_adrc.hybrid.constants import MATRICES, STRUCK
 from biped_adrc.hybrid.status import Status
 from biped_adrc.types import Array, frozen
 
-STATUS = (
-    Status.COMPLETED,
-    Status.TIME_OUT,
-    Status.FELL,
-    Status.STALLED,
-    Status.NOT_FINITE,
-    Status.SINGULAR,
-    Status.STEP_FAILED,
-    Status.EVENT_LIMIT,
-    Status.RAN_AWAY,
-)
+STATUS = tuple(Status)[:STRUCK]
 """The status for each code of `hybrid.constants`; STRUCK and FULL have none."""
 
 
@@ -268,9 +257,11 @@ def plan(
     clock: ClockTable,
     method: MethodTable,
 ) -> RunPlan:
-    """Check these parts and lay them out; K: numbers that the functions read. Raises InputError for a
-    misfit."""
-    _check(functions, sizes, push, clock, method)
+    """Lay these parts out; K: numbers that the functions read. Raises InputError for a period too short."""
+    if 0.0 < clock.period < LEAST_PERIOD:
+        raise InputError(
+            f"the sampling period is {clock.period} s, expected at least {LEAST_PERIOD:g} s"
+        )
     n, nx, p = sizes.n, sizes.nx, sizes.p
     fields: dict[str, float] = {
         **functions._asdict(),
@@ -310,34 +301,3 @@ def plan(
     cells[numbers] = 8 * (places["push"] + cells[numbers])
     pointers = np.concatenate(([PLACES[name] for name in places], numbers)).astype(np.int64)
     return RunPlan(frozen(cells), frozen(pointers), {k: places[k] for k in TABLES}, nx)
-
-
-def _check(
-    functions: Functions,
-    sizes: StateSizes,
-    push: DisturbanceTable,
-    clock: ClockTable,
-    method: MethodTable,
-) -> None:
-    """Raise InputError for parts that do not fit together: compiled code would read elsewhere in memory."""
-    if len(push.offsets) != len(push.addresses) + 1 or push.offsets[-1] > len(push.K):
-        raise InputError(
-            f"{len(push.addresses)} parts of a disturbance with {len(push.K)} parameters have offsets "
-            f"{push.offsets}, expected one more than parts, the last one the number of parameters"
-        )
-    if not (math.isfinite(clock.period) and (clock.period == 0.0 or clock.period >= LEAST_PERIOD)):
-        raise InputError(
-            f"the sampling period is {clock.period} s, expected at least {LEAST_PERIOD:g} s, or 0 for none"
-        )
-    k, phi = sizes.k, method.phi
-    if method.kind == ETD and (k == 0 or phi.shape[1:] != (MATRICES, k, k)):
-        raise InputError(
-            f"the matrices have shape {phi.shape}, expected (levels, 6, {k}, {k}), k > 0"
-        )
-    needed = {"flow": True, "events": True, "impact": True, "tick": clock.period > 0.0}
-    needed |= dict.fromkeys(("to", "back", "remainder", "matvec"), method.kind == ETD)
-    missing = [
-        name for name, is_needed in needed.items() if is_needed and not getattr(functions, name)
-    ]
-    if missing:
-        raise InputError(f"no address of {', '.join(missing)}, which this method and clock call")
