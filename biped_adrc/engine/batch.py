@@ -55,6 +55,8 @@ MOST_IMPACTS = 1_000_000
 """Of one walk, whose states at all impacts are kept in memory."""
 STORE = 1_000_000
 """Each so-many-th step is kept in Python: in practice the ends of the arcs alone."""
+ENDS = {NotFiniteError: Status.NOT_FINITE, SingularError: Status.SINGULAR}
+"""Statuses of walks that end before they begin."""
 ROOM = 512
 """Columns of `BatchWalk.table` for which there is room at first, for each impact asked for."""
 
@@ -192,12 +194,8 @@ def run_case(case: Case) -> Callable[[], BatchWalk]:
     """
     try:
         return _prepared(case)
-    except NotFiniteError as error:
-        return _ended(case, Status.NOT_FINITE, str(error))
-    except SingularError as error:
-        return _ended(case, Status.SINGULAR, str(error))
-    except RaisedError as error:
-        return _ended(case, Status.RAISED, str(error))
+    except (NotFiniteError, SingularError, RaisedError) as error:
+        return _ended(case, ENDS.get(type(error), Status.RAISED), str(error))
     except InputError:
         raise
     except Exception as error:  # whatever a controller or a disturbance in Python may raise
