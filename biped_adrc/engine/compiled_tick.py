@@ -17,10 +17,10 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.engine.equations import WalkerNumbers, WalkerStructure
+from biped_adrc.engine.equations import WalkerStructure
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.mechanics import robot_of
-from biped_adrc.engine.program import NotCompiled, machine_of
+from biped_adrc.engine.program import NotCompiled, controller_numbers, machine_of
 from biped_adrc.engine.symbols import floats
 from biped_adrc.errors import ModelError
 from biped_adrc.model.biped import Biped
@@ -44,16 +44,8 @@ class CompiledTick:
             robot = robot_of(loop.model)
         except ModelError as reason:
             raise NotCompiled(str(reason)) from reason
-        limit = math.inf if loop.limit is None else loop.limit
         self.make = WalkerStructure(robot.structure, size, loop.held.sizes)
-        self.numbers = WalkerNumbers(
-            robot.arrays,
-            None,
-            loop.law,
-            limit,
-            strongest=loop.bounds.strongest,
-            held=loop.held,
-        )
+        self.numbers = controller_numbers(robot, loop)
         self.K = np.array([*floats(self.numbers), 0.0])
         if np.any(np.isnan(self.K)):
             raise NotCompiled(f"a parameter of {type(loop.controller).__name__} or its loop is NaN")

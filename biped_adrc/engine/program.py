@@ -19,6 +19,7 @@ from functools import partial
 import numpy as np
 
 from biped_adrc.closed_loop.exponential_form import ErrorForm
+from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers, WalkerStructure
 from biped_adrc.engine.ir import generated
@@ -139,6 +140,13 @@ def _numbers(
         walker.gain,
         split,
     )
+
+
+def controller_numbers(robot: RobotData, loop: Walker | SteppingLoop) -> WalkerNumbers:
+    """The numbers of a controller in sampled time with its model; of plant and ground there are none."""
+    limit = math.inf if loop.limit is None else float(loop.limit)
+    strongest, held = float(loop.bounds.strongest), loop.held or ()
+    return WalkerNumbers(robot.arrays, None, loop.law, limit, strongest=strongest, held=held)
 
 
 def machine_of(

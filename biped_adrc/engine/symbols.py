@@ -19,6 +19,7 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Callable, Iterator
+from itertools import chain
 from typing import Any, TypeVar, Union, overload
 
 import casadi as ca
@@ -345,23 +346,13 @@ class Vector:
 
 def floats(tree: object) -> list[float]:
     """The numbers that `Vector.like` takes symbols for, in its order."""
-    found: list[float] = []
-    _gather(tree, found)
-    return found
-
-
-def _gather(tree: object, found: list[float]) -> None:
-    """Add the numbers of a part of a tree to those found."""
     if isinstance(tree, tuple | list):
-        for x in tree:
-            _gather(x, found)
-    elif isinstance(tree, np.ndarray):
-        if tree.dtype.kind == "f":
-            found += tree.ravel().tolist()
-    elif is_part(tree) and not isinstance(tree, HIDDEN):
-        _gather(tuple(content(tree).values()), found)
-    elif isinstance(tree, float | np.floating):
-        found.append(float(tree))
+        return list(chain.from_iterable(map(floats, tree)))
+    if isinstance(tree, np.ndarray):
+        return tree.ravel().tolist() if tree.dtype.kind == "f" else []
+    if is_part(tree) and not isinstance(tree, HIDDEN):
+        return floats(tuple(content(tree).values()))
+    return [float(tree)] if isinstance(tree, float | np.floating) else []
 
 
 def paths(tree: object, name: str = "") -> Iterator[str]:
