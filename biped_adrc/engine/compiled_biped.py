@@ -109,7 +109,7 @@ class CompiledBiped(Biped):
         code = generated(key, plant_functions(robot.structure, robot.arrays))
         K, n = np.array([*floats(robot.arrays), 0.0]), self.n
         sizes = {
-            "terms": (2 * n, self.size),
+            "terms": (2 * n, sum(map(math.prod, self.shapes))),
             "body": (2 * n, 6 * n + 3),
             "accelerate": (3 * n, n),
             "ground": (3 * n, 2),
@@ -121,11 +121,6 @@ class CompiledBiped(Biped):
         """Of the parts of a `Reduction`, which `terms` gives one after the other."""
         n, p = self.n, self.p
         return (n, n), (n,), (p, p), (p,), (p, p), (n - p, p), (n - p,)
-
-    @property
-    def size(self) -> int:
-        """Numbers in a `Reduction`."""
-        return sum(map(math.prod, self.shapes))
 
     def reduction(self, q: Array, v: Array) -> Reduction:
         """The terms of (11)-(15) at q (n,) [rad], v (n,) [rad/s]."""

@@ -53,17 +53,13 @@ class CompiledTick:
         n, p, nx = loop.plant.n, loop.plant.p, self.make.nx
         self.inp, self.out = np.zeros(3 + nx + n + OUTSIDE), np.zeros(nx + p + 1)
         self.x, self.xi = np.zeros(0), np.zeros(0)
-        self.blind = self._blind(loop, size)
+        still = np.zeros(n)
+        m = loop.measure(0.0, still, still, Mode())
+        self.blind = loop.calls.estimate(np.zeros(size), m) is None  # no observer
         noticing = loop.held.touchdown
         self.felt = loop if noticing and noticing.needs_force else None
         self._function = _SAMPLE(self.owner.addresses["sample"])
         self._at = self.K.ctypes.data, self.inp.ctypes.data, self.out.ctypes.data
-
-    @staticmethod
-    def _blind(loop: SteppingLoop, size: int) -> bool:
-        """Whether the controller has no observer."""
-        still = np.zeros(loop.plant.n)
-        return loop.calls.estimate(np.zeros(size), loop.measure(0.0, still, still, Mode())) is None
 
     def __call__(self, t: float, x: Array, mode: Mode) -> Array | None:
         """x (nx,) after the sample instant at t [s]; None where Python has to say what is wrong.

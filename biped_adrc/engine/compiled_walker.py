@@ -115,7 +115,7 @@ def _plan(
     Of a held state only q and v flow, so the step methods may skip the rest; with lagging motors
     all of it does.
     """
-    n, p, nx, bounds = walker.plant.n, walker.plant.p, program.nx, walker.bounds
+    n, p, nx, bounds = walker.plant.n, walker.plant.p, program.make.nx, walker.bounds
     split, relaxing = program.numbers.split, walker.relaxing()
     k = 0 if split is None else len(split.A)
     flows = walker.held is None or relaxing  # the torque of the motors, then all does

@@ -51,11 +51,6 @@ class Program:
     key: Hashable
     """What decides the code."""
 
-    @property
-    def nx(self) -> int:
-        """Numbers in a state."""
-        return self.make.nx
-
     @classmethod
     def of(cls, walker: Walker, size: int, split: ErrorForm | None = None) -> Program:
         """The program of a walker whose controller has `size` states; split: coordinates of the

@@ -103,11 +103,6 @@ class CompiledRun:
         return self.numbers[at : at + self.nx]
 
     @property
-    def width(self) -> int:
-        """Numbers in a work vector."""
-        return self.place("dx0") - self.place("x0")
-
-    @property
     def block(self) -> Ints:
         """The cells, pointers as distances from its start [bytes] again."""
         block = self.cells.copy()
