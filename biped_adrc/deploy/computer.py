@@ -19,6 +19,7 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.deploy.noticed import Noticed
 from biped_adrc.engine.equations import WalkerNumbers
 from biped_adrc.engine.mechanics import RobotData, robot_of
+from biped_adrc.engine.program import controller_numbers
 from biped_adrc.engine.tick_derivative import tick_derivative
 from biped_adrc.errors import InputError, ModelError
 from biped_adrc.hardware.motors import Motors
@@ -124,20 +125,5 @@ class Computer:
 
     @cached_property
     def numbers(self) -> WalkerNumbers:
-        """All numbers by name; of plant and ground there are none, as the computer knows its model alone.
-
-        Raises InputError for NaN among them.
-        """
-        limit = self.alone.torque_limit
-        return WalkerNumbers(
-            self.robot.arrays,
-            None,
-            self.walker.law,
-            math.inf if limit is None else float(limit),
-            tan_slope=0.0,
-            lowest_hip=0.0,
-            longest=math.inf,
-            friction=(),
-            strongest=float(self.alone.bounds.strongest),
-            held=self.held,
-        )
+        """All numbers by name; of plant and ground there are none, as the computer knows its model alone."""
+        return controller_numbers(self.robot, self.alone)

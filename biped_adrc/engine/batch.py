@@ -55,6 +55,8 @@ MOST_IMPACTS = 1_000_000
 """Of one walk, whose states at all impacts are kept in memory."""
 STORE = 1_000_000
 """Each so-many-th step is kept in Python: in practice the ends of the arcs alone."""
+ENDS = {NotFiniteError: Status.NOT_FINITE, SingularError: Status.SINGULAR}
+"""Statuses of walks that end before they begin."""
 ROOM = 512
 """Columns of `BatchWalk.table` for which there is room at first, for each impact asked for."""
 
@@ -134,16 +136,11 @@ class BatchWalk(Shown):
         return np.diff(self.times, prepend=self.t_start)
 
 
-def simulate_many(
-    cases: Iterable[Case],
-    threads: int | None = None,
-    progress: Callable[[int], None] | None = None,
-) -> Iterator[BatchWalk]:
+def simulate_many(cases: Iterable[Case], threads: int | None = None) -> Iterator[BatchWalk]:
     """The walks in the order of their cases, made in parallel threads and handed over as they come.
 
     - cases: may be a generator, of which a few are taken ahead.
     - threads: the number of cores without.
-    - progress: told how many are done.
 
     A fall, a NaN or a part in Python that raises ends its own run, with a status. Raises InputError
     for a case whose parts do not fit together.
@@ -151,12 +148,10 @@ def simulate_many(
     count = threads if threads is not None else os.cpu_count() or 1
     if count < 1:
         raise InputError(f"the batch asks for {count} threads, expected at least 1")
-    return _in_order(iter(cases), count, progress)
+    return _in_order(iter(cases), count)
 
 
-def _in_order(
-    cases: Iterator[Case], threads: int, progress: Callable[[int], None] | None
-) -> Iterator[BatchWalk]:
+def _in_order(cases: Iterator[Case], threads: int) -> Iterator[BatchWalk]:
     """As `simulate_many`: a queue of futures, whose first is handed over when it is done or the
     queue is full.
 
@@ -166,19 +161,12 @@ def _in_order(
     kernels()  # here, so that no two threads compile at once
     with ThreadPoolExecutor(threads) as pool:
         try:
-            done, more = 0, True
-            while more or waiting:
-                case = next(cases, None)
-                more = case is not None
-                if case is not None:
-                    waiting.append(pool.submit(run_case(case)))
-                while waiting and (
-                    not more or len(waiting) >= AHEAD * threads or waiting[0].done()
-                ):
-                    walked, done = waiting.popleft().result(), done + 1
-                    if progress is not None:
-                        progress(done)
-                    yield walked
+            for case in cases:
+                waiting.append(pool.submit(run_case(case)))
+                while waiting and (len(waiting) >= AHEAD * threads or waiting[0].done()):
+                    yield waiting.popleft().result()
+            while waiting:
+                yield waiting.popleft().result()
         finally:
             for future in waiting:
                 future.cancel()
@@ -192,12 +180,8 @@ def run_case(case: Case) -> Callable[[], BatchWalk]:
     """
     try:
         return _prepared(case)
-    except NotFiniteError as error:
-        return _ended(case, Status.NOT_FINITE, str(error))
-    except SingularError as error:
-        return _ended(case, Status.SINGULAR, str(error))
-    except RaisedError as error:
-        return _ended(case, Status.RAISED, str(error))
+    except (NotFiniteError, SingularError, RaisedError) as error:
+        return _ended(case, ENDS.get(type(error), Status.RAISED), str(error))
     except InputError:
         raise
     except Exception as error:  # whatever a controller or a disturbance in Python may raise

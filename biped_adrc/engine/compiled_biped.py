@@ -7,8 +7,7 @@
 
 A `CompiledBiped` is a `model.biped.Biped` with these four replaced by machine code, traced from
 `engine.mechanics`; kinematics, contact and all that is not asked for at every instant stay
-Pinocchio's. Before it is handed out it is compared with Pinocchio at random states.
-`engine.simulate` puts it in the place of the plant when a controller has no compiled form.
+Pinocchio's. `engine.simulate` puts it in the place of the plant when a controller has no compiled form.
 `pointer_call`, `parts_of` and `Call` are how the rest of the engine calls generated code from
 Python.
 """
@@ -30,17 +29,14 @@ from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.mechanics import PlanarRobot, RobotData, RobotStructure, once_each, robot_of
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import Vector, column, floats
-from biped_adrc.errors import ModelError
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.planar import EXACT, PlantArrays
+from biped_adrc.model.planar import PlantArrays
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.types import Array
 
 Shape = tuple[int, ...]
 """Shape of an array."""
 
-SAMPLES = 50
-"""Number of random states at which the code is compared with Pinocchio."""
 _C = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
 
 
@@ -101,39 +97,8 @@ class CompiledBiped(Biped):
 
     @classmethod
     def of(cls, biped: Biped) -> CompiledBiped:
-        """Compile, or take from memory or disk, and check.
-
-        Raises ModelError for a robot that is no planar tree of rigid links, or where the code
-        differs from Pinocchio by more than 1e-11 relative.
-        """
+        """Compile, or take from memory or disk. Raises ModelError for a robot that is no planar tree."""
         return _compiled(biped)
-
-    def checked(self, biped: Biped, samples: int = SAMPLES) -> CompiledBiped:
-        """Itself, when its terms are Pinocchio's at random states and q'' obeys (1). Raises ModelError.
-
-        The gap of q'' is measured as a force, D_s q'' against the free force on the scale of |D_s|
-        |q''|, so that the conditioning of D_s does not count.
-        """
-        random = np.random.default_rng(3)
-        for _ in range(samples):
-            q, v = random.uniform(-np.pi, np.pi, biped.n), random.normal(0.0, 3.0, biped.n)
-            force = random.normal(0.0, 30.0, biped.n)
-            terms, D, Omega = self.reduction(q, v), biped.inertia(q), biped.bias(q, v)
-            free = force + self.friction_torque(v) - Omega
-            a = self.acceleration(q, v, force)
-            gaps = {
-                "D_s": (terms.D - D, D),
-                "Omega": (terms.Omega - Omega, Omega),
-                "D_s q''": (D @ a - free, np.abs(D) @ np.abs(a)),
-            }
-            for name, (gap, scale) in gaps.items():
-                relative = float(np.max(np.abs(gap)) / np.max(np.abs(scale)))
-                if not relative <= EXACT:
-                    raise ModelError(
-                        f"robot '{self.description.name}': {name} of the compiled code differs from "
-                        f"Pinocchio's by {relative:.1e} relative, expected {EXACT:g}; use engine='pinocchio'"
-                    )
-        return self
 
     @cached_property
     def _calls(self) -> dict[str, Call]:
@@ -144,7 +109,7 @@ class CompiledBiped(Biped):
         code = generated(key, plant_functions(robot.structure, robot.arrays))
         K, n = np.array([*floats(robot.arrays), 0.0]), self.n
         sizes = {
-            "terms": (2 * n, self.size),
+            "terms": (2 * n, sum(map(math.prod, self.shapes))),
             "body": (2 * n, 6 * n + 3),
             "accelerate": (3 * n, n),
             "ground": (3 * n, 2),
@@ -156,11 +121,6 @@ class CompiledBiped(Biped):
         """Of the parts of a `Reduction`, which `terms` gives one after the other."""
         n, p = self.n, self.p
         return (n, n), (n,), (p, p), (p,), (p, p), (n - p, p), (n - p,)
-
-    @property
-    def size(self) -> int:
-        """Numbers in a `Reduction`."""
-        return sum(map(math.prod, self.shapes))
 
     def reduction(self, q: Array, v: Array) -> Reduction:
         """The terms of (11)-(15) at q (n,) [rad], v (n,) [rad/s]."""
@@ -188,7 +148,7 @@ class CompiledBiped(Biped):
 def _compiled(biped: Biped) -> CompiledBiped:
     """As `CompiledBiped.of`, remembered for the last robots."""
     given = {f.name: getattr(biped, f.name) for f in fields(Biped)}
-    return CompiledBiped(**given, robot=robot_of(biped)).checked(biped)
+    return CompiledBiped(**given, robot=robot_of(biped))
 
 
 def plant_functions(

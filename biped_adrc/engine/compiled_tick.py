@@ -17,16 +17,12 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers, WalkerStructure
-from biped_adrc.engine.ir import generated
+from biped_adrc.engine.equations import WalkerStructure
 from biped_adrc.engine.kernels.record import OUTSIDE
-from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.mechanics import robot_of
-from biped_adrc.engine.program import NotCompiled, structure_of_walker
-from biped_adrc.engine.structure import structure
+from biped_adrc.engine.program import NotCompiled, controller_numbers, machine_of
 from biped_adrc.engine.symbols import floats
-from biped_adrc.engine.tracer import located
-from biped_adrc.errors import InputError, ModelError
+from biped_adrc.errors import ModelError
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
 
@@ -48,52 +44,22 @@ class CompiledTick:
             robot = robot_of(loop.model)
         except ModelError as reason:
             raise NotCompiled(str(reason)) from reason
-        limit = math.inf if loop.limit is None else loop.limit
         self.make = WalkerStructure(robot.structure, size, loop.held.sizes)
-        self.numbers = WalkerNumbers(
-            robot.arrays,
-            None,
-            loop.law,
-            limit,
-            tan_slope=0.0,
-            lowest_hip=0.0,
-            longest=math.inf,
-            friction=(),
-            strongest=loop.bounds.strongest,
-            held=loop.held,
-        )
+        self.numbers = controller_numbers(robot, loop)
         self.K = np.array([*floats(self.numbers), 0.0])
         if np.any(np.isnan(self.K)):
             raise NotCompiled(f"a parameter of {type(loop.controller).__name__} or its loop is NaN")
-        self.owner = self._code()
+        self.owner, _ = machine_of(self.make, self.numbers, ["sample"])
         n, p, nx = loop.plant.n, loop.plant.p, self.make.nx
         self.inp, self.out = np.zeros(3 + nx + n + OUTSIDE), np.zeros(nx + p + 1)
         self.x, self.xi = np.zeros(0), np.zeros(0)
-        self.blind = self._blind(loop, size)
+        still = np.zeros(n)
+        m = loop.measure(0.0, still, still, Mode())
+        self.blind = loop.calls.estimate(np.zeros(size), m) is None  # no observer
         noticing = loop.held.touchdown
         self.felt = loop if noticing and noticing.needs_force else None
         self._function = _SAMPLE(self.owner.addresses["sample"])
         self._at = self.K.ctypes.data, self.inp.ctypes.data, self.out.ctypes.data
-
-    @staticmethod
-    def _blind(loop: SteppingLoop, size: int) -> bool:
-        """Whether the controller has no observer."""
-        still = np.zeros(loop.plant.n)
-        return loop.calls.estimate(np.zeros(size), loop.measure(0.0, still, still, Mode())) is None
-
-    def _code(self) -> LoadedCode:
-        """The function in memory, under a hash of all that decides it."""
-        make, numbers = self.make, self.numbers
-        try:
-            key = "sample", structure_of_walker(make), structure(numbers)
-
-            def sample() -> SymbolicFunction:
-                with located("sample"):
-                    return Equations.of(make, numbers).sample()
-
-            return generated(key, {"sample": sample})
-        except InputError as reason:
-            raise NotCompiled(str(reason)) from reason
 
     def __call__(self, t: float, x: Array, mode: Mode) -> Array | None:
         """x (nx,) after the sample instant at t [s]; None where Python has to say what is wrong.

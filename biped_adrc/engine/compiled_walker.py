@@ -16,6 +16,7 @@ on the compiled plant.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from operator import methodcaller
 from typing import TypeVar
@@ -28,16 +29,8 @@ from biped_adrc.control.passive import Passive
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.equations import SymbolicFunction, count
 from biped_adrc.engine.ir import in_memory, module_text
-from biped_adrc.engine.kernels.run_plan import (
-    ClockTable,
-    DisturbanceTable,
-    Functions,
-    GroundTable,
-    MethodTable,
-    RunPlan,
-    StateSizes,
-    plan,
-)
+from biped_adrc.engine.kernels.record import PART
+from biped_adrc.engine.kernels.run_plan import Functions, Push, RunPlan, plan
 from biped_adrc.engine.machine import LoadedCode, ModuleText
 from biped_adrc.engine.program import NotCompiled, Program
 from biped_adrc.engine.structure import structure
@@ -48,6 +41,7 @@ from biped_adrc.hybrid import constants
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
 from biped_adrc.timing import LONGEST_PERIOD, SampledTime
+from biped_adrc.types import Array
 
 T = TypeVar("T", bound=OneStepMethod)
 
@@ -79,15 +73,15 @@ class CompiledWalker:
         Raises NotCompiled where a part or the method cannot be compiled, InputError for a
         method without the coordinates that it needs.
         """
-        split, table = _method(walker, method)
+        split, fields, tables = _method(walker, method)
         program = Program.of(walker, size, split)
         time = walker.timing
-        clock = ClockTable()
         if isinstance(time, SampledTime):
             assert walker.held is not None
             part = walker.held.motors.fraction * time.period if walker.held.sizes.waiting else 0.0
-            clock = ClockTable(time.period, int(time.restart), t_first, part)
-        return cls(walker, program, _plan(walker, program, split, clock, table, reference))
+            fields |= {"period": time.period, "restart": int(time.restart), "t_first": t_first}
+            fields["part"] = part
+        return cls(walker, program, _plan(program, walker, fields, tables, reference))
 
     @classmethod
     def held(cls, walker: Walker, method: OneStepMethod) -> CompiledWalker:
@@ -104,59 +98,61 @@ class CompiledWalker:
             touchdown=None,
             motors=None if walker.motors is None else replace(walker.motors, rate_limit=None),
         )
-        split, made = _method(bare, method)
+        split, fields, tables = _method(bare, method)
         program = Program.of(bare, 0, split)
-        return cls(bare, program, _plan(bare, program, split, ClockTable(), made))
+        return cls(bare, program, _plan(program, bare, fields, tables))
 
 
 def _plan(
-    walker: Walker,
     program: Program,
-    split: ErrorForm | None,
-    clock: ClockTable,
-    method: MethodTable,
+    walker: Walker,
+    fields: Mapping[str, float],
+    tables: Mapping[str, Array],
     reference: Reference | None = None,
 ) -> RunPlan:
-    """The plan of a run: addresses, sizes, ground, disturbance, clock and method in one record.
+    """The plan of a run, with fields and tables of method and clock.
 
     Of a held state only q and v flow, so the step methods may skip the rest; with lagging motors
     all of it does.
     """
-    n, p, nx = walker.plant.n, walker.plant.p, program.nx
-    stiff = 0 if split is None else len(split.A)
-    relaxing = walker.relaxing()
+    n, p, nx, bounds = walker.plant.n, walker.plant.p, program.make.nx, walker.bounds
+    split, relaxing = program.numbers.split, walker.relaxing()
+    k = 0 if split is None else len(split.A)
     flows = walker.held is None or relaxing  # the torque of the motors, then all does
-    drops = np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2)
-    return plan(
-        Functions(*(program.address(name) for name in Functions._fields)),
-        StateSizes(
-            n,
-            nx,
-            p,
-            nx - stiff * p,
-            stiff,
-            nx if flows else 2 * n,
-            lags=0 if relaxing is None else nx + relaxing.at.start,
-            lag_speed=0.0 if relaxing is None else relaxing.speed,
-            fastest=walker.bounds.fastest,
-            farthest=walker.bounds.farthest,
-        ),
-        np.array([*program.K[:-1], *floats(reference), 0.0]),
-        GroundTable(LEAST_STEP, drops),
-        _push(walker.disturbance, n),
-        clock,
-        method,
-    )
+    tables = {
+        **tables,
+        "K": np.array([*program.K[:-1], *floats(reference), 0.0]),
+        "drops": np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2),
+    }
+    if len(bounds.fastest):
+        tables["fastest"] = bounds.fastest
+    fields = {
+        **fields,
+        "n": n,
+        "nx": nx,
+        "p": p,
+        "n_slow": nx - k * p,
+        "k": k,
+        "moving": nx if flows else 2 * n,
+        "least_step": LEAST_STEP,
+        "farthest": bounds.farthest,
+    }
+    if relaxing is not None:
+        fields |= {"lags": nx + relaxing.at.start, "lag_speed": relaxing.speed}
+    functions = Functions(*(program.address(name) for name in Functions._fields))
+    return plan(functions, _push(walker.disturbance, n), tables, fields)
 
 
-def _method(walker: Walker, method: OneStepMethod) -> tuple[ErrorForm | None, MethodTable]:
-    """The coordinates that a method needs, if any, and its table.
+def _method(
+    walker: Walker, method: OneStepMethod
+) -> tuple[ErrorForm | None, dict[str, float], dict[str, Array]]:
+    """The coordinates that a method needs, if any; its fields and tables of a run.
 
     Raises NotCompiled for all but RK4 and Exponential, and for a class of the user's own that steps otherwise;
     InputError for coordinates that the walker does not have.
     """
     if isinstance(method, RK4):
-        return None, MethodTable(constants.RK4, method.h)
+        return None, {"kind": constants.RK4, "h": method.h}, {}
     if not isinstance(method, Exponential):
         raise NotCompiled(
             f"method {type(method).__name__} has no compiled form, as RK4 and Exponential have; the run goes "
@@ -165,25 +161,24 @@ def _method(walker: Walker, method: OneStepMethod) -> tuple[ErrorForm | None, Me
     split = walker.split_form()
     if split is None:
         raise no_coordinates()
-    return split, MethodTable(constants.ETD, method.h, phi_levels(method.h, split.A))
+    fields = {"kind": constants.ETD, "h": method.h}
+    return split, fields, {"phi": phi_levels(method.h, split.A)}
 
 
-def _push(disturbance: Disturbance | None, n: int) -> DisturbanceTable:
+def _push(disturbance: Disturbance | None, n: int) -> Push:
     """The terms of a disturbance as addresses and numbers; none without a disturbance.
 
     Raises NotCompiled, with the reason, where one has no machine code.
     """
     if disturbance is None:
-        return DisturbanceTable()
-    codes = [term_code(term, n) for term in disturbance.terms]
-    numbers = [np.array([*floats(term), 0.0]) for term in disturbance.terms]
-    return DisturbanceTable(
-        np.array([code.addresses["torque"] for code in codes], dtype=np.int64),
-        np.concatenate([np.zeros(0), *numbers]),
-        np.cumsum([0, *(len(k) for k in numbers)]),
-        np.array(disturbance.switches).reshape(-1, 2),
-        tuple(code.addresses.get("resultant", 0) for code in codes),
-    )
+        return Push()
+    parts, K = list[tuple[int, int, int]](), list[float]()
+    for term in disturbance.terms:
+        code = term_code(term, n).addresses
+        parts.append((code["torque"], len(K), code.get("resultant", 0)))
+        K += [*floats(term), 0.0]
+    table = np.array(parts, dtype=np.int64).reshape(-1, PART)
+    return Push(table, np.array(K), np.array(disturbance.switches).reshape(-1, 2))
 
 
 GUARDED = """

@@ -20,6 +20,7 @@ by address. A tick is a sample instant.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -54,15 +55,15 @@ class WalkerNumbers(NamedTuple):
     """In the time base of the walker."""
     torque_limit: float
     """[N m], infinite without one."""
-    tan_slope: float
+    tan_slope: float = 0.0
     """Tangent of the ground's slope [1], positive downhill."""
-    lowest_hip: float
+    lowest_hip: float = 0.0
     """Height of the hip below which the robot has fallen [m]."""
-    longest: float
+    longest: float = math.inf
     """Longest single support [s]."""
-    friction: tuple[Array, Array] | tuple[()]
+    friction: tuple[Array, Array] | tuple[()] = ()
     """Viscous [N m s] and static [N m] of the coordinates, each (n,); empty without."""
-    strongest: float
+    strongest: float = math.inf
     """Torque beyond which the run ends [N m], infinite without such a bound."""
     held: HeldParts | tuple[()] = ()
     """Parameters of what is held between sample instants, empty in continuous time."""

@@ -29,16 +29,14 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+from llvmlite import binding
 from platformdirs import user_cache_path
 
 from biped_adrc.errors import OutputError
 from biped_adrc.files import write_bytes, write_text
 from biped_adrc.versions import packages
-
-if TYPE_CHECKING:
-    from llvmlite import binding
 
 CHECK = 32
 """Bytes of the checksum before the object code."""
@@ -83,16 +81,12 @@ def load_or_compile(text: ModuleText, names: Sequence[str]) -> LoadedCode:
 
 def processor() -> str:
     """What the code is made for: the processor, its instructions, and LLVM's version."""
-    from llvmlite import binding
-
     features = binding.get_host_cpu_features().flatten()
     return f"{binding.get_host_cpu_name()} {features} {binding.llvm_version_info}"
 
 
 def target() -> binding.TargetMachine:
     """LLVM's target machine for this processor, a new one each time: MCJIT owns the one that it is given."""
-    from llvmlite import binding
-
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
     return binding.Target.from_default_triple().create_target_machine(
@@ -109,8 +103,6 @@ def compiled(text: str, vectors: bool = False) -> bytes:
     No fast-math flags: sums keep their order. vectors: look for operations that go together (SLP),
     which helps `matvec` and takes its time elsewhere.
     """
-    from llvmlite import binding
-
     host = target()
     module = binding.parse_assembly(text)
     module.triple, module.data_layout = host.triple, str(host.target_data)
@@ -124,8 +116,6 @@ def compiled(text: str, vectors: bool = False) -> bytes:
 
 def loaded(code: bytes, names: Sequence[str]) -> LoadedCode:
     """Object code in memory, with the addresses of these functions."""
-    from llvmlite import binding
-
     engine = binding.create_mcjit_compiler(binding.parse_assembly(""), target())
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
@@ -228,11 +218,6 @@ def _machine_code(folder: Path) -> list[Path]:
 def _checksum(path: Path) -> bytes:
     """Of name and content, so that exchanged files are noticed too."""
     return hashlib.sha256(path.name.encode() + path.read_bytes()).hexdigest().encode()
-
-
-def forget(module: ModuleType) -> None:
-    """Remove the machine code that numba keeps of a module, where it cannot be used."""
-    shutil.rmtree(Path(str(module.__file__)).parent / "__pycache__", ignore_errors=True)
 
 
 def _written(path: Path, source: str) -> Path:

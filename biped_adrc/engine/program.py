@@ -12,13 +12,14 @@ for a matrix M (k, k) in the place of K and E (k, p).
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 
 from biped_adrc.closed_loop.exponential_form import ErrorForm
+from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers, WalkerStructure
 from biped_adrc.engine.ir import generated
@@ -50,11 +51,6 @@ class Program:
     key: Hashable
     """What decides the code."""
 
-    @property
-    def nx(self) -> int:
-        """Numbers in a state."""
-        return self.make.nx
-
     @classmethod
     def of(cls, walker: Walker, size: int, split: ErrorForm | None = None) -> Program:
         """The program of a walker whose controller has `size` states; split: coordinates of the
@@ -71,15 +67,12 @@ class Program:
                 f"a parameter of {type(walker.controller).__name__} or its walker is NaN, of which generated "
                 "code would make 0 where it is multiplied by 0; it runs in Python on the compiled plant"
             )
-        key = structure_of_walker(make), structure(numbers)
-        return cls(make, _machine(key, make, numbers), K, numbers, key)
+        names, then = Equations.names(numbers), "; it runs in Python on the compiled plant"
+        code, key = machine_of(make, numbers, names, then)
+        return cls(make, code, K, numbers, key)
 
     def address(self, name: str) -> int:
-        """Address of a compiled function; 0 if this walker does not need it.
-
-        The kernels never call an address of 0: `run_plan.plan` checks what the method and the clock
-        need.
-        """
+        """Address of a compiled function; 0 if this walker does not need it, which no kernel calls."""
         split = self.numbers.split
         if name == "matvec" and split is not None:
             return product(len(split.A), self.make.robot.p).addresses[name]
@@ -144,10 +137,20 @@ def _numbers(
     )
 
 
-def _machine(key: Hashable, make: WalkerStructure, numbers: WalkerNumbers) -> LoadedCode:
-    """The functions of a structure in memory, traced one by one where there is no code on disk.
+def controller_numbers(robot: RobotData, loop: Walker | SteppingLoop) -> WalkerNumbers:
+    """The numbers of a controller in sampled time with its model; of plant and ground there are none."""
+    limit = math.inf if loop.limit is None else float(loop.limit)
+    strongest, held = float(loop.bounds.strongest), loop.held or ()
+    return WalkerNumbers(robot.arrays, None, loop.law, limit, strongest=strongest, held=held)
 
-    Raises NotCompiled for a method that cannot be traced or an operation without machine code.
+
+def machine_of(
+    make: WalkerStructure, numbers: WalkerNumbers, names: Sequence[str], then: str = ""
+) -> tuple[LoadedCode, Hashable]:
+    """Functions of `Equations` in memory, and their key; traced one by one where there is no code on disk.
+
+    then: what happens otherwise, for the text of the error. Raises NotCompiled for a method that cannot be
+    traced or an operation without machine code.
     """
 
     def traced(name: str) -> SymbolicFunction:
@@ -155,11 +158,11 @@ def _machine(key: Hashable, make: WalkerStructure, numbers: WalkerNumbers) -> Lo
             made: SymbolicFunction = getattr(Equations.of(make, numbers), name)()
             return made
 
-    functions = {name: partial(traced, name) for name in Equations.names(numbers)}
     try:
-        return generated(key, functions)
+        key = *names, structure_of_walker(make), structure(numbers)
+        return generated(key, {name: partial(traced, name) for name in names}), key
     except InputError as reason:
-        raise NotCompiled(f"{reason}; it runs in Python on the compiled plant") from reason
+        raise NotCompiled(f"{reason}{then}") from reason
 
 
 def structure_of_walker(make: WalkerStructure) -> Hashable:

@@ -11,7 +11,7 @@ Three ways, the fastest that fits is taken:
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -63,7 +63,17 @@ def run_made(
     made: CompiledWalker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
 ) -> Trajectory:
     """The run of a walker that is compiled already, from x0 (nx,), in any thread."""
-    return run_arcs(_Arcs(made, options).fly, x0, mode, method.label, options)
+    plan, every = made.plan, options.store_every
+    period, longest = plan.number("period"), 1.0
+    ticks = longest / period if period > 0.0 else 0.0
+    # of a single support of 1 s, two nodes at each sample instant; with too few the arc is made again
+    room = 64 + min(100_000, int(longest / plan.number("h") / every + 2.0 * ticks))
+
+    def fly(t: float, x: Array, mode: Mode, fired: str | None) -> FlownArc:
+        run = plan.start(x, t, mode.step, mode.start, options.t_end, fired is not None)
+        return flown(run, mode, every, room)
+
+    return run_arcs(fly, x0, mode, method.label, options)
 
 
 def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:
@@ -103,35 +113,6 @@ def compiled_plant(walker: Walker) -> tuple[Walker, list[CompiledReference]]:
     model = None if walker.model is None else CompiledBiped.of(walker.model)
     plant = CompiledBiped.of(walker.plant)
     return replace(walker, plant=plant, model=model, controller=controller), points
-
-
-@dataclass(frozen=True)
-class _Arcs:
-    """Arcs of a walker that is compiled as a whole, one after the other, for `simulator.run_arcs`."""
-
-    compiled: CompiledWalker
-    options: RunOptions
-    """When the run ends, and every how many steps a node is kept."""
-
-    @property
-    def room(self) -> int:
-        """Nodes of an arc to make room for at first: those of a single support of 1 s, two at
-        each sample instant.
-
-        Where that is too few the arc is made again with more, so it need not be right.
-        """
-        plan, every, longest = self.compiled.plan, self.options.store_every, 1.0
-        period = plan.number("period")
-        ticks = longest / period if period > 0.0 else 0.0
-        return 64 + min(100_000, int(longest / plan.number("h") / every + 2.0 * ticks))
-
-    def fly(self, t: float, x: Array, mode: Mode, fired: str | None) -> FlownArc:
-        """One arc from x (nx,) at t [s], and the impact at its end; fired: the event before, None
-        at the start.
-        """
-        plan, end, every = self.compiled.plan, self.options.t_end, self.options.store_every
-        run = plan.start(x, t, mode.step, mode.start, end, fired is not None)
-        return flown(run, mode, every, self.room)
 
 
 def flown(run: CompiledRun, mode: Mode, every: int, room: int) -> FlownArc:

@@ -19,6 +19,7 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Callable, Iterator
+from itertools import chain
 from typing import Any, TypeVar, Union, overload
 
 import casadi as ca
@@ -331,38 +332,27 @@ class Vector:
 
     def like(self, tree: T) -> T:
         """A tree of parts, tuples and arrays with its floats as symbols; ints stay what they are."""
-        return self._like(tree)
-
-    def _like(self, tree: object) -> Any:
-        """The same for any part of a tree of tuples, lists, arrays and numbers."""
+        found: Any = tree
         if isinstance(tree, tuple | list):
-            return rebuilt(tree, [self._like(x) for x in tree])
-        if isinstance(tree, np.ndarray):
-            return self.take(*tree.shape) if tree.dtype.kind == "f" else tree
-        if is_part(tree) and not isinstance(tree, HIDDEN):
-            return with_content(tree, {name: self._like(x) for name, x in content(tree).items()})
-        return self.take() if isinstance(tree, float | np.floating) else tree
+            found = rebuilt(tree, [self.like(x) for x in tree])
+        elif isinstance(tree, np.ndarray):
+            found = self.take(*tree.shape) if tree.dtype.kind == "f" else tree
+        elif is_part(tree) and not isinstance(tree, HIDDEN):
+            found = with_content(tree, {name: self.like(x) for name, x in content(tree).items()})
+        elif isinstance(tree, float | np.floating):
+            found = self.take()
+        return found
 
 
 def floats(tree: object) -> list[float]:
     """The numbers that `Vector.like` takes symbols for, in its order."""
-    found: list[float] = []
-    _gather(tree, found)
-    return found
-
-
-def _gather(tree: object, found: list[float]) -> None:
-    """Add the numbers of a part of a tree to those found."""
     if isinstance(tree, tuple | list):
-        for x in tree:
-            _gather(x, found)
-    elif isinstance(tree, np.ndarray):
-        if tree.dtype.kind == "f":
-            found += tree.ravel().tolist()
-    elif is_part(tree) and not isinstance(tree, HIDDEN):
-        _gather(tuple(content(tree).values()), found)
-    elif isinstance(tree, float | np.floating):
-        found.append(float(tree))
+        return list(chain.from_iterable(map(floats, tree)))
+    if isinstance(tree, np.ndarray):
+        return tree.ravel().tolist() if tree.dtype.kind == "f" else []
+    if is_part(tree) and not isinstance(tree, HIDDEN):
+        return floats(tuple(content(tree).values()))
+    return [float(tree)] if isinstance(tree, float | np.floating) else []
 
 
 def paths(tree: object, name: str = "") -> Iterator[str]:

@@ -19,6 +19,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import repeat
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -226,7 +227,7 @@ class TicksWithoutHardware(HybridSystem):
         body = walker.nominal.body_terms if law.needs_body else None
         run, size, t_end = seen.run, len(s), PLACES["t_end"]
         torque, numbers = run.x[2 * walker.plant.n :], run.numbers
-        reference, (step, began) = self.inputs.point or NoReference(), mode
+        reference, (step, began) = self.inputs.point or SimpleNamespace(), mode
         due = next_tick(math.nextafter(t, -math.inf), origin, period)
         hold, at, output = seen.hold, seen.at, law.output
         saturate, bounded = walker.saturate, walker.bounded
@@ -273,14 +274,6 @@ class TicksWithoutHardware(HybridSystem):
         parts = (x[:, : 2 * n], s, x[:, 2 * n :]), (dx[:, : 2 * n], 0.0 * s, dx[:, 2 * n :])
         if len(nodes):
             record.add(nodes[:, 0].copy(), *(np.hstack(part) for part in parts))
-
-
-@dataclass
-class NoReference:
-    """In the place of a compiled reference where the controller has none."""
-
-    now: object = None
-    """Written at every sample instant and never read."""
 
 
 TickInput = tuple[Array, Array, Reduction, ReferencePoint | None, int]

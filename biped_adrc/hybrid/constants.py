@@ -5,11 +5,11 @@ from __future__ import annotations
 RK4, ETD, SOLVER = 0, 1, 2
 """Kinds of method; the last is one of Python's, such as SciPy's."""
 HALF, HALF_PHI, FULL_STEP, FIRST, MIDDLE, LAST, MATRICES = 0, 1, 2, 3, 4, 5, 6
-"""Matrices of ETD-RK4 for one length of step, in the order of `exponential.PhiTable`; their number."""
+"""Matrices of ETD-RK4 for one length of step, of `exponential.matrices`; their number."""
 
 COMPLETED, TIME_OUT, FELL, STALLED = 0, 1, 2, 3
 NOT_FINITE, SINGULAR, STEP_FAILED, EVENT_LIMIT, RAN_AWAY = 4, 5, 6, 7, 8
-"""Codes, in the order of `hybrid.status.CODES`."""
+"""Codes: places in `hybrid.status.Status`."""
 STRUCK, FULL = 9, 10
 """Codes that are no status: an event with a reset ended the arc; there is no room for another node."""
 

@@ -27,7 +27,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import NamedTuple
 
 import numpy as np
 
@@ -46,28 +45,14 @@ fastest pole: the classical step that ends a landing is stable there.
 """
 
 
-class PhiTable(NamedTuple):
-    """The matrices of one step of length h of ETD-RK4, each (k, k); h is inside the weights."""
+def matrices(half: Phi, phi: Phi, h: float) -> tuple[Array, ...]:
+    """The matrices (k, k) of a step of length h [s], from the functions of hA / 2 and of hA.
 
-    half: Array
-    """e^(hA/2)"""
-    half_phi1: Array
-    """h/2 phi1(hA/2) [s]"""
-    full: Array
-    """e^(hA)"""
-    first: Array
-    """h (phi1 - 3 phi2 + 4 phi3) [s], for N(E)."""
-    middle: Array
-    """h (2 phi2 - 4 phi3) [s], for N(a) and N(b)."""
-    last: Array
-    """h (4 phi3 - phi2) [s], for N(c)."""
-
-    @classmethod
-    def of(cls, half: Phi, phi: Phi, h: float) -> PhiTable:
-        """For a step h [s], from the functions of hA / 2 and of hA."""
-        p0, p1, p2, p3 = phi
-        first, middle = h * (p1 - 3.0 * p2 + 4.0 * p3), h * (2.0 * p2 - 4.0 * p3)
-        return cls(half[0], 0.5 * h * half[1], p0, first, middle, h * (4.0 * p3 - p2))
+    In the order of `constants`: e^(hA/2), h/2 phi1(hA/2), e^(hA), and weights of N(E), N(a) + N(b), N(c).
+    """
+    p0, p1, p2, p3 = phi
+    first, middle = h * (p1 - 3.0 * p2 + 4.0 * p3), h * (2.0 * p2 - 4.0 * p3)
+    return half[0], 0.5 * h * half[1], p0, first, middle, h * (4.0 * p3 - p2)
 
 
 @dataclass(frozen=True)
@@ -126,7 +111,7 @@ def _doubled(phi: Phi) -> Phi:
 
 
 def phi_levels(h: float, A: Array) -> Array:
-    """The matrices of `PhiTable` for steps h 2^-level [s], (levels, 6, k, k), for A (k, k) [1/s]; read-only.
+    """The `matrices` of steps h 2^-level [s], (levels, 6, k, k), for A (k, k) [1/s]; read-only.
 
     Raises InputError for a matrix that is not square or not finite.
     """
@@ -150,5 +135,5 @@ def _phi_levels(h: float, data: bytes) -> Array:
     for level in reversed(range(max(short, levels))):
         half, phi = phi, _doubled(phi) if level < short else _series(A * (h * 0.5**level))
         if level < levels:
-            table[level] = PhiTable.of(half, phi, h * 0.5**level)
+            table[level] = matrices(half, phi, h * 0.5**level)
     return frozen(table)

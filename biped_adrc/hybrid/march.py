@@ -18,61 +18,8 @@ import math
 
 import numpy as np
 
-from biped_adrc.hybrid.constants import (
-    COMPLETED,
-    ETD,
-    FIRST,
-    FULL,
-    FULL_STEP,
-    HALF,
-    HALF_PHI,
-    ITERATIONS,
-    LANDING,
-    LAST,
-    MIDDLE,
-    MOST_STEPS,
-    RAN_AWAY,
-    RESOLUTION,
-    RK4,
-    SAME_STEP,
-    SOLVER,
-    STEP_FAILED,
-    XRTOL,
-    XTOL,
-)
-from biped_adrc.hybrid.on_arrays import (
-    Run,
-    accepts,
-    add,
-    apply_input,
-    broken,
-    code_of,
-    copy,
-    dense,
-    due,
-    finite,
-    flow,
-    inner,
-    join,
-    matrix,
-    matvec,
-    next_break,
-    node,
-    regular,
-    relax,
-    relax_slope,
-    remainder,
-    rk4_sum,
-    shift,
-    slow,
-    solve,
-    solver_starts,
-    split,
-    suspect,
-    table_row,
-    unit,
-    watch,
-)
+from biped_adrc.hybrid.constants import *
+from biped_adrc.hybrid.on_arrays import *
 from biped_adrc.hybrid.relaxation import relaxation
 from biped_adrc.types import Array
 

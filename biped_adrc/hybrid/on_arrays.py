@@ -89,22 +89,9 @@ def next_tick(t: float, start: float, period: float) -> float:
 
 ROWS = ("x0", "dx0", "x1", "dx1", "stage", "k1", "k2", "k3", "k4", "x_e", "dx_e", "x_b", "dx_b")
 """Arrays (nx,) of a run: state and slope at both ends of a step, of a stage, at an event, after sub-steps."""
-STIFF_ROWS = (
-    "y0",
-    "N0",
-    "y1",
-    "N1",
-    "y_a",
-    "y_b",
-    "N_a",
-    "N_b",
-    "N_c",
-    "e_half",
-    "y_sub",
-    "N_sub",
-    "y_try",
-)
-"""Arrays (ny,) of a run by ETD-RK4."""
+Y_ROWS = ("y0", "y1", "y_a", "y_b", "e_half", "y_sub", "y_try")
+N_ROWS = ("N0", "N1", "N_a", "N_b", "N_c", "N_sub")
+"""Arrays (ny,) of a run by ETD-RK4: y = (w, E) and remainders."""
 
 
 class Run:
@@ -113,7 +100,7 @@ class Run:
     if TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Array:
-            """One of ROWS and STIFF_ROWS."""
+            """One of ROWS, Y_ROWS and N_ROWS."""
 
     step: Step
 
@@ -168,7 +155,7 @@ class Run:
         self.phi = phi_levels(method.h, form.A)
         self.n_slow, self.levels = len(w), len(self.phi)
         self.ny = self.nN = len(w) + E.size
-        for name in STIFF_ROWS:
+        for name in (*Y_ROWS, *N_ROWS):
             setattr(self, name, np.zeros(self.ny))
 
     def parts(self, y: Array) -> tuple[Array, Array]:

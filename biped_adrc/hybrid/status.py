@@ -31,16 +31,18 @@ class Status(Enum):
         "shorten the step or use a stiff or exponential method"
     )
     """NaN or infinity in a state or torque."""
+    SINGULAR = "a matrix that the controller inverts became singular; the constraint does not suit this state"
+    """A matrix of the controller was singular: in compiled code, a pivot of exactly zero."""
+    STEP_FAILED = "the one-step method could not go on; try another method or a looser tolerance"
+    """The integration method could not go on: no acceptable step, or too many steps."""
+    EVENT_LIMIT = "more events than max_events; the events accumulate (Zeno), or raise max_events"
+    """`RunOptions.max_events` events came before the run was complete."""
     RAN_AWAY = (
         "the motion or a torque grew beyond anything that the robot has, or a joint turned all the way round; "
         "shorten the step, use an adaptive, stiff or exponential method, or weaken the controller's gains or "
         "its observer; runaway_speed and runaway_torque set the bounds on rates and torques"
     )
     """An angle, a rate or a torque passed the walker's bounds; the last state within them is kept."""
-    SINGULAR = "a matrix that the controller inverts became singular; the constraint does not suit this state"
-    """A matrix of the controller was singular: in compiled code, a pivot of exactly zero."""
-    STEP_FAILED = "the one-step method could not go on; try another method or a looser tolerance"
-    """The integration method could not go on: no acceptable step, or too many steps."""
     RAISED = "a class of your own raised an exception"
     """An exception in a class of the user's, or an array of another shape from it, in the middle of a run."""
     INFEASIBLE = (
@@ -48,8 +50,6 @@ class Status(Enum):
         "or the controller"
     )
     """A step broke a limit of ground or motors (`analysis.feasibility`)."""
-    EVENT_LIMIT = "more events than max_events; the events accumulate (Zeno), or raise max_events"
-    """`RunOptions.max_events` events came before the run was complete."""
 
     @property
     def ok(self) -> bool:

@@ -17,16 +17,7 @@ import pytest
 from numba import types
 
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.kernels.run_plan import (
-    STATUS,
-    ClockTable,
-    DisturbanceTable,
-    Functions,
-    GroundTable,
-    MethodTable,
-    StateSizes,
-    plan,
-)
+from biped_adrc.engine.kernels.run_plan import STATUS, Functions, Push, plan
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.constants import ETD, RK4
 from biped_adrc.hybrid.exponential import phi_levels
@@ -116,11 +107,11 @@ def address():
 
 
 def rk4(h):
-    return MethodTable(RK4, h)
+    return {"kind": RK4, "h": h}, {}
 
 
 def etd(h, A):
-    return MethodTable(ETD, h, phi_levels(h, A))
+    return {"kind": ETD, "h": h}, {"phi": phi_levels(h, A)}
 
 
 def linear(K):
@@ -136,16 +127,18 @@ class Case(NamedTuple):
 
     def plan(self, address, method):
         code = Functions(**{name: address.get(name, 0) for name in Functions._fields})
-        scene = GroundTable(1e-3, np.array(self.drops, dtype=float).reshape(-1, 2))
-        pulses, push = self.pulses, DisturbanceTable()
+        fields, tables = method
+        drops = np.array(self.drops, dtype=float).reshape(-1, 2)
+        pulses, push = self.pulses, Push()
         if pulses:
-            push = DisturbanceTable(
-                np.array([address["pulse"]] * len(pulses)),
+            push = Push(
+                np.array([(address["pulse"], 4 * i, 0) for i in range(len(pulses))]),
                 np.ravel(pulses).astype(float),
-                4 * np.arange(len(pulses) + 1),
                 np.array([(p[0], s) for p in pulses for s in p[1:3]], dtype=float),
             )
-        return plan(code, StateSizes(1, 4, 1, 2, 2), self.K, scene, push, ClockTable(), method)
+        sizes = {"n": 1, "nx": 4, "p": 1, "n_slow": 2, "k": 2, "restart": 1}
+        bounds = {"least_step": 1e-3, "farthest": math.inf}
+        return plan(code, push, {"K": self.K, "drops": drops, **tables}, sizes | bounds | fields)
 
     def walk(self, address, method, t_end=FAR, impacts=0, x=START):
         """How it ended: status, time, x, and the strikes (k, 9) with t, x- and x+."""
@@ -241,27 +234,11 @@ def test_how_a_run_ends(address, status):
 
 
 # -- tables --------------------------------------------------------------------------------------
-def fitted(tick, period, method):
-    return plan(
-        Functions(1, tick, 1, 1),
-        StateSizes(1, 4, 1),
-        NUMBERS,
-        GroundTable(1e-3, np.zeros((0, 2))),
-        DisturbanceTable(),
-        ClockTable(period, 1, 0.0),
-        method,
-    )
+def with_period(period):
+    return plan(Functions(1, 1, 1, 1), Push(), {}, {"n": 1, "nx": 4, "p": 1, "period": period})
 
 
-@pytest.mark.parametrize(
-    "make",
-    [
-        lambda: etd(2e-3, np.zeros((1, 2))),
-        lambda: fitted(0, 1e-3, rk4(1e-3)),
-        lambda: fitted(1, 1e-12, rk4(1e-3)),
-        lambda: fitted(1, 0.0, etd(1e-3, linear(NUMBERS))),
-    ],
-)
+@pytest.mark.parametrize("make", [lambda: etd(2e-3, np.zeros((1, 2))), lambda: with_period(1e-12)])
 def test_what_does_not_fit_is_refused(make):
     with pytest.raises(InputError):
         make()

@@ -10,7 +10,6 @@ import biped_adrc as ba
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.engine.compiled_biped import CompiledBiped
-from biped_adrc.engine.mechanics import robot_of
 from biped_adrc.engine.program import Program
 from biped_adrc.errors import ModelError
 from biped_adrc.model.planar import PlanarTree
@@ -60,11 +59,16 @@ def close(found, expected):
 @pytest.mark.parametrize("robot", robot_names())
 def test_the_terms_of_every_robot_are_pinocchio_s(robot):
     biped = ba.Biped.load(robot)
-    code = CompiledBiped.of(biped).checked(biped, 500)
+    code = CompiledBiped.of(biped)
     random = np.random.default_rng(5)
-    for _ in range(20):
-        q, v, a = random.normal(size=(3, biped.n))
+    for _ in range(500):
+        q, v, a = random.normal(0.0, 3.0, (3, biped.n))
+        D, free = biped.inertia(q), 10.0 * a + biped.friction_torque(v) - biped.bias(q, v)
+        close(code.reduction(q, v).D, D)
+        close(code.reduction(q, v).Omega, biped.bias(q, v))
         close(code.ground_reaction(q, v, a), biped.ground_reaction(q, v, a))
+        found = code.acceleration(q, v, 10.0 * a)
+        assert np.max(np.abs(D @ found - free)) <= EXACT * np.max(np.abs(D) @ np.abs(found))
 
 
 @pytest.mark.parametrize("robot", ["rabbit", "three_link"])
@@ -135,14 +139,6 @@ def test_one_compilation_serves_every_number(biped, gait):
     assert not np.array_equal(second.K, first.K)
     third = Program.of(Walker(bare, other), 0)
     assert third.make.robot.n == 5
-
-
-def test_another_robot_s_numbers_are_refused(biped):
-    code = CompiledBiped.of(biped)
-    other = ba.Biped.load("rabbit", "tac2003")
-    wrong = replace(code, robot=robot_of(other))
-    with pytest.raises(ModelError, match="differs from Pinocchio's"):
-        wrong.checked(biped)
 
 
 @pytest.mark.parametrize("pose", [0.0, np.pi])

@@ -9,14 +9,14 @@ module; in the editor and for type checks they are ordinary ones.
 from __future__ import annotations
 
 import ast
-from functools import lru_cache
+from functools import cache
 from pathlib import Path
 from threading import Lock
 from types import ModuleType
 
 from numba.core import config
 
-from biped_adrc.engine.machine import forget, load_source, note_checksums
+from biped_adrc.engine.machine import load_source, note_checksums
 from biped_adrc.errors import ModelError
 
 _HERE = "biped_adrc.engine.kernels"
@@ -41,37 +41,22 @@ _LOCK = Lock()
 def kernels() -> ModuleType:
     """The compiled module, with `arc`, `strike`, `stride`; made by the first thread that asks."""
     with _LOCK:
-        return _kernels()
+        return _compiled(False)
 
 
 def step_kernels() -> ModuleType:
     """The same module with `samples` and `looks` too."""
     with _LOCK:
-        return _step_kernels()
+        return _compiled(True)
 
 
-@lru_cache(maxsize=1)
-def _step_kernels() -> ModuleType:
-    """The module of `_kernels` with what steppers need."""
-    module = _kernels()
-    module.compile_those(lambda name: name in module.FOR_STEPPERS)
-    note_checksums(module)
-    return module
-
-
-@lru_cache(maxsize=1)
-def _kernels() -> ModuleType:
-    """The module, compiled or loaded. Where loading fails, all machine code is forgotten and made again."""
+@cache
+def _compiled(for_steppers: bool) -> ModuleType:
+    """The module with its code for all, or with that for steppers too."""
     if getattr(config, "DISABLE_JIT", 0):
         raise ModelError("NUMBA_DISABLE_JIT is set, so nothing can be compiled; unset it")
-    text = source()
-    module = load_source(text)
-    try:
-        module.compile_those(lambda name: name not in module.FOR_STEPPERS)
-    except Exception:  # numba does not say what it raises for machine code that is damaged
-        forget(module)
-        module = load_source(text)
-        module.compile_those(lambda name: name not in module.FOR_STEPPERS)
+    module = _compiled(False) if for_steppers else load_source(source())
+    module.compile_those(lambda name: (name in module.FOR_STEPPERS) == for_steppers)
     note_checksums(module)
     return module
 

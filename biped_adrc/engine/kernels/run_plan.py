@@ -1,8 +1,7 @@
-"""The plan of a compiled run: its block of cells as it begins, checked, and what the codes that it ends with
-mean.
+"""The plan of a compiled run: its block of cells as it begins, and what the codes that it ends with mean.
 
-`engine.compiled_walker` fills the records below (addresses, sizes, ground, disturbance, clock, method) with
-names; `plan` checks that they fit together and lays them out as `record` says. A plan is read only and serves
+`engine.compiled_walker` gives addresses, tables and fields by name; `plan` lays them out as `record` says.
+A plan is read only and serves
 any number of runs, in any thread: each has a copy of the block.
 
 In all records t is the time [s], `step` the number of the single support, t_start [s] when that began, x (nx,)
@@ -12,7 +11,7 @@ between two impacts, a tick a sample instant.
 
 from __future__ import annotations
 
-import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -29,21 +28,11 @@ from biped_adrc.engine.kernels.record import (
     Ints,
 )
 from biped_adrc.errors import InputError
-from biped_adrc.hybrid.constants import ETD, MATRICES
+from biped_adrc.hybrid.constants import STRUCK
 from biped_adrc.hybrid.status import Status
 from biped_adrc.types import Array, frozen
 
-STATUS = (
-    Status.COMPLETED,
-    Status.TIME_OUT,
-    Status.FELL,
-    Status.STALLED,
-    Status.NOT_FINITE,
-    Status.SINGULAR,
-    Status.STEP_FAILED,
-    Status.EVENT_LIMIT,
-    Status.RAN_AWAY,
-)
+STATUS = tuple(Status)[:STRUCK]
 """The status for each code of `hybrid.constants`; STRUCK and FULL have none."""
 
 
@@ -78,79 +67,15 @@ class Functions(NamedTuple):
     """E -> M E, with a matrix M (k, k) in the argument K."""
 
 
-class StateSizes(NamedTuple):
-    """How many numbers the parts of a state have."""
+class Push(NamedTuple):
+    """A disturbance as a sum of terms, each a function (t, step, t_start, q, v) -> zeta (n,) [N m]."""
 
-    n: int
-    """Coordinates."""
-    nx: int
-    """Numbers in x."""
-    p: int
-    """Actuated joints."""
-    n_slow: int = 0
-    """Numbers in w, read by the exponential method only."""
-    k: int = 0
-    """Rows of E (k, p); 0 without the exponential method."""
-    moving: int = 0
-    """How many states flow, the first in x; the rest is held between sample instants. 0 means all flow."""
-    lags: int = 0
-    """Where in x the torques of lagging motors are, which go to the last p numbers; 0 without a lag."""
-    lag_speed: float = 0.0
-    """How fast they go there, 1 / tau [1/s]."""
-    fastest: Array = np.zeros(0)
-    """Rates (n,) [rad/s] beyond which the run ends; empty for none."""
-    farthest: float = math.inf
-    """Angle [rad] beyond which it does."""
-
-
-class GroundTable(NamedTuple):
-    """The ground and what counts as a step on it."""
-
-    least_step: float
-    """Minimum step length [m]; shorter ground contacts are ignored."""
-    drops: Array
-    """(m, 2): rows (number of a single support, how much lower [m] the ground is at its end)."""
-
-
-class DisturbanceTable(NamedTuple):
-    """zeta as a sum of parts, each a function (t, step, t_start, q, v) -> zeta (n,) [N m]; 0 without any."""
-
-    addresses: Ints = np.zeros(0, dtype=np.int64)
-    """Of the parts' functions."""
+    parts: Ints = np.zeros((0, PART), dtype=np.int64)
+    """As `record.Run.parts`, the numbers' addresses as their places in `K`."""
     K: Array = np.zeros(0)
-    """Parameters of all parts, one after the other."""
-    offsets: Ints = np.zeros(1, dtype=np.int64)
-    """Part i has the parameters K[offsets[i]:offsets[i + 1]]."""
+    """Numbers of all terms, one after the other."""
     switches: Array = np.zeros((0, 2))
-    """Times at which zeta is not smooth, where a step of integration has to end: (m, 2), rows (step, s), s [s]
-    after single support `step` began, or for step 0 the time s itself.
-    """
-    resultants: tuple[int, ...] = ()
-    """Addresses of (t, step, t_start, q, v) -> force (2,) [N] on the robot as a whole, 0 for none."""
-
-
-class ClockTable(NamedTuple):
-    """When the controller acts."""
-
-    period: float = 0.0
-    """Sampling period [s]; 0 for continuous time."""
-    restart: int = 1
-    """1 where sample instants are counted from the start of each arc, 0 where from t_first."""
-    t_first: float = 0.0
-    """Start of the run [s]."""
-    part: float = 0.0
-    """Time [s] from each tick until the torque that waits for a part of a period acts; 0 for none."""
-
-
-class MethodTable(NamedTuple):
-    """A one-step method with its numbers."""
-
-    kind: int
-    """RK4 or ETD."""
-    h: float
-    """Step [s]."""
-    phi: Array = np.zeros((0, MATRICES, 0, 0))
-    """The matrices of ETD-RK4 (levels, 6, k, k), by `hybrid.exponential.phi_levels`."""
+    """Times at which zeta is not smooth, where a step of integration has to end, as `record.Run.switches`."""
 
 
 LEAST_PERIOD = 1e-9
@@ -176,11 +101,6 @@ class CompiledRun:
         """State (nx,), as a view."""
         at = self.place("x0")
         return self.numbers[at : at + self.nx]
-
-    @property
-    def width(self) -> int:
-        """Numbers in a work vector."""
-        return self.place("dx0") - self.place("x0")
 
     @property
     def block(self) -> Ints:
@@ -260,84 +180,37 @@ class RunPlan:
 
 
 def plan(
-    functions: Functions,
-    sizes: StateSizes,
-    K: Array,
-    ground: GroundTable,
-    push: DisturbanceTable,
-    clock: ClockTable,
-    method: MethodTable,
+    functions: Functions, push: Push, tables: Mapping[str, Array], fields: Mapping[str, float]
 ) -> RunPlan:
-    """Check these parts and lay them out; K: numbers that the functions read. Raises InputError for a
-    misfit."""
-    _check(functions, sizes, push, clock, method)
-    n, nx, p = sizes.n, sizes.nx, sizes.p
-    fields: dict[str, float] = {
-        **functions._asdict(),
-        **sizes._asdict(),
-        "moving": sizes.moving or nx,
-        "guards": 3,
-        "ny": sizes.n_slow + sizes.k * p,
-        "nN": sizes.n_slow + p,
-        "levels": len(method.phi),
-        **clock._asdict(),
-        "kind": method.kind,
-        "h": method.h,
-        "least_step": ground.least_step,
-        "n_drops": len(ground.drops),
-        "n_switches": len(push.switches),
-        "n_parts": len(push.addresses),
-        "pulled": int(any(push.resultants)),
-    }
-    fastest = sizes.fastest if len(sizes.fastest) else np.full(n, np.inf)
-    floats = (K, ground.drops, push.switches, fastest, method.phi, push.K)
-    tables = [np.ascontiguousarray(x, dtype=float).ravel().view(np.int64) for x in floats]
-    resultants = push.resultants or (0,) * len(push.addresses)
-    parts = np.array([push.addresses, push.offsets[:-1], resultants], dtype=np.int64).T
-    width = 3 + max(nx, int(fields["ny"])) + max(n, 2) + OUTSIDE
-    tables.append(parts.ravel())
-    lengths = [*map(len, tables), *(width for _ in ROWS)]
+    """Lay out a run: other tables and fields by their names in `record.Run`; those left out are empty and 0.
+
+    Raises InputError for a period too short.
+    """
+    given = {"moving": fields["nx"], "guards": 3, **functions._asdict(), **fields}
+    if 0.0 < given.get("period", 0.0) < LEAST_PERIOD:
+        raise InputError(
+            f"the sampling period is {given['period']} s, expected at least {LEAST_PERIOD:g} s"
+        )
+    n, nx, p, k = (int(given.get(name, 0)) for name in ("n", "nx", "p", "k"))
+    slow, none, parts = int(given.get("n_slow", 0)), np.zeros(0), push.parts.copy()
+    vectors = {"fastest": np.full(n, np.inf), "push": push.K, "switches": push.switches, **tables}
+    given |= {"ny": slow + k * p, "nN": slow + p, "levels": len(vectors.get("phi", none))}
+    given |= {"n_drops": len(vectors.get("drops", none)), "n_switches": len(push.switches)}
+    given |= {"n_parts": len(parts), "pulled": int(np.any(parts[:, 2]))}
+    floats = (vectors.get(name, none) for name in TABLES[:-1])
+    blocks = [np.ascontiguousarray(x, dtype=float).ravel().view(np.int64) for x in floats]
+    width = 3 + max(nx, given["ny"]) + max(n, 2) + OUTSIDE
+    lengths = [*map(len, blocks), parts.size, *(width for _ in ROWS)]
     starts = np.cumsum([len(KINDS), *lengths])
-    cells = np.concatenate([np.zeros(len(KINDS), dtype=np.int64), *tables])
-    cells = np.append(cells, np.zeros(starts[-1] - len(cells), dtype=np.int64))
     places = dict(zip((*TABLES, *ROWS), starts[:-1].tolist(), strict=True))
-    for name, value in fields.items():
-        if name in PLACES and name not in TABLES:
-            cells.view(np.float64 if KINDS[name] == "float" else np.int64)[PLACES[name]] = value
+    parts[:, 1] = 8 * (places["push"] + parts[:, 1])
+    cells = np.zeros(starts[-1], dtype=np.int64)
+    filled = np.concatenate([*blocks, parts.ravel()])
+    cells[len(KINDS) : len(KINDS) + len(filled)] = filled
+    for name, value in given.items():
+        cells.view(np.float64 if KINDS[name] == "float" else np.int64)[PLACES[name]] = value
     for name, start in places.items():
         cells[PLACES[name]] = 8 * start
     numbers = np.arange(len(parts)) * PART + 1 + places["parts"]
-    cells[numbers] = 8 * (places["push"] + cells[numbers])
     pointers = np.concatenate(([PLACES[name] for name in places], numbers)).astype(np.int64)
     return RunPlan(frozen(cells), frozen(pointers), {k: places[k] for k in TABLES}, nx)
-
-
-def _check(
-    functions: Functions,
-    sizes: StateSizes,
-    push: DisturbanceTable,
-    clock: ClockTable,
-    method: MethodTable,
-) -> None:
-    """Raise InputError for parts that do not fit together: compiled code would read elsewhere in memory."""
-    if len(push.offsets) != len(push.addresses) + 1 or push.offsets[-1] > len(push.K):
-        raise InputError(
-            f"{len(push.addresses)} parts of a disturbance with {len(push.K)} parameters have offsets "
-            f"{push.offsets}, expected one more than parts, the last one the number of parameters"
-        )
-    if not (math.isfinite(clock.period) and (clock.period == 0.0 or clock.period >= LEAST_PERIOD)):
-        raise InputError(
-            f"the sampling period is {clock.period} s, expected at least {LEAST_PERIOD:g} s, or 0 for none"
-        )
-    k, phi = sizes.k, method.phi
-    if method.kind == ETD and (k == 0 or phi.shape[1:] != (MATRICES, k, k)):
-        raise InputError(
-            f"the matrices have shape {phi.shape}, expected (levels, 6, {k}, {k}), k > 0"
-        )
-    needed = {"flow": True, "events": True, "impact": True, "tick": clock.period > 0.0}
-    needed |= dict.fromkeys(("to", "back", "remainder", "matvec"), method.kind == ETD)
-    missing = [
-        name for name, is_needed in needed.items() if is_needed and not getattr(functions, name)
-    ]
-    if missing:
-        raise InputError(f"no address of {', '.join(missing)}, which this method and clock call")
