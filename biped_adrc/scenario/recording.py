@@ -188,10 +188,6 @@ class Walk(Shown):
         kept = {name: x[:count] for name, x in vars(self.signals).items()}
         return replace(self, trajectory=cut, recorded=self.recorded and Signals(**kept))
 
-    def saying(self, said: tuple[str, ...]) -> Self:
-        """The same walk with more sentences among its remarks."""
-        return replace(self, said=(*self.said, *said))
-
     @property
     def remarks(self) -> tuple[str, ...]:
         """Sentences to know before using its numbers: a push that an impact cut off, too long a step at an
