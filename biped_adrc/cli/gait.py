@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING
 from rich.table import Table
 
 from biped_adrc.cli.app import FIGURES, GAITS, console, gait_app, inputs, say, say_written
-from biped_adrc.cli.options import texts, with_sets
-from biped_adrc.errors import InputError
+from biped_adrc.cli.options import pairs, texts, with_sets
 from biped_adrc.files import keep_inputs, output_path
 
 if TYPE_CHECKING:
@@ -129,15 +128,6 @@ def gait_import(
     read = (file, *inputs(robot))
     out = None if out is None else output_path(out, GAITS, default=True)
     keep_inputs((out,) if out else (), read)
-    biped, names = Biped.load(robot, preset), _pairs(name or [])
+    biped = Biped.load(robot, preset)
+    names = pairs(name, "--name", "OURS=THEIRS, such as coefficients=R.alpha")
     _save(import_gait(file, biped, convention, names, slopes, degree, slope), out, read)
-
-
-def _pairs(texts: list[str]) -> dict[str, str]:
-    """{ours: theirs} of --name OURS=THEIRS. Raises InputError."""
-    for text in texts:
-        if not all(word.strip() for word in text.partition("=")):
-            raise InputError(
-                f"--name is '{text}', expected OURS=THEIRS, such as coefficients=R.alpha"
-            )
-    return {ours.strip(): theirs.strip() for ours, _, theirs in (t.partition("=") for t in texts)}

@@ -20,7 +20,6 @@ from biped_adrc.analysis.certificate import IMPULSE
 from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.analysis.quadrature import largest
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
-from biped_adrc.engine.run import COMPILED, simulate_by
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.paper import scenarios
@@ -30,6 +29,7 @@ from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.walk import Part, runs_in_parts
 from biped_adrc.types import Array
 
 
@@ -94,19 +94,9 @@ def pieces(run: Scenario, zero: bool, share: float) -> list[Walk]:
     if zero and adrc:
         x[2 * n + 2 * scene.biped.p :] = 0.0  # x3^ and its derivatives in the scaled chain
     later = Exponential(share * COARSE) if adrc else RK4(share * COARSE)
-    parts = (method_of(with_values(run, h=share * h), walker), 1), (later, impacts - 1)
-    found = []
-    for method, count in parts[: 1 + (impacts > 1)]:
-        end = mode.start + count * walker.max_step_time
-        moved = simulate_by(
-            COMPILED, walker, x, mode, method, t0=mode.start, t_end=end, impacts=count
-        )
-        found.append(watched(walker, gait, moved))
-        event = moved.arcs[-1].event
-        if not moved.status.ok or event is None or event.x_plus is None:
-            break
-        x, mode = event.x_plus, Mode(moved.arcs[-1].mode.step + 1, event.t)
-    return found
+    parts = [Part(1, method_of(with_values(run, h=share * h), walker)), Part(impacts - 1, later)]
+    runs = runs_in_parts(walker, x, mode, parts[: 1 + (impacts > 1)])
+    return [watched(walker, gait, moved) for moved in runs]
 
 
 @lru_cache(maxsize=64)
