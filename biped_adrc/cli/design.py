@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any
 from rich.status import Status
 from rich.table import Table
 
-from biped_adrc.cli.app import GAITS, console, gait_app, inputs, say_written
+from biped_adrc.cli.app import GAITS, console, gait_app, inputs, say_written, target
 from biped_adrc.cli.options import texts, with_sets
 from biped_adrc.errors import GaitError, InputError
-from biped_adrc.files import check_folder, keep_inputs, output_path
+from biped_adrc.files import check_folder
 
 if TYPE_CHECKING:
     from biped_adrc.gait.design.ipopt import IpoptProgress
@@ -60,8 +60,7 @@ def gait_design(
     c = with_sets(Curves, [text for text in sets or () if text not in of_limits])
     limits = with_sets(StepLimits, [text.removeprefix("limits.") for text in of_limits])
     if speeds is None:
-        out = None if out is None else output_path(out, GAITS, default=True)
-        keep_inputs((out,) if out else (), inputs(robot))
+        out = target(out, GAITS, inputs(robot))
     elif speed is not None or step is not None:
         raise InputError("--speeds is given beside a --speed or a --step; give one of them")
     biped = Biped.load(robot, preset)

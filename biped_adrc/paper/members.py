@@ -23,7 +23,7 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.paper import scenarios
-from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Member, value, with_values
+from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Member, with_values
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import Walk, watched
@@ -86,10 +86,11 @@ def pieces(run: Scenario, zero: bool, share: float) -> list[Walk]:
 
     zero: the observer starts at xi^ = 0 instead of the model's xi.
     """
-    scene = scene_of(value(run, "preset"), value(run, "gait"))
+    scene = scene_of(run.robot.preset, run.gait.name)
     walker, n, gait = build(run, scene), scene.biped.n, scene.walked
-    mode, impacts, h = (value(run, name) for name in ("first_step", "impacts", "h"))
-    mode, adrc = Mode(mode), value(run, "controller") == "ADRC"
+    impacts, h = run.run.impacts, run.run.h
+    assert h is not None
+    mode, adrc = Mode(run.run.first_step), run.controller.name == "ADRC"
     x = walker.initial_state(*gait.start(scene.biped), mode)
     if zero and adrc:
         x[2 * n + 2 * scene.biped.p :] = 0.0  # x3^ and its derivatives in the scaled chain
@@ -157,7 +158,7 @@ def _at(
     run = member.run(controller, **values)
     walks = pieces(run, member.start == "zero", share)
     one, other = track(walks[0]), undisturbed(usual, controller, share)
-    made = sum(len(walk.trajectory.events(FOOT_STRIKE)) for walk in walks) == value(run, "impacts")
+    made = sum(len(walk.trajectory.events(FOOT_STRIKE)) for walk in walks) == run.run.impacts
     why: dict[str, str] = {}
     for walk in walks:
         why = walk.feasibility.reasons | why

@@ -18,7 +18,7 @@ from biped_adrc.paper.members import MemberOutcome
 from biped_adrc.paper.push_map import LOST, PushCell
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.runs import Start
-from biped_adrc.paper.scenarios import KINDS, declared, value
+from biped_adrc.paper.scenarios import KINDS, declared
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.studies.cycle_stability import PoincareResult
@@ -36,7 +36,7 @@ def at_two(of: Callable[[Outcome], float], o: Outcome) -> AtTwoSteps:
 
 def share_made(o: Outcome) -> float:
     """Share of the impacts asked for that are made."""
-    return o.impacts / int(value(o.run, "impacts"))
+    return o.impacts / o.run.run.impacts
 
 
 def distance(o: Outcome) -> float:

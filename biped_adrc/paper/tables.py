@@ -16,7 +16,6 @@ from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper.metrics import distance
 from biped_adrc.paper.push_map import PushCell, counts
 from biped_adrc.paper.results import Results
-from biped_adrc.paper.scenarios import value
 from biped_adrc.scenario.outcome import Outcome
 
 PRINTED_TABLE_I = (-180, -324, -583, -1050, -1890, -3401, -6122, -11020, -19836)
@@ -65,8 +64,8 @@ def _run(name: str, o: Outcome) -> dict[str, object]:
     steps = o.certificates
     return {
         "run": name,
-        "controller": value(o.run, "controller"),
-        "preset": value(o.run, "preset"),
+        "controller": o.run.controller.name,
+        "preset": o.run.robot.preset,
         "status": o.status,
         "outcome": o.feasibility.outcome,
         "impacts": o.impacts,
