@@ -15,7 +15,7 @@ from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from biped_adrc.errors import InputError, SimulationError
+from biped_adrc.errors import InputError, SimulationError, optional
 from biped_adrc.processes import cores, processes, stop
 from biped_adrc.study.parameters import CRASHED, RAISED, Record
 from biped_adrc.study.store import Store
@@ -122,12 +122,8 @@ def dask(address: str) -> Executor:
 
     Raises InputError where none answers, it has no workers, or they have other versions than this machine.
     """
-    try:
+    with optional("cluster", "a study on a cluster needs Dask, which is not installed"):
         from distributed import Client
-    except ImportError:
-        raise InputError(
-            "a study on a cluster needs Dask, which is not installed; pip install 'biped-adrc[cluster]'"
-        ) from None
     try:
         connect: Callable[..., DaskClient] = Client
         client = connect(address, timeout=TIMEOUT, set_as_default=False)
