@@ -13,6 +13,8 @@ was expected.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from numbers import Integral
 
 
@@ -63,6 +65,15 @@ class OutputError(BipedError, OSError):
     """A result cannot be written (exit code 5)."""
 
     exit_code = 5
+
+
+@contextmanager
+def optional(extra: str, need: str, instead: str = "") -> Iterator[None]:
+    """Context of the import of a library of an extra. Raises InputError that says how to install it."""
+    try:
+        yield
+    except ImportError:
+        raise InputError(f"{need}; pip install 'biped-adrc[{extra}]'{instead}") from None
 
 
 def check_count(count: object, what: str) -> None:

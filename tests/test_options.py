@@ -123,7 +123,7 @@ def same(name: str) -> Callable[[Any], object]:
     return lambda a: reduce(getattr, name.split("."), a)
 
 
-OUT_GAIT = Row("-o own.json", same("out"), Path("own.json"), "cli.gait:_save")
+OUT_GAIT = Row("-o own.json", same("path"), Path("own.json"), SAVE)
 ROBOT_ROWS = {
     "robot": Row("--robot compass", lambda a: a.biped.description.name, "compass"),
     "preset": Row("--preset tac2003", same("biped.preset"), "tac2003"),
@@ -177,7 +177,7 @@ DESIGN = {
         "--set limits.impulse_friction=0.55", same("limits.impulse_friction"), 0.55
     ),
     "clearance": Row("--set limits.clearance=0.03", same("limits.clearance"), 0.03),
-    "out": Row("-o own.json", same("path"), Path("own.json"), SAVE),
+    "out": OUT_GAIT,
 }
 
 
@@ -240,7 +240,7 @@ COMMANDS = {
     "gait design": Command("gait design", DESIGNED, DESIGN, others={SAVE: ("gait design", DESIGNED)}),
     "gait import": Command(
         "gait import own.mat", IMPORTED, IMPORT,
-        others={"cli.gait:_save": ("gait import own.mat", IMPORTED)},
+        others={SAVE: ("gait import own.mat", IMPORTED)},
     ),
     "gait show": Command(
         "gait show published", ZERO_REPORT, ZERO,

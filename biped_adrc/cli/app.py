@@ -11,7 +11,7 @@ from __future__ import annotations
 import os
 import shlex
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -99,14 +99,14 @@ def inputs(robot: str, *others: str) -> tuple[Path, ...]:
     return (*files, load_description(robot).urdf)
 
 
-def run_path(out: Path | None, read: Iterable[Path]) -> Path | None:
-    """The path that a run is written to, checked before the walk; None for none.
+def target(out: Path | None, suffixes: Sequence[str], read: Iterable[Path]) -> Path | None:
+    """The path of an output, checked before anything is computed; None for none.
 
-    Raises InputError for a name that is no run's or that is read, and OutputError.
+    Raises InputError for a name of another kind or one that is read, and OutputError.
     """
     if out is None:
         return None
-    path = output_path(out, (".npz", ".mat", ".csv"), default=True)
+    path = output_path(out, suffixes, default=True)
     keep_inputs((path,), read)
     return path
 

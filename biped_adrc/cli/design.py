@@ -13,16 +13,14 @@ from typing import TYPE_CHECKING, Any
 from rich.status import Status
 from rich.table import Table
 
-from biped_adrc.cli.app import GAITS, console, gait_app, inputs, say_written
+from biped_adrc.cli.app import GAITS, console, gait_app, inputs, say_written, target
 from biped_adrc.cli.options import texts, with_sets
 from biped_adrc.errors import GaitError, InputError
-from biped_adrc.files import check_folder, keep_inputs, output_path
-from biped_adrc.types import PlainRecord
+from biped_adrc.files import check_folder
 
 if TYPE_CHECKING:
     from biped_adrc.gait.design.ipopt import IpoptProgress
     from biped_adrc.model.biped import Biped
-    from biped_adrc.studies.gait_design import DesignedGait
     from biped_adrc.types import Array
 
 
@@ -56,39 +54,33 @@ def gait_design(
     """Design a periodic, feasible, stable gait for a speed, a step, or both, and certify it by walking."""
     from biped_adrc.gait.design.request import StepLimits
     from biped_adrc.model.biped import Biped
+    from biped_adrc.studies.gait_design import design_gait
 
     of_limits = [text for text in sets or () if text.startswith("limits.")]
     c = with_sets(Curves, [text for text in sets or () if text not in of_limits])
     limits = with_sets(StepLimits, [text.removeprefix("limits.") for text in of_limits])
     if speeds is None:
-        out = None if out is None else output_path(out, GAITS, default=True)
-        keep_inputs((out,) if out else (), inputs(robot))
+        out = target(out, GAITS, inputs(robot))
     elif speed is not None or step is not None:
         raise InputError("--speeds is given beside a --speed or a --step; give one of them")
     biped = Biped.load(robot, preset)
-    how = {"slope": slope, "objective": minimise, "limits": limits}
+    how: dict[str, Any] = {"slope": slope, "objective": minimise, "limits": limits}
     how |= {"curve": c.curve, "degree": c.degree, "nodes": c.nodes}
     if speeds is not None:
         _library(biped, speeds, how, Path("gait-library") if out is None else out)
         return
     through = None if c.through is None else _state(c.through, biped.n)
     with console.status("building the programme") as shown:
-        found = _designed(biped, speed, step, through=through, progress=_progress(shown), **how)
+        found = design_gait(biped, speed, step, through=through, progress=_progress(shown), **how)
     console.print(found.text(), highlight=False)
     path = out or Path(found.gait.file_name)
     found.gait.save(path)
     say_written(path)
 
 
-def _designed(*words: Any, **how: Any) -> DesignedGait:
-    from biped_adrc.studies.gait_design import design_gait
-
-    return design_gait(*words, **how)
-
-
-def _library(biped: Biped, speeds: str, how: PlainRecord, out: Path) -> None:
+def _library(biped: Biped, speeds: str, how: dict[str, Any], out: Path) -> None:
     """Design a gait for every speed, each from a cold start, and store those that were found in a folder."""
-    from biped_adrc.studies.gait_design import speeds_named
+    from biped_adrc.studies.gait_design import design_gait, speeds_named
 
     check_folder(out)
     table = Table("m/s", "step [m]", "torque [N m]", "friction", "delta^2", "transport", "s")
@@ -96,7 +88,7 @@ def _library(biped: Biped, speeds: str, how: PlainRecord, out: Path) -> None:
     for speed in speeds_named(speeds):
         with console.status(f"{speed:g} m/s") as shown:
             try:
-                found = _designed(biped, speed, progress=_progress(shown), **how)
+                found = design_gait(biped, speed, progress=_progress(shown), **how)
             except GaitError as error:
                 missed.append(f"{speed:g} m/s: {error}")
                 continue

@@ -7,15 +7,13 @@ designed in `cli.design`.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rich.table import Table
 
-from biped_adrc.cli.app import FIGURES, GAITS, console, gait_app, inputs, say, say_written
-from biped_adrc.cli.options import texts, with_sets
-from biped_adrc.errors import InputError
+from biped_adrc.cli.app import FIGURES, GAITS, console, gait_app, inputs, say, say_written, target
+from biped_adrc.cli.options import pairs, texts, with_sets
 from biped_adrc.files import keep_inputs, output_path
 
 if TYPE_CHECKING:
@@ -77,17 +75,6 @@ def _print_zero(biped: Biped, found: Gait, plot: Path | None, sets: list[str] | 
         say_written(plot)
 
 
-def _save(gait: Gait, out: Path | None, read: Iterable[Path] = ()) -> None:
-    """Write a gait, by default under its own name, and say its period [s]; refuses to write over what
-    was read.
-    """
-    path = out or Path(gait.file_name)
-    keep_inputs((path,), read)
-    gait.save(path)
-    console.print(f"period {gait.period:.6f} s", highlight=False)
-    say_written(path)
-
-
 @gait_app.command("export")
 @texts("gait.export")
 def gait_export(
@@ -127,17 +114,12 @@ def gait_import(
     from biped_adrc.model.biped import Biped
 
     read = (file, *inputs(robot))
-    out = None if out is None else output_path(out, GAITS, default=True)
-    keep_inputs((out,) if out else (), read)
-    biped, names = Biped.load(robot, preset), _pairs(name or [])
-    _save(import_gait(file, biped, convention, names, slopes, degree, slope), out, read)
-
-
-def _pairs(texts: list[str]) -> dict[str, str]:
-    """{ours: theirs} of --name OURS=THEIRS. Raises InputError."""
-    for text in texts:
-        if not all(word.strip() for word in text.partition("=")):
-            raise InputError(
-                f"--name is '{text}', expected OURS=THEIRS, such as coefficients=R.alpha"
-            )
-    return {ours.strip(): theirs.strip() for ours, _, theirs in (t.partition("=") for t in texts)}
+    out = target(out, GAITS, read)
+    biped = Biped.load(robot, preset)
+    names = pairs(name, "--name", "OURS=THEIRS, such as coefficients=R.alpha")
+    gait = import_gait(file, biped, convention, names, slopes, degree, slope)
+    path = out or Path(gait.file_name)
+    keep_inputs((path,), read)
+    gait.save(path)
+    console.print(f"period {gait.period:.6f} s", highlight=False)
+    say_written(path)

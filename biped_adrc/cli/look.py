@@ -7,14 +7,10 @@ are, without walking again, also runs of a user's own controller that is not at 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from biped_adrc.cli.app import FIGURES, app, say_written
 from biped_adrc.cli.options import texts, with_sets
 from biped_adrc.files import keep_inputs, output_path
-
-if TYPE_CHECKING:
-    from biped_adrc.scenario.recording import Walk
 
 
 @app.command()
@@ -34,14 +30,10 @@ def animate(
     runs, clip = [run, *(ghost or [])], with_sets(Clip, sets, start=start, stop=stop)
     check_suffix(out)
     keep_inputs((output_path(out, SUFFIXES),), runs)
-    export(out, _solid_last(load_walks(runs)), clip)
-    say_written(out)
-
-
-def _solid_last(walks: dict[str, Walk]) -> dict[str, Walk]:
-    """The first of the walks behind the others: the last one is drawn solid."""
+    walks = load_walks(runs)
     first, *others = walks
-    return {name: walks[name] for name in (*others, first)}
+    export(out, {name: walks[name] for name in (*others, first)}, clip)  # the last is drawn solid
+    say_written(out)
 
 
 @app.command()

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from rich.table import Table
 
-from biped_adrc.cli.app import FIGURES, app, bar, console, say, say_written
+from biped_adrc.cli.app import FIGURES, app, console, say, say_written
 from biped_adrc.cli.options import of_scenario, pairs, scenario_from, texts
 from biped_adrc.files import output_path
 from biped_adrc.types import PlainRecord
@@ -52,10 +52,8 @@ def observer_command(
     s = scenario_from(given, sets)
     c, h, scene = s.controller, s.hardware, RobotAndGait.of(s)
     gains = replace(TABLE_II, **{k: x for k in ("K_p", "K_d") if (x := getattr(c, k)) is not None})
-    chosen, clock = (
-        _observer(c.observer),
-        Clock(h.period or 1e-3, h.encoders.counts or 8192.0, h.delay, h.delay_known),
-    )
+    chosen = _observer(c.observer)
+    clock = Clock(h.period or 1e-3, h.encoders.counts or 8192.0, h.delay, h.delay_known)
     report = observer_report(chosen, gains, robot=scene.biped, gait=scene.walked, **clock._asdict())
     _print_report(report)
     if confirm:
@@ -112,24 +110,11 @@ def _confirm(
     """
     from biped_adrc.studies.observer_check import DelayCase, check_delay, check_encoders
 
-    with bar() as progress:
-        task = progress.add_task("walks with a late torque, then with encoders", total=4)
-        checks = []
-        for aware in (False, True):
-            checks.append(check_delay(DelayCase(biped, gait, observer, gains, aware)))
-            progress.advance(task)
-        walks = []
-        for seen in (None, clock.counts):
-            walks.append(
-                check_encoders(
-                    biped,
-                    gait,
-                    observer,
-                    gains,
-                    **clock._replace(counts=seen)._asdict(),
-                )
-            )
-            progress.advance(task)
+    with console.status("walks with a late torque, then with encoders"):
+        cases = [DelayCase(biped, gait, observer, gains, aware) for aware in (False, True)]
+        checks = [check_delay(case) for case in cases]
+        clocks = [clock._replace(counts=counts)._asdict() for counts in (None, clock.counts)]
+        walks = [check_encoders(biped, gait, observer, gains, **x) for x in clocks]
     _print_walks(checks, walks)
 
 

@@ -152,17 +152,21 @@ def _passive(base: Scenario, values: PlainRecord, usual: str) -> PlainRecord:
     return {"controller.name": usual if motors else "passive"}
 
 
-def pairs(sets: list[str] | None) -> dict[str, str]:
-    """Texts by name of --set NAME=VALUE. Raises InputError for another form, and a name that comes twice."""
+def pairs(
+    sets: list[str] | None,
+    option: str = "--set",
+    form: str = "NAME=VALUE, such as 'hardware.delay=2 ms'",
+) -> dict[str, str]:
+    """Texts by name of an option NAME=VALUE. Raises InputError for another form, or a name that comes twice."""
     found: dict[str, str] = {}
     for text in sets or ():
         name, equals, x = (word.strip() for word in text.partition("="))
-        if not equals or not name:
-            raise InputError(
-                f"--set is '{text}', expected NAME=VALUE, such as 'hardware.delay=2 ms'"
-            )
+        if not (name and equals and x):
+            raise InputError(f"{option} is '{text}', expected {form}")
         if name in found:
-            raise InputError(f"'{name}' is given twice, as --set {text} too; leave one of them out")
+            raise InputError(
+                f"'{name}' is given twice, as {option} {text} too; leave one of them out"
+            )
         found[name] = x
     return found
 

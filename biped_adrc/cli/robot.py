@@ -124,7 +124,6 @@ def robot_new(
 def robot_export(
     robot: str,
     out: Path,
-    preset: str | None = None,
     gait: str | None = None,
     sets: list[str] | None = None,
 ) -> None:
@@ -139,7 +138,7 @@ def robot_export(
     path = output_path(out, (".xml",), default=True)
     keep_inputs((path,), inputs(robot, *(() if gait is None else (gait,))))
     s = scenario_from({"robot.name": robot}, sets)
-    biped = Biped.load(robot, preset, s.hardware.friction)
+    biped = Biped.load(robot, s.robot.preset, s.hardware.friction)
     g = s.ground
     ground = SoftGround(g.friction, g.time_constant, g.damping_ratio, **g.own)
     start = None if gait is None else load_gait(gait, biped)

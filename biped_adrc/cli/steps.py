@@ -23,7 +23,7 @@ def print_supports(
     """Print what every step needed of ground and motors, a row each; below how the walk ended, in words."""
     from biped_adrc.analysis.certificate import ratio_text
 
-    names = (
+    columns = (
         "step",
         "time [s]",
         "length [m]",
@@ -31,15 +31,10 @@ def print_supports(
         "F_N [N]",
         Column("friction", min_width=8),
         "at impact",
-    )
-    table = Table(
-        *names,
         "scuffs [mm]",
         Column("breaks", min_width=8),
-        box=SIMPLE_HEAD,
-        pad_edge=False,
-        padding=(0, 1, 0, 0),
     )
+    table = Table(*columns, box=SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
     for s, c in zip_longest(feasibility.supports, certificates):
         table.add_row(
             f"{s.step}",
@@ -67,13 +62,7 @@ def print_on_ground(steps: tuple[SoftStep, ...]) -> None:
         "step", "slip [mm]", "in the air [ms]", "on both feet [ms]", "depth [mm]", "friction"
     )
     for k, s in enumerate(steps, 1):
-        times = (1e3 * s.flight, 1e3 * s.double_support)
-        slip, depth = 1e3 * max(s.slip), 1e3 * s.depth
-        row = (
-            f"{slip:.2g}",
-            *(f"{x:.1f}" for x in times),
-            f"{depth:.2g}",
-            f"{s.friction_used:.3f}",
-        )
-        table.add_row(f"{k}", *row)
+        slip, depth = f"{1e3 * max(s.slip):.2g}", f"{1e3 * s.depth:.2g}"
+        flight, both = f"{1e3 * s.flight:.1f}", f"{1e3 * s.double_support:.1f}"
+        table.add_row(f"{k}", slip, flight, both, depth, f"{s.friction_used:.3f}")
     console.print(table)

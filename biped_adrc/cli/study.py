@@ -10,7 +10,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
 from rich.table import Table
 
 from biped_adrc.cli.app import EXIT_INTERRUPTED, app, console, say
@@ -78,14 +85,12 @@ def _print(done: Results) -> None:
 def _shown(name: str, out: Path) -> Iterator[Callable[[Done], None]]:
     """Context with a progress bar; on Ctrl-C it says how to go on, and raises the exit."""
     text = TextColumn("{task.description:<24.24}", markup=False)
-    told = TextColumn("{task.fields[left]}")
-    columns = (text, BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), told)
-    with Progress(*columns, console=console) as shown:
-        task = shown.add_task(name, total=None, left="")
+    times = TimeElapsedColumn(), TextColumn("left"), TimeRemainingColumn()
+    with Progress(text, BarColumn(), MofNCompleteColumn(), *times, console=console) as shown:
+        task = shown.add_task(name, total=None)
 
         def progress(p: Done) -> None:
-            words = "" if p.left is None else clock(p.left)
-            shown.update(task, completed=p.done, total=p.total, left=words)
+            shown.update(task, completed=p.done, total=p.total)
             if p.note:
                 shown.console.print(p.note)
 
@@ -97,9 +102,3 @@ def _shown(name: str, out: Path) -> Iterator[Callable[[Done], None]]:
             begun = "what is finished is in" if os.path.exists(out) else "nothing was begun in"
             say(f"{begun} {out}; the same command goes on from there")
             raise typer.Exit(EXIT_INTERRUPTED) from None
-
-
-def clock(seconds: float) -> str:
-    """Seconds to go as "h:mm:ss left"."""
-    minutes, rest = divmod(round(seconds), 60)
-    return f"{minutes // 60}:{minutes % 60:02}:{rest:02} left"

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import errno
 import io
-import os
 import re
 import select
 import sys
@@ -47,36 +46,23 @@ class Terminal(Console):
             yield segment if segment.control else segment._replace(text=printable(segment.text))
 
 
-class Lasting(io.RawIOBase):
+class Lasting(io.FileIO):
     """A file descriptor to print to that takes everything, also when nobody reads or the disk is full."""
 
-    def __init__(self, descriptor: int) -> None:
-        self.descriptor = descriptor
-        self.lost: OSError | None = None
-        """Why something could not be written; None while all was."""
-
-    def writable(self) -> bool:
-        """True."""
-        return True
-
-    def fileno(self) -> int:
-        """The descriptor."""
-        return self.descriptor
-
-    def isatty(self) -> bool:
-        """Whether somebody is looking."""
-        return os.isatty(self.descriptor)
+    lost: OSError | None = None
+    """Why something could not be written; None while all was."""
 
     def write(self, data: ReadableBuffer, /) -> int:
         """Write what can be written; the number of bytes, all of them once something was lost."""
         if self.lost is None:
             try:
-                return os.write(self.descriptor, data)
-            except BlockingIOError:
-                select.select((), (self.descriptor,), ())
-                return 0
+                count: int | None = super().write(data)
             except OSError as error:
                 self.lost = error
+            else:
+                if count is None:  # a full pipe that does not block
+                    select.select((), (self,), ())
+                return count or 0
         return memoryview(data).nbytes
 
 
@@ -84,7 +70,7 @@ def lasting(name: str) -> Lasting | None:
     """Make sys.stdout or sys.stderr one that lasts; None where it is no file of the operating system."""
     old = getattr(sys, name)
     try:
-        raw = Lasting(old.fileno())
+        raw = Lasting(old.fileno(), "w", closefd=False)
     except (AttributeError, OSError, ValueError):
         return None
     old.flush()

@@ -8,7 +8,6 @@ stores the run. `poincare` finds the fixed point of the return map and its multi
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,11 +15,10 @@ from typing import TYPE_CHECKING
 import typer
 from rich.table import Table
 
-from biped_adrc.cli.app import EXIT_FELL, app, bar, console, inputs, run_path, say, say_written
+from biped_adrc.cli.app import EXIT_FELL, app, bar, console, inputs, say, say_written, target
 from biped_adrc.cli.options import WALKS, of_scenario, scenario_from, texts
 from biped_adrc.cli.steps import print_on_ground, print_supports
 from biped_adrc.errors import InputError, RaisedError
-from biped_adrc.files import keep_inputs, output_path
 from biped_adrc.hybrid.status import Status
 from biped_adrc.types import PlainRecord
 
@@ -56,23 +54,12 @@ def simulate(
 
     s = scenario_from(given, sets, scenario, push)
     read = inputs(s.robot.name, s.gait.name)
-    _walk(s, limits(s), end_infeasible, run_path(out, read), log_path(log, s, read))
-
-
-def log_path(log: Path | None, s: Scenario, read: Iterable[Path]) -> Path | None:
-    """The path of a log, checked before the walk; None for none.
-
-    Raises InputError for another kind of file, one that is read, and a walk in continuous time; OutputError.
-    """
-    if log is None:
-        return None
-    path = output_path(log, (".csv",), default=True)
-    keep_inputs((path,), read)
-    if s.hardware.period is None:
+    out, log = target(out, (".npz", ".mat", ".csv"), read), target(log, (".csv",), read)
+    if log is not None and s.hardware.period is None:
         raise InputError(
             "--log needs sample instants, and this walk is in continuous time; give a --period, such as '1 ms'"
         )
-    return path
+    _walk(s, limits(s), end_infeasible, out, log)
 
 
 def _walk(

@@ -24,6 +24,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.outcome import Outcome
 
 AGREE = 0.01
@@ -110,12 +111,10 @@ class Halved:
         """Their difference relative to the second; 0 within the resolution, infinite where a value is not
         finite.
         """
-        if not (math.isfinite(self.value) and math.isfinite(self.half)):
-            return math.inf
-        apart = abs(self.value - self.half)
-        if apart <= self.resolution:
+        if abs(self.value - self.half) <= self.resolution:
             return 0.0
-        return apart / abs(self.half) if self.half != 0.0 else math.inf
+        change = AtTwoSteps(self.value, self.half).change
+        return math.inf if math.isnan(change) else change
 
     @property
     def agrees(self) -> bool:

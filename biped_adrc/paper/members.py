@@ -20,16 +20,16 @@ from biped_adrc.analysis.certificate import IMPULSE
 from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.analysis.quadrature import largest
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
-from biped_adrc.engine.run import COMPILED, simulate_by
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.paper import scenarios
-from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Member, value, with_values
+from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Member, with_values
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.walk import Part, runs_in_parts
 from biped_adrc.types import Array
 
 
@@ -86,27 +86,18 @@ def pieces(run: Scenario, zero: bool, share: float) -> list[Walk]:
 
     zero: the observer starts at xi^ = 0 instead of the model's xi.
     """
-    scene = scene_of(value(run, "preset"), value(run, "gait"))
+    scene = scene_of(run.robot.preset, run.gait.name)
     walker, n, gait = build(run, scene), scene.biped.n, scene.walked
-    mode, impacts, h = (value(run, name) for name in ("first_step", "impacts", "h"))
-    mode, adrc = Mode(mode), value(run, "controller") == "ADRC"
+    impacts, h = run.run.impacts, run.run.h
+    assert h is not None
+    mode, adrc = Mode(run.run.first_step), run.controller.name == "ADRC"
     x = walker.initial_state(*gait.start(scene.biped), mode)
     if zero and adrc:
         x[2 * n + 2 * scene.biped.p :] = 0.0  # x3^ and its derivatives in the scaled chain
     later = Exponential(share * COARSE) if adrc else RK4(share * COARSE)
-    parts = (method_of(with_values(run, h=share * h), walker), 1), (later, impacts - 1)
-    found = []
-    for method, count in parts[: 1 + (impacts > 1)]:
-        end = mode.start + count * walker.max_step_time
-        moved = simulate_by(
-            COMPILED, walker, x, mode, method, t0=mode.start, t_end=end, impacts=count
-        )
-        found.append(watched(walker, gait, moved))
-        event = moved.arcs[-1].event
-        if not moved.status.ok or event is None or event.x_plus is None:
-            break
-        x, mode = event.x_plus, Mode(moved.arcs[-1].mode.step + 1, event.t)
-    return found
+    parts = [Part(1, method_of(with_values(run, h=share * h), walker)), Part(impacts - 1, later)]
+    runs = runs_in_parts(walker, x, mode, parts[: 1 + (impacts > 1)])
+    return [watched(walker, gait, moved) for moved in runs]
 
 
 @lru_cache(maxsize=64)
@@ -167,7 +158,7 @@ def _at(
     run = member.run(controller, **values)
     walks = pieces(run, member.start == "zero", share)
     one, other = track(walks[0]), undisturbed(usual, controller, share)
-    made = sum(len(walk.trajectory.events(FOOT_STRIKE)) for walk in walks) == value(run, "impacts")
+    made = sum(len(walk.trajectory.events(FOOT_STRIKE)) for walk in walks) == run.run.impacts
     why: dict[str, str] = {}
     for walk in walks:
         why = walk.feasibility.reasons | why

@@ -12,13 +12,14 @@ from functools import partial
 
 import numpy as np
 
+from biped_adrc.analysis.return_map import PeriodicOrbit
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.paper.members import MemberOutcome
 from biped_adrc.paper.push_map import LOST, PushCell
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.runs import Start
-from biped_adrc.paper.scenarios import KINDS, declared, value
+from biped_adrc.paper.scenarios import KINDS, declared
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.studies.cycle_stability import PoincareResult
@@ -36,7 +37,7 @@ def at_two(of: Callable[[Outcome], float], o: Outcome) -> AtTwoSteps:
 
 def share_made(o: Outcome) -> float:
     """Share of the impacts asked for that are made."""
-    return o.impacts / int(value(o.run, "impacts"))
+    return o.impacts / o.run.run.impacts
 
 
 def distance(o: Outcome) -> float:
@@ -82,12 +83,16 @@ def last(name: str, o: Outcome) -> float:
     return float(getattr(o.certificates[-1], name)) if o.certificates else math.nan
 
 
-def largest_multiplier(found: PoincareResult | str) -> AtTwoSteps:
-    """Of a cycle; NaN where none was found."""
+def of_orbit(of: Callable[[PeriodicOrbit], float], found: PoincareResult | str) -> AtTwoSteps:
+    """A number of a cycle at both steps; NaN where none was found."""
     if isinstance(found, str) or found.half is None:
         return AtTwoSteps(math.nan, math.nan)
-    one, other = (float(abs(x.orbit.multipliers[0])) for x in (found, found.half))
-    return AtTwoSteps(one, other)
+    return AtTwoSteps(of(found.orbit), of(found.half.orbit))
+
+
+def largest_multiplier(found: PoincareResult | str) -> AtTwoSteps:
+    """Of a cycle; NaN where none was found."""
+    return of_orbit(lambda orbit: float(abs(orbit.multipliers[0])), found)
 
 
 def phase_rate(x_minus: Array) -> float:
@@ -103,12 +108,7 @@ PRINTED_SPEED = phase_rate(X_STAR)
 
 def speed_error(found: PoincareResult | str) -> AtTwoSteps:
     """Relative difference of Theta' before an impact from that of x*."""
-    if isinstance(found, str) or found.half is None:
-        return AtTwoSteps(math.nan, math.nan)
-    one, other = (
-        abs(phase_rate(x.orbit.x_minus) / PRINTED_SPEED - 1.0) for x in (found, found.half)
-    )
-    return AtTwoSteps(one, other)
+    return of_orbit(lambda orbit: abs(phase_rate(orbit.x_minus) / PRINTED_SPEED - 1.0), found)
 
 
 def deviation(o: MemberOutcome) -> AtTwoSteps:
@@ -123,14 +123,13 @@ def error_ratio(o: MemberOutcome) -> AtTwoSteps:
 
 def longest(o: MemberOutcome) -> AtTwoSteps:
     """Longest step under either controller [s], infinite where not all are made."""
-    both = zip(*(w.longest for w in o.walked.values()), strict=True)
-    return AtTwoSteps(*(max(each) for each in both))
+    return AtTwoSteps(*map(max, zip(*(w.longest for w in o.walked.values()), strict=True)))
 
 
 def reached(start: Start) -> AtTwoSteps:
     """Share of the impacts asked for, of the controller that makes more."""
-    both = zip(*(at_two(share_made, o) for o in start.outcomes.values()), strict=True)
-    return AtTwoSteps(*(max(each) for each in both))
+    both = (at_two(share_made, o) for o in start.outcomes.values())
+    return AtTwoSteps(*map(max, zip(*both, strict=True)))
 
 
 def longest_step(multiplier: float) -> float:

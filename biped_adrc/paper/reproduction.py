@@ -29,7 +29,7 @@ from biped_adrc.paper.runs import tasks as planned_tasks
 from biped_adrc.paper.scenarios import Plan
 from biped_adrc.paper.table import checks, rows
 from biped_adrc.paper.tables import tables
-from biped_adrc.paper.verdict import Row, tally, texts
+from biped_adrc.paper.verdict import tally, texts
 from biped_adrc.processes import TaskProgress, run_tasks
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.stored import replay
@@ -84,7 +84,11 @@ def judgement(r: Results) -> dict[str, Any]:
         "holds": all(check.holds for check in found),
         "checks": found,
         "tally": tally(of_claims),
-        **_said(of_claims),
+        "claims_preface": texts()["preface"],
+        "claims_words": texts()["words"],
+        "claims": of_claims,
+        "findings": [row.finding for row in of_claims if row.finding],
+        "notes": list(texts()["notes"].values()),
         "settings": _settings(plan),
         "tables": tables(r),
         "members": [o for part in r.members.values() for o in part],
@@ -94,17 +98,6 @@ def judgement(r: Results) -> dict[str, Any]:
     }
     summary: dict[str, Any] = plain(made)
     return summary
-
-
-def _said(of_claims: list[Row]) -> dict[str, object]:
-    """What the summary says of the claims in words, and of the setup."""
-    return {
-        "claims_preface": texts()["preface"],
-        "claims_words": texts()["words"],
-        "claims": of_claims,
-        "findings": [row.finding for row in of_claims if row.finding],
-        "notes": list(texts()["notes"].values()),
-    }
 
 
 def probe(out: Path) -> None:

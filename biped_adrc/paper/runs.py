@@ -25,7 +25,7 @@ from biped_adrc.paper import scenarios
 from biped_adrc.paper.members import member_outcomes, member_walk
 from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.paper.push_map import push_map
-from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Plan, value, with_values
+from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Plan, with_values
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.processes import Task
 from biped_adrc.scenario.build import RobotAndGait
@@ -58,8 +58,8 @@ def sparse(walk: Walk, apart: float = NODE_DISTANCE) -> Walk:
 
 def twice(run: Scenario) -> Outcome:
     """The outcome of a walk, with that at half of its steps in `half`."""
-    h = value(run, "h")
-    if h is None or h > 0.2 * NODE_DISTANCE or value(run, "reset") != "model":
+    h = run.run.h
+    if h is None or h > 0.2 * NODE_DISTANCE or run.controller.observer.reset != "model":
         return execute_twice(run)
     half = sparse(walk_scenario(halved(run)), 0.5 * NODE_DISTANCE)
     return replace(sparse(walk_scenario(run)).outcome, half=half.outcome)

@@ -13,7 +13,6 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass
-from operator import attrgetter
 from typing import Any
 
 from biped_adrc.engine.run import PINOCCHIO
@@ -165,19 +164,14 @@ def with_values(run: Scenario, **values: Any) -> Scenario:
     return run.replace({PLACES[name]: x for name, x in values.items()})
 
 
-def value(run: Scenario, name: str) -> Any:
-    """A value of the scenario by its name in PLACES."""
-    return attrgetter(PLACES[name])(run)
-
-
 def pushed_steps(run: Scenario) -> set[int]:
     """The single supports in which a push acts, and those after."""
-    return {push.step + k for push in value(run, "pushes") for k in (0, 1)}
+    return {push.step + k for push in run.pushes for k in (0, 1)}
 
 
 def from_the_push(run: Scenario) -> Scenario:
     """The run from the pushed step on, on its orbit, for two impacts."""
-    return with_values(run, first_step=value(run, "pushes")[0].step, impacts=2)
+    return with_values(run, first_step=run.pushes[0].step, impacts=2)
 
 
 def plain(controller: str, preset: str, **values: Any) -> Scenario:

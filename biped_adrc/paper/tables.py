@@ -14,9 +14,8 @@ from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper.metrics import distance
-from biped_adrc.paper.push_map import WORDS, PushCell, counts
+from biped_adrc.paper.push_map import PushCell, counts
 from biped_adrc.paper.results import Results
-from biped_adrc.paper.scenarios import CONTROLLERS, value
 from biped_adrc.scenario.outcome import Outcome
 
 PRINTED_TABLE_I = (-180, -324, -583, -1050, -1890, -3401, -6122, -11020, -19836)
@@ -65,8 +64,8 @@ def _run(name: str, o: Outcome) -> dict[str, object]:
     steps = o.certificates
     return {
         "run": name,
-        "controller": value(o.run, "controller"),
-        "preset": value(o.run, "preset"),
+        "controller": o.run.controller.name,
+        "preset": o.run.robot.preset,
         "status": o.status,
         "outcome": o.feasibility.outcome,
         "impacts": o.impacts,
@@ -150,8 +149,8 @@ def _literal(r: Results) -> Table:
 
 def _map(cells: list[PushCell]) -> Table:
     """How many pushes of the map ended how, by preset, torque limit and controller."""
-    found = counts(cells)
-    rows = [
-        [name, c, *(found[name][c][word] for word in WORDS)] for name in found for c in CONTROLLERS
-    ]
-    return {"columns": ["preset, torque limit", "controller", *WORDS], "rows": rows}
+    return table(
+        {"preset, torque limit": name, "controller": c, **words}
+        for name, found in counts(cells).items()
+        for c, words in found.items()
+    )

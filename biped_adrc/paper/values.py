@@ -15,7 +15,7 @@ from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper import metrics as m
 from biped_adrc.paper.push_map import LOST
 from biped_adrc.paper.results import Results
-from biped_adrc.paper.scenarios import CONTROLLERS, declared, value
+from biped_adrc.paper.scenarios import CONTROLLERS, declared
 from biped_adrc.paper.verdict import Extremes
 from biped_adrc.types import Array
 
@@ -29,7 +29,7 @@ def of_headline(r: Results) -> dict[str, object]:
         "npd": npd,
         "adrc": adrc,
         "slow": slow[1],
-        "asked": value(npd.run, "impacts"),
+        "asked": npd.run.run.impacts,
         "pushes": "; ".join(push.in_words() for push in r.plan.pushes),
         "words": ", ".join(f"{c} {x}" for c, x in word.items()),
         "errors": f"{1e3 * npd.peak_error:.3g} mrad under NPD, {1e3 * adrc.peak_error:.2g} mrad under ADRC",

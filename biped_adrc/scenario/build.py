@@ -10,7 +10,7 @@ model errors. Called by `run`, by studies, and by worker processes, which receiv
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TypeVar
@@ -35,9 +35,8 @@ from biped_adrc.model.model_errors import ModelErrors, impact_error
 from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.disturbances import disturbances
-from biped_adrc.scenario.dotted import unknown
 from biped_adrc.scenario.hardware import EncoderRecord, PartRecord
-from biped_adrc.scenario.records import Misfit
+from biped_adrc.scenario.records import all_taken
 from biped_adrc.scenario.registry import construct, find, own, takes
 from biped_adrc.scenario.scenario import Scenario, drawn
 from biped_adrc.soft.ground import SoftGround
@@ -265,15 +264,8 @@ def _named(kind: str, s: Scenario, known: Mapping[str, object], base: type[_T]) 
     record: PartRecord = getattr(s.hardware, kind)
     entry = find(kind, str(record.name))
     values = {**known, "seed": drawn(s, kind), **record.own, **entry.defaults}
-    _all_taken(f"hardware.{kind}", record.own, takes(entry.load()))
+    all_taken(f"hardware.{kind}", record.own, takes(entry.load()))
     return construct(f"{kind} '{record.name}'", entry.load(), values, base, f"hardware.{kind}")
-
-
-def _all_taken(place: str, own: Mapping[str, object], known: Iterable[str]) -> None:
-    """Raise Misfit for an own value that nothing takes."""
-    for name in own:
-        if name not in set(known):
-            raise Misfit(f"{place}.{name}", unknown(name, known))
 
 
 def plant_step(s: Scenario) -> float:
@@ -308,7 +300,7 @@ def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
     if g.plant == RIGID:
         return None
     make = find("plant", g.plant).load()
-    _all_taken("ground", g.own, {*takes(make), *takes(SoftGround)})
+    all_taken("ground", g.own, {*takes(make), *takes(SoftGround)})
     given = g.own | {name: getattr(g, name) for name in OF_GROUND}
     ground = construct(f"the ground of plant '{g.plant}'", SoftGround, given, SoftGround)
     plant = plant_around(g.plant, walker, g.own | {"ground": ground, "h": plant_step(s)})

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.errors import InputError
+from biped_adrc.errors import optional
 from biped_adrc.files import output_path, replacing
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.types import Array
@@ -67,13 +67,9 @@ def write_csv(columns: Mapping[str, Any], path: Path | str) -> Path:
 
 def data_frame(columns: Mapping[str, Any], note: str) -> pandas.DataFrame:
     """As a pandas DataFrame, the note in its `attrs`. Raises InputError where pandas is not installed."""
-    try:
+    need = "a table of a walk needs pandas, which is not installed"
+    with optional("tables", need, ", or write a file with walk.to_csv(path)"):
         import pandas
-    except ImportError:
-        raise InputError(
-            "a table of a walk needs pandas, which is not installed; pip install "
-            "'biped-adrc[tables]', or write a file with walk.to_csv(path)"
-        ) from None
     frame = pandas.DataFrame(dict(columns))
     frame.attrs["note"] = note
     return frame

@@ -11,9 +11,8 @@ from biped_adrc.disturbances.base import Disturbance, Sum, Windowed
 from biped_adrc.disturbances.link import OnLink
 from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
-from biped_adrc.scenario.dotted import unknown
 from biped_adrc.scenario.push import RANDOM, Push
-from biped_adrc.scenario.records import Misfit
+from biped_adrc.scenario.records import Misfit, all_taken
 from biped_adrc.scenario.registry import construct, find, takes
 from biped_adrc.scenario.scenario import Scenario, drawn
 from biped_adrc.types import Array
@@ -57,8 +56,7 @@ def _check_taken(i: int, push: Push, accepted: set[str]) -> None:
     for name, why in idle.items():
         if why and getattr(push, name):
             raise Misfit(f"pushes.{i}.{name}", f"the push '{push.shape}' {why}")
-    for name in push.own.keys() - accepted:
-        raise Misfit(f"pushes.{i}.{name}", unknown(name, {*accepted, *Push.model_fields}))
+    all_taken(f"pushes.{i}", push.own, {*accepted, *Push.model_fields})
 
 
 def window(s: Scenario, i: int, period: float) -> dict[str, Any]:

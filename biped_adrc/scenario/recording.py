@@ -60,11 +60,6 @@ if TYPE_CHECKING:
     from biped_adrc.scenario.scenario import Scenario
 
 
-def _nothing(t: float) -> tuple[Array, Array, Array]:
-    """The reference of a robot without motors: no joint, three arrays (0,)."""
-    return np.zeros(0), np.zeros(0), np.zeros(0)
-
-
 @dataclass(frozen=True)
 class Walk(Shown):
     """A finished walk: the walker, the gait it was to follow, the trajectory, and the scenario that asked for
@@ -92,7 +87,9 @@ class Walk(Shown):
     @property
     def reference(self) -> Reference:
         """The reference of the joints: the gait's constraint, or one of no joints (0,) without motors."""
-        return TimeReference(_nothing) if self.gait is None else self.gait.constraint
+        if self.gait is None:
+            return TimeReference(lambda t: (np.zeros(0), np.zeros(0), np.zeros(0)))
+        return self.gait.constraint
 
     @property
     def note(self) -> str:
@@ -187,10 +184,6 @@ class Walk(Shown):
         count = sum(len(arc.t) for arc in cut.arcs)
         kept = {name: x[:count] for name, x in vars(self.signals).items()}
         return replace(self, trajectory=cut, recorded=self.recorded and Signals(**kept))
-
-    def saying(self, said: tuple[str, ...]) -> Self:
-        """The same walk with more sentences among its remarks."""
-        return replace(self, said=(*self.said, *said))
 
     @property
     def remarks(self) -> tuple[str, ...]:

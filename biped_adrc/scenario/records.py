@@ -13,7 +13,7 @@ Records of parts of the user's own are open: they keep other names in `own`, and
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from types import NoneType, UnionType
 from typing import Any, ClassVar, Literal, NamedTuple, Self, Union, get_args, get_origin
 
@@ -53,6 +53,13 @@ class Misfit(InputError):
     def __init__(self, place: str, text: str, known: bool = True) -> None:
         super().__init__(f"{place}: {text}" if place else text)
         self.place, self.text, self.known = place, text, known
+
+
+def all_taken(place: str, own: Mapping[str, object], known: Collection[str]) -> None:
+    """Raise Misfit for an own value that nothing takes."""
+    for name in own:
+        if name not in known:
+            raise Misfit(f"{place}.{name}", unknown(name, known))
 
 
 class Described(NamedTuple):

@@ -18,13 +18,11 @@ from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_of
 from biped_adrc.scenario.scenario import ErrorRecord, Scenario
 
 
-def specification_of(
-    s: Scenario, scene: RobotAndGait | None = None, frozen: FrozenGait | None = None
-) -> Specification:
+def specification_of(s: Scenario, scene: RobotAndGait | None = None) -> Specification:
     """Of the walker that a scenario describes.
 
-    scene, frozen: robot and gait, and their linearisation, where they are at hand; for many candidates give
-    the same scene, whose linearisations are kept. Raises InputError for a scenario in continuous time, on
+    scene: robot and gait where they are at hand; for many candidates give the same, whose linearisations are
+    kept. Raises InputError for a scenario in continuous time, on
     another plant than the rigid one, without motors, or whose controller has to notice touchdowns.
     """
     if s.ground.plant != RIGID:
@@ -33,10 +31,7 @@ def specification_of(
             "it linearises"
         )
     scene = RobotAndGait.of(s) if scene is None else scene
-    walker = build(s, scene)
-    if frozen is None:
-        frozen = _frozen(scene, s.errors, s.run.seed)
-    return specification(walker, frozen)
+    return specification(build(s, scene), _frozen(scene, s.errors, s.run.seed))
 
 
 @lru_cache(maxsize=16)
@@ -49,8 +44,6 @@ def _frozen(scene: RobotAndGait, errors: ErrorRecord, seed: int) -> FrozenGait:
     return FrozenGait.of(plant, scene.walked, scene.biped)
 
 
-def specified(
-    s: Scenario, scene: RobotAndGait | None = None, frozen: FrozenGait | None = None
-) -> dict[str, float]:
+def specified(s: Scenario, scene: RobotAndGait | None = None) -> dict[str, float]:
     """The numbers of `specification_of` by name, none of them NaN. Raises InputError as it."""
-    return specification_of(s, scene, frozen).columns()
+    return specification_of(s, scene).columns()

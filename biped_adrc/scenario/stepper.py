@@ -235,14 +235,11 @@ class Stepper:
         for i, walk in enumerate(self.walks):
             impacts, ended = int(self._impacts[i]), self.codes[i] != 0
             if isinstance(walk, CompiledWalk) and before[i] == 0 and (impacts > 0 or ended):
-                walker, (q, v) = (
-                    walk.made.walker,
-                    np.split(walk.run.x[: 2 * walk.made.walker.plant.n], 2),
-                )
-                n = Nodes.of_table(walk.over(impacts > 0 and not ended), walker.plant.p)
-                after = walker.plant.momentum(q, v) if len(n.supports.first) == impacts else None
-                k = within.of(walker.plant.description)
-                judged = supports(walker, n, k, impacts, after)
+                walker, plant = walk.made.walker, walk.made.walker.plant
+                q, v = np.split(walk.run.x[: 2 * plant.n], 2)
+                n = Nodes.of_table(walk.over(impacts > 0 and not ended), plant.p)
+                after = plant.momentum(q, v) if len(n.supports.first) == impacts else None
+                judged = supports(walker, n, within.of(plant.description), impacts, after)
                 found += [(i, s) for s in judged[: None if ended else impacts]]
         return found
 

@@ -91,7 +91,7 @@ def load_walk(path: Path | str) -> Walk:
     Nothing of the user's is imported: signals, figures and pictures are those of the file, and a walk of an own
     controller is walked again with `walk_scenario(walk.scenario)`. Raises InputError.
     """
-    trajectory = storage.load(path, _mode)
+    trajectory = storage.load(path, lambda step, start: Mode(int(step), start))
     beside = storage.load_beside(path)
     with storage.reading_run(path), read_from_a_file():
         if "walker" not in beside:
@@ -102,11 +102,6 @@ def load_walk(path: Path | str) -> Walk:
         found = _stored(trajectory, beside)
         _check(found)
     return found
-
-
-def _mode(step: float, start: float) -> Mode:
-    """A mode from its numbers in a file."""
-    return Mode(int(step), start)
 
 
 def _stored(trajectory: Trajectory, beside: Mapping[str, Array]) -> Walk:

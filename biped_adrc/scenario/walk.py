@@ -14,7 +14,7 @@ which the disturbance switches and a usual one in the others; the trajectories a
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import groupby
@@ -215,9 +215,22 @@ def walk_in_parts(
             "SampledTime(..., restart=True)"
         )
     begin, mode = _begin(gait, walker, start, first_step), Mode(first_step)
-    x, runs = walker.initial_state(*begin, mode), list[Trajectory]()
+    x = walker.initial_state(*begin, mode)
+    runs = list(runs_in_parts(walker, x, mode, parts, progress, engine))
+    return watched(walker, gait, _joined(runs), scenario)
+
+
+def runs_in_parts(
+    walker: Walker,
+    x: Array,
+    mode: Mode,
+    parts: Sequence[Part],
+    progress: Progress | None = None,
+    engine: str = COMPILED,
+) -> Iterator[Trajectory]:
+    """The trajectory of each part from state x (nx,) in a mode on; none after a fall."""
+    done = 0
     for part in parts:
-        done = sum(len(run.arcs) for run in runs)
         run = simulate_by(
             engine,
             walker,
@@ -229,12 +242,11 @@ def walk_in_parts(
             impacts=part.impacts,
             progress=None if progress is None else partial(_later, progress, done),
         )
-        runs.append(run)
-        event = run.arcs[-1].event
+        yield run
+        event, done = run.arcs[-1].event, done + len(run.arcs)
         if not run.status.ok or event is None or event.x_plus is None:
-            break
+            return
         x, mode = event.x_plus, Mode(run.arcs[-1].mode.step + 1, event.t)
-    return watched(walker, gait, _joined(runs), scenario)
 
 
 def _begin(

@@ -13,7 +13,7 @@ from typing import Any, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
-from biped_adrc.study.parameters import unknown
+from biped_adrc.scenario.dotted import unknown
 from biped_adrc.study.run import COLUMNS, WORDS
 from biped_adrc.study.space import Part
 from biped_adrc.study.without_walk import WITHOUT_WALK

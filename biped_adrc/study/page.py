@@ -24,14 +24,15 @@ from biped_adrc.viz.style import render
 
 PAGE = "study.html"
 """Name of the page in the folder of a study."""
-CASES_AS_AXIS = "case"
-"""Name of the axis of a map over one field."""
 
 
 def write_page(found: Results) -> Path:
     """Write the page into the folder of the study. Raises OutputError."""
     path = found.folder / PAGE
-    figures = [(question, "", _uri(question, figure)) for question, figure in _figures(found)]
+    figures = [
+        (question, "", data_uri(question, render(figure, "svg")))
+        for question, figure in _figures(found)
+    ]
     text = rendered(
         "study",
         s=found.study,
@@ -147,7 +148,7 @@ def _map(found: Results, numbers: Sequence[Sequence[float]], title: str, log: bo
             values.append(number)
     shown = {name: (x, y, np.array(v)) for name, (x, y, v) in panels.items()}
     names = [_unit_of(name) for name in axes[:2]]
-    return map_figure(shown, (names[0], names[1] if len(axes) > 1 else CASES_AS_AXIS), title, log)
+    return map_figure(shown, (names[0], names[1] if len(axes) > 1 else "case"), title, log)
 
 
 def _panel(g: Group, at: dict[str, Any], axes: Sequence[str]) -> str:
@@ -166,7 +167,3 @@ def _unit_of(name: str) -> str:
     """A field with its unit in brackets, for a label."""
     unit = field_of(name).unit
     return name if unit == "1" else f"{name} [{unit}]"
-
-
-def _uri(title: str, figure: Figure) -> str:
-    return data_uri(title, render(figure, "svg"))

@@ -9,16 +9,13 @@ start.v5                      0.1         0.1       [rad/s]
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from biped_adrc.errors import InputError
-from biped_adrc.scenario import dotted
 from biped_adrc.scenario import scenario as scenarios
-from biped_adrc.scenario.file import read_scenario as _read_scenario
-from biped_adrc.scenario.records import Misfit
+from biped_adrc.scenario.records import Described, Misfit
 from biped_adrc.scenario.registry import portable
-from biped_adrc.scenario.scenario import MOST_SEED, GroundRecord, Scenario
+from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 
 Values = Mapping[str, Any]
 """Values of a scenario by dotted name, in SI units."""
@@ -42,31 +39,12 @@ class Refused(ValueError):
     """A value that cannot be used: its text says what was found and what was expected."""
 
 
-class Field(NamedTuple):
-    """What a study has to know of a value."""
-
-    unit: str
-    """Its SI unit, "1" for none."""
-    number: bool
-    """Whether it may be a number, so that it has a range; a parameter of a controller of one's own may."""
-    whole: bool
-    """Whether it takes whole numbers only."""
-    default: object
-    """Its value where a scenario does not say it."""
-    types: tuple[type, ...]
-    """Those that it takes; empty where only the user's class knows."""
-    kind: str
-    """Of the registry, where it is a name of it."""
-
-
-def field_of(name: str) -> Field:
+def field_of(name: str) -> Described:
     """The value of this name. Raises Refused, with the nearest names, where there is none."""
     try:
-        d = scenarios.field_of(name)
+        return scenarios.field_of(name)
     except InputError as error:
         raise Refused(_text(error)) from None
-    number, whole = d.number or not d.types, int in d.types and float not in d.types
-    return Field(d.unit, number, whole, d.default, d.types, d.kind)
 
 
 def _text(error: InputError) -> str:
@@ -109,23 +87,6 @@ def flat(values: Mapping[str, Any]) -> dict[str, Any]:
         else:
             made[name] = x
     return made
-
-
-def unknown(name: str, known: Any) -> str:
-    """The sentence for a name that does not exist, with the nearest ones."""
-    return dotted.unknown(name, known)
-
-
-def on_rigid_ground(s: Scenario) -> Scenario:
-    """The scenario with the rigid plant in place of another one."""
-    g = s.ground
-    ground = GroundRecord(slope=g.slope, drop=g.drop, drop_step=g.drop_step, rms=g.rms)
-    return s.replace(ground=ground)
-
-
-def read_scenario(path: Path) -> dict[str, Any]:
-    """The values of a scenario file (TOML) by name. Raises InputError."""
-    return _read_scenario(path).dotted()
 
 
 def check_seed(seed: object) -> int:

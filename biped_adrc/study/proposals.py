@@ -18,7 +18,7 @@ import warnings
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from biped_adrc.errors import InputError
+from biped_adrc.errors import optional
 from biped_adrc.study.parameters import Values
 from biped_adrc.study.search import Candidate, Search, Variable, Walks, judged, ranked
 from biped_adrc.study.without_walk import numbers_without_walk
@@ -38,13 +38,9 @@ Walk = Callable[[Sequence[tuple[int, Values]]], Sequence[Walks]]
 
 def optuna_library() -> Any:
     """Optuna, which says warnings alone. Raises InputError where it or cmaes is missing."""
-    try:
+    with optional("tune", "a search needs Optuna and cmaes, which are not installed"):
         import cmaes  # noqa: F401
         import optuna
-    except ImportError:
-        raise InputError(
-            "a search needs Optuna and cmaes, which are not installed; pip install 'biped-adrc[tune]'"
-        ) from None
     optuna.logging.set_verbosity(optuna.logging.WARNING)
     warnings.simplefilter("ignore", optuna.exceptions.ExperimentalWarning)
     return optuna

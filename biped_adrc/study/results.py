@@ -11,12 +11,11 @@ import csv
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from biped_adrc.analysis.statistics import Interval, Paired, median, paired, share
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, optional
 from biped_adrc.files import replacing
 from biped_adrc.shown import Shown
 from biped_adrc.study.measure import is_counted, is_made
@@ -166,10 +165,9 @@ def check_table(path: Path) -> None:
         raise InputError(
             f"cannot write a table to '{path}', expected a name that ends in .csv or .parquet"
         )
-    if path.suffix == ".parquet" and find_spec("pyarrow") is None:
-        raise InputError(
-            "Parquet needs pyarrow, which is not installed; pip install 'biped-adrc[tables]'"
-        )
+    if path.suffix == ".parquet":
+        with optional("tables", "Parquet needs pyarrow, which is not installed"):
+            import pyarrow  # noqa: F401
 
 
 def _name(at: Mapping[str, Any]) -> str:

@@ -10,13 +10,12 @@ from __future__ import annotations
 
 import itertools
 import json
-import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from biped_adrc.errors import InputError, SimulationError
+from biped_adrc.errors import InputError, SimulationError, optional
 from biped_adrc.processes import cores, processes, stop
 from biped_adrc.study.parameters import CRASHED, RAISED, Record
 from biped_adrc.study.store import Store
@@ -48,11 +47,10 @@ class WorkersError(SimulationError):
 
 
 class Progress(NamedTuple):
-    """How far a study is: walks done and in all, the time left [s], None while unknown, and what is new."""
+    """How far a study is: walks done and in all, and what is new."""
 
     done: int
     total: int
-    left: float | None
     note: str = ""
 
 
@@ -124,12 +122,8 @@ def dask(address: str) -> Executor:
 
     Raises InputError where none answers, it has no workers, or they have other versions than this machine.
     """
-    try:
+    with optional("cluster", "a study on a cluster needs Dask, which is not installed"):
         from distributed import Client
-    except ImportError:
-        raise InputError(
-            "a study on a cluster needs Dask, which is not installed; pip install 'biped-adrc[cluster]'"
-        ) from None
     try:
         connect: Callable[..., DaskClient] = Client
         client = connect(address, timeout=TIMEOUT, set_as_default=False)
@@ -177,9 +171,7 @@ class Runner:
     total: int
     progress: Callable[[Progress], None] | None = None
     done: int = 0
-    fresh: int = 0
     crashed: int = 0
-    begin: float = field(default_factory=time.monotonic)
     pending: dict[Future[Any], Sequence[Point]] = field(default_factory=dict)
     lost: list[Point] = field(default_factory=list)
 
@@ -199,12 +191,9 @@ class Runner:
             self._collect()
 
     def tell(self, note: str = "") -> None:
-        """Report progress; the time left is estimated from the walks of this call."""
-        if self.progress is None:
-            return
-        seconds = time.monotonic() - self.begin
-        left = seconds / self.fresh * max(self.total - self.done, 0) if self.fresh else None
-        self.progress(Progress(self.done, max(self.total, self.done), left, note))
+        """Report progress."""
+        if self.progress is not None:
+            self.progress(Progress(self.done, max(self.total, self.done), note))
 
     def _missing(self, points: Iterator[Point]) -> Iterator[Point]:
         """The points without a row."""
@@ -275,5 +264,4 @@ class Runner:
         """Store a chunk and count it."""
         self.store.add((p, *said) for p, said in zip(chunk, rows, strict=True))
         self.done += len(chunk)
-        self.fresh += len(chunk)
         self.tell()

@@ -74,10 +74,13 @@ def read_range(name: str, given: object, *more: str) -> Range:
     keys = ("from", "to", "scale", "whole", *more)
     if not isinstance(given, Mapping) or not {"from", "to"} <= set(given) <= set(keys):
         raise Refused(f"found {given!r}, expected {{{', '.join(keys)}}}")
-    if not field.number:
+    if field.types and not field.number:
         raise Refused("has no ranges; give a list of values")
     low, high = read(name, given["from"]), read(name, given["to"])
-    scale, whole = given.get("scale", "linear"), given.get("whole", field.whole)
+    scale, whole = (
+        given.get("scale", "linear"),
+        given.get("whole", int in field.types and float not in field.types),
+    )
     if scale not in ("linear", "log") or type(whole) is not bool:
         raise Refused(
             f"found scale {scale!r}, whole {whole!r}, expected 'linear' or 'log', and true or false"

@@ -31,9 +31,11 @@ from pydantic import Field, ValidationError, model_validator
 
 from biped_adrc.errors import BipedError, InputError
 from biped_adrc.files import reading
+from biped_adrc.scenario.dotted import unknown
+from biped_adrc.scenario.file import read_scenario
 from biped_adrc.study.build import case, versions_of
 from biped_adrc.study.measure import MEASURED, Limit, Measure, Objective
-from biped_adrc.study.parameters import SEED, Record, read_scenario, scenario_of, unknown
+from biped_adrc.study.parameters import SEED, Record, scenario_of
 from biped_adrc.study.search import Search, Variable, WalkSets
 from biped_adrc.study.space import Draw, Grid, Part, Seeds, Sets, Values
 from biped_adrc.versions import numerical_versions, packages
@@ -246,7 +248,9 @@ def read_study(given: Path | str | Mapping[str, Any]) -> Study:
         here = Path(given).absolute().parent
         sys.path += [str(here)] if str(here) not in sys.path else []
     tables = dict(tables)  # type: ignore[arg-type]
-    below = read_scenario(here / str(tables.pop("scenario"))) if "scenario" in tables else {}
+    below = {}
+    if "scenario" in tables:
+        below = read_scenario(here / str(tables.pop("scenario"))).dotted()
     try:
         study = Study.model_validate(tables)
         over = {*study.axes, *([SEED] if study.seeds or study.search else [])}

@@ -13,9 +13,10 @@ from functools import lru_cache
 
 from biped_adrc.errors import BipedError
 from biped_adrc.observer_design.specification import Specification
+from biped_adrc.scenario.scenario import GroundRecord
 from biped_adrc.scenario.specified import specification_of
 from biped_adrc.study.build import scene_of
-from biped_adrc.study.parameters import Values, on_rigid_ground, scenario_of
+from biped_adrc.study.parameters import Values, scenario_of
 
 WITHOUT_WALK = ("stable", "delay_margin", "disk_margin", "ripple")
 """Such columns: numbers of a `Specification`."""
@@ -24,7 +25,9 @@ WITHOUT_WALK = ("stable", "delay_margin", "disk_margin", "ripple")
 @lru_cache(maxsize=1)
 def _specification(text: str) -> Specification:
     """Of the values of a scenario as JSON, kept for its other columns. Raises InputError."""
-    s = on_rigid_ground(scenario_of(json.loads(text)))
+    s = scenario_of(json.loads(text))
+    g = s.ground
+    s = s.replace(ground=GroundRecord(slope=g.slope, drop=g.drop, drop_step=g.drop_step, rms=g.rms))
     return specification_of(s, scene_of(s))
 
 

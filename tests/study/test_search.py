@@ -12,9 +12,10 @@ from typer.testing import CliRunner
 import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.errors import InputError
+from biped_adrc.scenario.file import read_scenario
 from biped_adrc.study import proposals
 from biped_adrc.study.measure import Limit, Objective
-from biped_adrc.study.parameters import read_scenario, scenario_of
+from biped_adrc.study.parameters import scenario_of
 from biped_adrc.study.proposals import searched
 from biped_adrc.study.search import Candidate, ranked
 from biped_adrc.study.study import read_study
@@ -241,6 +242,6 @@ def test_the_command_searches_and_simulate_takes_what_it_wrote(tmp_path):
             "grid": {"controller.K_p": K_p},
         }
         rows = ba.study(swept, tmp_path / "swept", pool).rows()
-    assert scenario_of(read_scenario(out / "chosen.toml")) == found.scenarios[""]
+    assert scenario_of(read_scenario(out / "chosen.toml").dotted()) == found.scenarios[""]
     expected = [row["rms_error"] if row["feasible"] else INF for row in rows]
     assert [c.objective for c in found.choices[""].candidates[1:]] == expected

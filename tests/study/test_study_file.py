@@ -11,9 +11,8 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.statistics import median, paired, share
 from biped_adrc.errors import InputError
-from biped_adrc.scenario import scenario
-from biped_adrc.scenario.file import write_scenario
-from biped_adrc.study.parameters import read_scenario, scenario_of
+from biped_adrc.scenario.file import read_scenario, write_scenario
+from biped_adrc.study.parameters import scenario_of
 from biped_adrc.study.space import Draw, Range
 from biped_adrc.study.study import read_study
 from biped_adrc.viz.plots.study import cut
@@ -168,7 +167,7 @@ SCENARIOS = [
 def test_a_scenario_file_reads_back_to_the_same_scenario(s, tmp_path):
     path = tmp_path / "s.toml"
     write_scenario(path, s, "two\nlines")
-    assert scenario.scenario_of(read_scenario(path)) == s
+    assert read_scenario(path) == s
     assert path.read_text().startswith("# two\n# lines\ncontroller.name = ")
 
 
