@@ -79,13 +79,13 @@ class FloatingDynamics:
         self.base = np.array([velocity_index(self.model, name) for name in d.base])
         self.stance, self.swing = (frame_index(self.model, foot) for foot in d.feet)
 
-    def configuration(self, q: Array, p_e: Array | None = None) -> Array:
-        """Pinocchio configuration for q_s (n,) and the stance foot at p_e (2,) [m]."""
+    def configuration(self, q: Array) -> Array:
+        """Pinocchio configuration for q_s (n,) and the stance foot at the origin."""
         x = np.zeros(self.model.nq)
         x[self.angles] = q
         pin.forwardKinematics(self.model, self.data, x)
         foot = pin.updateFramePlacement(self.model, self.data, self.stance).translation[XZ]
-        x[self.base] = (0.0 if p_e is None else p_e) - foot
+        x[self.base] = -foot
         return x
 
     def velocity_map(self, q: Array) -> Array:

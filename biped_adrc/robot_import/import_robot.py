@@ -38,6 +38,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from biped_adrc.checks import Check
 from biped_adrc.errors import ModelError, OutputError
@@ -46,7 +47,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.robot_import.anatomy import Anatomy, anatomy
 from biped_adrc.robot_import.import_checks import checks
 from biped_adrc.robot_import.planar_base import PlanarBase, on_planar_base
-from biped_adrc.robots.robot_toml import GRAVITY, RobotRecord, description_of
+from biped_adrc.robots.robot_toml import GRAVITY, description_of
 from biped_adrc.robots.symmetry import check_alike, pairs
 from biped_adrc.robots.urdf import Joint, Link, Tree, Vector, Visual, to_xml
 from biped_adrc.robots.urdf_reader import UrdfContents, read, tip_of
@@ -139,7 +140,7 @@ def record_of(
     actuated: tuple[str, ...],
     torque: float,
     hints: Hints,
-) -> RobotRecord:
+) -> dict[str, Any]:
     """The tables of the robot.toml that describes this robot, as plain values.
 
     torque: limit of every motor [N m].
@@ -218,7 +219,7 @@ class Derived:
     """What was found and guessed, in sentences."""
     checks: tuple[Check, ...]
     """The laws of `import_checks` with their numbers."""
-    record: RobotRecord
+    record: Mapping[str, Any]
     """Contents of its robot.toml."""
 
     @property

@@ -185,6 +185,6 @@ def test_masses_that_differ_are_told_from_a_bad_fit(step, biped):
 # -- gravity and passive cycles -----------------------------------------------------------------------
 def test_a_robot_in_another_gravity(tmp_path):
     urdf = data_folder("urdf") / "rabbit" / "floating.urdf"
-    made = run("robot", "new", urdf, "-o", tmp_path / "moon", "--gravity", "1.62")
+    made = run("robot", "new", urdf, "-o", tmp_path / "moon", "--set", "gravity=1.62")
     assert made.exit_code == 0, made.exception
     assert ba.Biped.load(tmp_path / "moon" / "robot.toml").description.gravity == 1.62

@@ -298,11 +298,11 @@ def robot(*arguments):
 
 def test_a_robot_is_checked_written_and_not_overwritten(urdf, tmp_path):
     path, folder = urdf(rabbit()), tmp_path / "folder"
-    good = robot("check", path, "--feet", "left_toe,right_toe", "--armature", "0.1")
+    good = robot("check", path, "--feet", "left_toe,right_toe", "--set", "armature=0.1")
     assert (good.exit_code, "32 kg" in good.stdout) == (0, True)
-    assert robot("check", path, "--feet", "left_shin,right_shin", "--tip", "0,0").exit_code == 1
+    assert robot("check", path, "--feet", "left_shin,right_shin", "--set", "tip=0,0").exit_code == 1
     assert robot("new", path, "--out", folder, "--torque", 80).exit_code == 0
-    shown = robot("show", folder / "robot.toml")
+    shown = robot("list", folder / "robot.toml")
     assert (shown.exit_code, "80 N m" in shown.stdout) == (0, True)
     assert isinstance(robot("new", path, "--out", folder).exception, OutputError)
 
