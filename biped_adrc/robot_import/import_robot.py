@@ -147,6 +147,10 @@ def record_of(
     """
     moving = [joint.name for joint in parts.moving]
     friction = FRICTION if hints.friction_coefficient is None else hints.friction_coefficient
+
+    def of_moving(values: Mapping[str, Any]) -> dict[str, Any]:
+        return {name: values[name] for name in moving if name in values}
+
     source = f"The <inertial> elements of {Path(reading.tree.source).name}."
     return {
         "name": reading.tree.name,
@@ -164,12 +168,10 @@ def record_of(
         "peak_torque": torque,
         "friction_coefficient": friction,
         "gravity": hints.gravity,
-        "ranges": {name: list(reading.ranges[name]) for name in moving if name in reading.ranges},
+        "ranges": {name: list(ends) for name, ends in of_moving(reading.ranges).items()},
         "friction": {
-            "viscous": {
-                joint: reading.viscous[joint] for joint in moving if joint in reading.viscous
-            },
-            "static": {joint: reading.static[joint] for joint in moving if joint in reading.static},
+            "viscous": of_moving(reading.viscous),
+            "static": of_moving(reading.static),
         },
         "links": _bodies(body.tree, parts.feet),
         "presets": {PRESET: {"source": source, "armature": hints.armature}},
