@@ -6,7 +6,7 @@
 
 x = (q, q'), h the height of the swing foot over the ground, dh its row of derivatives, f- and f+
 the flow before and after impact (Aizerman, Gantmacher, 1958; Leine, Nijmeijer, 2004). The return
-map (24) is not differenced: A comes from the derivatives of ABA, D Delta from those of the impact
+map (24) is not differenced: A comes from the derivatives of RNEA, D Delta from those of the impact
 map (`model.derivatives`). The result is exact up to the error of the integration method.
 
 On the section, with E the matrix that drops q_N and L = ds -> dx the tangent that keeps h = 0,

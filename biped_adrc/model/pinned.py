@@ -226,7 +226,7 @@ def reroot(tree: Tree, foot: str, torso: str) -> Tree:
     """The tree pinned at link `foot` by a revolute joint `stance_pin` with the torso's pitch axis.
 
     `torso` is the link that the floating base carries; what is above it is dropped. Raises
-    ModelError when `foot` does not hang below `torso` by revolute and fixed joints.
+    ModelError when `foot` does not hang below `torso`.
     """
     chain = _chain(tree, foot, torso)
     pitch = tree.joint_above(torso)
@@ -249,15 +249,10 @@ def reroot(tree: Tree, foot: str, torso: str) -> Tree:
 
 
 def _chain(tree: Tree, foot: str, torso: str) -> tuple[Joint, ...]:
-    """Joints from `foot` up to `torso`. Raises ModelError where there are none, or one is prismatic."""
+    """Joints from `foot` up to `torso`. Raises ModelError where there are none."""
     chain = tree.path_below(foot, torso)
     if chain is None:
         raise ModelError(f"URDF '{tree.source}': foot '{foot}' does not hang below '{torso}'")
-    for joint in chain:
-        if joint.type == "prismatic":
-            raise ModelError(
-                f"URDF '{tree.source}', joint '{joint.name}': prismatic joint in the stance leg"
-            )
     return chain
 
 
