@@ -249,22 +249,12 @@ def _from_record(record: Mapping[str, Any]) -> Gait:
         raise GaitError(f"format is '{record['format']}', expected '{FORMAT}'")
     n = len(record["phase"])
     q, v, phase = (finite_vector(record, key, n) for key in ("q_minus", "v_minus", "phase"))
-    return Gait(
-        record["name"],
-        record["robot"],
-        record["preset"],
-        VirtualConstraint(
-            curve_kind(record["curve"])(np.array(record["coefficients"], dtype=float)),
-            phase,
-            float(record["theta_plus"]),
-            float(record["theta_minus"]),
-        ),
-        q,
-        v,
-        float(record["period"]),
-        record["provenance"],
-        float(record.get("slope", 0.0)),
-    )
+    curve = curve_kind(record["curve"])(np.array(record["coefficients"], dtype=float))
+    ends = float(record["theta_plus"]), float(record["theta_minus"])
+    h = VirtualConstraint(curve, phase, *ends)
+    period, slope = float(record["period"]), float(record.get("slope", 0.0))
+    names = record["name"], record["robot"], record["preset"]
+    return Gait(*names, h, q, v, period, record["provenance"], slope)
 
 
 def finite_vector(record: Mapping[str, object], key: str, length: int) -> Array:
