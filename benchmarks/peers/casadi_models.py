@@ -15,8 +15,8 @@ from peers.chains import Chain, H, Simulate
 
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.gait.constraint import VirtualConstraint
-from biped_adrc.gait.design.step import each, together
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.derivatives import each, together
 from biped_adrc.model.planar import PlanarTree, inertia_and_bias
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.types import Array

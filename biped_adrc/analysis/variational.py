@@ -6,7 +6,7 @@
 
 x = (q, q'), h the height of the swing foot over the ground, dh its row of derivatives, f- and f+
 the flow before and after impact (Aizerman, Gantmacher, 1958; Leine, Nijmeijer, 2004). The return
-map (24) is not differenced: A comes from the derivatives of ABA, D Delta from those of the impact
+map (24) is not differenced: A comes from the derivatives of RNEA, D Delta from those of the impact
 map (`model.derivatives`). The result is exact up to the error of the integration method.
 
 On the section, with E the matrix that drops q_N and L = ds -> dx the tangent that keeps h = 0,
@@ -91,11 +91,11 @@ def npd_derivative(walker: Walker, law: NPDController, h: VirtualConstraint, i: 
     B, H = walker.nominal.B, law.reference(m.t, m.q, m.v).H
     u = i.u if walker.torque_limit is None else law.output(i.s, m)
     a = solve(m.terms.D, B @ u - m.terms.Omega, "D_s")
-    model = torque_derivatives(walker.nominal, m.q, m.v, a)
+    by_q, by_v = torque_derivatives(walker.nominal, m.q, m.v, a)
     loop = 1.0 if law.solve_theta else 0.0
     wanted = _wanted_derivative(h, law.gains, m.q, m.v, loop * float(h.phase @ a))
     K = np.block([[m.terms.D, -B], [B.T - loop * H, np.zeros((p, p))]])
-    rhs = np.vstack((-np.hstack((model.dq, model.dv)), wanted))
+    rhs = np.vstack((-np.hstack((by_q, by_v)), wanted))
     return solve(K, rhs, "the matrix of (28)")[n:]
 
 
@@ -165,7 +165,7 @@ def saltation(walker: Walker, t: float, x: Array, mode: Mode) -> Array:
     """
     struck = after_impact(walker, t, x, mode)
     n = walker.plant.n
-    D = impact_derivatives(walker.plant, x[:n], x[n:]).matrix
+    D = impact_derivatives(walker.plant, x[:n], x[n:])
     before, after = walker.flow(t, x, mode), walker.flow(t, *struck)
     dh = height_derivative(walker, x)
     return D + np.outer(after - D @ before, dh) / _descent(dh, before)
@@ -298,7 +298,7 @@ def differentiate_step(P: ReturnMap, s: Array) -> StepDerivative:
     x_end, Phi = split_matrix(end.x_minus)
     f0, f_end = walker.flow(0.0, x0, mode), walker.flow(end.t, x_end, mode)
     dh = height_derivative(walker, x_end)
-    D = impact_derivatives(walker.plant, *np.split(x, 2)).matrix
+    D = impact_derivatives(walker.plant, *np.split(x, 2))
     through = Phi @ D @ section_tangent(walker, x)
     earlier = dh @ through
     through -= np.outer(f_end, earlier) / _descent(dh, f_end)

@@ -21,6 +21,7 @@ from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import invpascal, pascal
 
 from biped_adrc.errors import GaitError
 from biped_adrc.part import derived
@@ -147,11 +148,8 @@ class Polynomial(Curve):
         return a
 
     def reversed(self) -> Polynomial:
-        size = self.degree + 1
-        T = [
-            [comb(k, j) * (-1.0) ** j if j <= k else 0.0 for j in range(size)] for k in range(size)
-        ]
-        return Polynomial(self.coefficients @ np.array(T))
+        T = pascal(self.degree + 1, kind="lower").astype(float)
+        return Polynomial(self.coefficients @ (T * (-1.0) ** np.arange(self.degree + 1)))
 
     @classmethod
     def ramp(cls, degree: int, start: float, end: float) -> Array:
@@ -219,11 +217,8 @@ def bernstein_to_power(degree: int) -> Array:
 
     Its numbers grow with the degree, up to 2^M and more: in powers a curve of degree 20 has lost some digits.
     """
-    T = np.zeros((degree + 1, degree + 1))
-    for k in range(degree + 1):
-        for j in range(k, degree + 1):
-            T[k, j] = comb(degree, k) * comb(degree - k, j - k) * (-1) ** (j - k)
-    return T
+    T = invpascal(degree + 1, kind="upper").astype(float)
+    return np.ascontiguousarray(T * np.array([comb(degree, j) for j in range(degree + 1)], float))
 
 
 CURVES: dict[str, Any] = {

@@ -1,6 +1,8 @@
 """A gait: a virtual constraint, the periodic orbit it belongs to, and where both come from.
 
-Stored as a small readable JSON file in `gaits/<robot>/<name>-<preset>.json`, whose keys `GaitFile` lists.
+Stored as a small readable JSON file in `gaits/<robot>/<name>-<preset>.json`, whose keys `Gait.save` lists:
+the fields of `Gait` with the constraint taken apart, in rad, rad/s and s. Files are read by people and
+compared by version control, so keys and order are fixed and numbers have all digits.
 `load_gait` finds it by name or path and checks it against the robot (`Gait.check`): shapes, direction, foot on
 the ground, and closure, that is, the relabelled end of the step is its start.
 
@@ -16,7 +18,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypedDict
+from typing import Any
 
 import numpy as np
 
@@ -35,42 +37,6 @@ FORMAT = "biped_adrc gait 1"
 """First entry of a gait file; the number changes with the keys."""
 CLOSES = 1e-3
 """[rad] and [m]: largest gap between the end of a step, relabelled, and its start, in a gait that closes."""
-
-
-class GaitFile(TypedDict, total=False):
-    """The JSON file of a gait, in rad, rad/s and s; the fields of `Gait` with the constraint taken apart.
-
-    Files are read by people and compared by version control, so keys and order are fixed and numbers are
-    written with all digits: a gait that is loaded is the gait that was saved.
-    """
-
-    format: str
-    """Always FORMAT; another one is refused."""
-    name: str
-    robot: str
-    preset: str
-    units: str
-    """For a reader: "rad, rad/s, s"."""
-    provenance: dict[str, object]
-    """How the gait was made, free text by name."""
-    period: float
-    """Duration of the single support [s]."""
-    slope: float
-    """Of the ground [rad]; may be left out on level ground."""
-    q_minus: list[float]
-    """Configuration just before impact (n,) [rad]."""
-    v_minus: list[float]
-    """Rates just before impact (n,) [rad/s]."""
-    phase: list[float]
-    """c (n,), Theta = c q."""
-    theta_plus: float
-    """Theta just after impact [rad]."""
-    theta_minus: float
-    """Theta just before the next impact [rad]."""
-    curve: str
-    """Kind of the curve, "bezier" or "polynomial"."""
-    coefficients: list[list[float]]
-    """(p, M + 1) [rad], one row per joint."""
 
 
 @dataclass(frozen=True)
@@ -197,19 +163,15 @@ class Gait(Shown):
     def file_name(self) -> str:
         """What its file is called. Raises GaitError for a name that no file may have, or that is a path."""
         name = f"{self.name}-{self.preset}.json"
-        if CONTROL.search(name):
+        if CONTROL.search(name) or name != Path(name).name:
             raise GaitError(f"{name!r} is no name of a file; say where to write the gait")
-        if name != Path(name).name:
-            raise GaitError(
-                f"gait '{self.name}', preset '{self.preset}', has a name that is a path; say where to write it"
-            )
         return name
 
     def save(self, path: Path | str) -> None:
         """Write the JSON file. Raises InputError for a name that does not end in .json, and OutputError."""
         path = output_path(path, (".json",))
         c = self.constraint
-        record: GaitFile = {
+        record: dict[str, Any] = {
             "format": FORMAT,
             "name": self.name,
             "robot": self.robot,
@@ -229,7 +191,7 @@ class Gait(Shown):
         write_text(path, _readable(record))
 
 
-def _readable(record: GaitFile) -> str:
+def _readable(record: Mapping[str, Any]) -> str:
     """JSON text with one line per row of numbers, so that a difference of two gait files can be read."""
     lines = []
     for key, value in record.items():
@@ -281,28 +243,18 @@ def load_gait(gait: str | Path, biped: Biped, other_robot: bool = False) -> Gait
         return found if other_robot else found.check_robot(biped)
 
 
-def _from_record(record: GaitFile) -> Gait:
+def _from_record(record: Mapping[str, Any]) -> Gait:
     """The gait in a file that was read. Raises GaitError, or KeyError and TypeError for damaged entries."""
     if record["format"] != FORMAT:
         raise GaitError(f"format is '{record['format']}', expected '{FORMAT}'")
     n = len(record["phase"])
     q, v, phase = (finite_vector(record, key, n) for key in ("q_minus", "v_minus", "phase"))
-    return Gait(
-        record["name"],
-        record["robot"],
-        record["preset"],
-        VirtualConstraint(
-            curve_kind(record["curve"])(np.array(record["coefficients"], dtype=float)),
-            phase,
-            float(record["theta_plus"]),
-            float(record["theta_minus"]),
-        ),
-        q,
-        v,
-        float(record["period"]),
-        record["provenance"],
-        float(record.get("slope", 0.0)),
-    )
+    curve = curve_kind(record["curve"])(np.array(record["coefficients"], dtype=float))
+    ends = float(record["theta_plus"]), float(record["theta_minus"])
+    h = VirtualConstraint(curve, phase, *ends)
+    period, slope = float(record["period"]), float(record.get("slope", 0.0))
+    names = record["name"], record["robot"], record["preset"]
+    return Gait(*names, h, q, v, period, record["provenance"], slope)
 
 
 def finite_vector(record: Mapping[str, object], key: str, length: int) -> Array:

@@ -28,6 +28,7 @@ import numpy as np
 
 from biped_adrc.errors import GaitError, check_positive
 from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.curves import Curve
 from biped_adrc.parts import called_checked, returned
 from biped_adrc.shown import Shown, one_line
 from biped_adrc.types import Array, read_only
@@ -104,18 +105,28 @@ class LinearOutputs(Outputs):
         Raises GaitError when there is not one output fewer than coordinates, or [H0; c] is singular.
         """
         d = self.desired
-        p, n = self.H0.shape
-        M = np.vstack((self.H0, d.phase))
-        if M.shape != (n, n) or np.linalg.matrix_rank(M) < n:
-            raise GaitError(
-                f"[H0; c] has shape {M.shape} and rank {np.linalg.matrix_rank(M)}; y = 0 fixes q_b over the "
-                f"phase only when it is square and of rank {n}. Choose outputs independent of the phase"
-            )
-        curve = d.curve
-        kind = type(curve)
-        phase = kind.ramp(curve.degree, d.theta_plus, d.theta_minus)
-        a: Array = np.asarray(np.linalg.solve(M, np.vstack((curve.coefficients, phase))))
-        return VirtualConstraint(kind(a[:p]), d.phase, d.theta_plus, d.theta_minus)
+        q = all_coordinates(d.curve, self.H0, d.phase, (d.theta_plus, d.theta_minus))
+        curve = type(q)(q.coefficients[:-1])
+        return VirtualConstraint(curve, d.phase, d.theta_plus, d.theta_minus)
+
+
+def all_coordinates(curve: Curve, H0: Array, phase: Array, ends: tuple[float, float]) -> Curve:
+    """q(s), all n coordinates, from the curve of the outputs y by [H0; c] q = [y; Theta].
+
+    phase: c (n,). ends: Theta+ and Theta- [rad]. Raises GaitError where outputs and phase together are not n
+    independent rows.
+    """
+    n = len(phase)
+    H = np.vstack((H0, phase)) if H0.shape == (n - 1, n) else np.zeros((n, n))
+    if np.linalg.matrix_rank(H) < n:
+        raise GaitError(
+            f"outputs of shape {H0.shape} and the phase row {np.round(phase, 6).tolist()} do not determine all "
+            f"{n} coordinates, expected {n} independent rows; give a phase that moves with the coordinate that "
+            "has no row, or one row per coordinate"
+        )
+    ramp = type(curve).ramp(curve.degree, *ends)
+    q = np.linalg.solve(H, np.vstack((curve.coefficients, ramp)))
+    return type(curve)(np.asarray(q, dtype=np.float64))
 
 
 @dataclass(frozen=True)

@@ -183,21 +183,11 @@ class ZeroDynamics(Shown):
         sigma = np.sign(sigma_plus) * np.sqrt(square)
         rate = sigma / self.inertia
         v = self.dq * rate[:, np.newaxis]
-        a, u, reaction, height = zip(
-            *(self.dynamics(k, rate[k]) for k in range(len(rate))), strict=True
-        )
+        rows = zip(*(self.dynamics(k, rate[k]) for k in range(len(rate))), strict=True)
         time = self.weights / rate
-        return ZeroDynamicsOrbit(
-            self.theta,
-            self.q,
-            v,
-            np.array(a),
-            np.array(u),
-            np.array(reaction),
-            np.array(height),
-            time,
-            float(np.sum(time)),
-        )
+        a, u, reaction, height = map(np.array, rows)
+        period = float(np.sum(time))
+        return ZeroDynamicsOrbit(self.theta, self.q, v, a, u, reaction, height, time, period)
 
     @property
     def cycle(self) -> ZeroDynamicsOrbit:

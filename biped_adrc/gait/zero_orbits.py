@@ -39,7 +39,7 @@ from numpy.polynomial import Legendre, legendre
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from biped_adrc.errors import GaitError, check_positive
+from biped_adrc.errors import GaitError
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration, gauss_nodes
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
@@ -184,9 +184,8 @@ class ZeroOrbits(Shown):
     def steps_to(self, zeta: float, closeness: float) -> int:
         """Number of steps until |zeta_k - zeta*| <= closeness * zeta*, from |zeta_k - zeta*| ~ delta^(2 k).
 
-        Raises GaitError for a closeness that is not positive, and as `rho` and `zeta_star`.
+        Raises GaitError as `rho` and `zeta_star`.
         """
-        check_positive(closeness, f"closeness is {closeness}", error=GaitError)
         self.rho(zeta)
         ratio = abs(zeta / self.zeta_star - 1.0) / closeness
         if ratio <= 1.0:

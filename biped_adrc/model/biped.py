@@ -239,6 +239,14 @@ class Biped(Shown):
         viscous, static = self.friction_coefficients
         return -viscous * v - static * np.tanh(v / STICTION_SPEED)
 
+    def friction_derivative(self, v: Array) -> Array:
+        """d/dv of `friction_torque` (n, n) [N m s/rad] at rates v (n,) [rad/s]: diagonal."""
+        if not self.friction:
+            return np.zeros((self.n, self.n))
+        viscous, static = self.friction_coefficients
+        smooth = 1.0 - np.tanh(v / STICTION_SPEED) ** 2
+        return np.diag(-viscous - static * smooth / STICTION_SPEED)
+
     @cached_property
     def friction_coefficients(self) -> tuple[Array, Array]:
         """Viscous [N m s/rad] and static [N m] friction, each (n,), as in the record."""

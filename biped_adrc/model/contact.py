@@ -79,13 +79,13 @@ class FloatingDynamics:
         self.base = np.array([velocity_index(self.model, name) for name in d.base])
         self.stance, self.swing = (frame_index(self.model, foot) for foot in d.feet)
 
-    def configuration(self, q: Array, p_e: Array | None = None) -> Array:
-        """Pinocchio configuration for q_s (n,) and the stance foot at p_e (2,) [m]."""
+    def configuration(self, q: Array) -> Array:
+        """Pinocchio configuration for q_s (n,) and the stance foot at the origin."""
         x = np.zeros(self.model.nq)
         x[self.angles] = q
         pin.forwardKinematics(self.model, self.data, x)
         foot = pin.updateFramePlacement(self.model, self.data, self.stance).translation[XZ]
-        x[self.base] = (0.0 if p_e is None else p_e) - foot
+        x[self.base] = -foot
         return x
 
     def velocity_map(self, q: Array) -> Array:
@@ -115,13 +115,18 @@ class FloatingDynamics:
 
     def extended_inertia(self, q: Array) -> Array:
         """D_e(q) (n + 2, n + 2) of (2): [kg m^2] for angles, [kg] for p_e."""
-        J_e = self.velocity_map(q)
-        M = pin.crba(self.model, self.data, self.configuration(q))
-        return J_e.T @ M @ J_e
+        return self._of_impact(q)[0]
 
     def swing_jacobian(self, q: Array) -> Array:
         """E_2 = dp_2/dq_e (2, n + 2) of (4), [m] for angles."""
-        return self._foot_jacobian(self.configuration(q), self.swing) @ self.velocity_map(q)
+        return self._of_impact(q)[1]
+
+    def _of_impact(self, q: Array) -> tuple[Array, Array]:
+        """D_e (n + 2, n + 2) and E_2 (2, n + 2) of (7)."""
+        x = self.configuration(q)
+        J_e = self._velocity_map(x)
+        D_e = J_e.T @ pin.crba(self.model, self.data, x) @ J_e
+        return D_e, self._foot_jacobian(x, self.swing) @ J_e
 
     def projected(self, q: Array, v: Array) -> tuple[Array, Array]:
         """D_s (n, n) [kg m^2] and Omega (n,) [N m] from the floating model, constrained by the stance contact.
@@ -149,10 +154,7 @@ class FloatingDynamics:
 
         R (n, n) and offset (n,) [rad] are those of `Biped`. Raises SingularError.
         """
-        n, x = self.n, self.configuration(q)
-        J_e = self._velocity_map(x)
-        D_e = J_e.T @ pin.crba(self.model, self.data, x) @ J_e
-        E_2 = self._foot_jacobian(x, self.swing) @ J_e
+        n, (D_e, E_2) = self.n, self._of_impact(q)
         K = np.block([[D_e, -E_2.T], [E_2, np.zeros((2, 2))]])
         rhs = np.concatenate((D_e[:, :n] @ v, np.zeros(2)))
         try:

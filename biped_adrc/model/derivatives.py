@@ -1,43 +1,35 @@
-"""Derivatives of the dynamics and of the impact with respect to the state, without difference
-quotients.
+"""Derivatives of the dynamics and of the impact with respect to the state, without difference quotients.
 
 The variational equation (`analysis.variational`) needs df/dx and dDelta/dx to more digits than
 differences of the dynamics would give.
 
-Single support, from Pinocchio's derivatives of ABA and RNEA on the pinned model in `q_tree = T q_s`
-(Carpentier, Mansard, RSS 2018). T is constant, so derivatives are only multiplied by it; rotor
-inertia is constant too and enters through the model's armature.
+Single support, from Pinocchio's derivatives of RNEA on the pinned model in `q_tree = T q_s` with a
+constant T (Carpentier, Mansard, RSS 2018). With tau(q, v, a) = D_s a + Omega at a = q'',
 
-Impact, in the velocity w of the floating base and the joints, where (7) reads
+    dq''/dq = -D_s^-1 dtau/dq,   dq''/dv = D_s^-1 (dfriction/dv - dtau/dv),   dq''/dforce = D_s^-1
 
-    M(x) (w+ - w-) = J_2' F_2,   J_2 w+ = 0,   w- = Z(q) v-
+Impact: (7) is r(q, v-, z) = 0 with z = (q_e+', F_2). CasADi differentiates r, written with the
+formulas of `planar`, and the implicit function theorem gives
 
-With the matrix K = [[M, -J_2'], [J_2, 0]] of (7) a change of the state gives
-
-    K (dw+, dF_2) = ( d(M a)|_(a = w- - w+) + d(J_2' F_2)|_(F_2) + M dw-,   -d(J_2 w+)|_(w+) )
-
-d(M a) is the derivative of RNEA at rest under the acceleration a, minus that of gravity alone.
-d(J_2' F_2) and d(J_2 w+) are two contractions of one tensor, the second derivative of the position
-p of a foot. It is written down from the columns (v_j, omega_j) of the foot's Jacobian,
-
-    d2p / dx_i dx_j = omega_i x v_j    for i nearer the root than j, or i = j,
-
-since moving joint i turns everything beyond it. M and J_2 do not depend on where the base is, so
-the columns of the base's position drop out.
+    dz = -(dr/dz)^-1 (dr/dq dq + dr/dv- dv-)
 """
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
+import casadi as ca
 import numpy as np
 import pinocchio as pin
+from numpy.typing import NDArray
 
 from biped_adrc.linear import solve
-from biped_adrc.model.biped import STICTION_SPEED, Biped
-from biped_adrc.model.contact import FloatingDynamics
-from biped_adrc.model.pinned import XZ
+from biped_adrc.model.biped import Biped
+from biped_adrc.model.planar import PlanarTree, inertia_and_bias, jacobian, point, turned
 from biped_adrc.types import Array
+
+Symbols = NDArray[np.object_]
+"""A NumPy array whose entries are CasADi scalars, as the planar model takes it."""
 
 
 class AccelerationDerivatives(NamedTuple):
@@ -51,116 +43,89 @@ class AccelerationDerivatives(NamedTuple):
     """D_s^-1 [1/(kg m^2)]."""
 
 
-class TorqueDerivatives(NamedTuple):
-    """Partial derivatives of the inverse dynamics D_s(q) a + Omega(q, q') at fixed a, each (n, n)."""
-
-    dq: Array
-    """[N m/rad]."""
-    dv: Array
-    """[N m s/rad]."""
-
-
-class ImpactDerivatives(NamedTuple):
-    """Partial derivatives of the state (q+, v+) after impact and relabelling; n coordinates."""
-
-    dq: Array
-    """dq+/dq- = R (n, n)."""
-    dv_dq: Array
-    """dv+/dq- (n, n) [1/s]."""
-    dv: Array
-    """dv+/dv- (n, n)."""
-
-    @property
-    def matrix(self) -> Array:
-        """D Delta (2 n, 2 n) = d(q+, v+) / d(q-, v-); dq+/dv- is zero, since q does not jump with v."""
-        return np.block([[self.dq, np.zeros_like(self.dq)], [self.dv_dq, self.dv]])
-
-
 def acceleration_derivatives(
     biped: Biped, q: Array, v: Array, force: Array
 ) -> AccelerationDerivatives:
     """Derivatives of `Biped.acceleration` at q (n,) [rad], v (n,) [rad/s] and the generalised force
     B_s u + delta + zeta (n,) [N m], friction included where the biped has it.
     """
-    pinned, T = biped.pinned, biped.pinned.T
-    if biped.friction:
-        force = force + biped.friction_torque(v)
-    inverse, data = np.linalg.inv(T), pinned.data
-    pin.computeABADerivatives(pinned.model, data, T @ q, T @ v, inverse.T @ force)
-    dq, dv, dtau = (inverse @ np.reshape(d, T.shape) for d in (data.ddq_dq, data.ddq_dv, data.Minv))
-    dforce = dtau @ inverse.T
-    return AccelerationDerivatives(dq @ T, dv @ T + dforce @ friction_derivative(biped, v), dforce)
+    dq, dv = torque_derivatives(biped, q, v, biped.acceleration(q, v, force))
+    inverse: Array = np.asarray(np.linalg.inv(biped.inertia(q)), dtype=np.float64)
+    return AccelerationDerivatives(
+        -inverse @ dq, inverse @ (biped.friction_derivative(v) - dv), inverse
+    )
 
 
-def friction_derivative(biped: Biped, v: Array) -> Array:
-    """d/dv of `Biped.friction_torque` (n, n) [N m s/rad] at rates v (n,) [rad/s]: diagonal."""
-    if not biped.friction:
-        return np.zeros((biped.n, biped.n))
-    viscous, static = biped.friction_coefficients
-    smooth = 1.0 - np.tanh(v / STICTION_SPEED) ** 2
-    return np.diag(-viscous - static * smooth / STICTION_SPEED)
+def torque_derivatives(biped: Biped, q: Array, v: Array, a: Array) -> tuple[Array, Array]:
+    """Derivatives of D_s(q) a + Omega(q, q') by q [N m/rad] and by q' [N m s/rad], each (n, n).
 
-
-def torque_derivatives(biped: Biped, q: Array, v: Array, a: Array) -> TorqueDerivatives:
-    """Derivatives of D_s(q) a + Omega(q, q') at fixed a (n,) [rad/s^2], without friction."""
+    a (n,) [rad/s^2] is fixed, and friction is left out.
+    """
     pinned, T = biped.pinned, biped.pinned.T
     pin.computeRNEADerivatives(pinned.model, pinned.data, T @ q, T @ v, T @ a)
     dq, dv = (np.reshape(part, T.shape) for part in (pinned.data.dtau_dq, pinned.data.dtau_dv))
-    return TorqueDerivatives(T.T @ dq @ T, T.T @ dv @ T)
+    return T.T @ dq @ T, T.T @ dv @ T
 
 
-def impact_derivatives(biped: Biped, q: Array, v: Array) -> ImpactDerivatives:
-    """Derivatives of `Biped.impact` at (q-, q'-) (n,) [rad, rad/s], by the equations of the module.
+def impact_derivatives(biped: Biped, q: Array, v: Array) -> Array:
+    """D Delta (2 n, 2 n) = d(q+, v+) / d(q-, v-) of `Biped.impact` at (q-, q'-) (n,) [rad, rad/s].
 
     Raises SingularError where the matrix of (7) is singular.
     """
-    floating = biped.floating
-    impact = biped.impact(q, v)
-    x = floating.configuration(q)
-    Z, dZ_v = stance_velocity(floating, x, v)
-    w_plus = floating.velocity_map(q) @ impact.v_e
-    J, H = foot_derivatives(floating, x, floating.swing)
-    M = np.array(pin.crba(floating.model, floating.data, x))
-    m = len(M)
-    K = np.block([[M, -J.T], [J, np.zeros((2, 2))]])
-    a = Z @ v - w_plus
-    by_q = momentum_derivative(floating, x, a) + np.einsum("a,aij->ij", impact.impulse, H)
-    by_q = by_q[:, floating.angles] + M @ dZ_v
-    rows = -(H @ w_plus)[:, floating.angles]
-    rhs = np.block([[by_q, M @ Z], [rows, np.zeros((2, biped.n))]])
-    angles = biped.R @ solve(K, rhs, "the matrix of the impact (7)")[:m][floating.angles]
-    return ImpactDerivatives(biped.R, angles[:, : biped.n], angles[:, biped.n :])
+    n, impact, tree = biped.n, biped.impact(q, v), PlanarTree.of(biped)
+    x, before, z = (ca.MX.sym(*name) for name in (("q", n), ("v", n), ("z", n + 4)))
+    D, J_m, J_2, _ = pose_function(tree)(x)
+    r = ca.vertcat(*impact_rows(D, J_m, J_2, tree.K.mass, before, z[: n + 2], z[n + 2 :]))
+    rows = ca.Function("impact", [x, before, z], [ca.jacobian(r, y) for y in (x, before, z)])
+    by_q, by_v, by_z = map(np.array, rows(q, v, np.concatenate((impact.v_e, impact.impulse))))
+    dz = solve(by_z, -np.hstack((by_q, by_v)), "the matrix of the impact (7)")
+    return np.vstack((np.hstack((biped.R, np.zeros((n, n)))), biped.R @ dz[:n]))
 
 
-def momentum_derivative(floating: FloatingDynamics, x: Array, a: Array) -> Array:
-    """d(M(x) a)/dx at fixed a (m,), as (m, m) [N m/rad].
+# -- the planar model as CasADi expressions --------------------------------------------------------
+def each(x: ca.SX) -> Symbols:
+    """A CasADi column of m symbols as a NumPy array (m,) of CasADi scalars; the inverse of `together`."""
+    out = np.empty(x.numel(), dtype=object)
+    for i in range(len(out)):
+        out[i] = x[i]
+    return out
 
-    RNEA at rest gives M a + G, so its derivatives with and without a differ by what is wanted.
+
+def together(values: Symbols) -> ca.SX:
+    """A NumPy array (m,) or (m, k) of CasADi scalars as one CasADi column or matrix."""
+    rows = np.reshape(values, (len(values), -1))
+    return ca.vertcat(*(ca.horzcat(*map(ca.SX, row)) for row in rows))
+
+
+def pose_function(tree: PlanarTree) -> ca.Function:
+    """CasADi function of the configuration q (n,): what the impact equations (7) need of it.
+
+    Returns the inertia matrix D_s (n, n) [kg m^2], d(m p_com)/dq (2, n) [kg m], the Jacobian J_2 (2, n) [m] of
+    the swing foot, and its position (2,) [m].
     """
-    model, data, rest, m = floating.model, floating.data, np.zeros(len(x)), len(x)
-    pin.computeRNEADerivatives(model, data, x, rest, a)
-    with_a = np.array(data.dtau_dq).reshape(m, m)
-    pin.computeRNEADerivatives(model, data, x, rest, rest)
-    return with_a - np.reshape(data.dtau_dq, (m, m))
+    n, K = len(tree.A), tree.K
+    q = ca.SX.sym("q", n)
+    x = each(q)
+    rest: Symbols = np.zeros(n, dtype=object)
+    t = turned(tree, x)
+    D, _ = inertia_and_bias(tree, K, x, rest)
+    J_m, J_2 = jacobian(tree, t, K.w_re, K.w_im), jacobian(tree, t, K.foot_re, K.foot_im)
+    foot = ca.vertcat(*point(t, K.foot_re, K.foot_im))
+    return ca.Function("pose", [q], [*map(together, (D, J_m, J_2)), foot])
 
 
-def stance_velocity(floating: FloatingDynamics, x: Array, v: Array) -> tuple[Array, Array]:
-    """Z (m, n) of w- = Z q'-, the stance foot being at rest, and d(Z q'-)/dq (m, n), at x (m,) [rad, m]."""
-    J, H = foot_derivatives(floating, x, floating.stance)
-    angles, base = floating.angles, floating.base
-    Z, dZ_v = np.zeros((len(x), floating.n)), np.zeros((len(x), floating.n))
-    Z[angles, np.arange(floating.n)] = 1.0
-    Z[base] = -J[:, angles]
-    dZ_v[base] = -(H[:, angles][:, :, angles] @ v)
-    return Z, dZ_v
+def impact_rows(
+    D: ca.MX, J_m: ca.MX, J_2: ca.MX, mass: float, before: ca.MX, after: ca.MX, impulse: ca.MX
+) -> tuple[ca.MX, ca.MX, ca.MX]:
+    """Residuals of (7), zero at its solution: of momenta (n,) [N m s], (2,) [N s], and of the foot (2,) [m/s].
 
-
-def foot_derivatives(floating: FloatingDynamics, x: Array, foot: int) -> tuple[Array, Array]:
-    """dp/dx (2, m) and d2p/dx2 (2, m, m) of a foot's position p = (x, z) [m]; `foot` is its frame's index."""
-    columns = pin.computeFrameJacobian(
-        floating.model, floating.data, x, foot, pin.LOCAL_WORLD_ALIGNED
+    D_e (q_e'+ - q_e'-) = E_2' F balances the momenta, E_2 q_e'+ = 0 lets the swing foot neither slip nor
+    rebound. D, J_m, J_2: of `pose_function`. before: q' (n,), after: q_e'+ (n + 2,), impulse: F (2,) [N s].
+    """
+    n = before.numel()
+    turn, move = after[:n] - before, after[n:]
+    return (
+        D @ turn + J_m.T @ move - J_2.T @ impulse,
+        J_m @ turn + mass * move - impulse,
+        J_2 @ after[:n] + move,
     )
-    linear, angular = columns[:3].T, columns[3:].T
-    i, j = np.indices((len(x), len(x)))
-    H = np.cross(angular[np.minimum(i, j)], linear[np.maximum(i, j)])
-    return columns[XZ], np.moveaxis(H, -1, 0)[XZ]

@@ -67,9 +67,8 @@ class ModelErrors(Shown):
         com: float = 0.1,
         inertia: float = 0.1,
         friction: float = 0.3,
-        links: tuple[str, ...] | None = None,
     ) -> ModelErrors:
-        """Errors of every body, drawn evenly from +-width by a seed; links: of these bodies alone.
+        """Errors of every body, drawn evenly from +-width by a seed.
 
         mass, com, inertia, friction: the widths, dimensionless. Friction is drawn for the joints
         that have some, where the robot was loaded with friction. The errors depend on the seed and
@@ -81,7 +80,7 @@ class ModelErrors(Shown):
                     f"the width of errors of {kind} is {width}, expected 0 <= width < 1"
                 )
         random = _random(seed)
-        bodies = tuple(biped.description.links) if links is None else links
+        bodies = tuple(biped.description.links)
         m, d, J = (
             dict(zip(bodies, random.uniform(-width, width, len(bodies)).tolist(), strict=True))
             for width in (mass, com, inertia)
@@ -132,11 +131,8 @@ class ModelErrors(Shown):
 def impact_error(seed: int, spread: float, n: int) -> Array:
     """Relative errors e (n,) of the velocities after impact, drawn evenly from +-spread by a seed.
 
-    The impact then leaves (1 + e) q'+ in place of q'+ of (7). Raises InputError for a spread
-    outside [0, 1).
+    The impact then leaves (1 + e) q'+ in place of q'+ of (7).
     """
-    if not 0.0 <= spread < 1.0:
-        raise InputError(f"the spread of impact errors is {spread}, expected 0 <= spread < 1")
     return _random(seed).uniform(-spread, spread, n)
 
 

@@ -296,18 +296,13 @@ def link_point(biped: Biped, link: str, at: tuple[float, float] | None = None) -
     coordinates.
     """
     f, x_z = biped.floating, at or (0.0, 0.0)
-    try:
-        frame = frame_index(f.model, link)
-    except ModelError:
-        known = [name for name in biped.tree.links if _moves(biped, name)]
+    known = [name for name in biped.tree.links if _moves(biped, name)]
+    if link not in known:
         raise ModelError(
-            f"robot '{biped.description.name}' has no link '{link}'; it has {known}"
-        ) from None
-    if not _moves(biped, link):
-        raise ModelError(
-            f"robot '{biped.description.name}': link '{link}' is above the trunk "
-            f"'{biped.description.trunk}' and part of the base, no body; give the trunk instead"
+            f"robot '{biped.description.name}' has no link '{link}' that moves with its coordinates; it has "
+            f"{known}"
         )
+    frame = frame_index(f.model, link)
 
     def place(q: Array) -> Array:
         pin.framesForwardKinematics(f.model, f.data, f.configuration(q))

@@ -23,16 +23,13 @@ import pinocchio as pin
 from biped_adrc.checks import Check, at_most
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.contact import LinkMotion
+from biped_adrc.model.physical import ACCURACY
 from biped_adrc.model.pinned import frame_index
 from biped_adrc.types import Array
 
 STATES, SEED = 20, 0
 LIMIT = 1e-9
 """Largest relative gap of a law; double precision leaves about 1e-12."""
-ACCURACY = 1e-6
-"""Largest relative round-off in q'' (eps times the condition number of D_s), dimensionless. Feet with
-1e-7 of the hip's mass leave 1e-8.
-"""
 DEFINITE = "D_s is positive definite; round-off left in q'' by its condition"
 """The one check whose limit is ACCURACY."""
 

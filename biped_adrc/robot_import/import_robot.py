@@ -38,6 +38,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from biped_adrc.checks import Check
 from biped_adrc.errors import ModelError, OutputError
@@ -46,7 +47,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.robot_import.anatomy import Anatomy, anatomy
 from biped_adrc.robot_import.import_checks import checks
 from biped_adrc.robot_import.planar_base import PlanarBase, on_planar_base
-from biped_adrc.robots.robot_toml import GRAVITY, RobotRecord, description_of
+from biped_adrc.robots.robot_toml import GRAVITY, description_of
 from biped_adrc.robots.symmetry import check_alike, pairs
 from biped_adrc.robots.urdf import Joint, Link, Tree, Vector, Visual, to_xml
 from biped_adrc.robots.urdf_reader import UrdfContents, read, tip_of
@@ -139,13 +140,17 @@ def record_of(
     actuated: tuple[str, ...],
     torque: float,
     hints: Hints,
-) -> RobotRecord:
+) -> dict[str, Any]:
     """The tables of the robot.toml that describes this robot, as plain values.
 
     torque: limit of every motor [N m].
     """
     moving = [joint.name for joint in parts.moving]
     friction = FRICTION if hints.friction_coefficient is None else hints.friction_coefficient
+
+    def of_moving(values: Mapping[str, Any]) -> dict[str, Any]:
+        return {name: values[name] for name in moving if name in values}
+
     source = f"The <inertial> elements of {Path(reading.tree.source).name}."
     return {
         "name": reading.tree.name,
@@ -163,12 +168,10 @@ def record_of(
         "peak_torque": torque,
         "friction_coefficient": friction,
         "gravity": hints.gravity,
-        "ranges": {name: list(reading.ranges[name]) for name in moving if name in reading.ranges},
+        "ranges": {name: list(ends) for name, ends in of_moving(reading.ranges).items()},
         "friction": {
-            "viscous": {
-                joint: reading.viscous[joint] for joint in moving if joint in reading.viscous
-            },
-            "static": {joint: reading.static[joint] for joint in moving if joint in reading.static},
+            "viscous": of_moving(reading.viscous),
+            "static": of_moving(reading.static),
         },
         "links": _bodies(body.tree, parts.feet),
         "presets": {PRESET: {"source": source, "armature": hints.armature}},
@@ -218,7 +221,7 @@ class Derived:
     """What was found and guessed, in sentences."""
     checks: tuple[Check, ...]
     """The laws of `import_checks` with their numbers."""
-    record: RobotRecord
+    record: Mapping[str, Any]
     """Contents of its robot.toml."""
 
     @property

@@ -79,9 +79,5 @@ class Limits(Shown):
 
 def completed(limits: Limits | KnownLimits, known: KnownLimits) -> KnownLimits:
     """`limits` with the numbers of `known` where None was given; the window is that of `known`."""
-    mu, torque = limits.friction, limits.torque
-    return KnownLimits(
-        known.friction if mu is None else float(mu),
-        known.torque if torque is None else float(torque),
-        float(known.window),
-    )
+    found = {name: getattr(limits, name) for name in ("friction", "torque")}
+    return known._replace(**{name: float(x) for name, x in found.items() if x is not None})

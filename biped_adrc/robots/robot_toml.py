@@ -19,6 +19,9 @@ cannot, here for RABBIT, abbreviated:
     armature = 0.83                                                     # [kg m^2]
     thigh = { mass = 6.8, com = 0.11, inertia = 0.47 }                  # [kg], [m], [kg m^2]
 
+The keys are the fields of `RobotDescription`, with joint friction in a table [friction] of `viscous` and
+`static`. May be missing: `passive` (none), `trunk` (the hip's link), `offset` (zero), `gravity` (9.81),
+`ranges` (joints turn freely), `friction` (none), and the bodies of a preset (the URDF's own).
 `load_description` makes a `RobotDescription` of it, with which `Biped.load` starts.
 """
 
@@ -29,7 +32,7 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NotRequired, TypedDict, cast
+from typing import Any
 
 from biped_adrc.errors import ModelError, check_positive
 from biped_adrc.files import reading
@@ -50,50 +53,6 @@ class BodyParameters:
     """Distance of the COM from the link's origin along +z [m]."""
     inertia: float
     """About the COM and the axis y [kg m^2]."""
-
-
-class FrictionRecord(TypedDict, total=False):
-    """The table [friction] of a robot.toml: by joint, as `RobotDescription.viscous` and `static`."""
-
-    viscous: Mapping[str, float]
-    """[N m s/rad]."""
-    static: Mapping[str, float]
-    """[N m]."""
-
-
-class RobotRecord(TypedDict):
-    """The tables of a robot.toml as TOML reads them; meaning and units of the fields as in
-    `RobotDescription`. Optional ones may be missing in the file.
-    """
-
-    name: str
-    urdf: str
-    """Name of the URDF, relative to the folder of the robot.toml."""
-    actuated: Sequence[str]
-    passive: NotRequired[Sequence[str]]
-    """Joints without a motor; none if it is missing."""
-    unactuated: str
-    base: Sequence[str]
-    stance_foot: str
-    swing_foot: str
-    hip: str
-    trunk: NotRequired[str]
-    """Link that the base carries; the hip's if it is missing."""
-    phase: Sequence[float]
-    offset: NotRequired[Sequence[float]]
-    """r (n,) of the relabelling [rad]; zero if it is missing."""
-    peak_torque: float
-    friction_coefficient: float
-    gravity: NotRequired[float]
-    """[m/s^2]; 9.81 if it is missing."""
-    ranges: NotRequired[Mapping[str, Sequence[float]]]
-    """Lower and upper end by joint [rad]; joints that are missing turn freely."""
-    friction: NotRequired[FrictionRecord]
-    """Joint friction; none if it is missing."""
-    links: Mapping[str, Sequence[str]]
-    default_preset: str
-    presets: Mapping[str, Mapping[str, Any]]
-    """By name: `source`, `armature`, and a table of `BodyParameters` for every body."""
 
 
 GRAVITY = 9.81
@@ -241,10 +200,10 @@ def load_description(robot: str | Path) -> RobotDescription:
         path = data_folder("urdf") / str(robot) / "robot.toml"
     with reading("robot record", path, ModelError):
         data = tomllib.loads(path.read_text(encoding="utf-8"))
-    return description_of(cast(RobotRecord, data), path)
+    return description_of(data, path)
 
 
-def description_of(data: RobotRecord, path: Path) -> RobotDescription:
+def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
     """The record from TOML's tables `data`, whose URDF lies beside `path`.
 
     Raises ModelError that names the key, what was found and what was expected.
@@ -282,12 +241,12 @@ def description_of(data: RobotRecord, path: Path) -> RobotDescription:
         return description
 
 
-def _count(data: RobotRecord) -> int:
+def _count(data: Mapping[str, Any]) -> int:
     """Number of coordinates: actuated joints, passive joints and the pitch."""
     return len(data["actuated"]) + len(data.get("passive", ())) + 1
 
 
-def _numbers(data: RobotRecord, key: str, values: Sequence[float]) -> tuple[float, ...]:
+def _numbers(data: Mapping[str, Any], key: str, values: Sequence[float]) -> tuple[float, ...]:
     """One finite number per coordinate. Raises ValueError that names the key."""
     found = tuple(float(c) for c in values)
     if len(found) != _count(data) or not all(map(math.isfinite, found)):
@@ -305,7 +264,7 @@ def _range(joint: str, ends: Sequence[float]) -> tuple[float, float]:
     return low, high
 
 
-def _preset(name: str, record: Mapping[str, Any], data: RobotRecord) -> Preset:
+def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Preset:
     """One of the tables [presets.NAME]: all bodies of the record, or none of them. Raises ValueError."""
     bodies = {}
     own = not any(body in record for body in data["links"])

@@ -33,7 +33,6 @@ from biped_adrc.hybrid.integrators import RK4, OneStepMethod
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.derivatives import friction_derivative
 from biped_adrc.parts import check_part, handing_out, numbers
 from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.build import plant_around
@@ -88,7 +87,7 @@ def rate_of_friction(plant: Biped) -> float:
     if not plant.friction:
         return 0.0
     still = np.zeros(plant.n)
-    J = np.linalg.solve(plant.inertia(still), friction_derivative(plant, still))
+    J = np.linalg.solve(plant.inertia(still), plant.friction_derivative(still))
     return float(np.max(np.abs(np.linalg.eigvals(J))))
 
 

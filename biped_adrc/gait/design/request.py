@@ -91,12 +91,10 @@ class StepLimits(Shown):
         check_fields(self)
         for name in (f.name for f in fields(self) if f.name != "ranges"):
             value = getattr(self, name)
-            if value is not None and not value >= 0.0:
-                raise GaitError(f"limit '{name}' is {value}, expected a number >= 0 or None")
-        for name in ("friction", "impulse_friction", "torque"):
-            value = getattr(self, name)
-            if value is not None and not value > 0.0:
-                raise GaitError(f"limit '{name}' is {value}, expected a positive number or None")
+            divides = name in ("friction", "impulse_friction", "torque")
+            if value is not None and not (value > 0.0 if divides else value >= 0.0):
+                kind = "a positive number" if divides else "a number >= 0"
+                raise GaitError(f"limit '{name}' is {value}, expected {kind} or None")
         if self.torque == math.inf:
             raise GaitError(
                 "limit 'torque' is infinite; give a number, the objective is scaled by it"

@@ -19,26 +19,22 @@ from typing import NamedTuple
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from biped_adrc.gait.curves import ControlledCurve
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits
 from biped_adrc.gait.zero_dynamics import gauss_nodes
 from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.derivatives import each, impact_rows, pose_function, together
 from biped_adrc.model.planar import (
     PlanarTree,
     gravity_and_turning,
     ground_reaction,
     inertia_and_bias,
-    jacobian,
     point,
     turned,
 )
 from biped_adrc.types import Array
-
-Symbols = NDArray[np.object_]
-"""A NumPy array whose entries are CasADi scalars, as the planar model takes it."""
 
 
 class Unknowns(NamedTuple):
@@ -108,20 +104,6 @@ def basis_functions(
     return values, first, second
 
 
-def each(x: ca.SX) -> Symbols:
-    """A CasADi column of m symbols as a NumPy array (m,) of CasADi scalars; the inverse of `together`."""
-    out = np.empty(x.numel(), dtype=object)
-    for i in range(len(out)):
-        out[i] = x[i]
-    return out
-
-
-def together(values: Symbols) -> ca.SX:
-    """A NumPy array (m,) or (m, k) of CasADi scalars as one CasADi column or matrix."""
-    rows = np.reshape(values, (len(values), -1))
-    return ca.vertcat(*(ca.horzcat(*map(ca.SX, row)) for row in rows))
-
-
 def node_function(tree: PlanarTree, phase: Array, degree: int, direction: float) -> ca.Function:
     """CasADi function (alpha, (Theta+, Theta-), s, b, b', b'', |Theta'|) -> the rows of `Node`, stacked.
 
@@ -149,23 +131,6 @@ def node_function(tree: PlanarTree, phase: Array, degree: int, direction: float)
     foot, (G, _) = point(t, K.foot_re, K.foot_im), gravity_and_turning(tree, K, t, v)
     rows = (inertia, G[p], u, together(v[:p]), together(force), ca.vertcat(*foot), q)
     return ca.Function("node", [alpha, theta, s, *basis, r], [ca.vertcat(*rows)])
-
-
-def pose_function(tree: PlanarTree) -> ca.Function:
-    """CasADi function of the configuration q (n,): what the impact equations (7) need of it.
-
-    Returns the inertia matrix D_s (n, n) [kg m^2], d(m p_com)/dq (2, n) [kg m], the Jacobian J_2 (2, n) [m] of
-    the swing foot, and its position (2,) [m].
-    """
-    n, K = len(tree.A), tree.K
-    q = ca.SX.sym("q", n)
-    x = each(q)
-    rest: Symbols = np.zeros(n, dtype=object)
-    t = turned(tree, x)
-    D, _ = inertia_and_bias(tree, K, x, rest)
-    J_m, J_2 = jacobian(tree, t, K.w_re, K.w_im), jacobian(tree, t, K.foot_re, K.foot_im)
-    foot = ca.vertcat(*point(t, K.foot_re, K.foot_im))
-    return ca.Function("pose", [q], [*map(together, (D, J_m, J_2)), foot])
 
 
 def unknowns(n: int, degree: int, nodes: int) -> Unknowns:
@@ -234,15 +199,7 @@ class SymbolicStep:
         return self.pose(q)[0][self.n - 1, :] @ v / self.sigma_scale
 
     def impact(self) -> ca.MX:
-        """Residual (n + 4,) of the impact equations (7) at Theta'- = 1, dimensionless; zero at a solution.
-
-        D_e (q_e'+ - q_e'-) = E_2' F balances the momenta, E_2 q_e'+ = 0 lets the swing foot neither slip nor
-        rebound.
-        """
-        x, m, J_m, J_2 = self.x, self.mass, self.J_m, self.J_2
-        change = x.after - ca.vertcat(self.dq, 0.0, 0.0)
-        turn, move = change[: self.n], change[self.n :]
-        upper = self.D @ turn + J_m.T @ move - J_2.T @ x.impulse
-        lower = J_m @ turn + m * move - x.impulse
-        foot = J_2 @ x.after[: self.n] + x.after[self.n :]
+        """Residual (n + 4,) of the impact equations (7) at Theta'- = 1, dimensionless; zero at a solution."""
+        x, m = self.x, self.mass
+        upper, lower, foot = impact_rows(self.D, self.J_m, self.J_2, m, self.dq, x.after, x.impulse)
         return ca.vertcat(upper / (m * self.leg**2), lower / (m * self.leg), foot / self.leg)

@@ -37,7 +37,7 @@ def check(record: GaitRecord, biped: Biped | None = None, slopes: bool = True) -
     try:
         along = coordinates(record)
     except GaitError as error:
-        raise GaitError(f"{error}{_hint(record, biped)}") from error
+        raise record.error(f"{error}{_hint(record, biped)}") from error
     misfit = first_misfit(record, along, biped, slopes)
     if misfit is not None:
         raise _error(record, misfit, biped)

@@ -24,6 +24,7 @@ from biped_adrc.gait.conventions import OWN, AngleMap, Convention, convention
 from biped_adrc.gait.curves import Curve
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.gait import Gait
+from biped_adrc.gait.outputs import all_coordinates
 from biped_adrc.types import Array
 
 _TURN = 2.0 * np.pi
@@ -73,7 +74,8 @@ def coordinates(record: GaitRecord) -> Coordinates:
     if record.reverse:
         curve = curve.reversed()
     if not record.of_all_coordinates:
-        curve = _completed(record, curve, c)
+        outputs = layout.outputs if record.outputs is None else record.outputs
+        curve = all_coordinates(curve, outputs, c, (record.theta_plus, record.theta_minus))
     to_paper = layout.to_paper
     curve = mapped(curve, to_paper.A, to_paper.b)
     # theta = c' q' = (c' A^-1) q - c' A^-1 b
@@ -89,28 +91,6 @@ def coordinates(record: GaitRecord) -> Coordinates:
     curve = mapped(curve, np.eye(len(turns)), _TURN * turns)
     ends = ends + row @ (_TURN * turns)
     return Coordinates(curve, row, float(ends[0]), float(ends[1]), same and not own, turns)
-
-
-def _completed(record: GaitRecord, curve: Curve, c: Array) -> Curve:
-    """q'(s), all n coordinates, from the outputs y(s) and the phase row c (n,) by [H0; c] q' = [y; theta].
-
-    Raises GaitError where outputs and phase together are not n independent rows.
-    """
-    layout = record.layout
-    outputs = layout.outputs if record.outputs is None else record.outputs
-    H = np.vstack((outputs, c))
-    if H.shape[0] != H.shape[1] or np.linalg.matrix_rank(H) < len(H):
-        raise record.error(
-            f"the outputs and the phase row {np.round(c, 6).tolist()} do not determine all "
-            f"{layout.n} coordinates ({', '.join(layout.coordinates)}): {H.shape[0]} rows of rank "
-            f"{np.linalg.matrix_rank(H)}, expected {layout.n} independent ones; give a phase that moves "
-            "with the coordinate that has no row, or one row per coordinate"
-        )
-    phase = type(curve).ramp(curve.degree, record.theta_plus, record.theta_minus)
-    q: Array = np.asarray(
-        np.linalg.solve(H, np.vstack((curve.coefficients, phase))), dtype=np.float64
-    )
-    return type(curve)(q)
 
 
 def whole_turns(middle: Array) -> Array:
@@ -147,17 +127,8 @@ def record_of(gait: Gait, to: str = "paper", own: Convention | None = None) -> G
     other = convention(to, knees=n == 5) if own is None else own
     kind = type(constraint.curve).__name__.lower()
     ends = constraint.theta_plus, constraint.theta_minus
-    coefficients = constraint.curve.coefficients
-    full = GaitRecord(
-        "paper" if own is None else OWN,
-        coefficients,
-        *ends,
-        constraint.phase,
-        curve=kind,
-        name=gait.name,
-        own=own,
-    )
-    curve = _completed(full, constraint.curve, constraint.phase)
+    ours = convention("paper", knees=n == 5) if own is None else own
+    curve = all_coordinates(constraint.curve, ours.outputs, constraint.phase, ends)
     back: AngleMap = other.to_paper.inverse
     rows = mapped(curve, back.A, back.b)
     # Theta = c q = c A q' + c b

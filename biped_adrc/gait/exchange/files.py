@@ -24,7 +24,6 @@ from __future__ import annotations
 
 import io
 import json
-import os
 from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
@@ -34,35 +33,19 @@ import numpy as np
 from scipy.io import loadmat, savemat
 
 from biped_adrc.errors import GaitError, InputError
-from biped_adrc.files import check_regular, output_path, read_json, reading, write_bytes, write_text
+from biped_adrc.files import output_path, read_json, reading, write_bytes, write_text
 from biped_adrc.gait.conventions import OWN, Convention
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.exchange.samples import Samples, read_csv
 from biped_adrc.gait.gait import FORMAT as STORED
 from biped_adrc.types import Array
 
-LONGEST_NAME = 31
-"""Letters of a variable's name in a .mat file."""
-
 
 def write_mat(path: Path | str, entries: Mapping[str, object], units: Mapping[str, str]) -> None:
     """Write numbers, arrays and text under their names as a .mat file; arrays (K,) become columns (K, 1).
 
-    units: of each array, "1" where it has none. Raises InputError for a name MATLAB cannot have or an entry
-    without a unit, and OutputError.
+    units: of each array, "1" where it has none. Raises OutputError.
     """
-    for name, value in entries.items():
-        if not (name.isidentifier() and name.isascii() and not name.startswith("_")) or (
-            len(name) > LONGEST_NAME
-        ):
-            raise InputError(
-                f"'{name}' cannot be a variable of a .mat file; expected a letter, then letters, digits and "
-                f"underscores, at most {LONGEST_NAME}"
-            )
-        if not isinstance(value, str) and name not in units:
-            raise InputError(
-                f"'{name}' has no unit; give one for each array, '1' where there is none"
-            )
     buffer = io.BytesIO()
     savemat(buffer, {**entries, "units": dict(units)}, oned_as="column")
     write_bytes(Path(path), buffer.getvalue())
@@ -74,11 +57,10 @@ def read_mat(path: Path | str) -> dict[str, Any]:
     Raises InputError for a file that is missing, damaged or of version 7.3.
     """
     path = Path(path)
-    check_regular(path, f"MATLAB file '{path}'", InputError)
-    if not os.path.isfile(path):
-        raise InputError(f"MATLAB file '{path}' not found")
+    with reading("MATLAB file", path, InputError):
+        data = path.read_bytes()
     try:
-        found = loadmat(io.BytesIO(path.read_bytes()), simplify_cells=True)
+        found = loadmat(io.BytesIO(data), simplify_cells=True)
     except NotImplementedError as error:
         raise InputError(
             f"MATLAB file '{path}' is of version 7.3 (HDF5), expected 5 or 7; save it again in MATLAB with "
@@ -285,30 +267,12 @@ RUN_UNITS = {
 """Units of the columns `biped_adrc.analysis.signals.Signals` has."""
 
 
-def export_run(
-    columns: Mapping[str, Array],
-    path: Path | str,
-    units: Mapping[str, str] | None = None,
-    note: str = "",
-) -> None:
-    """Write columns (K,) or (K, ...) over the same K instants as a .mat file, such as `vars(walk.signals)`.
+def export_run(columns: Mapping[str, Array], path: Path | str, note: str = "") -> None:
+    """Write signals (K,) or (K, ...), as `vars(walk.signals)`, as a .mat file in this paper's convention.
 
-        export_run({"t": s.t, "lag": lag}, "lag.mat", units={"lag": "rad"})
-
-    columns: by name, 't' [s] among them. units: of columns that are not of this package. note: free text.
-    Angles are in this paper's convention. Raises InputError for a column without a unit or of another length,
-    and OutputError.
+    note: free text. Raises InputError for another suffix, and OutputError.
     """
-    path = output_path(path, (".mat",))
-    known = {**RUN_UNITS, **(units or {})}
-    arrays = {name: np.asarray(column, dtype=float) for name, column in columns.items()}
-    lengths = {name: a.shape[0] if a.ndim else 0 for name, a in arrays.items()}
-    if "t" not in arrays or len(set(lengths.values())) != 1:
-        raise InputError(
-            f"columns have lengths {lengths}; expected 't' and one length for all of them"
-        )
-    unknown = [name for name in arrays if name not in known]
-    if unknown:
-        raise InputError(f"columns {unknown} have no unit; give units={{name: unit}} for them")
     about = {"format": RUN_FORMAT, "convention": "paper", "note": note}
-    write_mat(path, {**about, **arrays}, {name: known[name] for name in arrays})
+    arrays = {name: np.asarray(column, dtype=float) for name, column in columns.items()}
+    units = {name: RUN_UNITS[name] for name in columns}
+    write_mat(output_path(path, (".mat",)), {**about, **arrays}, units)

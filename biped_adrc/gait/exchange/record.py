@@ -17,7 +17,7 @@ import numpy as np
 
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.conventions import CONVENTIONS, OWN, Convention, convention
-from biped_adrc.gait.curves import CURVES, Curve, curve_kind
+from biped_adrc.gait.curves import Curve, curve_kind
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array, read_only
 
@@ -70,8 +70,7 @@ class GaitRecord(Shown):
     """The robot's coordinates, `own_convention(biped)`, for the convention "own"."""
 
     def __post_init__(self) -> None:
-        if self.curve not in CURVES:
-            raise self.error(f"curve is '{self.curve}', expected one of {sorted(CURVES)}")
+        curve_kind(self.curve)
         for key in ("coefficients", "phase", "q_minus", "v_minus", "outputs"):
             value = getattr(self, key)
             if value is not None or key == "coefficients":
@@ -101,11 +100,12 @@ class GaitRecord(Shown):
                     f"outputs have shape {self.outputs.shape} for {rows} rows of coefficients; expected "
                     f"({rows}, 5), or ({rows}, 3) without knees"
                 )
-            return self._known(_COORDINATES[n])
-        fitting = [knees for knees in (True, False) if rows in _row_counts(self._known(knees))]
+            return convention(self.convention, _COORDINATES[n])
+        both = (convention(self.convention, knees) for knees in (True, False))
+        fitting = [known for known in both if rows in _row_counts(known)]
         if not fitting:
             raise self._wrong_rows(rows)
-        return self._known(fitting[0])
+        return fitting[0]
 
     @property
     def of_all_coordinates(self) -> bool:
@@ -136,18 +136,6 @@ class GaitRecord(Shown):
                 "columns k = 0..M"
             )
         return self.own
-
-    def _known(self, knees: bool) -> Convention:
-        """The convention of the record, for a robot with knees or without.
-
-        Raises GaitError for an unknown name.
-        """
-        if self.convention not in CONVENTIONS:
-            raise GaitError(
-                f"gait '{self.name}': there is no angle convention '{self.convention}'; choose one of "
-                f"{list(CONVENTIONS)}"
-            )
-        return convention(self.convention, knees)
 
     def _wrong_rows(self, rows: int) -> GaitError:
         """The error for a number of rows that the convention does not have.
@@ -214,8 +202,6 @@ class GaitRecord(Shown):
                 f"theta_plus and theta_minus are both {self.theta_plus} rad, expected two different ends; a "
                 "normalised s in [0, 1] needs the phase at s = 0 and at s = 1"
             )
-        if self.period is not None and self.period <= 0:
-            raise self.error(f"period is {self.period} s, expected a positive number")
 
 
 def _counts_of(name: str) -> tuple[int, ...]:
