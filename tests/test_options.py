@@ -158,9 +158,6 @@ SIMULATE = {
 POINCARE = {
     "slope": Row("--set ground.slope=0.03", scenario_field("ground.slope"), 0.03),
     "observer_states": Row("--no-observer-states", same("observer_states"), False),
-    "samples": Row(
-        "--samples 7", same("samples"), 7, "studies.cycle_stability:cycle_stability"
-    ),
 }  # fmt: skip
 STATE = ",".join(str(0.1 * k) for k in range(10))
 DESIGN = {

@@ -5,8 +5,7 @@
 x-(k) is the state before impact k of one walk. Ten states are regressed on a section of nine
 dimensions, and a walk that converges along one direction excites one direction: Phi is not
 determined by such data. So rank and condition number are returned with the eigenvalues, and
-`warning` says what they are worth. `stability.regression_row` puts it beside the methods that can
-be trusted.
+`warning` says what they are worth.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Whether a walking cycle is stable: its multipliers by every method side by side, and which to trust.
+"""Whether a walking cycle is stable: its multipliers by two methods side by side, and which to trust.
 
 P is the return map from just before one impact to just before the next, s (k,) [rad, rad/s] its point. The
 multipliers of a cycle, P(s) = s, are the eigenvalues lambda of dP/ds; it is stable if all |lambda| < 1.
@@ -6,12 +6,8 @@ multipliers of a cycle, P(s) = s, are the eigenvalues lambda of dP/ds; it is sta
     variational             eigenvalues of dP/ds by the variational equation, no differences
     central differences     eigenvalues of dP/ds by differences of the return map at two widths d and d / 2,
                             extrapolated: (4 J(d/2) - J(d)) / 3 is dP/ds up to d^4 and round-off / d
-    delta^2                 (sigma+ / sigma-)^2, sigma the angular momentum about the stance foot just before
-                            (-) and after (+) impact: one of the multipliers, in closed form, where the
-                            constraint is hybrid invariant (the impact keeps to it) and tracked exactly
-    regression              (26), (27) of the paper, on samples of a walk
 
-The methods find dP/ds in independent ways, so their agreement is evidence. A method that doubts its own result
+Both find dP/ds in independent ways, so their agreement is evidence. A method that doubts its own result
 says why (`MethodRow.doubt`). Two sets of multipliers are compared in pairs, one from each set. Of all ways to
 make pairs that one is taken whose sum of distances is least; distances are divided by the tolerance.
 `studies.cycle_stability` makes the table.
@@ -26,12 +22,9 @@ import numpy as np
 from scipy.linalg import eig
 from scipy.optimize import linear_sum_assignment
 
-from biped_adrc.analysis.regression import Regression
 from biped_adrc.analysis.return_map import ReturnMap, sorted_eigenvalues
 from biped_adrc.analysis.variational import StepDerivative
-from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.columns import columns
-from biped_adrc.control.npd import NPDController
 from biped_adrc.errors import InputError, check_positive
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
@@ -46,8 +39,6 @@ class StabilityMethod(Enum):
 
     VARIATIONAL = "variational equation"
     CENTRAL = "central differences"
-    ZERO_DYNAMICS = "delta^2 of the zero dynamics"
-    REGRESSION = "regression (27)"
 
 
 @dataclass(frozen=True)
@@ -131,20 +122,14 @@ class StabilityTable(Shown):
     def trusted(self) -> MethodRow:
         """The variational equation, or central differences where that is in doubt.
 
-        delta^2 is only one of the multipliers, and the regression gives none of them for certain.
         Raises InputError when no row is left.
         """
         for method in (StabilityMethod.VARIATIONAL, StabilityMethod.CENTRAL):
             for row in self.rows:
                 if row.method is method and not row.doubt:
                     return row
-        doubts = "; ".join(
-            f"{r.method.value}: {r.doubt or 'not all multipliers'}" for r in self.rows
-        )
-        raise InputError(
-            f"no method of this table gives all multipliers without a doubt ({doubts}); add the "
-            "variational equation, or central differences"
-        )
+        doubts = "; ".join(f"{r.method.value}: {r.doubt}" for r in self.rows)
+        raise InputError(f"no method gives the multipliers without a doubt ({doubts})")
 
     @property
     def stable(self) -> bool:
@@ -161,24 +146,12 @@ class StabilityTable(Shown):
     def gap(self, row: MethodRow) -> float:
         """Largest distance of a row to the trusted one in units of the tolerance; at most 1 when they agree.
 
-        delta^2 is one multiplier only and is compared with the nearest one. Infinite for any other row that has
-        not as many multipliers as the trusted one.
+        Infinite for a row that has not as many multipliers as the trusted one.
         """
-        ratio = self._ratio(row, row.noise)
-        if row.method is StabilityMethod.ZERO_DYNAMICS:
-            return float(np.min(ratio))
+        ratio = self.tolerances.distance(row.multipliers, self.trusted.multipliers, row.noise)
         if ratio.shape[0] != ratio.shape[1]:
             return float("inf")
         return _farthest(ratio)
-
-    def _ratio(self, row: MethodRow, noise: Array | None) -> Array:
-        """Distances (k, l) of a row's k multipliers to the l trusted ones, see `Tolerances.distance`.
-
-        noise (l,) is left out where it has another length.
-        """
-        trusted = self.trusted.multipliers
-        known = noise is not None and len(noise) == len(trusted)
-        return self.tolerances.distance(row.multipliers, trusted, noise if known else None)
 
     @property
     def verdict(self) -> str:
@@ -198,7 +171,7 @@ class StabilityTable(Shown):
         gap, t = self.gap(row), self.tolerances
         within = f"{t.relative:g} relative or {t.absolute:g} absolute"
         if row.noise is not None and np.isfinite(gap):
-            plain = _farthest(self._ratio(row, None))
+            plain = _farthest(self.tolerances.distance(row.multipliers, self.trusted.multipliers))
             if plain > 1.0 or gap > 1.0:
                 within += (
                     f" or what root finder and step leave open, at most {np.max(row.noise):.1e}"
@@ -215,8 +188,6 @@ class StabilityTable(Shown):
 
     def _limit(self, row: MethodRow) -> str:
         """Why a row disagrees with the trusted one, as the end of a sentence; empty where nothing is known."""
-        if row.method is StabilityMethod.ZERO_DYNAMICS:
-            return "; the closed loop does not keep to the zero dynamics, or the step is too long"
         if row.method is not StabilityMethod.CENTRAL or row.uncertainty == 0.0:
             return ""
         distance = _farthest(np.abs(row.multipliers[:, np.newaxis] - self.trusted.multipliers))
@@ -291,37 +262,6 @@ def central_row(P: ReturnMap, s: Array, step: StepDerivative | None = None) -> M
     return MethodRow(StabilityMethod.CENTRAL, best, changes, noise)
 
 
-def regression_row(regression: Regression) -> MethodRow:
-    """The row of the regression. Doubted when the data do not determine Phi, see `Regression.warning`."""
-    values = sorted_eigenvalues(regression.Phi)
-    return MethodRow(StabilityMethod.REGRESSION, values, doubt=regression.warning)
-
-
-def zero_dynamics_row(walker: Walker, tolerances: Tolerances) -> MethodRow | None:
-    """The row delta^2, or None where it is no multiplier of this closed loop.
-
-    It is one under NPD with `solve_theta`, in continuous time on even ground, without torque limit, friction,
-    disturbance or model error, for a constraint at whose end the swing foot is on the ground and which is
-    hybrid invariant (`invariance_gap`).
-    """
-    law, h = walker.controller, getattr(walker.controller, "reference", None)
-    if type(law) is not NPDController or type(h) is not VirtualConstraint or not law.solve_theta:
-        return None
-    if walker.ground_steps:
-        return None
-    if walker.sampled or walker.torque_limit is not None or walker.disturbance is not None:
-        return None
-    if walker.plant.friction or walker.nominal != walker.plant:
-        return None
-    if invariance_gap(walker.plant, h) > tolerances.invariance:
-        return None
-    zero = ZeroDynamics.of(walker.plant, h)
-    if abs(walker.clearance(zero.end_state(1.0)[0])) > tolerances.invariance:
-        return None
-    delta = zero.delta
-    return MethodRow(StabilityMethod.ZERO_DYNAMICS, np.array([delta**2], dtype=complex))
-
-
 def invariance_gap(biped: Biped, constraint: VirtualConstraint) -> float:
     """How far the state after impact is from the constraint q_b = h(Theta); zero for a hybrid invariant one.
 
@@ -341,7 +281,6 @@ def invariance_gap(biped: Biped, constraint: VirtualConstraint) -> float:
 def stability_table(
     P: ReturnMap,
     step: StepDerivative,
-    regression: Regression | None = None,
     tolerances: Tolerances | None = None,
     differences: bool = True,
 ) -> StabilityTable:
@@ -361,7 +300,4 @@ def stability_table(
     rows = [variational_row(step, t)]
     if differences:
         rows.append(central_row(P, step.s, step))
-    zero = zero_dynamics_row(P.walker, t)
-    rows += [] if zero is None else [zero]
-    rows += [] if regression is None else [regression_row(regression)]
     return StabilityTable(tuple(rows), t)
