@@ -287,8 +287,9 @@ def test_an_option_is_the_argument_it_says(name, option, folder):
 
 def test_walks_that_confirm_have_the_clock_that_was_asked_for(monkeypatch):
     called = []
-    for place in ("cli.observer:_print_walks", "studies.observer_check:check_delay"):
-        monkeypatch.setattr(*owner_of(place), lambda *_: None)
+    monkeypatch.setattr(*owner_of("cli.observer:_print_walks"), lambda *_: None)
+    late = SimpleNamespace(margin=1e-3, walked=lambda *_, **__: SimpleNamespace(tracks=True))
+    monkeypatch.setattr(*owner_of("studies.observer_check:DelayCase"), lambda *_: late)
     monkeypatch.setattr(
         *owner_of("studies.observer_check:check_encoders"), lambda *_, **named: called.append(named)
     )
