@@ -8,10 +8,10 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.stability import (
+    RELATIVE,
     MethodRow,
     StabilityMethod,
     StabilityTable,
-    Tolerances,
     central_row,
     invariance_gap,
     stability_table,
@@ -370,19 +370,19 @@ def row(values, method=StabilityMethod.CENTRAL, **more):
     ],
 )
 def test_methods_agree_within_tolerance_or_noise_in_any_order(agree, other):
-    table = StabilityTable((row(EQUATION, StabilityMethod.VARIATIONAL), other), Tolerances())
+    table = StabilityTable((row(EQUATION, StabilityMethod.VARIATIONAL), other))
     assert table.agree == agree
     assert ("agrees within" in table.verdict) == (agree and not other.doubt)
 
 
 @pytest.mark.parametrize("residual", [1e-2, math.nan])
 def test_an_equation_that_misses_the_flow_hands_the_trust_over(published, residual):
-    equation = variational_row(replace(published[1], flow_residual=residual), Tolerances())
-    table = StabilityTable((equation, row([1.2, 1e-3])), Tolerances())
+    equation = variational_row(replace(published[1], flow_residual=residual))
+    table = StabilityTable((equation, row([1.2, 1e-3])))
     assert table.trusted.method is StabilityMethod.CENTRAL
     assert not table.stable
     with pytest.raises(InputError):
-        _ = StabilityTable((equation,), Tolerances()).trusted
+        _ = StabilityTable((equation,)).trusted
 
 
 def test_recipe_gait_without_invariance(biped):
@@ -392,16 +392,14 @@ def test_recipe_gait_without_invariance(biped):
     walker = npd(biped, controller=ba.NPDController(gait.constraint))
     P = ba.ReturnMap(walker, ba.RK4(1e-3))
     orbit, step = periodic_orbit(P, np.concatenate((gait.q_minus, gait.v_minus)))
-    table = stability_table(P, step, differences=False)
-    assert [row.method for row in table.rows] == [StabilityMethod.VARIATIONAL]
-    assert table.stable
+    assert StabilityTable((variational_row(step),)).stable
     assert orbit.stable
     values, vectors = np.linalg.eig(step.jacobian)
     first = np.argmax(np.abs(values))
     w = vectors[:, first].real
     close(directional(P, step.s, w, 1e-5), values[first].real * w, 1e-5)
     delta2 = ZeroDynamics.of(biped, gait.constraint).delta ** 2
-    assert abs(delta2 - values[first].real) > 10.0 * Tolerances().relative
+    assert abs(delta2 - values[first].real) > 10.0 * RELATIVE
 
 
 # -- the noise of differences ----------------------------------------------------------------------

@@ -25,7 +25,7 @@ from scipy.optimize import linear_sum_assignment
 from biped_adrc.analysis.return_map import ReturnMap, sorted_eigenvalues
 from biped_adrc.analysis.variational import StepDerivative
 from biped_adrc.columns import columns
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.constants import XRTOL, XTOL
@@ -41,34 +41,14 @@ class StabilityMethod(Enum):
     CENTRAL = "central differences"
 
 
-@dataclass(frozen=True)
-class Tolerances(Shown):
-    """Two multipliers agree within `relative` of the larger one or within `absolute`; dimensionless."""
-
-    relative: float = 1e-6
-    absolute: float = 1e-7
-    flow: float = 1e-5
-    """The largest `StepDerivative.flow_residual` with which the variational equation is trusted."""
-    invariance: float = 1e-6
-    """The largest `invariance_gap` with which a constraint counts as hybrid invariant [rad, rad/s]."""
-    cycle: float = 1e-8
-    """The largest |P(s) - s| of a step whose eigenvalues count as multipliers [rad, rad/s]."""
-
-    def __post_init__(self) -> None:
-        for name, value in vars(self).items():
-            check_positive(value, f"tolerance '{name}' is {value}")
-
-    def distance(self, one: ComplexArray, other: ComplexArray, noise: Array | None = None) -> Array:
-        """Distance of every multiplier of one set to every one of the other; at most 1 where they agree.
-
-        one (k,), other (l,) -> (k, l): |one_i - other_j| divided by the largest of the absolute tolerance, the
-        relative one, and noise (l,), what errors of computing may do to each of `other`.
-        """
-        a, b = one[:, np.newaxis], other[np.newaxis]
-        allowed = np.maximum(self.absolute, self.relative * np.maximum(np.abs(a), np.abs(b)))
-        if noise is not None:
-            allowed = np.maximum(allowed, noise)
-        return np.abs(a - b) / allowed
+RELATIVE, ABSOLUTE = 1e-6, 1e-7
+"""Two multipliers agree within the first of the larger one, or within the second."""
+FLOW = 1e-5
+"""The largest `StepDerivative.flow_residual` with which the variational equation is trusted."""
+INVARIANCE = 1e-6
+"""The largest `invariance_gap` with which a constraint counts as hybrid invariant [rad, rad/s]."""
+CYCLE = 1e-8
+"""The largest |P(s) - s| of a step whose eigenvalues count as multipliers [rad, rad/s]."""
 
 
 @dataclass(frozen=True)
@@ -98,20 +78,14 @@ class MethodRow(Shown):
 
 @dataclass(frozen=True)
 class StabilityTable(Shown):
-    """One row per method; `verdict` says whether they agree within `tolerances` and which to trust.
+    """One row per method; `verdict` says whether they agree and which to trust.
 
-    Raises InputError without rows, for two rows of one method, and for multipliers that are not
-    finite.
+    Raises InputError for multipliers that are not finite.
     """
 
     rows: tuple[MethodRow, ...]
-    tolerances: Tolerances
 
     def __post_init__(self) -> None:
-        methods = [row.method for row in self.rows]
-        if not methods or len(set(methods)) != len(methods):
-            found = [method.value for method in methods]
-            raise InputError(f"found rows {found}, expected at least one, and one per method")
         for row in self.rows:
             if not (len(row.multipliers) and np.all(np.isfinite(row.multipliers))):
                 raise InputError(
@@ -148,7 +122,7 @@ class StabilityTable(Shown):
 
         Infinite for a row that has not as many multipliers as the trusted one.
         """
-        ratio = self.tolerances.distance(row.multipliers, self.trusted.multipliers, row.noise)
+        ratio = _distances(row.multipliers, self.trusted.multipliers, row.noise)
         if ratio.shape[0] != ratio.shape[1]:
             return float("inf")
         return _farthest(ratio)
@@ -168,10 +142,10 @@ class StabilityTable(Shown):
         name = row.method.value[:1].upper() + row.method.value[1:]
         if row.doubt:
             return f"{name}: not to be trusted, {row.doubt}."
-        gap, t = self.gap(row), self.tolerances
-        within = f"{t.relative:g} relative or {t.absolute:g} absolute"
+        gap = self.gap(row)
+        within = f"{RELATIVE:g} relative or {ABSOLUTE:g} absolute"
         if row.noise is not None and np.isfinite(gap):
-            plain = _farthest(self.tolerances.distance(row.multipliers, self.trusted.multipliers))
+            plain = _farthest(_distances(row.multipliers, self.trusted.multipliers))
             if plain > 1.0 or gap > 1.0:
                 within += (
                     f" or what root finder and step leave open, at most {np.max(row.noise):.1e}"
@@ -210,22 +184,35 @@ class StabilityTable(Shown):
         return "\n".join([*columns(rows, 28, gap=1), self.verdict])
 
 
+def _distances(one: ComplexArray, other: ComplexArray, noise: Array | None = None) -> Array:
+    """Distance of every multiplier of one set to every one of the other; at most 1 where they agree.
+
+    one (k,), other (l,) -> (k, l): |one_i - other_j| divided by the largest of the absolute tolerance, the
+    relative one, and noise (l,), what errors of computing may do to each of `other`.
+    """
+    a, b = one[:, np.newaxis], other[np.newaxis]
+    allowed = np.maximum(ABSOLUTE, RELATIVE * np.maximum(np.abs(a), np.abs(b)))
+    if noise is not None:
+        allowed = np.maximum(allowed, noise)
+    return np.abs(a - b) / allowed
+
+
 def _farthest(cost: Array) -> float:
     """The largest cost of a pair when rows and columns of `cost` (k, k) are paired at least total cost."""
     return float(np.max(cost[linear_sum_assignment(cost)]))
 
 
 # -- rows ------------------------------------------------------------------------------------------
-def variational_row(step: StepDerivative, tolerances: Tolerances) -> MethodRow:
+def variational_row(step: StepDerivative) -> MethodRow:
     """The row of the variational equation.
 
     Doubted when Phi f(0) is not f-, the flow before the next impact, see `StepDerivative.flow_residual`.
     """
     doubt = ""
-    if not step.flow_residual <= tolerances.flow:
+    if not step.flow_residual <= FLOW:
         doubt = (
             f"its Phi carries the flow along to {step.flow_residual:.1e} only, expected "
-            f"{tolerances.flow:g}: take a shorter step, or look whether the flow depends on time"
+            f"{FLOW:g}: take a shorter step, or look whether the flow depends on time"
         )
     return MethodRow(StabilityMethod.VARIATIONAL, step.multipliers, doubt=doubt)
 
@@ -281,23 +268,16 @@ def invariance_gap(biped: Biped, constraint: VirtualConstraint) -> float:
 def stability_table(
     P: ReturnMap,
     step: StepDerivative,
-    tolerances: Tolerances | None = None,
-    differences: bool = True,
 ) -> StabilityTable:
     """The table at the fixed point of `step`, as `variational.periodic_orbit` finds it.
 
-    differences: also take central differences of P, which cost 4 steps of walking per coordinate. Raises
-    InputError when |P(s) - s| of the step is above `tolerances.cycle`: its eigenvalues are then no
-    multipliers.
+    Central differences of P cost 4 steps of walking per coordinate. Raises InputError when |P(s) - s| of the
+    step is above `CYCLE`: its eigenvalues are then no multipliers.
     """
-    t = Tolerances() if tolerances is None else tolerances
     gap = float(np.max(np.abs(step.image - step.s)))
-    if gap > t.cycle:
+    if gap > CYCLE:
         raise InputError(
-            f"P(s) - s is {gap:.3g} at this step, expected a fixed point within {t.cycle:g}; find it "
+            f"P(s) - s is {gap:.3g} at this step, expected a fixed point within {CYCLE:g}; find it "
             "with variational.periodic_orbit"
         )
-    rows = [variational_row(step, t)]
-    if differences:
-        rows.append(central_row(P, step.s, step))
-    return StabilityTable(tuple(rows), t)
+    return StabilityTable((variational_row(step), central_row(P, step.s, step)))

@@ -18,7 +18,6 @@ coordinates.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -32,7 +31,6 @@ from biped_adrc.analysis.stability import (
     MethodRow,
     StabilityMethod,
     StabilityTable,
-    Tolerances,
     stability_table,
 )
 from biped_adrc.analysis.variational import periodic_orbit
@@ -118,7 +116,6 @@ def find_cycle(
     controller: str | None = None,
     observer_states: bool = True,
     slope: float | None = None,
-    own: Mapping[str, Any] | None = None,
 ) -> Cycle:
     """The cycle of a robot by name: of a gait under a controller (by default NPD), passive without motors.
 
@@ -126,11 +123,11 @@ def find_cycle(
         passive = ba.find_cycle("compass", slope=0.05)
 
     observer_states: whether the controller's states belong to the state of the return map. slope: [rad], of
-    another ground. own: own values of the controller. Raises InputError for a controller that does not fit the
+    another ground. Raises InputError for a controller that does not fit the
     robot, and as Biped.load, load_gait, known_cycle.
     """
     s = Scenario(
-        {"name": controller or "NPD", **(own or {})},
+        {"name": controller or "NPD"},
         robot={"name": robot, "preset": preset},
         gait=gait,
     )
@@ -162,7 +159,7 @@ def cycle_of(s: Scenario, observer_states: bool = True, slope: float | None = No
     return known_cycle(walker.plant, walker.slope if slope is None else slope)
 
 
-def cycle_stability(cycle: Cycle, tolerances: Tolerances | None = None) -> CycleStability:
+def cycle_stability(cycle: Cycle) -> CycleStability:
     """Fixed point of a cycle and its multipliers by every method.
 
         found = ba.cycle_stability(ba.find_cycle("rabbit", controller="NPD"))
@@ -170,19 +167,18 @@ def cycle_stability(cycle: Cycle, tolerances: Tolerances | None = None) -> Cycle
     The methods are independent of each other, the variational equation along the step with the saltation at
     impact, and central differences of the return map. That they agree is the test of each.
 
-    tolerances: within which the methods have to agree. For a controller with states only central differences
-    apply, since the variational equation is written for the mechanics alone. Raises SimulationError when no
-    fixed point is found.
+    For a controller with states only central differences apply, since the variational equation is written for
+    the mechanics alone. Raises SimulationError when no fixed point is found.
     """
     check_part(cycle, "cycle", Cycle)
-    P, t = cycle.P, Tolerances() if tolerances is None else tolerances
+    P = cycle.P
     if len(cycle.guess) > 2 * P.walker.plant.n:
         guess = cycle.guess if P.controller_states else cycle.guess[: 2 * P.walker.plant.n]
         orbit = P.fixed_point(guess)
         row = MethodRow(StabilityMethod.CENTRAL, orbit.multipliers)
-        return CycleStability(cycle, orbit, StabilityTable((row,), t))
+        return CycleStability(cycle, orbit, StabilityTable((row,)))
     orbit, step = periodic_orbit(P, cycle.guess, SETTLES)
-    return CycleStability(cycle, orbit, stability_table(P, step, t))
+    return CycleStability(cycle, orbit, stability_table(P, step))
 
 
 def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = None) -> Certificate:

@@ -64,7 +64,7 @@ def inside(x: Array, low: float, high: float) -> NDArray[np.bool_]:
     return kept | np.isnan(x) | ((x >= low) & (x <= high))
 
 
-def thin(figure: Figure, columns: int = COLUMNS) -> Figure:
+def thin(figure: Figure) -> Figure:
     """Thin every line of the figure to what its panel shows, in place; returns the figure.
 
     Limits of the axes stay those of all points. Panels with a logarithmic x are left as they are.
@@ -72,11 +72,11 @@ def thin(figure: Figure, columns: int = COLUMNS) -> Figure:
     for axes in figure.axes:
         low, high = sorted(axes.get_xlim())
         axes.get_ylim()  # the limits are those of all points
-        _thin_axes(axes, low, high, columns)
+        _thin_axes(axes, low, high)
     return figure
 
 
-def _thin_axes(axes: Axes, low: float, high: float, columns: int) -> None:
+def _thin_axes(axes: Axes, low: float, high: float) -> None:
     """Thin the lines of one panel that shows x from low to high; lines in other coordinates are left alone."""
     if axes.get_xscale() != "linear":
         return
@@ -87,5 +87,5 @@ def _thin_axes(axes: Axes, low: float, high: float, columns: int) -> None:
         shown = np.flatnonzero(inside(x, low, high))
         kept = shown
         if len(shown) > 4:
-            kept = shown[thinned(x[shown], y[shown], (high - low) / columns)]
+            kept = shown[thinned(x[shown], y[shown], (high - low) / COLUMNS)]
         line.set_data(x[kept], y[kept])
