@@ -7,6 +7,7 @@ they have to be, and the value. The same place has to hold another value without
 from __future__ import annotations
 
 import importlib
+import math
 from collections.abc import Callable
 from functools import reduce
 from inspect import signature
@@ -290,6 +291,7 @@ def test_walks_that_confirm_have_the_clock_that_was_asked_for(monkeypatch):
     monkeypatch.setattr(*owner_of("cli.observer:_print_walks"), lambda *_: None)
     late = SimpleNamespace(margin=1e-3, walked=lambda *_, **__: SimpleNamespace(tracks=True))
     monkeypatch.setattr(*owner_of("studies.observer_check:DelayCase"), lambda *_: late)
+    monkeypatch.setattr(*owner_of("studies.observer_check:robot_margin"), lambda *_: math.nan)
     monkeypatch.setattr(
         *owner_of("studies.observer_check:check_encoders"), lambda *_, **named: called.append(named)
     )

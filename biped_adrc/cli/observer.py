@@ -7,6 +7,7 @@ the robot agrees.
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -109,7 +110,13 @@ def _confirm(
     """Walk at the delay margin with unknown and known delay, then without and with encoders, and print
     the walks.
     """
-    from biped_adrc.studies.observer_check import ABOVE, BELOW, DelayCase, check_encoders
+    from biped_adrc.studies.observer_check import (
+        ABOVE,
+        BELOW,
+        DelayCase,
+        check_encoders,
+        robot_margin,
+    )
 
     with bar() as progress:
         task = progress.add_task("walks with a late torque, then with encoders", total=4)
@@ -119,9 +126,13 @@ def _confirm(
             below, above = (case.walked(share * case.margin) for share in (BELOW, ABOVE))
             limit = biped.description.peak_torque
             walks += [below, above, case.walked(ABOVE * case.margin, torque_limit=limit)]
+            own = robot_margin(case)
+            words = f"{1e6 * own:.4g} us ({100 * (own / case.margin - 1.0):+.2g} %)"
+            words = words if math.isfinite(own) else "far from it"
             said.append(
                 f"delay {'known' if known else 'hidden'}: linear margin {1e6 * case.margin:.4g} us, "
-                f"{'confirmed' if below.tracks and not above.tracks else 'NOT confirmed'}"
+                f"{'confirmed' if below.tracks and not above.tracks else 'NOT confirmed'}; "
+                f"the robot's own {words}"
             )
             progress.advance(task)
         for seen in (None, clock.counts):

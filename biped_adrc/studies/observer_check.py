@@ -6,7 +6,7 @@ gait with one rate off by NUDGE. It tracks when it finishes and its errors do no
     max |q_b - h| of the last two steps < GROWTH * that of the step after the first impact
 
 The linear loop takes kappa u(t - d) for what is kappa(q(t)) u(t - d), and its reference moves by itself, while
-Theta moves with the joints.
+Theta moves with the joints: `robot_margin` finds by bisection where the robot itself stops tracking.
 
 `observer_design` computes margins from transfer functions and never walks; this module gives the proof in
 simulation. Called by `biped-adrc observer` and by users who design an observer.
@@ -17,6 +17,7 @@ simulation. Called by `biped-adrc observer` and by users who design an observer.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -50,6 +51,8 @@ BELOW, ABOVE = 0.95, 1.05
 """Delays of the two walks, as shares of the margin."""
 ORDER = 4
 """Of the rational approximant of the delay."""
+LOW, HIGH, RESOLUTION = 0.8, 1.2, 2e-3
+"""Interval of the bisection for the robot's own margin and its resolution, as shares of the linear margin."""
 LONGEST_STEP, REACH = 1e-4, 0.5
 """Longest step h of RK4 [s], and largest h |p| for the fastest pole of observer and delay line; RK4 is stable
 up to
@@ -115,6 +118,20 @@ class DelayCase(NamedTuple):
         words = f"{1e6 * delay:.4g} us {'known' if self.known else 'hidden'}, {limit}"
         name, errors = observer_name(self.observer), step_errors(self.gait, run.trajectory)
         return CheckedWalk(name, words, run.trajectory.status, errors)
+
+
+def robot_margin(case: DelayCase) -> float:
+    """The delay [s] at which the robot stops tracking, by bisection to RESOLUTION of the linear margin.
+
+    nan where the robot does not track at LOW times the linear margin, or still does at HIGH times it.
+    """
+    margin, low, high = case.margin, LOW, HIGH
+    if not case.walked(low * margin).tracks or case.walked(high * margin).tracks:
+        return math.nan
+    while high - low > RESOLUTION:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if case.walked(middle * margin).tracks else (low, middle)
+    return 0.5 * (low + high) * margin
 
 
 def check_encoders(
