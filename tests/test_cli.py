@@ -51,7 +51,7 @@ def test_walk_store_and_animate(tmp_path, command):
 
 
 def test_multipliers_of_a_robot_without_motors(command):
-    done = command("poincare", "--robot", "compass", "--samples", "5")
+    done = command("poincare", "--robot", "compass")
     assert done.code == 0, done.stderr
     table = {line[:29].strip(): line[29:].split() for line in done.stdout.splitlines()}
     assert table["variational equation"] == table["central differences"]

@@ -7,6 +7,7 @@ they have to be, and the value. The same place has to hold another value without
 from __future__ import annotations
 
 import importlib
+import math
 from collections.abc import Callable
 from functools import reduce
 from inspect import signature
@@ -158,9 +159,6 @@ SIMULATE = {
 POINCARE = {
     "slope": Row("--set ground.slope=0.03", scenario_field("ground.slope"), 0.03),
     "observer_states": Row("--no-observer-states", same("observer_states"), False),
-    "samples": Row(
-        "--samples 7", same("samples"), 7, "studies.cycle_stability:cycle_stability"
-    ),
 }  # fmt: skip
 STATE = ",".join(str(0.1 * k) for k in range(10))
 DESIGN = {
@@ -290,8 +288,10 @@ def test_an_option_is_the_argument_it_says(name, option, folder):
 
 def test_walks_that_confirm_have_the_clock_that_was_asked_for(monkeypatch):
     called = []
-    for place in ("cli.observer:_print_walks", "studies.observer_check:check_delay"):
-        monkeypatch.setattr(*owner_of(place), lambda *_: None)
+    monkeypatch.setattr(*owner_of("cli.observer:_print_walks"), lambda *_: None)
+    late = SimpleNamespace(margin=1e-3, walked=lambda *_, **__: SimpleNamespace(tracks=True))
+    monkeypatch.setattr(*owner_of("studies.observer_check:DelayCase"), lambda *_: late)
+    monkeypatch.setattr(*owner_of("studies.observer_check:robot_margin"), lambda *_: math.nan)
     monkeypatch.setattr(
         *owner_of("studies.observer_check:check_encoders"), lambda *_, **named: called.append(named)
     )

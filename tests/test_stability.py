@@ -13,11 +13,7 @@ from scipy.integrate import solve_ivp
 
 import biped_adrc as ba
 from biped_adrc.analysis.return_map import ReturnMap, sorted_eigenvalues
-from biped_adrc.analysis.stability import (
-    StabilityMethod,
-    Tolerances,
-    zero_dynamics_row,
-)
+from biped_adrc.analysis.stability import StabilityMethod
 from biped_adrc.analysis.variational import (
     StepDerivative,
     periodic_orbit,
@@ -62,12 +58,10 @@ def test_table_of_a_passive_robot(robot: str) -> None:
     assert [row.method for row in found.table.rows] == [
         StabilityMethod.VARIATIONAL,
         StabilityMethod.CENTRAL,
-        StabilityMethod.REGRESSION,
     ]
     check(*(row.multipliers for row in found.table.rows[:2]))
     assert found.table.agree
     assert found.table.stable
-    assert "Regression (27): not to be trusted" in found.table.verdict
 
 
 def test_multipliers_of_the_literature() -> None:
@@ -192,7 +186,7 @@ def test_samples_of_the_return_map_are_those_of_the_zero_dynamics(
 def test_multipliers_of_the_three_link_walker() -> None:
     """The impact leaves its constraint, so that there is no delta^2."""
     cycle = three_link()
-    table = cycle_stability(cycle, samples=0).table
+    table = cycle_stability(cycle).table
     assert [row.method for row in table.rows] == [
         StabilityMethod.VARIATIONAL,
         StabilityMethod.CENTRAL,
@@ -204,7 +198,7 @@ def test_multipliers_of_the_three_link_walker() -> None:
 
 # -- what is refused ---------------------------------------------------------------------------------
 def test_a_law_of_ones_own_is_not_taken_for_npd(biped: ba.Biped, gait: ba.Gait) -> None:
-    """A subclass may say anything: its torque is differenced, and delta^2 is none of its multipliers."""
+    """A subclass may say anything: its torque is differenced."""
 
     class Halved(ba.NPDController):
         def output(self, s: np.ndarray, m: ba.Measurement) -> np.ndarray:
@@ -215,7 +209,3 @@ def test_a_law_of_ones_own_is_not_taken_for_npd(biped: ba.Biped, gait: ba.Gait) 
     x = np.concatenate((gait.q_minus, 1.1 * gait.v_minus))
     one, other = (torque_derivative(w, w.instant(0.0, x, ba.Mode())) for w in (walker, halved))
     np.testing.assert_allclose(other, 0.5 * one, rtol=0.0, atol=1e-9 * np.max(np.abs(one)))
-    pushed = replace(walker, disturbance=ba.TorqueStep([1.0, 0, 0, 0, 0], step=1, start=0.1))
-    assert zero_dynamics_row(walker, Tolerances()) is not None
-    assert zero_dynamics_row(halved, Tolerances()) is None
-    assert zero_dynamics_row(pushed, Tolerances()) is None

@@ -20,8 +20,10 @@ import numpy as np
 
 from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.analysis.stability import (
+    ABSOLUTE,
+    INVARIANCE,
+    RELATIVE,
     StabilityMethod,
-    Tolerances,
     invariance_gap,
     stability_table,
 )
@@ -53,7 +55,7 @@ CLOSED = "delta^2 of the zero dynamics"
 
 def invariant_gaits(preset: str) -> tuple[str, ...]:
     """Names of the stored gaits of RABBIT whose constraint the impact preserves (hybrid invariance)."""
-    biped, limit = Biped.load("rabbit", preset), Tolerances().invariance
+    biped, limit = Biped.load("rabbit", preset), INVARIANCE
     gaits = (load_gait(name, biped) for name in gait_names("rabbit", preset))
     return tuple(g.name for g in gaits if invariance_gap(biped, g.constraint) <= limit)
 
@@ -144,8 +146,8 @@ def robot_rows(robot: str) -> tuple[Row, ...]:
         for method in (StabilityMethod.VARIATIONAL, StabilityMethod.CENTRAL)
     )
     one, other = (float(row.magnitudes[0]) for row in (central, exact))
-    t, count = table.tolerances, len(exact.multipliers)
-    unit = f"max({t.absolute:g}, {t.relative:g} |lambda|)"
+    count = len(exact.multipliers)
+    unit = f"max({ABSOLUTE:g}, {RELATIVE:g} |lambda|)"
     by = "central differences of the return map"
     name = "simplest, feet of 1e-4 of the hip's mass" if robot == "simplest" else robot
     return (

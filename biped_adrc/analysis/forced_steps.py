@@ -25,7 +25,7 @@ import numpy as np
 
 from biped_adrc.analysis.stride_gain import bumped
 from biped_adrc.control.stride import StridePI
-from biped_adrc.errors import GaitError, InputError, check_positive
+from biped_adrc.errors import GaitError, InputError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, gauss_nodes
@@ -35,6 +35,8 @@ from biped_adrc.types import Array
 
 NODES = 400
 """Number of Gauss nodes of T; a step that nearly comes to rest needs more of them than V_F does."""
+LONGEST = 2.0
+"""Step that stops a walk [s]."""
 LARGEST = 1e3
 """Force at which the search for one that stops a walk gives up [N]."""
 RESOLUTION = 1e-3
@@ -90,15 +92,14 @@ def forced_walk(
     force: float,
     steps: int,
     stride: StridePI | None = None,
-    longest: float = 2.0,
 ) -> tuple[ForcedStep, ...]:
     """The finished steps, at most `steps`, from the gait's orbit on, under F_x = force [N] from the start.
 
-    stride: the PI from step to step; the controller inside it plays no part. longest [s]: a longer
-    step stops the walk. Raises InputError for values that cannot be used, GaitError where the gait
-    has no periodic orbit.
+    stride: the PI from step to step; the controller inside it plays no part. A step longer than
+    LONGEST stops the walk. Raises InputError for a gait on a slope, GaitError for one
+    without a periodic orbit.
     """
-    _check(gait, force, steps, longest)
+    _check_level(gait)
     zero = ZeroDynamics.of(biped, gait.constraint)
     delta2, zeta = zero.delta**2, 0.5 * zero.sigma_minus**2
     length = float(np.hypot(*biped.swing_foot(gait.q_minus)))
@@ -109,7 +110,7 @@ def forced_walk(
             h = bumped(gait.constraint, w[2] * np.array(stride.direction))
             curve = ForcedCurve.of(biped, h, force)
         T = curve.duration(delta2 * zeta)
-        if not longest >= T:
+        if not LONGEST >= T:
             break
         zeta = delta2 * zeta - curve.end
         done.append(ForcedStep(length / T, float(w[2]), zeta))
@@ -146,13 +147,8 @@ def stopping_force(gait: Gait, biped: Biped, steps: int, stride: StridePI | None
     return high
 
 
-def _check(gait: Gait, force: float, steps: int, longest: float) -> None:
-    """Raise InputError for a force, number of steps or duration that is impossible, and for a slope."""
-    if not math.isfinite(force):
-        raise InputError(f"the force on the hip is {force} N, expected a finite number")
-    if steps < 1:
-        raise InputError(f"a walk of {steps} steps was asked for, expected at least 1")
-    check_positive(longest, f"the longest step is {longest} s")
+def _check_level(gait: Gait) -> None:
+    """Raise InputError for a gait on a slope."""
     if gait.slope:
         raise InputError(
             f"gait '{gait.name}' walks on a slope of {gait.slope} rad, expected level ground"

@@ -29,6 +29,18 @@ def recorded(trajectory: Trajectory, name: str) -> Array | None:
     return np.vstack([arc.read[name] for arc in trajectory.arcs])
 
 
+def footholds(walker: Walker, trajectory: Trajectory) -> Array:
+    """x and z [m] of the stance foot at the start of each arc (arcs, 2): the first stands at x = z = 0, each
+    impact moves it by p_2(q-), the swing foot; on soft ground as recorded.
+    """
+    foot, feet, plant = np.zeros(2), [], walker.plant
+    for arc in trajectory.arcs:
+        feet.append(arc.read[PLACE][0, :2] if PLACE in arc.read else foot)
+        if arc.event is not None and arc.event.x_plus is not None:
+            foot = foot + plant.swing_foot(arc.event.x_minus[: plant.n])
+    return np.array(feet)
+
+
 def as_recorded(walker: Walker, trajectory: Trajectory, found: InstantSignals) -> InstantSignals:
     """The readings at all nodes with q'', ground force, momentum and xi of the plant that walked, in place of
     the rigid one's.

@@ -5,8 +5,7 @@
 x-(k) is the state before impact k of one walk. Ten states are regressed on a section of nine
 dimensions, and a walk that converges along one direction excites one direction: Phi is not
 determined by such data. So rank and condition number are returned with the eigenvalues, and
-`warning` says what they are worth. `stability.regression_row` puts it beside the methods that can
-be trusted.
+`warning` says what they are worth.
 """
 
 from __future__ import annotations
@@ -18,6 +17,9 @@ import numpy as np
 from biped_adrc.errors import InputError
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
+
+RANK = 1e-8
+"""Relative size below which a direction does not count for the rank."""
 
 
 @dataclass(frozen=True)
@@ -48,11 +50,11 @@ class Regression(Shown):
         )
 
 
-def regress_multipliers(x_minus: Array, x_star: Array, tolerance: float = 1e-8) -> Regression:
+def regress_multipliers(x_minus: Array, x_star: Array) -> Regression:
     """(27) from states before impact (k, n) [rad, rad/s] and the fixed point (n,).
 
-    `tolerance` is the relative size below which a direction does not count for the rank. Raises
-    InputError for fewer than three samples.
+    Directions below RANK of the largest do not count for the rank. Raises InputError for fewer than three
+    samples.
     """
     if x_minus.ndim != 2 or x_minus.shape[0] < 3:
         raise InputError(f"found samples of shape {x_minus.shape}, expected (k, n) with k >= 3")
@@ -61,7 +63,7 @@ def regress_multipliers(x_minus: Array, x_star: Array, tolerance: float = 1e-8) 
     found, _, _, singular = np.linalg.lstsq(before, after, rcond=None)
     solution = np.asarray(found, dtype=np.float64)
     magnitudes = np.sort(np.abs(np.linalg.eigvals(solution.T)))[::-1]
-    rank = int(np.sum(singular > tolerance * singular[0]))
+    rank = int(np.sum(singular > RANK * singular[0]))
     smallest = float(singular[-1]) if len(singular) == x_minus.shape[1] else 0.0
     condition = float(singular[0]) / smallest if smallest > 0 else float("inf")
     return Regression(solution.T, magnitudes, rank, condition, len(x_minus))

@@ -38,6 +38,8 @@ from biped_adrc.types import Array, ComplexArray
 if TYPE_CHECKING:
     from biped_adrc.engine.batch import Strides
 
+MOST_ITERATIONS = 12
+"""Of Newton's method on P(s) - s."""
 _CHORD = 0.1  # the residual must fall by this factor with the old dP/ds, else it is taken anew
 
 
@@ -186,9 +188,7 @@ class ReturnMap(Shown):
         images = self.images(points)
         return np.array([(images[2 * i] - images[2 * i + 1]) / (2.0 * d) for i in range(len(s))]).T
 
-    def fixed_point(
-        self, guess: Array, tolerance: float = 1e-9, max_iterations: int = 12
-    ) -> PeriodicOrbit:
+    def fixed_point(self, guess: Array, tolerance: float = 1e-9) -> PeriodicOrbit:
         """Newton's method on P(s) - s from a state before impact `guess` (2 n + c,) [rad, rad/s].
 
         dP/ds is kept from iteration to iteration while the residual falls fast enough, since it
@@ -198,7 +198,7 @@ class ReturnMap(Shown):
         """
         s = self.project(np.asarray(guess, dtype=float))
         J, s_J, previous = self.jacobian(s), s, np.inf
-        for iteration in range(1, max_iterations + 1):
+        for iteration in range(1, MOST_ITERATIONS + 1):
             gap = self(s) - s
             residual = float(np.max(np.abs(gap)))
             done = residual < tolerance
@@ -208,7 +208,7 @@ class ReturnMap(Shown):
             if done:
                 return PeriodicOrbit(self.lift(s), sorted_eigenvalues(J), residual, iteration)
             s, previous = s + newton_step(J, gap), residual
-        raise not_converged(max_iterations, residual, tolerance)
+        raise not_converged(residual, tolerance)
 
 
 def _no_return(status: Status, detail: str) -> SimulationError:
@@ -241,9 +241,9 @@ def sorted_eigenvalues(matrix: Array) -> ComplexArray:
     return values[np.argsort(-np.abs(values))]
 
 
-def not_converged(iterations: int, residual: float, tolerance: float) -> SimulationError:
+def not_converged(residual: float, tolerance: float) -> SimulationError:
     """The error of Newton's method when it gives up."""
     return SimulationError(
-        f"Newton on the return map did not converge in {iterations} iterations: "
+        f"Newton on the return map did not converge in {MOST_ITERATIONS} iterations: "
         f"residual {residual:.3g}, expected below {tolerance:g}; start nearer to the orbit"
     )

@@ -13,7 +13,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from biped_adrc.analysis.quadrature import largest
-from biped_adrc.analysis.recorded_signals import PLACE, as_recorded, recorded
+from biped_adrc.analysis.recorded_signals import PLACE, as_recorded, footholds, recorded
 from biped_adrc.closed_loop.instant_signals import InstantSignals, signals_at
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Measurement
@@ -154,12 +154,7 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
     q, v = x[:, :n], x[:, n : 2 * n]
     foot = recorded(trajectory, PLACE)
     if foot is None:
-        at, places = np.zeros(2), []
-        for arc in arcs:
-            places.append(np.tile(at, (len(arc.t), 1)))
-            if arc.event is not None and arc.event.x_plus is not None:
-                at = at + walker.plant.swing_foot(arc.event.x_minus[:n])
-        foot = np.vstack(places)
+        foot = np.repeat(footholds(walker, trajectory), [len(arc.t) for arc in arcs], axis=0)
     outside = np.zeros((len(x), 2))
     if walker.disturbance is not None and walker.disturbance.pulls:
         outside = np.array([walker.resultant(float(t), arc.mode) for arc in arcs for t in arc.seen])

@@ -1,4 +1,4 @@
-"""Whether a walking cycle is stable: its multipliers by every method side by side, and which to trust.
+"""Whether a walking cycle is stable: its multipliers by two methods side by side, and which to trust.
 
 P is the return map from just before one impact to just before the next, s (k,) [rad, rad/s] its point. The
 multipliers of a cycle, P(s) = s, are the eigenvalues lambda of dP/ds; it is stable if all |lambda| < 1.
@@ -6,12 +6,8 @@ multipliers of a cycle, P(s) = s, are the eigenvalues lambda of dP/ds; it is sta
     variational             eigenvalues of dP/ds by the variational equation, no differences
     central differences     eigenvalues of dP/ds by differences of the return map at two widths d and d / 2,
                             extrapolated: (4 J(d/2) - J(d)) / 3 is dP/ds up to d^4 and round-off / d
-    delta^2                 (sigma+ / sigma-)^2, sigma the angular momentum about the stance foot just before
-                            (-) and after (+) impact: one of the multipliers, in closed form, where the
-                            constraint is hybrid invariant (the impact keeps to it) and tracked exactly
-    regression              (26), (27) of the paper, on samples of a walk
 
-The methods find dP/ds in independent ways, so their agreement is evidence. A method that doubts its own result
+Both find dP/ds in independent ways, so their agreement is evidence. A method that doubts its own result
 says why (`MethodRow.doubt`). Two sets of multipliers are compared in pairs, one from each set. Of all ways to
 make pairs that one is taken whose sum of distances is least; distances are divided by the tolerance.
 `studies.cycle_stability` makes the table.
@@ -26,13 +22,10 @@ import numpy as np
 from scipy.linalg import eig
 from scipy.optimize import linear_sum_assignment
 
-from biped_adrc.analysis.regression import Regression
 from biped_adrc.analysis.return_map import ReturnMap, sorted_eigenvalues
 from biped_adrc.analysis.variational import StepDerivative
-from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.columns import columns
-from biped_adrc.control.npd import NPDController
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.constants import XRTOL, XTOL
@@ -46,38 +39,16 @@ class StabilityMethod(Enum):
 
     VARIATIONAL = "variational equation"
     CENTRAL = "central differences"
-    ZERO_DYNAMICS = "delta^2 of the zero dynamics"
-    REGRESSION = "regression (27)"
 
 
-@dataclass(frozen=True)
-class Tolerances(Shown):
-    """Two multipliers agree within `relative` of the larger one or within `absolute`; dimensionless."""
-
-    relative: float = 1e-6
-    absolute: float = 1e-7
-    flow: float = 1e-5
-    """The largest `StepDerivative.flow_residual` with which the variational equation is trusted."""
-    invariance: float = 1e-6
-    """The largest `invariance_gap` with which a constraint counts as hybrid invariant [rad, rad/s]."""
-    cycle: float = 1e-8
-    """The largest |P(s) - s| of a step whose eigenvalues count as multipliers [rad, rad/s]."""
-
-    def __post_init__(self) -> None:
-        for name, value in vars(self).items():
-            check_positive(value, f"tolerance '{name}' is {value}")
-
-    def distance(self, one: ComplexArray, other: ComplexArray, noise: Array | None = None) -> Array:
-        """Distance of every multiplier of one set to every one of the other; at most 1 where they agree.
-
-        one (k,), other (l,) -> (k, l): |one_i - other_j| divided by the largest of the absolute tolerance, the
-        relative one, and noise (l,), what errors of computing may do to each of `other`.
-        """
-        a, b = one[:, np.newaxis], other[np.newaxis]
-        allowed = np.maximum(self.absolute, self.relative * np.maximum(np.abs(a), np.abs(b)))
-        if noise is not None:
-            allowed = np.maximum(allowed, noise)
-        return np.abs(a - b) / allowed
+RELATIVE, ABSOLUTE = 1e-6, 1e-7
+"""Two multipliers agree within the first of the larger one, or within the second."""
+FLOW = 1e-5
+"""The largest `StepDerivative.flow_residual` with which the variational equation is trusted."""
+INVARIANCE = 1e-6
+"""The largest `invariance_gap` with which a constraint counts as hybrid invariant [rad, rad/s]."""
+CYCLE = 1e-8
+"""The largest |P(s) - s| of a step whose eigenvalues count as multipliers [rad, rad/s]."""
 
 
 @dataclass(frozen=True)
@@ -107,20 +78,14 @@ class MethodRow(Shown):
 
 @dataclass(frozen=True)
 class StabilityTable(Shown):
-    """One row per method; `verdict` says whether they agree within `tolerances` and which to trust.
+    """One row per method; `verdict` says whether they agree and which to trust.
 
-    Raises InputError without rows, for two rows of one method, and for multipliers that are not
-    finite.
+    Raises InputError for multipliers that are not finite.
     """
 
     rows: tuple[MethodRow, ...]
-    tolerances: Tolerances
 
     def __post_init__(self) -> None:
-        methods = [row.method for row in self.rows]
-        if not methods or len(set(methods)) != len(methods):
-            found = [method.value for method in methods]
-            raise InputError(f"found rows {found}, expected at least one, and one per method")
         for row in self.rows:
             if not (len(row.multipliers) and np.all(np.isfinite(row.multipliers))):
                 raise InputError(
@@ -131,20 +96,14 @@ class StabilityTable(Shown):
     def trusted(self) -> MethodRow:
         """The variational equation, or central differences where that is in doubt.
 
-        delta^2 is only one of the multipliers, and the regression gives none of them for certain.
         Raises InputError when no row is left.
         """
         for method in (StabilityMethod.VARIATIONAL, StabilityMethod.CENTRAL):
             for row in self.rows:
                 if row.method is method and not row.doubt:
                     return row
-        doubts = "; ".join(
-            f"{r.method.value}: {r.doubt or 'not all multipliers'}" for r in self.rows
-        )
-        raise InputError(
-            f"no method of this table gives all multipliers without a doubt ({doubts}); add the "
-            "variational equation, or central differences"
-        )
+        doubts = "; ".join(f"{r.method.value}: {r.doubt}" for r in self.rows)
+        raise InputError(f"no method gives the multipliers without a doubt ({doubts})")
 
     @property
     def stable(self) -> bool:
@@ -161,24 +120,12 @@ class StabilityTable(Shown):
     def gap(self, row: MethodRow) -> float:
         """Largest distance of a row to the trusted one in units of the tolerance; at most 1 when they agree.
 
-        delta^2 is one multiplier only and is compared with the nearest one. Infinite for any other row that has
-        not as many multipliers as the trusted one.
+        Infinite for a row that has not as many multipliers as the trusted one.
         """
-        ratio = self._ratio(row, row.noise)
-        if row.method is StabilityMethod.ZERO_DYNAMICS:
-            return float(np.min(ratio))
+        ratio = _distances(row.multipliers, self.trusted.multipliers, row.noise)
         if ratio.shape[0] != ratio.shape[1]:
             return float("inf")
         return _farthest(ratio)
-
-    def _ratio(self, row: MethodRow, noise: Array | None) -> Array:
-        """Distances (k, l) of a row's k multipliers to the l trusted ones, see `Tolerances.distance`.
-
-        noise (l,) is left out where it has another length.
-        """
-        trusted = self.trusted.multipliers
-        known = noise is not None and len(noise) == len(trusted)
-        return self.tolerances.distance(row.multipliers, trusted, noise if known else None)
 
     @property
     def verdict(self) -> str:
@@ -195,10 +142,10 @@ class StabilityTable(Shown):
         name = row.method.value[:1].upper() + row.method.value[1:]
         if row.doubt:
             return f"{name}: not to be trusted, {row.doubt}."
-        gap, t = self.gap(row), self.tolerances
-        within = f"{t.relative:g} relative or {t.absolute:g} absolute"
+        gap = self.gap(row)
+        within = f"{RELATIVE:g} relative or {ABSOLUTE:g} absolute"
         if row.noise is not None and np.isfinite(gap):
-            plain = _farthest(self._ratio(row, None))
+            plain = _farthest(_distances(row.multipliers, self.trusted.multipliers))
             if plain > 1.0 or gap > 1.0:
                 within += (
                     f" or what root finder and step leave open, at most {np.max(row.noise):.1e}"
@@ -215,8 +162,6 @@ class StabilityTable(Shown):
 
     def _limit(self, row: MethodRow) -> str:
         """Why a row disagrees with the trusted one, as the end of a sentence; empty where nothing is known."""
-        if row.method is StabilityMethod.ZERO_DYNAMICS:
-            return "; the closed loop does not keep to the zero dynamics, or the step is too long"
         if row.method is not StabilityMethod.CENTRAL or row.uncertainty == 0.0:
             return ""
         distance = _farthest(np.abs(row.multipliers[:, np.newaxis] - self.trusted.multipliers))
@@ -239,22 +184,35 @@ class StabilityTable(Shown):
         return "\n".join([*columns(rows, 28, gap=1), self.verdict])
 
 
+def _distances(one: ComplexArray, other: ComplexArray, noise: Array | None = None) -> Array:
+    """Distance of every multiplier of one set to every one of the other; at most 1 where they agree.
+
+    one (k,), other (l,) -> (k, l): |one_i - other_j| divided by the largest of the absolute tolerance, the
+    relative one, and noise (l,), what errors of computing may do to each of `other`.
+    """
+    a, b = one[:, np.newaxis], other[np.newaxis]
+    allowed = np.maximum(ABSOLUTE, RELATIVE * np.maximum(np.abs(a), np.abs(b)))
+    if noise is not None:
+        allowed = np.maximum(allowed, noise)
+    return np.abs(a - b) / allowed
+
+
 def _farthest(cost: Array) -> float:
     """The largest cost of a pair when rows and columns of `cost` (k, k) are paired at least total cost."""
     return float(np.max(cost[linear_sum_assignment(cost)]))
 
 
 # -- rows ------------------------------------------------------------------------------------------
-def variational_row(step: StepDerivative, tolerances: Tolerances) -> MethodRow:
+def variational_row(step: StepDerivative) -> MethodRow:
     """The row of the variational equation.
 
     Doubted when Phi f(0) is not f-, the flow before the next impact, see `StepDerivative.flow_residual`.
     """
     doubt = ""
-    if not step.flow_residual <= tolerances.flow:
+    if not step.flow_residual <= FLOW:
         doubt = (
             f"its Phi carries the flow along to {step.flow_residual:.1e} only, expected "
-            f"{tolerances.flow:g}: take a shorter step, or look whether the flow depends on time"
+            f"{FLOW:g}: take a shorter step, or look whether the flow depends on time"
         )
     return MethodRow(StabilityMethod.VARIATIONAL, step.multipliers, doubt=doubt)
 
@@ -291,37 +249,6 @@ def central_row(P: ReturnMap, s: Array, step: StepDerivative | None = None) -> M
     return MethodRow(StabilityMethod.CENTRAL, best, changes, noise)
 
 
-def regression_row(regression: Regression) -> MethodRow:
-    """The row of the regression. Doubted when the data do not determine Phi, see `Regression.warning`."""
-    values = sorted_eigenvalues(regression.Phi)
-    return MethodRow(StabilityMethod.REGRESSION, values, doubt=regression.warning)
-
-
-def zero_dynamics_row(walker: Walker, tolerances: Tolerances) -> MethodRow | None:
-    """The row delta^2, or None where it is no multiplier of this closed loop.
-
-    It is one under NPD with `solve_theta`, in continuous time on even ground, without torque limit, friction,
-    disturbance or model error, for a constraint at whose end the swing foot is on the ground and which is
-    hybrid invariant (`invariance_gap`).
-    """
-    law, h = walker.controller, getattr(walker.controller, "reference", None)
-    if type(law) is not NPDController or type(h) is not VirtualConstraint or not law.solve_theta:
-        return None
-    if walker.ground_steps:
-        return None
-    if walker.sampled or walker.torque_limit is not None or walker.disturbance is not None:
-        return None
-    if walker.plant.friction or walker.nominal != walker.plant:
-        return None
-    if invariance_gap(walker.plant, h) > tolerances.invariance:
-        return None
-    zero = ZeroDynamics.of(walker.plant, h)
-    if abs(walker.clearance(zero.end_state(1.0)[0])) > tolerances.invariance:
-        return None
-    delta = zero.delta
-    return MethodRow(StabilityMethod.ZERO_DYNAMICS, np.array([delta**2], dtype=complex))
-
-
 def invariance_gap(biped: Biped, constraint: VirtualConstraint) -> float:
     """How far the state after impact is from the constraint q_b = h(Theta); zero for a hybrid invariant one.
 
@@ -341,27 +268,16 @@ def invariance_gap(biped: Biped, constraint: VirtualConstraint) -> float:
 def stability_table(
     P: ReturnMap,
     step: StepDerivative,
-    regression: Regression | None = None,
-    tolerances: Tolerances | None = None,
-    differences: bool = True,
 ) -> StabilityTable:
     """The table at the fixed point of `step`, as `variational.periodic_orbit` finds it.
 
-    differences: also take central differences of P, which cost 4 steps of walking per coordinate. Raises
-    InputError when |P(s) - s| of the step is above `tolerances.cycle`: its eigenvalues are then no
-    multipliers.
+    Central differences of P cost 4 steps of walking per coordinate. Raises InputError when |P(s) - s| of the
+    step is above `CYCLE`: its eigenvalues are then no multipliers.
     """
-    t = Tolerances() if tolerances is None else tolerances
     gap = float(np.max(np.abs(step.image - step.s)))
-    if gap > t.cycle:
+    if gap > CYCLE:
         raise InputError(
-            f"P(s) - s is {gap:.3g} at this step, expected a fixed point within {t.cycle:g}; find it "
+            f"P(s) - s is {gap:.3g} at this step, expected a fixed point within {CYCLE:g}; find it "
             "with variational.periodic_orbit"
         )
-    rows = [variational_row(step, t)]
-    if differences:
-        rows.append(central_row(P, step.s, step))
-    zero = zero_dynamics_row(P.walker, t)
-    rows += [] if zero is None else [zero]
-    rows += [] if regression is None else [regression_row(regression)]
-    return StabilityTable(tuple(rows), t)
+    return StabilityTable((variational_row(step), central_row(P, step.s, step)))

@@ -183,21 +183,14 @@ class DirectionMerit(Shown):
         return abs(self.static_gain) / self.torque
 
 
-def direction_merits(
-    gait: Gait, biped: Biped, directions: Mapping[str, tuple[float, ...]] = DIRECTIONS
-) -> tuple[DirectionMerit, ...]:
-    """Merits of all directions, the best first.
-
-    Raises InputError without a direction, and as `stride_response`.
-    """
-    if not directions:
-        raise InputError("no direction of the stride's correction was given, expected at least one")
-    found = [_merit(gait, biped, name, d) for name, d in directions.items()]
+def direction_merits(gait: Gait, biped: Biped) -> tuple[DirectionMerit, ...]:
+    """Merits of all DIRECTIONS, the best first. Raises as `stride_response`."""
+    found = [_merit(gait, biped, name, d) for name, d in DIRECTIONS.items()]
     return tuple(sorted(found, key=lambda direction: -direction.merit))
 
 
 def _merit(gait: Gait, biped: Biped, name: str, d: tuple[float, ...]) -> DirectionMerit:
-    """Merit of one direction. Raises InputError for a direction that bends no joint."""
+    """Merit of one direction."""
     gain = stride_response(gait, biped, d).static_gain
 
     def torque(beta: float) -> Array:
@@ -205,6 +198,4 @@ def _merit(gait: Gait, biped: Biped, name: str, d: tuple[float, ...]) -> Directi
 
     change = (torque(DIFFERENCE) - torque(-DIFFERENCE)) / (2.0 * DIFFERENCE)
     U = float(np.max(np.abs(change)))
-    if not U > 0.0:
-        raise InputError(f"the direction '{name}' is {d}, expected one that bends a joint")
     return DirectionMerit(name, d, gain, U)

@@ -29,6 +29,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from biped_adrc.analysis.return_map import (
+    MOST_ITERATIONS,
     PeriodicOrbit,
     ReturnMap,
     after_impact,
@@ -336,7 +337,7 @@ def section_tangent(walker: Walker, x: Array) -> Array:
 
 
 def periodic_orbit(
-    P: ReturnMap, guess: Array, tolerance: float = 1e-11, max_iterations: int = 12
+    P: ReturnMap, guess: Array, tolerance: float = 1e-11
 ) -> tuple[PeriodicOrbit, StepDerivative]:
     """Newton's method on P(s) - s from a state before impact (2 n,) [rad, rad/s], with the exact dP/ds.
 
@@ -344,11 +345,11 @@ def periodic_orbit(
     come back, SingularError when a multiplier is 1.
     """
     s = P.project(np.asarray(guess, dtype=float))
-    for iteration in range(1, max_iterations + 1):
+    for iteration in range(1, MOST_ITERATIONS + 1):
         step = differentiate_step(P, s)
         gap = step.image - s
         residual = float(np.max(np.abs(gap)))
         if residual < tolerance:
             return PeriodicOrbit(P.lift(s), step.multipliers, residual, iteration), step
         s = s + newton_step(step.jacobian, gap)
-    raise not_converged(max_iterations, residual, tolerance)
+    raise not_converged(residual, tolerance)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.analysis.stability import Tolerances, invariance_gap
+from biped_adrc.analysis.stability import INVARIANCE, invariance_gap
 from biped_adrc.columns import columns
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
@@ -121,7 +121,7 @@ class ZeroDynamicsReport(Shown):
         if not self.walkable:
             text = f"the periodic orbit does not keep {_show(self.limits)}"
             yield (f"{text}: zeta* is outside of the domain",)
-        if self.invariance > Tolerances().invariance:
+        if self.invariance > INVARIANCE:
             yield (
                 f"the impact leaves the constraint by {self.invariance:.2g} rad or rad/s at |Theta'-| = "
                 "1 rad/s: the closed loop comes back to it in the course of a step only, and these numbers "

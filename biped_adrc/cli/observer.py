@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from biped_adrc.observer_design.observer_report import ObserverReport
     from biped_adrc.observers.gpi import GPIObserver
     from biped_adrc.scenario.scenario import ObserverRecord
-    from biped_adrc.studies.observer_check import CheckedWalk, DelayCheck
+    from biped_adrc.studies.observer_check import CheckedWalk
 
 
 @app.command("observer")
@@ -62,7 +62,7 @@ def observer_command(
         from biped_adrc.viz.plots.observer_figure import observer_figure
         from biped_adrc.viz.style import write_figure
 
-        write_figure(path, observer_figure([report]))
+        write_figure(path, observer_figure(report))
         say_written(path)
 
 
@@ -108,31 +108,41 @@ def _confirm(
     """Walk at the delay margin with unknown and known delay, then without and with encoders, and print
     the walks.
     """
-    from biped_adrc.studies.observer_check import DelayCase, check_delay, check_encoders
+    from biped_adrc.studies.observer_check import (
+        ABOVE,
+        BELOW,
+        DelayCase,
+        check_encoders,
+        robot_margin,
+    )
 
     with console.status("walks with a late torque, then with encoders"):
-        cases = [DelayCase(biped, gait, observer, gains, aware) for aware in (False, True)]
-        checks = [check_delay(case) for case in cases]
+        walks, said = [], []
+        for known in (False, True):
+            case = DelayCase(biped, gait, observer, gains, known)
+            below, above = (case.walked(share * case.margin) for share in (BELOW, ABOVE))
+            limit = biped.description.peak_torque
+            walks += [below, above, case.walked(ABOVE * case.margin, torque_limit=limit)]
+            own = robot_margin(case)
+            words = f"{1e6 * own:.4g} us ({100 * (own / case.margin - 1.0):+.2g} %)"
+            words = words if math.isfinite(own) else "far from it"
+            said.append(
+                f"delay {'known' if known else 'hidden'}: linear margin {1e6 * case.margin:.4g} us, "
+                f"{'confirmed' if below.tracks and not above.tracks else 'NOT confirmed'}; "
+                f"the robot's own {words}"
+            )
         clocks = [clock._replace(counts=counts)._asdict() for counts in (None, clock.counts)]
-        walks = [check_encoders(biped, gait, observer, gains, **x) for x in clocks]
-    _print_walks(checks, walks)
+        walks += [check_encoders(biped, gait, observer, gains, **x) for x in clocks]
+    _print_walks(walks)
+    for line in said:
+        say(line)
 
 
-def _print_walks(checks: list[DelayCheck], walks: list[CheckedWalk]) -> None:
-    """Print how each walk ended and whether its errors stay, and the delay margins in [us]."""
+def _print_walks(walks: list[CheckedWalk]) -> None:
+    """Print how each walk ended and whether its errors stay."""
     header = ("walk", "status", "errors stay", "error of later steps [rad]")
     table = Table(*header, title="Confirmed by walking", title_justify="left")
-    rows = [walked for check in checks for walked in (check.below, check.above, check.limited)]
-    for walked in (*rows, *walks):
+    for walked in walks:
         tracks = "yes" if walked.tracks else "no"
         table.add_row(walked.condition, walked.status.name, tracks, f"{walked.amplitude:.3g}")
     console.print(table)
-    for check in checks:
-        own = f"{1e6 * check.robot_margin:.4g} us ({100 * check.shift:+.2g} %)"
-        own = own if math.isfinite(check.robot_margin) else "far from it"
-        say(
-            f"delay {'known' if check.known else 'hidden'}: linear margin {1e6 * check.margin:.4g} us, "
-            f"{'confirmed' if check.confirmed else 'NOT confirmed'}; the robot's own "
-            f"{own}; a finer approximant changes errors "
-            f"by {check.order_effect:.1g} rad"
-        )

@@ -173,7 +173,6 @@ def poincare(
     sets: list[str] | None = None,
     scenario: Path | None = None,
     observer_states: bool = True,
-    samples: int = 25,
 ) -> None:
     """Fixed point of the return map, and its multipliers by every method beside each other."""
     from biped_adrc.scenario.build import limits
@@ -186,7 +185,7 @@ def poincare(
     s = scenario_from(given, sets, scenario, usual="NPD")
     cycle = cycle_of(s, observer_states)
     with console.status("Newton on the return map"):
-        found = cycle_stability(cycle, samples)
+        found = cycle_stability(cycle)
     walker, o = cycle.P.walker, found.orbit
     law = type(walker.controller).__name__.removesuffix("Controller")
     lines = (

@@ -25,7 +25,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.control.tracking import Gains
-from biped_adrc.observer_design.observer_loop import ObserverLoop, joint_gains, observer_loop
+from biped_adrc.observer_design.observer_loop import ObserverLoop, first_gains, observer_loop
 from biped_adrc.observer_design.observer_sampled import (
     SampledLoop,
     largest_delay,
@@ -91,14 +91,12 @@ def count_error(counts: float) -> float:
 
 @dataclass(frozen=True)
 class OnHardware:
-    """An observer and the gains of one joint, judged at the period and delay of the hardware."""
+    """An observer and the gains of the first joint, judged at the period and delay of the hardware."""
 
     hardware: Hardware
     observer: GPIObserver
     gains: Gains
     """K_p and K_d of (20)."""
-    joint: int = 0
-    """Which of the gains, where there is one number per joint."""
 
     def sampled(self, ratio: float = 1.0) -> SampledLoop:
         """The sampled loop with `ratio` times the model's kappa, dimensionless."""
@@ -107,7 +105,6 @@ class OnHardware:
             self.observer,
             k.period,
             self.gains,
-            joint=self.joint,
             delay=k.delay,
             known=k.known,
             kappa_ratio=ratio,
@@ -116,7 +113,7 @@ class OnHardware:
     @cached_property
     def loop(self) -> ObserverLoop:
         """The loop of the joint in continuous time."""
-        return observer_loop(self.observer, self.gains, self.joint)
+        return observer_loop(self.observer, self.gains)
 
     @cached_property
     def ripple(self) -> float:
@@ -142,7 +139,7 @@ class OnHardware:
         return float(np.abs(self.loop.tracking_error(np.array([REJECTED])))[0])
 
 
-def recommend(hardware: Hardware, gains: Gains, m: int, joint: int = 0) -> Recommended:
+def recommend(hardware: Hardware, gains: Gains, m: int) -> Recommended:
     """The largest bandwidth of m + 2 equal poles in the lowest range of bandwidths that are allowed.
 
     Only the lowest range counts: a loop that is unstable at some bandwidth and stable again above
@@ -150,7 +147,7 @@ def recommend(hardware: Hardware, gains: Gains, m: int, joint: int = 0) -> Recom
     """
 
     def against(w: float) -> str:
-        return OnHardware(hardware, GPIObserver.from_bandwidth(w, m), gains, joint).obstacle
+        return OnHardware(hardware, GPIObserver.from_bandwidth(w, m), gains).obstacle
 
     low, because = math.nan, ""
     for w in np.geomspace(LEAST, MOST, BANDS):
@@ -162,13 +159,13 @@ def recommend(hardware: Hardware, gains: Gains, m: int, joint: int = 0) -> Recom
         low = low if forbids else float(w)
     if not math.isfinite(low):
         return Recommended(m, math.nan, "", math.nan, math.nan, math.nan)
-    found = OnHardware(hardware, GPIObserver.from_bandwidth(low, m), gains, joint)
+    found = OnHardware(hardware, GPIObserver.from_bandwidth(low, m), gains)
     margin = largest_delay(found.sampled())
     return Recommended(m, low, because, found.ripple, margin, found.rejection)
 
 
-def without_observer(gains: Gains, joint: int = 0) -> float:
+def without_observer(gains: Gains) -> float:
     """|e / xi| at REJECTED [s^2] of K_p and K_d alone: 1 / |s^2 + K_d s + K_p|, to compare with."""
-    K_p, K_d = joint_gains(gains, joint)
+    K_p, K_d = first_gains(gains)
     s = 1j * REJECTED
     return float(1.0 / abs(s**2 + K_d * s + K_p))

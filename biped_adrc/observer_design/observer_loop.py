@@ -3,21 +3,20 @@
 With chi(s) the observer's polynomial (19), a = kappa u - q_d'' and e = q_b - q_d, the robot and
 (20) are
 
-    e'' = g a(t - d) + xi,    a = -K_p x1^ - K_d x2^ - xi^
+    e'' = a(t - d) + xi,    a = -K_p x1^ - K_d x2^ - xi^
 
-g is kappa of the robot over that of the model, 1 where the model is right. Opened at the delay, the
-loop has the gain L(s), and roots on the imaginary axis where exp(i w d) = -L(i w):
+Opened at the delay, the loop has the gain L(s), and roots on the imaginary axis where exp(i w d) = -L(i w):
 
-    unknown  L = g P / (s^(m+2) Q)         the observer is fed with a(t)
-    known    L = g (K_d s + K_p) / s^2 + (g - 1) (chi - s^m Q) / chi       it is fed with a(t - d)
+    unknown  L = P / (s^(m+2) Q)           the observer is fed with a(t)
+    known    L = (K_d s + K_p) / s^2       it is fed with a(t - d)
 
     Q = s^2 + (l_(m+1) + K_d) s + l_m + K_p + K_d l_(m+1)
     P = the terms of (s^2 + K_d s + K_p) chi below s^(m+2)
 
-since s^(m+2) Q + P = (s^2 + K_d s + K_p) chi, which for g = 1 and d = 0 is the characteristic
+since s^(m+2) Q + P = (s^2 + K_d s + K_p) chi, which for d = 0 is the characteristic
 polynomial. All coefficients of P and Q are sums of products of positive ones, so nothing cancels,
 and s is counted in units of w, the geometric mean of the poles, which keeps the numbers near 1.
-Without delay and with g = 1
+Without delay
 
     e / xi = s^m Q / ((s^2 + K_d s + K_p) chi)                    (23), corrected
     xi^ / xi = (chi - s^(m+2) - l_(m+1) s^(m+1) - l_m s^m) / chi
@@ -37,7 +36,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from biped_adrc.control.tracking import TABLE_II, Gains
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.errors import InputError
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.types import Array, ComplexArray
 
@@ -49,18 +48,9 @@ class DelayMargin(NamedTuple):
     """The smallest delay with a root on the imaginary axis, and that root."""
 
     delay: float
-    """[s], infinite when there is none, NaN for a loop that is unstable without a delay."""
+    """[s], infinite when there is none."""
     frequency: float
-    """[rad/s], as the delay infinite or NaN."""
-
-
-class Conditioning(NamedTuple):
-    """Condition number of the observer matrix (19) in the 2-norm."""
-
-    physical: float
-    """In the states of (17), whose units differ."""
-    scaled: float
-    """In the scaled states that the observer integrates."""
+    """[rad/s], as the delay infinite."""
 
 
 @dataclass(frozen=True)
@@ -72,8 +62,6 @@ class ObserverLoop:
     """[1/s^2]."""
     K_d: float
     """[1/s]."""
-    kappa_ratio: float = 1.0
-    """g, kappa of the robot over that of the model, dimensionless."""
 
     # -- polynomials in s / w, highest power first --------------------------------------------------
     @cached_property
@@ -101,14 +89,9 @@ class ObserverLoop:
 
     def _broken(self, known: bool) -> tuple[Array, Array]:
         """Numerator and denominator of L, for a delay that the observer knows or not."""
-        g, order = self.kappa_ratio, self.observer.order
-        if not known:
-            return g * self._P, np.concatenate((self._Q, np.zeros(order)))
-        (_, k_d, k_p), l_1 = self._feedback, self._chi[1]
-        unseen = np.concatenate(([-k_d, -(k_p + k_d * l_1)], self._chi[3:], [0.0, 0.0]))
-        tracked = g * np.polymul([k_d, k_p], self._chi)
-        top = np.asarray(np.polyadd(tracked, (g - 1.0) * unseen), dtype=float)
-        return top, np.concatenate((self._chi, [0.0, 0.0]))
+        if known:
+            return self._feedback[1:], np.array([1.0, 0.0, 0.0])
+        return self._P, np.concatenate((self._Q, np.zeros(self.observer.order)))
 
     # -- frequency responses -------------------------------------------------------------------------
     def _response(self, numerator: Array, frequency: Array, feedback: bool = True) -> ComplexArray:
@@ -172,10 +155,6 @@ class ObserverLoop:
 
         known: the observer is fed with a(t - d).
         """
-        if self.kappa_ratio != 1.0:  # where it is 1 all roots of 1 + L have negative real parts
-            roots = np.roots(np.polyadd(*self._broken(known)))
-            if not np.max(roots.real) < 0.0:
-                return DelayMargin(np.nan, np.nan)
         at = self.crossovers(known)
         if len(at) == 0:
             return DelayMargin(np.inf, np.inf)
@@ -184,41 +163,14 @@ class ObserverLoop:
         return DelayMargin(float(delays[first]), float(at[first]))
 
 
-def observer_loop(
-    observer: GPIObserver, gains: Gains = TABLE_II, joint: int = 0, kappa_ratio: float = 1.0
-) -> ObserverLoop:
-    """The loop of one joint with its gains; kappa_ratio is g, dimensionless.
-
-    Raises InputError for another observer, a joint without gains, or a kappa_ratio that is not
-    positive.
-    """
+def observer_loop(observer: GPIObserver, gains: Gains = TABLE_II) -> ObserverLoop:
+    """The loop of the first joint with its gains. Raises InputError for another observer."""
     if not isinstance(observer, GPIObserver):
         raise InputError(
             f"the linear loop of a {type(observer).__name__} was asked for, expected a GPIObserver in "
             "continuous time"
         )
-    check_positive(kappa_ratio, f"kappa_ratio is {kappa_ratio}")
-    return ObserverLoop(observer, *joint_gains(gains, joint), float(kappa_ratio))
-
-
-def conditioning(observer: GPIObserver) -> Conditioning:
-    """Condition number of the matrix of (19) in its own and in scaled states, by the inverse in closed form.
-
-    With ones above the diagonal and -l in the first column, A e = f has the solution e_1 = -f_k /
-    l_k, e_(i+1) = f_i + l_i e_1. The smallest singular value of a matrix with entries up to 1e29 is
-    lost in round-off, its inverse is not.
-    """
-
-    def condition(l: Array, w: float) -> float:  # noqa: E741
-        k = len(l)
-        A = w * np.eye(k, k=1)
-        A[:, 0] -= l
-        inverse = np.eye(k, k=-1) / w
-        inverse[:, -1] -= np.concatenate(([1.0], l[:-1] / w)) / l[-1]
-        return float(np.linalg.norm(A, 2) * np.linalg.norm(inverse, 2))
-
-    w = observer.scale
-    return Conditioning(condition(observer.gains, 1.0), condition(w * observer.scaled_gains, w))
+    return ObserverLoop(observer, *first_gains(gains))
 
 
 def bandwidth(response: Callable[[Array], ComplexArray], low: float, high: float) -> float:
@@ -244,18 +196,6 @@ def _squared(p: Array) -> Array:
     )
 
 
-def joint_gains(gains: Gains, joint: int) -> tuple[float, float]:
-    """K_p [1/s^2] and K_d [1/s] of one joint. Raises InputError for a joint that has none."""
-    K_p, K_d = (_of_joint(np.atleast_1d(gain), joint) for gain in (gains.K_p, gains.K_d))
-    return K_p, K_d
-
-
-def _of_joint(values: Array, joint: int) -> float:
-    """The joint's number, or the one number for all joints. Raises InputError for a joint that has none."""
-    if len(values) == 1:
-        return float(values[0])
-    if not 0 <= joint < len(values):
-        raise InputError(
-            f"joint {joint} was asked for, found gains of joints 0 to {len(values) - 1}"
-        )
-    return float(values[joint])
+def first_gains(gains: Gains) -> tuple[float, float]:
+    """K_p [1/s^2] and K_d [1/s] of the first joint."""
+    return float(np.ravel(gains.K_p)[0]), float(np.ravel(gains.K_d)[0])

@@ -78,16 +78,15 @@ class ObserverReport(OnHardware):
 
     @cached_property
     def largest_periods(self) -> dict[str, tuple[float, float]]:
-        """The largest stable period [s], for a delay unknown and known, by form of the observer and delay."""
+        """The largest stable period [s], for a delay unknown and known, by delay."""
         return {
-            "no delay": self._periods(),
-            "a delay of one period": self._periods(delay_periods=1.0),
-            "no delay, measurement held": self._periods(form="held"),
+            "no delay": self._periods(0.0),
+            "a delay of one period": self._periods(1.0),
         }
 
-    def _periods(self, delay_periods: float = 0.0, form: str = "current") -> tuple[float, float]:
+    def _periods(self, delay_periods: float) -> tuple[float, float]:
         """The largest stable periods [s] with a delay of that many periods, unknown and known."""
-        loop, told = replace(self.sampled(), form=form), (False, delay_periods > 0.0)
+        loop, told = self.sampled(), (False, delay_periods > 0.0)
         hidden, known = (largest_period(replace(loop, known=k), delay_periods) for k in told)
         return hidden, known
 
@@ -129,7 +128,7 @@ class ObserverReport(OnHardware):
     @cached_property
     def recommended(self) -> tuple[Recommended, ...]:
         """For each m of ORDERS the largest bandwidth that encoders, period and delay allow."""
-        return tuple(recommend(self.hardware, self.gains, m, self.joint) for m in ORDERS)
+        return tuple(recommend(self.hardware, self.gains, m) for m in ORDERS)
 
     @property
     def runs(self) -> bool:
@@ -142,7 +141,7 @@ class ObserverReport(OnHardware):
     @cached_property
     def against_none(self) -> float:
         """Tracking error that a 5 Hz disturbance leaves, relative to that with K_p and K_d alone."""
-        return self.rejection / without_observer(self.gains, self.joint)
+        return self.rejection / without_observer(self.gains)
 
     @property
     def verdict(self) -> str:
@@ -175,15 +174,12 @@ def observer_report(
     counts: float = COUNTS,
     delay: float = 0.0,
     known: bool = False,
-    torque_limit: float | None = None,
-    joint: int = 0,
 ) -> ObserverReport:
     """The report of an observer, or of poles [rad/s], on a robot that walks a gait.
 
     period [s]: of the sampling; counts: of the encoders per revolution; delay [s]: from a sample
-    instant to its torque, `known` to the observer or not; torque_limit [N m]: that of the robot's
-    record if None; joint: whose gains, where `gains` has one number per joint. Raises InputError
-    for what is impossible, and names it.
+    instant to its torque, `known` to the observer or not. Of gains with one number per joint those
+    of the first count. Raises InputError for what is impossible, and names it.
     """
     if isinstance(observer, Observer) and not isinstance(observer, GPIObserver):
         raise InputError(
@@ -195,34 +191,19 @@ def observer_report(
     SampledTime(period, delay=delay)
     if not (math.isfinite(counts) and counts >= 1.0):
         raise InputError(f"the encoders have {counts} counts per revolution, expected at least 1")
-    limit = robot.description.peak_torque if torque_limit is None else torque_limit
-    if limit is None or not (math.isfinite(limit) and limit > 0.0):
-        raise InputError(
-            f"the torque limit of '{robot.description.name}' is {limit} N m, expected a positive number; give "
-            "torque_limit, or peak_torque in its record"
-        )
-    _check_joint(robot, gains, joint)
+    gains.check(robot.p)
     hardware = Hardware(
-        period, delay, known, float(counts), float(limit), worst_inertia(robot, gait)
+        period,
+        delay,
+        known,
+        float(counts),
+        robot.description.peak_torque,
+        worst_inertia(robot, gait),
     )
-    OnHardware(hardware, observer, gains, joint).sampled()  # refuses an order that round-off spoils
+    OnHardware(hardware, observer, gains).sampled()  # refuses an order that round-off spoils
     name = f"{robot.description.name} ({robot.preset})"
     impact = orbit_impact(robot, gait, observer.order)
-    return ObserverReport(hardware, observer, gains, joint, robot=name, impact=impact)
-
-
-def _check_joint(robot: Biped, gains: Gains, joint: int) -> None:
-    """Raises InputError for a joint that the robot has not, and for gains of another number of joints."""
-    if not isinstance(joint, int) or joint not in range(robot.p):
-        raise InputError(
-            f"joint {joint!r} of '{robot.description.name}' was asked for, expected 0 to {robot.p - 1}"
-        )
-    for name, gain in (("K_p", gains.K_p), ("K_d", gains.K_d)):
-        if np.size(gain) not in (1, robot.p):
-            raise InputError(
-                f"gain {name} has {np.size(gain)} numbers, expected one, or {robot.p} for the joints of "
-                f"'{robot.description.name}'"
-            )
+    return ObserverReport(hardware, observer, gains, robot=name, impact=impact)
 
 
 def worst_inertia(biped: Biped, gait: Gait) -> float:

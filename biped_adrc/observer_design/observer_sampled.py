@@ -8,11 +8,9 @@ With T the period, the torque held between sample instants and acting (j + f) T 
 
 where alpha changes from a_(k-j-1) to a_(k-j) at t_k + f T, and
 
-    current   Z <- Z + L (e + n - Z_1),  a = -F Z,  Z <- Phi Z + Gamma a       as `SampledGPIObserver`
-    held      a = -F Z,  Z <- exp(A T) Z + int_0^T exp(A s) ds (w l (e + n) + b a)
+    Z <- Z + L (e + n - Z_1),  a = -F Z,  Z <- Phi Z + Gamma a       as `SampledGPIObserver`
 
-The held form is the continuous observer (17) with its measurement held for a period. X = (e, T e',
-Z, torques on their way) obeys X <- X + M X + B (xi, n). M is formed without its unit matrix: at
+X = (e, T e', Z, torques on their way) obeys X <- X + M X + B (xi, n). M is formed without its unit matrix: at
 short periods all eigenvalues gather at 1, and what distinguishes them would be lost in round-off.
 The observer is fed with a_k, or, when the delay is known, with the mean of what acts until the next
 sample instant, which is exact for whole periods alone.
@@ -28,17 +26,15 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import expm
 
 from biped_adrc.control.tracking import TABLE_II, Gains
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.errors import InputError
 from biped_adrc.hardware.motors import whole_and_part
-from biped_adrc.observer_design.observer_loop import joint_gains
+from biped_adrc.observer_design.observer_loop import first_gains
 from biped_adrc.observers.gpi import GPIObserver, SampledGPIObserver
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
 
-FORMS = ("current", "held")
 SHORTEST, LONGEST = 1e-6, 0.1
 """[s]: periods among which the largest stable one is looked for."""
 RATIO = 1.05
@@ -53,12 +49,11 @@ HIGHEST = 14
 class SampledLoop:
     """The loop of one joint in sampled time. Make it with `sampled_loop`.
 
-    Raises InputError for what `SampledTime` refuses, an m above HIGHEST, a form that is neither,
-    and a kappa_ratio <= 0.
+    Raises InputError for what `SampledTime` refuses, and an m above HIGHEST.
     """
 
     observer: GPIObserver
-    """The GPI observer in continuous time; its current form has the poles exp(s T)."""
+    """The GPI observer in continuous time; its sampled form has the poles exp(s T)."""
     period: float
     """T [s]."""
     K_p: float = 5000.0
@@ -69,8 +64,6 @@ class SampledLoop:
     """From a sample instant to its torque [s]."""
     known: bool = False
     """Whether the observer is fed with what acts rather than with the command."""
-    form: str = "current"
-    """Either "current" or "held"."""
     kappa_ratio: float = 1.0
     """g, the robot's kappa over the model's, dimensionless."""
 
@@ -81,9 +74,6 @@ class SampledLoop:
                 f"the sampled loop of an observer with m = {self.observer.m} was asked for, expected m <= "
                 f"{HIGHEST}: above it round-off decides what is stable"
             )
-        if self.form not in FORMS:
-            raise InputError(f"the observer's form is '{self.form}', expected one of {list(FORMS)}")
-        check_positive(self.kappa_ratio, f"kappa_ratio is {self.kappa_ratio}")
 
     # -- the step ------------------------------------------------------------------------------------
     @cached_property
@@ -112,7 +102,7 @@ class SampledLoop:
         push = g * (before * (f - 0.5 * f**2) + after * 0.5 * (1.0 - f) ** 2) + 0.5 * xi
         kick = g * (before * f + after * (1.0 - f)) + xi
         fed = f * before + (1.0 - f) * after if self.known else a
-        dZ = dZ + self._fed[:, np.newaxis] * fed
+        dZ = dZ + self._sampled.Gamma[:, np.newaxis] / T**2 * fed
         rest = np.array(moved).reshape(-1, size + 2) - line
         increments = np.vstack((rate + push, kick, dZ, rest))
         return increments[:, :size], increments[:, size:], a[:size], a[size:]
@@ -121,43 +111,21 @@ class SampledLoop:
         """The change of Z in one period without its input, and T^2 a, as rows; y is the measured
         angle's row.
         """
-        if self.form == "current":
-            k = self._current
-            corrected = np.outer(k.L, y - Z[0])
-            Z_k = Z + corrected
-            return corrected + (k.Phi - np.eye(k.order)) @ Z_k, self._feedback @ Z_k
-        A = self.observer.error_system().A
-        injection = self.observer.scale * self.observer.scaled_gains
-        return self._held @ (A @ Z + np.outer(injection, y)), self._feedback @ Z
+        k = self._sampled
+        corrected = np.outer(k.L, y - Z[0])
+        Z_k = Z + corrected
+        return corrected + (k.Phi - np.eye(k.order)) @ Z_k, self._feedback @ Z_k
 
     @cached_property
-    def _current(self) -> SampledGPIObserver:
-        """The current form, which is the observer that walks."""
+    def _sampled(self) -> SampledGPIObserver:
+        """The observer that walks."""
         return SampledGPIObserver.from_poles(self.observer.poles, self.period)
-
-    @cached_property
-    def _held(self) -> Array:
-        """int_0^T exp(A s) ds (m + 2, m + 2) [s], from the exponential of a block matrix."""
-        A, n = self.observer.error_system().A, self.observer.order
-        both = np.zeros((2 * n, 2 * n))
-        both[:n, :n], both[:n, n:] = A * self.period, np.eye(n) * self.period
-        return expm(both)[:n, n:]
-
-    @cached_property
-    def _fed(self) -> Array:
-        """What T^2 a adds to Z in a period (m + 2,)."""
-        T, k = self.period, self.observer.order
-        if self.form == "current":
-            return self._current.Gamma / T**2
-        b = np.zeros(k)
-        b[1] = 1.0 / self.observer.scale
-        return self._held @ b / T**2
 
     @cached_property
     def _feedback(self) -> Array:
         """The row -F T^2 (m + 2,) of T^2 a in the observer's scaled states."""
         T = self.period
-        w = 1.0 / T if self.form == "current" else self.observer.scale
+        w = 1.0 / T
         row = np.zeros(self.observer.order)
         row[0], row[1] = self.K_p, self.K_d * w
         if self.observer.m > 0:
@@ -212,18 +180,14 @@ def sampled_loop(
     period: float,
     gains: Gains = TABLE_II,
     *,
-    joint: int = 0,
     delay: float = 0.0,
     known: bool = False,
-    form: str = "current",
     kappa_ratio: float = 1.0,
 ) -> SampledLoop:
     """The loop of one joint with its gains, at a period [s] and a delay [s]. Raises InputError as
     `SampledLoop`.
     """
-    return SampledLoop(
-        observer, period, *joint_gains(gains, joint), delay, known, form, kappa_ratio
-    )
+    return SampledLoop(observer, period, *first_gains(gains), delay, known, kappa_ratio)
 
 
 def largest_period(loop: SampledLoop, delay_periods: float = 0.0) -> float:

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, NamedTuple
 from biped_adrc.columns import columns
 from biped_adrc.observer_design.observer_choice import KAPPA_RATIOS, SHARE, without_observer
 from biped_adrc.observer_design.observer_impact import impact_peak
-from biped_adrc.observer_design.observer_loop import conditioning
 from biped_adrc.observers.base import ResetPolicy
 
 if TYPE_CHECKING:
@@ -113,14 +112,13 @@ def sections(report: ObserverReport) -> list[Section]:
 
 
 def _gains(report: ObserverReport) -> Section:
-    """Gains l of (19), physical [1/s^i] and scaled, and the condition numbers."""
-    o, c = report.observer, conditioning(report.observer)
+    """Gains l of (19), physical [1/s^i] and scaled."""
+    o = report.observer
     names = [f"l_{o.order - 1 - i} [1/s^{i + 1}]" for i in range(o.order)]
     rows = [
         (name, f"{physical:.6g}", f"{scaled:.6g}")
         for name, physical, scaled in zip(names, o.gains, o.scaled_gains, strict=True)
     ]
-    rows.append(("condition number of (19)", f"{c.physical:.3g}", f"{c.scaled:.3g}"))
     title = f"Gains of the observer; states scaled by w = {o.scale:.6g} rad/s"
     return Section(title, ("", "physical", "scaled"), tuple(rows))
 
@@ -194,7 +192,7 @@ def _allowed(report: ObserverReport) -> Section:
         )
         for r in report.recommended
     ]
-    alone = without_observer(report.gains, report.joint)
+    alone = without_observer(report.gains)
     rows.append(("none", "", "", "", "", f"{alone:.3g}"))
     low, high = KAPPA_RATIOS[0], KAPPA_RATIOS[-1]
     title = (

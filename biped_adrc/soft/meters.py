@@ -133,19 +133,16 @@ def step_of(
     friction: float,
     axes: tuple[Array, Array],
     level: Array | float = 0.0,
-    carrying: float = CARRYING,
-    slip_speed: float = SLIP_SPEED,
 ) -> SoftStep:
     """What was done in one single support, from readings at K times.
 
     friction: mu [1]. axes: unit vectors (x, z) (2,) along and out of the ground. level (K, 2) [m]: of the
-    ground under each foot. carrying [N],
-    slip_speed [m/s]: from where on a foot carries, and slips.
+    ground under each foot.
     """
     along, out = axes
     w, normal, tangential = weights(r.t), r.force @ out, np.abs(r.force @ along)
-    speed, carries = np.abs(r.speed @ along), normal > carrying
-    slips = slipping(r.force, r.speed, friction, axes, carrying, slip_speed)
+    speed, carries = np.abs(r.speed @ along), normal > CARRYING
+    slips = slipping(r.force, r.speed, friction, axes)
     pressed = normal > PRESSED
     used = np.divide(tangential, normal, where=pressed, out=np.zeros_like(normal))
     feet = carries.sum(axis=1)
@@ -170,14 +167,12 @@ def slipping(
     speed: Array,
     friction: float,
     axes: tuple[Array, Array],
-    carrying: float = CARRYING,
-    slip_speed: float = SLIP_SPEED,
 ) -> NDArray[np.bool_]:
     """Whether each foot slips (...,), from force [N] and speed [m/s], each (..., 2); the rest as `step_of`."""
     along, out = axes
     normal, tangential = force @ out, np.abs(force @ along)
     at_cone = tangential >= AT_CONE * friction * normal
-    slips = (normal > carrying) & at_cone & (np.abs(speed @ along) > slip_speed)
+    slips = (normal > CARRYING) & at_cone & (np.abs(speed @ along) > SLIP_SPEED)
     return np.asarray(slips, dtype=np.bool_)
 
 

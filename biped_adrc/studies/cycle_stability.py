@@ -1,8 +1,7 @@
-"""The stability of one walking cycle by every method that applies to it, section V.
+"""The stability of one walking cycle by the variational equation and by differences.
 
 A robot with motors walks a stored gait under NPD or ADRC, one without walks its known cycle down a slope. The
-cycle is found by Newton on the return map. The regression (26), (27) is fed as the paper's: with the states
-before the impacts of a walk that starts beside the cycle. `poincare` is the test of the reproduction: fixed
+cycle is found by Newton on the return map. `poincare` is the test of the reproduction: fixed
 point, multipliers by central differences, delta^2.
 
     find_cycle, cycle_of   names or a scenario -> return map and first guess (`Cycle`)
@@ -19,7 +18,6 @@ coordinates.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -33,8 +31,6 @@ from biped_adrc.analysis.stability import (
     MethodRow,
     StabilityMethod,
     StabilityTable,
-    Tolerances,
-    regression_row,
     stability_table,
 )
 from biped_adrc.analysis.variational import periodic_orbit
@@ -44,7 +40,6 @@ from biped_adrc.gait.reference import TimeReference
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.simulator import simulate
-from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.parts import check_part
 from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.build import RobotAndGait, build
@@ -57,8 +52,6 @@ from biped_adrc.types import Array
 
 DIFFERENCE = 1e-4
 """Half width of the central differences of P [rad, rad/s], for controllers without states."""
-BESIDE = 1e-3
-"""Relative increase of the rates with which the walk of the regression starts beside the cycle."""
 
 
 NO_MAP = (
@@ -123,7 +116,6 @@ def find_cycle(
     controller: str | None = None,
     observer_states: bool = True,
     slope: float | None = None,
-    own: Mapping[str, Any] | None = None,
 ) -> Cycle:
     """The cycle of a robot by name: of a gait under a controller (by default NPD), passive without motors.
 
@@ -131,11 +123,11 @@ def find_cycle(
         passive = ba.find_cycle("compass", slope=0.05)
 
     observer_states: whether the controller's states belong to the state of the return map. slope: [rad], of
-    another ground. own: own values of the controller. Raises InputError for a controller that does not fit the
+    another ground. Raises InputError for a controller that does not fit the
     robot, and as Biped.load, load_gait, known_cycle.
     """
     s = Scenario(
-        {"name": controller or "NPD", **(own or {})},
+        {"name": controller or "NPD"},
         robot={"name": robot, "preset": preset},
         gait=gait,
     )
@@ -167,37 +159,26 @@ def cycle_of(s: Scenario, observer_states: bool = True, slope: float | None = No
     return known_cycle(walker.plant, walker.slope if slope is None else slope)
 
 
-def cycle_stability(
-    cycle: Cycle, samples: int = 25, tolerances: Tolerances | None = None
-) -> CycleStability:
+def cycle_stability(cycle: Cycle) -> CycleStability:
     """Fixed point of a cycle and its multipliers by every method.
 
         found = ba.cycle_stability(ba.find_cycle("rabbit", controller="NPD"))
 
-    The methods are independent of each other: the variational equation along the step with the saltation at
-    impact, central differences of the return map, delta^2 of the zero dynamics (for a hybrid-invariant
-    constraint one of the multipliers), and the paper's regression on a walk. That they agree is the test of
-    each.
+    The methods are independent of each other, the variational equation along the step with the saltation at
+    impact, and central differences of the return map. That they agree is the test of each.
 
-    samples: impacts of the walk for the regression; 0 leaves it out. tolerances: within which the methods have
-    to agree. For a controller with states only central differences (and the regression) apply, since the
-    variational equation is written for the mechanics alone. Raises InputError for 1 or 2 samples,
-    SimulationError when no fixed point is found.
+    For a controller with states only central differences apply, since the variational equation is written for
+    the mechanics alone. Raises SimulationError when no fixed point is found.
     """
     check_part(cycle, "cycle", Cycle)
-    if samples != 0 and samples < 3:
-        raise InputError(f"{samples} samples for the regression, expected 0 or at least 3")
-    P, t = cycle.P, Tolerances() if tolerances is None else tolerances
+    P = cycle.P
     if len(cycle.guess) > 2 * P.walker.plant.n:
         guess = cycle.guess if P.controller_states else cycle.guess[: 2 * P.walker.plant.n]
         orbit = P.fixed_point(guess)
-        regression = _regression(P, orbit, samples)
-        rows = [MethodRow(StabilityMethod.CENTRAL, orbit.multipliers)]
-        rows += [] if regression is None else [regression_row(regression)]
-        return CycleStability(cycle, orbit, StabilityTable(tuple(rows), t))
+        row = MethodRow(StabilityMethod.CENTRAL, orbit.multipliers)
+        return CycleStability(cycle, orbit, StabilityTable((row,)))
     orbit, step = periodic_orbit(P, cycle.guess, SETTLES)
-    table = stability_table(P, step, _regression(P, orbit, samples), t)
-    return CycleStability(cycle, orbit, table)
+    return CycleStability(cycle, orbit, stability_table(P, step))
 
 
 def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = None) -> Certificate:
@@ -208,43 +189,13 @@ def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = Non
     Raises SimulationError where the step does not end with an impact.
     """
     P, walker = cycle.P, cycle.P.walker
-    run = _walk_on(P, orbit.x_minus, 1)
+    start, t_end = after_impact(walker, 0.0, orbit.x_minus, Mode()), walker.max_step_time
+    run = simulate(walker, *start, P.method, t_end=t_end, stop_after=(FOOT_STRIKE, 1))
     if not run.status.ok:
         raise SimulationError(f"the step of the cycle ended before: {run.status.name}")
     none = np.zeros(walker.plant.p)
     seen = signals(walker, run, TimeReference(lambda t: (none, none, none)))
     return certificates(walker, run, seen, limits)[0]
-
-
-def _regression(P: ReturnMap, orbit: PeriodicOrbit, samples: int) -> Regression | None:
-    """The regression (26), (27) on a walk that starts beside the cycle; None when no samples are asked for."""
-    if samples == 0:
-        return None
-    n = 2 * P.walker.plant.n
-    return regress_multipliers(walk_beside(P, orbit.x_minus, samples), orbit.x_minus[:n])
-
-
-def walk_beside(P: ReturnMap, x_star: Array, impacts: int) -> Array:
-    """States (impacts, 2 n) [rad, rad/s] before the impacts of a walk that starts beside the cycle.
-
-    x_star: fixed point, (2 n,) or more; the walk starts with its rates `BESIDE` faster. Raises SimulationError
-    when the walker does not make so many impacts.
-    """
-    n, x = P.walker.plant.n, np.array(x_star)
-    x[n : 2 * n] *= 1.0 + BESIDE
-    run = _walk_on(P, x, impacts)
-    if not run.status.ok:
-        raise SimulationError(
-            f"the walk of {impacts} impacts for the regression ended before: {run.status.name}, "
-            f"{run.status.value}; ask for fewer"
-        )
-    return np.array([event.x_minus[: 2 * n] for event in run.events(FOOT_STRIKE)])
-
-
-def _walk_on(P: ReturnMap, x: Array, impacts: int) -> Trajectory:
-    """The walk of so many impacts from the state x before one, by the method of the map."""
-    start, t_end = after_impact(P.walker, 0.0, x, Mode()), impacts * P.walker.max_step_time
-    return simulate(P.walker, *start, P.method, t_end=t_end, stop_after=(FOOT_STRIKE, impacts))
 
 
 @dataclass(frozen=True)

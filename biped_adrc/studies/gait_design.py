@@ -28,7 +28,7 @@ from biped_adrc.gait.design.ipopt import IpoptProgress
 from biped_adrc.gait.design.optimise import Optimum, optimise
 from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits
 from biped_adrc.gait.gait import Gait, load_gait
-from biped_adrc.gait.recipe import RecipeParameters, design_recipe_gait
+from biped_adrc.gait.recipe import design_recipe_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4, Adaptive
 from biped_adrc.model.biped import Biped
@@ -185,17 +185,13 @@ class GaitLibrary(Shown):
     """Gaits of one robot and preset over speed.
 
     Gaits are not interpolated: a mean of two hybrid-invariant constraints is not hybrid-invariant in general,
-    so a speed is served by the nearest gait. Raises GaitError for none, or a speed that is not positive.
+    so a speed is served by the nearest gait.
     """
 
     gaits: Mapping[float, Gait]
     """By average speed [m/s]; sorted, slowest first."""
 
     def __post_init__(self) -> None:
-        if not self.gaits:
-            raise GaitError("a gait library needs at least one gait; found none")
-        if not all(speed > 0.0 for speed in self.gaits):
-            raise GaitError(f"speeds are {list(self.gaits)} m/s, expected positive numbers")
         object.__setattr__(self, "gaits", dict(sorted(self.gaits.items())))
 
     @property
@@ -206,19 +202,6 @@ class GaitLibrary(Shown):
     def nearest(self, speed: float) -> Gait:
         """The gait whose speed is nearest to `speed` [m/s]."""
         return self.gaits[min(self.gaits, key=lambda known: abs(known - speed))]
-
-    def save(self, folder: Path | str) -> tuple[Path, ...]:
-        """Write one file per gait, named by gait and preset; returns their paths.
-
-        Raises GaitError for two gaits of one name, and OutputError.
-        """
-        paths = [Path(folder) / g.file_name for g in self.gaits.values()]
-        twice = sorted({path.name for path in paths if paths.count(path) > 1})
-        if twice:
-            raise GaitError(f"several gaits would be written to {twice}; give them different names")
-        for path, gait in zip(paths, self.gaits.values(), strict=True):
-            gait.save(path)
-        return tuple(paths)
 
     @classmethod
     def load(cls, folder: Path | str, biped: Biped) -> GaitLibrary:
@@ -234,7 +217,7 @@ class GaitLibrary(Shown):
         if not gaits:
             raise GaitError(
                 f"folder '{folder}' has no gait of robot '{biped.description.name}', preset "
-                f"'{biped.preset}'; 'biped-adrc gait library' writes them"
+                f"'{biped.preset}'; 'biped-adrc gait design --speeds' writes them"
             )
         return cls(gaits)
 
@@ -272,14 +255,14 @@ SETTLE = 25
 """Impacts that are walked before Newton's method starts."""
 
 
-def design_recipe_orbit(biped: Biped, parameters: RecipeParameters | None = None) -> Gait:
+def design_recipe_orbit(biped: Biped) -> Gait:
     """Gait (b) with the pre-impact state and the period of its walking cycle under NPD.
 
     Its impact leaves the constraint, so the closed loop does not walk on the orbit of the zero dynamics. A walk
     settles near the cycle, from where Newton's method on the return map finds it. When there is none the state
     of the zero dynamics is kept, and the provenance says so. Raises GaitError as `design_recipe_gait`.
     """
-    gait = design_recipe_gait(biped, parameters)
+    gait = design_recipe_gait(biped)
     walker = Walker(biped, NPDController(gait.constraint))
     settled = walk(walker, gait, SETTLE, RK4(1e-3))
     try:

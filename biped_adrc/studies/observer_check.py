@@ -1,6 +1,6 @@
 """The delay margin of the linear loop compared with the walking robot, and an observer with encoders.
 
-`check_delay` walks with the torque late by a share of the margin, in continuous time, from the orbit of the
+`DelayCase` walks with the torque late by a share of the margin, in continuous time, from the orbit of the
 gait with one rate off by NUDGE. It tracks when it finishes and its errors do not grow from step to step:
 
     max |q_b - h| of the last two steps < GROWTH * that of the step after the first impact
@@ -12,8 +12,7 @@ Theta moves with the joints: `robot_margin` finds by bisection where the robot i
 simulation. Called by `biped-adrc observer` and by users who design an observer.
 
     case = DelayCase(biped, gait, GPIObserver.from_bandwidth(300.0, 1))
-    check = check_delay(case)
-    check.margin, check.robot_margin, check.confirmed
+    case.margin, case.walked(BELOW * case.margin).tracks, case.walked(ABOVE * case.margin).tracks
 """
 
 from __future__ import annotations
@@ -28,7 +27,6 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.delayed import Delayed
 from biped_adrc.control.tracking import TABLE_II, Gains
-from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import Gait
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.hybrid.integrators import RK4
@@ -37,7 +35,6 @@ from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.observer_design.observer_loop import observer_loop
 from biped_adrc.observer_design.observer_report import observer_name
-from biped_adrc.observer_design.observer_tables import of_stable
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.scenario.walk import walk
 from biped_adrc.timing import SampledTime
@@ -52,14 +49,14 @@ GROWTH = 3.0
 oscillation beats with the impacts, which alone changes the error by a factor of up to 2."""
 BELOW, ABOVE = 0.95, 1.05
 """Delays of the two walks, as shares of the margin."""
-ORDER, FINER = 4, 6
-"""Order of the rational approximant of the delay, and of the finer one with which it is compared."""
+ORDER = 4
+"""Of the rational approximant of the delay."""
+LOW, HIGH, RESOLUTION = 0.8, 1.2, 2e-3
+"""Interval of the bisection for the robot's own margin and its resolution, as shares of the linear margin."""
 LONGEST_STEP, REACH = 1e-4, 0.5
 """Longest step h of RK4 [s], and largest h |p| for the fastest pole of observer and delay line; RK4 is stable
 up to
 2.8."""
-LOW, HIGH, RESOLUTION = 0.8, 1.2, 2e-3
-"""Interval of the bisection for the robot's own margin and its resolution, as shares of the linear margin."""
 
 
 @dataclass(frozen=True)
@@ -85,36 +82,6 @@ class CheckedWalk:
     def amplitude(self) -> float:
         """max |q_b - h| over the second half of the steps [rad]: the size of a limit cycle."""
         return float(np.max(self.errors[len(self.errors) // 2 :]))
-
-
-class DelayCheck(NamedTuple):
-    """The delay margin of the linear loop, and what the walking robot does below and above it."""
-
-    observer: str
-    known: bool
-    """Whether the observer knows the delay."""
-    margin: float
-    """Delay margin of the linear loop [s]."""
-    below: CheckedWalk
-    """Walk with the delay BELOW times the margin."""
-    above: CheckedWalk
-    """Walk with the delay ABOVE times the margin."""
-    robot_margin: float
-    """Delay at which the robot stops tracking [s]; nan if that is far from the margin."""
-    order_effect: float
-    """Largest change of a step's error [rad] with an approximant of order FINER, at BELOW."""
-    limited: CheckedWalk
-    """At ABOVE with the torque limit of the robot's record: a limit cycle or a fall."""
-
-    @property
-    def confirmed(self) -> bool:
-        """True where the robot tracks below the margin and diverges above it."""
-        return self.below.tracks and not self.above.tracks
-
-    @property
-    def shift(self) -> float:
-        """Relative difference of the robot's margin from the linear one."""
-        return self.robot_margin / self.margin - 1.0
 
 
 class DelayCase(NamedTuple):
@@ -151,27 +118,6 @@ class DelayCase(NamedTuple):
         words = f"{1e6 * delay:.4g} us {'known' if self.known else 'hidden'}, {limit}"
         name, errors = observer_name(self.observer), step_errors(self.gait, run.trajectory)
         return CheckedWalk(name, words, run.trajectory.status, errors)
-
-
-def check_delay(case: DelayCase) -> DelayCheck:
-    """Compare the linear delay margin with walks below and above it.
-
-    One walk more has a finer approximant of the delay, which shows the error of the approximant, and one more
-    the torque limit, which shows what it does to a loop that diverges. Raises InputError for a loop without a
-    finite margin.
-    """
-    margin = case.margin
-    if not (math.isfinite(margin) and margin > 0.0):
-        raise InputError(
-            f"the delay margin of the linear loop is {of_stable(margin, 's')}, expected a positive number; "
-            "nothing to confirm"
-        )
-    below, finer = (case.walked(BELOW * margin, order) for order in (ORDER, FINER))
-    count = min(len(below.errors), len(finer.errors))
-    change = float(np.max(np.abs(below.errors[:count] - finer.errors[:count])))
-    limited = case.walked(ABOVE * margin, torque_limit=case.biped.description.peak_torque)
-    walks = (below, case.walked(ABOVE * margin), robot_margin(case), change, limited)
-    return DelayCheck(observer_name(case.observer), case.known, margin, *walks)
 
 
 def robot_margin(case: DelayCase) -> float:

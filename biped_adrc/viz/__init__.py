@@ -4,7 +4,7 @@
     from_the_side/    the robot in its sagittal plane: figure 1, strips of stick figures, GIFs
     meshcat/          the robot in the browser: one offline page, or live from this process
     pages             HTML pages
-    placement, style, thin, export    what these share
+    placement, style, export    what these share
 
 Everything becomes a figure, bytes or a file; no window is opened and pyplot's global state is not
 used. The data are a walk (`Recorded`: walker and trajectory), its `Signals`, or plain summaries.

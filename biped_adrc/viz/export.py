@@ -19,9 +19,9 @@ from biped_adrc.files import write_text
 from biped_adrc.viz.from_the_side.moving_parts import Motion
 from biped_adrc.viz.from_the_side.moving_picture import (
     ENCODERS,
-    check_moving,
     write_moving_picture,
 )
+from biped_adrc.viz.from_the_side.mp4 import check_library
 from biped_adrc.viz.from_the_side.stick_figures import write_strip
 from biped_adrc.viz.meshcat.view import Look, animation_html
 from biped_adrc.viz.placement import Recorded
@@ -42,7 +42,9 @@ def check_suffix(path: Path) -> str:
             f"cannot write a walk to '{path}': the name ends in '{suffix}', expected .html (a page with "
             "the animation), .gif or .mp4 (a moving picture) or .png or .svg (a strip of stick figures)"
         )
-    return check_moving(path) if suffix in ENCODERS else suffix
+    if suffix == ".mp4":
+        check_library()
+    return suffix
 
 
 @dataclass(frozen=True)

@@ -30,7 +30,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from biped_adrc.analysis.recorded_signals import FORCE, PLACE, SPEED
+from biped_adrc.analysis.recorded_signals import FORCE, PLACE, SPEED, footholds
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.errors import InputError
@@ -224,15 +224,8 @@ class WalkScene:
 
     @classmethod
     def of(cls, walk: Recorded) -> WalkScene:
-        """Lay a walk out: the first stance foot stands at x = z = 0; each impact moves it by p_2(q-),
-        the swing foot.
-        """
-        foot, feet, plant = np.zeros(2), [], walk.walker.plant
-        for arc in walk.trajectory.arcs:
-            feet.append(arc.read[PLACE][0, :2] if PLACE in arc.read else foot)
-            if arc.event is not None and arc.event.x_plus is not None:
-                foot = foot + plant.swing_foot(arc.event.x_minus[: plant.n])
-        x, z = np.array(feet).T
+        """Lay a walk out from x = z = 0."""
+        x, z = footholds(walk.walker, walk.trajectory).T
         return cls(walk.walker, walk.trajectory, x, z, walk.recorded)
 
     @property

@@ -10,7 +10,6 @@ import biped_adrc as ba
 from biped_adrc.closed_loop.walker import Mode, SampledTime, Walker
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.clf_qp import CLFQPController
-from biped_adrc.control.linear_adrc import bandwidth_gains, linear_adrc
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.npd import NPDController
 from biped_adrc.control.npid import NPIDController
@@ -29,7 +28,7 @@ FIELD = {
     "PD with gravity": PDGravityController,
     "ADRC, outputs": OutputADRCController,
     "ADRC, outputs, m = 1": lambda c: OutputADRCController(c, SLOW),
-    "linear ADRC": linear_adrc,
+    "linear ADRC": lambda c: ADRCController(c, SLOW),
     "ADRC, high gain": lambda c: ADRCController(c, HighGainObserver.from_epsilon(0.002)),
     "momentum observer": MomentumDOBController,
     "CLF-QP": CLFQPController,
@@ -113,7 +112,9 @@ def left_over(walker, gait, x):
     return np.max(np.abs(ddy + K_D * dy + K_P * y)) / np.max(np.abs(ddy))
 
 
-@pytest.mark.parametrize("kind", [OutputADRCController, MomentumDOBController, linear_adrc])
+@pytest.mark.parametrize(
+    "kind", [OutputADRCController, MomentumDOBController, FIELD["linear ADRC"]]
+)
 def test_with_exact_estimates_the_loop_is_npd_s(biped, gait, kind):
     q, v = off_orbit(gait, biped)
     walker, npd = (
@@ -241,17 +242,6 @@ def test_the_largest_integral_gain_is_that_of_routh(gait):
 
 
 # -- linear ADRC and the high-gain observer ----------------------------------------------------
-def test_bandwidths_are_the_poles(gait):
-    made = linear_adrc(gait.constraint, 300.0, 60.0)
-    poles = np.roots([1.0, made.gains.K_d, made.gains.K_p])
-    assert poles == pytest.approx([-60.0, -60.0], rel=1e-6)
-    assert np.linalg.eigvals(made.observer.error_system().A) == pytest.approx(-300.0, rel=1e-4)
-    assert made.observer.m == 1
-    assert linear_adrc(gait.constraint).gains == ba.TABLE_II
-    with pytest.raises(InputError, match="controller bandwidth is -1"):
-        bandwidth_gains(-1.0)
-
-
 @pytest.mark.parametrize("alpha", [None, (4.0, 6.0, 4.0)])
 def test_the_high_gain_observer_is_gpi_with_the_same_poles(alpha):
     epsilon, random = 0.004, np.random.default_rng(1)

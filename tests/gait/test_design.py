@@ -146,7 +146,8 @@ def test_stored_gaits_have_their_speed_and_keep_the_limits(preset: str) -> None:
 
 def test_library_is_written_read_and_searched(tmp_path, level: DesignedGait) -> None:
     biped = Biped.load("rabbit", "tac2003")
-    GaitLibrary({0.8: level.gait, 0.5: load_gait("v0.5", biped)}).save(tmp_path)
+    for stored in (level.gait, load_gait("v0.5", biped)):
+        stored.save(tmp_path / stored.file_name)
     library = GaitLibrary.load(tmp_path, biped)
     assert library.speeds == pytest.approx((0.5, 0.8), abs=1e-5)
     assert library.nearest(0.9).name == level.gait.name

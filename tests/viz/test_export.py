@@ -144,7 +144,7 @@ def test_a_strip_says_how_a_walk_ended(walks: dict[str, Walk]) -> None:
     assert "stalled at" in axes.get_title(loc="left")
     with style():
         axes = new_figure(6.0, 4.0).subplots()
-        strip(axes, walks["NPD"], 0.0, 1.2, poses=13)
+        strip(axes, walks["NPD"], 0.0, 1.2)
     assert axes.get_title(loc="left") == "a pose every 100 ms"
     with style():
         axes = new_figure(6.0, 4.0).subplots()

@@ -127,7 +127,6 @@ def test_names_and_marks_are_escaped(biped: Biped, walks: dict[str, Walk]) -> No
 
 def test_animation_refuses_bad_input(walks: dict[str, Walk]) -> None:
     for shown, look in (
-        ({}, Look()),
         (walks, Look(solid="LQR")),
         (walks, Look(fps=0.0)),
         (walks, Look(view="top")),

@@ -49,13 +49,10 @@ def write_moving_picture(
     the picture follows it. start, stop [s]: the part shown, the whole if None. motion: pace, size and
     arrangement.
 
-    Raises InputError for no walk, a part or a motion that does not fit, for a video without PyAV
-    installed, and OutputError.
+    Raises InputError for a part or a motion that does not fit, and OutputError.
     """
-    encoded = ENCODERS[check_moving(path)]
+    encoded = ENCODERS[path.suffix.lower()]
     motion = draw.Motion() if motion is None else motion
-    if not walks:
-        raise InputError("there is no walk to draw; expected at least one")
     times = _times(walks, start, stop, motion)
     with style():
         if motion.apart:
@@ -66,20 +63,6 @@ def write_moving_picture(
     badly = any(ending(w.trajectory) and w.trajectory.t_end <= times[-1] for w in walks.values())
     rest = REST if badly else 0.0
     write_bytes(path, encoded(images, motion.fps, rest))
-
-
-def check_moving(path: Path) -> str:
-    """The suffix of `path` in small letters. Raises InputError for one that is no moving picture, and for a
-    video without PyAV installed.
-    """
-    suffix = path.suffix.lower()
-    if suffix not in ENCODERS:
-        raise InputError(
-            f"'{path}' is no moving picture; expected a name that ends in {' or '.join(ENCODERS)}"
-        )
-    if suffix == ".mp4":
-        mp4.check_library()
-    return suffix
 
 
 def _times(

@@ -32,6 +32,8 @@ LOOKS = {
     "": (TRUNK, 2.6, "-", ""),
 }
 """Role -> colour, width [pt], dash and name; the trunk goes by its own name."""
+POSES = 13
+"""Of a strip."""
 MARGIN = 0.6
 """Least ground [m] shown before the first and behind the last foothold."""
 
@@ -41,27 +43,24 @@ def strip(
     walk: Recorded,
     start: float | None = None,
     stop: float | None = None,
-    poses: int = 13,
 ) -> Axes:
-    """Draw the robot at `poses` times, equally spaced from `start` to `stop` [s]; returns the axes.
+    """Draw the robot at POSES times, equally spaced from `start` to `stop` [s]; returns the axes.
 
     Without times: the last two steps. The first pose is at `start`. A pose at an impact shows the
     end of the step before it, as the first pose of the next step has the same posture with the legs
     exchanged. The title says how far apart the poses are, and how a walk ended that did not do what
     it was asked for.
 
-    Raises InputError for times outside the walk or fewer than 2 poses.
+    Raises InputError for times outside the walk.
     """
     scene = WalkScene.of(walk)
     start, stop = _interval(scene, start, stop)
-    if poses < 2:
-        raise InputError(f"a strip of {poses} poses was asked for, expected at least 2")
     view = SideView(scene)
-    times = np.linspace(start, stop, poses)
+    times = np.linspace(start, stop, POSES)
     for k, t in enumerate(times):
         # the end of the last step is its own last pose, not the first of the next
         shown = float(np.nextafter(t, start)) if k else float(t)
-        _pose(axes, view, shown, (k + 1) / poses, k == poses - 1)
+        _pose(axes, view, shown, (k + 1) / POSES, k == POSES - 1)
     _ground(axes, view, start, stop)
     axes.set_aspect("equal")
     axes.grid(False)

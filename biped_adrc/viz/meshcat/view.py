@@ -67,8 +67,6 @@ class Look:
 
     def order(self, walks: Mapping[str, Recorded]) -> list[str]:
         """The names with the solid walk first, then the ghosts. Raises InputError for what does not fit."""
-        if not walks:
-            raise InputError("there is no walk to animate; expected at least one")
         if self.view not in VIEWS:
             raise InputError(f"view is '{self.view}', choose one of {list(VIEWS)}")
         check_positive(self.fps, f"fps is {self.fps} frames per second")

@@ -2,7 +2,6 @@
 
 `Walk.plot`, the reproduction of the paper and `biped-adrc plot` draw these. With a push they show the
 time around it, and most of them the milliseconds after either edge, in which a fast observer has its say.
-Lines are thinned to what can be seen (`viz.thin`).
 """
 
 from __future__ import annotations
@@ -21,7 +20,6 @@ from biped_adrc.types import Array
 from biped_adrc.viz import plots
 from biped_adrc.viz.plots.over_time import Window
 from biped_adrc.viz.style import new_figure, style
-from biped_adrc.viz.thin import thin
 
 BEFORE, AFTER = 0.3, 0.6
 """What the zoom shows before and after a push [s]."""
@@ -52,7 +50,7 @@ def tracking_figure(
                 plots.joint_tracking(axes, signals, half).set_xlabel("")
             _torques_and_errors(column[-2:], signals, push, torque_limit)
             column[0].set_xlim(signals.t[0], signals.t[-1])
-            return thin(figure)
+            return figure
         spec = figure.add_gridspec(3, 4)
         for axes, half in zip(_row(figure, spec, 0, len(halves)), halves, strict=True):
             plots.joint_tracking(axes, signals, half, push)
@@ -64,7 +62,7 @@ def tracking_figure(
         _zoom(columns[0], signals, push)
         _edges(columns[1:], signals, push)
         _one_legend_a_row(columns)
-        return thin(figure)
+        return figure
 
 
 def _titled(title: str, s: Signals, push: Window | None) -> str:
@@ -164,7 +162,7 @@ def passive_figure(signals: Signals, title: str = "", push: Window | None = None
         plots.angles(parts["angles"], signals, push).set_xlabel("")
         plots.energy(parts["energy"], signals, push)
         plots.phase_portrait(parts["phase"], signals)
-        return thin(figure)
+        return figure
 
 
 def _zoom(column: Sequence[Axes], s: Signals, push: Window) -> None:
@@ -201,7 +199,7 @@ def phase_figure(walks: Mapping[str, Signals]) -> Figure:
         row = figure.subplots(1, len(walks), squeeze=False, sharex=True, sharey=True)[0]
         for i, (axes, (name, s)) in enumerate(zip(row, walks.items(), strict=True)):
             plots.phase_portrait(axes, s, name, i).set_title(name, loc="left")
-        return thin(figure)
+        return figure
 
 
 def disturbance_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
@@ -231,7 +229,7 @@ def disturbance_figure(signals: Signals, title: str = "", push: Window | None = 
             _zoom(columns[0], signals, push)
             _edges(columns[1:], signals, push)
         _one_legend_a_row(columns)
-        return thin(figure)
+        return figure
 
 
 def ground_figure(
@@ -256,7 +254,7 @@ def ground_figure(
             _legend_above(axes)
         if push:
             _zoom([over_time], signals, push)
-        return thin(figure)
+        return figure
 
 
 def energy_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
@@ -268,21 +266,16 @@ def energy_figure(signals: Signals, title: str = "", push: Window | None = None)
         _legend_above(axes)
         if push:
             _zoom([axes], signals, push)
-        return thin(figure)
+        return figure
 
 
-def multiplier_figure(
-    multipliers: Mapping[str, ArrayLike], published: ArrayLike | None = None
-) -> Figure:
-    """Floquet multipliers (k,), complex, by name in the unit circle, and their magnitudes in decreasing order.
-
-    published (k,): magnitudes printed in the paper, shown for comparison; see `plots.magnitudes`.
-    """
+def multiplier_figure(multipliers: Mapping[str, ArrayLike]) -> Figure:
+    """Floquet multipliers (k,) by name in the unit circle, and their magnitudes in decreasing order."""
     with style():
         figure = new_figure(9.5, 4.4)
         circle, sizes = figure.subplots(1, 2)
         plots.multipliers(circle, multipliers).set_title("multipliers", loc="left")
-        plots.magnitudes(sizes, multipliers, published).set_title("magnitudes", loc="left")
+        plots.magnitudes(sizes, multipliers).set_title("magnitudes", loc="left")
         return figure
 
 
@@ -324,4 +317,4 @@ def comparison_figure(walks: Mapping[str, Signals], push: Window | None = None) 
         plots.error_sizes(sizes, walks)
         plots.torque_sizes(motors, walks)
         _legend_above(motors)
-        return thin(figure)
+        return figure

@@ -7,12 +7,9 @@ observer lowers the first curve and raises the last.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 from matplotlib.figure import Figure
 
-from biped_adrc.errors import InputError
 from biped_adrc.observer_design.observer_report import ObserverReport
 from biped_adrc.viz.style import DASHES, GREY, PALETTE, label, new_figure, style
 
@@ -20,46 +17,35 @@ FEWEST, FLOOR = 400, 1e-12
 """Frequencies of a curve, and how far below a panel's largest value it is drawn, as a share of it."""
 
 
-def observer_figure(reports: Sequence[ObserverReport]) -> Figure:
-    """|e / xi|, |xi^ / xi| and |u / n| over the frequency [rad/s], a curve for each report.
+def observer_figure(report: ObserverReport) -> Figure:
+    """|e / xi|, |xi^ / xi| and |u / n| over the frequency [rad/s].
 
-    Dotted: half the sampling frequency of the first report, above which a sampled loop sees
-    aliases. An observer without extended states (m = 0) has no estimate and no curve in the second
-    panel. Raises InputError when there is no report.
+    Dotted: half the sampling frequency, above which a sampled loop sees aliases. An observer without extended
+    states (m = 0) has no estimate and no curve in the second panel.
     """
-    if not reports:
-        raise InputError("the figure of transfer functions has no report; expected at least one")
-    grids = [report.frequencies for report in reports]
-    grid = np.geomspace(min(g[0] for g in grids), max(g[-1] for g in grids), FEWEST)
+    frequencies, loop = report.frequencies, report.loop
+    grid = np.geomspace(frequencies[0], frequencies[-1], FEWEST)
+    curves = (
+        (loop.tracking_error(grid), "|e / xi| [s$^2$]", "error from a disturbance"),
+        (loop.estimate(grid), "|xi^ / xi|", "estimate of the disturbance"),
+        (
+            loop.noise(grid) * report.hardware.inertia,
+            "|u / n| [N m/rad]",
+            "torque from an angle's error",
+        ),
+    )
     with style():
         figure = new_figure(9.0, 3.4)
         panels = figure.subplots(1, 3)
-        for i, report in enumerate(reports):
-            loop = report.loop
-            curves = (
-                loop.tracking_error(grid),
-                loop.estimate(grid),
-                loop.noise(grid) * report.hardware.inertia,
-            )
-            colour, dash = PALETTE[i % len(PALETTE)], DASHES[i % len(DASHES)]
-            for axes, curve in zip(panels, curves, strict=True):
-                level = np.abs(curve)
-                if np.any(level > 0.0):  # m = 0 has no estimate
-                    axes.loglog(grid, level, label=report.name, color=colour, ls=dash)
-        titles = (
-            ("|e / xi| [s$^2$]", "error from a disturbance"),
-            ("|xi^ / xi|", "estimate of the disturbance"),
-            ("|u / n| [N m/rad]", "torque from an angle's error"),
-        )
-        for axes, (name, title) in zip(panels, titles, strict=True):
+        for axes, (curve, name, title) in zip(panels, curves, strict=True):
             label(axes, "frequency [rad/s]", name, title)
-            if not axes.lines:
+            level = np.abs(curve)
+            if not np.any(level > 0.0):
                 axes.set_xscale("log")
                 axes.text(0.5, 0.5, "m = 0 has none", ha="center", transform=axes.transAxes)
                 continue
-            highest = max(np.max(line.get_ydata()) for line in axes.lines)
-            axes.set_ylim(bottom=max(axes.get_ylim()[0], FLOOR * highest))
-            axes.axvline(np.pi / reports[0].hardware.period, color=GREY, lw=0.8, ls=":")
-        handles, names = panels[0].get_legend_handles_labels()
-        figure.legend(handles, names, loc="outside lower center", ncols=min(3, len(names)))
+            axes.loglog(grid, level, label=report.name, color=PALETTE[0], ls=DASHES[0])
+            axes.set_ylim(bottom=max(axes.get_ylim()[0], FLOOR * np.max(level)))
+            axes.axvline(np.pi / report.hardware.period, color=GREY, lw=0.8, ls=":")
+        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center")
         return figure

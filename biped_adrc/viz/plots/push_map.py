@@ -13,7 +13,6 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Polygon
 
 from biped_adrc.analysis.feasibility import COUNTED
-from biped_adrc.errors import InputError
 from biped_adrc.types import PlainRecord
 from biped_adrc.viz.style import label, named_cells, new_figure, style
 
@@ -36,10 +35,8 @@ def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
     rows: "onset_ms" [ms], "amplitude" [N m], "pattern", "torque_limit" [N m] or None for unlimited,
     "npd_word" and "adrc_word" of `FATES`. Panels go from unlimited torque to the highest limit,
     rows of cells are in the order of the data. The title of a panel counts the pushes that are
-    feasible, the impact aside. Raises InputError when there are no rows.
+    feasible, the impact aside.
     """
-    if not rows:
-        raise InputError("the map of pushes has no cells; expected at least one row")
     limits = sorted({r["torque_limit"] for r in rows}, key=lambda v: (v is not None, v))
     kinds = list(dict.fromkeys((r["pattern"], r["amplitude"]) for r in rows))
     onsets = sorted({r["onset_ms"] for r in rows})

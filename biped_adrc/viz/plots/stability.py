@@ -13,12 +13,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike
 
-from biped_adrc.errors import InputError
 from biped_adrc.types import Array
 from biped_adrc.viz.style import GREY, PALETTE, label
 
 MARKERS = "ox^s"
 """Marks by method."""
+STEPS = 12
+"""Of a staircase."""
 
 
 def multipliers(axes: Axes, found: Mapping[str, ArrayLike]) -> Axes:
@@ -34,13 +35,10 @@ def multipliers(axes: Axes, found: Mapping[str, ArrayLike]) -> Axes:
     return axes
 
 
-def magnitudes(
-    axes: Axes, found: Mapping[str, ArrayLike], published: ArrayLike | None = None
-) -> Axes:
+def magnitudes(axes: Axes, found: Mapping[str, ArrayLike]) -> Axes:
     """|lambda| (k,) [1] by name in decreasing order on a logarithmic scale; stable below 1.
 
-    Zeros have no place on that scale: the legend counts them. published (k,): magnitudes printed in
-    the paper; they come from a regression and are shown for comparison only.
+    Zeros have no place on that scale: the legend counts them.
     """
     axes.axhline(1.0, color="black", lw=1.0, label="unit circle")
     for i, (name, values) in enumerate(found.items()):
@@ -49,10 +47,6 @@ def magnitudes(
         size = size[size > 0.0]
         name = f"{name}, {zeros} more are 0" if zeros else name
         _plot(axes, i, name, 1.0 + np.arange(len(size)), size, 6)
-    if published is not None:
-        size = np.sort(np.abs(np.asarray(published)))[::-1]
-        name = "printed in the paper (regression)"
-        axes.plot(1 + np.arange(len(size)), size, "+", color=GREY, ms=8, label=name)
     axes.set_yscale("log")
     label(axes, "number in decreasing order [-]", r"$|\lambda|$ [-]")
     axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.14), ncols=2, frameon=False)
@@ -65,22 +59,19 @@ def _plot(axes: Axes, i: int, name: str, x: ArrayLike, y: ArrayLike, size: int) 
     axes.plot(x, y, marker=marker, ls="", mec=colour, mfc="none", ms=size, label=name)
 
 
-def staircase(axes: Axes, before: Array, after: Array, steps: int = 12) -> Axes:
-    """The return map of one coordinate, the diagonal, and the way of `steps` steps from either end of it.
+def staircase(axes: Axes, before: Array, after: Array) -> Axes:
+    """The return map of one coordinate, the diagonal, and the way of STEPS steps from either end of it.
 
     before, after (k,): Theta' before an impact and before the next [rad/s]; between the samples the
-    map is interpolated linearly. The walk settles where the stairs end: at the fixed point. Raises
-    InputError for fewer than 2 samples or one that is not finite.
+    map is interpolated linearly. The walk settles where the stairs end: at the fixed point.
     """
     order = np.argsort(before)
     x, y = np.asarray(before, dtype=float)[order], np.asarray(after, dtype=float)[order]
-    if len(x) < 2 or not (np.isfinite(x).all() and np.isfinite(y).all()):
-        raise InputError(f"a return map of {len(x)} finite samples was given, expected at least 2")
     axes.plot([x[0], x[-1]], [x[0], x[-1]], color=GREY, ls="--", label="the same speed")
     axes.plot(x, y, color=PALETTE[0], marker="o", ms=3, label="return map")
     for k, start in enumerate((x[0], x[-1])):
         way = [float(start)]
-        for _ in range(steps):
+        for _ in range(STEPS):
             way.append(float(np.interp(way[-1], x, y)))
         stairs(axes, way, "step by step" if k == 0 else "_")
     axes.plot(way[-1], way[-1], "s", color="black", ms=7, mfc="none", label="where it settles")

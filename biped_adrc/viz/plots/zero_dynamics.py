@@ -85,8 +85,8 @@ def zero_portrait(axes: Axes, report: ZeroDynamicsReport) -> Axes:
     return _walking_order(axes, theta)
 
 
-def restricted_map(axes: Axes, report: ZeroDynamicsReport, steps: int = STAIRS) -> Axes:
-    """rho(zeta), the diagonal, zeta*, the domain shaded, and the stairs of `steps` steps from either end of it.
+def restricted_map(axes: Axes, report: ZeroDynamicsReport) -> Axes:
+    """rho(zeta), the diagonal, zeta*, the domain shaded, and the stairs of STAIRS steps from either end of it.
 
     zeta [kg^2 m^4/s^2] is sigma^2 / 2 before an impact. The stairs begin just inside the domain, as
     its ends are left out of it, and run towards zeta* where the gait is stable.
@@ -102,7 +102,7 @@ def restricted_map(axes: Axes, report: ZeroDynamicsReport, steps: int = STAIRS) 
     for k, end in enumerate(() if report.domain.empty else (low, high)):
         inside = end + 1e-6 * (high - low) * (1.0 if k == 0 else -1.0)
         name = "step by step" if k == 0 else "_"
-        stairs(axes, o.iterate(inside, steps), name)
+        stairs(axes, o.iterate(inside, STAIRS), name)
     name = r"$\zeta^*$"
     axes.plot(report.zeta_star, report.zeta_star, "s", color="black", mfc="none", label=name)
     unit = "[kg$^2$m$^4$/s$^2$]"

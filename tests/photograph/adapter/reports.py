@@ -149,9 +149,9 @@ def plain(record: Plain) -> Plain:
 
 
 # -- studies ---------------------------------------------------------------------------------------
-def cycle(robot: str, controller: str | None, gait: str = "published", samples: int = 0) -> Plain:
+def cycle(robot: str, controller: str | None, gait: str = "published") -> Plain:
     """A return map's fixed point and its multipliers."""
-    found = ba.cycle_stability(ba.find_cycle(robot, None, gait, controller), samples)
+    found = ba.cycle_stability(ba.find_cycle(robot, None, gait, controller))
     rows = {row.method.value: [float(x) for x in row.magnitudes] for row in found.table.rows}
     return {"x_minus": [float(x) for x in found.orbit.x_minus], "multipliers": rows}
 
@@ -200,7 +200,7 @@ def reports() -> dict[str, Callable[[], Plain]]:
     for name in MADE:
         found[f"walk/{name}"] = lambda name=name: made(name)
     found |= {
-        "cycle/compass": lambda: cycle("compass", None, samples=5),
+        "cycle/compass": lambda: cycle("compass", None),
         "cycle/NPD": lambda: cycle("rabbit", "NPD", "v0.8"),
         "cycle/ADRC": lambda: cycle("rabbit", "ADRC"),
         "zero/published": lambda: zero("published"),
