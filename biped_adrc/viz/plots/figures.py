@@ -269,13 +269,18 @@ def energy_figure(signals: Signals, title: str = "", push: Window | None = None)
         return figure
 
 
-def multiplier_figure(multipliers: Mapping[str, ArrayLike]) -> Figure:
-    """Floquet multipliers (k,) by name in the unit circle, and their magnitudes in decreasing order."""
+def multiplier_figure(
+    multipliers: Mapping[str, ArrayLike], published: ArrayLike | None = None
+) -> Figure:
+    """Floquet multipliers (k,), complex, by name in the unit circle, and their magnitudes in decreasing order.
+
+    published (k,): magnitudes printed in the paper, shown for comparison; see `plots.magnitudes`.
+    """
     with style():
         figure = new_figure(9.5, 4.4)
         circle, sizes = figure.subplots(1, 2)
         plots.multipliers(circle, multipliers).set_title("multipliers", loc="left")
-        plots.magnitudes(sizes, multipliers).set_title("magnitudes", loc="left")
+        plots.magnitudes(sizes, multipliers, published).set_title("magnitudes", loc="left")
         return figure
 
 

@@ -35,10 +35,13 @@ def multipliers(axes: Axes, found: Mapping[str, ArrayLike]) -> Axes:
     return axes
 
 
-def magnitudes(axes: Axes, found: Mapping[str, ArrayLike]) -> Axes:
+def magnitudes(
+    axes: Axes, found: Mapping[str, ArrayLike], published: ArrayLike | None = None
+) -> Axes:
     """|lambda| (k,) [1] by name in decreasing order on a logarithmic scale; stable below 1.
 
-    Zeros have no place on that scale: the legend counts them.
+    Zeros have no place on that scale: the legend counts them. published (k,): magnitudes printed in
+    the paper; they come from a regression and are shown for comparison only.
     """
     axes.axhline(1.0, color="black", lw=1.0, label="unit circle")
     for i, (name, values) in enumerate(found.items()):
@@ -47,6 +50,10 @@ def magnitudes(axes: Axes, found: Mapping[str, ArrayLike]) -> Axes:
         size = size[size > 0.0]
         name = f"{name}, {zeros} more are 0" if zeros else name
         _plot(axes, i, name, 1.0 + np.arange(len(size)), size, 6)
+    if published is not None:
+        size = np.sort(np.abs(np.asarray(published)))[::-1]
+        name = "printed in the paper (regression)"
+        axes.plot(1 + np.arange(len(size)), size, "+", color=GREY, ms=8, label=name)
     axes.set_yscale("log")
     label(axes, "number in decreasing order [-]", r"$|\lambda|$ [-]")
     axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.14), ncols=2, frameon=False)
