@@ -117,7 +117,8 @@ def test_feet_and_hip_are_where_pinocchio_has_them(robot):
     f, at = robot.floating, np.array([3.0, 2.0])
     for _ in range(5):
         q = random.uniform(-np.pi, np.pi, robot.n)
-        placed(plant, q, np.zeros(robot.n), Own(0.0, f.configuration(q, at)[f.base], np.zeros(2)))
+        base = f.configuration(q)[f.base] + at
+        placed(plant, q, np.zeros(robot.n), Own(0.0, base, np.zeros(2)))
         expected = at + np.array((np.zeros(2), robot.swing_foot(q), robot.hip(q)))
         found = np.array(plant.engine.points())[:, [0, 2]]
         np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-12)
