@@ -2,7 +2,7 @@
 
 Run: python benchmarks/studies.py [OUT] [--quick]
 
-The bare walks are there before the clock starts, with the same meter, and nobody asks for a row; what a
+The bare walks are there before the clock starts, with the same table, and nobody asks for a row; what a
 ratio has above 1 is what a study costs beside its walks. CPU time, of the children too; processes are
 forked from this one, where all is imported. Sweep: ADRC at 1 kHz, 25 impacts, every walk with a push of its
 own. Search: candidates of two gains and a bandwidth, each on walks of 10 impacts with a push of their own;

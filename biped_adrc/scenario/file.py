@@ -4,7 +4,8 @@
     controller.observer.bandwidth = "160 rad/s"
     pushes = [{ joints = "q1", torque = "30 N m", step = 2, onset = "0.1 s" }]
 
-Numbers are in the SI unit, or text with a unit; "none" is no value. Written by `tune`; read by --scenario.
+Numbers are in the SI unit, or text with a unit; "none" is no value. Written by a search of `study`; read by
+--scenario.
 """
 
 from __future__ import annotations

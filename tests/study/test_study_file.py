@@ -11,7 +11,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.statistics import median, paired, share
 from biped_adrc.errors import InputError
-from biped_adrc.scenario.file import read_scenario, write_scenario
+from biped_adrc.scenario.file import write_scenario
 from biped_adrc.study.parameters import scenario_of
 from biped_adrc.study.space import Draw, Range
 from biped_adrc.study.study import read_study
@@ -156,19 +156,6 @@ def test_mistakes_of_a_search_are_named_by_their_place(change, message):
         read_study(plants.tables(**change))
     with pytest.raises(InputError, match="cases: their files would be"):
         read_study(plants.tables() | {"cases": {"m = 1": {}, "m=1": {}}})
-
-
-SCENARIOS = [
-    ba.Scenario(controller={"name": "LESO", "observer": {"bandwidth": 1 / 3}}, run={"impacts": 8}),
-]
-
-
-@pytest.mark.parametrize("s", SCENARIOS)
-def test_a_scenario_file_reads_back_to_the_same_scenario(s, tmp_path):
-    path = tmp_path / "s.toml"
-    write_scenario(path, s, "two\nlines")
-    assert read_scenario(path) == s
-    assert path.read_text().startswith("# two\n# lines\ncontroller.name = ")
 
 
 def test_a_study_takes_the_values_of_a_scenario_file(tmp_path):
