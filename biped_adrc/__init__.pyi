@@ -21,8 +21,6 @@ from biped_adrc.control.tracking import TABLE_II as TABLE_II
 from biped_adrc.control.tracking import Gains as Gains
 from biped_adrc.control.tracking import feedback as feedback
 from biped_adrc.control.tracking import solved_acceleration as solved_acceleration
-from biped_adrc.deploy.export import export_c as export_c
-from biped_adrc.deploy.loaded import ExportedController as ExportedController
 from biped_adrc.disturbances.base import Disturbance as Disturbance
 from biped_adrc.disturbances.base import WindowedTorque as WindowedTorque
 from biped_adrc.disturbances.hip_force import HipForce as HipForce
@@ -35,6 +33,13 @@ from biped_adrc.engine.batch import Case as Case
 from biped_adrc.engine.batch import simulate_many as simulate_many
 from biped_adrc.engine.compiled_loop import CompiledLoop as CompiledLoop
 from biped_adrc.errors import BipedError as BipedError
+from biped_adrc.extras.export.export import export_c as export_c
+from biped_adrc.extras.export.loaded import ExportedController as ExportedController
+from biped_adrc.extras.logs.log_file import read_log as read_log
+from biped_adrc.extras.logs.log_file import write_log as write_log
+from biped_adrc.extras.logs.log_of_walk import logged as logged
+from biped_adrc.extras.logs.replay import replay as replay
+from biped_adrc.extras.logs.robot_log import RobotLog as RobotLog
 from biped_adrc.gait.constraint import VirtualConstraint as VirtualConstraint
 from biped_adrc.gait.constraint import continued as continued
 from biped_adrc.gait.conventions import convention as convention
@@ -76,11 +81,6 @@ from biped_adrc.hybrid.status import Status as Status
 from biped_adrc.hybrid.trajectory import Trajectory as Trajectory
 from biped_adrc.linear import solve as solve
 from biped_adrc.live.page import play as play
-from biped_adrc.logs.log_file import read_log as read_log
-from biped_adrc.logs.log_file import write_log as write_log
-from biped_adrc.logs.log_of_walk import logged as logged
-from biped_adrc.logs.replay import replay as replay
-from biped_adrc.logs.robot_log import RobotLog as RobotLog
 from biped_adrc.model.biped import Biped as Biped
 from biped_adrc.model.model_errors import ModelErrors as ModelErrors
 from biped_adrc.model.pinned import reroot as reroot

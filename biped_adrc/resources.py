@@ -32,7 +32,7 @@ def data_folder(kind: str) -> Path:
 
 @cache
 def packaged(package: str, name: str) -> dict[str, Any]:
-    """The content of the TOML file `name` in the folder of `package`, such as "biped_adrc.viz"; read once.
+    """The content of the TOML file `name` in the folder of `package`, such as "biped_adrc.view"; read once.
 
     The dict is shared by all callers and must not be changed.
     """

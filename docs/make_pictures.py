@@ -13,10 +13,10 @@ from biped_adrc.gait.gait import load_gait
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.viz.from_the_side.moving_parts import Motion
-from biped_adrc.viz.from_the_side.moving_picture import write_moving_picture
-from biped_adrc.viz.plots.zero_dynamics import zero_dynamics_figure
-from biped_adrc.viz.style import render
+from biped_adrc.view.from_the_side.moving_parts import Motion
+from biped_adrc.view.from_the_side.moving_picture import write_moving_picture
+from biped_adrc.view.plots.zero_dynamics import zero_dynamics_figure
+from biped_adrc.view.style import render
 
 IMAGES = Path(__file__).resolve().parent / "images"
 PUSH = "q1,q2=-150@4:0.3-0.5"

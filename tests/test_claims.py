@@ -34,7 +34,7 @@ from biped_adrc.paper.verdict import (
     texts,
     word_of,
 )
-from biped_adrc.viz.pages import CLAIM_COLUMNS
+from biped_adrc.view.pages import CLAIM_COLUMNS
 
 from .made_up_results import cell, cycle, figure, member, outcome, results, walk
 

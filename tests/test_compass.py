@@ -12,11 +12,11 @@ import biped_adrc as ba
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.npid import NPIDController
 from biped_adrc.control.super_twisting import SuperTwistingController
-from biped_adrc.deploy.computer import Computer
-from biped_adrc.deploy.loaded import OK
-from biped_adrc.deploy.source import source_of
+from biped_adrc.extras.export.computer import Computer
+from biped_adrc.extras.export.loaded import OK
+from biped_adrc.extras.export.source import source_of
+from biped_adrc.extras.logs.log_file import exchanged
 from biped_adrc.hardware.sample_hold import read
-from biped_adrc.logs.log_file import exchanged
 from biped_adrc.observers.base import Estimate
 from biped_adrc.resources import data_folder
 from biped_adrc.robot_import.import_robot import Hints, derive

@@ -193,7 +193,7 @@ OBSERVER = {
         "--set hardware.encoders.counts=99 --period 0.002",
         same("clock"), (0.002, 99.0, 0.001, True), "cli.observer:_confirm",
     ),
-    "out": Row("-o own.png", same("path"), Path("own.png"), "viz.style:write_figure"),
+    "out": Row("-o own.png", same("path"), Path("own.png"), "view.style:write_figure"),
 }  # fmt: skip
 STUDY_FILE = """
 name = "own"
@@ -211,10 +211,10 @@ IMPORT = {
 ZERO = {
     "friction": Row("--set friction=0.44", same("limits.friction"), 0.44),
     "slope": Row("--set slope=0.04", same("limits.slope"), 0.04),
-    "plot": Row("--plot own.png", same("path"), Path("own.png"), "viz.style:write_figure"),
+    "plot": Row("--plot own.png", same("path"), Path("own.png"), "view.style:write_figure"),
 }  # fmt: skip
 DESIGNED = "studies.gait_design:design_gait"
-ZERO_FIGURE = "viz.plots.zero_dynamics:zero_dynamics_figure"
+ZERO_FIGURE = "view.plots.zero_dynamics:zero_dynamics_figure"
 
 
 STUDY = {
@@ -243,7 +243,7 @@ COMMANDS = {
     "gait show": Command(
         "gait show published", ZERO_REPORT, ZERO,
         others={
-            "viz.style:write_figure": (
+            "view.style:write_figure": (
                 "gait show published", f"{ZERO_REPORT} {ZERO_FIGURE}"
             )
         },
@@ -252,8 +252,8 @@ COMMANDS = {
         "observer", REPORT, OBSERVER,
         others={
             "cli.observer:_confirm": ("observer", PRINTED),
-            "viz.style:write_figure": (
-                "observer", f"{PRINTED} viz.plots.observer_figure:observer_figure"
+            "view.style:write_figure": (
+                "observer", f"{PRINTED} view.plots.observer_figure:observer_figure"
             ),
         },
     ),

@@ -13,7 +13,7 @@ from biped_adrc.cli.app import app, say
 from biped_adrc.cli.options import scenario_from, texts
 
 if TYPE_CHECKING:
-    from biped_adrc.deploy.source import Source
+    from biped_adrc.extras.export.source import Source
 
 
 SLOW = 10.0
@@ -31,8 +31,8 @@ def export_command(
     fmu: bool = False,
 ) -> None:
     """Write the controller of a scenario as C99 that needs no library, for a robot's computer."""
-    from biped_adrc.deploy.computer import Computer
-    from biped_adrc.deploy.export import export_c
+    from biped_adrc.extras.export.computer import Computer
+    from biped_adrc.extras.export.export import export_c
     from biped_adrc.scenario.build import RobotAndGait, build
 
     s = scenario_from({}, sets, scenario)
@@ -48,8 +48,8 @@ def export_command(
 
 def _print(source: Source, out: Path, fmu: bool) -> None:
     """Print what was written, what it costs, and what a compiler says of it."""
-    from biped_adrc.deploy.fmu import contents
-    from biped_adrc.deploy.loaded import tried
+    from biped_adrc.extras.export.fmu import contents
+    from biped_adrc.extras.export.loaded import tried
 
     step = source.written["step"]
     say(

@@ -68,8 +68,8 @@ def _print_zero(biped: Biped, found: Gait, plot: Path | None, sets: list[str] | 
     report = zero_report(biped, found.constraint, with_sets(DomainLimits, sets, usual))
     say(report.text())
     if plot is not None:
-        from biped_adrc.viz.plots.zero_dynamics import zero_dynamics_figure
-        from biped_adrc.viz.style import write_figure
+        from biped_adrc.view.plots.zero_dynamics import zero_dynamics_figure
+        from biped_adrc.view.style import write_figure
 
         write_figure(plot, zero_dynamics_figure(report))
         say_written(plot)

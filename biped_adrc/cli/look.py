@@ -1,6 +1,6 @@
 """`biped-adrc animate` and `plot`: pictures of runs that were stored by `simulate` or `reproduce`.
 
-`animate` draws the robot (`viz.export`), `plot` its signals (`paper.figures`). Runs are read as they
+`animate` draws the robot (`view.export`), `plot` its signals (`paper.figures`). Runs are read as they
 are, without walking again, also runs of a user's own controller that is not at hand.
 """
 
@@ -25,7 +25,7 @@ def animate(
 ) -> None:
     """Write the walk as a page, a picture or a strip."""
     from biped_adrc.scenario.stored import load_walks
-    from biped_adrc.viz.export import SUFFIXES, Clip, check_suffix, export
+    from biped_adrc.view.export import SUFFIXES, Clip, check_suffix, export
 
     runs, clip = [run, *(ghost or [])], with_sets(Clip, sets, start=start, stop=stop)
     check_suffix(out)
@@ -47,7 +47,7 @@ def plot(
     """Draw the signals of a run."""
     from biped_adrc.paper.figures import draw
     from biped_adrc.scenario.stored import load_walks
-    from biped_adrc.viz.style import write_figure
+    from biped_adrc.view.style import write_figure
 
     runs = [run, *(beside or [])]
     keep_inputs((output_path(out, FIGURES),), runs)

@@ -59,8 +59,8 @@ def observer_command(
     if confirm:
         _confirm(scene.biped, scene.walked, chosen, gains, clock)
     if path is not None:
-        from biped_adrc.viz.plots.observer_figure import observer_figure
-        from biped_adrc.viz.style import write_figure
+        from biped_adrc.view.plots.observer_figure import observer_figure
+        from biped_adrc.view.style import write_figure
 
         write_figure(path, observer_figure(report))
         say_written(path)

@@ -27,8 +27,8 @@ def replay_command(
     out: Path | None = None,
 ) -> None:
     """Show a robot's log to a controller and its observer, and print what they make of it."""
-    from biped_adrc.logs.replay import HEADER, cells, replay
-    from biped_adrc.viz.style import write_figure
+    from biped_adrc.extras.logs.replay import HEADER, cells, replay
+    from biped_adrc.view.style import write_figure
 
     s = scenario_from(given, sets, scenario)
     paths = _paths(out, (log, *inputs(s.robot.name, s.gait.name)))

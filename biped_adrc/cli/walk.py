@@ -87,8 +87,8 @@ def _walk(
         # first, as printing may fail
         (full.save if out.suffix.lower() == ".npz" else full.export)(out)
     if log is not None:
-        from biped_adrc.logs.log_file import write_log
-        from biped_adrc.logs.log_of_walk import logged
+        from biped_adrc.extras.logs.log_file import write_log
+        from biped_adrc.extras.logs.log_of_walk import logged
 
         write_log(logged(full), log, full.walker.nominal)
     if half is None:

@@ -2,7 +2,7 @@
 
     ba.play("walk.html", ba.Scenario("ADRC", hardware="ideal"))
 
-The page has methods and loops as WebAssembly (`engine.web_walker`); its scripts (viz/play) do samples, pushes
+The page has methods and loops as WebAssembly (`engine.web_walker`); its scripts (view/play) do samples, pushes
 and springs, steps back, and a ghost. It walks what it was made with, on the rigid plant: the scenario, OTHERS,
 and the stations of the tour. A walk that is chosen begins anew from the start.
 
@@ -28,11 +28,11 @@ from biped_adrc.parts import check_part
 from biped_adrc.resources import packaged
 from biped_adrc.scenario.dotted import merged, nested
 from biped_adrc.scenario.scenario import ObserverRecord, Scenario
-from biped_adrc.viz.meshcat import objects as draw
-from biped_adrc.viz.meshcat.view import Look, captions, scene_settings
-from biped_adrc.viz.pages import with_viewer
-from biped_adrc.viz.placement import WalkScene
-from biped_adrc.viz.style import TORQUE
+from biped_adrc.view.meshcat import objects as draw
+from biped_adrc.view.meshcat.view import Look, captions, scene_settings
+from biped_adrc.view.pages import with_viewer
+from biped_adrc.view.placement import WalkScene
+from biped_adrc.view.style import TORQUE
 
 FIRST = Scenario("ADRC", hardware={"profile": "ideal", "torque_limit": 150.0})
 """What walks on a page that was given nothing: as in the tour."""

@@ -1,4 +1,4 @@
-"""The walks of a page, compiled with a hand, in the numbers that viz/play/machine.js reads.
+"""The walks of a page, compiled with a hand, in the numbers that view/play/machine.js reads.
 
 The hand is two parts of the disturbance, a torque on the coordinates and a force on a link. The page writes
 their numbers into the block of the run (`engine.kernels.record`) before each sample.
@@ -38,8 +38,8 @@ from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
-from biped_adrc.viz.meshcat.objects import visual_links
-from biped_adrc.viz.placement import exchanged, joint_values
+from biped_adrc.view.meshcat.objects import visual_links
+from biped_adrc.view.placement import exchanged, joint_values
 
 MOST = {"force": 300.0, "torque": 200.0}
 """Largest force [N] of a hand, about the weight of RABBIT, and largest torque on one coordinate [N m]."""

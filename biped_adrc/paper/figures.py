@@ -1,6 +1,6 @@
 """The figures that are drawn of any stored walk, by name: what the command `plot` draws.
 
-Decides which signals a figure gets and where the window of the push is; the drawing is in `viz.plots.figures`.
+Decides which signals a figure gets and where the window of the push is; the drawing is in `view.plots.figures`.
 matplotlib is imported when something is drawn, since importing it takes longer than a walk.
 """
 
@@ -27,8 +27,8 @@ def draw(name: str, walks: Mapping[str, Walk]) -> Figure:
 
     Raises InputError for an unknown name, no walk, or a robot without motors where the figure shows motors.
     """
-    from biped_adrc.viz.plots import figures
-    from biped_adrc.viz.style import literal
+    from biped_adrc.view.plots import figures
+    from biped_adrc.view.style import literal
 
     if name not in NAMES:
         raise InputError(f"there is no figure '{name}'; choose one of {list(NAMES)}")

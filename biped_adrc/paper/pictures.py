@@ -1,7 +1,7 @@
 """The figures of the reproduction, drawn in several processes and written as PNG and SVG.
 
 Drawing takes longer than some of the runs, so each figure is a task of `processes`. What is drawn comes
-from `viz`; this module only chooses the data. Called by `paper.reproduction`.
+from `view`; this module only chooses the data. Called by `paper.reproduction`.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from biped_adrc.paper.figures import push_window
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.scenarios import CONTROLLERS
 from biped_adrc.processes import Task, run_tasks
-from biped_adrc.viz.from_the_side.robot_figure import robot_figure
-from biped_adrc.viz.plots import figures
-from biped_adrc.viz.plots.push_map import push_map_figure
-from biped_adrc.viz.style import render
+from biped_adrc.view.from_the_side.robot_figure import robot_figure
+from biped_adrc.view.plots import figures
+from biped_adrc.view.plots.push_map import push_map_figure
+from biped_adrc.view.style import render
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

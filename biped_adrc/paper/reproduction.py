@@ -34,8 +34,8 @@ from biped_adrc.processes import TaskProgress, run_tasks
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.stored import replay
 from biped_adrc.versions import versions
-from biped_adrc.viz.meshcat.view import Look, animation_html
-from biped_adrc.viz.pages import write_report
+from biped_adrc.view.meshcat.view import Look, animation_html
+from biped_adrc.view.pages import write_report
 
 WRITTEN = (".html", ".json", ".npz", ".png", ".svg")
 """Kinds of the files that a reproduction writes."""

@@ -209,7 +209,7 @@ class Walk(Shown):
 
         Of a robot without motors: angles, energies and the phase portrait.
         """
-        from biped_adrc.viz.plots.figures import passive_figure, tracking_figure
+        from biped_adrc.view.plots.figures import passive_figure, tracking_figure
 
         if self.walker.plant.p == 0:
             return passive_figure(self.signals, title, push)
@@ -220,7 +220,7 @@ class Walk(Shown):
 
         view: "side" (orthographic) or "perspective", of the page. Raises InputError and OutputError.
         """
-        from biped_adrc.viz.export import Clip, export
+        from biped_adrc.view.export import Clip, export
 
         export(Path(path), {self.controller_name: self}, Clip(view=view))
 
@@ -264,8 +264,8 @@ class Walk(Shown):
 
     def _repr_html_(self) -> str:
         """What a notebook shows: status and remarks, the animation and the figure of `plot`."""
-        from biped_adrc.viz.meshcat.view import animation_html
-        from biped_adrc.viz.pages import inline
+        from biped_adrc.view.meshcat.view import animation_html
+        from biped_adrc.view.pages import inline
 
         impacts = len(self.trajectory.events(FOOT_STRIKE))
         status = self.trajectory.status

@@ -18,9 +18,9 @@ from biped_adrc.study.parameters import field_of
 from biped_adrc.study.results import Group, Line, Results
 from biped_adrc.study.run import COLUMNS
 from biped_adrc.study.study import measure_of
-from biped_adrc.viz.pages import data_uri, plain, rendered
-from biped_adrc.viz.plots.study import cells_figure, dots_figure, map_figure, path_figure
-from biped_adrc.viz.style import render
+from biped_adrc.view.pages import data_uri, plain, rendered
+from biped_adrc.view.plots.study import cells_figure, dots_figure, map_figure, path_figure
+from biped_adrc.view.style import render
 
 PAGE = "study.html"
 """Name of the page in the folder of a study."""

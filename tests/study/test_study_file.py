@@ -15,7 +15,7 @@ from biped_adrc.scenario.file import write_scenario
 from biped_adrc.study.parameters import scenario_of
 from biped_adrc.study.space import Draw, Range
 from biped_adrc.study.study import read_study
-from biped_adrc.viz.plots.study import cut
+from biped_adrc.view.plots.study import cut
 
 STUDY = """
 name = "robustness"

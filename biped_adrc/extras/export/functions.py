@@ -1,0 +1,113 @@
+"""The functions of a robot's computer on symbols, by the lines of `closed_loop.semantics`.
+
+    init       (t, q, v)        -> x_c              observer, filter and queue at the start
+    step       (t, q, v, x_c)   -> x_c, u, lost     a sample instant; u (p,) [N m] goes to the motors
+    touchdown  (t, q, v, x_c)   -> x_c              after an impact, q and v in the labels that begin
+
+x_c = (s, w, queue, waiting, u): the controller's state, and what is held between sample instants.
+lost is not positive where a matrix is singular or a torque beyond the walker's bound.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from biped_adrc.closed_loop import semantics
+from biped_adrc.closed_loop.protocols import Mode
+from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerStructure
+from biped_adrc.engine.symbolic_loop import SymbolicInstant
+from biped_adrc.engine.symbols import Scalar, Vector, column, where
+from biped_adrc.engine.tracer import Tracer, run
+from biped_adrc.extras.export.computer import Computer
+from biped_adrc.hardware.motors import Line
+from biped_adrc.hardware.sample_hold import read
+from biped_adrc.timing import SAME_INSTANT
+from biped_adrc.types import Array
+
+HEAD = 4
+"""Inputs before q: t, time of the sample instant before, number and start of the single support."""
+
+
+@dataclass(frozen=True)
+class Given:
+    """The inputs of a function on symbols, and the loop that they are given to."""
+
+    computer: Computer
+    size: int
+    """Numbers in s."""
+
+    @cached_property
+    def equations(self) -> Equations:
+        """The computer's parts, with symbols for its numbers."""
+        held = self.computer.held.sizes
+        make = WalkerStructure(self.computer.robot.structure, self.size, held)
+        return Equations.of(make, self.computer.numbers)
+
+    @cached_property
+    def at(self) -> SymbolicInstant:
+        """(t, last, step, start), then x = (q, v, x_c)."""
+        inp, trace = Vector("inp", HEAD + self.equations.make.nx), Tracer()
+        t, _, mode = inp.take(), inp.take(), Mode(inp.take(), inp.take())
+        x = inp.take(self.equations.make.nx)
+        return SymbolicInstant(inp, trace, self.equations.loop(trace), t, x, mode)
+
+    @property
+    def parts(self) -> tuple[Array, Array, Array, Array]:
+        """q, v (n,), s, and what is held."""
+        return semantics.parts(self.at.loop, self.at.x)
+
+    def function(self, *parts: object) -> SymbolicFunction:
+        """The function of these inputs, its parts one after the other."""
+        return SymbolicFunction(self.equations.K, self.at.inp.symbol, column(*parts))  # type: ignore[arg-type]
+
+
+def init(computer: Computer) -> SymbolicFunction:
+    """x_c at the start of a single support at (t, q, v); no torque is on its way."""
+    given, k = Given(computer, 0), computer.held
+    q, v = given.parts[:2]
+    at = given.at
+    m = at.loop.measure(at.t, q, v, at.mode)
+    controller = at.trace.on_symbols(given.equations.numbers.controller)
+    s = run(at.trace, controller.initial_state, m)
+    held = at.loop.held
+    w = np.zeros(0) if held is None or held.sensors is None else held.sensors.start(q, v)
+    return given.function(s, w, np.zeros(k.sizes.total - k.sizes.sensors))
+
+
+def step(computer: Computer, size: int) -> SymbolicFunction:
+    """x_c, u (p,) [N m] and lost at a sample instant, for a controller with `size` numbers in s."""
+    given, k = Given(computer, size), computer.held
+    n = k.sizes.n
+    at = given.at._replace(x=_released(given))
+    x = at.does(semantics.tick)
+    line = read(k.sizes, semantics.parts(at.loop, x)[3]).line
+    return given.function(x[2 * n :], sent_last(line), at.lost)
+
+
+def touchdown(computer: Computer, size: int) -> SymbolicFunction:
+    """x_c after a touchdown; the inputs of the mode are the single support that begins."""
+    given = Given(computer, size)
+    at, (q, v) = given.at, given.parts[:2]
+    x = at.trace(semantics.landed)(at.loop, at.t, at.x, q, v, at.mode)
+    return given.function(x[2 * len(q) :])
+
+
+def _released(given: Given) -> Array:
+    """x in which a torque that waited for a fraction of the period acts once that time is over."""
+    k, at = given.computer.held, given.at
+    if k.sizes.waiting == 0:
+        return at.x
+    p, after = k.sizes.p, k.motors.fraction * given.computer.timing.period - SAME_INSTANT
+    over = at.t - Scalar(at.inp.symbol[1]) >= after
+    u = [where(over, new, old) for new, old in zip(at.x[-2 * p : -p], at.x[-p:], strict=True)]
+    return np.concatenate((at.x[:-p], np.array(u, dtype=object)))
+
+
+def sent_last(line: Line) -> Array:
+    """The torque (p,) [N m] that was sent at this sample instant, wherever on its way it is."""
+    if len(line.queue) > 0:
+        return line.queue[len(line.queue) - len(line.u) :]
+    return line.waiting if len(line.waiting) > 0 else line.u

@@ -1,0 +1,217 @@
+"""An exported controller, compiled on this machine and called from Python.
+
+`ExportedController` is a controller of a walker whose every sample instant is one call of the C, so that
+an exported controller walks on any plant. `Loaded` has the three functions of the C.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.errors import (
+    BipedError,
+    InputError,
+    NotFiniteError,
+    OutputError,
+    RanAwayError,
+    SingularError,
+)
+from biped_adrc.extras.export.source import Source
+from biped_adrc.types import Array, Indices, relabelled
+
+FLAGS: tuple[str, ...] = ("-std=c99", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic")
+"""How an exported controller is compiled."""
+COMPILERS = ("cc", "gcc", "clang")
+"""Names of C compilers, the first one found is taken; the variable CC goes before them."""
+NO_COMPILER = f"there is no C compiler, looked for {', '.join(COMPILERS)}"
+OK, NOT_MEASURED, NO_RESULT, SINGULAR, RAN_AWAY = range(5)
+"""What the functions of the C return."""
+ERRORS: Mapping[int, type[BipedError]] = {
+    NOT_MEASURED: NotFiniteError,
+    NO_RESULT: NotFiniteError,
+    SINGULAR: SingularError,
+    RAN_AWAY: RanAwayError,
+}
+"""What the controller in Python raises there: it ends a walk with the status of the same name."""
+
+Record = NDArray[np.void]
+"""A struct of C."""
+
+
+def compiler() -> str | None:
+    """The path of a C compiler; None where there is none."""
+    names = (*filter(None, [os.environ.get("CC")]), *COMPILERS)
+    return next(filter(None, map(shutil.which, names)), None)
+
+
+@contextmanager
+def compiled(
+    files: Mapping[str, str], names: Sequence[str], *flags: str
+) -> Iterator[tuple[Path, str]]:
+    """What these names of files of C are compiled to, in a folder of its own, and what the compiler said.
+
+    flags: beside `FLAGS`. Raises InputError where there is no compiler, or it refuses, and OutputError
+    where there is no room for temporary files.
+    """
+    program = compiler()
+    if program is None:
+        raise InputError(f"{NO_COMPILER}; install one, or set CC")
+    try:
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            for file, text in files.items():
+                (folder / file).write_text(text, encoding="utf-8")
+            given = [*FLAGS, *flags, "-o", "out", *names, "-lm"]
+            done = subprocess.run([program, *given], cwd=folder, capture_output=True, text=True)
+            if done.returncode != 0:
+                said = f"{Path(program).name} does not compile {names[0]}: {done.stderr[:400]}"
+                raise InputError(said)
+            yield folder / "out", done.stderr
+    except OSError as error:
+        raise OutputError(
+            f"the C cannot be compiled in the temporary folder: {error.strerror or error}; make room, or "
+            "set TMPDIR to another folder"
+        ) from error
+
+
+def tried(source: Source) -> str:
+    """What a C compiler says of a source, in a sentence; that there is none, where there is none."""
+    if (program := compiler()) is None:
+        return f"not compiled: {NO_COMPILER}"
+    with compiled(source.files, ["main.c", f"{source.prefix}.c"]) as (_, said):
+        return f"compiled by {Path(program).name}: {said or 'no warnings'}"
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """The functions of a source in memory."""
+
+    source: Source
+
+    def __repr__(self) -> str:
+        return f"Loaded({self.source.prefix})"
+
+    @cached_property
+    def measurement(self) -> np.dtype[np.void]:
+        """The struct of a measurement."""
+        n = self.source.n
+        fields: Any = [("t", "f8"), ("q", "f8", (n,)), ("v", self.source.real, (n,))]
+        return np.dtype(fields, align=True)
+
+    @cached_property
+    def state(self) -> np.dtype[np.void]:
+        """The struct of the state."""
+        real, p = self.source.real, self.source.p
+        own = [(f.name, "f8" if f.double else real, (f.size,)) for f in self.source.fields]
+        head = [("start", "f8"), ("last", "f8")]
+        end = [("sent", real, (p,)), ("step", "i4"), ("without", "i4")]
+        fields: Any = [*head, *own, *end]
+        return np.dtype(fields, align=True)
+
+    @cached_property
+    def functions(self) -> dict[str, Any]:
+        """init, step and touchdown, compiled into a folder that is gone once they are in memory."""
+        P = self.source.prefix
+        with compiled(self.source.files, [f"{P}.c"], "-shared", "-fPIC") as (out, _):
+            library = ctypes.CDLL(str(out))
+        return {name: getattr(library, f"{P}_{name}") for name in ("init", "step", "touchdown")}
+
+    def measured(self, t: float, q: Array, v: Array) -> Record:
+        """A measurement: t [s], q [rad] and v [rad/s] (n,)."""
+        m = np.zeros((), self.measurement)
+        m["t"], m["q"], m["v"] = t, q, v
+        return m
+
+    def init(self, m: Record) -> tuple[int, Record]:
+        """What init returns, and the state."""
+        x = np.zeros((), self.state)
+        return self.functions["init"](_at(x), _at(m)), x
+
+    def step(self, x: Record, m: Record) -> tuple[int, Array]:
+        """What step returns, and the torque (p,) [N m]; x changes."""
+        u = np.zeros(self.source.p, self.source.real)
+        return self.functions["step"](_at(x), _at(m), _at(u)), u
+
+    def touchdown(self, x: Record, m: Record) -> int:
+        """What touchdown returns; x changes."""
+        flag: int = self.functions["touchdown"](_at(x), _at(m))
+        return flag
+
+    def __getstate__(self) -> dict[str, object]:
+        """Without what is in memory."""
+        return {name: x for name, x in vars(self).items() if name != "functions"}
+
+
+def _at(array: NDArray[Any]) -> ctypes.c_void_p:
+    """The address of an array, as C takes it."""
+    return ctypes.c_void_p(array.ctypes.data)
+
+
+@dataclass(frozen=True)
+class ExportedController(Controller):
+    """The exported controller in the place of the one that it was made from; its source is that of `export_c`.
+
+    Its state s is the struct of the C and the torque, as floats. A sample without a result ends the
+    walk with the status that the controller in Python would give it; on a robot the last torque goes on.
+    """
+
+    source: Source
+
+    @cached_property
+    def loaded(self) -> Loaded:
+        """The functions of the C."""
+        return Loaded(self.source)
+
+    def initial_state(self, m: Measurement) -> Array:
+        return self._kept(*self.loaded.init(self._given(m)), np.zeros(self.source.p))
+
+    def correct(self, s: Array, m: Measurement) -> Array:
+        x = self._state(s)
+        flag, u = self.loaded.step(x, self._given(m))
+        return self._kept(flag, x, u)
+
+    def output(self, s: Array, m: Measurement) -> Array:
+        return s[len(s) - self.source.p :]
+
+    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
+        x = self._state(s)
+        flag = self.loaded.touchdown(x, self._given(after))
+        return self._kept(flag, x, relabelled(self.output(s, after), swap))
+
+    def continuous(self) -> Controller:
+        raise InputError(
+            "an exported controller acts at sample instants; give timing=SampledTime(period)"
+        )
+
+    def _given(self, m: Measurement) -> Record:
+        return self.loaded.measured(m.t, m.q, m.v)
+
+    def _state(self, s: Array) -> Record:
+        """The struct of a state (size,) of floats."""
+        x, at = np.zeros((), self.loaded.state), 0
+        for name in self.loaded.state.names or ():
+            size = x[name].size
+            x[name] = s[at : at + size].reshape(x[name].shape)
+            at += size
+        return x
+
+    def _kept(self, flag: int, x: Record, u: Array) -> Array:
+        """The struct and the torque (p,) as floats. Raises what `ERRORS` has for a sample without a result."""
+        if flag != OK:
+            raise ERRORS[flag](f"the exported controller returned {flag}: it has no result")
+        parts = [np.ravel(x[name]) for name in self.loaded.state.names or ()]
+        return np.concatenate((*parts, u)).astype(float)

@@ -1,0 +1,204 @@
+"""The text of a controller in C: header and source, from the functions of `deploy.layout`.
+
+The same scenario gives the same bytes: nothing of the day, the machine or the path is in the text.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+
+from biped_adrc.engine.c_text import Written, c_text, decimal, used_numbers
+from biped_adrc.engine.symbols import Untraceable, floats, paths
+from biped_adrc.errors import InputError
+from biped_adrc.extras.export.computer import Computer
+from biped_adrc.extras.export.layout import Field, Functions, functions
+from biped_adrc.files import c_comment, one_line
+from biped_adrc.parts import spoken
+from biped_adrc.versions import packages
+
+REALS = {"float64": "double", "float32": "float"}
+"""Type of numbers in C, by its name in NumPy."""
+TAKEN = {
+    "main": "main.c is the example",
+    **{x: f"{x.upper()}_OK is a name of POSIX" for x in "frwx"},
+}
+"""Prefixes with which the C would clash with other names, and why."""
+ARGUMENTS = {"init": "", "step": ", real *u, real *lost", "touchdown": ""}
+"""What a function is given beside x, m and next."""
+ON_THE_LINE = ("queue", "waiting", "acting")
+"""Fields that hold torques."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """A controller in C, file by file, and what it costs."""
+
+    prefix: str
+    """Of all names."""
+    real: str
+    """Type of numbers, a key of `REALS`."""
+    files: Mapping[str, str]
+    """Text by name of file."""
+    fields: tuple[Field, ...]
+    """Of the state's struct, beside its head."""
+    written: Mapping[str, Written]
+    """The functions init, step and touchdown."""
+    numbers: int
+    """In the table of constants."""
+    n: int
+    """Coordinates."""
+    p: int
+    """Motors."""
+    words: Mapping[str, object]
+    """What the templates say of it, such as its title and its scenario."""
+
+    def __repr__(self) -> str:
+        return f"Source({', '.join(self.files)}; {self.written['step'].operations} operations)"
+
+
+def source_of(
+    computer: Computer,
+    prefix: str = "controller",
+    real: str = "float64",
+    scenario: Sequence[str] = (),
+) -> Source:
+    """Header, source, main.c, Makefile and README of a computer's functions.
+
+    prefix: of all names, a word of small letters. real: "float64" or "float32", which
+    -DCONTROLLER_REAL=float overrides. scenario: lines for the comment.
+
+    Raises InputError for a prefix or a type that is none, NaN among the numbers, or a method that
+    cannot be traced.
+    """
+    if not re.fullmatch("[a-z][a-z0-9_]{0,40}", prefix):
+        raise InputError(
+            f"the prefix is {prefix!r}, expected small letters, digits and _, such as 'controller'"
+        )
+    if prefix in TAKEN:
+        raise InputError(f"the prefix '{prefix}' is taken: {TAKEN[prefix]}; choose another one")
+    if real not in REALS:
+        raise InputError(f"the type of numbers is {real!r}, expected one of {list(REALS)}")
+    try:
+        made, k = functions(computer), computer.held.sizes
+    except Untraceable as error:
+        raise InputError(f"there is no C of {spoken(computer.walker.law)}: {error}") from error
+    used = used_numbers(made.all)
+    values, names = list(floats(computer.numbers)), list(paths(computer.numbers))
+    bad = [names[i] for i in used if values[i] != values[i]]
+    if bad:
+        raise InputError(f"the parameter {bad[0]} of the scenario is NaN, expected a number")
+    written = {
+        name: c_text(f, used)
+        for name, f in zip(("init", "step", "touchdown"), made.all, strict=True)
+    }
+    given = {
+        **_of_robot(computer, made),
+        "prefix": prefix,
+        "P": prefix.upper(),
+        "real": REALS[real],
+        "numbers": [(names[i].replace("plant", "model", 1), decimal(values[i])) for i in used],
+        "laws": [(name, ARGUMENTS[name], written[name].lines) for name in written],
+        "scenario": scenario,
+        "operations": {name: f.operations for name, f in written.items()},
+        "doubles": {name: f.doubles for name, f in written.items()},
+    }
+    texts = {
+        "header.h": f"{prefix}.h",
+        "source.c": f"{prefix}.c",
+        "main.c": "main.c",
+        "Makefile": "Makefile",
+        "README.md": "README.md",
+        "LICENSE": "LICENSE",
+    }
+    files = {name: rendered(template, given) for template, name in texts.items()}
+    return Source(prefix, real, files, made.fields, written, len(used), k.n, k.p, given)
+
+
+def _of_robot(computer: Computer, made: Functions) -> dict[str, object]:
+    """What the templates say of robot and controller."""
+    walker, k = computer.walker, computer.held.sizes
+    joints = walker.plant.description.joints
+    units = ["with a motor"] * k.p + ["without a motor"] * (k.n - k.p)
+    limits = []
+    if walker.torque_limit is not None:
+        limits.append(f"at most {walker.torque_limit:g} N m")
+    if k.rate > 0:
+        limits.append(f"changes of at most {computer.held.motors.change:g} N m in a period")
+    read = [f"m->v[{i}]" for i in made.rates]
+    return {
+        "title": f"Controller of the robot {walker.plant.description.name}, {type(walker.controller).__name__}",
+        "about": _about(computer),
+        "joints": [
+            f"q[{i}] {joint}, {unit}"
+            for i, (joint, unit) in enumerate(zip(joints, units, strict=True))
+        ],
+        "joint_names": joints,
+        "n": k.n,
+        "p": k.p,
+        "period": decimal(computer.timing.period),
+        "exchanged": [f"{'-' * (j >= k.p)}u[{j % k.p}]" for j in walker.swap.tolist()],
+        "rates_read": made.rates,
+        "rates": _rates(made.rates, k.n),
+        "rates_finite": " && ".join(f"{x} - {x} == 0" for x in read) or "1",
+        "limits": "".join(f", {x}" for x in limits),
+        "clock": (
+            "at the same instant, which restarts the clock of sample instants"
+            if computer.timing.restart
+            else "at the next sample instant"
+        ),
+        "fields": made.fields,
+        "line": ON_THE_LINE,
+        "versions": packages(("biped-adrc", "casadi", "pin", "numpy")),
+    }
+
+
+def _about(computer: Computer) -> list[str]:
+    """What is inside, for the head of the header, in lines."""
+    walker, k = computer.walker, computer.held.sizes
+    lines = [
+        f"Controller in sampled time, every {1e3 * computer.timing.period:g} ms: laws, gait and the nominal",
+        "model's terms, with their numbers as constants.",
+    ]
+    if k.sensors > 0:
+        lines.append("Rates are differences of angles, filtered, and begin anew at a touchdown.")
+    if k.known > 0:
+        lines.append(f"It knows that torques act {1e3 * computer.timing.delay:g} ms late.")
+    if walker.touchdown is not None:
+        lines.append("How a touchdown is noticed is left to the caller.")
+    return lines
+
+
+def _rates(rates: tuple[int, ...], n: int) -> str:
+    """Which rates have to be measured, in words."""
+    if len(rates) == n:
+        return "v are their rates."
+    read = ", ".join(f"v[{i}]" for i in rates) or "none"
+    return f"v are their rates; init reads all of them, zero at rest; step reads {read}."
+
+
+def rendered(template: str, given: Mapping[str, object]) -> str:
+    """The text of a file from its template."""
+    return _environment(Path(template).suffix).get_template(f"{template}.j2").render(given)
+
+
+@cache
+def _environment(suffix: str) -> Environment:
+    """Jinja's environment for a language, made once, which writes every value as text of that language."""
+    markup = suffix in (".xml", ".html")
+    safe = c_comment if suffix in (".c", ".h") else one_line
+    return Environment(
+        loader=PackageLoader("biped_adrc.extras.export"),
+        autoescape=markup,
+        finalize=lambda x: x if isinstance(x, Markup) and markup else safe(str(x)),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )

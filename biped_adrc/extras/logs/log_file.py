@@ -1,0 +1,191 @@
+"""Logs as CSV files, a column for each signal with its unit in the name.
+
+    t [s], contact, q1 [rad] .. qN [rad], v1 [rad/s] .., u1 [N m] .. up [N m]
+
+contact is 1 or 2, the leg that stands. The columns are then of the robot's own joints, which keep their names
+while it walks: with contact 1 they are those of the package, in which q1 is of the stance leg; with contact 2
+the legs are exchanged when the file is read. A file that has `step` in place of `contact`, the number of the
+single support, has the labels of stance and swing leg already.
+
+Rates may be left out, all or some. Units are those of studies ("deg", "ms", "mN m"); other columns are left
+alone, and it is said.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from biped_adrc.errors import InputError
+from biped_adrc.extras.logs.plausible import check_plausible
+from biped_adrc.extras.logs.robot_log import RobotLog, check_rows
+from biped_adrc.files import number_in, reading
+from biped_adrc.model.biped import Biped
+from biped_adrc.scenario.columns import write_csv
+from biped_adrc.scenario.units import unit_of
+from biped_adrc.types import Array, relabelled
+
+UNITS = {"t": "s", "q": "rad", "v": "rad/s", "u": "N m"}
+"""Unit of each signal in the package."""
+CONTACT, STEP = "contact", "step"
+LEGS = (1.0, 2.0)
+"""What `contact` may be."""
+
+_COLUMN = re.compile(r"\s*(\w+?)\s*(?:\[(.*)\])?\s*")
+"""A name, and its unit in brackets."""
+
+
+def read_log(file: str | Path, biped: Biped) -> RobotLog:
+    """The log in a CSV file, of this robot.
+
+    Raises InputError for a file that cannot be read, with the line or the column, what was found there and what
+    was expected.
+    """
+    with reading("log", file, InputError):
+        with Path(file).open(newline="", encoding="utf-8-sig") as text:
+            lines = csv.reader(text)
+            (_, head), *rows = [(lines.line_num, row) for row in lines if row] or [(1, list[str]())]
+        wanted = _wanted(head, biped)
+        for line, row in rows:
+            if len(row) != len(head):
+                raise InputError(
+                    f"line {line} has {len(row)} entries, expected {len(head)}: {head}"
+                )
+        table = {
+            name: factor * np.array([number_in(row[at], line, head[at]) for line, row in rows])
+            for name, (at, factor) in wanted.items()
+        }
+        return _log(table, biped, [f"line {line}" for line, _ in rows], _said(head, wanted))
+
+
+def write_log(log: RobotLog, path: str | Path, biped: Biped) -> Path:
+    """Write a log as a robot would, in the labels of its own legs; its path. Raises InputError and OutputError.
+
+    The leg that stands in single supports 1, 3, .. is called 1.
+    """
+    _check_pairs(log.has_rate, biped)
+    legs = 2.0 - log.step % 2.0
+    q, v, u = exchanged(legs, log.q, log.rates, log.u, biped)
+    signals = {"q": q, "v": v, "u": u}
+    columns = {"t [s]": log.t, CONTACT: legs.astype(int)}
+    for name in _numbered(biped):
+        i = int(name[1:]) - 1
+        if name[0] != "v" or log.has_rate[i]:
+            columns[f"{name} [{UNITS[name[0]]}]"] = signals[name[0]][:, i]
+    return write_csv(columns, path)
+
+
+def exchanged(
+    legs: Array, q: Array, v: Array, u: Array, biped: Biped
+) -> tuple[Array, Array, Array]:
+    """q, v (K, n) and u (K, p) with the legs exchanged in the rows in which leg 2 stands; legs (K,) of 1 and 2.
+
+    It is its own inverse, as two touchdowns leave the labels as they were.
+    """
+    other = (legs == LEGS[1])[:, np.newaxis]
+    turned = np.array([biped.relabel(x) for x in q]).reshape(q.shape)
+    return (
+        np.where(other, turned, q),
+        np.where(other, v @ biped.R.T, v),
+        np.where(other, relabelled(u, biped.swap), u),
+    )
+
+
+def _check_pairs(measured: NDArray[np.bool_], biped: Biped) -> None:
+    """Raise InputError where the rate of a joint (n,) is measured on one leg and not on the other."""
+    alone = np.argwhere((biped.R != 0.0) & measured[:, np.newaxis] & ~measured) + 1
+    if len(alone):
+        raise InputError(
+            f"the log has v{alone[0, 0]} and not v{alone[0, 1]}, of which it is made when the legs are "
+            "exchanged; expected both, or none of them"
+        )
+
+
+def _numbered(biped: Biped) -> list[str]:
+    """Names of the columns of q, v and u, without units."""
+    sizes = {"q": biped.n, "v": biped.n, "u": biped.p}
+    return [f"{letter}{i}" for letter, size in sizes.items() for i in range(1, size + 1)]
+
+
+def _wanted(head: list[str], biped: Biped) -> dict[str, tuple[int, float]]:
+    """Of each column of the log: where it is in the file, and the factor to the package's unit."""
+    known, found = ["t", CONTACT, STEP, *_numbered(biped)], dict[str, tuple[int, float]]()
+    for at, text in enumerate(head):
+        match = _COLUMN.fullmatch(text)
+        if match is None or match[1] not in known:
+            continue
+        name, unit = match[1], match[2]
+        if name in found:
+            raise InputError(
+                f"two of its columns are called '{name}', in {head}; leave one of them out"
+            )
+        found[name] = at, 1.0 if name in (CONTACT, STEP) else _factor(text, name, unit)
+    missing = [x for x in known if x[0] in "tqu" and x not in found]
+    if missing or (CONTACT in found) == (STEP in found):
+        asked = [
+            *(f"{x} [{UNITS[x[0]]}]" for x in missing),
+            *([] if missing else [f"one of {CONTACT}, {STEP}"]),
+        ]
+        raise InputError(
+            f"its columns are {head}, expected {', '.join(asked)} too; rates v1 .. may be left out"
+        )
+    return found
+
+
+def _factor(column: str, name: str, unit: str | None) -> float:
+    """From the unit of a column to that of the package. Raises InputError for none, or another dimension."""
+    expected = UNITS[name[0]]
+    if unit is None:
+        raise InputError(
+            f"column '{column}' has no unit, expected one in brackets, as '{name} [{expected}]'"
+        )
+    try:
+        given, usual = unit_of(unit.strip()), unit_of(expected)
+    except ValueError as error:
+        raise InputError(
+            f"column '{column}': {error}; expected a unit such as '{expected}'"
+        ) from None
+    if given.powers != usual.powers:
+        raise InputError(f"column '{column}' is in '{unit}', expected a unit such as '{expected}'")
+    return given.factor / usual.factor
+
+
+def _said(head: list[str], wanted: dict[str, tuple[int, float]]) -> tuple[str, ...]:
+    """Sentences on columns that were converted or left alone."""
+    used = {at for at, _ in wanted.values()}
+    scaled = [head[at] for at, factor in wanted.values() if factor != 1.0]
+    rest = [text for at, text in enumerate(head) if at not in used]
+    said = [f"converted to the package's units: {', '.join(scaled)}"] if scaled else []
+    return (*said, *([f"columns left alone: {', '.join(rest)}"] if rest else []))
+
+
+def _log(
+    table: dict[str, Array], biped: Biped, names: list[str], said: tuple[str, ...]
+) -> RobotLog:
+    """The log of the columns by name, (K,) each; names: what each row is called."""
+    rows = len(names)
+    none = np.zeros(rows)
+    q, v, u = (
+        np.array([table.get(f"{x}{i}", none) for i in range(1, size + 1)]).reshape(size, rows).T
+        for x, size in (("q", biped.n), ("v", biped.n), ("u", biped.p))
+    )
+    measured, step = np.array([f"v{i}" in table for i in range(1, biped.n + 1)]), table.get(STEP)
+    if step is None:
+        _check_pairs(measured, biped)
+        legs = table[CONTACT]
+        for k in np.flatnonzero(~np.isin(legs, LEGS))[:1]:
+            raise InputError(
+                f"{names[k]}, column '{CONTACT}': found {legs[k]:g}, expected 1 or 2, the leg that stands"
+            )
+        step = 1.0 + np.cumsum(np.diff(legs, prepend=legs[:1]) != 0.0)
+    log = table["t"], step, q, u, v
+    check_rows(*log, names)
+    check_plausible(log, measured, biped, names)
+    if CONTACT in table:
+        q, v, u = exchanged(table[CONTACT], q, v, u, biped)
+        log = table["t"], step, q, u, v
+    return RobotLog(*log, measured.astype(float), said)

@@ -1,0 +1,193 @@
+"""A log through the controller of a scenario: the result, its table by single support, its files and figure.
+
+    found = replay("log.csv", Scenario({"name": "LESO", "observer": {"bandwidth": 160.0}}))
+    found.signals     xi^, its parts, residuals and torques over time
+    found.rows        what they come to in each single support
+    found.plot()      the same as a figure
+
+Of the scenario robot, gait, controller, observer, period and torque limit matter here, and filter_time;
+pushes, errors of the model and ground are the robot's own business.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from biped_adrc.columns import columns
+from biped_adrc.errors import InputError, check_positive
+from biped_adrc.extras.logs.log_file import read_log
+from biped_adrc.extras.logs.replay_signals import ReplaySignals, replayed
+from biped_adrc.extras.logs.robot_log import RobotLog
+from biped_adrc.parts import check_part
+from biped_adrc.scenario.build import RobotAndGait, build
+from biped_adrc.scenario.columns import write_csv
+from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.shown import Shown
+from biped_adrc.types import Array
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+WINDOW = 0.02
+"""[s] after a touchdown that count as contact; on MuJoCo's ground of 2 ms forces have settled by then."""
+COLUMNS = {
+    "torque": ("u asked", "N m"),
+    "u": ("u", "N m"),
+    "residual": ("residual", "rad"),
+    "xi_estimate": ("xi estimate", "rad/s^2"),
+    "xi_nominal": ("xi nominal", "rad/s^2"),
+    "xi_model_error": ("xi model error", "rad/s^2"),
+    "xi_contact": ("xi contact", "rad/s^2"),
+    "zeta_estimate": ("zeta estimate", "N m"),
+}
+"""Signals of the table of `Replay.to_csv`, a column for each joint: name and unit."""
+
+
+class ReplayRow(NamedTuple):
+    """One single support in numbers, each of the joint where it is largest; NaN without an observer."""
+
+    step: int
+    """Its number."""
+    samples: int
+    """Rows of the log."""
+    beyond: float
+    """rms of the estimated torque beyond the nominal model outside the window of contact [N m]."""
+    contact: float
+    """The largest of it within that window [N m]; 0 without one."""
+    residual: float
+    """rms of q_b - x1^ [rad]."""
+    apart: float
+    """rms of the torque asked for less the log's [N m]."""
+    most_apart: float
+    """The largest of it [N m]."""
+
+
+HEADER = (
+    "step",
+    "samples",
+    "beyond model [N m]",
+    "in contact [N m]",
+    "residual [rad]",
+    "u apart [N m]",
+    "peak [N m]",
+)
+"""Names of the columns of a `ReplayRow`."""
+
+
+@dataclass(frozen=True)
+class Replay(Shown):
+    """A log as a controller and its observer would have seen it."""
+
+    scenario: Scenario
+    log: RobotLog
+    """As it was replayed, resampled where that was necessary."""
+    signals: ReplaySignals
+    window: float
+    """[s] after a touchdown that count as contact."""
+
+    def __repr__(self) -> str:
+        return f"Replay({self.scenario.controller.name}: {self.signals!r})"
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """Sentences on what was converted, left out or resampled."""
+        return self.log.remarks
+
+    @cached_property
+    def rows(self) -> tuple[ReplayRow, ...]:
+        """One for each single support."""
+        x = self.signals
+        return tuple(_row(x, x.step == step) for step in np.unique(x.step))
+
+    def text(self) -> str:
+        """The rows as a table."""
+        return "\n".join(columns([HEADER, *(cells(row) for row in self.rows)]))
+
+    def plot(self) -> Figure:
+        """Torque beyond the model, residuals and torques over time, a line for each joint."""
+        from biped_adrc.extras.logs.replay_figure import replay_figure
+
+        return replay_figure(self.signals, self.scenario.controller.name)
+
+    def to_csv(self, path: Path | str) -> Path:
+        """Write the signals as a table (.csv), a row for each sample; its path.
+
+        Raises InputError and OutputError.
+        """
+        x = self.signals
+        table = {"t [s]": x.t, "step": x.step.astype(int), "in contact": x.in_contact.astype(int)}
+        for signal, (name, unit) in COLUMNS.items():
+            values: Array = getattr(x, signal)
+            table |= {f"{name} {i + 1} [{unit}]": column for i, column in enumerate(values.T)}
+        return write_csv(table, path)
+
+
+def cells(row: ReplayRow) -> tuple[str, ...]:
+    """A row as texts, below HEADER; a dash where there is no observer."""
+    numbers = ("-" if np.isnan(x) else f"{x:.3g}" for x in row[2:])
+    return (f"{row.step}", f"{row.samples}", *numbers)
+
+
+def replay(
+    log: RobotLog | Path | str,
+    scenario: Scenario,
+    window: float = WINDOW,
+    filter_time: float | None = None,
+) -> Replay:
+    """A log, or the CSV file of one, through the controller of a scenario.
+
+    Its clock is that of the scenario, or the log's where the scenario has none; a log with another period, or
+    an uneven one, is resampled, which is among the remarks. window [s]: what counts as contact. filter_time
+    [s]: of rates that the log does not have; the scenario's if None. Raises InputError for a log or a scenario
+    that cannot be used.
+    """
+    check_part(log, "the log", RobotLog, Path, str)
+    check_part(scenario, "what is to see the log", Scenario)
+    check_positive(window, f"the window of contact is {window} s")
+    filter_time = scenario.hardware.encoders.filter_time if filter_time is None else filter_time
+    scene = RobotAndGait.of(scenario)
+    if scene.biped.p == 0:
+        raise InputError(
+            f"robot '{scenario.robot.name}' has no motors and no controller, expected one with motors"
+        )
+    found = log if isinstance(log, RobotLog) else read_log(log, scene.biped)
+    has, wants = (found.q.shape[1], found.u.shape[1]), (scene.biped.n, scene.biped.p)
+    if has != wants:
+        raise InputError(
+            f"the log has {has[0]} angles and {has[1]} torques, expected {wants[0]} and {wants[1]} of robot "
+            f"'{scenario.robot.name}'"
+        )
+    period = scenario.hardware.period or found.period
+    if not found.even(period):
+        found = found.resampled(period)
+    scenario = scenario.replace(hardware={"period": period})
+    walker = build(scenario, scene)
+    with np.errstate(over="ignore", invalid="ignore"):  # what overflows is refused
+        signals = replayed(walker, found, filter_time, window)
+    return Replay(scenario, found, signals, window)
+
+
+def _row(x: ReplaySignals, rows: NDArray[np.bool_]) -> ReplayRow:
+    """The numbers of the single support in these rows (K,)."""
+    contact = rows & (x.in_contact > 0.5)
+    outside, apart = x.zeta_estimate[rows & ~contact], (x.torque - x.u)[rows]
+    return ReplayRow(
+        int(x.step[rows][0]),
+        int(np.count_nonzero(rows)),
+        _rms(outside),
+        float(np.max(np.abs(x.zeta_estimate[contact]), initial=0.0)),
+        _rms(x.residual[rows]),
+        _rms(apart),
+        float(np.max(np.abs(apart))),
+    )
+
+
+def _rms(x: Array) -> float:
+    """Over the rows of x (K, p), of the column where it is largest; 0 of no rows."""
+    return float(np.max(np.sqrt(np.mean(x**2, axis=0)))) if len(x) else 0.0

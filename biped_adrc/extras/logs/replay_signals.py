@@ -1,0 +1,131 @@
+"""What a controller and its observer make of a log, sample by sample.
+
+At row k, in the order of `closed_loop.semantics.tick`, with the log's torque in place of the controller's own:
+
+    a touchdown:   s <- jump(s, m_k)
+    y_k - y^_k     of s, before it has seen y_k
+    s <- correct(s, m_k),   xi^_k = estimate(s),   output(s, m_k) is what it would have asked for
+    s <- predict(s, m_k, u_k)                      u_k is what acted
+
+Beyond the nominal model the estimate is a torque on the joints, kappa^-1 (xi^ - xi_nominal). What of it lies
+within `window` [s] of a touchdown counts as contact, the rest as error of the model and torques from outside.
+
+Rates that the log does not have are differences of its angles, through the low-pass of `hardware.sensors`, and
+go through the nominal impact (7) at a touchdown, as there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+
+from biped_adrc.closed_loop.protocols import Mode
+from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.control.base import Measurement
+from biped_adrc.extras.logs.robot_log import RobotLog
+from biped_adrc.hardware.sensors import Sensors
+from biped_adrc.shown import Shown
+from biped_adrc.types import Array, freeze
+
+
+@dataclass(frozen=True)
+class ReplaySignals(Shown):
+    """Rows are those of the log, K; n coordinates, p joints, in the labels of stance and swing leg.
+
+    Without an observer what comes from estimates is NaN.
+    """
+
+    t: Array
+    """(K,) [s]."""
+    step: Array
+    """Number of the single support (K,)."""
+    t_step: Array
+    """Time since the touchdown (K,) [s]; in the first single support since the first row."""
+    q: Array
+    """(K, n) [rad], of the log."""
+    v: Array
+    """(K, n) [rad/s], of the log or from differences."""
+    u: Array
+    """(K, p) [N m], of the log."""
+    torque: Array
+    """(K, p) what the controller would have asked for [N m], within the torque limit."""
+    residual: Array
+    """(K, p) q_b - x1^ [rad] before the sample is taken in; 0 for observers that do not estimate angles."""
+    xi_estimate: Array
+    """(K, p) xi^ [rad/s^2], with the sample taken in."""
+    xi_nominal: Array
+    """(K, p) xi of the nominal model (14) [rad/s^2]."""
+    zeta_estimate: Array
+    """(K, p) kappa^-1 (xi^ - xi_nominal): the joint torque beyond the nominal model [N m]."""
+    in_contact: Array
+    """(K,), 1 within the window after a touchdown, else 0."""
+
+    def __post_init__(self) -> None:
+        freeze(self, *(f.name for f in fields(self)))
+
+    def __repr__(self) -> str:
+        ends = f"{self.t[0]:.4g} to {self.t[-1]:.4g} s"
+        return f"ReplaySignals({len(self.t)} samples, {ends}, n = {self.q.shape[1]}, p = {self.u.shape[1]})"
+
+    @property
+    def xi_contact(self) -> Array:
+        """(K, p) the part of xi^ - xi_nominal within the window after a touchdown [rad/s^2]."""
+        return (self.xi_estimate - self.xi_nominal) * self.in_contact[:, np.newaxis]
+
+    @property
+    def xi_model_error(self) -> Array:
+        """(K, p) the part of xi^ - xi_nominal outside the window [rad/s^2], torques from outside among it."""
+        return self.xi_estimate - self.xi_nominal - self.xi_contact
+
+
+def replayed(walker: Walker, log: RobotLog, filter_time: float, window: float) -> ReplaySignals:
+    """The signals of a log through the walker's controller, whose sample instants are the log's rows.
+
+    filter_time [s]: of the low-pass of rates from differences. window [s]: that of contact. Raises
+    NotFiniteError for a controller or an observer that diverges on the log.
+    """
+    law, calls, rows = walker.law, walker.calls, []
+    s = np.zeros(0)
+    for k, (m, struck) in enumerate(measurements(walker, log, filter_time)):
+        if k == 0:
+            s = law.initial_state(m)
+        elif struck is not None:
+            s = calls.jump(s, struck, walker.swap)
+        expected = calls.estimate(s, m)
+        s = calls.correct(s, m)
+        u = walker.saturate(calls.output(s, m))
+        found, terms = calls.estimate(s, m), m.terms
+        xi = np.full(len(terms.xi), np.nan) if found is None else found.disturbance
+        beyond = terms.kappa_inverse @ (xi - terms.xi)
+        residual = m.q_b - expected.position if expected is not None else np.full(len(xi), np.nan)
+        rows.append((m.t_step, m.v, u, residual, xi, terms.xi, beyond))
+        s = calls.predict(s, m, log.u[k])
+    t_step, v, torque, residual, xi, nominal, beyond = (
+        np.array(x) for x in zip(*rows, strict=True)
+    )
+    late = (log.step > log.step[0]) & (t_step < window)
+    given = log.t, log.step, t_step, log.q, v, log.u
+    return ReplaySignals(*given, torque, residual, xi, nominal, beyond, late.astype(float))
+
+
+def measurements(
+    walker: Walker, log: RobotLog, filter_time: float
+) -> Iterator[tuple[Measurement, Measurement | None]]:
+    """Of each row what the controller is given, and at a touchdown what it jumps to."""
+    n, p, period = walker.plant.n, walker.plant.p, log.period
+    sensors = Sensors(velocity="differences", filter_time=filter_time).sampled(n, p, period)
+    sensors = replace(sensors, differences=(~log.has_rate).astype(int))
+    q, v = log.q, log.rates
+    start = np.where(log.has_rate, v[0], (q[1] - q[0]) / (log.t[1] - log.t[0]))
+    w, mode = sensors.start(q[0], start), Mode(int(log.step[0]), float(log.t[0]))
+    for i, t in enumerate(log.t.tolist()):
+        struck = None
+        if log.step[i] != mode.step:
+            mode = Mode(int(log.step[i]), t)
+            expected = walker.nominal.impact(*sensors.reading(w, q[i], v[i])).v
+            w = sensors.impact(w, q[i], v[i], expected)
+            struck = walker.measure(t, *sensors.reading(w, q[i], v[i]), mode)
+        w = sensors.sense(w, q[i], v[i])
+        yield walker.measure(t, *sensors.reading(w, q[i], v[i]), mode), struck

@@ -1,0 +1,161 @@
+"""The paper's figure 1: the robot drawn from its URDF, with q1..q5, Theta, p_2 and p_e.
+
+A link of absolute angle a [rad] points along (-sin a, cos a); angles are counter-clockwise
+positive. q5 is the absolute angle of the torso, q1 and q2 go from the torso to the thighs, q3 and
+q4 from the thighs to the shins, and Theta is the angle of the line from the hip to the stance foot
+p_e: the phase of the virtual constraints.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle, Polygon
+
+from biped_adrc.errors import InputError
+from biped_adrc.model.biped import Biped
+from biped_adrc.robots.urdf import Visual
+from biped_adrc.types import Array
+from biped_adrc.view.placement import joint_values, link_placements
+from biped_adrc.view.style import GREY, PALETTE, label, literal, new_figure, style
+
+POSE = (3.5, 4.05, -0.5, -0.75, -0.32)
+"""q1..q5 [rad] of a posture in which no mark covers another."""
+
+_HIP_ARCS = (0.15, 0.22)  # [m], radii of q1 and q2
+_KNEE_ARC, _THETA_ARC, _PITCH_ARC = 0.15, 0.30, 0.50
+
+
+def robot_figure(biped: Biped, q: Array | None = None) -> Figure:
+    """The robot in single support at q (5,) [rad], with all its angles; the posture `POSE` when none is given.
+
+    Raises InputError for a robot that is not a five-link biped (torso, two thighs, two shins).
+    """
+    if biped.n != 5:
+        raise InputError(f"figure 1 shows a biped of 5 coordinates, found {biped.n}")
+    q = np.array(POSE) if q is None else np.asarray(q, dtype=float)
+    with style():
+        figure = new_figure(6.0, 6.6)
+        axes = figure.subplots()
+        _ground(axes, biped, q)
+        _links(axes, biped, q)
+        _hip_angles(axes, biped, q)
+        _knee_angles(axes, biped, q)
+        _feet(axes, biped, q)
+        axes.set_aspect("equal")
+        axes.grid(False)
+        name = literal(biped.description.name)
+        label(axes, "x [m]", "z [m]", f"{name}: coordinates in single support")
+        return figure
+
+
+def direction(a: float) -> Array:
+    """Unit vector (2,) along which a link of absolute angle a [rad] points: (-sin a, cos a)."""
+    return np.array([-math.sin(a), math.cos(a)])
+
+
+def _ground(axes: Axes, biped: Biped, q: Array) -> None:
+    """Hatched level ground below both feet."""
+    ends = (0.0, float(biped.swing_foot(q)[0]))
+    left, right = min(ends) - 0.35, max(ends) + 0.3
+    axes.plot([left, right], [0.0, 0.0], color="black", lw=1.0, zorder=1)
+    box = [(left, 0.0), (right, 0.0), (right, -0.03), (left, -0.03)]
+    axes.add_patch(Polygon(box, fc="white", ec=GREY, lw=0.0, hatch="////", zorder=0))
+
+
+def _links(axes: Axes, biped: Biped, q: Array) -> None:
+    """The outlines of the primitives of every link, seen from the side, in the colours of the URDF."""
+    placements = link_placements(biped.tree, joint_values(biped, q))
+    for name, link in biped.tree.links.items():
+        for visual in link.visuals:
+            outline = _silhouette(visual, placements[name])
+            outline.set(fc=(*visual.rgba[:3], 0.35), ec=visual.rgba[:3], lw=1.0, zorder=3)
+            axes.add_patch(outline)
+
+
+def _silhouette(visual: Visual, placement: Array) -> Polygon | Circle:
+    """Outline of a primitive in the x-z plane: a circle for a ball, a rectangle for a box or a cylinder.
+
+    placement (4, 4): of its link in the world.
+    """
+    R, p = placement[:3, :3], placement[:3, 3]
+    centre = (R @ np.array(visual.origin) + p)[[0, 2]]
+    if visual.shape == "sphere":
+        return Circle((centre[0], centre[1]), visual.size[0])
+    if visual.shape == "cylinder":
+        width, height = 2.0 * visual.size[0], visual.size[1]
+    else:
+        width, height = visual.size[0], visual.size[2]
+    corners = 0.5 * np.array(
+        [[-width, -height], [width, -height], [width, height], [-width, height]]
+    )
+    return Polygon(centre + corners @ R[np.ix_([0, 2], [0, 2])].T)
+
+
+def _arc(axes: Axes, centre: Array, radius: float, span: tuple[float, float], colour: str) -> None:
+    """An arc about `centre` (2,) from absolute angle span[0] to span[1] [rad], with an arrow at its end."""
+    points = np.array([centre + radius * direction(a) for a in np.linspace(*span, 60)])
+    axes.plot(points[:-2, 0], points[:-2, 1], color=colour, lw=1.3, zorder=5)
+    arrow = {"arrowstyle": "-|>", "color": colour, "lw": 1.3, "shrinkA": 0, "shrinkB": 0}
+    axes.annotate("", points[-1], points[-4], arrowprops=arrow, zorder=5)
+
+
+def _text(axes: Axes, at: Array, text: str, colour: str) -> None:
+    """A sign at the point `at` (2,) [m] on a white ground."""
+    box = {"fc": "white", "ec": "none", "pad": 0.8, "alpha": 0.9}
+    axes.text(
+        at[0], at[1], text, color=colour, ha="center", va="center", fontsize=11, bbox=box, zorder=7
+    )
+
+
+def _ray(axes: Axes, start: Array, end: Array, colour: str = GREY, width: float = 0.9) -> None:
+    """A dashed line between two points (2,) [m]."""
+    axes.plot(*zip(start, end, strict=True), color=colour, ls=(0, (5, 3)), lw=width, zorder=4)
+
+
+def _hip_angles(axes: Axes, biped: Biped, q: Array) -> None:
+    """q5 from the vertical to the torso, q1 and q2 from the torso to the thighs, Theta from the
+    vertical to p_e.
+
+    The vertical and the line to p_e are dashed; each angle has a radius of its own, so that no two
+    arcs meet.
+    """
+    hip = biped.hip(q)
+    _ray(axes, hip, hip + 0.72 * direction(0.0))
+    for i, radius in enumerate(_HIP_ARCS):
+        _arc(axes, hip, radius, (q[4], q[4] + q[i]), PALETTE[i])
+        at = hip + radius * direction(q[4] + 0.32 * q[i])
+        _text(axes, at, f"$q_{i + 1}$", PALETTE[i])
+    theta = float(biped.phase @ q)
+    _ray(axes, hip, np.zeros(2), "black", 1.3)
+    _arc(axes, hip, _THETA_ARC, (0.0, theta), "black")
+    _text(axes, hip + _THETA_ARC * direction(0.55 * theta), r"$\Theta$", "black")
+    _arc(axes, hip, _PITCH_ARC, (0.0, q[4]), PALETTE[2])
+    side = 0.07 if q[4] >= 0 else -0.07
+    middle = hip + (_PITCH_ARC + 0.05) * direction(0.5 * q[4] if abs(q[4]) > 0.2 else q[4] + side)
+    _text(axes, middle, "$q_5$", PALETTE[2])
+
+
+def _knee_angles(axes: Axes, biped: Biped, q: Array) -> None:
+    """q3 and q4, each from the prolonged line of its thigh to the shin."""
+    placements = link_placements(biped.tree, joint_values(biped, q))
+    joints = {joint.name: joint for joint in biped.tree.joints}
+    for i in (2, 3):
+        knee = placements[joints[biped.description.joints[i]].child][[0, 2], 3]
+        thigh = float(q[4] + q[i - 2])
+        _ray(axes, knee, knee + 0.24 * direction(thigh))
+        _arc(axes, knee, _KNEE_ARC, (thigh, thigh + q[i]), PALETTE[i + 1])
+        at = knee + (_KNEE_ARC + 0.05) * direction(thigh + 0.5 * q[i])
+        _text(axes, at, f"$q_{i + 1}$", PALETTE[i + 1])
+
+
+def _feet(axes: Axes, biped: Biped, q: Array) -> None:
+    """p_e, the end of the stance leg, and p_2, the swing foot."""
+    p_2 = biped.swing_foot(q)
+    outwards = 0.1 if p_2[0] >= 0 else -0.1
+    for point, name, shift in ((np.zeros(2), "$p_e$", -outwards), (p_2, "$p_2$", outwards)):
+        axes.plot(*point, "o", color="black", ms=4, zorder=6)
+        _text(axes, point + np.array([shift, 0.05]), name, "black")

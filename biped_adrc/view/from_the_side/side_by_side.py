@@ -1,0 +1,195 @@
+"""Walks side by side in a moving picture, and the tracking errors of all of them below.
+
+With a factor k the posture drawn is q_d + k (q_b - q_d), the reference q_d in grey behind it;
+without one it is the walk's own. A tracking error of a milliradian is invisible on a robot 1.4 m
+high: this shows which controller has it. One `_Panel` for each walk, one `_Errors` for all, put
+together by `frames_apart`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from biped_adrc.types import Array
+from biped_adrc.view.from_the_side import moving_parts as draw
+from biped_adrc.view.from_the_side.side_view import Deviation, SideView
+from biped_adrc.view.placement import Recorded, WalkScene, ending, is_wheel
+from biped_adrc.view.plots.over_time import angle_unit
+from biped_adrc.view.style import PUSH, REACTION, TORQUE
+
+SHOWN = 1.5
+"""Width [m] of the panel of one walk."""
+LINES = ("#D55E00", "#000000", "#56B4E9", "#E69F00")
+"""Vermillion, black, sky blue, orange: one for the name and the error of each walk."""
+HEAD, STRIP = 78, 150
+"""Heights [px] of the legend above and of the errors below."""
+
+
+def frames_apart(walks: Mapping[str, Recorded], times: Array, motion: draw.Motion) -> list[Array]:
+    """Frames (height, width, 3) at `times` (K,) [s], a panel for each walk and the errors of all below.
+
+    All panels have the height of the tallest robot. Raises InputError for walks without a
+    reference, and for a factor of deviations that is negative.
+    """
+    start, width, k = float(times[0]), motion.width, motion.magnify
+    panels = [
+        _Panel(n, walk, k, LINES[i % len(LINES)], start)
+        for i, (n, walk) in enumerate(walks.items())
+    ]
+    tall = max(draw.HEADROOM * panel.view.height + draw.SOLE for panel in panels)
+    body = width / len(panels) * tall / SHOWN
+    height = HEAD + body + STRIP
+    figure = Figure(figsize=(width / draw.DPI, height / draw.DPI), dpi=draw.DPI)
+    canvas = FigureCanvasAgg(figure)
+    bottom, share = STRIP / height, 1.0 / len(panels)
+    for k, panel in enumerate(panels):
+        panel.draw(figure.add_axes((k * share, bottom, share, body / height)))
+    strip = figure.add_axes((0.095, 48 / height, 0.88, (STRIP - 60) / height))
+    errors = _Errors(strip, panels, times)
+    _legend(figure, panels, motion, height)
+    out = []
+    for t in times.tolist():
+        for panel in panels:
+            panel.show(t)
+        errors.show(t)
+        out.append(draw.picture(canvas))
+    return out
+
+
+class _Panel:
+    """One walk in its panel.
+
+    factor [1]: by which its deviation is drawn larger; None for none. colour: of its name and its
+    error. start [s]: from when the largest error counts.
+    """
+
+    def __init__(
+        self, name: str, walk: Recorded, factor: float | None, colour: str, start: float
+    ) -> None:
+        scene = WalkScene.of(walk)
+        self.name, self.colour, self.magnified = name, colour, factor is not None
+        self.tracked = Deviation.of(walk, 0.0)
+        shown = None if factor is None else Deviation.of(walk, factor)
+        self.view, self.reference = SideView(scene, shown), SideView(scene, self.tracked)
+        self.ending, self.start = ending(scene.trajectory), start
+
+    def draw(self, axes: Axes) -> None:
+        """Make all artists that `show` moves, on the panel's axes."""
+        axes.set_axis_off()
+        draw.ground(axes, [self.view])
+        self.axes = axes
+        self.prints = draw.Footprints(axes, self.view, 1.0, 2)
+        # wider than the robot, so that a posture on its reference shows it
+        self.behind = (
+            draw.DrawnRobot(axes, self.reference, 1.0, 2, draw.REFERENCE, 1.7)
+            if self.magnified
+            else None
+        )
+        self.robot = draw.DrawnRobot(axes, self.view, 1.0, 3)
+        self.forces = draw.Forces(axes, self.view, 1.0, 4)
+        self.title = axes.text(0.04, 0.99, self.name, fontsize=15, color=self.colour, weight="bold")
+        self.text = axes.text(0.04, 0.915, "", fontsize=11)
+        for text in (self.title, self.text):
+            text.set(transform=axes.transAxes, verticalalignment="top", zorder=90, parse_math=False)
+
+    def show(self, t: float) -> None:
+        """Draw the walk at t [s], and in words its largest error so far, or how it has ended."""
+        draw.follow(self.axes, self.view, t, 0.5 * SHOWN, 0.5 * SHOWN)
+        self.prints.show(t)
+        if self.behind is not None:
+            self.behind.show(t)
+        self.robot.show(t)
+        self.forces.show(t)
+        if self.ending and t >= self.view.scene.trajectory.t_end:
+            width = 0.92 * self.axes.bbox.width
+            self.text.set_text(draw.wrapped(self.ending.replace(": ", ":\n"), width))
+            return
+        found = self.largest(self.start, t)
+        unit, factor = angle_unit(np.array([found]))
+        size = f"{factor * found:.3g} {unit}" if found >= 1e-9 else "below 1 nrad"
+        self.text.set_text(f"largest error so far {size}")
+
+    def largest(self, start: float, t: float) -> float:
+        """max_i |q_i - q_di| [rad] from start to t [s], at the nodes of the walk.
+
+        Of the walk itself, also where its deviation is drawn larger.
+        """
+        s = self.tracked.signals
+        return float(np.max(np.abs(s.error[(s.t >= start) & (s.t <= t)]), initial=0.0))
+
+
+class _Errors:
+    """The largest error over the joints of every walk up to now, on one scale, with the push shaded.
+
+    The push is that of the first walk, as all walks are under the same one. times (K,) [s]: those
+    of the frames; the unit is the one in which the largest error among them reads well.
+    """
+
+    def __init__(self, axes: Axes, panels: list[_Panel], times: Array) -> None:
+        self.axes, self.lines = axes, []
+        low, high = float(times[0]), float(times[-1])
+        signals = [panel.tracked.signals for panel in panels]
+        largest = [np.max(np.abs(s.error), axis=1) for s in signals]
+        seen = [(s.t >= low) & (s.t <= high) for s in signals]
+        tops = np.concatenate([e[rows] for e, rows in zip(largest, seen, strict=True)])
+        unit, factor = angle_unit(tops)
+        for s in signals[:1]:
+            pushed = np.any(s.zeta != 0.0, axis=1)
+            axes.fill_between(
+                s.t,
+                0,
+                1,
+                pushed,
+                transform=axes.get_xaxis_transform(),
+                color=PUSH,
+                alpha=0.45,
+                lw=0,
+            )
+        for panel, s, error in zip(panels, signals, largest, strict=True):
+            (line,) = axes.plot([], [], color=panel.colour, lw=2.0)
+            (dot,) = axes.plot([], [], "o", color=panel.colour, ms=5)
+            self.lines.append((line, dot, s.t, factor * error))
+        top = factor * float(tops.max(initial=0.0)) or 1.0
+        axes.set(xlim=(low, high), ylim=(-0.06 * top, 1.15 * top), xlabel="time [s]")
+        axes.set_ylabel(f"error [{unit}]")
+
+    def show(self, t: float) -> None:
+        """Draw the errors up to t [s]."""
+        for line, dot, at, error in self.lines:
+            rows = at <= t
+            line.set_data(at[rows], error[rows])
+            dot.set_data(at[rows][-1:], error[rows][-1:])
+
+
+def _legend(figure: Figure, panels: list[_Panel], motion: draw.Motion, height: float) -> None:
+    """Say what the colours mean, and what is drawn larger or slower than it is; height [px] of the picture."""
+    entries: list[Patch | Line2D] = []
+    if not is_wheel(panels[0].view.scene.biped):
+        entries += [
+            Patch(color=draw.COLOURS[leg], label=f"{leg} leg") for leg in ("stance", "swing")
+        ]
+    entries.append(Patch(color=REACTION, label="ground force"))
+    entries.append(Patch(color=TORQUE, label="push"))
+    said = []
+    if motion.magnify is not None:
+        entries.append(Patch(color=draw.REFERENCE, label="reference"))
+        said.append(f"deviation from the reference drawn {motion.magnify:g} times as large")
+    said += [pace] if (pace := motion.pace()) else []
+    figure.legend(
+        handles=entries,
+        loc="upper center",
+        bbox_to_anchor=(0.5, 1.0 - 26 / height),
+        ncols=len(entries),
+        fontsize=11,
+        columnspacing=1.4,
+    )
+    if said:
+        sentence = ", ".join(said)
+        figure.text(0.5, 1.0 - 6 / height, sentence, ha="center", va="top", fontsize=13)

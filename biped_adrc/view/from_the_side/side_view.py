@@ -1,0 +1,200 @@
+"""The robot from the side: its links as lines in the x-z plane, from the primitives of the URDF.
+
+`bones` finds a line for each link in the frame of that link; `SideView` moves these lines with a
+walk. Strips, moving pictures and the scale of the page in Meshcat are made from it.
+
+A posture whose deviation from the reference is drawn larger than it is, is q_d + k (q_b - q_d): k =
+1 is the walk itself, k = 0 its reference. The unactuated joint and the stance foot stay where they
+are.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+
+from biped_adrc.analysis.signals import Signals
+from biped_adrc.errors import InputError
+from biped_adrc.model.biped import Biped
+from biped_adrc.robots.urdf import Visual
+from biped_adrc.types import Array
+from biped_adrc.view.placement import Recorded, WalkScene, exchanged, legs, link_placements, spokes
+from biped_adrc.view.style import WEIGHT_LENGTH
+
+
+@runtime_checkable
+class Tracked(Recorded, Protocol):
+    """A walk whose signals are at hand; the tracking error is one of them."""
+
+    @property
+    def signals(self) -> Signals: ...
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """The tracking error of a walk and the factor k [1] it is drawn with."""
+
+    signals: Signals
+    factor: float
+
+    @classmethod
+    def of(cls, walk: Recorded, factor: float) -> Deviation:
+        """Raises InputError for a factor that is negative or not finite, or a walk without motors: it
+        has no reference.
+        """
+        if not (math.isfinite(factor) and factor >= 0.0):
+            raise InputError(f"magnify is {factor}, expected a number that is not negative")
+        if not isinstance(walk, Tracked) or walk.walker.plant.p == 0:
+            raise InputError(
+                "a walk without motors has no reference to deviate from; leave 'magnify' and 'apart' out"
+            )
+        return cls(walk.signals, factor)
+
+    def change(self, t: float, step: int) -> Array:
+        """What is added to q_b (p,) [rad] at t [s] for the posture drawn: (k - 1)(q_b - q_d).
+
+        q_b - q_d in single support `step` is linear between nodes, and has its ends outside them.
+        """
+        s = self.signals
+        first, last = np.searchsorted(s.step, [step, step + 1])
+        rows = slice(int(first), int(last))
+        error = np.array([np.interp(t, s.t[rows], column) for column in s.error[rows].T])
+        return (self.factor - 1.0) * error
+
+
+@dataclass(frozen=True)
+class Bone:
+    """A line in the frame of a link.
+
+    link: its name. leg: "stance" for links of the leg that carries odd steps, "swing" for the
+    other, "" for the trunk.
+    """
+
+    link: str
+    ends: Array
+    """(2, 3) [m]."""
+    leg: str
+
+
+def bones(biped: Biped) -> list[Bone]:
+    """The lines of a robot: axes of cylinders and longest sides of boxes, in the order of the URDF.
+
+    Where the URDF has no such primitives: lines from joint to joint. A wheel has each of them once
+    for every spoke.
+    """
+    leg = dict.fromkeys(legs(biped)[0], "stance") | dict.fromkeys(legs(biped)[1], "swing")
+    found = [
+        Bone(name, ends, leg.get(name, ""))
+        for name, link in biped.tree.links.items()
+        for visual in link.visuals
+        if (ends := _axis(visual)) is not None
+    ]
+    if not found:
+        found = [
+            Bone(j.parent, np.array([[0.0, 0.0, 0.0], j.origin]), leg.get(j.child, ""))
+            for j in biped.tree.joints
+            if any(j.origin)
+        ]
+    return [replace(bone, ends=bone.ends @ R.T) for R in spokes(biped) for bone in found]
+
+
+def placed_lines(lines: list[Bone], placements: dict[str, Array]) -> list[Array]:
+    """x and z [m] of both ends (2, 2) of every line, with the placement (4, 4) of each link by name."""
+    found = ((bone, placements[bone.link]) for bone in lines)
+    return [(bone.ends @ M[:3, :3].T + M[:3, 3])[:, [0, 2]] for bone, M in found]
+
+
+def roles_of(lines: list[Bone], biped: Biped, step: int) -> list[str]:
+    """ "stance", "swing" or "" of every line in single support `step`: the legs change over at every impact."""
+    if not exchanged(biped, step):
+        return [bone.leg for bone in lines]
+    other = {"stance": "swing", "swing": "stance", "": ""}
+    return [other[bone.leg] for bone in lines]
+
+
+def _axis(visual: Visual) -> Array | None:
+    """Ends (2, 3) of the line a primitive stands for; None for a ball."""
+    if visual.shape == "sphere":
+        return None
+    along = np.zeros(3)
+    if visual.shape == "cylinder":
+        along[2] = 0.5 * visual.size[1]
+    else:
+        longest = int(np.argmax(visual.size))
+        along[longest] = 0.5 * visual.size[longest]
+    return np.array(visual.origin) + np.array([-along, along])
+
+
+@dataclass(frozen=True)
+class SideView:
+    """Where the lines of a walk are in the x-z plane of the world.
+
+    scene: the walk laid out. deviation: changes the posture drawn; None for the walk's own.
+    """
+
+    scene: WalkScene
+    deviation: Deviation | None = None
+
+    @cached_property
+    def bones(self) -> list[Bone]:
+        """The lines in the frames of their links; rows of `segments` and `roles` are in their order."""
+        return bones(self.scene.biped)
+
+    def placements(self, t: float) -> dict[str, Array]:
+        """World placement (4, 4) of every link, by name, of the posture drawn at t [s]."""
+        change = None if self.deviation is None else self.deviation.change(t, self.step(t))
+        return link_placements(self.scene.biped.tree, self.scene.joints(t, change))
+
+    def segments(self, t: float) -> Array:
+        """(bones, 2, 2), x and z [m] of both ends of every line at t [s], in the order of `bones`."""
+        return np.array(placed_lines(self.bones, self.placements(t)))
+
+    def step(self, t: float) -> int:
+        """Number of the single support at t [s], counted from 1."""
+        return self.scene.trajectory.arcs[self.scene.arc_at(t)].mode.step
+
+    def roles(self, t: float) -> list[str]:
+        """ "stance", "swing" or "" by bone at t [s]."""
+        return roles_of(self.bones, self.scene.biped, self.step(t))
+
+    def points(self, t: float) -> Array:
+        """(4,), x and z [m] of the hip and of the swing foot at t [s], of the walk itself without a
+        deviation.
+        """
+        trajectory, biped = self.scene.trajectory, self.scene.biped
+        t = min(max(t, trajectory.t_start), trajectory.t_end)
+        i = self.scene.arc_at(t)
+        q = trajectory.arcs[i](t)[: biped.n]
+        points = np.concatenate((biped.hip(q), biped.swing_foot(q)))
+        return points + np.tile(self.scene.foot(i, t), 2)
+
+    @cached_property
+    def _about_foot(self) -> Array:
+        """(K, 2), x and z [m] from the stance foot of the ends of all lines at 50 times of the walk."""
+        scene = self.scene
+        times = np.linspace(scene.trajectory.t_start, scene.trajectory.t_end, 50)
+        return np.concatenate(
+            [
+                self.segments(float(t)).reshape(-1, 2) - scene.foothold(scene.arc_at(float(t)))
+                for t in times
+            ]
+        )
+
+    @cached_property
+    def height(self) -> float:
+        """Highest point of the robot above its stance foot on this walk [m], for the limits of a picture."""
+        return float(self._about_foot[:, 1].max())
+
+    @cached_property
+    def width(self) -> float:
+        """How far the robot reaches to either side of its stance foot on this walk [m]."""
+        return float(np.abs(self._about_foot[:, 0]).max())
+
+    @cached_property
+    def metres_per_newton(self) -> float:
+        """Scale of the arrow of the ground reaction [m/N]: the robot's weight gives `WEIGHT_LENGTH`."""
+        return WEIGHT_LENGTH / self.scene.biped.weight

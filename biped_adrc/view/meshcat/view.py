@@ -1,0 +1,258 @@
+"""Walks in Meshcat as one offline HTML file: the viewer, the robots, their motion and the controls.
+
+`animation_html` lays the walks out (`placement`), samples them (`frames`), draws the objects
+(`objects`), and writes all of it as JSON into the page (`pages.player`); player.js plays it. One
+walk is solid and followed by the camera, the others are ghosts: translucent, each a little farther
+from the camera.
+"""
+
+from __future__ import annotations
+
+import base64
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from biped_adrc.errors import InputError, check_positive
+from biped_adrc.model.biped import Biped
+from biped_adrc.view.from_the_side.side_view import SideView
+from biped_adrc.view.meshcat import objects as draw
+from biped_adrc.view.meshcat.frames import Frames
+from biped_adrc.view.pages import player
+from biped_adrc.view.placement import Recorded, WalkScene, ending, exchanged, is_wheel
+from biped_adrc.view.style import (
+    METRES_PER_NEWTON_METRE,
+    REACTION,
+    STANCE,
+    SWING,
+    TORQUE,
+    WEIGHT_LENGTH,
+)
+
+GHOST = 0.35
+"""Opacity of a ghost."""
+LANE = 0.4
+"""By how much [m] each ghost walks farther from the camera: faces in one plane would flicker."""
+LONGEST = 1.2
+"""Longest arrow of a ground reaction [m]; that of a larger one is cut, and the page says so."""
+TRACE_POINTS = 20_000
+"""Room for the traces of a walk without samples."""
+TALL = 1.6
+"""Height [m] of the highest robot that the cameras show from where they are for RABBIT; for higher
+ones they stand back.
+"""
+VIEWS = ("side", "perspective")
+"""Cameras: "side" is orthographic, so lengths can be compared anywhere in the picture."""
+
+Marks = Sequence[tuple[float, float, str]]
+"""(start, stop, text) of what is shown beside the clock, times in [s]."""
+
+
+@dataclass(frozen=True)
+class Look:
+    """How walks are shown.
+
+    solid: name of the walk drawn opaque and followed by the camera, the last one if None; the
+    others are translucent.
+    marks: (start, stop, text) [s], shown beside the clock.
+    fps [1/s]: frames sampled from the trajectories. view: camera at the start, one of `VIEWS`.
+    """
+
+    solid: str | None = None
+    marks: Marks = ()
+    fps: float = 60.0
+    view: str = "side"
+
+    def order(self, walks: Mapping[str, Recorded]) -> list[str]:
+        """The names with the solid walk first, then the ghosts. Raises InputError for what does not fit."""
+        if self.view not in VIEWS:
+            raise InputError(f"view is '{self.view}', choose one of {list(VIEWS)}")
+        check_positive(self.fps, f"fps is {self.fps} frames per second")
+        solid = list(walks)[-1] if self.solid is None else self.solid
+        if solid not in walks:
+            raise InputError(
+                f"there is no walk '{solid}' to draw solid; choose one of {list(walks)}"
+            )
+        return [solid, *(name for name in walks if name != solid)]
+
+
+def animation_html(walks: Mapping[str, Recorded], look: Look | None = None) -> str:
+    """The walks, overlaid, as one page that needs no server and no network; the same walks give the same text.
+
+    walks: name -> walk. Raises InputError for no walk, an unknown view or solid walk, or an fps
+    that is not positive.
+    """
+    look = Look() if look is None else look
+    scenes = {name: WalkScene.of(walks[name]) for name in look.order(walks)}
+    frames = {name: Frames.of(scene, look.fps) for name, scene in scenes.items()}
+    return player(scene_settings(scenes, look, frames), " and ".join(walks), captions(scenes))
+
+
+def _packed(frames: Frames) -> dict[str, str]:
+    """The samples in base64: times as float64, the rest as float32, which is finer than a pixel."""
+    others = {"arc": frames.arc, **frames.poses._asdict()}
+    packed = {"t": frames.t} | {name: x.astype(np.float32) for name, x in others.items()}
+    return {name: base64.b64encode(x.tobytes()).decode("ascii") for name, x in packed.items()}
+
+
+# -- scene -----------------------------------------------------------------------------------------
+def scene_settings(
+    scenes: Mapping[str, WalkScene], look: Look, frames: Mapping[str, Frames] | None = None
+) -> dict[str, object]:
+    """What scene.js and player.js are told: Meshcat's commands and, by walk, the paths of what moves.
+
+    scenes: the solid walk first. frames: the samples of each walk, for a page; that of `live`
+    has none.
+
+        walks       for each walk what `_add_walk` says, its name, its end [s] and how it ended
+        leader      index of the walk the camera follows; follow: the node it follows
+        marks       as in `Look`; fps [1/s]; start, end [s] of the slider
+        view        the camera at the start; views: commands, position and target [m] of each
+        commands    Meshcat's commands that build the scene
+    """
+    window = draw.MemoryWindow()
+    viewer = window.viewer
+    names = node_names(scenes)
+    described = []
+    for lane, (name, scene) in enumerate(scenes.items()):
+        opacity, sampled = (1.0 if lane == 0 else GHOST), (frames or {}).get(name)
+        room = TRACE_POINTS if sampled is None else len(sampled.t)
+        robot = viewer[f"robots/{names[name]}"]
+        robot.set_transform(draw.shift((0.0, LANE * lane, 0.0)))
+        path = f"meshcat/robots/{names[name]}"
+        over = {"name": name, "end": scene.trajectory.t_end, "ending": ending(scene.trajectory)}
+        data = {} if sampled is None else {"data": _packed(sampled)}
+        described.append(over | _add_walk(robot, path, scene, opacity, room) | data)
+    solid = next(iter(scenes.values()))
+    draw.add_ground(viewer["ground"], list(scenes.values()), draw.sole(solid.biped), LANE)
+    draw.set_stage(viewer)
+    tree, base = solid.biped.tree, solid.biped.description.base[0]
+    base_x = next(joint for joint in tree.joints if joint.name == base)
+    scale = max(1.0, SideView(solid).height / TALL)
+    return {
+        "walks": described,
+        "leader": 0,
+        "follow": f"meshcat/robots/{next(iter(names.values()))}/{draw.joint_path(tree, base_x)}",
+        "marks": [list(mark) for mark in look.marks],
+        "fps": look.fps,
+        "start": min(scene.trajectory.t_start for scene in scenes.values()),
+        "end": max(scene.trajectory.t_end for scene in scenes.values()),
+        "view": look.view,
+        "views": {kind: _view(kind, scale) for kind in VIEWS},
+        "commands": window.packed,
+    }
+
+
+def _view(kind: str, scale: float) -> dict[str, object]:
+    """A camera: its commands, position and target [m]."""
+    window = draw.MemoryWindow(kind)
+    position, target = draw.set_camera(window.viewer, kind, scale)
+    return {"commands": window.packed, "position": position, "target": target}
+
+
+def _add_walk(
+    robot: draw.SceneNode, path: str, scene: WalkScene, opacity: float, room: int
+) -> dict[str, object]:
+    """Draw one walk below the node `robot`, and say where its parts are: the entry of this walk for player.js.
+
+    path: of the node `robot`. opacity: 0 to 1. room: points of a trace.
+
+        joints        path, type, axis and origin [m] of each moving joint, in the order of the
+        samples
+        legs          paths of the parts of either leg; colours: of stance and swing leg,
+        0xRRGGBB
+        rings, arrows, traces, footprints    paths of these; arrows of stance foot and other foot
+        supports      number, stance leg (0 or 1) and foothold x, z [m] of each single support
+        fall          tan(slope); ground: its level below the footholds [m]; head: length of an
+        arrow's head [m]
+        metres_per_newton, longest, metres_per_newton_metre    scales of arrow and rings
+    """
+    biped, depth = scene.biped, draw.sole(scene.biped)
+    tree = biped.tree
+    draw.add_robot(robot, biped, opacity)
+    prints = draw.add_footprints(robot["footprints"], scene, depth, opacity)
+    draw.add_trace(robot["hip_trace"], room, draw.DARK, opacity)
+    draw.add_trace(robot["foot_trace"], room, SWING, opacity)
+    for arrow in ("ground_reaction", "other_reaction"):
+        draw.add_arrow(robot[arrow], REACTION, opacity)
+    rings = [_add_ring(robot, biped, name, opacity) for name in biped.description.joints]
+    return {
+        "joints": [
+            {
+                "path": f"{path}/{draw.joint_path(tree, joint)}",
+                "type": joint.type,
+                "axis": list(joint.axis),
+                "origin": list(joint.origin),
+            }
+            for joint in tree.joints
+            if joint.type != "fixed"
+        ],
+        "legs": [[f"{path}/{part}" for part in leg] for leg in draw.leg_visuals(biped)],
+        "colours": [draw.colour(STANCE), draw.colour(SWING)],
+        "rings": [f"{path}/{ring}/turn" for ring in rings],
+        "arrows": [f"{path}/ground_reaction", f"{path}/other_reaction"],
+        "traces": [f"{path}/hip_trace", f"{path}/foot_trace"],
+        "footprints": [f"{path}/footprints/{name}" for name in prints],
+        "supports": [
+            {
+                "number": arc.mode.step,
+                "stance": int(exchanged(biped, arc.mode.step)),
+                "x": scene.foothold(i)[0],
+                "z": scene.foothold(i)[1],
+            }
+            for i, arc in enumerate(scene.trajectory.arcs)
+        ],
+        "fall": math.tan(scene.walker.slope),
+        "ground": -depth,
+        "head": draw.HEAD,
+        "metres_per_newton": WEIGHT_LENGTH / biped.weight,
+        "longest": LONGEST,
+        "metres_per_newton_metre": METRES_PER_NEWTON_METRE,
+    }
+
+
+def _add_ring(robot: draw.SceneNode, biped: Biped, name: str, opacity: float) -> str:
+    """Draw the ring of a joint and give its path.
+
+    The ring of the unactuated torso is at its COM: at its joint it would cover those of the hips.
+    """
+    joint = next(joint for joint in biped.tree.joints if joint.name == name)
+    inertial = biped.tree.links[joint.child].inertial
+    torso = name not in biped.description.actuated and inertial is not None
+    path = f"{draw.joint_path(biped.tree, joint)}/torque"
+    origin = inertial.com if torso and inertial is not None else (0.0, 0.0, 0.0)
+    draw.add_ring(robot[path], origin, TORQUE, opacity)
+    return path
+
+
+def node_names(names: Iterable[str]) -> dict[str, str]:
+    """Each name as it may stand in a path of the scene (letters, digits, underscores); no two alike."""
+    found: dict[str, str] = {}
+    for name in names:
+        plain = "".join(c if c.isalnum() else "_" for c in name) or "walk"
+        while plain in found.values():
+            plain += "_"
+        found[name] = plain
+    return found
+
+
+def captions(scenes: Mapping[str, WalkScene]) -> list[tuple[str, str]]:
+    """The legend as pairs (colour, text); the colour is empty for plain text."""
+    solid, *ghosts = scenes
+    biped = scenes[solid].biped
+    newtons = 0.1 * biped.weight / WEIGHT_LENGTH
+    walking = [(STANCE.lower(), "stance leg"), (SWING.lower(), "swing leg")]
+    entries = [
+        *([] if is_wheel(biped) else walking),
+        (REACTION.lower(), f"ground reaction, 0.1 m = {newtons:.0f} N"),
+        (
+            TORQUE.lower(),
+            f"torque from outside, radius 0.1 m = {0.1 / METRES_PER_NEWTON_METRE:.0f} N m",
+        ),
+    ]
+    if ghosts:
+        text = f"{solid}: solid. {', '.join(ghosts)}: translucent, {LANE:g} m farther away."
+        return [("", text), *entries]
+    return [("", f"{solid}."), *entries]

@@ -1,0 +1,195 @@
+"""HTML pages from Jinja2 templates: each is one offline file that holds all it needs.
+
+The pages are the report of a reproduction, a study, the player of animated walks, and a walk inside a
+notebook; their templates are in the folder `templates`. Figures go in as data URIs, scripts and styles as
+text, and a content security policy makes the browser refuse every load from a network. All values are
+escaped, unless they are `Markup` made here. The same values give the same text, byte for byte.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Mapping, Sequence
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+
+from jinja2 import Environment, PackageLoader
+from markupsafe import Markup
+from matplotlib.figure import Figure
+
+from biped_adrc.errors import InputError
+from biped_adrc.files import write_text
+from biped_adrc.resources import packaged
+from biped_adrc.types import PlainRecord
+from biped_adrc.view.style import render
+
+POLICY = (
+    "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval'; style-src 'unsafe-inline'; "
+    "img-src data: blob:; worker-src blob:"
+)
+"""Content security policy of a page: the browser itself refuses every load from a network."""
+CLAIM_COLUMNS = ("claim", "where", "word", "number", "limit", "share", "reason")
+"""Columns of the table of claims in the report, by their key in the summary."""
+KINDS = {
+    "reproduced": "what the paper claims and what could have failed",
+    "law": "physics and numerics that hold whatever the paper says",
+    "consistency": "what was built in and has to come out again",
+}
+"""Kind of a check -> what the report says about it."""
+HEIGHT = 480
+"""[px] of the animation in a notebook."""
+MAGIC = {b"\x89PNG": "image/png", b"<?xml": "image/svg+xml", b"<svg": "image/svg+xml"}
+"""First bytes of a picture -> its media type."""
+
+Captions = dict[str, tuple[str, str]]
+"""Heading of each figure and what to look for in it, by name."""
+
+
+@cache
+def captions(page: str) -> Captions:
+    """The headings and captions of the figures of a page ("report"), from captions.toml."""
+    found = packaged("biped_adrc.view", "captions.toml")[page].items()
+    return {name: (x["title"], " ".join(x["text"].split())) for name, x in found}
+
+
+def rendered(template: str, **values: object) -> str:
+    """The text of a page from its template and the values the template names.
+
+    Every value is escaped as HTML, and shown as `plain` has it: floats with four significant
+    digits.
+    """
+    return _environment().get_template(f"{template}.html.j2").render(values)
+
+
+@cache
+def _environment() -> Environment:
+    """Jinja's environment, made once: it compiles the templates."""
+    loader = PackageLoader("biped_adrc.view")
+    made = Environment(
+        loader=loader, autoescape=True, finalize=plain, trim_blocks=True, lstrip_blocks=True
+    )
+    made.globals |= {"policy": POLICY, "style": "report.css", "file": own_file}
+    return made
+
+
+def own_file(name: str) -> Markup:
+    """The text of a style or script of this package, trusted and not escaped; for templates."""
+    return Markup(files("biped_adrc.view").joinpath(name).read_text(encoding="utf-8"))
+
+
+def plain(value: object) -> str:
+    """A value as a page shows it: text as it is, a dash for None, yes or no, floats with four digits.
+
+    Mappings and lists are joined with commas, recursively.
+    """
+    if isinstance(value, str):
+        return value
+    if value is None:
+        return "–"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value:.4g}"
+    if isinstance(value, Mapping):
+        return ", ".join(f"{key}: {plain(item)}" for key, item in value.items())
+    if isinstance(value, Sequence):
+        return ", ".join(plain(item) for item in value)
+    return str(value)
+
+
+def data_uri(title: str, source: str | bytes | Path) -> str:
+    """A figure as a data URI for the source of an <img>: an SVG there can neither run scripts nor
+    clash with the ids of another. title: for the message. source: text or bytes of an SVG or PNG,
+    or its path.
+
+    Raises InputError for what is neither PNG nor SVG.
+    """
+    data = source.read_bytes() if isinstance(source, Path) else source
+    data = data.encode("utf-8") if isinstance(data, str) else data
+    kinds = [kind for start, kind in MAGIC.items() if data.lstrip().startswith(start)]
+    if not kinds:
+        raise InputError(
+            f"figure '{title}' is neither PNG nor SVG; give SVG text or a Path to a file"
+        )
+    return f"data:{kinds[0]};base64,{base64.b64encode(data).decode('ascii')}"
+
+
+def write_report(
+    path: Path,
+    summary: PlainRecord,
+    figures: Mapping[str, str | Path],
+    animation: str | None = None,
+) -> None:
+    """Write the page of a reproduction (report.html).
+
+    summary: as in summary.json; parts that are missing are left out of the page.
+    figures: name -> text of an SVG, or path of an SVG or PNG file; the name selects the caption.
+    animation: text of the page of `meshcat.view.animation_html`, shown in a frame.
+    Raises InputError for a figure that is no picture, and OutputError.
+    """
+    write_text(path, report_html(summary, figures, animation))
+
+
+def report_html(
+    summary: PlainRecord,
+    figures: Mapping[str, str | Path],
+    animation: str | None = None,
+) -> str:
+    """The text of the page that `write_report` writes, from the same values."""
+    return rendered(
+        "report",
+        s=summary,
+        figures=[_figure(name, source) for name, source in figures.items()],
+        animation=animation,
+        columns=CLAIM_COLUMNS,
+        kinds=KINDS,
+    )
+
+
+def _figure(name: str, source: str | Path) -> tuple[str, str, str]:
+    """(heading, what to look for, data URI) of one figure; its name begins with that of a caption.
+
+    What the name has behind that, such as the preset of a map, is put behind the heading.
+    """
+    known = captions("report")
+    key = next((key for key in known if name == key or name.startswith(f"{key}_")), "")
+    title, caption = known.get(key, (name, ""))
+    rest = name.removeprefix(key).replace("_", " ").strip() if key else ""
+    title = f"{title}, {rest}" if rest else title
+    return title, caption, data_uri(title, source)
+
+
+def player(settings: Mapping[str, object], title: str, legend: Sequence[tuple[str, str]]) -> str:
+    """The page that plays walks in Meshcat's viewer, with play, pause, speed and a slider of time.
+
+    settings: as `meshcat.view.scene_settings` gives them; player.js reads them as JSON. legend:
+    pairs (colour, text), the text plain, as it is escaped here.
+    """
+    return with_viewer("player", settings, title=title, captions=legend, style="player.css")
+
+
+def with_viewer(template: str, settings: Mapping[str, object], **values: object) -> str:
+    """The text of a page that draws in Meshcat's viewer; its scripts read the settings as JSON.
+
+    settings: as `player` has them. values: those that the template names besides.
+    """
+    viewer = files("meshcat").joinpath("viewer", "dist", "main.min.js").read_text(encoding="utf-8")
+    return rendered(
+        template,
+        s=settings,
+        viewer=Markup(viewer),
+        data=Markup(json.dumps(settings).replace("<", "\\u003c")),
+        **values,
+    )
+
+
+def inline(summary: str, animation: str, figures: Sequence[Figure] = ()) -> str:
+    """HTML of the output of a notebook's cell: a line of text, the page `animation` in a frame, figures below.
+
+    The frame has the page as its source text, so the scripts of the notebook and of the page cannot
+    meet.
+    """
+    uris = [data_uri("walk", render(figure, "png", dpi=80.0)) for figure in figures]
+    return rendered("notebook", summary=summary, animation=animation, figures=uris, height=HEIGHT)

@@ -1,0 +1,325 @@
+"""Whole figures made of the plots in `biped_adrc.view.plots`: data in, Figure out, in this package's style.
+
+`Walk.plot`, the reproduction of the paper and `biped-adrc plot` draw these. With a push they show the
+time around it, and most of them the milliseconds after either edge, in which a fast observer has its say.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, FigureBase
+from matplotlib.gridspec import GridSpec, SubplotSpec
+from numpy.typing import ArrayLike
+
+from biped_adrc.analysis.signals import Signals
+from biped_adrc.types import Array
+from biped_adrc.view import plots
+from biped_adrc.view.plots.over_time import Window
+from biped_adrc.view.style import new_figure, style
+
+BEFORE, AFTER = 0.3, 0.6
+"""What the zoom shows before and after a push [s]."""
+EDGE_BEFORE, EDGE_AFTER = 1e-3, 6e-3
+"""What is shown before and after an edge of a push [s]."""
+EDGES = ("push begins", "push ends")
+"""Titles of the columns of the two edges."""
+
+
+def tracking_figure(
+    signals: Signals, title: str, push: Window | None = None, torque_limit: float | None = None
+) -> Figure:
+    """The paper's figures 4 and 5: references and joint angles [rad], torques [N m], and the tracking error.
+
+    signals: of a walk with motors. title: above all panels. push: (start, stop) [s]; the figure then shows the
+    time around it, shaded, and the milliseconds after either edge, without angles, as these do not move within
+    milliseconds. torque_limit [N m]: drawn as a dotted line.
+    """
+    p = signals.q_d.shape[1]
+    halves = [half.tolist() for half in np.array_split(np.arange(p), min(2, p))]
+    with style():
+        figure = new_figure(10.0 if push else 7.5, 7.2 if push else 9.0)
+        figure.suptitle(_titled(title, signals, push))
+        if push is None:
+            spec = figure.add_gridspec(len(halves) + 2, 1)
+            column = _column(figure, [spec[i] for i in range(len(halves) + 2)])
+            for axes, half in zip(column, halves, strict=False):
+                plots.joint_tracking(axes, signals, half).set_xlabel("")
+            _torques_and_errors(column[-2:], signals, push, torque_limit)
+            column[0].set_xlim(signals.t[0], signals.t[-1])
+            return figure
+        spec = figure.add_gridspec(3, 4)
+        for axes, half in zip(_row(figure, spec, 0, len(halves)), halves, strict=True):
+            plots.joint_tracking(axes, signals, half, push)
+            _zoom([axes], signals, push)
+            _legend_above(axes)
+        columns = _around_and_edges(figure, spec, (1, 2))
+        for column in columns:
+            _torques_and_errors(column, signals, push, torque_limit)
+        _zoom(columns[0], signals, push)
+        _edges(columns[1:], signals, push)
+        _one_legend_a_row(columns)
+        return figure
+
+
+def _titled(title: str, s: Signals, push: Window | None) -> str:
+    """The title, with the largest torque from outside behind it [N m]."""
+    if push is None:
+        return title
+    peaks = s.zeta[np.argmax(np.abs(s.zeta), axis=0), np.arange(s.zeta.shape[1])]
+    joints: dict[str, list[str]] = {}
+    for i in np.flatnonzero(peaks):
+        joints.setdefault(f"{peaks[i]:.3g} N m", []).append(f"$q_{i + 1}$")
+    said = "; ".join(f"{torque} on {', '.join(names)}" for torque, names in joints.items())
+    return f"{title}: {said}" if said else title
+
+
+def _row(figure: Figure, spec: GridSpec, row: int, count: int) -> list[Axes]:
+    """One or two panels that fill a row of four places."""
+    ends = (slice(0, 4),) if count == 1 else (slice(0, 2), slice(2, 4))
+    return [figure.add_subplot(spec[row, end]) for end in ends]
+
+
+def _around_and_edges(figure: FigureBase, spec: GridSpec, rows: Sequence[int]) -> list[list[Axes]]:
+    """Three columns of panels in four places: around the push, where it begins, and where it ends."""
+    places = (slice(0, 2), slice(2, 3), slice(3, 4))
+    return [_column(figure, [spec[row, place] for row in rows]) for place in places]
+
+
+def _column(figure: FigureBase, places: Sequence[SubplotSpec]) -> list[Axes]:
+    """Panels one above the other that share one time axis, whose numbers stand below the lowest."""
+    first = figure.add_subplot(places[0])
+    column = [first, *(figure.add_subplot(place, sharex=first) for place in places[1:])]
+    for axes in column[:-1]:
+        axes.tick_params(labelbottom=False)
+    return column
+
+
+def _torques_and_errors(
+    column: Sequence[Axes], s: Signals, push: Window | None, limit: float | None
+) -> None:
+    """Draw torques, with their limit [N m], above tracking errors."""
+    plots.torques(column[0], s, limit, push).set_xlabel("")
+    plots.tracking_errors(column[1], s, push)
+
+
+def _edges(columns: Sequence[Sequence[Axes]], s: Signals, push: Window) -> None:
+    """Set the limits of two columns around either edge of the push, and label their time in [ms] from it.
+
+    What they show is named at the left end of their row.
+    """
+    for column, edge, name in zip(columns, push, EDGES, strict=True):
+        _limits(column, max(edge - EDGE_BEFORE, s.t[0]), min(edge + EDGE_AFTER, s.t[-1]))
+        column[0].set_title(name, loc="left")
+        at = np.arange(0.0, EDGE_AFTER + 1e-9, 2e-3)
+        for axes in column:
+            axes.set_xticks(edge + at, [f"{1e3 * t:g}" for t in at])
+            axes.set_xlabel("")
+            axes.set_ylabel("")
+        column[-1].set_xlabel("after the edge [ms]")
+
+
+def _legend_above(axes: Axes) -> None:
+    """Put the legend in a line above a panel, where it takes no width."""
+    handles, names = axes.get_legend_handles_labels()
+    axes.legend(
+        handles,
+        names,
+        ncols=len(names),
+        frameon=False,
+        columnspacing=1.2,
+        handlelength=1.6,
+        loc="lower left",
+        bbox_to_anchor=(-0.01, 1.0),
+        borderaxespad=0.0,
+    )
+
+
+def _one_legend_a_row(columns: Sequence[Sequence[Axes]]) -> None:
+    """Legends above the panels of the first column, none in the others."""
+    for axes in columns[0]:
+        _legend_above(axes)
+    for axes in (axes for column in columns[1:] for axes in column):
+        legend = axes.get_legend()
+        if legend is not None:
+            legend.remove()
+
+
+def passive_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
+    """A walk without motors: its angles [rad] and energies [J] over time [s], and Theta against its rate.
+
+    push: (start, stop) [s], shaded.
+    """
+    with style():
+        figure = new_figure(10.5, 5.6)
+        figure.suptitle(title)
+        parts = figure.subplot_mosaic(
+            [["angles", "phase"], ["energy", "phase"]], width_ratios=(3, 2)
+        )
+        plots.angles(parts["angles"], signals, push).set_xlabel("")
+        plots.energy(parts["energy"], signals, push)
+        plots.phase_portrait(parts["phase"], signals)
+        return figure
+
+
+def _zoom(column: Sequence[Axes], s: Signals, push: Window) -> None:
+    """Set the limits of a column to the time around the push, and of each value axis to what is drawn there."""
+    _limits(column, max(push[0] - BEFORE, float(s.t[0])), min(push[1] + AFTER, float(s.t[-1])))
+
+
+def _limits(column: Sequence[Axes], low: float, high: float) -> None:
+    """Set the time axis from low to high [s], and each value axis to what is drawn there.
+
+    A panel with nothing to show there, or a constant, keeps its limits.
+    """
+    for axes in column:
+        axes.set_xlim(low, high)
+        shown = [np.asarray(line.get_data(), dtype=float) for line in axes.get_lines()]
+        values = [y[(t >= low) & (t <= high)] for t, y in shown if len(t) > 2]
+        values = [y[np.isfinite(y)] for y in values]
+        ends = np.array([(y.min(), y.max()) for y in values if len(y)])
+        if not len(ends) or not ends[:, 1].max() > ends[:, 0].min():
+            continue
+        if axes.get_yscale() == "log":
+            axes.set_ylim(0.5 * ends[:, 0].min(), 2.0 * ends[:, 1].max())
+            continue
+        pad = 0.06 * (ends[:, 1].max() - ends[:, 0].min())
+        axes.set_ylim(ends[:, 0].min() - pad, ends[:, 1].max() + pad)
+
+
+def phase_figure(walks: Mapping[str, Signals]) -> Figure:
+    """The paper's figure 6: Theta [rad] against Theta' [rad/s], a panel for each controller; lines
+    break at impacts.
+    """
+    with style():
+        figure = new_figure(4.6 * len(walks), 4.2)
+        row = figure.subplots(1, len(walks), squeeze=False, sharex=True, sharey=True)[0]
+        for i, (axes, (name, s)) in enumerate(zip(row, walks.items(), strict=True)):
+            plots.phase_portrait(axes, s, name, i).set_title(name, loc="left")
+        return figure
+
+
+def disturbance_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
+    """The total disturbance of every actuated joint, and the torque from outside, against their estimates.
+
+    Above: xi of (13) [rad/s^2], a panel for each joint. Below: the torque zeta and what the estimate amounts to
+    [N m], a colour for each torque, of which joints with the same one share the line. push: (start, stop) [s];
+    the time around it is shown, and below also the milliseconds at either edge.
+    """
+    p = signals.q_d.shape[1]
+    with style():
+        figure = new_figure(10.0, 5.2)
+        figure.suptitle(_titled(title, signals, push))
+        parts: Any = figure.subfigures(2, 1)
+        above, below = parts
+        row = above.subplots(1, p, squeeze=False, sharex=True)[0]
+        for i, axes in enumerate(row):
+            plots.total_disturbance(axes, signals, i, push)
+            if push:
+                _zoom([axes], signals, push)
+            _legend_above(axes)
+        spec = below.add_gridspec(1, 4)
+        columns = _around_and_edges(below, spec, (0,)) if push else [[below.add_subplot(spec[:])]]
+        for (axes,) in columns:
+            plots.matched_disturbance(axes, signals, push)
+        if push:
+            _zoom(columns[0], signals, push)
+            _edges(columns[1:], signals, push)
+        _one_legend_a_row(columns)
+        return figure
+
+
+def ground_figure(
+    signals: Signals,
+    title: str = "",
+    mu: float = 0.6,
+    slope: float = 0.0,
+    push: Window | None = None,
+) -> Figure:
+    """The ground reaction [N] over time, and its tangential against its normal part in the friction cone.
+
+    mu [1]: coefficient of friction. slope [rad]: of the ground, positive downhill. push: (start, stop) [s],
+    shaded; the time around it is shown.
+    """
+    with style():
+        figure = new_figure(10.0, 4.0)
+        figure.suptitle(_titled(title, signals, push))
+        over_time, cone = figure.subplots(1, 2, width_ratios=(3, 2))
+        plots.ground_reaction(over_time, signals, push, slope)
+        plots.friction_cone(cone, signals, mu, slope)
+        for axes in (over_time, cone):
+            _legend_above(axes)
+        if push:
+            _zoom([over_time], signals, push)
+        return figure
+
+
+def energy_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
+    """Kinetic, potential and total energy [J] over time [s]; around a push (start, stop) [s], shaded."""
+    with style():
+        figure = new_figure(7.0, 3.4)
+        figure.suptitle(_titled(title, signals, push))
+        axes = plots.energy(figure.subplots(), signals, push)
+        _legend_above(axes)
+        if push:
+            _zoom([axes], signals, push)
+        return figure
+
+
+def multiplier_figure(
+    multipliers: Mapping[str, ArrayLike], published: ArrayLike | None = None
+) -> Figure:
+    """Floquet multipliers (k,), complex, by name in the unit circle, and their magnitudes in decreasing order.
+
+    published (k,): magnitudes printed in the paper, shown for comparison; see `plots.magnitudes`.
+    """
+    with style():
+        figure = new_figure(9.5, 4.4)
+        circle, sizes = figure.subplots(1, 2)
+        plots.multipliers(circle, multipliers).set_title("multipliers", loc="left")
+        plots.magnitudes(sizes, multipliers, published).set_title("magnitudes", loc="left")
+        return figure
+
+
+def return_map_figure(before: Array, after: Array) -> Figure:
+    """The return map of Theta' as a staircase; see `plots.staircase`.
+
+    before, after (k,): Theta' before one impact and before the next [rad/s].
+    """
+    with style():
+        figure = new_figure(5.2, 4.8)
+        plots.staircase(figure.subplots(), before, after)
+        return figure
+
+
+def comparison_figure(walks: Mapping[str, Signals], push: Window | None = None) -> Figure:
+    """Controllers side by side: tracking error over time, its size, and the peak torques.
+
+    walks: signals by name of the controller. push: (start, stop) [s]; the time around it is shown, and the
+    milliseconds after either edge.
+    """
+    first = next(iter(walks.values()))
+    with style():
+        figure = new_figure(10.0, 5.8)
+        figure.suptitle(_titled(" and ".join(walks), first, push))
+        spec = figure.add_gridspec(2, 4)
+        columns = [[figure.add_subplot(spec[0, :])]]
+        if push:
+            columns[0][0].remove()
+            columns = _around_and_edges(figure, spec, (0,))
+        for (axes,) in columns:
+            plots.error_over_time(axes, walks, push)
+        if push:
+            _zoom(columns[0], first, push)
+            _edges(columns[1:], first, push)
+            for (axes,) in columns[1:]:
+                axes.set_ylim(columns[0][0].get_ylim())
+        _one_legend_a_row(columns)
+        sizes, motors = _row(figure, spec, 1, 2)
+        plots.error_sizes(sizes, walks)
+        plots.torque_sizes(motors, walks)
+        _legend_above(motors)
+        return figure

@@ -1,0 +1,95 @@
+"""Floquet multipliers of the return map, and the return map of one coordinate as a staircase.
+
+A periodic walk is stable when all multipliers, the eigenvalues of the derivative of the return map
+at its fixed point, lie inside the unit circle. `analysis.stability` computes them by several
+methods; they are drawn by name beside each other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import ArrayLike
+
+from biped_adrc.types import Array
+from biped_adrc.view.style import GREY, PALETTE, label
+
+MARKERS = "ox^s"
+"""Marks by method."""
+STEPS = 12
+"""Of a staircase."""
+
+
+def multipliers(axes: Axes, found: Mapping[str, ArrayLike]) -> Axes:
+    """Multipliers (k,) [1], complex, by name in the unit circle."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 361)
+    axes.plot(np.cos(angle), np.sin(angle), color="black", lw=1.0, label="unit circle")
+    for i, (name, values) in enumerate(found.items()):
+        z = np.atleast_1d(np.asarray(values, dtype=complex))
+        _plot(axes, i, name, z.real, z.imag, 7 + 2 * i)
+    axes.set_aspect("equal")
+    label(axes, r"Re $\lambda$ [-]", r"Im $\lambda$ [-]")
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.14), ncols=3, frameon=False)
+    return axes
+
+
+def magnitudes(
+    axes: Axes, found: Mapping[str, ArrayLike], published: ArrayLike | None = None
+) -> Axes:
+    """|lambda| (k,) [1] by name in decreasing order on a logarithmic scale; stable below 1.
+
+    Zeros have no place on that scale: the legend counts them. published (k,): magnitudes printed in
+    the paper; they come from a regression and are shown for comparison only.
+    """
+    axes.axhline(1.0, color="black", lw=1.0, label="unit circle")
+    for i, (name, values) in enumerate(found.items()):
+        size = np.sort(np.abs(np.atleast_1d(np.asarray(values, dtype=complex))))[::-1]
+        zeros = int(np.sum(size == 0.0))  # a logarithmic scale has no place for them
+        size = size[size > 0.0]
+        name = f"{name}, {zeros} more are 0" if zeros else name
+        _plot(axes, i, name, 1.0 + np.arange(len(size)), size, 6)
+    if published is not None:
+        size = np.sort(np.abs(np.asarray(published)))[::-1]
+        name = "printed in the paper (regression)"
+        axes.plot(1 + np.arange(len(size)), size, "+", color=GREY, ms=8, label=name)
+    axes.set_yscale("log")
+    label(axes, "number in decreasing order [-]", r"$|\lambda|$ [-]")
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.14), ncols=2, frameon=False)
+    return axes
+
+
+def _plot(axes: Axes, i: int, name: str, x: ArrayLike, y: ArrayLike, size: int) -> None:
+    """Draw y over x, both (k,), as open marks of the i-th kind and colour."""
+    marker, colour = MARKERS[i % 4], PALETTE[i]
+    axes.plot(x, y, marker=marker, ls="", mec=colour, mfc="none", ms=size, label=name)
+
+
+def staircase(axes: Axes, before: Array, after: Array) -> Axes:
+    """The return map of one coordinate, the diagonal, and the way of STEPS steps from either end of it.
+
+    before, after (k,): Theta' before an impact and before the next [rad/s]; between the samples the
+    map is interpolated linearly. The walk settles where the stairs end: at the fixed point.
+    """
+    order = np.argsort(before)
+    x, y = np.asarray(before, dtype=float)[order], np.asarray(after, dtype=float)[order]
+    axes.plot([x[0], x[-1]], [x[0], x[-1]], color=GREY, ls="--", label="the same speed")
+    axes.plot(x, y, color=PALETTE[0], marker="o", ms=3, label="return map")
+    for k, start in enumerate((x[0], x[-1])):
+        way = [float(start)]
+        for _ in range(STEPS):
+            way.append(float(np.interp(way[-1], x, y)))
+        stairs(axes, way, "step by step" if k == 0 else "_")
+    axes.plot(way[-1], way[-1], "s", color="black", ms=7, mfc="none", label="where it settles")
+    label(axes, r"$\dot\Theta$ before impact $k$ [rad/s]", r"before impact $k+1$ [rad/s]")
+    axes.legend(loc="best", frameon=False)
+    return axes
+
+
+def stairs(axes: Axes, way: Sequence[float] | Array, name: str) -> None:
+    """Draw the stairs of the values `way` (k,) of successive steps, in the unit of the map: up or down
+    to the map, then across to the diagonal.
+    """
+    corners = np.repeat(way, 2)
+    axes.plot(corners[:-1], np.append(way[0], corners[2:]), color=PALETTE[1], lw=0.9, label=name)

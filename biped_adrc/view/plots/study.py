@@ -1,0 +1,220 @@
+"""Figures of a study, one for each question: cells, dots with intervals, maps and paths.
+
+All take plain values and draw any study: rows and columns are names, numbers come with the ends of an
+interval of 95 %, which are NaN where there is none. What is not finite has no mark.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm, Normalize
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+from biped_adrc.types import Array
+from biped_adrc.view.style import GREY, PALETTE, label, literal, named_cells, new_figure, style
+
+MARKERS = ("o", "s", "D", "^", "v", "P", "X", "*")
+"""Marks by series."""
+MOST_LEVELS, CELLS = 40, 20
+"""An axis with more numbers than the first is cut into as many cells as the second."""
+MOST_PANELS = 12
+"""Panels of a map; more are left out."""
+WRITTEN = 120
+"""Cells of a panel up to which their numbers are written in them."""
+
+Numbers = Mapping[tuple[str, str], Sequence[float]]
+"""By row and series a number with the ends of its interval."""
+
+
+def cells_figure(shares: Mapping[tuple[str, str], tuple[int, int]]) -> Figure:
+    """By row and column so many of so many walks, as a table in cells; white where it is all of them."""
+    rows, columns = _names(shares)
+    counts = [[shares.get((row, column)) for column in columns] for row in rows]
+    values = np.array([[math.nan if x is None else x[0] / x[1] for x in row] for row in counts])
+    with style():
+        figure = new_figure(2.2 + 1.1 * len(columns), 0.8 + 0.3 * len(rows))
+        axes = figure.subplots()
+        edges = [np.arange(len(names) + 1) - 0.5 for names in (columns, rows)]
+        axes.pcolormesh(
+            *edges, 0.6 + 0.4 * values, cmap="gray", vmin=0.0, vmax=1.0, ec="black", lw=0.4
+        )
+        for (y, x), share in np.ndenumerate(values):
+            if math.isfinite(share):
+                k, n = counts[y][x]  # type: ignore[misc]
+                axes.text(x, y, f"{k} of {n}", ha="center", va="center", fontsize=7)
+        named_cells(axes, [literal(x) for x in rows], [literal(x) for x in columns], 20)
+        return figure
+
+
+def dots_figure(numbers: Numbers, title: str, reference: float | None = None) -> Figure:
+    """A row for each name and a mark for each series, on a logarithmic axis.
+
+    title: of the axis, with its unit. reference: number at which a line is drawn.
+    """
+    rows, series = _names(numbers)
+    offsets = np.linspace(-0.22, 0.22, len(series)) if len(series) > 1 else [0.0]
+    with style():
+        figure = new_figure(6.5, 1.1 + 0.36 * len(rows))
+        axes = figure.subplots()
+        axes.set_xscale("log")
+        if reference is not None:
+            axes.axvline(reference, color=GREY, lw=0.8)
+        for i, name in enumerate(series):
+            here = [
+                (rows.index(row) + offsets[i], *x)
+                for (row, of), x in numbers.items()
+                if of == name and math.isfinite(x[0])
+            ]
+            y, x, low, high = np.array(here).reshape(-1, 4).T
+            axes.errorbar(
+                x,
+                y,
+                xerr=np.nan_to_num([x - low, high - x], posinf=0.0, neginf=0.0).clip(0.0),
+                fmt=MARKERS[i % len(MARKERS)],
+                color=PALETTE[i % len(PALETTE)],
+                ms=4,
+                lw=1.0,
+                label=literal(name) or None,
+            )
+        left, right = axes.get_xlim()
+        if right < 1.01 * left:  # a single number
+            axes.set_xlim(0.5 * left, 2.0 * right)
+        axes.set_yticks(range(len(rows)), [literal(row) for row in rows])
+        axes.set_ylim(len(rows) - 0.5, -0.5)
+        label(axes, title, "")
+        if len(series) > 1:
+            figure.legend(loc="outside lower center", ncols=min(len(series), 4))
+        return figure
+
+
+def map_figure(
+    panels: Mapping[str, tuple[Sequence[Any], Sequence[Any], Array]],
+    names: tuple[str, str],
+    title: str,
+    log: bool,
+) -> Figure:
+    """A number as colour over two fields: by panel the levels x (N,), y (N,) and the numbers (N,) of its walks.
+
+    Numbers of a cell are averaged, infinite ones left out. names: of x and y, with units. log: scale of colour;
+    otherwise from 0 to 1.
+    """
+    shown = dict(list(panels.items())[:MOST_PANELS])
+    xs, ys = (cut([x for panel in shown.values() for x in panel[i]]) for i in (0, 1))
+    means, begin = [], 0
+    for panel in shown.values():
+        part = slice(begin, begin := begin + len(panel[2]))
+        means.append(_means(xs[0][part], ys[0][part], panel[2], (len(ys[1]), len(xs[1]))))
+    known = np.concatenate([m[np.isfinite(m)] for m in means])
+    low, high = (known.min(), known.max()) if log and known.size else (0.0, 1.0)
+    norm = LogNorm(low, max(high, low * 1.001)) if log and low > 0.0 else Normalize(low, high)
+    columns = min(len(means), 4)
+    rows = -(-len(means) // columns)
+    with style():
+        width = 1.6 + columns * (1.0 + 0.3 * min(max(len(xs[1]), 5), 20))
+        figure = new_figure(width, 0.8 + rows * (1.2 + 0.22 * min(max(len(ys[1]), 5), 20)))
+        grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
+        for k, axes in enumerate(grid.flat):
+            if k >= len(means):
+                axes.set_axis_off()
+                continue
+            image = _panel(axes, means[k], norm)
+            _ticks(axes, xs[1], ys[1])
+            below, left = k + columns >= len(means), k % columns == 0
+            words = literal(list(shown)[k])
+            label(axes, names[0] if below else "", names[1] if left else "", words)
+            axes.tick_params(labelbottom=below)
+        figure.colorbar(image, ax=grid, label=title, shrink=0.9)
+        return figure
+
+
+def path_figure(
+    paths: Mapping[str, Sequence[tuple[int, float, bool]]], title: str, less: bool
+) -> Figure:
+    """By case the number of each walked candidate, its objective, and whether it keeps all limits.
+
+    A line is the best one so far that keeps all limits. less: whether less is better.
+    """
+    with style():
+        figure = new_figure(6.5, 3.2)
+        axes = figure.subplots()
+        axes.set_yscale("log")
+        for i, (name, path) in enumerate(paths.items()):
+            color = PALETTE[i % len(PALETTE)]
+            for kept, mark in ((True, "o"), (False, "x")):
+                x = [(n, x) for n, x, feasible in path if feasible is kept and math.isfinite(x)]
+                axes.plot(*np.array(x).reshape(-1, 2).T, mark, color=color, ms=2.5, ls="none")
+            numbers = [x if kept else math.inf if less else -math.inf for _, x, kept in path]
+            best = (np.minimum if less else np.maximum).accumulate(numbers)
+            axes.step(
+                [n for n, *_ in path], best, where="post", color=color, label=literal(name) or None
+            )
+        axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+        label(axes, "candidate", literal(title))
+        if len(paths) > 1:
+            figure.legend(loc="outside lower center", ncols=min(len(paths), 4))
+        return figure
+
+
+def cut(values: Sequence[Any]) -> tuple[NDArray[np.intp], list[str]]:
+    """The cell of each value (N,), and the names of the cells: its levels, or many numbers cut into `CELLS`."""
+    levels = sorted(set(values), key=lambda x: (isinstance(x, str), x is None, x or 0))
+    if len(levels) <= MOST_LEVELS or not all(isinstance(x, int | float) for x in levels):
+        places = {x: i for i, x in enumerate(levels)}
+        return np.array([places[x] for x in values]), [_text(x) for x in levels]
+    edges = np.linspace(levels[0], levels[-1], CELLS + 1)
+    cells = np.clip(np.searchsorted(edges, values, side="right") - 1, 0, CELLS - 1)
+    return cells, [f"{x:.3g}" for x in (edges[1:] + edges[:-1]) / 2]
+
+
+def _text(x: Any) -> str:
+    return literal(x) if isinstance(x, str) else "none" if x is None else f"{x:.4g}"
+
+
+def _means(
+    x: NDArray[np.intp], y: NDArray[np.intp], numbers: Array, shape: tuple[int, int]
+) -> Array:
+    """(cells of y, cells of x): the mean of the finite numbers (N,), NaN in a cell without."""
+    known = np.isfinite(numbers)
+    places = (y * shape[1] + x)[known]
+    count = np.bincount(places, minlength=shape[0] * shape[1])
+    total = np.bincount(places, numbers[known], minlength=shape[0] * shape[1])
+    return np.where(count > 0, total / np.maximum(count, 1), np.nan).reshape(shape)
+
+
+def _panel(axes: Axes, means: Array, norm: Normalize) -> Any:
+    """Draw one panel: grey where there is no number, the numbers themselves where they fit."""
+    axes.set_facecolor("#DDDDDD")
+    image = axes.pcolormesh(means, cmap="cividis", norm=norm, ec="white", lw=0.3)
+    if means.size <= WRITTEN:
+        for (j, i), value in np.ndenumerate(means):
+            if np.isfinite(value):
+                color = "white" if norm(value) < 0.5 else "black"
+                axes.annotate(
+                    f"{value:.2g}",
+                    (i + 0.5, j + 0.5),
+                    ha="center",
+                    va="center",
+                    color=color,
+                    size=6,
+                )
+    axes.grid(False)
+    return image
+
+
+def _ticks(axes: Axes, x: Sequence[str], y: Sequence[str]) -> None:
+    """Name the cells of both axes, at most twelve or so of each."""
+    for set_ticks, names, rotation in ((axes.set_xticks, x, 45), (axes.set_yticks, y, 0)):
+        places = range(0, len(names), -(-len(names) // 12))
+        set_ticks([k + 0.5 for k in places], [names[k] for k in places], rotation=rotation)
+
+
+def _names(found: Mapping[tuple[str, str], Any]) -> tuple[list[str], list[str]]:
+    """Rows and columns in the order of their first appearance."""
+    return list(dict.fromkeys(a for a, _ in found)), list(dict.fromkeys(b for _, b in found))

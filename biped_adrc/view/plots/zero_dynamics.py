@@ -1,0 +1,170 @@
+"""The zero dynamics of a gait: I(Theta), V_zero(Theta), the phase portrait with its domain, and rho(zeta).
+
+On the zero dynamics the angular momentum sigma about the stance foot obeys a scalar system. Single
+support conserves sigma^2 / 2 + V_zero(Theta), so the portrait is made of level curves of that sum.
+zeta = sigma^2 / 2 at the end of a step is mapped by impact and step to rho(zeta) = delta^2 zeta -
+V_zero at the end: a straight line, whose fixed point zeta* is the gait; every step is a pair of
+corners between it and the diagonal.
+
+`biped-adrc gait zero --plot` draws all four from a `ZeroDynamicsReport` (`analysis.zero_report`).
+The domain is the range of zeta from which walks come back to the orbit and keep the limits.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from biped_adrc.analysis.zero_report import ZeroDynamicsReport
+from biped_adrc.gait.zero_domain import PASSING
+from biped_adrc.gait.zero_orbits import ZeroOrbits, grid
+from biped_adrc.types import Array
+from biped_adrc.view.plots.stability import stairs
+from biped_adrc.view.style import DASHES, GREY, PALETTE, label, new_figure, style
+
+WIDE = 2.0  # where the domain has no upper end it is drawn to this many zeta*
+STAIRS = 8
+"""Steps drawn from either end of the domain."""
+DOMAIN = "#DDEBF4"
+"""Light blue, of the domain."""
+
+
+def zero_inertia(axes: Axes, orbits: ZeroOrbits) -> Axes:
+    """I(Theta) [kg m^2], the inertia sigma / Theta', which must not change its sign."""
+    theta = grid(orbits.zero)
+    axes.plot(theta, orbits.inertia(theta), color=PALETTE[0])
+    axes.axhline(0.0, color="black", lw=0.8)
+    label(axes, r"$\Theta$ [rad]", r"$I$ [kg m$^2$]", "inertia")
+    return _walking_order(axes, theta)
+
+
+def zero_potential(axes: Axes, report: ZeroDynamicsReport) -> Axes:
+    """V_zero(Theta) [kg^2 m^4/s^2], its largest value, and sigma+^2 / 2 of the orbit, which has to be above it.
+
+    Where it is not, the robot does not come over the top of its step and falls back.
+    """
+    o = report.orbits
+    theta = grid(o.zero)
+    axes.plot(theta, o.potential(theta), color=PALETTE[0], label=r"$V_{zero}$")
+    axes.axhline(
+        o.delta**2 * report.zeta_star,
+        color=PALETTE[1],
+        ls=DASHES[1],
+        label=r"$\sigma_+^2/2$ of the orbit",
+    )
+    axes.plot(o.theta_max, o.v_max, "o", color="black", ms=4, label=r"$V_{max}$")
+    label(axes, r"$\Theta$ [rad]", r"$V_{zero}$ [kg$^2$m$^4$/s$^2$]", "potential")
+    axes.legend(loc="best")
+    return _walking_order(axes, theta)
+
+
+def zero_portrait(axes: Axes, report: ZeroDynamicsReport) -> Axes:
+    """(Theta [rad], sigma [kg m^2/s]) with level curves, the domain shaded, and the orbit with its
+    impact dotted.
+
+    Level curves are those of sigma^2 / 2 + V_zero(Theta). Limits follow the fastest step of the
+    domain.
+    """
+    o, theta = report.orbits, grid(report.orbits.zero)
+    low, high = _shown(report)
+    orbit, fastest = _sigma(o, theta, report.zeta_star), _sigma(o, theta, max(low, high))
+    if not report.domain.empty:
+        slowest = _sigma(o, theta, low)
+        axes.fill_between(theta, slowest, fastest, color=DOMAIN, lw=0, label="domain")
+    axes.plot(theta, orbit, color=PALETTE[1], lw=2.0, label="orbit")
+    ends = [theta[-1], theta[0]], [orbit[-1], orbit[0]]
+    axes.plot(*ends, color=PALETTE[1], ls=":", label="impact")
+    far = max((fastest[-1], orbit[-1]), key=abs)
+    axes.set_ylim(min(1.1 * far, -0.4 * far), max(1.1 * far, -0.4 * far))
+    _level_curves(axes, report)
+    label(axes, r"$\Theta$ [rad]", r"$\sigma$ [kg m$^2$/s]", "phase portrait")
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.16), ncols=2)
+    return _walking_order(axes, theta)
+
+
+def restricted_map(axes: Axes, report: ZeroDynamicsReport) -> Axes:
+    """rho(zeta), the diagonal, zeta*, the domain shaded, and the stairs of STAIRS steps from either end of it.
+
+    zeta [kg^2 m^4/s^2] is sigma^2 / 2 before an impact. The stairs begin just inside the domain, as
+    its ends are left out of it, and run towards zeta* where the gait is stable.
+    """
+    o = report.orbits
+    low, high = _shown(report)
+    right = 1.05 * max(high, report.zeta_star)
+    zeta = np.array([o.lowest, right])
+    if not report.domain.empty:
+        axes.axvspan(low, high, color=DOMAIN, lw=0, zorder=0, label="domain")
+    axes.plot([0.0, right], [0.0, right], color=GREY, ls="--", label="the same speed")
+    axes.plot(zeta, o.delta**2 * zeta - o.v_end, color=PALETTE[0], label=r"$\rho(\zeta)$")
+    for k, end in enumerate(() if report.domain.empty else (low, high)):
+        inside = end + 1e-6 * (high - low) * (1.0 if k == 0 else -1.0)
+        name = "step by step" if k == 0 else "_"
+        stairs(axes, o.iterate(inside, STAIRS), name)
+    name = r"$\zeta^*$"
+    axes.plot(report.zeta_star, report.zeta_star, "s", color="black", mfc="none", label=name)
+    unit = "[kg$^2$m$^4$/s$^2$]"
+    label(axes, rf"$\zeta_k$ {unit}", rf"$\zeta_{{k+1}}$ {unit}", "return map")
+    axes.set_xlim(0.0, right)
+    axes.set_ylim(0.0, None)
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.16), ncols=3)
+    return axes
+
+
+def zero_dynamics_figure(report: ZeroDynamicsReport) -> Figure:
+    """All four plots, with what bounds the domain as a title."""
+    with style():
+        figure = new_figure(9.0, 6.6)
+        (inertia, potential), (portrait, returns) = figure.subplots(2, 2)
+        zero_inertia(inertia, report.orbits)
+        zero_potential(potential, report)
+        zero_portrait(portrait, report)
+        restricted_map(returns, report)
+        figure.suptitle(_title(report), fontsize=10.0)
+        return figure
+
+
+def _level_curves(axes: Axes, report: ZeroDynamicsReport) -> None:
+    """Draw steps that are not the orbit, in what the axes show; those below V_max turn round."""
+    o = report.orbits
+    theta, sigma = np.meshgrid(grid(o.zero)[::2], np.linspace(*axes.get_ylim(), 201))
+    above = o.delta**2 * report.zeta_star - o.v_max
+    levels = o.v_max + above * np.array([-1.0, -0.5, 0.0, 0.5, 2.0, 4.0])
+    constant = 0.5 * sigma**2 + o.potential(theta)
+    axes.contour(theta, sigma, constant, levels, colors=GREY, linewidths=0.6, linestyles="-")
+    axes.plot([], [], color=GREY, lw=0.6, label="other steps")
+
+
+def _shown(report: ZeroDynamicsReport) -> tuple[float, float]:
+    """The range of zeta that is shown as domain; of an empty one, from the lowest zeta to that of the orbit."""
+    low, high = report.domain
+    if report.domain.empty:
+        return report.orbits.lowest, report.zeta_star
+    return low.zeta, high.zeta if math.isfinite(high.zeta) else WIDE * report.zeta_star
+
+
+def _sigma(orbits: ZeroOrbits, theta: Array, zeta: float) -> Array:
+    """sigma [kg m^2/s] over theta (K,) [rad] in the step that follows zeta, NaN where the step does
+    not come.
+    """
+    square = orbits.sigma_squared(theta, zeta)
+    size = np.sqrt(np.where(square >= 0.0, square, np.nan))
+    return math.copysign(1.0, orbits.sigma(1.0)) * size
+
+
+def _title(report: ZeroDynamicsReport) -> str:
+    """The domain and what bounds it, as a sentence."""
+    low, high = report.domain
+    if report.domain.empty:
+        return "no speed keeps the limits"
+    below = "to pass $V_{max}$" if low.cause == PASSING else low.cause
+    top = f"{high.zeta:.4g}" if math.isfinite(high.zeta) else r"\infty"
+    return rf"domain ${low.zeta:.4g} < \zeta < {top}$; bounds: {below}, {high.cause}"
+
+
+def _walking_order(axes: Axes, theta: Array) -> Axes:
+    """Limits of the axis of Theta with the start of a step at the left, so that a step runs to the right."""
+    axes.set_xlim(theta[0], theta[-1])
+    return axes

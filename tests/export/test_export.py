@@ -1,0 +1,251 @@
+"""An exported controller: what its functions do without a measurement, its program, its folder."""
+
+import errno
+import os
+import shutil
+import subprocess
+from dataclasses import replace
+from functools import partial
+
+import casadi as ca
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.engine.c_text import in_double
+from biped_adrc.engine.mechanics import RobotStructure
+from biped_adrc.errors import InputError, OutputError
+from biped_adrc.extras.export import loaded as loading
+from biped_adrc.extras.export.computer import Computer
+from biped_adrc.extras.export.export import export_c
+from biped_adrc.extras.export.loaded import NOT_MEASURED, OK, Loaded, compiled
+from biped_adrc.extras.export.noticed import Noticed
+from biped_adrc.extras.export.source import source_of
+from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.hybrid.status import Status
+from biped_adrc.scenario.build import build
+from tests.export.calls import SCENARIOS, recorded
+
+NPD, ON_A_ROBOT = SCENARIOS.values()
+SANITIZERS = ("-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_what_is_not_measured_leaves_the_state_and_the_torque_and_then_none(bad):
+    loaded, calls = recorded("NPD")
+    for entry in ("t", "q", "v"):
+        _, x = loaded.init(loaded.measured(*calls[0][1:4]))
+        good = loaded.measured(*calls[1][1:4])
+        flag, u = loaded.step(x, good)
+        assert flag == OK
+        broken = good.copy()
+        broken[entry] = bad
+        for _ in range(5):
+            flag, held = loaded.step(x, broken)
+            assert (flag, held.tolist()) == (NOT_MEASURED, u.tolist())
+        assert loaded.touchdown(x, broken) == NOT_MEASURED
+        assert x["step"] == 1
+        assert not np.any(loaded.step(x, broken)[1])
+        assert loaded.init(broken)[0] == NOT_MEASURED
+        assert loaded.step(x, good)[0] == OK
+
+
+def test_no_difference_is_taken_over_a_sample_that_is_not_measured():
+    loaded, calls = recorded("on a robot")
+    rates = {}
+    for bad in (range(40, 43), range(0)):
+        x, made = loaded.init(loaded.measured(*calls[0][1:4]))[1], []
+        for i, call in enumerate(calls[1:60]):
+            flag, _ = loaded.step(x, loaded.measured(np.nan if i in bad else call.t, *call[2:4]))
+            assert flag == (NOT_MEASURED if i in bad else OK)
+            made.append(x["rate"].copy())
+        rates[len(bad)] = np.array(made)
+    assert np.array_equal(rates[3][43], rates[3][39])
+    off = np.max(np.abs(rates[3] - rates[0]), axis=1)
+    assert np.all(np.diff(off[43:]) < 0.0)
+
+
+def test_a_walk_that_runs_away_ends_as_that_of_python():
+    scenario = ba.Scenario("NPD", hardware={"period": 1e-3, "delay": 2e-2}, run={"impacts": 1})
+    controller = ba.ExportedController(source_of(Computer(build(scenario))))
+    here = ba.walk_scenario(scenario).trajectory
+    there = ba.walk_scenario(scenario, controller=controller).trajectory
+    assert here.status is Status.RAN_AWAY
+    assert (there.status, there.t_end) == (here.status, here.t_end)
+
+
+@pytest.mark.parametrize("flag", loading.ERRORS)
+def test_every_flag_ends_a_walk_with_the_status_of_its_name(flag):
+    name = {NOT_MEASURED: "NOT_FINITE", 2: "NOT_FINITE", 3: "SINGULAR", 4: "RAN_AWAY"}[flag]
+
+    class Failing(ba.ExportedController):
+        def correct(self, s, m):
+            return super()._kept(flag if m.t > 2.5e-3 else OK, self._state(s), self.output(s, m))
+
+    run = ba.walk_scenario(NPD, controller=Failing(recorded("NPD")[0].source)).trajectory
+    assert run.status is Status[name]
+    assert run.t_end == pytest.approx(3e-3)
+
+
+def test_a_noticed_touchdown_is_seen_in_the_old_labels_with_the_offset_of_the_angles():
+    """q+ = R q- + r, R R = 1, R r = -r: no robot of the package has an r."""
+    R, r = np.array([[0, 1, 0], [1, 0, 0], [0, 0, 1]]), np.array([0.3, -0.3, 0.0])
+    inner, robot = ba.Sensors(filter_time=2e-3), partial(RobotStructure, 3, 2, np.eye(3), R)
+    around = Noticed(inner, robot(r, np.array([1, 0]), ())).sampled(3, 2, 1e-3)
+    sampled = inner.sampled(3, 2, 1e-3)
+    q, v = np.array([0.1, -0.4, 0.7]), np.array([1.0, 2.0, -3.0])
+    w = sampled.sense(sampled.start(q, v), q + 1e-3 * v, v)
+    old = q + 2e-3 * v
+    before = sampled.sense(w, old, v)
+    wanted = sampled.impact(before, R @ old + r, R @ v, R @ sampled.reading(before, old, v)[1])
+    found = around.impact(np.append(w, 0.0), R @ old + r, R @ v, np.zeros(3))
+    np.testing.assert_allclose(found, np.append(wanted, 1.0), rtol=1e-12)
+    with pytest.raises(InputError, match="do not exchange in pairs"):
+        Noticed(inner, robot(np.abs(r), np.array([1, 0]), ()))
+
+
+class Own(Sensor):
+    """A sensor of the user's own."""
+
+    def reading(self, w, q, v):
+        return q, v
+
+
+def test_what_stands_in_the_way_is_named(tmp_path):
+    walker = build(ba.Scenario("NPD", hardware="ideal"))
+    for scenario, word in [
+        (ba.Scenario("NPD"), "ContinuousTime"),
+        (ba.Scenario("CLF-QP", hardware="ideal"), r"CLFQPController.output .* cannot be compiled"),
+        (replace(walker, sensors=Own()), "sensor Own does not say"),
+    ]:
+        with pytest.raises(InputError, match=word):
+            export_c(scenario, tmp_path / "out")
+    wrong = [("prefix", "2nd", "prefix"), ("prefix", "main", "main.c"), ("prefix", "x", "X_OK")]
+    for name, value, word in [*wrong, ("real", "half", "float64")]:
+        with pytest.raises(InputError, match=word):
+            export_c(walker, tmp_path / "out", **{name: value})
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_folder_with_other_files_is_left_alone(tmp_path):
+    new = tmp_path / "new"
+    export_c(NPD, new, fmu=True)
+    before = {x.name: x.read_bytes() for x in new.iterdir()}
+    subprocess.run(["make", "-s", "-C", new], check=True)
+    subprocess.run(["make", "-s", "-C", new, "float"], check=True)
+    export_c(NPD, new)  # what make has built is no file of somebody else
+    assert {x.name: x.read_bytes() for x in new.iterdir() if x.name != "main"} == before
+    with pytest.raises(OutputError, match="other than it would be written"):
+        export_c(ON_A_ROBOT, new)
+    (new / "main.c").write_text("changed by hand")
+    with pytest.raises(OutputError, match=r"main\.c"):
+        export_c(NPD, new)
+    assert (new / "main.c").read_text() == "changed by hand"
+    (new / "main.c").unlink()
+    (new / "main.c").symlink_to("nowhere")
+    with pytest.raises(OutputError, match=r"main\.c"):
+        export_c(NPD, new)
+    (new / "main.c").unlink()
+    (new / "mine.txt").write_text("mine")
+    with pytest.raises(OutputError, match=r"mine\.txt"):
+        export_c(NPD, new)
+    for name, word in [("new/mine.txt", "is a file"), (300 * "a", "too long")]:
+        with pytest.raises(OutputError, match=word):
+            export_c(NPD, tmp_path / name)
+
+
+@pytest.mark.parametrize(("name", "grows"), [("ADRC", True), ("NPD", False)])
+def test_the_growth_is_that_of_two_controllers_beside_one_motion(name, grows, gait, biped):
+    computer = Computer(build(ba.Scenario(name, hardware={"period": 1e-3})))
+    law, (q, v) = computer.alone.law, gait.start(biped)
+    m = computer.alone.measure(0.0, q, v, ba.Mode())
+    states, apart = [law.initial_state(m), law.initial_state(m)], []
+    states[1] = states[1] + 1e-3
+    for _ in range(600):
+        corrected = [law.correct(s, m) for s in states]
+        states = [law.predict(s, m, law.output(s, m)) for s in corrected]
+        apart.append(np.linalg.norm(states[1] - states[0]))
+    found = computer.growth(q, v)
+    assert (found > 50.0) == grows
+    if grows:
+        assert found == pytest.approx(np.log(apart[-1] / apart[200]) / 0.399, rel=0.05)
+
+
+def test_without_a_compiler_or_room_to_compile_the_c_is_written_and_it_is_said(
+    tmp_path, monkeypatch
+):
+    def full(*_, **__):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(loading.tempfile, "TemporaryDirectory", full)
+        with pytest.raises(OutputError, match=r"No space left on device.*TMPDIR"):
+            export_c(NPD, tmp_path / "new", fmu=True)
+    assert (tmp_path / "new" / "controller.c").exists()
+    source = export_c(NPD, tmp_path / "new")
+    monkeypatch.setattr(loading.shutil, "which", lambda name: None)
+    assert "there is no C compiler" in loading.tried(source)
+    with pytest.raises(InputError, match="there is no C compiler"):
+        Loaded(source).functions  # noqa: B018
+
+
+COMPILERS = {"gcc": ["-std=c99"], "g++": ["-x", "c++"], "clang": ["-std=c99"]}
+REQUIRED = os.environ.get("REQUIRED_COMPILERS", "").split()
+"""They have to be there in CI; elsewhere those are asked that are."""
+
+
+@pytest.mark.parametrize("program", [x for x in COMPILERS if x in REQUIRED or shutil.which(x)])
+@pytest.mark.parametrize("real", ["double", "float"])
+def test_no_compiler_warns(tmp_path, program, real):
+    export_c(ON_A_ROBOT, tmp_path / "c", prefix="leg")
+    strict = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", f"-DLEG_REAL={real}"]
+    command = [program, *COMPILERS[program], *strict, "-c", "-o", os.devnull]
+    for name in ("leg.c", "main.c"):
+        subprocess.run([*command, str(tmp_path / "c" / name)], check=True)
+
+
+@pytest.fixture(scope="module")
+def program():
+    """The example's program of a robot's controller, under sanitizers."""
+    files = recorded("on a robot")[0].source.files
+    with compiled(files, ["main.c", "controller.c"], *SANITIZERS) as (path, said):
+        assert not said
+        yield path
+
+
+def printed(program, lines):
+    """The exit code of a program, and the numbers that it prints for lines."""
+    done = subprocess.run([program], input="\n".join(lines), capture_output=True, text=True)
+    return done.returncode, [list(map(float, line.split())) for line in done.stdout.splitlines()]
+
+
+def line_of(landed, call):
+    return " ".join(map(repr, [landed, call.t, *call.q.tolist(), *call.v.tolist()]))
+
+
+def test_the_program_prints_the_torques_bit_for_bit(program):
+    _, calls = recorded("on a robot")
+    lines, wanted, landed = [], [], 0
+    for call in calls:
+        if call.kind == "step":
+            lines.append(line_of(landed, call))
+            wanted.append([OK, *call.u.tolist()])
+        landed = int(call.kind == "touchdown")
+    code, made = printed(program, [*lines, "", line_of(0, calls[-1]._replace(t=np.nan))])
+    assert (code, made) == (0, [*wanted, [NOT_MEASURED, *wanted[-1][1:]]])
+
+
+@pytest.mark.parametrize("bad", ["one", "0 0.1", "{} 1", "{} x", "0 nan"])
+def test_the_program_ends_at_a_line_that_is_no_sample(program, bad):
+    good = line_of(0, recorded("on a robot")[1][0])
+    code, made = printed(program, [good, bad.format(good), good])
+    assert (code, len(made)) == (9, 1)
+
+
+def test_differences_of_angles_and_what_they_are_made_of_stay_in_double():
+    q, v, k = ca.SX.sym("q", 2), ca.SX.sym("v"), ca.SX.sym("K", 2)
+    phase = k[0] * q[0]
+    f = ca.Function("f", [k, ca.vertcat(q, v)], [ca.vertcat(q[1] - ca.sin(phase), v - phase)])
+    wide = in_double(f, [True, True, False])
+    codes = sorted(f.instruction_id(i) for i in wide)
+    assert codes == sorted([ca.OP_MUL, ca.OP_SIN, ca.OP_SUB])

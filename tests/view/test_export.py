@@ -1,0 +1,168 @@
+"""Moving pictures and strips: where they draw the robot, how long they last, that they repeat."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from typer.testing import CliRunner
+
+from biped_adrc.cli import app
+from biped_adrc.errors import InputError
+from biped_adrc.hybrid.status import Status
+from biped_adrc.hybrid.trajectory import Event
+from biped_adrc.model.biped import Biped
+from biped_adrc.scenario.recording import Walk
+from biped_adrc.view.export import Clip, export
+from biped_adrc.view.from_the_side import gif
+from biped_adrc.view.from_the_side.moving_parts import Motion
+from biped_adrc.view.from_the_side.moving_picture import write_moving_picture
+from biped_adrc.view.from_the_side.side_view import SideView
+from biped_adrc.view.from_the_side.stick_figures import strip
+from biped_adrc.view.placement import WalkScene, ending
+from biped_adrc.view.style import new_figure, style
+
+
+def test_lines_are_the_limbs(biped: Biped, walks: dict[str, Walk]) -> None:
+    """Lengths against RABBIT's 0.4 m limbs and 0.63 m torso; ends against the biped's own kinematics."""
+    view = SideView(WalkScene.of(walks["NPD"]))
+    for t in np.linspace(0.0, walks["NPD"].trajectory.t_end - 1e-9, 7):
+        segments = view.segments(float(t))
+        lengths = np.hypot(*(segments[:, 1] - segments[:, 0]).T)
+        np.testing.assert_allclose(sorted(lengths), [0.4, 0.4, 0.4, 0.4, 0.63], atol=1e-9)
+        hip, foot = np.split(view.points(float(t)), 2)
+        ends = segments.reshape(-1, 2)
+        for point in (hip, foot, [view.scene.footholds[view.scene.arc_at(float(t))], 0.0]):
+            assert np.min(np.hypot(*(ends - point).T)) < 1e-9
+        assert sorted(view.roles(float(t))) == ["", "stance", "stance", "swing", "swing"]
+
+
+def test_gif(walks: dict[str, Walk], tmp_path: Path) -> None:
+    for name in ("a.gif", "b.gif"):
+        write_moving_picture(
+            tmp_path / name, walks, start=0.1, stop=0.5, motion=Motion(fps=20.0, width=300)
+        )
+    assert (tmp_path / "a.gif").read_bytes() == (tmp_path / "b.gif").read_bytes()
+    with Image.open(tmp_path / "a.gif") as image:
+        assert image.n_frames == 8
+        assert image.size[0] == 300
+        assert image.info["duration"] == 50
+        assert image.info["loop"] == 0
+        frames = []
+        for k in range(image.n_frames):
+            image.seek(k)
+            frames.append(np.asarray(image.convert("L"), dtype=float))
+    for before, after in pairwise(frames):
+        assert np.mean(np.abs(before - after) > 20) > 2e-3
+    assert all(0.01 < np.mean(frame < 200) < 0.6 for frame in frames)
+
+
+def test_export_goes_by_the_suffix(walks: dict[str, Walk], tmp_path: Path) -> None:
+    clip = Clip(0.1, 0.2, fps=10.0)
+    starts = {"html": b"<!DOCTYPE html>", "gif": b"GIF89a", "png": b"\x89PNG", "svg": b"<?xml"}
+    for suffix, start in starts.items():
+        export(tmp_path / f"walk.{suffix}", walks, clip)
+        assert (tmp_path / f"walk.{suffix}").read_bytes().startswith(start)
+    for name, shown, wrong in (
+        ("walk.avi", walks, clip),
+        ("walk.gif", {}, clip),
+        ("walk.gif", walks, Clip(fps=100.0)),
+        ("walk.gif", walks, Clip(start=0.5, stop=0.1)),
+        ("walk.gif", walks, Clip(slower=0.0)),
+        ("walk.html", walks, Clip(apart=True)),
+        ("walk.png", walks, Clip(view="perspective")),
+    ):
+        with pytest.raises(InputError):
+            export(tmp_path / name, shown, wrong)
+
+
+@pytest.mark.parametrize("fps", [0.1, 29.97, 45.0])
+def test_a_gif_goes_at_the_pace_that_is_asked_for(fps: float) -> None:
+    """Its frames are shown for whole hundredths of a second, which differ where they have to."""
+    frames = [np.full((20, 60, 3), 255, dtype=np.uint8) for _ in range(40)]
+    for k, frame in enumerate(frames):
+        frame[5:15, k : k + 15] = 0
+    with Image.open(io.BytesIO(gif.encoded(frames, fps, 2.0))) as image:
+        durations = []
+        for k in range(image.n_frames):
+            image.seek(k)
+            durations.append(image.info["duration"])
+    ends = np.cumsum(durations) - [*[0] * 39, 2000]
+    assert np.max(np.abs(ends - 1000.0 * np.arange(1, 41) / fps)) <= 5.0 + 1e-9
+
+
+def fallen(walk: Walk, status: Status, guard: str | None = None) -> Walk:
+    """The walk as if it had ended so."""
+    *before, last = walk.trajectory.arcs
+    if guard is not None:
+        last = replace(last, event=Event(guard, float(last.t[-1]), last.x[-1], None))
+    return replace(
+        walk, trajectory=replace(walk.trajectory, arcs=(*before, last), status=status, detail="")
+    )
+
+
+def test_an_ending_says_how_when_and_why(walks: dict[str, Walk]) -> None:
+    walk = walks["NPD"]
+    at = f"at {walk.trajectory.t_end:.2f} s"
+    assert ending(walk.trajectory) == ""
+    fell = fallen(walk, Status.FELL, "hip_too_low").trajectory
+    assert ending(fell) == f"fell {at}: hip too low"
+    singular = fallen(walk, Status.SINGULAR).trajectory
+    assert ending(replace(singular, detail="D_s")) == f"singular {at}: D_s"
+    for status in Status:
+        if not status.ok:
+            words = ending(fallen(walk, status).trajectory)
+            assert words.startswith(status.name.lower().replace("_", " "))
+            assert "nan" not in words
+
+
+def test_the_last_frame_of_a_walk_that_fell_differs_and_stays(
+    walks: dict[str, Walk], tmp_path: Path
+) -> None:
+    end = walks["NPD"].trajectory.t_end
+    frames, durations = {}, {}
+    for status in (Status.COMPLETED, Status.FELL):
+        walk, path = fallen(walks["NPD"], status, "hip_too_low"), tmp_path / f"{status.name}.gif"
+        write_moving_picture(path, {"NPD": walk}, start=end - 0.2, motion=Motion(fps=10.0))
+        with Image.open(path) as image:
+            frames[status] = image.n_frames
+            image.seek(image.n_frames - 1)
+            durations[status] = image.info["duration"]
+    assert frames[Status.FELL] == frames[Status.COMPLETED] + 1
+    assert (durations[Status.COMPLETED], durations[Status.FELL]) == (100, 2100)
+
+
+def test_a_strip_says_how_a_walk_ended(walks: dict[str, Walk]) -> None:
+    with style():
+        axes = new_figure(6.0, 4.0).subplots()
+        strip(axes, fallen(walks["NPD"], Status.STALLED, "step_too_long"))
+    assert "stalled at" in axes.get_title(loc="left")
+    with style():
+        axes = new_figure(6.0, 4.0).subplots()
+        strip(axes, walks["NPD"], 0.0, 1.2)
+    assert axes.get_title(loc="left") == "a pose every 100 ms"
+    with style():
+        axes = new_figure(6.0, 4.0).subplots()
+        strip(axes, fallen(walks["NPD"], Status.STALLED, "step_too_long"), 0.1, 0.4)
+    assert "stalled" not in axes.get_title(loc="left")
+
+
+def test_the_run_is_drawn_solid_and_its_ghost_behind(
+    walks: dict[str, Walk], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What is drawn last lies in front."""
+    drawn: list[str] = []
+    monkeypatch.setattr(
+        "biped_adrc.view.export.export", lambda path, walks, clip: drawn.extend(walks)
+    )
+    runs = [str(walk.save(tmp_path / f"{name}.npz")) for name, walk in walks.items()]
+    done = CliRunner().invoke(
+        app, ["animate", runs[0], "--ghost", runs[1], "-o", str(tmp_path / "a.html")]
+    )
+    assert done.exit_code == 0, done.output
+    assert drawn == [*walks][::-1]

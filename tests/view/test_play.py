@@ -1,0 +1,532 @@
+"""The page of `play`: its walks are those of the simulator, under a hand by script, mouse, finger and keys."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from selenium.webdriver import Chrome
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+from typer.testing import CliRunner
+
+import biped_adrc as ba
+from biped_adrc.cli import app
+from biped_adrc.engine.webassembly import web_module
+from biped_adrc.errors import BipedError, InputError, OutputError
+from biped_adrc.live.page import FIRST, page, revised, tour
+from biped_adrc.live.walks import MOST, SPRING
+from biped_adrc.model.planar import jacobian, link_point, point, turned, wrench_torque
+from biped_adrc.scenario.build import RobotAndGait, build
+from biped_adrc.scenario.run import method_of
+from biped_adrc.types import Array
+from biped_adrc.view.meshcat.frames import pose
+from biped_adrc.view.placement import WalkScene
+
+from .browser import chromium, console, requested
+
+DOCS = Path(__file__).parents[2] / "docs"
+SOON = 60.0
+"""[s] within which something comes that would come at once on an idle computer."""
+ODD = '</script><script>document.title = "run"</script>'
+"""A name as markup."""
+OTHERS: dict[str, dict[str, object]] = {
+    "NPD": {"controller": "NPD"},
+    "ADRC": {"controller": "ADRC"},
+    "m = 3": {
+        "controller.name": "ADRC",
+        "controller.observer.order": 3,
+        "controller.observer.bandwidth": 300.0,
+    },
+    ODD: {"controller": "NPID"},
+}
+
+
+@pytest.fixture(scope="module")
+def path(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return ba.play(tmp_path_factory.mktemp("page") / "play.html", others=OTHERS)
+
+
+@pytest.fixture(scope="module")
+def started() -> Iterator[Chrome]:
+    with chromium() as browser:
+        yield browser
+
+
+@pytest.fixture
+def browser(started: Chrome, path: Path) -> Chrome:
+    """With the page open, at rest."""
+    opened(started, path)
+    return started
+
+
+def opened(browser: Chrome, path: Path) -> None:
+    """The page, once it shows a walk, at rest."""
+    browser.get(path.as_uri())
+    until(browser, "return page.last !== null && known.length > 0")
+    keys(browser, " ")
+    until(browser, "return paused")
+
+
+def until(browser: Chrome, script: str, *given: object) -> Any:
+    """What a script returns, once that is true."""
+    end = time.monotonic() + SOON
+    while not (found := browser.execute_script(script, *given)):
+        assert time.monotonic() < end, script
+        time.sleep(0.05)
+    return found
+
+
+def keys(browser: Chrome, *pressed: str) -> None:
+    """Press keys, not in a field."""
+    browser.execute_script("document.activeElement.blur()")
+    browser.find_element(By.TAG_NAME, "body").send_keys(*pressed)
+
+
+# -- the walks -----------------------------------------------------------------------------------------
+SAMPLES, EVERY = 2000, 50
+WALKED = """
+const [name, samples, every] = arguments, states = [], hands = [[], []], springs = [];
+play.begin(name, "NPD");
+play.move = (k) => {
+  const text = JSON.stringify(play.hand), mine = hands[k];
+  if (!mine.length || mine[mine.length - 1][1] !== text) mine.push([play.walking[k].t, text]);
+  Play.prototype.move.call(play, k);
+};
+for (let k = 0; k < samples; k += 1) {
+  const [walk] = play.walking;
+  const push = { torque: { q1: 30, q2: 30 }, force: [40, -10], link: "right_shin", at: [0.02, -0.1] };
+  if (k === 600) play.push(push);
+  if (k === 1200) play.pull({ link: "torso", at: [0, 0.3], anchor: [walk.foot[0] + 0.3, 1.4] });
+  if (k === 1700) play.let_go();
+  if (k === samples - 1) play.made = play.walking.map(() => []);
+  if (play.spring && walk.walks) {
+    const { place, hand } = play.pulled();
+    springs.push([...walk.q, ...walk.v, ...walk.foot, ...play.spring.anchor, ...place, ...hand.force]);
+  }
+  play.sample();
+  const now = play.walking.map((w) => [w.t, w.step, ...w.foot, ...w.q, ...w.v]);
+  if (k % every === every - 1) states.push(now);
+}
+delete play.move;
+const told = hands.map((mine) => mine.map(([t, text]) => [t, JSON.parse(text)]));
+return { states, hands: told, springs, frame: JSON.parse(JSON.stringify(play.frame())) };
+"""
+
+
+@dataclass(frozen=True)
+class Rows(ba.Disturbance):
+    """zeta = tau + J(q)' F, from each of these times (K,) [s] on; rows: (tau, point or None, F)."""
+
+    times: Array
+    rows: tuple[Any, ...]
+
+    @classmethod
+    def of(cls, plant: ba.Biped, hands: list[Any]) -> Rows:
+        """What the page did: (t, hand or None)."""
+        still = (np.zeros(plant.n), None, np.zeros(2))
+        rows = tuple(
+            still
+            if hand is None
+            else (
+                np.array(hand["torque"]),
+                link_point(plant, hand["link"], tuple(hand["at"])),
+                np.array(hand["force"]),
+            )
+            for _, hand in hands
+        )
+        return cls(np.array([t for t, _ in hands]), rows)
+
+    def at(self, t: float) -> Any:
+        return self.rows[max(0, int(np.searchsorted(self.times, t, side="right")) - 1)]
+
+    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        tau, where, force = self.at(t)
+        return tau if where is None else tau + wrench_torque(where, q, np.append(force, 0.0))
+
+    def resultant(self, t: float, step: int, t_start: float) -> Array:
+        force: Array = self.at(t)[2]
+        return force
+
+    def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
+        return tuple(self.times.tolist())
+
+
+def scenario_of(name: str) -> ba.Scenario:
+    """Of a walk of the page: one of OTHERS, or of a station of the tour."""
+    values = OTHERS.get(name) or next(x["values"] for x in tour() if x["title"] == name)
+    return revised(FIRST, values)
+
+
+def walked(name: str, hands: list[Any]) -> ba.Walk:
+    """The same by the simulator, in Python on the compiled plant."""
+    s = scenario_of(name)
+    scene = RobotAndGait.of(s)
+    walker = build(s, scene)
+    walker = replace(walker, disturbance=Rows.of(walker.plant, hands))
+    return ba.walk(walker, scene.gait, 7, method_of(s, walker))
+
+
+def is_of(walk: ba.Walk, states: Array) -> None:
+    """States (K, 4 + 2 n) of the page, (t, step, foot, q, q'), are those of a walk."""
+    n, scene, end = walk.walker.plant.n, WalkScene.of(walk), walk.trajectory.t_end
+    for t, step, *numbers in states:
+        at = min(t, end)
+        assert t == pytest.approx(at, abs=1e-9)
+        arc = walk.trajectory.arcs[int(step) - 1]
+        there = arc(min(at, float(arc.t[-1])), "left")
+        foot = scene.foothold(int(step) - 1)
+        np.testing.assert_allclose(numbers, [*foot, *there[: 2 * n]], rtol=0.0, atol=1e-7)
+
+
+def is_drawn(walk: ba.Walk, t: float, found: dict[str, Any]) -> None:
+    """What the page draws and plots at t [s] is what the finished walk draws, and its signals."""
+    i = found["support"]["number"] - 1
+    drawn = pose(WalkScene.of(walk), i, t)
+    for key in ("joints", "points", "contact"):
+        assert found[key] == pytest.approx(getattr(drawn, key), rel=1e-6, abs=1e-6), key
+    assert found["loads"][2:] == pytest.approx(drawn.loads[2:], rel=1e-6, abs=1e-6)
+    s, row = walk.signals, found["rows"][-1]
+    k = int(np.argmax(s.t > t - 1e-9))
+    assert s.t[k] == pytest.approx(t, abs=1e-9)
+    for key in ("error", "xi", "xi_estimate", "u"):
+        there = [math.nan if x is None else x for x in row[key]]
+        assert there == pytest.approx(getattr(s, key)[k], rel=1e-6, abs=1e-6, nan_ok=True), key
+    assert found["loads"][:2] == pytest.approx(s.ground_reaction[k], rel=1e-6, abs=1e-6)
+    F_T, F_N = s.ground_reaction[k]  # before the sample instant, as the page has it
+    assert row["friction"] == pytest.approx(abs(F_T) / F_N, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", ["NPD", "ADRC", "encoders: the observer of Table I falls"])
+def test_walks_pushed_and_pulled_are_those_of_the_simulator(browser: Chrome, name: str) -> None:
+    """Positions and rates, with sin and pow of another library, and everything that is drawn and plotted."""
+    found = browser.execute_script(WALKED, name, SAMPLES, EVERY)
+    states = np.array(found["states"])
+    walks = [walked(who, found["hands"][k]) for k, who in enumerate((name, "NPD"))]
+    for k, walk in enumerate(walks):
+        is_of(walk, states[:, k])
+        shown = found["frame"]["walks"][k]
+        if shown["ending"]:
+            word, reason = walk.trajectory.status.name.lower(), walk.trajectory.status.value
+            assert shown["ending"].startswith(f"{word.replace('_', ' ')} at {states[-1, k, 0]:.2f}")
+            assert shown["ending"].endswith(reason.split(";")[0])
+        else:
+            is_drawn(walk, states[-1, k, 0], shown)
+    fallen = [bool(x["ending"]) for x in found["frame"]["walks"]]
+    assert fallen == [name.startswith("encoders"), False]
+
+
+def test_the_spring_pulls_towards_the_hand_and_not_more_than_it_may(browser: Chrome) -> None:
+    found = browser.execute_script(WALKED, "NPD", SAMPLES, EVERY)
+    plant = RobotAndGait.of(FIRST).biped
+    n, k = plant.n, link_point(plant, "torso", (0.0, 0.3))
+    largest = 0.0
+    for row in np.array(found["springs"]):
+        q, v, (foot, anchor, place, force) = row[:n], row[n : 2 * n], row[2 * n :].reshape(4, 2)
+        t = turned(k, q)
+        p = foot + point(t, k.re, k.im)
+        pull = SPRING["stiffness"] * (anchor - p) - SPRING["damping"] * (
+            jacobian(k, t, k.re, k.im) @ v
+        )
+        pull *= min(1.0, MOST["force"] / np.linalg.norm(pull))
+        assert place == pytest.approx(p, abs=1e-9)
+        assert force == pytest.approx(pull, abs=1e-6)
+        largest = max(largest, float(np.linalg.norm(force)))
+    assert largest > 100.0
+    assert largest <= MOST["force"] * (1.0 + 1e-9)
+
+
+TORQUES = {"pushes": "q1,q5=25@1:0.1-0.2"}
+PULSE = {
+    "pushes.0.shape": "pulse",
+    "pushes.0.link": "right_shin",
+    "pushes.0.force": 40.0,
+    "pushes.0.direction": math.pi,
+}
+PULSE |= {"pushes.0.onset": 0.1, "pushes.0.duration": 0.1, "pushes.0.step": 1}
+PUSHED = """
+const [hand, ends] = arguments;
+play.begin("NPD", null);
+const go_to = (t) => { while (play.leader.t < t - 1e-9) play.sample(); };
+go_to(0.1);
+play.push(hand);
+const states = ends.map((t) => { go_to(t); return [play.leader.t, ...play.leader.q, ...play.leader.v]; });
+play.back();
+const began = play.leader.t;
+go_to(ends.at(-1));
+return { states, began, still: [...play.leader.q] };
+"""
+
+
+@pytest.mark.parametrize(
+    ("as_scenario", "by_hand"),
+    [
+        (TORQUES, {"torque": {"q1": 25.0, "q5": 25.0}}),
+        (PULSE, {"force": [-40.0, 0.0], "link": "right_shin"}),
+    ],
+    ids=["torque", "force"],
+)
+def test_it_pushes_as_the_scenario_of_the_same_push_and_goes_back(
+    browser: Chrome, as_scenario: dict[str, Any], by_hand: dict[str, Any]
+) -> None:
+    walk = ba.walk_scenario(
+        scenario_of("NPD").replace({"run.impacts": 1, **as_scenario})
+    ).trajectory
+    found = browser.execute_script(PUSHED, by_hand | {"seconds": 0.1}, [0.15, 0.22])
+    for t, *state in found["states"]:
+        assert state == pytest.approx(walk(t)[:10], abs=1e-7)
+    assert found["began"] == 0.0
+    assert np.max(np.abs(np.array(found["states"][-1][1:6]) - found["still"])) > 1e-3
+
+
+# -- mouse, finger, keys -------------------------------------------------------------------------------
+PLACE = """
+const box = pane.getBoundingClientRect();
+const part = [...parts].find(([, link]) => link === "torso")[0];
+viewer.scene.updateMatrixWorld(true);
+viewer.render();
+const at = part.getWorldPosition(new MeshCat.THREE.Vector3()).project(viewer.camera);
+return [box.left + 0.5 * (at.x + 1) * box.width, box.top + 0.5 * (1 - at.y) * box.height];
+"""
+
+
+def torso(browser: Chrome) -> tuple[int, int]:
+    """Where the torso is in the window [px]."""
+    x, y = map(round, browser.execute_script(PLACE))
+    return x, y
+
+
+def test_the_page_by_mouse_and_keys(browser: Chrome) -> None:
+    mouse = ActionChains(browser)
+    mouse.w3c_actions.pointer_action.move_to_location(*torso(browser))
+    mouse.double_click().perform()
+    until(browser, "return selected && selected.link === 'torso'")
+    mouse = ActionChains(browser).key_down(Keys.CONTROL).click_and_hold().key_up(Keys.CONTROL)
+    mouse.move_by_offset(60, -20).perform()
+    hand = until(browser, "return page.last.hand")
+    assert 1.0 < math.hypot(*hand["force"]) < 300.0 + 1e-9
+    before = browser.execute_script("return page.last.t")
+    keys(browser, Keys.ARROW_RIGHT)
+    until(browser, "return page.last.t > arguments[0]", before)
+    assert until(browser, "return element('force').textContent").endswith(" N")
+    ActionChains(browser).release().perform()
+    until(browser, "return page.last.hand === null")
+    keys(browser, "-", "-")
+    until(browser, "return rate === 0.2 && element('shown').textContent === ', last 1.6 s'")
+    keys(browser, "+", "+", " ")
+    until(browser, "return page.last.walks[0].support.number > 2")
+    keys(browser, "b", " ")
+    until(browser, "return paused")
+    assert console(browser) == []
+
+
+def test_a_finger_pulls(browser: Chrome) -> None:
+    def touch(kind: str, *place: float) -> None:
+        points = [dict(zip("xy", place, strict=True))] if place else []
+        browser.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+    browser.find_element(By.ID, "pull").click()
+    keys(browser, "v")
+    until(browser, "return view === 'perspective'")
+    x, y = torso(browser)
+    touch("touchStart", x, y)
+    hand = until(browser, "return page.last.hand")  # at rest: the force is that of the next sample
+    assert hand["anchor"][0] == pytest.approx(hand["at"][0], abs=1e-6), "slack"
+    touch("touchMove", x + 40, y - 10)
+    until(browser, "return page.last.hand.anchor[0] > page.last.hand.at[0] + 0.05")
+    touch("touchEnd")
+    until(browser, "return page.last.hand === null")
+
+
+def test_what_walks_is_chosen_and_what_is_refused_is_said(browser: Chrome) -> None:
+    choose = "element(arguments[0]).value = arguments[1]; element(arguments[0]).onchange({ target: "
+    choose += "element(arguments[0]) })"
+    browser.execute_script(choose, "walk", "m = 3")
+    until(browser, "return known[0] === 'm = 3' && page.last.t < 0.01")
+    browser.execute_script(choose, "ghost", "")
+    until(browser, "return known.length === 1 && page.last.walks.length === 1")
+    refused = "return element('refused').textContent"
+    for number, said in ((5000, "5000 N"), ("", "the hand's shove is no number"), (100, "")):
+        browser.execute_script("element('shove').value = arguments[0]; shove(1)", number)
+        assert said in browser.execute_script(refused)
+    assert browser.execute_script(refused) == ""
+    browser.execute_script("send({ do: 'push', torque: { q1: 900 } })")
+    assert "900 N m" in browser.execute_script(refused)
+
+
+def test_the_tour_leads_through_its_stations_and_gives_back_what_walked(browser: Chrome) -> None:
+    before, stations = browser.execute_script("return known[0]"), tour()
+    assert browser.execute_script("return scene.tour.length") == len(stations) == 6
+    for k, station in enumerate(stations):
+        keys(browser, "n" if k else "t")
+        until(
+            browser,
+            "return element('tour-title').textContent.endsWith(arguments[0])",
+            station["title"],
+        )
+        until(browser, "return known[0] === scene.tour[station].walk")
+        assert (DOCS / f"{station['page']}.md").is_file()
+        if "push" in station:
+            keys(browser, "p")
+            until(
+                browser, "return Math.max(...page.last.walks[0].loads.slice(2).map(Math.abs)) > 29"
+            )
+    keys(browser, "n")
+    until(browser, "return station === -1 && known[0] === arguments[0]", before)
+
+
+STATION = """
+const { walk, push, after } = scene.tour[arguments[0]];
+play.begin(walk, null);
+let pushed = !push, error = 0, torque = 0;
+while (play.walks && play.leader.t < 1.6) {
+  if (!pushed && play.leader.t >= after) { play.push(push); pushed = true; }
+  play.made = [[]];
+  play.sample();
+  for (const row of play.made[0]) {
+    torque = Math.max(torque, row.torque);
+    if (row.t > 0.6) error = Math.max(error, ...row.error.map(Math.abs));
+  }
+}
+return { walks: play.walks, error, torque };
+"""
+
+
+def test_the_stations_show_what_they_say(browser: Chrome) -> None:
+    titles = [station["title"] for station in tour()]
+
+    def station(words: str) -> dict[str, Any]:
+        (k,) = (k for k, title in enumerate(titles) if words in title)
+        found: dict[str, Any] = browser.execute_script(STATION, k)
+        return found
+
+    npd, adrc = station("under NPD")["error"], station("under ADRC")["error"]
+    assert 4e-3 < npd < 16e-3
+    assert adrc < npd / 10.0
+    one, three = station("order 1")["error"], station("raised to 3")["error"]
+    assert 1e-3 < one < 10e-3
+    assert three < one / 3.0
+    encoders = station("encoders")
+    assert not encoders["walks"]
+    assert encoders["torque"] >= 150.0
+    assert station("lower bandwidth")["walks"]
+
+
+NAMELESS = """
+const fields = [...document.querySelectorAll("button, input, select")].filter((x) => !x.closest(".dg"));
+return fields.filter((x) => !(x.tagName === "BUTTON" && x.textContent.trim()) && x.labels.length === 0
+  && !x.getAttribute("aria-label")).map((x) => x.outerHTML);
+"""
+WIDER = """
+const room = document.documentElement.clientWidth;
+if (document.documentElement.scrollWidth <= room) return [];
+const all = [...document.body.querySelectorAll("*")].filter((x) => x.getBoundingClientRect().right > room);
+return all.map((x) => x.outerHTML.slice(0, 200));
+"""
+
+
+def test_nothing_is_wider_than_the_window_and_every_field_has_a_name(browser: Chrome) -> None:
+    assert browser.execute_script(NAMELESS) == []
+    try:
+        for width in (360, 1920):
+            size = {"width": width, "height": 800, "deviceScaleFactor": 1, "mobile": False}
+            browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+            until(browser, "return innerWidth === arguments[0]", width)
+            assert browser.execute_script(WIDER) == []
+    finally:
+        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
+def test_names_are_text_and_nothing_is_loaded(started: Chrome, path: Path) -> None:
+    requested(started)
+    opened(started, path)
+    assert ODD in started.execute_script("return names")
+    assert started.title == "rabbit, live"
+    assert requested(started) == [path.as_uri()]
+    assert console(started) == []
+
+
+def test_next_numbers_are_those_of_c(browser: Chrome) -> None:
+    pairs = [
+        *((0.0, 1.0), (0.0, -1.0), (1.0, 2.0), (1.0, 0.0)),
+        *((-1.0, 0.0), (-1.0, -2.0), (3.0, 3.0), (5e-324, 0.0)),
+    ]
+    found = browser.execute_script("return arguments[0].map(([x, y]) => nextafter(x, y))", pairs)
+    assert found == [np.nextafter(x, y) for x, y in pairs]
+
+
+# -- the file ------------------------------------------------------------------------------------------
+def test_the_same_walks_give_the_same_page(path: Path) -> None:
+    assert page(FIRST, OTHERS) == path.read_text(encoding="utf-8")
+
+
+def test_a_module_begins_as_webassembly_does() -> None:
+    assert web_module({})[:8] == b"\0asm\1\0\0\0"
+
+
+@pytest.mark.parametrize(
+    ("scenario", "others", "said"),
+    [
+        (ba.Scenario("ADRC"), {}, "at every instant"),
+        (ba.Scenario("ADRC", hardware="ideal", ground="mujoco"), {}, "on plant 'mujoco'"),
+        (FIRST, {"soft": {"ground.plant": "mujoco"}}, "'soft' is on plant 'mujoco'"),
+        (FIRST, {"own": {"controller": "CLF-QP"}}, "'own' does not run in machine code"),
+        (
+            ba.Scenario("ADRC", hardware="ideal", pushes=[{"shape": "step"}]),
+            {},
+            "push or ground steps of its own",
+        ),
+        (ba.Scenario("ADRC", hardware="ideal", run={"fine": 1e-4}), {}, "fine"),
+        (ba.Scenario("passive", robot="compass", hardware="ideal"), {}, "motors"),
+        (FIRST, {"x": {"robot": "rabbit", "gain": 3.0}}, "gain"),
+        (FIRST, {"x": 3.0}, "values of a scenario by name"),
+        (FIRST, 3.0, "the walks to choose from"),
+        (3.0, {}, "what is to walk on a page"),
+    ],
+)
+def test_what_a_page_cannot_walk(tmp_path: Path, scenario: Any, others: Any, said: str) -> None:
+    with pytest.raises(BipedError, match=said):
+        ba.play(tmp_path / "play.html", scenario, others)
+    assert not (tmp_path / "play.html").exists()
+
+
+def test_another_controller_comes_without_the_observer_of_the_one_before() -> None:
+    s = ba.Scenario(
+        {"name": "ADRC", "observer": {"bandwidth": 200.0, "order": 1}}, hardware="ideal"
+    )
+    assert revised(s, {"controller": "NPD"}).controller.observer.bandwidth is None
+    assert revised(s, {"controller.observer.bandwidth": 250.0}).controller.observer.order == 1
+
+
+def test_the_command_writes_a_page_or_opens_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[Any] = []
+    shown: list[str] = []
+    monkeypatch.setattr("biped_adrc.live.page.play", lambda *given: asked.append(given))
+    monkeypatch.setattr("webbrowser.open", lambda url: shown.append(url))
+    words = ["play", "--ghost", "NPID", "--set", "controller.K_p=900"]
+    for more in (["-o", "own.html"], []):
+        done = CliRunner().invoke(app, words + more, catch_exceptions=False)
+        path, scenario, others = asked[-1]
+        assert f"written to {path}" in done.output
+        assert (scenario.controller.K_p, scenario.hardware.period) == (900.0, 1e-3)
+        assert next(iter(others)) == "NPID"
+    assert asked[0][0] == Path("own.html")
+    assert shown == [path.as_uri()]
+    assert "no browser could be opened" in done.output
+
+
+def test_the_name_is_looked_at_before_anything_is_made(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delattr("biped_adrc.live.page.page")
+    (tmp_path / "folder.html").mkdir()
+    for name in ("own.txt", "folder.html"):
+        with pytest.raises((InputError, OutputError), match=name):
+            ba.play(tmp_path / name)

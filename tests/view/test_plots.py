@@ -1,0 +1,147 @@
+"""Figures: what they show, that they repeat."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.control.adrc import ADRCController
+from biped_adrc.control.npd import NPDController
+from biped_adrc.disturbances.pulse import TorquePulse
+from biped_adrc.errors import InputError
+from biped_adrc.gait.gait import load_gait
+from biped_adrc.hybrid.exponential import Exponential
+from biped_adrc.hybrid.integrators import RK4
+from biped_adrc.model.biped import Biped
+from biped_adrc.paper.figures import NAMES, draw
+from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.walk import walk as walk_of
+from biped_adrc.view import plots
+from biped_adrc.view.from_the_side.robot_figure import robot_figure
+from biped_adrc.view.style import render
+
+
+@pytest.fixture(scope="module")
+def pushed(biped: Biped) -> dict[str, Walk]:
+    """Both controllers, pushed on every joint in step 2."""
+    gait = load_gait("published", biped)
+    push = TorquePulse([30.0, 20.0, -10.0, 5.0, 0.0], step=2, start=0.1, stop=0.3)
+    laws = {
+        "NPD": (NPDController(gait.constraint), RK4(2e-3)),
+        "ADRC": (ADRCController(gait.constraint), Exponential(1e-3)),
+    }
+    return {c: walk_of(Walker(biped, law, push), gait, 3, m) for c, (law, m) in laws.items()}
+
+
+def axes_of_my_own() -> Axes:
+    return Figure().subplots()
+
+
+def finite(line) -> np.ndarray:
+    y = np.asarray(line.get_ydata(), dtype=float)
+    return y[~np.isnan(y)]
+
+
+def drawn_lines(axes: Axes) -> dict[str, np.ndarray]:
+    """Data of the named lines."""
+    return {x.get_label(): finite(x) for x in axes.get_lines() if x.get_label()[0] != "_"}
+
+
+def test_plots_draw_the_signals_on_axes_of_ones_own(pushed: dict[str, Walk]) -> None:
+    s = pushed["ADRC"].signals
+    axes = axes_of_my_own()
+    assert plots.joint_tracking(axes, s, [0, 2]) is axes
+    assert set(drawn_lines(axes)) == {"$q_1$ stance hip", "$q_3$ stance knee", "references"}
+    np.testing.assert_array_equal(drawn_lines(axes)["$q_3$ stance knee"], s.q[:, 2])
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("time [s]", "angle [rad]")
+    with pytest.raises(InputError, match="from 0 to 3"):
+        plots.joint_tracking(axes, s, [4])
+
+    axes = plots.torques(axes_of_my_own(), s, limit=150.0, push=(0.5, 0.7))
+    assert set(drawn_lines(axes)) == {"$u_1$", "$u_2$", "$u_3$", "$u_4$", "limit 150 N m"}
+    np.testing.assert_array_equal(drawn_lines(axes)["$u_4$"], s.u[:, 3])
+    assert axes.get_ylabel() == "torque [N m]"
+    assert "push" in axes.get_legend_handles_labels()[1]
+
+    axes = plots.tracking_errors(axes_of_my_own(), s)
+    unit = {"rad": 1.0, "mrad": 1e3, "µrad": 1e6, "nrad": 1e9}[axes.get_ylabel()[16:-1]]
+    np.testing.assert_allclose(drawn_lines(axes)["$q_2$"], unit * s.error[:, 1])
+
+    axes = plots.energy(axes_of_my_own(), s)
+    lines = drawn_lines(axes)
+    np.testing.assert_allclose(lines["kinetic"] + lines["potential"], lines["total"])
+    assert lines["potential"].min() == 0.0
+    assert axes.get_ylabel() == "energy [J]"
+
+    axes = plots.phase_portrait(axes_of_my_own(), s)
+    np.testing.assert_array_equal(drawn_lines(axes)["walk"], s.dtheta)
+
+
+def test_the_friction_cone_has_its_slope(pushed: dict[str, Walk]) -> None:
+    s = pushed["NPD"].signals
+    axes = plots.friction_cone(axes_of_my_own(), s, mu=0.5)
+    edge = next(x for x in axes.get_lines() if x.get_label() == "cone, $\\mu$ = 0.5")
+    (x0, x1), (y0, y1) = edge.get_data()
+    assert (x1 - x0) / (y1 - y0) == pytest.approx(0.5)
+    np.testing.assert_array_equal(drawn_lines(axes)["ground reaction"], s.ground_reaction[:, 1])
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("$F_T$ [N]", "$F_N$ [N]")
+    with pytest.raises(InputError, match="positive"):
+        plots.friction_cone(axes, s, mu=0.0)
+    axes = plots.ground_reaction(axes_of_my_own(), s)
+    np.testing.assert_array_equal(drawn_lines(axes)["$F_T$"], s.ground_reaction[:, 0])
+
+
+def test_the_size_of_a_sine_is_its_amplitude_and_that_over_the_root_of_two(
+    pushed: dict[str, Walk],
+) -> None:
+    t = np.linspace(0.0, 1.0, 1001)
+    error = 0.02 * np.sin(2 * np.pi * 5 * t)
+    sine = replace(pushed["NPD"].signals, t=t, error=np.column_stack((error, -error, error, error)))
+    axes = plots.error_sizes(axes_of_my_own(), {"NPD": sine})
+    np.testing.assert_allclose(
+        axes.get_lines()[0].get_ydata(), [0.02, 0.02 / np.sqrt(2)], rtol=1e-4
+    )
+    assert [text.get_text() for text in axes.texts] == ["2.0e-02", "1.4e-02"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_figure_has_labels_with_units(pushed: dict[str, Walk], name: str) -> None:
+    figure = draw(name, pushed)
+    for axes in figure.axes:
+        place = axes.get_subplotspec()
+        same = place.colspan.start >= 2 and name in ("tracking", "disturbance", "comparison")
+        assert same or re.search(r"\[.+\]", axes.get_ylabel())
+        shared = place.is_last_row() and not axes.get_xticklabels()[0].get_text().isalpha()
+        assert (
+            not shared
+            or "$" in axes.get_xticklabels()[0].get_text()
+            or re.search(r"\[.+\]", axes.get_xlabel())
+        )
+    assert len(render(figure, "svg")) < 4_000_000
+
+
+def test_robot_figure_marks_everything_and_labels_stay_apart(biped: Biped) -> None:
+    gait = load_gait("published", biped)
+    figure = robot_figure(biped, gait.q_minus)
+    axes = figure.axes[0]
+    texts = [text for text in axes.texts if text.get_text()]
+    marks = {"$q_1$", "$q_2$", "$q_3$", "$q_4$", "$q_5$", r"$\Theta$", "$p_2$", "$p_e$"}
+    assert {text.get_text() for text in texts} == marks
+    assert len(axes.patches) >= sum(len(link.visuals) for link in biped.tree.links.values())
+    render(figure, "png", dpi=50)
+    boxes = [text.get_window_extent() for text in texts]
+    assert not [(a, b) for i, a in enumerate(boxes) for b in boxes[:i] if a.overlaps(b)]
+
+
+@pytest.mark.parametrize("mu", [0.3, 0.6])
+def test_the_cone_is_filled_between_its_edges(pushed: dict[str, Walk], mu: float) -> None:
+    axes = plots.friction_cone(axes_of_my_own(), pushed["NPD"].signals, mu=mu)
+    corners = axes.patches[0].get_xy()
+    for x, z in corners[1:3]:
+        assert abs(x) / z == pytest.approx(mu)

@@ -1,0 +1,160 @@
+"""Walks on slopes and over steps down: links against Pinocchio, feet and ground against closed forms."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.control.reference_reset import ReferenceReset
+from biped_adrc.errors import InputError, SimulationError
+from biped_adrc.gait.constraint import continued
+from biped_adrc.ground import StepDown
+from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.run import passive_walk
+from biped_adrc.scenario.stored import load_walk
+from biped_adrc.view.from_the_side.side_view import SideView
+from biped_adrc.view.placement import WalkScene, link_placements
+from biped_adrc.view.plots import friction_cone
+from biped_adrc.view.style import new_figure
+
+from .pinocchio_view import floating
+
+METHOD = ba.RK4(2e-3)
+ALPHA = math.pi / 8
+NAMES = ("compass", "wheel", "slope", "down")
+DROPS = {2: 0.015, 3: 0.01}
+"""[m] by single support, of the walk over steps down."""
+
+
+@pytest.fixture(scope="module")
+def walks() -> dict[str, Walk]:
+    """Passive ones, RABBIT on 0.02 rad, and RABBIT down two steps."""
+    biped = ba.Biped.load("rabbit", "identified-bare")
+    gait = ba.load_gait("published", biped)
+    law = ba.NPDController(continued(gait.constraint))
+    steps = tuple(StepDown(step, height) for step, height in DROPS.items())
+    down = ba.Walker(biped, ReferenceReset(law), ground_steps=steps)
+    return {
+        "compass": passive_walk("compass", 4),
+        "wheel": passive_walk("rimless_wheel", 5),
+        "slope": ba.walk(ba.Walker(biped, law, slope=0.02), gait, 4, METHOD),
+        "down": ba.walk(down, gait, 5, METHOD),
+    }
+
+
+def feet(walk: Walk, i: int) -> tuple[str, str]:
+    """Links of the stance and the swing foot in arc i: a wheel is drawn on the same spoke in every step."""
+    d = walk.walker.plant.description
+    one, other = d.stance_foot, d.swing_foot
+    return (one, other) if i % 2 == 0 or d.name == "rimless_wheel" else (other, one)
+
+
+def ground(walk: Walk, i: int, x: float) -> float:
+    """z of the ground that single support i + 1 starts on, at x [m]."""
+    fallen = sum(height for step, height in DROPS.items() if step <= i)
+    return -math.tan(walk.walker.slope) * x - (fallen if walk.walker.ground_steps else 0.0)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_links_are_where_pinocchio_puts_them(walks: dict[str, Walk], name: str) -> None:
+    """And the stance foot stays where the swing foot came down, on the ground, from first to last."""
+    walk, foothold = walks[name], np.zeros(2)
+    scene, biped = WalkScene.of(walk), walk.walker.plant
+    assert len(scene.footholds) == len(walk.trajectory.arcs) >= 4
+    for i, arc in enumerate(walk.trajectory.arcs):
+        stance, swing = feet(walk, i)
+        for t in np.linspace(arc.t[0], np.nextafter(arc.t[-1], 0.0), 7):
+            values = scene.joints(float(t))
+            theirs = floating(biped, values)
+            for link, placement in link_placements(biped.tree, values).items():
+                np.testing.assert_allclose(placement, theirs[link], atol=1e-12, err_msg=link)
+            np.testing.assert_allclose(theirs[stance][[0, 2], 3], foothold, atol=1e-9)
+            assert theirs[stance][2, 3] == pytest.approx(ground(walk, i, foothold[0]), abs=1e-9)
+        foothold = theirs[swing][[0, 2], 3]
+    assert foothold[0] > 1.0
+    assert foothold[1] < -0.02
+
+
+def test_the_spokes_of_a_wheel_pass_on_to_one_another(walks: dict[str, Walk]) -> None:
+    """Eight lines of 1 m at equal angles, in the same places before and after an impact."""
+    view = SideView(WalkScene.of(walks["wheel"]))
+    for event in walks["wheel"].trajectory.events("foot_strike")[:-1]:
+        before, after = (view.segments(event.t + d) for d in (-1e-9, 1e-9))
+        assert before.shape == (8, 2, 2)
+        hub, rim = before[:, 0], before[:, 1]
+        np.testing.assert_allclose(np.hypot(*(rim - hub).T), 1.0, atol=1e-9)
+        apart = np.hypot(*(rim - np.roll(rim, 1, axis=0)).T)
+        np.testing.assert_allclose(apart, 2.0 * math.sin(ALPHA), atol=1e-9)
+        nearest = np.linalg.norm(rim[:, np.newaxis] - after[:, 1], axis=2).min(axis=1)
+        assert np.max(nearest) < 1e-6
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_ground_passes_through_all_footholds(walks: dict[str, Walk], name: str) -> None:
+    scene, slope = WalkScene.of(walks[name]), walks[name].walker.slope
+    for i, x in enumerate(scene.footholds):
+        z = scene.heights[i]
+        assert scene.surface.height(float(x)) == pytest.approx(z, abs=1e-9)
+        assert scene.level(float(x)) == pytest.approx(z, abs=1e-12)
+    corners = scene.surface.line(-1.0, 5.0)
+    rises = np.diff(corners, axis=0)
+    np.testing.assert_allclose(rises[::2, 1], -math.tan(slope) * rises[::2, 0], atol=1e-12)
+    np.testing.assert_allclose(rises[1::2, 0], 0.0)
+    expected = list(DROPS.values()) if name == "down" else []
+    np.testing.assert_allclose(-rises[1::2, 1], expected, atol=1e-12)
+    ends = np.array([tile.ends for tile in scene.surface.tiles(-2, 10)])
+    np.testing.assert_array_equal(ends[1:, 0, 0], ends[:-1, 1, 0])
+    assert (ends[0, 0, 0], ends[-1, 1, 0]) == (-1.0, 5.0)
+
+
+# -- passive walks ---------------------------------------------------------------------------------
+@pytest.mark.parametrize("name", ["compass", "wheel"])
+def test_energy_of_a_passive_walk(walks: dict[str, Walk], name: str) -> None:
+    """Constant in single support; impacts leave the potential energy and take the kinetic energy lost."""
+    walk = walks[name]
+    s = walk.signals
+    total = s.kinetic + s.potential
+    starts = np.flatnonzero(np.diff(s.step)) + 1
+    for rows in np.split(np.arange(len(s.t)), starts):
+        np.testing.assert_allclose(total[rows], total[rows[0]], atol=1e-6)
+    np.testing.assert_allclose(s.potential[starts], s.potential[starts - 1], atol=1e-9)
+    lost = [c.energy_lost for c in walk.certificates[:-1]]
+    np.testing.assert_allclose(total[starts - 1] - total[starts], lost, atol=1e-9)
+    assert min(lost) > 0.5
+
+
+def test_a_wheel_needs_the_friction_of_its_spoke_angle(walks: dict[str, Walk]) -> None:
+    """With all mass at the hub the ground pushes along the spoke: |F_T| / F_N ends at tan(alpha)."""
+    walk = walks["wheel"]
+    axes = friction_cone(new_figure(4.0, 4.0).subplots(), walk.signals, slope=walk.walker.slope)
+    line = next(a for a in axes.get_lines() if a.get_label() == "ground reaction")
+    F_T, F_N = np.array(line.get_data())
+    assert np.nanmax(np.abs(F_T) / F_N) == pytest.approx(math.tan(ALPHA), abs=1e-6)
+    assert np.nanmin(F_T / F_N) == pytest.approx(-math.tan(ALPHA), abs=1e-6)
+
+
+def test_a_passive_walk_is_its_cycle_on_other_slopes_too() -> None:
+    walk = passive_walk("rimless_wheel", 4, slope=0.1)
+    x = walk.trajectory.before("foot_strike")
+    np.testing.assert_allclose(x, x[:1].repeat(4, axis=0), atol=1e-8)
+    # just before impact the speed is that after it over cos(2 alpha)
+    after = math.sqrt(4.0 * 9.81 * math.sin(ALPHA) * math.sin(0.1)) / math.tan(2.0 * ALPHA)
+    assert -x[0, 1] == pytest.approx(after / math.cos(2.0 * ALPHA), rel=1e-7)
+
+
+def test_a_passive_walk_is_stored_and_others_are_refused(
+    walks: dict[str, Walk], tmp_path: Path
+) -> None:
+    walk = walks["compass"]
+    walk.save(tmp_path / "walk.npz")
+    again = load_walk(tmp_path / "walk.npz")
+    np.testing.assert_array_equal(again.signals.potential, walk.signals.potential)
+    for wrong in (("rabbit",), ("compass", 0)):
+        with pytest.raises(InputError):
+            passive_walk(*wrong)
+    with pytest.raises(SimulationError, match="no return"):
+        passive_walk("compass", slope=-0.1)
