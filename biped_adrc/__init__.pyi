@@ -1,6 +1,7 @@
 # The public names, each where it lives: what `import biped_adrc` offers, for readers, type checkers and itself.
 
 from biped_adrc.analysis.return_map import ReturnMap as ReturnMap
+from biped_adrc.analysis.soft_steps import soft_steps as soft_steps
 from biped_adrc.analysis.stride_gain import stride_response as stride_response
 from biped_adrc.analysis.zero_report import zero_report as zero_report
 from biped_adrc.closed_loop.protocols import Mode as Mode
@@ -40,6 +41,9 @@ from biped_adrc.extras.logs.log_file import write_log as write_log
 from biped_adrc.extras.logs.log_of_walk import logged as logged
 from biped_adrc.extras.logs.replay import replay as replay
 from biped_adrc.extras.logs.robot_log import RobotLog as RobotLog
+from biped_adrc.extras.mujoco.mjcf import write_mjcf as write_mjcf
+from biped_adrc.extras.mujoco.plant import MuJoCoPlant as MuJoCoPlant
+from biped_adrc.extras.mujoco.soft_ground import SoftGround as SoftGround
 from biped_adrc.gait.constraint import VirtualConstraint as VirtualConstraint
 from biped_adrc.gait.constraint import continued as continued
 from biped_adrc.gait.conventions import convention as convention
@@ -62,9 +66,6 @@ from biped_adrc.gait.through_state import constraint_through as constraint_throu
 from biped_adrc.gait.through_state import onto_section as onto_section
 from biped_adrc.gait.zero_dynamics import ZeroDynamics as ZeroDynamics
 from biped_adrc.gait.zero_orbits import ZeroOrbits as ZeroOrbits
-from biped_adrc.ground import StepDown as StepDown
-from biped_adrc.ground import StepUp as StepUp
-from biped_adrc.ground import uneven_ground as uneven_ground
 from biped_adrc.hardware.motors import Motors as Motors
 from biped_adrc.hardware.sensors import Sensors as Sensors
 from biped_adrc.hardware.touchdown import Touchdown as Touchdown
@@ -82,9 +83,14 @@ from biped_adrc.hybrid.trajectory import Trajectory as Trajectory
 from biped_adrc.linear import solve as solve
 from biped_adrc.live.page import play as play
 from biped_adrc.model.biped import Biped as Biped
+from biped_adrc.model.ground import StepDown as StepDown
+from biped_adrc.model.ground import StepUp as StepUp
+from biped_adrc.model.ground import uneven_ground as uneven_ground
 from biped_adrc.model.model_errors import ModelErrors as ModelErrors
 from biped_adrc.model.pinned import reroot as reroot
 from biped_adrc.model.reduction import Reduction as Reduction
+from biped_adrc.model.robot_import.import_robot import biped_from_urdf as biped_from_urdf
+from biped_adrc.model.robots.limits import Limits as Limits
 from biped_adrc.observer_design.frozen_gait import FrozenGait as FrozenGait
 from biped_adrc.observer_design.specification import Specification as Specification
 from biped_adrc.observer_design.specification import specification as specification
@@ -94,8 +100,6 @@ from biped_adrc.observers.chain import ChainObserver as ChainObserver
 from biped_adrc.observers.gpi import TABLE_I as TABLE_I
 from biped_adrc.observers.gpi import GPIObserver as GPIObserver
 from biped_adrc.part import derived as derived
-from biped_adrc.robot_import.import_robot import biped_from_urdf as biped_from_urdf
-from biped_adrc.robots.limits import Limits as Limits
 from biped_adrc.scenario.push import Push as Push
 from biped_adrc.scenario.recording import Walk as Walk
 from biped_adrc.scenario.registry import register as register
@@ -106,10 +110,6 @@ from biped_adrc.scenario.specified import specified as specified
 from biped_adrc.scenario.stepper import Stepper as Stepper
 from biped_adrc.scenario.stored import load_walk as load_walk
 from biped_adrc.scenario.walk import walk as walk
-from biped_adrc.soft.ground import SoftGround as SoftGround
-from biped_adrc.soft.meters import soft_steps as soft_steps
-from biped_adrc.soft.mjcf import write_mjcf as write_mjcf
-from biped_adrc.soft.mujoco_plant import MuJoCoPlant as MuJoCoPlant
 from biped_adrc.studies.cycle_stability import cycle_stability as cycle_stability
 from biped_adrc.studies.cycle_stability import find_cycle as find_cycle
 from biped_adrc.studies.gait_design import DesignedGait as DesignedGait

@@ -9,6 +9,7 @@ from biped_adrc.analysis.certificate import Certificate
 from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.hybrid.status import Status
+from biped_adrc.model.robots.limits import KnownLimits
 from biped_adrc.paper.members import MemberOutcome, MemberWalk
 from biped_adrc.paper.physical_laws import MODEL_LAWS
 from biped_adrc.paper.push_map import Fate, PushCell
@@ -25,7 +26,6 @@ from biped_adrc.paper.scenarios import (
     on_the_recipe,
 )
 from biped_adrc.paper.verdict import AtTwoSteps
-from biped_adrc.robots.limits import KnownLimits
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.scenario import Scenario
 

@@ -17,9 +17,9 @@ from biped_adrc.extras.export.loaded import OK
 from biped_adrc.extras.export.source import source_of
 from biped_adrc.extras.logs.log_file import exchanged
 from biped_adrc.hardware.sample_hold import read
+from biped_adrc.model.robot_import.import_robot import Hints, derive
 from biped_adrc.observers.base import Estimate
 from biped_adrc.resources import data_folder
-from biped_adrc.robot_import.import_robot import Hints, derive
 from biped_adrc.studies.gait_design import design_gait
 from biped_adrc.types import relabelled
 

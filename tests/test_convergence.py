@@ -12,6 +12,7 @@ import biped_adrc as ba
 from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.analysis.quadrature import integrate, largest
 from biped_adrc.engine.run import COMPILED
+from biped_adrc.model.robots.limits import KnownLimits
 from biped_adrc.paper.convergence import (
     AGREE,
     error_text,
@@ -20,7 +21,6 @@ from biped_adrc.paper.convergence import (
     observed_order,
 )
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan, pushed_run
-from biped_adrc.robots.limits import KnownLimits
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.run import execute_twice, walk_scenario
 from biped_adrc.scenario.scenario import Scenario

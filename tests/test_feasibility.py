@@ -10,8 +10,8 @@ import biped_adrc as ba
 from biped_adrc.analysis.certificate import depths, supports
 from biped_adrc.analysis.feasibility import first_violation, outcome_of
 from biped_adrc.analysis.ground_force import Nodes, mean_forces
-from biped_adrc.ground import ground_axes
-from biped_adrc.robots.limits import KnownLimits
+from biped_adrc.model.ground import ground_axes
+from biped_adrc.model.robots.limits import KnownLimits
 
 KNOWN = KnownLimits(0.6, 150.0, 5e-3)
 WEIGHT = 300.0

@@ -11,7 +11,7 @@ from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.disturbances.hip_force import HipForce
 from biped_adrc.gait.constraint import continued
-from biped_adrc.ground import StepDown
+from biped_adrc.model.ground import StepDown
 
 METHOD = ba.RK4(2e-3)
 HEIGHT = 0.015  # [m]

@@ -12,7 +12,7 @@ import pytest
 
 from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import gait_names
-from biped_adrc.robots.robot_toml import robot_names
+from biped_adrc.model.robots.robot_toml import robot_names
 from validation import __main__ as command
 from validation import (
     frost_urdf,

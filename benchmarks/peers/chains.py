@@ -20,9 +20,9 @@ from biped_adrc.engine.compiled_biped import CompiledBiped
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.errors import ModelError
-from biped_adrc.ground import StepDown
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.ground import StepDown
 from biped_adrc.types import Array
 
 SAME = 1e-8

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 import mujoco
 from peers.chains import Chain, Coordinates, H, Simulate
 
+from biped_adrc.extras.mujoco.robot import pinned_model
 from biped_adrc.model.biped import Biped
-from biped_adrc.soft.mujoco_robot import pinned_model
 from biped_adrc.types import Array
 
 METHODS = {

@@ -25,9 +25,9 @@ from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.errors import InputError
-from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.robots.limits import ENDS, ROUND_OFF, SLIP, KnownLimits, Limits, completed
+from biped_adrc.model.ground import ground_axes
+from biped_adrc.model.robots.limits import ENDS, ROUND_OFF, SLIP, KnownLimits, Limits, completed
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 

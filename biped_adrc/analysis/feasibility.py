@@ -29,7 +29,7 @@ from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.robots.limits import ROUND_OFF, SLIP, KnownLimits, Limits
+from biped_adrc.model.robots.limits import ROUND_OFF, SLIP, KnownLimits, Limits
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array, Indices
 

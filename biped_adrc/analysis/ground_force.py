@@ -19,7 +19,7 @@ from scipy.integrate import cumulative_trapezoid
 
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.ground import ground_axes
+from biped_adrc.model.ground import ground_axes
 from biped_adrc.types import Array, Indices
 
 SHORTEST = 1e-9

@@ -21,8 +21,8 @@ from biped_adrc.gait.gait import CLOSES
 from biped_adrc.gait.zero_domain import UNLIMITED, Bound, Domain, DomainLimits, domain
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration
 from biped_adrc.gait.zero_orbits import ZeroOrbits, grid
-from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.ground import ground_axes
 from biped_adrc.parts import check_part
 from biped_adrc.shown import Shown
 

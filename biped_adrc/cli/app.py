@@ -93,7 +93,7 @@ def inputs(robot: str, *others: str) -> tuple[Path, ...]:
 
     Raises ModelError for an unknown robot.
     """
-    from biped_adrc.robots.robot_toml import load_description
+    from biped_adrc.model.robots.robot_toml import load_description
 
     files = tuple(path for path in map(Path, (robot, *others)) if os.path.isfile(path))
     return (*files, load_description(robot).urdf)

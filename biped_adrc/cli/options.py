@@ -142,7 +142,7 @@ def scenario_from(
 
 def _passive(base: Scenario, values: PlainRecord, usual: str) -> PlainRecord:
     """The controller where no other one is chosen: "passive" for a robot without motors."""
-    from biped_adrc.robots.robot_toml import load_description
+    from biped_adrc.model.robots.robot_toml import load_description
     from biped_adrc.scenario.registry import is_own
 
     if base.controller.name != usual and base.controller != Scenario().controller:

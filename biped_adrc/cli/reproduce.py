@@ -30,9 +30,9 @@ def reproduce(
     workers: int | None = None,
 ) -> None:
     """Reproduce the paper: runs, figures 1, 4, 5, 6, Tables I and II, stability, and a word for each claim."""
+    from biped_adrc.model.robots.robot_toml import load_description
     from biped_adrc.paper.reproduction import reproduce as run
     from biped_adrc.paper.scenarios import PAPER_PUSH, Plan
-    from biped_adrc.robots.robot_toml import load_description
     from biped_adrc.scenario.push import parse_push
 
     pushes = tuple(parse_push(text) for text in push or ())

@@ -28,7 +28,7 @@ from biped_adrc.files import check_folder, keep_inputs, output_path
 
 if TYPE_CHECKING:
     from biped_adrc.model.biped import Biped
-    from biped_adrc.robot_import.import_robot import Derived
+    from biped_adrc.model.robot_import.import_robot import Derived
 
 robot_app = typer.Typer(
     no_args_is_help=True,
@@ -43,7 +43,7 @@ app.add_typer(robot_app, name="robot")
 def robot_list(robot: str | None = None, preset: str | None = None) -> None:
     """The robots of the package, and all values of a scenario that --set takes; or the record of one robot."""
     from biped_adrc.model.biped import Biped
-    from biped_adrc.robots.robot_toml import load_description, robot_names
+    from biped_adrc.model.robots.robot_toml import load_description, robot_names
 
     if robot is not None:
         biped = Biped.load(robot, preset)
@@ -128,12 +128,12 @@ def robot_export(
     sets: list[str] | None = None,
 ) -> None:
     """Write a robot with feet and motors on soft ground as MJCF, for MuJoCo's own viewer."""
+    from biped_adrc.extras.mujoco.mjcf import write_mjcf
+    from biped_adrc.extras.mujoco.plant import MuJoCoPlant
+    from biped_adrc.extras.mujoco.soft_ground import SoftGround
     from biped_adrc.gait.gait import load_gait
     from biped_adrc.model.biped import Biped
     from biped_adrc.scenario.build import plant_step
-    from biped_adrc.soft.ground import SoftGround
-    from biped_adrc.soft.mjcf import write_mjcf
-    from biped_adrc.soft.mujoco_plant import MuJoCoPlant
 
     path = output_path(out, (".xml",), default=True)
     keep_inputs((path,), inputs(robot, *(() if gait is None else (gait,))))
@@ -150,7 +150,7 @@ def _derived(
     file: Path, feet: str | None, actuated: str | None, torque: float | None, sets: list[str] | None
 ) -> Derived:
     """The robot of a URDF, with what the options say about it, so that it need not be guessed."""
-    from biped_adrc.robot_import.import_robot import Hints, derive
+    from biped_adrc.model.robot_import.import_robot import Hints, derive
 
     links, joints = _names(feet), _names(actuated)
     return derive(file, with_sets(Hints, sets, feet=links, actuated=joints, torque=torque))

@@ -14,7 +14,7 @@ from biped_adrc.cli.app import console
 if TYPE_CHECKING:
     from biped_adrc.analysis.certificate import Certificate
     from biped_adrc.analysis.feasibility import Feasibility
-    from biped_adrc.soft.meters import SoftStep
+    from biped_adrc.analysis.soft_steps import SoftStep
 
 
 def print_supports(

@@ -25,7 +25,7 @@ from biped_adrc.types import PlainRecord
 if TYPE_CHECKING:
     from biped_adrc.analysis.certificate import Certificate
     from biped_adrc.analysis.feasibility import Feasibility
-    from biped_adrc.robots.limits import Limits
+    from biped_adrc.model.robots.limits import Limits
     from biped_adrc.scenario.outcome import Outcome
     from biped_adrc.scenario.recording import Walk
     from biped_adrc.scenario.scenario import Scenario

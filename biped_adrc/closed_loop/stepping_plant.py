@@ -17,9 +17,9 @@ from typing import NamedTuple, Protocol, runtime_checkable
 import numpy as np
 
 from biped_adrc.errors import BipedError, InputError, SimulationError
-from biped_adrc.ground import StepDown, StepUp
 from biped_adrc.hybrid.integrators import StepFailed
 from biped_adrc.hybrid.status import Status
+from biped_adrc.model.ground import StepDown, StepUp
 from biped_adrc.types import Array, Indices, read_only
 
 ROUND_OFF = 1e-9

@@ -26,7 +26,6 @@ from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.control.base import Controller
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError
-from biped_adrc.ground import StepDown, StepUp, check_slope, check_steps, drop_of
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import check_parts
 from biped_adrc.hardware.sensing import Sensor
@@ -34,6 +33,7 @@ from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Guard, Split
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.ground import StepDown, StepUp, check_slope, check_steps, drop_of
 from biped_adrc.timing import ContinuousTime, SampledTime, check_ends
 from biped_adrc.types import Array, Indices, read_only
 

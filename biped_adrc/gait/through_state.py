@@ -25,8 +25,8 @@ from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Bezier
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, ZeroDynamicsOrbit
-from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.ground import ground_axes
 from biped_adrc.types import Array
 
 _SLOWEST = 0.05

@@ -12,9 +12,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from biped_adrc.errors import InputError
+from biped_adrc.model.robots.limits import KnownLimits
 from biped_adrc.parts import check_part
 from biped_adrc.resources import packaged
-from biped_adrc.robots.limits import KnownLimits
 from biped_adrc.scenario.build import RIGID, RobotAndGait, limits
 from biped_adrc.scenario.dotted import flat, merged, nested
 from biped_adrc.scenario.scenario import Scenario

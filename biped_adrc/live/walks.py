@@ -32,7 +32,7 @@ from biped_adrc.errors import InputError
 from biped_adrc.hybrid.constants import STRUCK
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import link_point, point, turned
-from biped_adrc.robots.symmetry import twins
+from biped_adrc.model.robots.symmetry import twins
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, limits, start
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario

@@ -30,10 +30,10 @@ from biped_adrc.model.contact import FloatingDynamics, Impact
 from biped_adrc.model.physical import check_numbers, check_planar
 from biped_adrc.model.pinned import PinnedDynamics, finite_angles, reroot
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
+from biped_adrc.model.robots.robot_toml import RobotDescription, load_description
+from biped_adrc.model.robots.symmetry import absolute_angles, relabelling
+from biped_adrc.model.robots.urdf import Inertial, Tree
 from biped_adrc.parts import check_part
-from biped_adrc.robots.robot_toml import RobotDescription, load_description
-from biped_adrc.robots.symmetry import absolute_angles, relabelling
-from biped_adrc.robots.urdf import Inertial, Tree
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array, Indices, frozen, read_only
 

@@ -31,8 +31,8 @@ import pinocchio as pin
 
 from biped_adrc.errors import SingularError
 from biped_adrc.model.pinned import XZ, build, frame_index, velocity_index
-from biped_adrc.robots.robot_toml import RobotDescription
-from biped_adrc.robots.urdf import Tree
+from biped_adrc.model.robots.robot_toml import RobotDescription
+from biped_adrc.model.robots.urdf import Tree
 from biped_adrc.shown import one_line
 from biped_adrc.types import Array
 

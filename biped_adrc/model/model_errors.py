@@ -20,7 +20,7 @@ import numpy as np
 
 from biped_adrc.errors import InputError, ModelError, check_whole
 from biped_adrc.model.biped import Biped
-from biped_adrc.robots.symmetry import twins
+from biped_adrc.model.robots.symmetry import twins
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from biped_adrc.errors import ModelError, SingularError
-from biped_adrc.robots.robot_toml import RobotDescription
-from biped_adrc.robots.symmetry import text_of
-from biped_adrc.robots.urdf import Tree, Vector
+from biped_adrc.model.robots.robot_toml import RobotDescription
+from biped_adrc.model.robots.symmetry import text_of
+from biped_adrc.model.robots.urdf import Tree, Vector
 from biped_adrc.types import Array
 
 if TYPE_CHECKING:

@@ -22,8 +22,8 @@ import numpy as np
 import pinocchio as pin
 
 from biped_adrc.errors import InputError, ModelError, NotFiniteError
-from biped_adrc.robots.robot_toml import RobotDescription
-from biped_adrc.robots.urdf import Joint, Link, Tree, Vector, to_xml
+from biped_adrc.model.robots.robot_toml import RobotDescription
+from biped_adrc.model.robots.urdf import Joint, Link, Tree, Vector, to_xml
 from biped_adrc.types import Array
 
 XZ = [0, 2]

@@ -21,26 +21,26 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import SteppingPlant
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.passive import Passive
+from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.errors import InputError
+from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.gait import Gait, load_gait
 from biped_adrc.gait.published import PassiveCycle, passive_cycle
-from biped_adrc.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.model.model_errors import ModelErrors, impact_error
-from biped_adrc.robots.limits import Limits
+from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.disturbances import disturbances
 from biped_adrc.scenario.hardware import EncoderRecord, PartRecord
 from biped_adrc.scenario.records import all_taken
 from biped_adrc.scenario.registry import construct, find, own, takes
 from biped_adrc.scenario.scenario import Scenario, drawn
-from biped_adrc.soft.ground import SoftGround
-from biped_adrc.soft.walking import stepping_loop
 from biped_adrc.timing import ContinuousTime, SampledTime
 from biped_adrc.types import Array, frozen
 

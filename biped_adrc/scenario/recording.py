@@ -39,18 +39,18 @@ from biped_adrc.analysis.feasibility import Feasibility, until_infeasible
 from biped_adrc.analysis.ground_force import Nodes
 from biped_adrc.analysis.recorded_signals import PLACE, recorded
 from biped_adrc.analysis.signals import Signals, signals
+from biped_adrc.analysis.soft_steps import SoftStep, recorded_steps, slip_times
 from biped_adrc.analysis.touchdowns import Noticed, touchdowns
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import Reference, TimeReference
-from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.robots.limits import Limits
+from biped_adrc.model.ground import ground_axes
+from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.columns import columns_of, data_frame, write_csv
 from biped_adrc.scenario.edges import edge_remarks, step_remarks
 from biped_adrc.scenario.outcome import Outcome, outcome_of
 from biped_adrc.shown import Shown
-from biped_adrc.soft.meters import SoftStep, recorded_steps, slip_times
 from biped_adrc.types import Array
 
 if TYPE_CHECKING:

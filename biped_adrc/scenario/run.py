@@ -21,6 +21,7 @@ from biped_adrc.analysis.variational import periodic_orbit
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller
 from biped_adrc.control.passive import Passive
+from biped_adrc.engine.on_plant import walk_on
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.published import passive_cycle
@@ -42,7 +43,6 @@ from biped_adrc.scenario.walk import (
     walk_in_parts,
 )
 from biped_adrc.shown import Shown
-from biped_adrc.soft.walking import walk_on
 from biped_adrc.types import Array
 
 METHODS: dict[str, Callable[..., OneStepMethod]] = {

@@ -40,8 +40,8 @@ from biped_adrc.gait.reference import TimeReference
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.simulator import simulate
+from biped_adrc.model.robots.limits import Limits
 from biped_adrc.parts import check_part
-from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.run import SETTLES, Cycle, known_cycle, method_of

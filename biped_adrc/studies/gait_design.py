@@ -32,8 +32,8 @@ from biped_adrc.gait.recipe import design_recipe_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4, Adaptive
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.robots.limits import ENDS, KnownLimits
 from biped_adrc.parts import check_part
-from biped_adrc.robots.limits import ENDS, KnownLimits
 from biped_adrc.scenario.walk import walk
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array

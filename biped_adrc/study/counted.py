@@ -17,7 +17,7 @@ from biped_adrc.analysis.certificate import IMPULSE, REASONS
 from biped_adrc.analysis.contact_errors import contact_errors
 from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.analysis.ground_force import Nodes
-from biped_adrc.robots.limits import Limits
+from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.types import Array
 

@@ -23,8 +23,8 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.engine.batch import BatchWalk, Case, run_case
 from biped_adrc.errors import BipedError
 from biped_adrc.hybrid.status import Status
+from biped_adrc.model.robots.limits import Limits
 from biped_adrc.resources import packaged
-from biped_adrc.robots.limits import Limits
 from biped_adrc.scenario.build import RIGID, limits
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import walk_scenario

@@ -30,16 +30,16 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from biped_adrc.analysis import soft_steps as meters
 from biped_adrc.analysis.recorded_signals import FORCE, PLACE, SPEED, footholds
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.errors import InputError
-from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.biped import Biped
-from biped_adrc.robots.symmetry import twins
-from biped_adrc.robots.urdf import Joint, Tree
-from biped_adrc.soft import meters
+from biped_adrc.model.ground import ground_axes
+from biped_adrc.model.robots.symmetry import twins
+from biped_adrc.model.robots.urdf import Joint, Tree
 from biped_adrc.types import Array
 
 MOST_FRAMES = 200_000

@@ -16,7 +16,7 @@ from biped_adrc.disturbances.noise import TorqueNoise
 from biped_adrc.disturbances.recorded import RecordedTorque
 from biped_adrc.engine.compiled_walker import term_code
 from biped_adrc.errors import InputError
-from biped_adrc.ground import StepDown, StepUp, uneven_ground
+from biped_adrc.model.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.model.pinned import frame_index
 from biped_adrc.scenario.build import RobotAndGait, disturbances
 from biped_adrc.scenario.disturbances import window

@@ -13,7 +13,7 @@ from biped_adrc.engine.compiled_biped import CompiledBiped
 from biped_adrc.engine.program import Program
 from biped_adrc.errors import ModelError
 from biped_adrc.model.planar import PlanarTree
-from biped_adrc.robots.robot_toml import robot_names
+from biped_adrc.model.robots.robot_toml import robot_names
 from biped_adrc.timing import SampledTime
 
 EXACT = 1e-11

@@ -17,8 +17,8 @@ from biped_adrc.errors import GaitError, InputError
 from biped_adrc.gait.curves import Polynomial
 from biped_adrc.gait.zero_domain import DomainLimits, domain
 from biped_adrc.gait.zero_orbits import ZeroOrbits
-from biped_adrc.robots.limits import KnownLimits
-from biped_adrc.robots.limits import Limits as WithinLimits
+from biped_adrc.model.robots.limits import KnownLimits
+from biped_adrc.model.robots.limits import Limits as WithinLimits
 
 ALPHA, GRAVITY = math.pi / 8, 9.81
 METHOD = ba.RK4(1e-3)

@@ -9,7 +9,7 @@ from scipy.integrate import cumulative_trapezoid
 import biped_adrc as ba
 from biped_adrc.analysis.feasibility import first_violation
 from biped_adrc.analysis.ground_force import Nodes
-from biped_adrc.robots.limits import KnownLimits
+from biped_adrc.model.robots.limits import KnownLimits
 
 KNOWN = KnownLimits(0.6, 150.0, 5e-3)
 LATER = {"torque": 0.0, "scuffs": 0.0, "F_N": 3.75e-3, "friction": 3.6e-3}

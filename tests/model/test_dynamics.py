@@ -8,7 +8,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.model.reduction import disturbance_acceleration, reduce
-from biped_adrc.robots.robot_toml import GRAVITY
+from biped_adrc.model.robots.robot_toml import GRAVITY
 
 
 def states(n, count, seed=0):

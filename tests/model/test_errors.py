@@ -6,8 +6,8 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.errors import InputError, ModelError
 from biped_adrc.model.model_errors import ModelErrors, impact_error
-from biped_adrc.robot_import.import_checks import checks
-from biped_adrc.robots.urdf import Inertial
+from biped_adrc.model.robot_import.import_checks import checks
+from biped_adrc.model.robots.urdf import Inertial
 
 ERRORS = ModelErrors(
     mass={"torso": 0.2, "shin": -0.1}, com={"thigh": 0.3}, inertia={"shin": 0.5, "torso": -0.2}

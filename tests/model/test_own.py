@@ -14,10 +14,10 @@ from biped_adrc.cli import app
 from biped_adrc.errors import ModelError, OutputError
 from biped_adrc.gait.conventions import AngleMap
 from biped_adrc.model import physical
+from biped_adrc.model.robot_import import import_checks
+from biped_adrc.model.robot_import.import_checks import checks
+from biped_adrc.model.robot_import.import_robot import Hints, biped_from_urdf, derive
 from biped_adrc.resources import data_folder
-from biped_adrc.robot_import import import_checks
-from biped_adrc.robot_import.import_checks import checks
-from biped_adrc.robot_import.import_robot import Hints, biped_from_urdf, derive
 from validation.frost_urdf import (
     HUNG,
     LIMIT,

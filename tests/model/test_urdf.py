@@ -8,11 +8,11 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.model.pinned import frame_index, reroot
+from biped_adrc.model.robots import symmetry
+from biped_adrc.model.robots.robot_toml import robot_names
+from biped_adrc.model.robots.urdf_reader import load_tree
+from biped_adrc.model.robots.urdf_xml import parse
 from biped_adrc.resources import data_folder
-from biped_adrc.robots import symmetry
-from biped_adrc.robots.robot_toml import robot_names
-from biped_adrc.robots.urdf_reader import load_tree
-from biped_adrc.robots.urdf_xml import parse
 
 FLOATING = data_folder("urdf") / "rabbit" / "floating.urdf"
 TORSO_MASS = '<mass value="12.0"/>'

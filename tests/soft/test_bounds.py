@@ -12,8 +12,8 @@ import biped_adrc as ba
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.engine.compiled_loop import CompiledLoop
 from biped_adrc.errors import InputError
+from biped_adrc.extras.mujoco.engine import MuJoCoEngine
 from biped_adrc.hybrid.integrators import StepFailed
-from biped_adrc.soft.mujoco_engine import MuJoCoEngine
 
 LOOPS = [SteppingLoop, CompiledLoop]
 TICK = ba.SampledTime(1e-3)

@@ -9,11 +9,11 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.contact_errors import contact_errors
+from biped_adrc.analysis.soft_steps import recorded_steps, soft_steps
 from biped_adrc.closed_loop.feet import with_readings
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.ground import ground_axes
 from biped_adrc.hybrid.simulator import RunOptions
-from biped_adrc.soft.meters import recorded_steps, soft_steps
+from biped_adrc.model.ground import ground_axes
 
 
 def walk(*humps, pushed=(2.0, 3.0)):

@@ -11,7 +11,7 @@ import biped_adrc as ba
 from biped_adrc.closed_loop.feet import readings
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping_plant import Load, PlantState
-from biped_adrc.soft.mujoco_robot import mujoco
+from biped_adrc.extras.mujoco.robot import mujoco
 
 STILL = Load(np.zeros(5), np.zeros(2))
 PUSH = ba.TorquePulse([30.0, 30.0, 0.0, 0.0, 0.0], step=2, start=0.02, stop=0.06)

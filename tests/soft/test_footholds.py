@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.ground import ground_axes
-from biped_adrc.soft.mujoco_plant import MuJoCoPlant
-from biped_adrc.soft.mujoco_robot import mujoco
-from biped_adrc.soft.walking import stepping_loop
+from biped_adrc.engine.on_plant import stepping_loop
+from biped_adrc.extras.mujoco.plant import MuJoCoPlant
+from biped_adrc.extras.mujoco.robot import mujoco
+from biped_adrc.model.ground import ground_axes
 
 TICK = ba.SampledTime(1e-3)
 SOFT = {"ground.plant": "mujoco", "hardware.period": 1e-3, "hardware.torque_limit": 150.0}

@@ -12,12 +12,12 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import Load, PlantState
 from biped_adrc.engine.compiled_loop import CompiledLoop
+from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.errors import InputError
+from biped_adrc.extras.mujoco.mjcf import mjcf
+from biped_adrc.extras.mujoco.robot import mujoco
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hybrid.simulator import simulate
-from biped_adrc.soft.mjcf import mjcf
-from biped_adrc.soft.mujoco_robot import mujoco
-from biped_adrc.soft.walking import stepping_loop
 
 TICK = ba.SampledTime(1e-3)
 TAU = 5e-3

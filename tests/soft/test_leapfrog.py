@@ -7,8 +7,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import biped_adrc as ba
-from biped_adrc.soft.mujoco_engine import leapfrog
-from biped_adrc.soft.mujoco_robot import mujoco
+from biped_adrc.extras.mujoco.engine import leapfrog
+from biped_adrc.extras.mujoco.robot import mujoco
 
 LENGTH, GRAVITY = 0.7, 9.81
 

@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.analysis.soft_steps import soft_steps, step_of, weights
 from biped_adrc.closed_loop.feet import Readings, readings, with_readings
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import Load, PlantState
 from biped_adrc.errors import InputError
+from biped_adrc.extras.mujoco.plant import MuJoCoPlant
+from biped_adrc.extras.mujoco.robot import mujoco
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.storage import load, save
-from biped_adrc.soft.meters import soft_steps, step_of, weights
-from biped_adrc.soft.mujoco_plant import MuJoCoPlant
-from biped_adrc.soft.mujoco_robot import mujoco
 
 STILL = Load(np.zeros(5), np.zeros(2))
 FLAT = np.array([1.0, 0.0]), np.array([0.0, 1.0])

@@ -11,10 +11,10 @@ from typer.testing import CliRunner
 import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.errors import InputError, OutputError
-from biped_adrc.soft.mjcf import mjcf, write_mjcf
-from biped_adrc.soft.mujoco_engine import Own
-from biped_adrc.soft.mujoco_plant import MuJoCoPlant
-from biped_adrc.soft.mujoco_robot import mujoco
+from biped_adrc.extras.mujoco.engine import Own
+from biped_adrc.extras.mujoco.mjcf import mjcf, write_mjcf
+from biped_adrc.extras.mujoco.plant import MuJoCoPlant
+from biped_adrc.extras.mujoco.robot import mujoco
 
 GROUND = ba.SoftGround(0.55 + 1e-9, 3e-3 / 7, 0.9 + 1e-9, (0.9 + 1e-9, 0.95), 7.0, 1e-3 / 3)
 """Numbers of more than six digits."""

@@ -11,12 +11,12 @@ import biped_adrc as ba
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import Load
 from biped_adrc.errors import InputError
-from biped_adrc.ground import ground_axes
+from biped_adrc.extras.mujoco import robot as mujoco_robot
+from biped_adrc.extras.mujoco.plant import TOUCHING, MuJoCoPlant, Own
+from biped_adrc.extras.mujoco.robot import floating_model, mujoco, pinned_model
+from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.hybrid.simulator import RunOptions
-from biped_adrc.soft import mujoco_robot
-from biped_adrc.soft.ground import SoftGround
-from biped_adrc.soft.mujoco_plant import TOUCHING, MuJoCoPlant, Own
-from biped_adrc.soft.mujoco_robot import floating_model, mujoco, pinned_model
+from biped_adrc.model.ground import ground_axes
 
 ROBOTS = [("rabbit", "identified"), ("rabbit", "tac2003"), ("three_link", None)]
 """Those with motors."""

@@ -8,11 +8,11 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.recorded_signals import accelerations
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
+from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.scenario.registry import find
 from biped_adrc.scenario.run import halved
-from biped_adrc.soft.walking import stepping_loop
 
 SOFT = {
     "ground.plant": "mujoco",

@@ -12,7 +12,7 @@ import biped_adrc as ba
 from biped_adrc.control.reference_reset import ReferenceReset
 from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.gait.constraint import continued
-from biped_adrc.ground import StepDown
+from biped_adrc.model.ground import StepDown
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import passive_walk
 from biped_adrc.scenario.stored import load_walk

@@ -38,8 +38,8 @@ from biped_adrc.gait.design.step import Unknowns
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.through_state import onto_section
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, ZeroDynamicsOrbit
-from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.planar import PlanarTree
 from biped_adrc.types import Array
 

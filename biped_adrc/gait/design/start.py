@@ -23,9 +23,9 @@ from biped_adrc.errors import GaitError
 from biped_adrc.gait.curves import ControlledCurve
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits
 from biped_adrc.gait.through_state import onto_section
-from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.contact import Impact
+from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.planar import PlanarTree, point, turned
 from biped_adrc.types import Array
 

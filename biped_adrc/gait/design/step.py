@@ -23,9 +23,9 @@ import numpy as np
 from biped_adrc.gait.curves import ControlledCurve
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits
 from biped_adrc.gait.zero_dynamics import gauss_nodes
-from biped_adrc.ground import ground_axes
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.derivatives import each, impact_rows, pose_function, together
+from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.planar import (
     PlanarTree,
     gravity_and_turning,

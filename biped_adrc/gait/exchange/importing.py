@@ -23,8 +23,8 @@ from biped_adrc.gait.exchange.samples import Samples, gait_of_samples
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.robots.robot_toml import robot_names
 from biped_adrc.parts import check_part
-from biped_adrc.robots.robot_toml import robot_names
 
 
 def import_gait(

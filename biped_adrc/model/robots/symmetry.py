@@ -20,7 +20,7 @@ import math
 import numpy as np
 
 from biped_adrc.errors import ModelError
-from biped_adrc.robots.urdf import Inertial, Joint, Tree
+from biped_adrc.model.robots.urdf import Inertial, Joint, Tree
 from biped_adrc.types import Array
 
 _EXACT = 1e-9  # largest residual of A R = P A, dimensionless

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 from biped_adrc.errors import ModelError
 from biped_adrc.model.pinned import PIN_JOINT
-from biped_adrc.robots.urdf import Joint, Link, Tree, Vector
+from biped_adrc.model.robots.urdf import Joint, Link, Tree, Vector
 
 PLANAR = 1e-4  # how far a rounded rpy may turn an axis out of the plane, dimensionless
 """How far an axis, or a place [m], may be out of the plane because rpy was rounded in the file."""

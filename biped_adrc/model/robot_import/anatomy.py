@@ -25,9 +25,9 @@ from itertools import pairwise, zip_longest
 import numpy as np
 
 from biped_adrc.errors import ModelError
-from biped_adrc.robot_import.planar_base import PlanarBase
-from biped_adrc.robots.symmetry import absolute_angles
-from biped_adrc.robots.urdf import Joint, Tree
+from biped_adrc.model.robot_import.planar_base import PlanarBase
+from biped_adrc.model.robots.symmetry import absolute_angles
+from biped_adrc.model.robots.urdf import Joint, Tree
 from biped_adrc.types import Array
 
 _FOOT_NAMES = re.compile(r"foot|feet|toe|sole", re.IGNORECASE)

@@ -18,10 +18,10 @@ from types import ModuleType
 import numpy as np
 
 from biped_adrc.errors import InputError
-from biped_adrc.ground import ground_axes
+from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.model.biped import Biped
-from biped_adrc.robots.urdf import Joint, Tree
-from biped_adrc.soft.ground import SoftGround
+from biped_adrc.model.ground import ground_axes
+from biped_adrc.model.robots.urdf import Joint, Tree
 from biped_adrc.types import MuJoCoModel, MuJoCoSpec
 
 KINDS = {"revolute": "mjJNT_HINGE", "prismatic": "mjJNT_SLIDE"}

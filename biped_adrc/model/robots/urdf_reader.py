@@ -31,7 +31,7 @@ import numpy as np
 import pinocchio as pin
 
 from biped_adrc.errors import ModelError
-from biped_adrc.robots.urdf import (
+from biped_adrc.model.robots.urdf import (
     FREE,
     GEOMETRY_SIZES,
     JOINT_TYPES,
@@ -45,7 +45,7 @@ from biped_adrc.robots.urdf import (
     Visual,
     validated,
 )
-from biped_adrc.robots.urdf_xml import expanded, parse
+from biped_adrc.model.robots.urdf_xml import expanded, parse
 from biped_adrc.types import Array
 
 LARGEST = 1e100

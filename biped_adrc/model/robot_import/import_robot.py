@@ -44,13 +44,13 @@ from biped_adrc.checks import Check
 from biped_adrc.errors import ModelError, OutputError
 from biped_adrc.files import toml_key, toml_value, write_text
 from biped_adrc.model.biped import Biped
-from biped_adrc.robot_import.anatomy import Anatomy, anatomy
-from biped_adrc.robot_import.import_checks import checks
-from biped_adrc.robot_import.planar_base import PlanarBase, on_planar_base
-from biped_adrc.robots.robot_toml import GRAVITY, description_of
-from biped_adrc.robots.symmetry import check_alike, pairs
-from biped_adrc.robots.urdf import Joint, Link, Tree, Vector, Visual, to_xml
-from biped_adrc.robots.urdf_reader import UrdfContents, read, tip_of
+from biped_adrc.model.robot_import.anatomy import Anatomy, anatomy
+from biped_adrc.model.robot_import.import_checks import checks
+from biped_adrc.model.robot_import.planar_base import PlanarBase, on_planar_base
+from biped_adrc.model.robots.robot_toml import GRAVITY, description_of
+from biped_adrc.model.robots.symmetry import check_alike, pairs
+from biped_adrc.model.robots.urdf import Joint, Link, Tree, Vector, Visual, to_xml
+from biped_adrc.model.robots.urdf_reader import UrdfContents, read, tip_of
 
 Colour = tuple[float, float, float, float]
 """Red, green, blue, opacity, each from 0 to 1."""

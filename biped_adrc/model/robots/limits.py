@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from biped_adrc.errors import InputError, check_positive
-from biped_adrc.robots.robot_toml import RobotDescription
+from biped_adrc.model.robots.robot_toml import RobotDescription
 from biped_adrc.shown import Shown
 
 WINDOW = 5e-3

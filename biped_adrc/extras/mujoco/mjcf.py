@@ -17,12 +17,12 @@ from pathlib import Path
 import numpy as np
 
 from biped_adrc.errors import InputError
+from biped_adrc.extras.mujoco.plant import MuJoCoPlant
+from biped_adrc.extras.mujoco.robot import floating_spec
 from biped_adrc.files import one_line, output_path, write_text, xml_comment
 from biped_adrc.gait.gait import Gait
+from biped_adrc.model.robots.urdf import Visual
 from biped_adrc.parts import check_part
-from biped_adrc.robots.urdf import Visual
-from biped_adrc.soft.mujoco_plant import MuJoCoPlant
-from biped_adrc.soft.mujoco_robot import floating_spec
 from biped_adrc.types import MuJoCoModel
 from biped_adrc.versions import packages
 

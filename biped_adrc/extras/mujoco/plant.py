@@ -35,15 +35,15 @@ from biped_adrc.closed_loop.feet import Feet
 from biped_adrc.closed_loop.stepping_plant import Advanced, Contact, Load, PlantState, state_of
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.errors import InputError, check_count, check_positive
-from biped_adrc.ground import StepDown, StepUp, check_slope, check_steps, drop_of, ground_axes
+from biped_adrc.extras.mujoco.engine import INTEGRATORS, MuJoCoEngine, Own
+from biped_adrc.extras.mujoco.robot import PLANES, floating_model, mujoco
+from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.hardware.motors import check_lag
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.ground import StepDown, StepUp, check_slope, check_steps, drop_of, ground_axes
 from biped_adrc.parts import Checked
 from biped_adrc.shown import Shown
-from biped_adrc.soft.ground import SoftGround
-from biped_adrc.soft.mujoco_engine import INTEGRATORS, MuJoCoEngine, Own
-from biped_adrc.soft.mujoco_robot import PLANES, floating_model, mujoco
 from biped_adrc.timing import check_ends
 from biped_adrc.types import Array, Indices, MuJoCoData, MuJoCoModel, relabelled
 

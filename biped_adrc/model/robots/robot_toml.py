@@ -36,10 +36,10 @@ from typing import Any
 
 from biped_adrc.errors import ModelError, check_positive
 from biped_adrc.files import reading
+from biped_adrc.model.robots.urdf import Inertial, Tree
+from biped_adrc.model.robots.urdf_reader import load_tree
 from biped_adrc.parts import check_part
 from biped_adrc.resources import data_folder
-from biped_adrc.robots.urdf import Inertial, Tree
-from biped_adrc.robots.urdf_reader import load_tree
 from biped_adrc.shown import Shown
 
 

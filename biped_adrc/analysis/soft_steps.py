@@ -20,12 +20,12 @@ from numpy.typing import NDArray
 
 from biped_adrc.closed_loop.feet import NAMES, Readings, readings
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.ground import ground_axes
+from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
+from biped_adrc.model.ground import ground_axes
+from biped_adrc.model.robots.limits import SLIP
 from biped_adrc.parts import check_part
-from biped_adrc.robots.limits import SLIP
 from biped_adrc.shown import Shown
-from biped_adrc.soft.mujoco_plant import MuJoCoPlant
 from biped_adrc.types import Array
 
 AT_CONE = 0.99
