@@ -18,11 +18,11 @@ from report import Table, arguments, spent
 from walks import load
 
 import biped_adrc as ba
+from biped_adrc.analysis.gait_design import certify
 from biped_adrc.gait.design.optimise import optimise
 from biped_adrc.gait.design.request import GaitRequest, StepLimits
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
-from biped_adrc.studies.gait_design import certify
 
 PRESETS = ("identified", "tac2003")
 SPEEDS = (0.8, 0.4, 0.6, 1.0)  # [m/s]

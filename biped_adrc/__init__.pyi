@@ -1,7 +1,10 @@
 # The public names, each where it lives: what `import biped_adrc` offers, for readers, type checkers and itself.
 
+from biped_adrc.analysis.gait_design import DesignedGait as DesignedGait
+from biped_adrc.analysis.gait_design import design_gait as design_gait
 from biped_adrc.analysis.return_map import ReturnMap as ReturnMap
 from biped_adrc.analysis.soft_steps import soft_steps as soft_steps
+from biped_adrc.analysis.stability import cycle_stability as cycle_stability
 from biped_adrc.analysis.stride_gain import stride_response as stride_response
 from biped_adrc.analysis.zero_report import zero_report as zero_report
 from biped_adrc.closed_loop.protocols import Mode as Mode
@@ -54,6 +57,7 @@ from biped_adrc.gait.exchange.record import GaitRecord as GaitRecord
 from biped_adrc.gait.exchange.samples import Samples as Samples
 from biped_adrc.gait.gait import Gait as Gait
 from biped_adrc.gait.gait import load_gait as load_gait
+from biped_adrc.gait.library import GaitLibrary as GaitLibrary
 from biped_adrc.gait.outputs import FunctionOutputs as FunctionOutputs
 from biped_adrc.gait.outputs import LinearOutputs as LinearOutputs
 from biped_adrc.gait.outputs import Outputs as Outputs
@@ -91,15 +95,13 @@ from biped_adrc.model.pinned import reroot as reroot
 from biped_adrc.model.reduction import Reduction as Reduction
 from biped_adrc.model.robot_import.import_robot import biped_from_urdf as biped_from_urdf
 from biped_adrc.model.robots.limits import Limits as Limits
-from biped_adrc.observer_design.frozen_gait import FrozenGait as FrozenGait
-from biped_adrc.observer_design.specification import Specification as Specification
-from biped_adrc.observer_design.specification import specification as specification
 from biped_adrc.observers.base import Observer as Observer
 from biped_adrc.observers.base import ResetPolicy as ResetPolicy
 from biped_adrc.observers.chain import ChainObserver as ChainObserver
 from biped_adrc.observers.gpi import TABLE_I as TABLE_I
 from biped_adrc.observers.gpi import GPIObserver as GPIObserver
 from biped_adrc.part import derived as derived
+from biped_adrc.scenario.cycle import find_cycle as find_cycle
 from biped_adrc.scenario.push import Push as Push
 from biped_adrc.scenario.recording import Walk as Walk
 from biped_adrc.scenario.registry import register as register
@@ -110,11 +112,6 @@ from biped_adrc.scenario.specified import specified as specified
 from biped_adrc.scenario.stepper import Stepper as Stepper
 from biped_adrc.scenario.stored import load_walk as load_walk
 from biped_adrc.scenario.walk import walk as walk
-from biped_adrc.studies.cycle_stability import cycle_stability as cycle_stability
-from biped_adrc.studies.cycle_stability import find_cycle as find_cycle
-from biped_adrc.studies.gait_design import DesignedGait as DesignedGait
-from biped_adrc.studies.gait_design import GaitLibrary as GaitLibrary
-from biped_adrc.studies.gait_design import design_gait as design_gait
 from biped_adrc.study.carry import study as study
 from biped_adrc.timing import ContinuousTime as ContinuousTime
 from biped_adrc.timing import SampledTime as SampledTime

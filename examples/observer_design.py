@@ -4,8 +4,8 @@ Run: python examples/observer_design.py
 """
 
 import biped_adrc as ba
-from biped_adrc.observer_design.observer_report import observer_report
-from biped_adrc.studies.observer_check import DelayCase, check_encoders
+from biped_adrc.analysis.observer.check import DelayCase, check_encoders
+from biped_adrc.analysis.observer.report import observer_report
 
 PERIOD, COUNTS = 1.5e-3, 8192  # [s], per revolution: RABBIT's
 

@@ -8,6 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 import biped_adrc as ba
+from biped_adrc.analysis.loops.frozen_gait import FrozenGait
+from biped_adrc.analysis.loops.specification import specification
 from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.errors import BipedError
 from biped_adrc.scenario.build import RobotAndGait, build
@@ -25,8 +27,8 @@ def candidate(values):
 
 def specified(walker, gait):
     """Of this robot alone, since the walks are of one robot."""
-    frozen = ba.FrozenGait.of(walker.plant, gait, walker.nominal, spread=0.0)
-    return ba.specification(walker, frozen)
+    frozen = FrozenGait.of(walker.plant, gait, walker.nominal, spread=0.0)
+    return specification(walker, frozen)
 
 
 def multiplier(walker, gait):

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from biped_adrc.observer_design.observer_loop import observer_loop
+from biped_adrc.analysis.observer.loop import ObserverLoop
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.paper import members as member_runs
 from biped_adrc.paper import runs
@@ -309,5 +309,5 @@ def test_noise_gives_a_spectrum_inside_the_unit_circle():
 
 def test_an_observer_with_a_given_margin():
     bandwidth = runs.bandwidth_with(1e-3, 1)
-    margin = observer_loop(GPIObserver.from_bandwidth(bandwidth, 1)).delay_margin().delay
+    margin = ObserverLoop(GPIObserver.from_bandwidth(bandwidth, 1)).delay_margin().delay
     assert margin == pytest.approx(1e-3, rel=1e-6)

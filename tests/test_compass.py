@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.analysis.gait_design import design_gait
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.npid import NPIDController
 from biped_adrc.control.super_twisting import SuperTwistingController
@@ -20,7 +21,6 @@ from biped_adrc.hardware.sample_hold import read
 from biped_adrc.model.robot_import.import_robot import Hints, derive
 from biped_adrc.observers.base import Estimate
 from biped_adrc.resources import data_folder
-from biped_adrc.studies.gait_design import design_gait
 from biped_adrc.types import relabelled
 
 RELABEL = ba.ResetPolicy.RELABEL

@@ -9,12 +9,9 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.forced_steps import forced_walk, stopping_force
-from biped_adrc.analysis.stride_gain import (
-    STANCE_KNEE,
-    direction_merits,
-)
+from validation.forced_steps import forced_walk, stopping_force
 from validation.hip_push import (
+    STANCE_KNEE,
     HipCase,
     PushedWalk,
 )
@@ -137,12 +134,11 @@ def test_about_3_newton_stop_the_gait_and_the_loop_more_than_doubles_that(bare, 
 
 # -- directions -----------------------------------------------------------------------------------
 def test_the_static_gain_is_what_a_held_correction_does(bare, gait):
-    best = direction_merits(gait, bare)[0]
-    assert best.direction == STANCE_KNEE
+    response = ba.stride_response(gait, bare, STANCE_KNEE)
     beta = 1e-3
     law = stride()
     gains = ba.StrideGains(0.0, -1.0, limit=beta)  # one step with e > 0 takes beta to its bound
     held = ba.StridePI(law.inner, 5.0, law.step_length, STANCE_KNEE, gains)
     step = forced_walk(gait, bare, 0.0, 60, held)[-1]
     assert step.beta == -beta
-    assert (step.speed - 0.5) / -beta == pytest.approx(best.static_gain, rel=5e-3)
+    assert (step.speed - 0.5) / -beta == pytest.approx(response.static_gain, rel=5e-3)

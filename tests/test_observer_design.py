@@ -10,20 +10,19 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.analysis.observer.check import DelayCase, check_encoders
+from biped_adrc.analysis.observer.choice import count_error, recommend
+from biped_adrc.analysis.observer.impact import ImpactStates, impact_peak, orbit_impact
+from biped_adrc.analysis.observer.loop import ObserverLoop
+from biped_adrc.analysis.observer.report import observer_report
+from biped_adrc.analysis.observer.sampled import (
+    SampledLoop,
+    largest_delay,
+    largest_period,
+)
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.delayed import Delayed, pade
 from biped_adrc.hardware.motors import IDEAL, Line, whole_and_part
-from biped_adrc.observer_design.observer_choice import count_error, recommend
-from biped_adrc.observer_design.observer_impact import ImpactStates, impact_peak, orbit_impact
-from biped_adrc.observer_design.observer_loop import observer_loop
-from biped_adrc.observer_design.observer_report import observer_report
-from biped_adrc.observer_design.observer_sampled import (
-    covariance,
-    largest_delay,
-    largest_period,
-    sampled_loop,
-)
-from biped_adrc.studies.observer_check import DelayCase, check_encoders, step_errors
 
 TABLE_I = ba.GPIObserver.from_poles()
 FIRST = ba.GPIObserver.from_bandwidth(500.0, 1)
@@ -78,7 +77,7 @@ def delayed_loop(observer, delay, known, order=8):
 
 @pytest.mark.parametrize("known", [False, True], ids=["hidden", "known"])
 def test_delay_margin_is_where_a_root_crosses_the_axis(observer, known):
-    margin, at = observer_loop(observer).delay_margin(known)
+    margin, at = ObserverLoop(observer).delay_margin(known)
     for share, sign in ((0.999, -1), (1.001, 1)):
         roots = np.linalg.eigvals(delayed_loop(observer, share * margin, known))
         assert np.sign(np.max(roots.real)) == sign
@@ -87,14 +86,14 @@ def test_delay_margin_is_where_a_root_crosses_the_axis(observer, known):
 
 
 def test_margins_of_the_paper_and_of_the_linear_observer():
-    assert observer_loop(TABLE_I).delay_margin().delay == pytest.approx(85e-6, rel=0.05)
-    assert observer_loop(FIRST).delay_margin().delay == pytest.approx(4.6e-3, rel=0.05)
+    assert ObserverLoop(TABLE_I).delay_margin().delay == pytest.approx(85e-6, rel=0.05)
+    assert ObserverLoop(FIRST).delay_margin().delay == pytest.approx(4.6e-3, rel=0.05)
 
 
 def test_known_delay_leaves_the_textbook_margin_of_the_gains(observer):
     """s^2 + (K_d s + K_p) exp(-s d): |L| = 1 at w^4 = K_d^2 w^2 + K_p^2, d = atan(K_d w / K_p) / w."""
     w = math.sqrt(0.5 * (K_D**2 + math.sqrt(K_D**4 + 4.0 * K_P**2)))
-    margin = observer_loop(observer).delay_margin(known=True)
+    margin = ObserverLoop(observer).delay_margin(known=True)
     assert margin.delay == pytest.approx(math.atan(K_D * w / K_P) / w, rel=1e-9)
     assert margin.frequency == pytest.approx(w, rel=1e-9)
 
@@ -125,7 +124,7 @@ def test_transfer_functions_are_those_of_the_state_space(observer):
     A[2:, 2:], B[2:] = A_e, B_e
     values = response(A, B, C, np.zeros((2, 2)), frequencies)
     xi_error = 1.0 + response(A_e, B_e, C_e, np.zeros((3, 2)), frequencies)[:, 2, 0]
-    loop = observer_loop(observer)
+    loop = ObserverLoop(observer)
     # the state space finds e / xi by differences of up to xi / K_p: round-off of that size is its own
     floor = 1e-12 / K_P
     np.testing.assert_allclose(loop.tracking_error(frequencies), values[:, 0, 0], 1e-6, floor)
@@ -165,7 +164,7 @@ def tick_by_tick(observer, T, delay, known):
 @pytest.mark.parametrize("delay", [0.0, 0.4, 1.0, 2.3])
 @pytest.mark.parametrize("T", [1.5e-3, 2e-4])
 def test_sampled_loop_is_the_one_of_the_laws_tick_by_tick(observer, T, delay, known):
-    loop = sampled_loop(observer, T, delay=delay * T, known=known)
+    loop = SampledLoop(observer, T, delay=delay * T, known=known)
     step, size = tick_by_tick(observer, T, delay * T, known)
     matrix, _ = step(np.eye(size), 0.0)
     np.testing.assert_allclose(loop.matrix, matrix, rtol=1e-9, atol=1e-9 * np.max(np.abs(matrix)))
@@ -173,7 +172,7 @@ def test_sampled_loop_is_the_one_of_the_laws_tick_by_tick(observer, T, delay, kn
 
 @pytest.mark.parametrize(("T", "delay"), [(1.5e-3, 0.0), (1.5e-3, 0.7), (1e-3, 1.0)])
 def test_ripple_of_a_count_is_that_of_many_noisy_loops(T, delay):
-    loop, sigma = sampled_loop(FIRST, T, delay=delay * T), count_error(8192)
+    loop, sigma = SampledLoop(FIRST, T, delay=delay * T), count_error(8192)
     step, size = tick_by_tick(FIRST, T, delay * T, False)
     random, loops = np.random.default_rng(3), 4000
     X, torques = np.zeros((size, loops)), []
@@ -185,26 +184,19 @@ def test_ripple_of_a_count_is_that_of_many_noisy_loops(T, delay):
     assert np.std(torques) == pytest.approx(loop.rms(sigma), rel=0.02)
 
 
-def test_covariance_solves_its_equation():
-    A = np.diag([0.9, 0.99], 0) + np.array([[0.0, 0.3], [0.0, 0.0]])
-    Q = np.array([[2.0, 0.5], [0.5, 1.0]])
-    P = covariance(A, Q)
-    np.testing.assert_allclose(P, A @ P @ A.T + Q, rtol=1e-12)
-
-
 @pytest.mark.parametrize("observer_", [TABLE_I, FIRST], ids=["table 1", "m = 1"])
 def test_largest_period_parts_stable_from_unstable(observer_):
-    T = largest_period(sampled_loop(observer_, 1e-3), delay_periods=1.0)
+    T = largest_period(SampledLoop(observer_, 1e-3), delay_periods=1.0)
     for share, stable in ((0.999, True), (1.001, False)):
-        loop = sampled_loop(observer_, share * T, delay=share * T)
+        loop = SampledLoop(observer_, share * T, delay=share * T)
         assert loop.stable is stable
 
 
 @pytest.mark.parametrize("observer_", [TABLE_I, FIRST], ids=["table 1", "m = 1"])
 def test_sampled_margin_tends_to_the_continuous_one(observer_):
     """A held torque is late by half a period; the observer knows that, so the margin is not even less."""
-    margin = observer_loop(observer_).delay_margin().delay
-    gaps = [abs(largest_delay(sampled_loop(observer_, margin / n)) - margin) for n in (8, 32)]
+    margin = ObserverLoop(observer_).delay_margin().delay
+    gaps = [abs(largest_delay(SampledLoop(observer_, margin / n)) - margin) for n in (8, 32)]
     assert gaps[1] < 0.5 * gaps[0]
     assert gaps[1] < 0.02 * margin
 
@@ -373,7 +365,7 @@ def test_exact_reset_leaves_only_what_was_not_known(bare, published):
 def test_an_observer_for_exact_inertias_alone_cannot_run(biped, gait, observer_, counts, ratio):
     """Stable and quiet with the model's kappa; with the robot's off by the ratio the laws diverge."""
     report = observer_report(observer_, robot=biped, gait=gait, counts=counts)
-    assert report.spectral_radius < 1.0
+    assert report.sampled().spectral_radius < 1.0
     assert report.ripple < 15.0
     assert not report.runs
     assert "cannot run" in report.verdict
@@ -408,13 +400,6 @@ def test_verdict_and_recommendation_agree(biped, gait, m):
         assert report.runs is allowed
         assert report.obstacle == ("" if allowed else found.because)
         assert ("cannot run" in report.verdict or "not well" in report.verdict) is not allowed
-
-
-def test_errors_of_a_perfect_walk_are_small(bare, published):
-    run = ba.walk(
-        ba.Walker(bare, ba.NPDController(published.constraint)), published, 2, engine="compiled"
-    )
-    assert np.max(step_errors(published, run.trajectory)) < 1e-7
 
 
 @pytest.mark.parametrize(

@@ -213,7 +213,7 @@ ZERO = {
     "slope": Row("--set slope=0.04", same("limits.slope"), 0.04),
     "plot": Row("--plot own.png", same("path"), Path("own.png"), "view.style:write_figure"),
 }  # fmt: skip
-DESIGNED = "studies.gait_design:design_gait"
+DESIGNED = "analysis.gait_design:design_gait"
 ZERO_FIGURE = "view.plots.zero_dynamics:zero_dynamics_figure"
 
 
@@ -224,15 +224,15 @@ STUDY = {
 }
 ZERO_REPORT = "analysis.zero_report:zero_report"
 IMPORTED = "gait.exchange.importing:import_gait"
-REPORT = "observer_design.observer_report:observer_report"
+REPORT = "analysis.observer.report:observer_report"
 PRINTED = f"{REPORT} cli.observer:_print_report"
 STUDIED = ("study own.toml -o folder", "study.carry:study")
 COMMANDS = {
     "simulate": Command("simulate", "cli.walk:_walk", SIMULATE),
     "poincare": Command(
-        "poincare", "studies.cycle_stability:cycle_of", POINCARE,
+        "poincare", "scenario.cycle:cycle_of", POINCARE,
         others={
-            "studies.cycle_stability:cycle_stability": ("poincare", "studies.cycle_stability:cycle_of")
+            "analysis.stability:cycle_stability": ("poincare", "scenario.cycle:cycle_of")
         },
     ),
     "gait design": Command("gait design", DESIGNED, DESIGN, others={SAVE: ("gait design", DESIGNED)}),
@@ -290,10 +290,11 @@ def test_walks_that_confirm_have_the_clock_that_was_asked_for(monkeypatch):
     called = []
     monkeypatch.setattr(*owner_of("cli.observer:_print_walks"), lambda *_: None)
     late = SimpleNamespace(margin=1e-3, walked=lambda *_, **__: SimpleNamespace(tracks=True))
-    monkeypatch.setattr(*owner_of("studies.observer_check:DelayCase"), lambda *_: late)
-    monkeypatch.setattr(*owner_of("studies.observer_check:robot_margin"), lambda *_: math.nan)
+    monkeypatch.setattr(*owner_of("analysis.observer.check:DelayCase"), lambda *_: late)
+    monkeypatch.setattr(*owner_of("analysis.observer.check:robot_margin"), lambda *_: math.nan)
     monkeypatch.setattr(
-        *owner_of("studies.observer_check:check_encoders"), lambda *_, **named: called.append(named)
+        *owner_of("analysis.observer.check:check_encoders"),
+        lambda *_, **named: called.append(named),
     )
     biped = ba.Biped.load("rabbit")
     gait = ba.load_gait("published", biped)

@@ -11,19 +11,19 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import minimize
 
 import biped_adrc as ba
-from biped_adrc.engine.tick_derivative import _differenced, tick_derivative
-from biped_adrc.hardware.pitch_sensor import PitchSensor
-from biped_adrc.hardware.sensors import Sensors
-from biped_adrc.observer_design.disk_margin import (
+from biped_adrc.analysis.loops.disk_margin import (
     balanced_bound,
     disk_margin,
     structured_value,
 )
-from biped_adrc.observer_design.frequency_response import Response
-from biped_adrc.observer_design.tick_matrices import (
+from biped_adrc.analysis.loops.frozen_gait import FrozenGait
+from biped_adrc.analysis.loops.tick_matrices import (
     linear_twin,
 )
-from biped_adrc.observer_design.walker_loop import FREQUENCIES, robot_step
+from biped_adrc.analysis.loops.walker_loop import FREQUENCIES, Response, robot_step
+from biped_adrc.engine.tick_derivative import _differenced, tick_derivative
+from biped_adrc.hardware.pitch_sensor import PitchSensor
+from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.scenario.specified import specification_of
 from tests.specified_walks import candidate, multiplier, rippled, specified
 
@@ -57,18 +57,15 @@ def test_a_walk_bears_nine_tenths_of_the_delay_margin_and_not_eleven(bandwidth):
     assert found[0] < 1.0 < found[1]
 
 
-@pytest.mark.parametrize(
-    "values",
-    [
-        {"controller": "NPD"},
-        {
-            "controller.name": "LESO",
-            "controller.observer.bandwidth": 160.0,
-            "controller.observer.order": 2,
-            "hardware.encoders.filter_time": 5e-3,
-        },
-    ],
-)
+FILTERED = {
+    "controller.name": "LESO",
+    "controller.observer.bandwidth": 160.0,
+    "controller.observer.order": 2,
+    "hardware.encoders.filter_time": 5e-3,
+}
+
+
+@pytest.mark.parametrize("values", [{"controller": "NPD"}, FILTERED], ids=["NPD", "LESO"])
 def test_ripple_is_that_of_a_walk_with_counts(values):
     by_specification, by_walk = rippled(values)
     assert by_walk / 1.25 < by_specification < 1.25 * by_walk
@@ -83,7 +80,7 @@ def missed(T, **values):
     lasting = {name: x * T for name, x in values.items() if name.endswith(times)}
     walker, gait, loop = loop_of(**{**values, **lasting, "hardware.period": T})
     n, p = walker.plant.n, walker.plant.p
-    point = ba.FrozenGait.of(walker.plant, gait, spread=0.0).points[0]
+    point = FrozenGait.of(walker.plant, gait, spread=0.0).points[0]
     deviation = 1e-6 * np.array(
         [1.0, -2.0, 0.5, 1.5, -1.0, *np.array([5.0, 9, -3, 7, 4]) * 1e-3 / T]
     )
@@ -104,39 +101,19 @@ def missed(T, **values):
     return np.max(np.abs(found - expected)) / np.max(np.abs(expected))
 
 
+LESO = {"controller.name": "LESO", "controller.observer.bandwidth": 200.0, "hardware.delay": 1.6}
+DOB = {"controller.name": "DOB", "hardware.delay": 2, "hardware.encoders.filter_time": 1.5}
+NPD = {"controller.name": "NPD", "hardware.delay": 0.5, "hardware.friction": True}
+
+
 @pytest.mark.parametrize(
     "values",
     [
-        {
-            "controller.name": "LESO",
-            "controller.observer.bandwidth": 200.0,
-            "hardware.delay": 1.6,
-            "hardware.lag": 0.7,
-        },
-        {
-            "controller.name": "LESO",
-            "controller.observer.bandwidth": 200.0,
-            "hardware.delay": 1.6,
-            "hardware.delay_known": True,
-        },
-        {
-            "controller.name": "DOB",
-            "hardware.delay": 2,
-            "hardware.encoders.velocity": "differences",
-            "hardware.encoders.filter_time": 1.5,
-        },
-        {
-            "controller.name": "LESO",
-            "controller.observer.bandwidth": 200.0,
-            "hardware.delay": 1.6,
-            "controller.prediction": 1.6,
-        },
-        {
-            "controller.name": "NPD",
-            "hardware.friction": True,
-            "controller.feedforward": 0.8,
-            "hardware.delay": 0.5,
-        },
+        {**LESO, "hardware.lag": 0.7},
+        {**LESO, "hardware.delay_known": True},
+        {**LESO, "controller.prediction": 1.6},
+        {**DOB, "hardware.encoders.velocity": "differences"},
+        {**NPD, "controller.feedforward": 0.8},
     ],
 )
 def test_a_small_deviation_goes_as_the_matrices_say(values):
@@ -201,7 +178,7 @@ def test_a_controller_in_plain_python_has_a_specification():
 
 def test_the_torque_moves_the_outputs_by_L(biped, gait):
     """y'' = (S - h' c) q'' is L u with L = (I - H_b - H_N A_N) kappa, for the model as for another robot."""
-    frozen = ba.FrozenGait.of(biped, gait)
+    frozen = FrozenGait.of(biped, gait)
     n, p, h = biped.n, biped.p, gait.constraint
     heavy = biped.with_errors(mass={"torso": 1.2}, inertia={"torso": 1.2})
     assert heavy.p == p

@@ -18,29 +18,32 @@ from dataclasses import replace
 
 import numpy as np
 
+from biped_adrc.analysis.gait_design import design_gait
 from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.analysis.stability import (
     ABSOLUTE,
     INVARIANCE,
     RELATIVE,
+    Cycle,
     StabilityMethod,
     invariance_gap,
     stability_table,
 )
 from biped_adrc.analysis.variational import periodic_orbit
-from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.control.npd import NPDController
+from biped_adrc.errors import SimulationError
 from biped_adrc.gait.design.request import StepLimits
 from biped_adrc.gait.gait import Gait, gait_names, load_gait
 from biped_adrc.gait.published import design_published_gait
+from biped_adrc.gait.recipe import design_recipe_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
 from biped_adrc.resources import data_folder
-from biped_adrc.scenario.run import Cycle
+from biped_adrc.scenario.cycle import find_cycle, gait_cycle
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.studies.cycle_stability import find_cycle, gait_cycle
-from biped_adrc.studies.gait_design import design_gait, design_recipe_orbit
+from biped_adrc.scenario.walk import walk
 from biped_adrc.types import Array
 from validation.passive import simplest
 from validation.row import Row, at_most
@@ -154,6 +157,35 @@ def robot_rows(robot: str) -> tuple[Row, ...]:
         Row(name, "largest |multiplier|, variational equation", one, other, 1e-6, by),
         at_most(name, f"gap of all {count}, in units of {unit}", 1.0, table.gap(central), by),
     )
+
+
+SETTLE = 25
+"""Impacts that are walked before Newton's method starts."""
+
+
+def design_recipe_orbit(biped: Biped) -> Gait:
+    """Gait (b) with the pre-impact state and the period of its walking cycle under NPD.
+
+    Its impact leaves the constraint, so the closed loop does not walk on the orbit of the zero dynamics. A walk
+    settles near the cycle, from where Newton's method on the return map finds it. When there is none the state
+    of the zero dynamics is kept, and the provenance says so. Raises GaitError as `design_recipe_gait`.
+    """
+    gait = design_recipe_gait(biped)
+    walker = Walker(biped, NPDController(gait.constraint))
+    settled = walk(walker, gait, SETTLE, RK4(1e-3))
+    try:
+        if not settled.trajectory.status.ok:
+            raise SimulationError(settled.trajectory.status.value)
+        guess = settled.trajectory.before(FOOT_STRIKE)[-1]
+        orbit = ReturnMap(walker, RK4(1e-3)).fixed_point(guess)
+    except SimulationError as error:
+        return replace(gait, provenance={**gait.provenance, "cycle": f"none found: {error}"})
+    q, v = np.split(orbit.x_minus[: 2 * biped.n], 2)
+    said = "fixed point of the return map under NPD, Table II, continuous time; largest multiplier"
+    told = {**gait.provenance, "cycle": f"{said} {abs(orbit.multipliers[0]):.4f}"}
+    found = replace(gait, q_minus=q, v_minus=v, provenance=told)
+    step = walk(walker, found, 1, RK4(1e-3))
+    return replace(found, period=step.trajectory.t_end)
 
 
 def write_stored() -> None:

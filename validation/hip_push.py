@@ -4,7 +4,7 @@ Tracking cannot reject a force that enters the unactuated row: Westervelt, Grizz
 2003) report that 3 N stop a gait of 0.50 m/s under any inner loop, and that a PI from step to step recovers
 it. A case walks from the orbit of its gait under NPD or ADRC, alone or inside the PI of `control.stride` with
 the gains of its triple pole; the force (-force, 0) acts from the first instant on. The quadratures of
-`analysis.forced_steps` predict the force that stops it, without a simulation.
+`forced_steps` predict the force that stops it, without a simulation.
 """
 
 from __future__ import annotations
@@ -17,8 +17,6 @@ import numpy as np
 
 from biped_adrc.analysis.certificate import REASONS
 from biped_adrc.analysis.feasibility import Feasibility, outcome_of
-from biped_adrc.analysis.forced_steps import stopping_force
-from biped_adrc.analysis.stride_gain import STANCE_KNEE
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.control.base import Controller
 from biped_adrc.control.stride import StridePI
@@ -30,6 +28,10 @@ from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.registry import find
 from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario
+from validation.forced_steps import stopping_force
+
+STANCE_KNEE = (0.0, 0.0, 1.0, 0.0)
+"""d for RABBIT's joints: beta < 0 bends the stance knee in the middle of the step and quickens the walk."""
 
 
 class Parts(NamedTuple):

@@ -22,6 +22,7 @@ from time import process_time
 
 import numpy as np
 
+from biped_adrc.analysis.gait_design import DesignedGait, design_gait
 from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.analysis.variational import periodic_orbit
 from biped_adrc.closed_loop.walker import Walker
@@ -36,9 +37,8 @@ from biped_adrc.hybrid.integrators import Adaptive
 from biped_adrc.model.biped import Biped
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper.tables import PRINTED_TABLE_I
+from biped_adrc.scenario.cycle import gait_cycle
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.studies.cycle_stability import gait_cycle
-from biped_adrc.studies.gait_design import DesignedGait, design_gait
 from validation.hip_push import HipCase, PushedWalk
 from validation.row import PRESETS, Row, at_most, nothing
 

@@ -2,12 +2,14 @@
 
 Of a finished walk:
 - `signals`, `quadrature`          all time series of a walk, and integrals and means of them
-- `certificate`, `feasibility`        whether a real robot could have made these steps
-- `regression`, `statistics`       multipliers by (26), (27); shares and medians over many walks
+- `certificate`, `feasibility`     whether a real robot could have made these steps
+- `touchdowns`, `contact_errors`   when they were noticed, and what they do to the error
+- `statistics`                     shares and medians over many walks
 
-Of a closed loop or a gait, before or without a long simulation:
+Of a closed loop or a gait:
 - `return_map`, `variational`      the Poincare map, its fixed point and its derivative
-- `stability`                      multipliers by all methods side by side
-- `zero_report`, `forced_steps`    predictions of the zero dynamics
-- `stride_gain`, `linear_loop`     gains from step to step, and the linear loop (19), (23)
+- `stability`                      multipliers by both methods side by side
+- `zero_report`, `stride_gain`     predictions of the zero dynamics; gains from step to step
+- `gait_design`                    a gait for a speed, proved by a walk
+- `observer`, `loops`              the observer assistant; margins of a whole walker
 """

@@ -24,10 +24,9 @@ from biped_adrc.analysis.ground_force import Nodes, impulse_ratios, mean_forces,
 from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
-from biped_adrc.errors import InputError
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.ground import ground_axes
-from biped_adrc.model.robots.limits import ENDS, ROUND_OFF, SLIP, KnownLimits, Limits, completed
+from biped_adrc.model.robots.limits import ENDS, ROUND_OFF, SLIP, KnownLimits, Limits
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
@@ -66,43 +65,20 @@ class Support(Shown):
     window: float
     """Length of the window of the means [s]."""
 
-    def infeasible(self, limits: Limits | KnownLimits | None = None) -> dict[str, str]:
-        """What is not within the limits, in words, by the names in `REASONS`; empty for a feasible step.
-
-        limits: None takes those that this was made with; a None inside `Limits` does so, too.
-        Raises InputError for limits with another window, since the means would have to be computed
-        anew.
-        """
-        k = self._known(limits)
-        over = f"over {1e3 * k.window:g} ms"
-        normal, ratio = self.mean_normal_force, self.mean_friction
-        found = {}
-        if not normal > 0.0:
-            found["normal_force"] = f"F_N = {normal:.3g} N {over}"
-        cone = (1.0 + ROUND_OFF) * k.friction
-        if not (ratio <= cone or (ratio == math.inf and not normal > 0.0)):
-            found["friction"] = f"friction {ratio:.3g} > {k.friction:g} {over}"
-        if not self.peak_torque <= k.torque:
-            found["torque"] = f"torque {self.peak_torque:.4g} N m > {k.torque:g}"
-        if not self.scuffing <= 0.0:
-            found["scuffing"] = f"the swing foot scuffs by {self.scuffing:.2g} m"
-        if not self.slip <= SLIP:
-            found["slip"] = f"a foot slips by {1e3 * self.slip:.2g} mm > {1e3 * SLIP:g}"
-        if not self.impulse_ratio <= cone:
-            found[IMPULSE] = impulse_text(self.impulse_ratio, k)
-        return found
-
-    def _known(self, limits: Limits | KnownLimits | None) -> KnownLimits:
-        """The limits with every number known. Raises InputError for another window."""
-        own = KnownLimits(self.friction_limit, self.torque_limit, self.window)
-        if limits is None:
-            return own
-        if not math.isclose(limits.window, self.window):
-            raise InputError(
-                f"the certificate is of forces averaged over {self.window:g} s, the limits ask for "
-                f"{limits.window:g} s; take the certificates anew, with walk.certified(limits)"
-            )
-        return completed(limits, own)
+    def infeasible(self) -> dict[str, str]:
+        """What is not within the limits, in words, by the names in `REASONS`; empty for a feasible step."""
+        k = KnownLimits(self.friction_limit, self.torque_limit, self.window)
+        cone, pulls = (1.0 + ROUND_OFF) * k.friction, not self.mean_normal_force > 0.0
+        ratio, never = self.mean_friction, self.mean_friction == math.inf
+        checks = {
+            "normal_force": (self.mean_normal_force, not pulls),
+            "friction": (ratio, ratio <= cone or (never and pulls)),
+            "torque": (self.peak_torque, self.peak_torque <= k.torque),
+            "scuffing": (self.scuffing, self.scuffing <= 0.0),
+            "slip": (self.slip, self.slip <= SLIP),
+            IMPULSE: (self.impulse_ratio, self.impulse_ratio <= cone),
+        }
+        return {name: violation(name, x, k) for name, (x, holds) in checks.items() if not holds}
 
     def record(self) -> dict[str, float]:
         """All fields as a dictionary of numbers."""
@@ -134,14 +110,12 @@ class Certificate(Support):
     cost_of_transport: float
     """int |u_i q_i'| dt, summed over motors, over m g times step length; dimensionless."""
 
-    def violations(
-        self, limits: Limits | KnownLimits | None = None, but: Collection[str] = ()
-    ) -> tuple[str, ...]:
+    def violations(self, but: Collection[str] = ()) -> tuple[str, ...]:
         """As `infeasible`, as sentences, and in addition the old foot has to lift off; empty when all holds.
 
         but: names in `REASONS` that do not count.
         """
-        found = [text for name, text in self.infeasible(limits).items() if name not in but]
+        found = [text for name, text in self.infeasible().items() if name not in but]
         if not self.old_foot_velocity > 0:
             found.append("the old stance foot does not lift off")
         return tuple(found)
@@ -152,9 +126,17 @@ def ratio_text(ratio: float) -> str:
     return f"{ratio:.3f}" if math.isfinite(ratio) else "no contact"
 
 
-def impulse_text(ratio: float, k: KnownLimits) -> str:
-    """What an impulse outside the friction cone asks for, in words."""
-    return f"the impulse at impact asks for friction {ratio_text(ratio)} > {k.friction:g}"
+def violation(name: str, x: float, k: KnownLimits) -> str:
+    """What is wrong with a number x that is not within its limit, in words; name: in `REASONS`."""
+    over = f"over {1e3 * k.window:g} ms"
+    return {
+        "normal_force": f"F_N = {x:.3g} N {over}",
+        "friction": f"friction {x:.3g} > {k.friction:g} {over}",
+        "torque": f"torque {x:.4g} N m > {k.torque:g}",
+        "scuffing": f"the swing foot scuffs by {x:.2g} m",
+        "slip": f"a foot slips by {1e3 * x:.2g} mm > {1e3 * SLIP:g}",
+        IMPULSE: f"the impulse at impact asks for friction {ratio_text(x)} > {k.friction:g}",
+    }[name]
 
 
 def supports(
@@ -226,10 +208,15 @@ def after_last_impact(walker: Walker, trajectory: Trajectory) -> Array | None:
 
 
 def certificates(
-    walker: Walker, trajectory: Trajectory, signals: Signals, limits: Limits | None = None
+    walker: Walker,
+    trajectory: Trajectory,
+    signals: Signals,
+    limits: Limits | KnownLimits | None = None,
 ) -> tuple[Certificate, ...]:
     """One certificate for every single support that ended in an impact; None takes the robot's limits."""
-    k = (limits or Limits()).of(walker.plant.description)
+    k = limits
+    if not isinstance(k, KnownLimits):
+        k = (k or Limits()).of(walker.plant.description)
     arcs = [arc for arc in trajectory.arcs if ended_in_impact(arc)]
     after = after_last_impact(walker, trajectory)
     found = supports(walker, Nodes.of(signals), k, len(arcs), after)

@@ -44,11 +44,12 @@ def contact_errors(x: Signals) -> ContactErrors:
     acted = np.maximum.accumulate(np.where(np.any(x.zeta != 0.0, axis=1), x.t, -np.inf))
     pushed = x.t - acted <= AFTER + SAME_INSTANT
     lasts = np.append(np.diff(x.t) > 0.0, False)
+    settled = x.error[lasts & ~settling]
     return ContactErrors(
         _largest(x.error[settling & (x.step > x.step[0])]),
         _largest(x.error[pushed & ~settling]),
         _largest(x.error[~settling]),
-        _rms(x.error[lasts & ~settling]),
+        math.sqrt(float(np.mean(settled**2))) if settled.size else None,
     )
 
 
@@ -61,7 +62,3 @@ def starts(x: Signals) -> Array:
 
 def _largest(error: Array) -> float | None:
     return float(np.max(np.abs(error))) if error.size else None
-
-
-def _rms(error: Array) -> float | None:
-    return math.sqrt(float(np.mean(error**2))) if error.size else None

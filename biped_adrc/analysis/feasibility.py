@@ -22,7 +22,7 @@ from biped_adrc.analysis.certificate import (
     after_last_impact,
     depths,
     ended_in_impact,
-    impulse_text,
+    violation,
 )
 from biped_adrc.analysis.ground_force import Nodes, impulse_ratios, mean_forces, ratios
 from biped_adrc.analysis.signals import Signals
@@ -31,7 +31,7 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.robots.limits import ROUND_OFF, SLIP, KnownLimits, Limits
 from biped_adrc.shown import Shown
-from biped_adrc.types import Array, Indices
+from biped_adrc.types import Array
 
 VERDICTS = {
     "infeasible": "not feasible",
@@ -69,7 +69,7 @@ def outcome_of(status: Status, broken: Collection[str]) -> str:
 
 def verdict_of(broken: Collection[str]) -> str:
     """One of the words in `VERDICTS`; broken as for `outcome_of`."""
-    if not but_for_the_impact(broken):
+    if not set(broken) <= {IMPULSE}:
         return "infeasible"
     return "but_impact" if broken else "feasible"
 
@@ -77,11 +77,6 @@ def verdict_of(broken: Collection[str]) -> str:
 def because(words: str, broken: Mapping[str, str]) -> str:
     """Words, with the reasons behind where there are some."""
     return f"{words}: {'; '.join(broken.values())}" if broken else words
-
-
-def but_for_the_impact(broken: Collection[str]) -> bool:
-    """Whether no limit is broken, but for that on the impulse at impact."""
-    return set(broken) <= {IMPULSE}
 
 
 def _over_steps(worst: Callable[[list[float]], float], name: str, text: str) -> property:
@@ -177,29 +172,22 @@ def first_violation(
     """
     last, of = n.supports[1:]
     means, cone = mean_forces(walker, n, k.window), (1.0 + ROUND_OFF) * k.friction
-    ratio, over = ratios(means.F, -math.inf), f"over {1e3 * k.window:g} ms"
-    asked = (
-        impulse_ratios(walker, n, impacts, after) if k.friction < math.inf else np.zeros(len(last))
-    )
-    torque, depth = np.max(np.abs(n.u), axis=1, initial=0.0), depths(walker, n, impacts)
-    normal = np.where(means.F[:, 1] > 0.0, 0.0, np.nan)  # a number within any limit, or none
-    kinds: list[tuple[Array, Indices, Array, float, Callable[[int], str]]] = [
-        (means.t, means.of, normal, 0.0, lambda i: f"F_N = {means.F[i, 1]:.3g} N {over}"),
-        (
-            means.t,
-            means.of,
-            ratio,
-            cone,
-            lambda i: f"friction {ratio[i]:.3g} > {k.friction:g} {over}",
-        ),
-        (n.t, of, torque, k.torque, lambda i: f"torque {torque[i]:.4g} N m > {k.torque:g}"),
-        (n.t, of, depth, 0.0, lambda i: f"the swing foot scuffs by {depth[i]:.2g} m"),
-        (n.t[last], np.arange(len(last)), asked, cone, lambda i: impulse_text(asked[i], k)),
-    ]
+    impulses = np.zeros(len(last))
+    if k.friction < math.inf:
+        impulses = impulse_ratios(walker, n, impacts, after)
+    # times, single supports and numbers, of which the first is bounded from below by 0
+    series = {
+        "normal_force": (means.t, means.of, means.F[:, 1], 0.0),
+        "friction": (means.t, means.of, ratios(means.F, -math.inf), cone),
+        "torque": (n.t, of, np.max(np.abs(n.u), axis=1, initial=0.0), k.torque),
+        "scuffing": (n.t, of, depths(walker, n, impacts), 0.0),
+        IMPULSE: (n.t[last], np.arange(len(last)), impulses, cone),
+    }
     found = []
-    for t, where, x, limit, text in kinds:
-        beyond = np.flatnonzero(~(x <= limit))
-        found += [Violation(float(t[i]), int(where[i]), text(i)) for i in beyond[:1]]
+    for name, (t, where, x, limit) in series.items():
+        holds = x > limit if name == "normal_force" else x <= limit
+        for i in np.flatnonzero(~holds)[:1]:
+            found.append(Violation(float(t[i]), int(where[i]), violation(name, x[i], k)))
     return min(found, default=None, key=lambda one: one.t)
 
 

@@ -86,14 +86,10 @@ class ReturnMap(Shown):
         check_fields(self)
         check_engine(self.engine)
         w = self.walker
-        noisy = w.sensors is not None and w.sensors.noisy
-        counts = {
-            "noise in its sensors": noisy,
-            "a controller that has to notice touchdowns and counts them": w.touchdown is not None,
-        }
-        if what := " and ".join(name for name, is_so in counts.items() if is_so):
+        if w.touchdown is not None or (w.sensors is not None and w.sensors.noisy):
             raise InputError(
-                f"the walker has {what}, so its state never returns; expected one without it for a return map"
+                "the walker has noise in its sensors, or a controller that has to notice touchdowns and counts "
+                "them, so its state never returns; expected one without it for a return map"
             )
 
     @property

@@ -10,7 +10,11 @@ multipliers of a cycle, P(s) = s, are the eigenvalues lambda of dP/ds; it is sta
 Both find dP/ds in independent ways, so their agreement is evidence. A method that doubts its own result
 says why (`MethodRow.doubt`). Two sets of multipliers are compared in pairs, one from each set. Of all ways to
 make pairs that one is taken whose sum of distances is least; distances are divided by the tolerance.
-`studies.cycle_stability` makes the table.
+
+    cycle_stability(cycle)   fixed point, and the multipliers of each method in one table
+
+`scenario.cycle` has the return map of a scenario. A controller with states (an observer) has these behind the
+mechanical ones in the state of the map; then only central differences apply.
 """
 
 from __future__ import annotations
@@ -22,14 +26,26 @@ import numpy as np
 from scipy.linalg import eig
 from scipy.optimize import linear_sum_assignment
 
-from biped_adrc.analysis.return_map import ReturnMap, sorted_eigenvalues
-from biped_adrc.analysis.variational import StepDerivative
+from biped_adrc.analysis.certificate import Certificate, certificates
+from biped_adrc.analysis.return_map import (
+    PeriodicOrbit,
+    ReturnMap,
+    after_impact,
+    sorted_eigenvalues,
+)
+from biped_adrc.analysis.signals import signals
+from biped_adrc.analysis.variational import StepDerivative, periodic_orbit
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
 from biped_adrc.columns import columns
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.reference import TimeReference
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.constants import XRTOL, XTOL
+from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.robots.limits import Limits
+from biped_adrc.parts import check_part
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array, ComplexArray
 
@@ -47,8 +63,9 @@ FLOW = 1e-5
 """The largest `StepDerivative.flow_residual` with which the variational equation is trusted."""
 INVARIANCE = 1e-6
 """The largest `invariance_gap` with which a constraint counts as hybrid invariant [rad, rad/s]."""
-CYCLE = 1e-8
-"""The largest |P(s) - s| of a step whose eigenvalues count as multipliers [rad, rad/s]."""
+SETTLES = 1e-9
+"""Largest residual of Newton's method [rad, rad/s]; feet of 1e-7 of the hip's mass leave a round-off of
+1e-10."""
 
 
 @dataclass(frozen=True)
@@ -59,10 +76,6 @@ class MethodRow(Shown):
     """How they were found."""
     multipliers: ComplexArray
     """(k,), the largest magnitude first."""
-    uncertainty: float = 0.0
-    """Error of each multiplier by the method's own estimate; 0 where it has none. Of central differences:
-    the largest change by the extrapolation.
-    """
     noise: Array | None = None
     """Bound (k,) of the numerical error, for each multiplier of the variational equation in their order; of
     central differences only, see `noise_of_differences`.
@@ -78,30 +91,16 @@ class MethodRow(Shown):
 
 @dataclass(frozen=True)
 class StabilityTable(Shown):
-    """One row per method; `verdict` says whether they agree and which to trust.
-
-    Raises InputError for multipliers that are not finite.
-    """
+    """One row per method; `verdict` says whether they agree and which to trust."""
 
     rows: tuple[MethodRow, ...]
 
-    def __post_init__(self) -> None:
-        for row in self.rows:
-            if not (len(row.multipliers) and np.all(np.isfinite(row.multipliers))):
-                raise InputError(
-                    f"{row.method.value}: found multipliers {row.multipliers}, expected finite numbers"
-                )
-
     @property
     def trusted(self) -> MethodRow:
-        """The variational equation, or central differences where that is in doubt.
-
-        Raises InputError when no row is left.
-        """
-        for method in (StabilityMethod.VARIATIONAL, StabilityMethod.CENTRAL):
-            for row in self.rows:
-                if row.method is method and not row.doubt:
-                    return row
+        """The first row without a doubt. Raises InputError when no row is left."""
+        for row in self.rows:
+            if not row.doubt:
+                return row
         doubts = "; ".join(f"{r.method.value}: {r.doubt}" for r in self.rows)
         raise InputError(f"no method gives the multipliers without a doubt ({doubts})")
 
@@ -113,67 +112,34 @@ class StabilityTable(Shown):
     @property
     def agree(self) -> bool:
         """Whether every other method without a doubt agrees with the trusted one."""
-        trusted = self.trusted
-        others = (row for row in self.rows if row is not trusted and not row.doubt)
-        return all(self.gap(row) <= 1.0 for row in others)
+        return all(row.doubt or self.gap(row) <= 1.0 for row in self.rows)
 
     def gap(self, row: MethodRow) -> float:
-        """Largest distance of a row to the trusted one in units of the tolerance; at most 1 when they agree.
-
-        Infinite for a row that has not as many multipliers as the trusted one.
-        """
-        ratio = _distances(row.multipliers, self.trusted.multipliers, row.noise)
-        if ratio.shape[0] != ratio.shape[1]:
-            return float("inf")
-        return _farthest(ratio)
+        """Largest distance of a row to the trusted one in units of the tolerance; at most 1 when they agree."""
+        return _farthest(_distances(row.multipliers, self.trusted.multipliers, row.noise))
 
     @property
     def verdict(self) -> str:
         """One sentence for each other row, then which row to trust. Raises InputError as `trusted` does."""
         trusted = self.trusted
-        said = [self._sentence(row) for row in self.rows if row is not trusted]
+        sentences = [self._sentence(row) for row in self.rows if row is not trusted]
         name, end = trusted.method.value, "stable" if self.stable else "not stable"
         largest = np.max(trusted.magnitudes)
-        said.append(f"Trust the {name}: the cycle is {end}, the largest |lambda| is {largest:.6f}.")
-        return " ".join(said)
+        last = f"Trust the {name}: the cycle is {end}, the largest |lambda| is {largest:.6f}."
+        return " ".join((*sentences, last))
 
     def _sentence(self, row: MethodRow) -> str:
         """What one row says relative to the trusted one."""
-        name = row.method.value[:1].upper() + row.method.value[1:]
+        name, gap = row.method.value.capitalize(), self.gap(row)
         if row.doubt:
             return f"{name}: not to be trusted, {row.doubt}."
-        gap = self.gap(row)
         within = f"{RELATIVE:g} relative or {ABSOLUTE:g} absolute"
-        if row.noise is not None and np.isfinite(gap):
-            plain = _farthest(_distances(row.multipliers, self.trusted.multipliers))
-            if plain > 1.0 or gap > 1.0:
-                within += (
-                    f" or what root finder and step leave open, at most {np.max(row.noise):.1e}"
-                )
+        plain = _farthest(_distances(row.multipliers, self.trusted.multipliers))
+        if row.noise is not None and max(plain, gap) > 1.0:
+            within += f" or what root finder and step leave open, at most {np.max(row.noise):.1e}"
         if gap <= 1.0:
             return f"{name}: agrees within {within}."
-        if not np.isfinite(gap):
-            return (
-                f"{name}: has {len(row.multipliers)} multipliers, the {self.trusted.method.value} "
-                f"{len(self.trusted.multipliers)}; they are not of the same map."
-            )
-        why = self._limit(row)
-        return f"{name}: disagrees, {gap:.3g} times the tolerance of {within}{why}."
-
-    def _limit(self, row: MethodRow) -> str:
-        """Why a row disagrees with the trusted one, as the end of a sentence; empty where nothing is known."""
-        if row.method is not StabilityMethod.CENTRAL or row.uncertainty == 0.0:
-            return ""
-        distance = _farthest(np.abs(row.multipliers[:, np.newaxis] - self.trusted.multipliers))
-        if distance <= 2.0 * row.uncertainty:
-            return (
-                f"; they differ by {distance:.1e}, and the extrapolation changes them by "
-                f"{row.uncertainty:.1e}: the differences are the limit"
-            )
-        return (
-            f"; they differ by {distance:.1e}, which is more than the {row.uncertainty:.1e} that the "
-            "extrapolation changes: one of the two is wrong, or the step of the method is too long"
-        )
+        return f"{name}: disagrees, {gap:.3g} times the tolerance of {within}."
 
     def text(self, count: int = 9) -> str:
         """The table as lines of text, the `count` largest |lambda| of each row, and the verdict."""
@@ -198,7 +164,12 @@ def _distances(one: ComplexArray, other: ComplexArray, noise: Array | None = Non
 
 
 def _farthest(cost: Array) -> float:
-    """The largest cost of a pair when rows and columns of `cost` (k, k) are paired at least total cost."""
+    """The largest cost of a pair when rows and columns of `cost` are paired at least total cost.
+
+    Infinite where there are not as many rows as columns.
+    """
+    if cost.shape[0] != cost.shape[1]:
+        return float("inf")
     return float(np.max(cost[linear_sum_assignment(cost)]))
 
 
@@ -239,14 +210,13 @@ def noise_of_differences(P: ReturnMap, step: StepDerivative) -> Array:
 def central_row(P: ReturnMap, s: Array, step: StepDerivative | None = None) -> MethodRow:
     """The row of central differences at s (k,) [rad, rad/s], extrapolated from d = P.difference and d / 2.
 
-    Its uncertainty is the distance to the multipliers of J(d/2) alone: it shows the error d^2 and round-off.
     step: the derivative at s; without it there is no noise.
     """
     wide, narrow = P.jacobian(s), replace(P, difference=0.5 * P.difference).jacobian(s)
-    best, half = sorted_eigenvalues((4.0 * narrow - wide) / 3.0), sorted_eigenvalues(narrow)
-    changes = _farthest(np.abs(best[:, np.newaxis] - half))
     noise = None if step is None else noise_of_differences(P, step)
-    return MethodRow(StabilityMethod.CENTRAL, best, changes, noise)
+    return MethodRow(
+        StabilityMethod.CENTRAL, sorted_eigenvalues((4.0 * narrow - wide) / 3.0), noise
+    )
 
 
 def invariance_gap(biped: Biped, constraint: VirtualConstraint) -> float:
@@ -265,19 +235,70 @@ def invariance_gap(biped: Biped, constraint: VirtualConstraint) -> float:
     return float(max(position, velocity))
 
 
-def stability_table(
-    P: ReturnMap,
-    step: StepDerivative,
-) -> StabilityTable:
+def stability_table(P: ReturnMap, step: StepDerivative) -> StabilityTable:
     """The table at the fixed point of `step`, as `variational.periodic_orbit` finds it.
 
-    Central differences of P cost 4 steps of walking per coordinate. Raises InputError when |P(s) - s| of the
-    step is above `CYCLE`: its eigenvalues are then no multipliers.
+    Central differences of P cost 4 steps of walking per coordinate.
     """
-    gap = float(np.max(np.abs(step.image - step.s)))
-    if gap > CYCLE:
-        raise InputError(
-            f"P(s) - s is {gap:.3g} at this step, expected a fixed point within {CYCLE:g}; find it "
-            "with variational.periodic_orbit"
-        )
     return StabilityTable((variational_row(step), central_row(P, step.s, step)))
+
+
+# -- of a cycle -------------------------------------------------------------------------------------
+@dataclass(frozen=True)
+class Cycle(Shown):
+    """A return map and a state from which Newton's method finds its fixed point."""
+
+    P: ReturnMap
+    guess: Array
+    """State x- just before impact, (2 n,) or with the controller's states behind [rad, rad/s]."""
+
+
+@dataclass(frozen=True)
+class CycleStability(Shown):
+    """The fixed point of a return map and its multipliers by every method that applies."""
+
+    cycle: Cycle
+    """The return map, and the state from which the fixed point was found."""
+    orbit: PeriodicOrbit
+    """The fixed point, its residual, and its multipliers."""
+    table: StabilityTable
+    """Multipliers by method, and whether they agree."""
+
+
+def cycle_stability(cycle: Cycle) -> CycleStability:
+    """Fixed point of a cycle and its multipliers by every method.
+
+        found = ba.cycle_stability(ba.find_cycle("rabbit", controller="NPD"))
+
+    The methods are independent of each other, the variational equation along the step and central differences
+    of the return map. That they agree is the test of each.
+
+    For a controller with states only central differences apply, since the variational equation is written for
+    the mechanics alone. Raises SimulationError when no fixed point is found.
+    """
+    check_part(cycle, "cycle", Cycle)
+    P = cycle.P
+    if len(cycle.guess) > 2 * P.walker.plant.n:
+        guess = cycle.guess if P.controller_states else cycle.guess[: 2 * P.walker.plant.n]
+        orbit = P.fixed_point(guess)
+        row = MethodRow(StabilityMethod.CENTRAL, orbit.multipliers)
+        return CycleStability(cycle, orbit, StabilityTable((row,)))
+    orbit, step = periodic_orbit(P, cycle.guess, SETTLES)
+    return CycleStability(cycle, orbit, stability_table(P, step))
+
+
+def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = None) -> Certificate:
+    """The certificate of the step at the fixed point: what it asks of ground and motors, within these limits.
+
+    Certificates depend on states, torques and forces alone, so a reference of zeros is given for the signals.
+
+    Raises SimulationError where the step does not end with an impact.
+    """
+    P, walker = cycle.P, cycle.P.walker
+    start, t_end = after_impact(walker, 0.0, orbit.x_minus, Mode()), walker.max_step_time
+    run = simulate(walker, *start, P.method, t_end=t_end, stop_after=(FOOT_STRIKE, 1))
+    if not run.status.ok:
+        raise SimulationError(f"the step of the cycle ended before: {run.status.name}")
+    none = np.zeros(walker.plant.p)
+    seen = signals(walker, run, TimeReference(lambda t: (none, none, none)))
+    return certificates(walker, run, seen, limits)[0]

@@ -1,5 +1,4 @@
-"""Gains of the PI from step to step, from the zero dynamics, and which joints to bend for its
-correction.
+"""Gains of the PI from step to step, from the zero dynamics.
 
 With exact tracking, z_k = sigma-^2 before the impact that begins step k, v_k = L / T_k and beta_k
 of
@@ -17,19 +16,13 @@ is, has
 
     (r + mu)^3 = mu (mu + 1) (mu + a),   K_P = r^3 / (d mu),   K_P + K_I = (1 + a - 3 r) / d.
 
-The static gain g = dv/dbeta [m/s per rad] of a direction is what the correction does to the speed
-in the long run. What it costs is the change of the motors' torque along the periodic orbit,
-
-    U = max over the step and the motors of |du/dbeta|   [N m per rad],
-
-and |g| / U [m/s per N m] does not change when the direction is scaled, so it compares directions.
 `stride_pi` makes the controller of `control.stride` with these gains; nothing is tuned by hand.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,20 +44,6 @@ so that the correction changes neither begin nor end of a step.
 """
 DIFFERENCE = 1e-3
 """Half width of the central differences: in beta [rad], and relative in z."""
-
-
-STANCE_KNEE = (0.0, 0.0, 1.0, 0.0)
-"""d for RABBIT's joints: beta < 0 bends the stance knee in the middle of the step and quickens the walk."""
-
-DIRECTIONS: Mapping[str, tuple[float, ...]] = {
-    "torso lean": TORSO_LEAN,
-    "stance hip": (1.0, 0.0, 0.0, 0.0),
-    "swing hip": (0.0, 1.0, 0.0, 0.0),
-    "hips apart": (1.0, -1.0, 0.0, 0.0),
-    "stance knee": STANCE_KNEE,
-    "swing knee": (0.0, 0.0, 0.0, 1.0),
-}
-"""Directions d (p,) by name, for a robot with RABBIT's joints."""
 
 
 @dataclass(frozen=True)
@@ -163,39 +142,3 @@ def stride_response(
         c=(speed(zero, 1.0 + DIFFERENCE) - speed(zero, 1.0 - DIFFERENCE)) / (w * sigma**2),
         d=(speed(more) - speed(less)) / w,
     )
-
-
-@dataclass(frozen=True)
-class DirectionMerit(Shown):
-    """What one direction d (p,) of the correction gains and costs."""
-
-    name: str
-    direction: tuple[float, ...]
-    """d (p,), dimensionless."""
-    static_gain: float
-    """g, speed per correction [m/s per rad]."""
-    torque: float
-    """U, torque per correction [N m per rad]."""
-
-    @property
-    def merit(self) -> float:
-        """|g| / U, speed per torque [m/s per N m]."""
-        return abs(self.static_gain) / self.torque
-
-
-def direction_merits(gait: Gait, biped: Biped) -> tuple[DirectionMerit, ...]:
-    """Merits of all DIRECTIONS, the best first. Raises as `stride_response`."""
-    found = [_merit(gait, biped, name, d) for name, d in DIRECTIONS.items()]
-    return tuple(sorted(found, key=lambda direction: -direction.merit))
-
-
-def _merit(gait: Gait, biped: Biped, name: str, d: tuple[float, ...]) -> DirectionMerit:
-    """Merit of one direction."""
-    gain = stride_response(gait, biped, d).static_gain
-
-    def torque(beta: float) -> Array:
-        return ZeroDynamics.of(biped, bumped(gait.constraint, beta * np.array(d))).cycle.u
-
-    change = (torque(DIFFERENCE) - torque(-DIFFERENCE)) / (2.0 * DIFFERENCE)
-    U = float(np.max(np.abs(change)))
-    return DirectionMerit(name, d, gain, U)

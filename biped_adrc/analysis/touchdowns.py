@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
@@ -54,31 +53,17 @@ class Noticed(Shown):
         freeze(self, "t", "late", "false")
 
     @property
-    def missed(self) -> float:
-        """Share of the touchdowns that was missed [1]; 0 without any."""
-        return self._share(np.isnan(self.late))
-
-    @property
-    def early(self) -> float:
-        """Share of the touchdowns that was noticed early [1]; 0 without any."""
-        return self._share(self.late < 0.0)
-
-    @property
     def rates(self) -> TouchdownRates:
         """Lateness, shares and the number of false notices, without a touchdown that waits."""
-        late, known = self.late[self.late >= 0.0], len(self.t) > self.waits
-        return TouchdownRates(
-            float(np.mean(late)) if len(late) else None,
-            float(np.max(late)) if len(late) else None,
-            self.early if known else None,
-            self.missed if known else None,
-            len(self.false),
+        decided = self.late[: len(self.late) - self.waits]
+        late = decided[decided >= 0.0]
+        mean = float(np.mean(late)) if len(late) else None
+        most = float(np.max(late)) if len(late) else None
+        early, missed = (
+            float(np.mean(which)) if len(decided) else None
+            for which in (decided < 0.0, np.isnan(decided))
         )
-
-    def _share(self, found: NDArray[np.bool_]) -> float:
-        """Of the touchdowns that are decided, of N."""
-        decided = found[: len(found) - self.waits]
-        return float(np.mean(decided)) if len(decided) else 0.0
+        return TouchdownRates(mean, most, early, missed, len(self.false))
 
 
 def touchdowns(loop: ClosedLoop[Any], run: Trajectory) -> Noticed:

@@ -1,30 +1,27 @@
-"""Multipliers of a walking cycle by the variational equation and the saltation matrix of the impact.
+"""Multipliers of a walking cycle by the variational equation, without differences of the return map.
 
     x' = f(x),            Phi' = A(x) Phi,   A = df/dx         in single support
-    x+ = Delta(x-),       Phi+ = Xi Phi-                       at impact, h(x-) = 0
-    Xi = D Delta + (f+ - D Delta f-) dh / (dh f-)
 
-x = (q, q'), h the height of the swing foot over the ground, dh its row of derivatives, f- and f+
-the flow before and after impact (Aizerman, Gantmacher, 1958; Leine, Nijmeijer, 2004). The return
-map (24) is not differenced: A comes from the derivatives of RNEA, D Delta from those of the impact
-map (`model.derivatives`). The result is exact up to the error of the integration method.
+x = (q, q'), h the height of the swing foot over the ground, dh its row of derivatives, f- the flow before the
+next impact. A comes from the derivatives of RNEA, D Delta from those of the impact map (`model.derivatives`).
+The result is exact up to the error of the integration method. With E the matrix that drops q_N and L = ds -> dx
+the tangent that keeps h = 0, on the section
 
-On the section, with E the matrix that drops q_N and L = ds -> dx the tangent that keeps h = 0,
+    dP/ds = E Pi Phi D Delta L,   Pi = 1 - f- dh / (dh f-)
 
-    dP/ds = E Pi Phi D Delta L,   Pi = 1 - f- dh / (dh f-),
+Pi is what the impact's time, which depends on s, leaves of a change (Aizerman, Gantmacher, 1958; Leine,
+Nijmeijer, 2004).
 
-since Xi L = D Delta L. Xi Phi has the same multipliers and the 1 of a flow that does not depend on
-time.
-
-The derivative of the torque is found by differentiating the law of NPD on a virtual constraint; for
-any other controller without states it is a difference quotient of fourth order of the torque alone
-(`DIFFERENCE`). Controllers with states, sampled time and disturbances are refused.
+The derivative of the torque is that of a sample instant of the same law (`engine.tick_derivative`). Controllers
+with states, sampled time and disturbances are refused.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -38,118 +35,51 @@ from biped_adrc.analysis.return_map import (
     sorted_eigenvalues,
 )
 from biped_adrc.closed_loop.walker import Instant, Mode, Walker
-from biped_adrc.control.npd import NPDController
-from biped_adrc.control.passive import Passive
-from biped_adrc.control.tracking import Gains
+from biped_adrc.engine.tick_derivative import tick_derivative
 from biped_adrc.errors import InputError, SimulationError
-from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.hybrid.system import Guard, HybridSystem
-from biped_adrc.hybrid.trajectory import Event
-from biped_adrc.linear import solve
 from biped_adrc.model.derivatives import (
     acceleration_derivatives,
     impact_derivatives,
-    torque_derivatives,
 )
 from biped_adrc.shown import Shown
+from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array, ComplexArray
 
-DIFFERENCE = 2e-4
-"""Width of the quotient of the torque [rad, rad/s]; NPD's is within 1e-10 of its derivative, relatively."""
+TorqueDerivative = Callable[[Instant], Array]
+"""Instant of a walk -> du/dx (p, 2 n) [N m/rad, N m s/rad] of the applied torque."""
 
 
-# -- the torque ------------------------------------------------------------------------------------
-def torque_derivative(walker: Walker, i: Instant) -> Array:
-    """du/dx (p, 2 n) [N m/rad, N m s/rad] of the applied torque at an instant of the walk.
+def torque_derivative(walker: Walker) -> TorqueDerivative:
+    """The derivative of the torque of a law without states, at any instant of a walk of this walker.
 
-    Zero for passive walkers and in the rows of saturated motors, exact for NPD, by differences for
-    other controllers.
+    It is exact for every law that compiles, by differences for any other, and zero for saturated motors.
     """
-    law = walker.law
-    if type(law) is Passive:
-        return np.zeros((walker.plant.p, 2 * walker.plant.n))
-    # a subclass may have an output of its own, which is not (28)
-    if type(law) is NPDController and type(law.reference) is VirtualConstraint:
-        du = npd_derivative(walker, law, law.reference, i)
-    else:
-        du = differenced_torque(walker, i)
-    if walker.torque_limit is not None:
-        du[np.abs(i.u) >= walker.torque_limit] = 0.0
-    return du
+    n, p = walker.plant.n, walker.plant.p
+    if p == 0:
+        return lambda i: np.zeros((0, 2 * n))
+    limit = math.inf if walker.torque_limit is None else walker.torque_limit
+    twin = replace(walker, timing=SampledTime(1e-3), torque_limit=None)
+    ticked = tick_derivative(twin, 2 * n + p)
 
+    def at(i: Instant) -> Array:
+        m = i.measurement
+        x = np.concatenate((m.q, m.v, np.zeros(p)))
+        du = ticked(m.t, x, Mode(m.step, m.t - m.t_step))[1][2 * n :, : 2 * n]
+        return np.where(np.abs(i.u)[:, np.newaxis] >= limit, 0.0, du)
 
-def npd_derivative(walker: Walker, law: NPDController, h: VirtualConstraint, i: Instant) -> Array:
-    """du/dx (p, 2 n) [N m/rad, N m s/rad] of (28), from two equations.
-
-    They hold for the torque u and the acceleration a that it demands of the nominal model:
-
-        D a + Omega - B u = 0,   a_b - H a - drift - f = 0
-
-    (H a is absent where h' Theta'' is dropped, as printed). Both are differentiated at fixed (a,
-    u).
-    """
-    m, n, p = i.measurement, walker.plant.n, walker.plant.p
-    B, H = walker.nominal.B, law.reference(m.t, m.q, m.v).H
-    u = i.u if walker.torque_limit is None else law.output(i.s, m)
-    a = solve(m.terms.D, B @ u - m.terms.Omega, "D_s")
-    by_q, by_v = torque_derivatives(walker.nominal, m.q, m.v, a)
-    loop = 1.0 if law.solve_theta else 0.0
-    wanted = _wanted_derivative(h, law.gains, m.q, m.v, loop * float(h.phase @ a))
-    K = np.block([[m.terms.D, -B], [B.T - loop * H, np.zeros((p, p))]])
-    rhs = np.vstack((-np.hstack((by_q, by_v)), wanted))
-    return solve(K, rhs, "the matrix of (28)")[n:]
-
-
-def _wanted_derivative(
-    h: VirtualConstraint, gains: Gains, q: Array, v: Array, rate2: float
-) -> Array:
-    """d/dx (p, 2 n) of h' Theta'' + drift + f at fixed Theta'' = rate2 [rad/s^2], q, v (n,) [rad, rad/s]."""
-    c, p = h.phase, h.curve.coefficients.shape[0]
-    theta, rate = float(c @ q), float(c @ v)
-    _, h1, h2 = h.h(theta)
-    h3 = third_derivative(h, theta)
-    K_p, K_d = (np.broadcast_to(k, p)[:, np.newaxis] for k in (gains.K_p, gains.K_d))
-    S = np.eye(p, len(c))
-    tangent = S - np.outer(h1, c)
-    by_q = np.outer(h3 * rate**2 + h2 * rate2, c) + K_d * np.outer(h2 * rate, c) - K_p * tangent
-    by_v = 2.0 * np.outer(h2 * rate, c) - K_d * tangent
-    return np.hstack((by_q, by_v))
-
-
-def third_derivative(h: VirtualConstraint, theta: float) -> Array:
-    """d3h/dTheta3 (p,) [1/rad^2] at theta [rad], from the power coefficients of the curve."""
-    s, power = h.rate * (theta - h.theta_plus), h.curve.powers[1:]
-    second = np.split(h.curve.piece(s), 3)[2][:, 1:]
-    return h.rate**3 * (second * power) @ s ** (power - 1.0)
-
-
-def differenced_torque(walker: Walker, i: Instant, difference: float = DIFFERENCE) -> Array:
-    """du/dx (p, 2 n) of any law without states, by differences of fourth order, before saturation.
-
-    difference: their width [rad, rad/s].
-    """
-    m, n, d = i.measurement, walker.plant.n, difference
-    mode = Mode(m.step, m.t - m.t_step)
-
-    def u(dx: Array) -> Array:
-        return walker.law.output(i.s, walker.measure(m.t, m.q + dx[:n], m.v + dx[n:], mode))
-
-    columns = [
-        (8.0 * (u(d * e) - u(-d * e)) - (u(2 * d * e) - u(-2 * d * e))) / (12.0 * d)
-        for e in np.eye(2 * n)
-    ]
-    return np.array(columns).reshape(2 * n, -1).T
+    return at
 
 
 # -- the flow and the impact -----------------------------------------------------------------------
-def flow_derivative(walker: Walker, i: Instant) -> Array:
-    """A = df/dx (2 n, 2 n) of single support at an instant, from its torque and force; x in [rad, rad/s]."""
+def flow_derivative(walker: Walker, i: Instant, du: Array) -> Array:
+    """A = df/dx (2 n, 2 n) of single support at an instant; x in [rad, rad/s], du/dx (p, 2 n) of the torque."""
     n, m = walker.plant.n, i.measurement
     plant = acceleration_derivatives(walker.plant, m.q, m.v, i.force)
     A = np.zeros((2 * n, 2 * n))
     A[:n, n:] = np.eye(n)
     A[n:, :n], A[n:, n:] = plant.dq, plant.dv
-    A[n:] += plant.dforce @ (walker.plant.B @ torque_derivative(walker, i))
+    A[n:] += plant.dforce @ (walker.plant.B @ du)
     return A
 
 
@@ -158,18 +88,6 @@ def height_derivative(walker: Walker, x: Array) -> Array:
     n = walker.plant.n
     d_x, d_z = walker.plant.swing_foot_jacobian(x[:n])
     return np.concatenate((d_z + math.tan(walker.slope) * d_x, np.zeros(n)))
-
-
-def saltation(walker: Walker, t: float, x: Array, mode: Mode) -> Array:
-    """Xi (2 n, 2 n) of the impact at x- (2 n,) [rad, rad/s]. Raises SimulationError unless it is
-    transversal.
-    """
-    struck = after_impact(walker, t, x, mode)
-    n = walker.plant.n
-    D = impact_derivatives(walker.plant, x[:n], x[n:])
-    before, after = walker.flow(t, x, mode), walker.flow(t, *struck)
-    dh = height_derivative(walker, x)
-    return D + np.outer(after - D @ before, dh) / _descent(dh, before)
 
 
 def _descent(dh: Array, f: Array) -> float:
@@ -194,68 +112,50 @@ def split_matrix(y: Array) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class VariationalSystem(HybridSystem):
-    """Walker and fundamental matrix together: state y = (x, Phi), Phi (2 n, 2 n) row by row.
+    """A walker with its fundamental matrix in single support: state y = (x, Phi), Phi (2 n, 2 n) row by row.
 
-    A hybrid system of its own, so the ordinary simulator integrates it. Raises InputError for a
-    walker with states besides (q, q'), held torques or disturbances.
+    A hybrid system of its own, so the ordinary simulator integrates it up to the next impact, which leaves y as
+    it is. Raises InputError for a walker in sampled time or under a disturbance.
     """
 
     walker: Walker
 
     def __post_init__(self) -> None:
-        w = self.walker
-        if w.sampled:
+        if self.walker.sampled or self.walker.disturbance is not None:
             raise InputError(
-                "the walker holds its torque between ticks, the variational equation needs continuous time: "
-                "use ContinuousTime(), or ReturnMap.jacobian"
-            )
-        if w.disturbance is not None:
-            raise InputError(
-                "the walker is disturbed, so that its walk is no cycle: leave the disturbance out"
+                "the variational equation needs continuous time and no disturbance, the walker has "
+                f"{self.walker.timing} and {self.walker.disturbance}: leave them out, or use ReturnMap.jacobian"
             )
 
-    def start(self, x: Array) -> Array:
-        """y (2 n + 4 n^2,) of x (2 n,) [rad, rad/s] with Phi = 1.
-
-        Raises InputError for a controller with states.
-        """
-        size = 2 * self.walker.plant.n
-        if len(x) != size:
-            raise InputError(
-                f"{type(self.walker.controller).__name__} has {len(x) - size} states of its own, the "
-                "variational equation is written for controllers without: use ReturnMap.jacobian"
-            )
-        return np.concatenate((x, np.eye(size).ravel()))
+    @cached_property
+    def torque_derivative(self) -> TorqueDerivative:
+        """Of the walker."""
+        return torque_derivative(self.walker)
 
     def flow(self, t: float, y: Array, mode: Mode) -> Array:
-        """Time derivative (2 n + 4 n^2,) of y = (x, Phi): the walker's flow [rad/s, rad/s^2], and A
-        Phi.
-        """
+        """Time derivative (2 n + 4 n^2,) of y: the walker's flow [rad/s, rad/s^2], and A Phi."""
         x, Phi = split_matrix(y)
         i = self.walker.instant(t, x, mode)
-        A = flow_derivative(self.walker, i)
+        A = flow_derivative(self.walker, i, self.torque_derivative(i))
         return np.concatenate((i.measurement.v, i.a, (A @ Phi).ravel()))
 
     def guards(self, mode: Mode) -> tuple[Guard, ...]:
-        """The walker's event functions on x, with Phi reset by the saltation matrix."""
-        return tuple(self._lifted(guard, mode) for guard in self.walker.guards(mode))
+        """The walker's event functions on x."""
+        return tuple(_on_x(guard) for guard in self.walker.guards(mode))
 
-    def _lifted(self, guard: Guard, mode: Mode) -> Guard:
-        """One event of the walker as an event of y."""
 
-        def reset(t: float, y: Array) -> tuple[Array, Mode] | None:
-            x, Phi = split_matrix(y)
-            struck = self.walker.strike(t, x, mode)
-            if struck is None:
-                return None
-            Xi = saltation(self.walker, t, x, mode)
-            return np.concatenate((struck[0], (Xi @ Phi).ravel())), struck[1]
+def _on_x(guard: Guard) -> Guard:
+    """An event of the walker as an event of y = (x, Phi), whose reset is none."""
+    reset = guard.reset
 
-        return replace(
-            guard,
-            witness=lambda t, y: guard.witness(t, split_matrix(y)[0]),
-            reset=None if guard.reset is None else reset,
-        )
+    def struck(t: float, y: Array) -> tuple[Array, Mode] | None:
+        after = None if reset is None else reset(t, split_matrix(y)[0])
+        return None if after is None else (y, after[1])
+
+    def witness(t: float, y: Array) -> float:
+        return guard.witness(t, split_matrix(y)[0])
+
+    return replace(guard, witness=witness, reset=None if reset is None else struck)
 
 
 # -- one step --------------------------------------------------------------------------------------
@@ -269,8 +169,6 @@ class StepDerivative(Shown):
     """P(s) (2 n - 1,) [rad, rad/s]."""
     jacobian: Array
     """dP/ds (2 n - 1, 2 n - 1)."""
-    monodromy: Array
-    """Xi Phi (2 n, 2 n), from the state after one impact to the state after the next."""
     duration: float
     """Of the single support [s]."""
     flow_residual: float
@@ -290,42 +188,35 @@ class StepDerivative(Shown):
 def differentiate_step(P: ReturnMap, s: Array) -> StepDerivative:
     """P(s) and dP/ds at s (2 n - 1,) [rad, rad/s] along one single support, with P's walker and method.
 
-    Raises SimulationError, with the status, when the walker does not come back; InputError as
-    VariationalSystem does.
+    Raises SimulationError, with the status, when the walker does not come back; InputError for a controller
+    with states, and as VariationalSystem does.
     """
     walker, k, x = P.walker, P.walker.plant.n - 1, P.lift(s)
-    (x0, mode), end = _single_support(P, x)
-    assert end.x_plus is not None
+    if len(x) != 2 * walker.plant.n:
+        raise InputError(
+            f"{type(walker.controller).__name__} has states of its own, the variational equation is written "
+            "for controllers without: use ReturnMap.jacobian"
+        )
+    x0, mode = after_impact(walker, 0.0, x, Mode())
+    start = np.concatenate((x0, np.eye(len(x)).ravel()))
+    end = P.next_impact(VariationalSystem(walker), start, mode)
     x_end, Phi = split_matrix(end.x_minus)
     f0, f_end = walker.flow(0.0, x0, mode), walker.flow(end.t, x_end, mode)
     dh = height_derivative(walker, x_end)
+    rate = _descent(dh, f_end)
     D = impact_derivatives(walker.plant, *np.split(x, 2))
     through = Phi @ D @ section_tangent(walker, x)
     earlier = dh @ through
-    through -= np.outer(f_end, earlier) / _descent(dh, f_end)
-    residual = float(np.max(np.abs(Phi @ f0 - f_end)) / np.max(np.abs(f_end)))
-    monodromy = split_matrix(end.x_plus)[1]
+    through -= np.outer(f_end, earlier) / rate
     return StepDerivative(
-        s,
-        P.project(x_end),
-        np.delete(through, k, axis=0),
-        monodromy,
-        end.t,
-        residual,
-        np.delete(f_end, k),
-        earlier / _descent(dh, f_end),
+        s=s,
+        image=P.project(x_end),
+        jacobian=np.delete(through, k, axis=0),
+        duration=end.t,
+        flow_residual=float(np.max(np.abs(Phi @ f0 - f_end)) / np.max(np.abs(f_end))),
+        end_flow=np.delete(f_end, k),
+        earlier=earlier / rate,
     )
-
-
-def _single_support(P: ReturnMap, x: Array) -> tuple[tuple[Array, Mode], Event]:
-    """Impact at x (2 n,), and the single support after it with its fundamental matrix: x+ with its
-    mode, and the event of the next impact.
-    """
-    system = VariationalSystem(P.walker)
-    y0 = system.start(x)
-    struck = after_impact(P.walker, 0.0, x, Mode())
-    y0[: len(x)] = struck[0]
-    return struck, P.next_impact(system, y0, struck[1])
 
 
 def section_tangent(walker: Walker, x: Array) -> Array:

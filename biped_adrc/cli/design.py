@@ -1,11 +1,12 @@
 """`biped-adrc gait design`: gaits by optimisation, one or a library by speed.
 
-`studies.gait_design.design_gait` solves the programme with IPOPT and certifies the gait by walking
+`analysis.gait_design.design_gait` solves the programme with IPOPT and certifies the gait by walking
 it. The line that moves while IPOPT runs is fed by its iterations.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -22,6 +23,10 @@ if TYPE_CHECKING:
     from biped_adrc.gait.design.ipopt import IpoptProgress
     from biped_adrc.model.biped import Biped
     from biped_adrc.types import Array
+
+
+MOST_SPEEDS = 1000
+"""Largest number of speeds in a range FIRST:LAST:STEP."""
 
 
 @dataclass(frozen=True)
@@ -52,9 +57,9 @@ def gait_design(
     out: Path | None = None,
 ) -> None:
     """Design a periodic, feasible, stable gait for a speed, a step, or both, and certify it by walking."""
+    from biped_adrc.analysis.gait_design import design_gait
     from biped_adrc.gait.design.request import StepLimits
     from biped_adrc.model.biped import Biped
-    from biped_adrc.studies.gait_design import design_gait
 
     of_limits = [text for text in sets or () if text.startswith("limits.")]
     c = with_sets(Curves, [text for text in sets or () if text not in of_limits])
@@ -80,12 +85,12 @@ def gait_design(
 
 def _library(biped: Biped, speeds: str, how: dict[str, Any], out: Path) -> None:
     """Design a gait for every speed, each from a cold start, and store those that were found in a folder."""
-    from biped_adrc.studies.gait_design import design_gait, speeds_named
+    from biped_adrc.analysis.gait_design import design_gait
 
     check_folder(out)
     table = Table("m/s", "step [m]", "torque [N m]", "friction", "delta^2", "transport", "s")
     missed = []
-    for speed in speeds_named(speeds):
+    for speed in _speeds(speeds):
         with console.status(f"{speed:g} m/s") as shown:
             try:
                 found = design_gait(biped, speed, progress=_progress(shown), **how)
@@ -128,3 +133,19 @@ def _state(values: tuple[float, ...], n: int) -> tuple[Array, Array]:
             f"through has {len(values)} numbers, expected {2 * n}: q- [rad], then q'- [rad/s]"
         )
     return np.array(values[:n]), np.array(values[n:])
+
+
+def _speeds(text: str) -> tuple[float, ...]:
+    """Speeds [m/s] from "0.4,0.5" or "0.4:1.1:0.1", the last one counted where it is met. Raises InputError."""
+    try:
+        if ":" in text:
+            first, last, by = (float(word) for word in text.split(":"))
+            if not (by > 0.0 and last >= first and (last - first) / by < MOST_SPEEDS):
+                raise ValueError
+            count = math.floor((last - first) / by + 1e-9) + 1
+            return tuple(round(first + k * by, 9) for k in range(count))
+        return tuple(float(word) for word in text.split(","))
+    except ValueError:
+        raise InputError(
+            f"speeds are '{text}', expected numbers as '0.4,0.5,0.6' or FIRST:LAST:STEP as '0.4:1.1:0.1' [m/s]"
+        ) from None

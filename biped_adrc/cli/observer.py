@@ -1,7 +1,7 @@
 """`biped-adrc observer`: what an observer asks of encoders, clock and motors, and which one a robot allows.
 
-The report is that of `observer_design.observer_report`, from the linear loop of one joint;
---confirm walks with a late torque and with encoders (`studies.observer_check`) and prints whether
+The report is that of `analysis.observer.report`, from the linear loop of one joint;
+--confirm walks with a late torque and with encoders (`analysis.observer.check`) and prints whether
 the robot agrees.
 """
 
@@ -20,13 +20,13 @@ from biped_adrc.files import output_path
 from biped_adrc.types import PlainRecord
 
 if TYPE_CHECKING:
+    from biped_adrc.analysis.observer.check import CheckedWalk
+    from biped_adrc.analysis.observer.report import ObserverReport
     from biped_adrc.control.tracking import Gains
     from biped_adrc.gait.gait import Gait
     from biped_adrc.model.biped import Biped
-    from biped_adrc.observer_design.observer_report import ObserverReport
     from biped_adrc.observers.gpi import GPIObserver
     from biped_adrc.scenario.scenario import ObserverRecord
-    from biped_adrc.studies.observer_check import CheckedWalk
 
 
 @app.command("observer")
@@ -42,8 +42,8 @@ def observer_command(
 
     Encoders and clock are RABBIT's if not said otherwise.
     """
+    from biped_adrc.analysis.observer.report import observer_report
     from biped_adrc.control.tracking import TABLE_II
-    from biped_adrc.observer_design.observer_report import observer_report
     from biped_adrc.scenario.build import RobotAndGait
 
     path = None if out is None else output_path(out, FIGURES)
@@ -108,7 +108,7 @@ def _confirm(
     """Walk at the delay margin with unknown and known delay, then without and with encoders, and print
     the walks.
     """
-    from biped_adrc.studies.observer_check import (
+    from biped_adrc.analysis.observer.check import (
         ABOVE,
         BELOW,
         DelayCase,

@@ -3,7 +3,7 @@
 Both make a `Scenario` of the options. `simulate` walks it with `scenario.run`, once more at half
 the step to say how far the numbers can be trusted, judges every step (`analysis.feasibility`) and
 stores the run. `poincare` finds the fixed point of the return map and its multipliers
-(`studies.cycle_stability`).
+(`analysis.stability`).
 """
 
 from __future__ import annotations
@@ -175,12 +175,9 @@ def poincare(
     observer_states: bool = True,
 ) -> None:
     """Fixed point of the return map, and its multipliers by every method beside each other."""
+    from biped_adrc.analysis.stability import cycle_stability, nominal_step
     from biped_adrc.scenario.build import limits
-    from biped_adrc.studies.cycle_stability import (
-        cycle_of,
-        cycle_stability,
-        nominal_step,
-    )
+    from biped_adrc.scenario.cycle import cycle_of
 
     s = scenario_from(given, sets, scenario, usual="NPD")
     cycle = cycle_of(s, observer_states)

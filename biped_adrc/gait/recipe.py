@@ -13,7 +13,7 @@ swing-foot and torso rates at x*; the speed does not. The constraint is not hybr
 not smooth, as section VII says.
 
 `design_recipe_gait` gives the gait with the periodic orbit of its zero dynamics, as if the impact were smooth;
-`studies.gait_design.design_recipe_orbit` replaces that orbit by the one of the closed loop.
+`validation.gaits.design_recipe_orbit` replaces that orbit by the one of the closed loop.
 """
 
 from __future__ import annotations

@@ -8,8 +8,8 @@
 for the observers under ADRC; those under DOB see the momentum and the known force of all n coordinates.
 States are flat vectors passed in and handed back; an observer holds only numbers. So one observer object may
 serve many walks at once, and an integrator may evaluate a step twice. The engine turns the methods into machine
-code. `control.observing` puts an observer under a controller, `observer_design` chooses its poles and judges it
-alone.
+code. `control.observing` puts an observer under a controller, `analysis.observer` chooses its poles and
+judges it alone.
 """
 
 from __future__ import annotations

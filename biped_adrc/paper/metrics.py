@@ -16,13 +16,13 @@ from biped_adrc.analysis.return_map import PeriodicOrbit
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.paper.members import MemberOutcome
+from biped_adrc.paper.poincare import PoincareResult
 from biped_adrc.paper.push_map import LOST, PushCell
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.runs import Start
 from biped_adrc.paper.scenarios import KINDS, declared
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.studies.cycle_stability import PoincareResult
 from biped_adrc.types import Array
 
 Pair = tuple[Outcome, Outcome, float]

@@ -18,13 +18,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.analysis.linear_loop import tracking_error
+from biped_adrc.analysis.observer.loop import ObserverLoop
 from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.closed_loop.walker import Mode as StepMode
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.base import Measurement
-from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.engine.run import COMPILED, simulate_by
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hybrid.exponential import Exponential
@@ -177,8 +176,8 @@ def held_joint(
     last = t >= t_end - 2.0 / frequency - 1e-9  # two periods
     basis = np.column_stack((np.cos(w * t[last]), np.sin(w * t[last])))
     amplitude = float(np.linalg.norm(np.linalg.lstsq(basis, e[last], rcond=None)[0]))
-    corrected = abs(tracking_error(observer, TABLE_II, 1j * w))
-    printed = abs(tracking_error(observer, TABLE_II, 1j * w, printed=True))
+    loop, at = ObserverLoop(observer), np.array([w])
+    corrected, printed = (float(abs(loop.tracking_error(at, p)[0])) for p in (False, True))
     return amplitude, corrected, printed
 
 

@@ -14,16 +14,22 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
+from biped_adrc.analysis.observer.loop import ObserverLoop
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.errors import BipedError
 from biped_adrc.gait.recipe import impact_smoothness
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.observer_design.observer_loop import observer_loop
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.paper import scenarios
 from biped_adrc.paper.members import member_outcomes, member_walk
 from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
+from biped_adrc.paper.poincare import (
+    PoincareResult,
+    poincare,
+    poincare_twice,
+    return_map_samples,
+)
 from biped_adrc.paper.push_map import push_map
 from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Plan, with_values
 from biped_adrc.paper.verdict import AtTwoSteps
@@ -33,12 +39,6 @@ from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.scenario.run import execute, execute_twice, halved, walk_scenario
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.studies.cycle_stability import (
-    PoincareResult,
-    poincare,
-    poincare_twice,
-    return_map_samples,
-)
 from biped_adrc.types import relabelled
 
 NODE_DISTANCE = 5e-4
@@ -204,7 +204,7 @@ class Order(NamedTuple):
 def orders(preset: str) -> dict[str, Order]:
     """Table I (m = 7), and observers with one extended state of its bandwidth and of its delay margin."""
     table = GPIObserver.from_poles()
-    margin = observer_loop(table).delay_margin().delay
+    margin = ObserverLoop(table).delay_margin().delay
     named = {
         "Table I": table,
         "equal bandwidth": GPIObserver.from_bandwidth(table.scale, 1),
@@ -217,7 +217,7 @@ def bandwidth_with(margin: float, m: int) -> float:
     """The position of m + 2 equal poles [rad/s] whose delay margin is `margin` [s], by roots in log w."""
 
     def excess(log_w: float) -> float:
-        found = observer_loop(GPIObserver.from_bandwidth(np.exp(log_w), m)).delay_margin().delay
+        found = ObserverLoop(GPIObserver.from_bandwidth(np.exp(log_w), m)).delay_margin().delay
         return float(np.log(found / margin))
 
     return float(np.exp(brentq(excess, np.log(10.0), np.log(1e6))))
@@ -225,7 +225,7 @@ def bandwidth_with(margin: float, m: int) -> float:
 
 def _order(preset: str, observer: GPIObserver) -> Order:
     """The record of one observer: closed forms, and a walk."""
-    loop, w = observer_loop(observer), np.geomspace(1.0, 1e7, 2000)
+    loop, w = ObserverLoop(observer), np.geomspace(1.0, 1e7, 2000)
     poles = tuple(float(np.real(pole)) for pole in observer.poles)
     pushed = member_walk(
         replace(scenarios.on_the_recipe(preset), gait="published"), "ADRC", poles=poles

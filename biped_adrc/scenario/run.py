@@ -12,11 +12,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from types import NoneType
 
 from biped_adrc.analysis.return_map import ReturnMap
+from biped_adrc.analysis.stability import SETTLES, Cycle
 from biped_adrc.analysis.variational import periodic_orbit
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller
@@ -42,7 +43,6 @@ from biped_adrc.scenario.walk import (
     refined,
     walk_in_parts,
 )
-from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
 METHODS: dict[str, Callable[..., OneStepMethod]] = {
@@ -56,9 +56,6 @@ METHODS: dict[str, Callable[..., OneStepMethod]] = {
 LIGHT_FEET = 5e-4
 """Half width of central differences of the return map P for robots without motors [rad, rad/s]: wider than
 usual, since light feet leave a round-off of 1e-10 in P."""
-SETTLES = 1e-9
-"""Largest residual of Newton's method [rad, rad/s]; feet of 1e-7 of the hip's mass leave a round-off of
-1e-10."""
 
 
 def method_of(s: Scenario, walker: Walker) -> OneStepMethod:
@@ -101,15 +98,6 @@ def halved(s: Scenario, walker: Walker | None = None) -> Scenario:
         if fine is None and run.method is None and run.engine == COMPILED:
             fine = FINE_STEP if isinstance(usual, Exponential) else None
     return s.replace(run={"h": 0.5 * h, "fine": None if fine is None else 0.5 * fine})
-
-
-@dataclass(frozen=True)
-class Cycle(Shown):
-    """A return map and a state from which Newton's method finds its fixed point."""
-
-    P: ReturnMap
-    guess: Array
-    """State x- just before impact, (2 n,) or with the controller's states behind [rad, rad/s]."""
 
 
 def known_cycle(biped: Biped, slope: float | None = None) -> Cycle:

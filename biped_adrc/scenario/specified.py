@@ -11,9 +11,9 @@ from __future__ import annotations
 
 from functools import lru_cache
 
+from biped_adrc.analysis.loops.frozen_gait import FrozenGait
+from biped_adrc.analysis.loops.specification import Specification, specification
 from biped_adrc.errors import InputError
-from biped_adrc.observer_design.frozen_gait import FrozenGait
-from biped_adrc.observer_design.specification import Specification, specification
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_of
 from biped_adrc.scenario.scenario import ErrorRecord, Scenario
 

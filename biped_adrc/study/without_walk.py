@@ -11,8 +11,8 @@ import math
 from collections.abc import Iterable
 from functools import lru_cache
 
+from biped_adrc.analysis.loops.specification import Specification
 from biped_adrc.errors import BipedError
-from biped_adrc.observer_design.specification import Specification
 from biped_adrc.scenario.scenario import GroundRecord
 from biped_adrc.scenario.specified import specification_of
 from biped_adrc.study.build import scene_of

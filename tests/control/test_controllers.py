@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.linear_loop import tracking_error
+from biped_adrc.analysis.observer.loop import ObserverLoop
 from biped_adrc.closed_loop.walker import Mode
-from biped_adrc.control.tracking import TABLE_II, Gains
+from biped_adrc.control.tracking import Gains
 from biped_adrc.errors import InputError, NotFiniteError
 from biped_adrc.paper.physical_laws import held_joint
 
@@ -65,7 +65,7 @@ def test_transfer_function_without_extended_states():
     observer, s = ba.GPIObserver.from_poles((-30.0, -40.0)), 5j
     chi = (s + 30) * (s + 40)
     expected = (50 * s + 5000 + 50 * 70 + chi) / (s**2 + 50 * s + 5000) / chi
-    assert tracking_error(observer, TABLE_II, s) == pytest.approx(expected)
+    assert ObserverLoop(observer).tracking_error(np.array([5.0]))[0] == pytest.approx(expected)
 
 
 def test_torque_limit_holds_and_is_what_the_observer_is_fed(biped, gait):

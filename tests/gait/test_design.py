@@ -5,21 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from biped_adrc.analysis.gait_design import DesignedGait, design_gait
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.design.optimise import missed_limits, optimise
 from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits
 from biped_adrc.gait.gait import load_gait
+from biped_adrc.gait.library import GaitLibrary, speed_of
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.gait.through_state import onto_section
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import PlanarTree, ground_reaction, point, turned
-from biped_adrc.studies.gait_design import (
-    DesignedGait,
-    GaitLibrary,
-    design_gait,
-    speed_of,
-)
 
 SPEEDS = tuple(round(0.4 + 0.1 * k, 1) for k in range(8))
 

@@ -11,6 +11,7 @@ from scipy.special import ellipkinc
 from typer.testing import CliRunner
 
 import biped_adrc as ba
+from biped_adrc.analysis.certificate import certificates
 from biped_adrc.analysis.zero_report import zero_report
 from biped_adrc.cli import app
 from biped_adrc.errors import GaitError, InputError
@@ -18,7 +19,6 @@ from biped_adrc.gait.curves import Polynomial
 from biped_adrc.gait.zero_domain import DomainLimits, domain
 from biped_adrc.gait.zero_orbits import ZeroOrbits
 from biped_adrc.model.robots.limits import KnownLimits
-from biped_adrc.model.robots.limits import Limits as WithinLimits
 
 ALPHA, GRAVITY = math.pi / 8, 9.81
 METHOD = ba.RK4(1e-3)
@@ -82,15 +82,13 @@ def test_walks_from_inside_the_domain_and_stalls_outside(orbits, published):
 
 @pytest.mark.parametrize("limits", [DomainLimits(friction=0.5), DomainLimits(torque=90.0)])
 def test_the_upper_end_is_where_the_simulated_step_needs_the_limit(orbits, published, limits):
-    instant = WithinLimits(window=1e-6)
+    within = KnownLimits(limits.friction or 99.0, limits.torque or 1e3, 1e-6)
     upper = domain(orbits, limits).upper
     assert upper.cause == ("friction" if limits.friction else "torque")
     for share, keeps in ((0.995, True), (1.005, False)):
         run = walk_from(orbits, published, share * upper.zeta, 1)
-        found = run.certified(instant)[0].violations(
-            KnownLimits(limits.friction or 99.0, limits.torque or 1e3, instant.window),
-            but=("impulse",),
-        )
+        step = certificates(run.walker, run.trajectory, run.signals, within)[0]
+        found = step.violations(but=("impulse",))
         assert (found == ()) is keeps, found
 
 

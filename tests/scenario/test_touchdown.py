@@ -38,7 +38,7 @@ def test_a_walk_says_when_its_controller_noticed(plant, tmp_path):
     assert len(found.t) == 2
     assert 4e-3 - 1e-9 < found.late[0] < 5e-3
     assert np.isnan(found.late[1])
-    assert (found.waits, found.missed) == (True, 0.0)
+    assert (found.waits, found.rates.missed_share) == (True, 0.0)
     again = ba.load_walk(walk.save(tmp_path / "walk.npz"))
     np.testing.assert_array_equal(again.touchdowns.late, found.late)
     assert again.walker.touchdown == walk.walker.touchdown

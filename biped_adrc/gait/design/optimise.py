@@ -9,7 +9,7 @@ hybrid-invariant and the orbit periodic to round-off.
 
 The programme keeps its limits at the nodes only. `audited` evaluates the exact gait at many more, and
 `missed_limits` compares all limits there; if one is missed, the programme is solved once more with twice the
-nodes. `studies.gait_design` calls `optimise` and then walks the gait in simulation.
+nodes. `analysis.gait_design` calls `optimise` and then walks the gait in simulation.
 
 The stages of one attempt (`_staged`), each from the solution of the one before:
 

@@ -3,7 +3,7 @@
 `GaitRequest` is checked when it is made, before anything is computed, and knows how it is solved in stages,
 what its gait is called, and which command designs it again (all three go into the provenance of the gait file).
 `StepLimits` may leave friction and torque to the robot's record; `StepLimits.of` fills them in as
-`RobotLimits`. Used by `studies.gait_design`, by the command line and by the modules of this folder.
+`RobotLimits`. Used by `analysis.gait_design`, by the command line and by the modules of this folder.
 """
 
 from __future__ import annotations
@@ -33,6 +33,11 @@ class Objective(Enum):
     """int sum |u_i q_i'| dt / (m g L), the cost of transport."""
     PEAK = "peak"
     """max |u_i| [N m]."""
+
+    @classmethod
+    def _missing_(cls, value: object) -> Objective:
+        names = [o.value for o in cls]
+        raise GaitError(f"objective '{value}' is unknown; choose one of {names}")
 
 
 @dataclass(frozen=True)

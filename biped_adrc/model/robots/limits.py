@@ -73,11 +73,6 @@ class Limits(Shown):
 
     def of(self, robot: RobotDescription) -> KnownLimits:
         """These limits with the values of the robot's record where None was given."""
-        own = KnownLimits(robot.friction_coefficient, robot.peak_torque, self.window)
-        return completed(self, own)
-
-
-def completed(limits: Limits | KnownLimits, known: KnownLimits) -> KnownLimits:
-    """`limits` with the numbers of `known` where None was given; the window is that of `known`."""
-    found = {name: getattr(limits, name) for name in ("friction", "torque")}
-    return known._replace(**{name: float(x) for name, x in found.items() if x is not None})
+        mu = robot.friction_coefficient if self.friction is None else float(self.friction)
+        torque = robot.peak_torque if self.torque is None else float(self.torque)
+        return KnownLimits(mu, torque, self.window)

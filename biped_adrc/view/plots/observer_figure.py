@@ -1,4 +1,4 @@
-"""Frequency responses of ADRC loops, from the linear loop of one joint (`observer_design`).
+"""Frequency responses of ADRC loops, from the linear loop of one joint (`analysis.observer`).
 
 Three panels: disturbance xi to tracking error e [s^2], disturbance to its estimate xi^ [1], and an
 error n of the measured angle to torque u [N m/rad]. `biped-adrc observer --out` draws it: a faster
@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from biped_adrc.observer_design.observer_report import ObserverReport
+from biped_adrc.analysis.observer.report import ObserverReport
 from biped_adrc.view.style import DASHES, GREY, PALETTE, label, new_figure, style
 
 FEWEST, FLOOR = 400, 1e-12
@@ -23,23 +23,19 @@ def observer_figure(report: ObserverReport) -> Figure:
     Dotted: half the sampling frequency, above which a sampled loop sees aliases. An observer without extended
     states (m = 0) has no estimate and no curve in the second panel.
     """
-    frequencies, loop = report.frequencies, report.loop
+    frequencies, responses = report.loop.frequencies, report.responses
     grid = np.geomspace(frequencies[0], frequencies[-1], FEWEST)
     curves = (
-        (loop.tracking_error(grid), "|e / xi| [s$^2$]", "error from a disturbance"),
-        (loop.estimate(grid), "|xi^ / xi|", "estimate of the disturbance"),
-        (
-            loop.noise(grid) * report.hardware.inertia,
-            "|u / n| [N m/rad]",
-            "torque from an angle's error",
-        ),
+        ("e / xi", "|e / xi| [s$^2$]", "error from a disturbance"),
+        ("xi^ / xi", "|xi^ / xi|", "estimate of the disturbance"),
+        ("u / n", "|u / n| [N m/rad]", "torque from an angle's error"),
     )
     with style():
         figure = new_figure(9.0, 3.4)
         panels = figure.subplots(1, 3)
-        for axes, (curve, name, title) in zip(panels, curves, strict=True):
+        for axes, (response, name, title) in zip(panels, curves, strict=True):
             label(axes, "frequency [rad/s]", name, title)
-            level = np.abs(curve)
+            level = np.abs(responses[response](grid))
             if not np.any(level > 0.0):
                 axes.set_xscale("log")
                 axes.text(0.5, 0.5, "m = 0 has none", ha="center", transform=axes.transAxes)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 import biped_adrc as ba
-from biped_adrc.observer_design.observer_report import observer_report
+from biped_adrc.analysis.observer.report import observer_report
 from tests.photograph import files
 from tests.photograph.adapter import walkers
 from tests.photograph.adapter.names import dotted

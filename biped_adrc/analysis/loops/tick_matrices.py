@@ -18,11 +18,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from biped_adrc.analysis.loops.frozen_gait import FrozenPoint
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.engine.tick_derivative import tick_derivative
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.sample_hold import HeldSizes
-from biped_adrc.observer_design.frozen_gait import FrozenPoint
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
 

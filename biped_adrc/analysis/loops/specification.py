@@ -1,6 +1,6 @@
 """What a loop bears and what it costs, before a walk is spent: a specification of a whole candidate.
 
-    spec = ba.specification(walker, gait)
+    spec = specification(walker, gait)
     spec.stable, spec.delay_margin, spec.disk_margin, spec.ripple
 
 A candidate is a walker: controller with observer and reference, sensors with filter, clock with delay,
@@ -28,12 +28,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from biped_adrc.analysis.loops.disk_margin import disk_margin
+from biped_adrc.analysis.loops.frozen_gait import FrozenGait
+from biped_adrc.analysis.loops.tick_matrices import TickMatrices, linear_twin, tick_matrices
+from biped_adrc.analysis.loops.walker_loop import WalkerLoops
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.gait.gait import Gait
-from biped_adrc.observer_design.disk_margin import disk_margin
-from biped_adrc.observer_design.frozen_gait import FrozenGait
-from biped_adrc.observer_design.tick_matrices import TickMatrices, linear_twin, tick_matrices
-from biped_adrc.observer_design.walker_loop import WalkerLoops
 from biped_adrc.shown import Shown
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array

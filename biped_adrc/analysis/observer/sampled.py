@@ -14,23 +14,22 @@ X = (e, T e', Z, torques on their way) obeys X <- X + M X + B (xi, n). M is form
 short periods all eigenvalues gather at 1, and what distinguishes them would be lost in round-off.
 The observer is fed with a_k, or, when the delay is known, with the mean of what acts until the next
 sample instant, which is exact for whole periods alone.
-
-`observer_choice` asks it for stability and for the noise of the torque, `observer_report` for the
-largest period and delay.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
+from biped_adrc.analysis.observer.loop import first_gains
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.motors import whole_and_part
-from biped_adrc.observer_design.observer_loop import first_gains
 from biped_adrc.observers.gpi import GPIObserver, SampledGPIObserver
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
@@ -45,9 +44,22 @@ HIGHEST = 14
 """Largest m: with more, round-off moves poles of the discrete observer by more than the loop does."""
 
 
+class StepMatrices(NamedTuple):
+    """X <- X + M X + B w and T^2 a = C X + D w of one step, with w = (T^2 xi, n)."""
+
+    M: Array
+    """(s, s)."""
+    B: Array
+    """(s, 2)."""
+    C: Array
+    """(s,)."""
+    D: Array
+    """(2,)."""
+
+
 @dataclass(frozen=True)
 class SampledLoop:
-    """The loop of one joint in sampled time. Make it with `sampled_loop`.
+    """The loop of the first joint in sampled time.
 
     Raises InputError for what `SampledTime` refuses, and an m above HIGHEST.
     """
@@ -56,10 +68,7 @@ class SampledLoop:
     """The GPI observer in continuous time; its sampled form has the poles exp(s T)."""
     period: float
     """T [s]."""
-    K_p: float = 5000.0
-    """[1/s^2]."""
-    K_d: float = 50.0
-    """[1/s]."""
+    gains: Gains = TABLE_II
     delay: float = 0.0
     """From a sample instant to its torque [s]."""
     known: bool = False
@@ -75,74 +84,41 @@ class SampledLoop:
                 f"{HIGHEST}: above it round-off decides what is stable"
             )
 
-    # -- the step ------------------------------------------------------------------------------------
     @cached_property
-    def _system(self) -> tuple[Array, Array, Array, Array]:
-        """M (s, s) and B (s, 2) of one step, and the rows of T^2 a in X (s,) and in (T^2 xi, n) (2,).
-
-        Every quantity is a row in (X, T^2 xi, n): the step is composed from rows as the equations
-        read.
-        """
-        k, T = self.observer.order, self.period
+    def step(self) -> StepMatrices:
+        """One step. Every quantity is a row in (X, T^2 xi, n), composed as the equations read."""
+        k, T, g = self.observer.order, self.period, self.kappa_ratio
         queue, f = whole_and_part(self.delay, T)
-        waits = int(f > 0.0)
-        size = 2 + k + queue + waits
-        unit = np.hstack((np.eye(size), np.zeros((size, 2))))  # the rows of X in (X, T^2 xi, n)
-        y, rate, Z, line = unit[0].copy(), unit[1], unit[2 : 2 + k], unit[2 + k :]
-        y[-1] = 1.0
-        xi = np.zeros(size + 2)
-        xi[-2] = 1.0
-
-        dZ, a = self._tick(Z, y)
-        sent = [*line[: queue + waits], a] if waits else [*line[:queue], a]
-        # torques in the order in which they act: with f > 0 the first acts until t_k + f T
-        before, after = (sent[0], sent[1]) if waits else (sent[0], sent[0])
-        moved = sent[1:]
-        g = self.kappa_ratio
+        late = int(f > 0.0)
+        size = 2 + k + queue + late
+        rows = np.eye(size + 2)
+        e, rate, xi, n = rows[[0, 1, size, size + 1]]
+        Z, line = rows[2 : 2 + k], rows[2 + k : size]
+        o = SampledGPIObserver.from_poles(self.observer.poles, T)
+        correction = np.outer(o.L, e + n - Z[0])
+        Z_k = Z + correction
+        K_p, K_d = first_gains(self.gains)
+        F = np.zeros(k)
+        F[:3] = (T**2 * np.array([K_p, K_d / T, T**-2]))[:k]
+        a = -F @ Z_k
+        sent = np.vstack((line, a))  # in the order in which they act; the first until t_k + f T
+        before, after = sent[0], sent[late]
         push = g * (before * (f - 0.5 * f**2) + after * 0.5 * (1.0 - f) ** 2) + 0.5 * xi
         kick = g * (before * f + after * (1.0 - f)) + xi
-        fed = f * before + (1.0 - f) * after if self.known else a
-        dZ = dZ + self._sampled.Gamma[:, np.newaxis] / T**2 * fed
-        rest = np.array(moved).reshape(-1, size + 2) - line
-        increments = np.vstack((rate + push, kick, dZ, rest))
-        return increments[:, :size], increments[:, size:], a[:size], a[size:]
+        u = f * before + (1.0 - f) * after if self.known else a
+        dZ = correction + (o.Phi - np.eye(k)) @ Z_k + np.outer(o.Gamma / T**2, u)
+        changes = np.vstack((rate + push, kick, dZ, sent[1:] - line))
+        return StepMatrices(changes[:, :size], changes[:, size:], a[:size], a[size:])
 
-    def _tick(self, Z: Array, y: Array) -> tuple[Array, Array]:
-        """The change of Z in one period without its input, and T^2 a, as rows; y is the measured
-        angle's row.
-        """
-        k = self._sampled
-        corrected = np.outer(k.L, y - Z[0])
-        Z_k = Z + corrected
-        return corrected + (k.Phi - np.eye(k.order)) @ Z_k, self._feedback @ Z_k
-
-    @cached_property
-    def _sampled(self) -> SampledGPIObserver:
-        """The observer that walks."""
-        return SampledGPIObserver.from_poles(self.observer.poles, self.period)
-
-    @cached_property
-    def _feedback(self) -> Array:
-        """The row -F T^2 (m + 2,) of T^2 a in the observer's scaled states."""
-        T = self.period
-        w = 1.0 / T
-        row = np.zeros(self.observer.order)
-        row[0], row[1] = self.K_p, self.K_d * w
-        if self.observer.m > 0:
-            row[2] = w**2
-        return -(T**2) * row
-
-    # -- what it says --------------------------------------------------------------------------------
     @property
     def matrix(self) -> Array:
         """The matrix (s, s) of X_(k+1) = matrix X_k, dimensionless."""
-        M = self._system[0]
-        return M + np.eye(len(M))
+        return self.step.M + np.eye(len(self.step.M))
 
     @cached_property
     def spectral_radius(self) -> float:
         """Largest |eigenvalue| of one period, 1 + one of M; below 1 for a stable loop."""
-        return float(np.max(np.abs(1.0 + np.linalg.eigvals(self._system[0]))))
+        return float(np.max(np.abs(1.0 + np.linalg.eigvals(self.step.M))))
 
     @property
     def stable(self) -> bool:
@@ -156,7 +132,7 @@ class SampledLoop:
         """
         if not self.stable:
             return np.nan
-        _, B, C, D = self._system
+        _, B, C, D = self.step
         P = covariance(self.matrix, np.outer(B[:, 1], B[:, 1]))
         return float(np.sqrt(C @ P @ C + D[1] ** 2)) * sigma / self.period**2
 
@@ -175,38 +151,14 @@ def covariance(A: Array, Q: Array) -> Array:
             return P
 
 
-def sampled_loop(
-    observer: GPIObserver,
-    period: float,
-    gains: Gains = TABLE_II,
-    *,
-    delay: float = 0.0,
-    known: bool = False,
-    kappa_ratio: float = 1.0,
-) -> SampledLoop:
-    """The loop of one joint with its gains, at a period [s] and a delay [s]. Raises InputError as
-    `SampledLoop`.
-    """
-    return SampledLoop(observer, period, *first_gains(gains), delay, known, kappa_ratio)
-
-
 def largest_period(loop: SampledLoop, delay_periods: float = 0.0) -> float:
     """The largest T [s] below which the loop is stable at every period, with a delay of that many periods.
 
     NaN when SHORTEST is unstable already, infinite when all up to LONGEST are stable.
     """
-
-    def stable(T: float) -> bool:
-        return replace(loop, period=T, delay=delay_periods * T).stable
-
-    low = SHORTEST
-    if not stable(low):
-        return np.nan
-    while stable(low * RATIO):
-        low *= RATIO
-        if low > LONGEST:
-            return float(np.inf)
-    return last_true(stable, low, low * RATIO)
+    count = math.ceil(math.log(LONGEST / SHORTEST) / math.log(RATIO))
+    periods = SHORTEST * RATIO ** np.arange(count + 1)
+    return last_true(lambda T: replace(loop, period=T, delay=delay_periods * T).stable, periods)
 
 
 def largest_delay(loop: SampledLoop) -> float:
@@ -214,25 +166,22 @@ def largest_delay(loop: SampledLoop) -> float:
 
     NaN when the loop is unstable without one, infinite when all up to MOST_PERIODS are stable.
     """
-
-    def stable(d: float) -> bool:
-        return replace(loop, delay=d).stable
-
-    if not stable(0.0):
-        return np.nan
-    step = loop.period / PARTS
-    for i in range(1, MOST_PERIODS * PARTS + 1):
-        if not stable(i * step):
-            return last_true(stable, (i - 1) * step, i * step)
-    return float(np.inf)
+    delays = loop.period / PARTS * np.arange(MOST_PERIODS * PARTS + 1)
+    return last_true(lambda delay: replace(loop, delay=delay).stable, delays)
 
 
-def last_true(holds: Callable[[float], bool], low: float, high: float) -> float:
-    """The end of the range where `holds` is true, by bisection to 1e-6 of high.
+def last_true(holds: Callable[[float], bool], tried: Iterable[float]) -> float:
+    """Where `holds` ends: between two of the increasing numbers `tried`, by bisection to 1e-6 of it.
 
-    It holds at low and does not hold at high.
+    NaN when it does not hold at the first, infinite when it holds at all of them.
     """
-    while high - low > 1e-6 * high:
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if holds(middle) else (low, middle)
-    return low
+    low = math.nan
+    for x in tried:
+        if holds(high := float(x)):
+            low = high
+            continue
+        while high - low > 1e-6 * high:
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if holds(middle) else (low, middle)
+        return low
+    return math.inf

@@ -8,7 +8,7 @@ joint i it makes a torque of
     rms u_i = sigma_a sqrt(sum_j (kappa^-1)_ij^2)
 
 with sigma_a [rad/s^2] from the sampled loop. The encoders' part in Theta and in the rates of the
-reference, which no observer filters, is not included; `specification` has it.
+reference, which no observer filters, is not included; `analysis.loops` has it.
 
 An observer is allowed on the `Hardware` if its sampled loop is stable for kappa 20 % off, and if
 the torque noise ("ripple") of one count stays below a share of the torque limit. `observer_report`
@@ -20,18 +20,18 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import dropwhile
 from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.control.tracking import Gains
-from biped_adrc.observer_design.observer_loop import ObserverLoop, first_gains, observer_loop
-from biped_adrc.observer_design.observer_sampled import (
+from biped_adrc.analysis.observer.loop import ObserverLoop, first_gains
+from biped_adrc.analysis.observer.sampled import (
     SampledLoop,
     largest_delay,
     last_true,
-    sampled_loop,
 )
+from biped_adrc.control.tracking import Gains
 from biped_adrc.observers.gpi import GPIObserver
 
 SHARE = 0.1
@@ -101,19 +101,12 @@ class OnHardware:
     def sampled(self, ratio: float = 1.0) -> SampledLoop:
         """The sampled loop with `ratio` times the model's kappa, dimensionless."""
         k = self.hardware
-        return sampled_loop(
-            self.observer,
-            k.period,
-            self.gains,
-            delay=k.delay,
-            known=k.known,
-            kappa_ratio=ratio,
-        )
+        return SampledLoop(self.observer, k.period, self.gains, k.delay, k.known, ratio)
 
     @cached_property
     def loop(self) -> ObserverLoop:
         """The loop of the joint in continuous time."""
-        return observer_loop(self.observer, self.gains)
+        return ObserverLoop(self.observer, self.gains)
 
     @cached_property
     def ripple(self) -> float:
@@ -146,22 +139,19 @@ def recommend(hardware: Hardware, gains: Gains, m: int) -> Recommended:
     it would be a bad recommendation.
     """
 
-    def against(w: float) -> str:
-        return OnHardware(hardware, GPIObserver.from_bandwidth(w, m), gains).obstacle
+    def candidate(w: float) -> OnHardware:
+        return OnHardware(hardware, GPIObserver.from_bandwidth(float(w), m), gains)
 
-    low, because = math.nan, ""
-    for w in np.geomspace(LEAST, MOST, BANDS):
-        forbids = against(float(w))
-        if forbids and math.isfinite(low):
-            because = forbids
-            low = last_true(lambda w: not against(w), low, float(w))
-            break
-        low = low if forbids else float(w)
-    if not math.isfinite(low):
+    bands = np.geomspace(LEAST, MOST, BANDS)
+    allowed = dropwhile(lambda w: candidate(w).obstacle, bands)
+    w = last_true(lambda w: not candidate(w).obstacle, allowed)
+    if math.isinf(w):  # none of the bands is allowed, or all above the first
+        w = math.nan if candidate(MOST).obstacle else MOST
+    if math.isnan(w):
         return Recommended(m, math.nan, "", math.nan, math.nan, math.nan)
-    found = OnHardware(hardware, GPIObserver.from_bandwidth(low, m), gains)
-    margin = largest_delay(found.sampled())
-    return Recommended(m, low, because, found.ripple, margin, found.rejection)
+    best, because = candidate(w), candidate(w * (1.0 + 2e-6)).obstacle
+    margin = largest_delay(best.sampled())
+    return Recommended(m, w, because, best.ripple, margin, best.rejection)
 
 
 def without_observer(gains: Gains) -> float:

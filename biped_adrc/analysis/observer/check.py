@@ -8,7 +8,7 @@ gait with one rate off by NUDGE. It tracks when it finishes and its errors do no
 The linear loop takes kappa u(t - d) for what is kappa(q(t)) u(t - d), and its reference moves by itself, while
 Theta moves with the joints: `robot_margin` finds by bisection where the robot itself stops tracking.
 
-`observer_design` computes margins from transfer functions and never walks; this module gives the proof in
+`loop` computes margins from transfer functions and never walks; this module gives the proof in
 simulation. Called by `biped-adrc observer` and by users who design an observer.
 
     case = DelayCase(biped, gait, GPIObserver.from_bandwidth(300.0, 1))
@@ -23,20 +23,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.analysis.observer.loop import ObserverLoop
+from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.delayed import Delayed
 from biped_adrc.control.tracking import TABLE_II, Gains
+from biped_adrc.engine.run import COMPILED, simulate_by
 from biped_adrc.gait.gait import Gait
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
-from biped_adrc.observer_design.observer_loop import observer_loop
-from biped_adrc.observer_design.observer_report import observer_name
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.scenario.walk import walk
 from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array
 
@@ -63,8 +62,6 @@ up to
 class CheckedWalk:
     """A walk with a delay or with encoders, reduced to its errors."""
 
-    observer: str
-    """Its name."""
     condition: str
     """Delay or encoders, in words."""
     status: Status
@@ -98,7 +95,7 @@ class DelayCase(NamedTuple):
     @property
     def margin(self) -> float:
         """Delay margin of the linear loop of one joint [s]."""
-        return observer_loop(self.observer, self.gains).delay_margin(self.known).delay
+        return ObserverLoop(self.observer, self.gains).delay_margin(self.known).delay
 
     def walked(
         self, delay: float, order: int = ORDER, torque_limit: float | None = None
@@ -112,12 +109,12 @@ class DelayCase(NamedTuple):
         walker = Walker(self.biped, controller, torque_limit=torque_limit)
         q, v = self.gait.start(self.biped)
         v = v + NUDGE * (np.arange(len(v)) == 0)
-        h = _step(self.observer, controller)
-        run = walk(walker, self.gait, self.impacts, RK4(h), start=(q, v), engine="compiled")
+        poles = np.roots(controller.pade[1][::-1]) / delay
+        fastest = max(np.max(np.abs(x)) for x in (poles, self.observer.poles))
+        run = _walk(walker, q, v, self.impacts, RK4(min(LONGEST_STEP, REACH / float(fastest))))
         limit = "no torque limit" if torque_limit is None else f"within {torque_limit:g} N m"
         words = f"{1e6 * delay:.4g} us {'known' if self.known else 'hidden'}, {limit}"
-        name, errors = observer_name(self.observer), step_errors(self.gait, run.trajectory)
-        return CheckedWalk(name, words, run.trajectory.status, errors)
+        return CheckedWalk(words, run.status, step_errors(self.gait, run))
 
 
 def robot_margin(case: DelayCase) -> float:
@@ -160,11 +157,15 @@ def check_encoders(
         torque_limit=biped.description.peak_torque,
         sensors=Sensors(counts=counts, velocity="measured"),
     )
-    run = walk(walker, gait, impacts, RK4(min(5e-4, 0.25 * period)), engine="compiled")
+    run = _walk(walker, *gait.start(biped), impacts, RK4(min(5e-4, 0.25 * period)))
     seen = "exact angles" if counts is None else f"{counts:g} counts"
     words = f"{1.0 / period:.0f} Hz, {seen}, delay {1e6 * delay:.4g} us"
-    errors = step_errors(gait, run.trajectory)
-    return CheckedWalk(observer_name(observer), words, run.trajectory.status, errors)
+    return CheckedWalk(words, run.status, step_errors(gait, run))
+
+
+def _walk(walker: Walker, q: Array, v: Array, impacts: int, method: RK4) -> Trajectory:
+    x, t_end = walker.initial_state(q, v), impacts * walker.max_step_time
+    return simulate_by(COMPILED, walker, x, Mode(), method, impacts=impacts, t_end=t_end)
 
 
 def step_errors(gait: Gait, trajectory: Trajectory) -> Array:
@@ -172,10 +173,3 @@ def step_errors(gait: Gait, trajectory: Trajectory) -> Array:
     h, n = gait.constraint, len(gait.constraint.phase)
     angles = (arc.x[:, :n] for arc in trajectory.arcs)
     return np.array([np.max(np.abs(q[:, : n - 1] - h.over(q @ h.phase))) for q in angles])
-
-
-def _step(observer: GPIObserver, controller: Delayed) -> float:
-    """Step h of RK4 [s], from the fastest pole of the observer and of the delay line."""
-    rates = np.abs(np.roots(controller.pade[1][::-1])) / controller.delay
-    fastest = max(float(np.max(rates)), float(np.max(np.abs(observer.poles))))
-    return min(LONGEST_STEP, REACH / fastest)

@@ -83,17 +83,15 @@ def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
     rate = orbit.v @ gait.constraint.phase
     t = _times(orbit.theta, rate, gait.constraint.theta_plus)
     fits = [Chebyshev.fit(t, column, DEGREE, domain=[0.0, orbit.period]) for column in xi.T]
-    ends = []
-    for time, (q, v) in (
-        (orbit.period, (gait.q_minus, gait.v_minus)),
-        (0.0, gait.start(biped)),
-    ):
+
+    def chain(time: float, q: Array, v: Array) -> Array:
         rows = [q[: biped.p], v[: biped.p], biped.reduction(q, v).xi]
         rows += [np.array([fit.deriv(j)(time) for fit in fits]) for j in range(1, DERIVATIVES + 1)]
-        rows += [np.zeros(biped.p)] * order
-        ends.append(np.array(rows[:order]))
-    inertia = biped.reduction(*gait.start(biped)).kappa_inverse
-    return ImpactStates(ends[0], ends[1], biped.swap, inertia)
+        return np.array([*rows, *[np.zeros(biped.p)] * order][:order])
+
+    start = gait.start(biped)
+    before, after = chain(orbit.period, gait.q_minus, gait.v_minus), chain(0.0, *start)
+    return ImpactStates(before, after, biped.swap, biped.reduction(*start).kappa_inverse)
 
 
 def _times(theta: Array, rate: Array, start: float) -> Array:

@@ -19,7 +19,6 @@ from __future__ import annotations
 import numpy as np
 from scipy.optimize import minimize
 
-from biped_adrc.errors import InputError
 from biped_adrc.types import Array, ComplexArray
 
 BALANCED = 10
@@ -70,14 +69,7 @@ def structured_value(M: ComplexArray) -> float:
 
 
 def disk_margin(S: ComplexArray) -> float:
-    """alpha of sensitivities S (F, p, p) at F frequencies; infinite where S - 1/2 is zero at all of them.
-
-    Raises InputError for S that is not a row of square matrices, or not finite.
-    """
-    if np.ndim(S) != 3 or S.shape[1] != S.shape[2] or not np.all(np.isfinite(S)):
-        raise InputError(
-            f"the sensitivity has shape {np.shape(S)}, expected finite matrices (F, p, p), one per frequency"
-        )
+    """alpha of sensitivities S (F, p, p) at F frequencies; infinite where S - 1/2 is zero at all of them."""
     M = S - 0.5 * np.eye(S.shape[1])
     rough = np.linalg.norm(M, axis=(-2, -1))  # Frobenius: mu is at most this, and at least a radius
     radius = np.max(np.abs(np.linalg.eigvals(M[np.argsort(-rough)[:TOP]])))

@@ -1,0 +1,154 @@
+"""Design of a gait for a speed or a step length, proved by a simulated walk before it is returned.
+
+`gait.design` optimises on the zero dynamics and never integrates the robot. `certify` therefore walks the
+result under NPD: it has to come back to its orbit within RETURNS, and its first step has to keep the limits.
+What is returned is a `DesignedGait`, gait and proof together.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from biped_adrc.analysis.certificate import IMPULSE, Certificate, certificates
+from biped_adrc.analysis.signals import signals
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
+from biped_adrc.columns import columns
+from biped_adrc.control.npd import NPDController
+from biped_adrc.engine.run import COMPILED, simulate_by
+from biped_adrc.errors import GaitError
+from biped_adrc.gait.design.ipopt import IpoptProgress
+from biped_adrc.gait.design.optimise import Optimum, optimise
+from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits
+from biped_adrc.gait.gait import Gait
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.hybrid.integrators import Adaptive
+from biped_adrc.model.biped import Biped
+from biped_adrc.model.robots.limits import ENDS, WINDOW, KnownLimits
+from biped_adrc.parts import check_part
+from biped_adrc.shown import Shown
+from biped_adrc.types import Array
+
+RETURNS = 1e-6
+"""Largest distance of the walk from the gait's orbit after its steps [rad, rad/s]."""
+STEPS = 2
+"""Steps of the walk that proves a gait."""
+
+
+@dataclass(frozen=True)
+class DesignedGait(Shown):
+    """A designed gait, with the walk that proves it."""
+
+    gait: Gait
+    request: GaitRequest
+    """What was asked for."""
+    objective: float
+    """Value of the cost, in the units of its Objective."""
+    certificate: Certificate
+    """What its first simulated step asks of ground and motors."""
+    multiplier: float
+    """delta^2 of the zero dynamics."""
+    gap: float
+    """max |x- of the walk - x- of the gait| after its steps [rad, rad/s]."""
+    iterations: int
+    """Of IPOPT."""
+    seconds: float
+    """Wall time of the design [s]."""
+
+    @property
+    def speed(self) -> float:
+        """Average speed along the ground [m/s]."""
+        return self.certificate.step_length / self.gait.period
+
+    def text(self) -> str:
+        """A table of what was found, one line per number."""
+        c, o = self.certificate, self.request.objective
+        unit = {"torque": " N^2 m s", "transport": "", "peak": " N m"}[o.value]
+        rows = [
+            ("speed", f"{self.speed:.6f} m/s"),
+            ("step length", f"{c.step_length:.6f} m"),
+            ("period", f"{self.gait.period:.6f} s"),
+            (f"least {o.value}", f"{self.objective:.6g}{unit}"),
+            ("delta^2", f"{self.multiplier:.6f}"),
+            ("peak torque", f"{c.peak_torque:.2f} N m"),
+            ("friction", f"{c.friction:.3f}, of the impulse {c.impulse_ratio:.3f}"),
+            ("least F_N", f"{c.least_normal_force:.1f} N"),
+            (
+                "foot clearance",
+                f"{1e3 * c.clearance:.1f} mm, between the first and the last {100.0 * ENDS:g} % of the step",
+            ),
+            ("cost of transport", f"{c.cost_of_transport:.4f}"),
+            (f"walked {STEPS} steps under NPD, back within {self.gap:.1e}",),
+            (f"designed in {self.seconds:.1f} s, {self.iterations} iterations",),
+        ]
+        return "\n".join(columns(rows, 19))
+
+
+def design_gait(
+    robot: Biped | str | Path = "rabbit",
+    speed: float | None = None,
+    step: float | None = None,
+    *,
+    preset: str | None = None,
+    slope: float = 0.0,
+    objective: Objective | str = Objective.TORQUE,
+    through: tuple[Array, Array] | None = None,
+    degree: int = 6,
+    nodes: int = 24,
+    limits: StepLimits | None = None,
+    curve: str = "bezier",
+    progress: IpoptProgress | None = None,
+) -> DesignedGait:
+    """The periodic, hybrid-invariant gait of least objective, proved by a simulated walk.
+
+    robot: a robot, its name or the path of its robot.toml. speed: along the ground [m/s]. step: between the
+    feet [m]; one of the two may be left out and is then free. slope: [rad], positive downhill. through: (q-,
+    q'-), each (n,) [rad, rad/s], which the orbit has to pass in place of speed and step. curve: its kind by
+    name, one that lies between its ends. degree: of the curves. nodes: at which limits are kept. progress:
+    called after each iteration of IPOPT. Raises GaitError naming what could not be met.
+    """
+    check_part(robot, "robot", Biped, str, Path)
+    biped = robot if isinstance(robot, Biped) else Biped.load(robot, preset)
+    passed = None if through is None else tuple(float(x) for x in np.concatenate(through))
+    limits = limits or StepLimits()
+    request = GaitRequest(
+        speed, step, slope, Objective(objective), degree, nodes, limits, passed, curve
+    )
+    return certify(biped, request, optimise(biped, request, progress))
+
+
+def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGait:
+    """Walk an optimised gait for STEPS steps under NPD and compare its first step with the limits.
+
+    The simulation shares neither nodes nor quadrature with the design, only the robot; it has adaptive steps.
+
+    Raises GaitError when it does not walk, violates a limit, or leaves the gait's orbit.
+    """
+    gait, limits = optimum.gait, request.limits.of(biped)
+    longest = max(Walker.max_step_time, 2.0 * gait.period)
+    walker = Walker(biped, NPDController(gait.constraint), slope=gait.slope, max_step_time=longest)
+    x, end = walker.initial_state(*gait.start(biped)), STEPS * longest
+    run = simulate_by(COMPILED, walker, x, Mode(), Adaptive(), impacts=STEPS, t_end=end)
+    if not run.status.ok:
+        raise GaitError(f"the designed gait does not walk: {run.status.name}, {run.status.value}")
+    allowed = KnownLimits(limits.friction, limits.torque, WINDOW)
+    certificate = certificates(walker, run, signals(walker, run, gait.constraint), allowed)[0]
+    free = {
+        "scuffing": limits.clearance is None,
+        IMPULSE: limits.impulse_friction > limits.friction,
+    }
+    missed = certificate.violations([name for name, is_free in free.items() if is_free])
+    if missed:
+        raise GaitError(f"the designed gait does not pass its certificate: {'; '.join(missed)}")
+    before = run.before(FOOT_STRIKE)[-1]
+    gap = float(np.max(np.abs(before - np.concatenate((gait.q_minus, gait.v_minus)))))
+    if not gap <= RETURNS:
+        raise GaitError(
+            f"the designed gait is left by {gap:.1e} rad or rad/s after {STEPS} steps, expected {RETURNS:g}: "
+            "is its step cut short by the foot touching early?"
+        )
+    delta2 = ZeroDynamics.of(biped, gait.constraint).delta ** 2
+    effort = optimum.iterations, optimum.seconds
+    return DesignedGait(gait, request, optimum.objective, certificate, delta2, gap, *effort)

@@ -1,0 +1,340 @@
+"""What a GPI observer demands of a robot's encoders, sampling and motors, and which one they allow.
+
+`observer_report` puts together what the linear loop of one joint says: gains and conditioning,
+transfer functions, delay margins, the largest stable period, the torque noise of one encoder count,
+the peak after an impact, and the largest bandwidth of each order that the robot allows. Numbers are computed
+when they are asked for. `verdict` and `sections` say them in words and tables, in which the delay is "hidden"
+from the observer, or "known" to it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.analysis.observer.choice import (
+    KAPPA_RATIOS,
+    ORDERS,
+    SHARE,
+    Hardware,
+    OnHardware,
+    Recommended,
+    recommend,
+    without_observer,
+)
+from biped_adrc.analysis.observer.impact import ImpactStates, impact_peak, orbit_impact
+from biped_adrc.analysis.observer.loop import GRID
+from biped_adrc.analysis.observer.sampled import largest_delay, largest_period
+from biped_adrc.columns import columns
+from biped_adrc.control.tracking import TABLE_II, Gains
+from biped_adrc.errors import InputError
+from biped_adrc.gait.gait import Gait
+from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.model.biped import Biped
+from biped_adrc.observers.base import Observer, ResetPolicy
+from biped_adrc.observers.gpi import GPIObserver
+from biped_adrc.timing import SampledTime
+from biped_adrc.types import Array, ComplexArray
+
+COUNTS = 8192.0
+"""Counts of RABBIT's encoders per revolution."""
+PERIOD = 1.5e-3
+"""Sampling period of RABBIT's controller [s]."""
+
+
+class Section(NamedTuple):
+    """One table: its title, the heads of its columns, and its rows as text."""
+
+    title: str
+    header: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+    def lines(self) -> list[str]:
+        """Title, header and rows, in columns of equal width."""
+        return [self.title, *(f"  {line}" for line in columns((self.header, *self.rows)))]
+
+
+@dataclass(frozen=True)
+class ObserverReport(OnHardware):
+    """All numbers for one observer, the gains of one joint and a robot; `text()` shows them."""
+
+    robot: str = field(kw_only=True)
+    """Name and preset of the robot."""
+    impact: ImpactStates = field(kw_only=True)
+    """Impact of the gait's periodic orbit."""
+
+    # -- numbers -------------------------------------------------------------------------------------
+    @cached_property
+    def sampled_margins(self) -> tuple[float, float]:
+        """The largest stable delay [s] at this period, unknown and known to the observer."""
+        hidden, known = (largest_delay(replace(self.sampled(), known=k)) for k in (False, True))
+        return hidden, known
+
+    @cached_property
+    def recommended(self) -> tuple[Recommended, ...]:
+        """For each m of ORDERS the largest bandwidth that encoders, period and delay allow."""
+        return tuple(recommend(self.hardware, self.gains, m) for m in ORDERS)
+
+    @property
+    def runs(self) -> bool:
+        """Whether it is allowed: stable for all KAPPA_RATIOS, the ripple within SHARE of the limit.
+
+        Not whether it is of use: see `against_none`.
+        """
+        return not self.obstacle
+
+    @cached_property
+    def against_none(self) -> float:
+        """Tracking error that a 5 Hz disturbance leaves, relative to that with K_p and K_d alone."""
+        return self.rejection / without_observer(self.gains)
+
+    @property
+    def responses(self) -> dict[str, Callable[[Array], ComplexArray]]:
+        """Of xi to e [s^2], of xi to xi^ [1], and of the measurement's error to the torque [N m/rad], over
+        frequencies [rad/s].
+        """
+        return {
+            "e / xi": self.loop.tracking_error,
+            "xi^ / xi": self.loop.estimate,
+            "u / n": lambda w: self.loop.noise(w) * self.hardware.inertia,
+        }
+
+    # -- words ---------------------------------------------------------------------------------------
+    @property
+    def name(self) -> str:
+        """The observer in words."""
+        return observer_name(self.observer)
+
+    @property
+    def verdict(self) -> str:
+        """Whether the observer can run on this robot, in words, with the numbers that decide.
+
+        "cannot run": unstable, or torque noise above the limit. "can run, but": more noise than SHARE,
+        or a worse rejection than without an observer.
+        """
+        k, limit = self.hardware, self.hardware.torque_limit
+        share = self.ripple / limit
+        where = (
+            f"on {self.robot} at {1.0 / k.period:.0f} Hz with {k.counts:g} counts per revolution"
+        )
+        part = f"{100.0 * share:.3g} % of" if share <= 1.0 else f"{share:.3g} times"
+        torque = (
+            f"one encoder count makes {self.ripple:.4g} N m rms, {part} the limit of {limit:g} N m"
+        )
+        unstable = [self._unstable()] if self.obstacle == "stability" else []
+        if unstable or share > 1.0:
+            noise = [torque] if math.isfinite(share) else []
+            reasons = noise + unstable if share > 1.0 else unstable + noise
+            return f"{self.name} cannot run {where}: {'; '.join((*reasons, self._bears()))}"
+        facts, wish = [torque, self._bears(), self._use()], ": "
+        if not self.runs:
+            wish = f", but not well: at most {100.0 * SHARE:g} % are asked for, and "
+        elif self.against_none > 1.0:
+            wish, facts = ", but is worse than no observer: ", [*facts[2:], *facts[:2]]
+        return f"{self.name} can run {where}{wish}{'; '.join(facts)}"
+
+    def _bears(self) -> str:
+        """The largest delay that the sampled loop bears, in words."""
+        margin = self.sampled_margins[int(self.hardware.known)]
+        if math.isnan(margin):
+            return "it bears no delay, since with the model's kappa it is unstable"
+        if math.isinf(margin):
+            return "with the model's kappa no delay was found that it does not bear"
+        return f"with the model's kappa it bears {microseconds(margin)} of delay at this period"
+
+    def _unstable(self) -> str:
+        """Which ratio of the robot's kappa to the model's makes the sampled loop unstable."""
+        delay, radius = self.hardware.delay, self.sampled().spectral_radius
+        late = f"with a delay of {delay * 1e6:.0f} us" if delay > 0.0 else "with no delay"
+        if not radius < 1.0:
+            return f"{late} the sampled loop is unstable, spectral radius {radius:.4g}"
+        ratio, radius = self.weakest
+        return (
+            f"{late} and {ratio:g} times the model's kappa the sampled loop is unstable, spectral radius "
+            f"{radius:.4g} (stability is asked for from {KAPPA_RATIOS[0]:g} to {KAPPA_RATIOS[-1]:g} times)"
+        )
+
+    def _use(self) -> str:
+        """What the observer is good for: the error it leaves relative to a loop without it."""
+        times = self.against_none
+        error = f"a 5 Hz disturbance leaves {times:.2g} times the error of K_p and K_d alone"
+        if self.observer.m == 0:
+            error += "; with m = 0 no disturbance is estimated, and the weight is not compensated"
+        return error
+
+    # -- tables --------------------------------------------------------------------------------------
+    @property
+    def sections(self) -> list[Section]:
+        """All tables: gains, stability, responses, impact and allowed bandwidths."""
+        tables = (self._gains, self._stability, self._responses, self._impact, self._allowed)
+        return [table() for table in tables]
+
+    def text(self) -> str:
+        """The verdict and the tables it is based on."""
+        tables = ("\n".join(section.lines()) for section in self.sections)
+        return "\n\n".join((self.verdict, *tables))
+
+    def _gains(self) -> Section:
+        """Gains l of (19), physical [1/s^i] and scaled."""
+        o = self.observer
+        rows = (
+            (f"l_{o.m + 1 - i} [1/s^{i + 1}]", f"{physical:.6g}", f"{scaled:.6g}")
+            for i, (physical, scaled) in enumerate(zip(o.gains, o.scaled_gains, strict=True))
+        )
+        title = f"Gains of the observer; states scaled by w = {o.scale:.6g} rad/s"
+        return Section(title, ("", "physical", "scaled"), tuple(rows))
+
+    def _stability(self) -> Section:
+        """Delay margins and largest periods, the delay unknown and known."""
+        margins = [self.loop.delay_margin(known) for known in (False, True)]
+        loop, period = self.sampled(), microseconds(self.hardware.period)
+        rows = [
+            ("delay margin, continuous", *(microseconds(m.delay) for m in margins)),
+            ("  root on the axis at", *(of_stable(m.frequency, "rad/s") for m in margins)),
+            (f"delay margin, period {period}", *map(microseconds, self.sampled_margins)),
+        ]
+        for name, late in (("no delay", 0.0), ("a delay of one period", 1.0)):
+            known = (replace(loop, known=k and late > 0.0) for k in (False, True))
+            periods = (microseconds(largest_period(one, late)) for one in known)
+            rows.append((f"largest period, {name}", *periods))
+        title = "Stability of the linear loop, kappa as in the model"
+        return Section(title, ("", "delay hidden", "known"), tuple(rows))
+
+    def _responses(self) -> Section:
+        """Level at low frequency, peak, and where each is 3 dB below it: xi^ / xi below its level, the others
+        below their peak.
+        """
+        grid, rows = self.loop.frequencies, []
+        for name, response in self.responses.items():
+            level = np.abs(response(grid))
+            top = int(np.argmax(level))
+            peak, edge = "0: no xi^", ""
+            if level[top] > 0.0:
+                peak = f"{level[top]:.4g} at {grid[top]:.4g} rad/s"
+                edge = f"{_falls(response, grid[0 if name == 'xi^ / xi' else top], grid[-1]):.4g} rad/s"
+            rows.append((f"|{name}|", f"{level[0]:.3g}", peak, edge))
+        title = "Transfer functions: disturbance to error [s^2] and to its estimate, angle to torque [N m/rad]"
+        return Section(title, ("", "at low frequency", "peak", "-3 dB"), tuple(rows))
+
+    def _impact(self) -> Section:
+        """Peak of the estimation error after the gait's impact, one row per reset policy."""
+        rows = []
+        for policy in ResetPolicy:
+            p = impact_peak(self.observer, self.impact, policy, self.gains)
+            states = (
+                f"{p.position:.3g} rad",
+                f"{p.velocity:.3g} rad/s",
+                f"{p.disturbance:.4g} rad/s^2",
+            )
+            rows.append((policy.value, *states, f"{p.torque:.4g} N m"))
+        title = "Peak after the gait's impact: error of the estimates, and the torque it costs"
+        return Section(title, ("reset", "x1^", "x2^", "xi^", "torque"), tuple(rows))
+
+    def _allowed(self) -> Section:
+        """The largest allowed bandwidth for every order m, and the loop without an observer."""
+        rows: list[tuple[str, ...]] = []
+        for r in self.recommended:
+            if math.isnan(r.bandwidth):
+                rows.append((str(r.m), "none", "", "", "", ""))
+                continue
+            margin, bandwidth = microseconds(r.delay_margin), f"{r.bandwidth:.4g} rad/s"
+            noise, error = f"{r.ripple:.3g} N m", f"{r.rejection:.3g}"
+            rows.append((str(r.m), bandwidth, r.because, noise, margin, error))
+        rows.append(("none", "", "", "", "", f"{without_observer(self.gains):.3g}"))
+        title = (
+            f"Largest bandwidth of m + 2 equal poles: rms torque of one count within {100 * SHARE:g} % of "
+            f"the limit, stable for kappa off by {KAPPA_RATIOS[0]:g} to {KAPPA_RATIOS[-1]:g}"
+        )
+        header = (
+            "m",
+            "bandwidth",
+            "limited by",
+            "rms torque",
+            "delay margin",
+            "|e / xi| at 5 Hz [s^2]",
+        )
+        return Section(title, header, tuple(rows))
+
+
+def _falls(response: Callable[[Array], ComplexArray], low: float, high: float) -> float:
+    """The first frequency [rad/s] at which |response| is 3 dB below its value at low; high where none is."""
+    grid = np.geomspace(low, high, GRID)
+    level = np.abs(response(grid))
+    below = np.flatnonzero(level < level[0] / np.sqrt(2.0))
+    return float(grid[below[0]]) if len(below) else high
+
+
+def microseconds(seconds: float) -> str:
+    """A time [s] in microseconds, or that there is no limit; NaN is the margin of an unstable loop."""
+    return of_stable(1e6 * seconds, "us")
+
+
+def of_stable(number: float, unit: str) -> str:
+    """A margin, period or frequency of a stable loop with its unit; "unstable" for NaN."""
+    if math.isnan(number):
+        return "unstable"
+    return f"{number:.4g} {unit}" if math.isfinite(number) else "no limit found"
+
+
+def observer_report(
+    observer: GPIObserver | Sequence[complex],
+    gains: Gains = TABLE_II,
+    period: float = PERIOD,
+    *,
+    robot: Biped,
+    gait: Gait,
+    counts: float = COUNTS,
+    delay: float = 0.0,
+    known: bool = False,
+) -> ObserverReport:
+    """The report of an observer, or of poles [rad/s], on a robot that walks a gait.
+
+    period [s]: of the sampling; counts: of the encoders per revolution; delay [s]: from a sample
+    instant to its torque, `known` to the observer or not. Of gains with one number per joint those
+    of the first count. Raises InputError for what is impossible, and names it.
+    """
+    if isinstance(observer, Observer) and not isinstance(observer, GPIObserver):
+        raise InputError(
+            f"a report on a {type(observer).__name__} was asked for, expected a GPIObserver in continuous "
+            "time or its poles [rad/s]"
+        )
+    if not isinstance(observer, GPIObserver):
+        observer = GPIObserver.from_poles(observer)
+    SampledTime(period, delay=delay)
+    if not (math.isfinite(counts) and counts >= 1.0):
+        raise InputError(f"the encoders have {counts} counts per revolution, expected at least 1")
+    gains.check(robot.p)
+    limit, inertia = robot.description.peak_torque, worst_inertia(robot, gait)
+    hardware = Hardware(period, delay, known, float(counts), limit, inertia)
+    OnHardware(hardware, observer, gains).sampled()  # refuses an order that round-off spoils
+    name = f"{robot.description.name} ({robot.preset})"
+    impact = orbit_impact(robot, gait, observer.order)
+    return ObserverReport(hardware, observer, gains, robot=name, impact=impact)
+
+
+def worst_inertia(biped: Biped, gait: Gait) -> float:
+    """The largest sqrt(sum_j (kappa^-1)_ij^2) over joints i and along the gait [kg m^2].
+
+    It turns independent errors of the commanded accelerations into the torque of the worst joint.
+    """
+    still = np.zeros(biped.n)
+    along = ZeroDynamics.of(biped, gait.constraint).q
+    return float(
+        max(np.max(np.linalg.norm(biped.reduction(q, still).kappa_inverse, axis=1)) for q in along)
+    )
+
+
+def observer_name(observer: GPIObserver) -> str:
+    """The observer for a heading: Table I, or m and the poles [rad/s]."""
+    if observer.poles == GPIObserver.from_poles().poles:
+        return "Table I"
+    first = observer.poles[0]
+    if all(pole == first for pole in observer.poles):
+        return f"m = {observer.m} at {-first.real:g} rad/s"
+    slow, fast = (f(abs(pole) for pole in observer.poles) for f in (min, max))
+    return f"m = {observer.m} with poles of {slow:g} to {fast:g} rad/s"
