@@ -23,7 +23,7 @@ from scipy.interpolate import CubicHermiteSpline
 
 import biped_adrc as ba
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.kernels.run import ArcNodes, arc
+from biped_adrc.engine.kernels.run_plan import ArcNodes
 from biped_adrc.errors import ModelError
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
@@ -65,7 +65,7 @@ def own(
     every = round(float(times[1] - times[0]) / method.h)
 
     def run() -> ArcNodes:
-        return arc(compiled.plan.start(x, 0.0, 1, 0.0, float(times[-1])), every)
+        return compiled.plan.start(x, 0.0, 1, 0.0, float(times[-1])).arc(every)
 
     def interpolated() -> Array:
         found = run()

@@ -18,7 +18,6 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.engine.compiled_biped import CompiledBiped
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.errors import ModelError
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
 from biped_adrc.model.biped import Biped
@@ -116,7 +115,7 @@ class CompiledChain(Chain):
 
         def simulate(q: Array, v: Array, duration: float) -> Array:
             run = plan.start(np.concatenate((q, v)), 0.0, 1, 0.0, duration)
-            kernels().stride(run.cells, 0, none)
+            run.stride(0, none)
             return run.x[:n].copy()
 
         return simulate

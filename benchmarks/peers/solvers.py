@@ -21,7 +21,7 @@ from numba import types
 from scipy.integrate import solve_ivp
 
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.engine.kernels.call import call
+from biped_adrc.engine.kernels.call import call, floats_at
 from biped_adrc.engine.program import Program
 from biped_adrc.errors import BipedError
 from biped_adrc.types import Array
@@ -110,7 +110,7 @@ def _libraries() -> list[Any]:
 def _callback(program: Program) -> Any:
     """int rhs(t, y, y', data) on the compiled flow, in the first single support and without a push."""
     address, nx, n = program.address("flow"), program.make.nx, program.make.robot.n
-    K = np.frombuffer(program.K)
+    K = program.K.ctypes.data
 
     @numba.cfunc(types.int32(types.float64, types.voidptr, types.voidptr, types.voidptr))
     def rhs(t, y, dy, data):  # type: ignore[no-untyped-def]
@@ -119,7 +119,7 @@ def _callback(program: Program) -> Any:
         inp, out = work[: 3 + nx + n], work[3 + nx + n :]
         inp[0] = t
         inp[3 : 3 + nx] = x
-        call(address, K, inp, out)
+        call(address, floats_at(K), floats_at(inp.ctypes.data), floats_at(out.ctypes.data))
         dx[:] = out[:nx]
         return 0
 

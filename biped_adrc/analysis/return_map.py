@@ -157,7 +157,7 @@ class ReturnMap(Shown):
             return None
         from biped_adrc.engine.batch import Strides
         from biped_adrc.engine.compiled_walker import CompiledWalker
-        from biped_adrc.engine.program import NotCompiled
+        from biped_adrc.engine.symbols import NotCompiled
 
         size = self.walker.controller_size(states)
         try:

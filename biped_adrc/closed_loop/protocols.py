@@ -1,7 +1,7 @@
 """What a closed loop, its plant and its controller must offer to the functions of `closed_loop.semantics`.
 
 Plants are `model.biped.Biped`, `engine.mechanics.PlanarRobot` and any of the user's own; loops
-are `closed_loop.system.ClosedLoop` on arrays of NumPy and `engine.symbolic_loop.SymbolicLoop` on symbols.
+are `closed_loop.system.ClosedLoop` on arrays of NumPy and `engine.equations.SymbolicLoop` on symbols.
 """
 
 from __future__ import annotations

@@ -27,9 +27,9 @@ from biped_adrc.engine.compiled_signals import reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.run_plan import STATUS, table_height
-from biped_adrc.engine.program import NotCompiled
 from biped_adrc.engine.run import COMPILED, COMPILED_PLANT, PINOCCHIO
 from biped_adrc.engine.simulate import on_compiled_plant, run_made
+from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.errors import (
     BipedError,
     InputError,
@@ -237,7 +237,7 @@ def _strides(
     table = np.empty((height, ROOM * impacts if read else 0))
     while True:
         run.set_table(read, table)
-        code, more = kernels().stride(run.cells, impacts - made, strikes[made:])
+        code, more = run.stride(impacts - made, strikes[made:])
         made += more
         if code != FULL:
             break

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import casadi as ca
 
 from biped_adrc.engine.equations import SymbolicFunction
-from biped_adrc.engine.instructions import CHOICE, FUNCTIONS, Patterns, Writer, straight_line
+from biped_adrc.engine.ir import CHOICE, FUNCTIONS, Patterns, Writer, straight_line
 
 PATTERNS: Patterns = {
     ca.OP_ADD: "{a} + {b}",

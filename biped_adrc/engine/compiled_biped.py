@@ -8,6 +8,10 @@
 A `CompiledBiped` is a `model.biped.Biped` with these four replaced by machine code, traced from
 `engine.mechanics`; kinematics, contact and all that is not asked for at every instant stay
 Pinocchio's. `engine.simulate` puts it in the place of the plant when a controller has no compiled form.
+`compiled_references` does the same for the references of a controller,
+
+    point      (t, q, v) -> the parts of a `ReferencePoint`
+
 `pointer_call`, `parts_of` and `Call` are how the rest of the engine calls generated code from
 Python.
 """
@@ -17,8 +21,11 @@ from __future__ import annotations
 import ctypes
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property, partial
+from operator import call
+from types import new_class
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -28,16 +35,20 @@ from biped_adrc.engine.ir import generated
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.mechanics import PlanarRobot, RobotData, RobotStructure, once_each, robot_of
 from biped_adrc.engine.structure import structure
-from biped_adrc.engine.symbols import Vector, column, floats
+from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
+from biped_adrc.engine.tracer import Tracer, run
+from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import PlantArrays
 from biped_adrc.model.reduction import BodyTerms, Reduction
+from biped_adrc.part import content, with_content
 from biped_adrc.types import Array
 
 Shape = tuple[int, ...]
 """Shape of an array."""
 
-_C = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
+_C = ctypes.PYFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
+"""Called with the lock of Python held: to let go of it would cost as much as a call."""
 
 
 def pointer_call(machine: LoadedCode, name: str, K: Array, inp: Array, out: Array) -> None:
@@ -62,26 +73,24 @@ def parts_of(rows: Array, shapes: Iterable[Shape]) -> Iterator[Array]:
 
 
 class Call:
-    """One generated function with its own input and output arrays; not to be shared between threads.
+    """One generated function with its own output array; not to be shared between threads."""
 
-    machine: keeps the code in memory. K: its parameters. inputs, outputs: how many numbers.
-    """
-
-    def __init__(self, machine: LoadedCode, name: str, K: Array, inputs: int, outputs: int):
-        """K (size,) are the parameters; the arrays `inp` (inputs,) and `out` (outputs,) are made
-        once and reused.
-        """
-        self.owner, self.K = machine, K
-        self.inp, self.out = np.zeros(inputs), np.zeros(max(1, outputs))
+    def __init__(self, machine: LoadedCode, name: str, K: Array, inp: Array, outputs: int):
+        """K (size,): its parameters; inp: its inputs, read at each call; outputs: how many numbers."""
+        self.owner, self.K, self.inp, self.out = machine, K, inp, np.zeros(max(1, outputs))
         self._function = _C(machine.addresses[name])
-        self._at = (K.ctypes.data, self.inp.ctypes.data, self.out.ctypes.data)
+        self._at = (K.ctypes.data, inp.ctypes.data, self.out.ctypes.data)
+
+    def evaluate(self) -> Array:
+        """The outputs (outputs,) of what is in `inp`, overwritten by the next call."""
+        self._function(*self._at)
+        return self.out
 
     def __call__(self, *given: Array) -> Array:
         """The outputs (outputs,) of what is in `inp`, or of these inputs joined; a copy, read-only."""
         if given:
             np.concatenate(given, out=self.inp)
-        self._function(*self._at)
-        out = self.out.copy()
+        out = self.evaluate().copy()
         out.setflags(write=False)  # once, for all the views that are handed out
         return out
 
@@ -114,7 +123,10 @@ class CompiledBiped(Biped):
             "accelerate": (3 * n, n),
             "ground": (3 * n, 2),
         }
-        return {name: Call(code, name, K, *size) for name, size in sizes.items()}
+        return {
+            name: Call(code, name, K, np.zeros(size), outputs)
+            for name, (size, outputs) in sizes.items()
+        }
 
     @cached_property
     def shapes(self) -> tuple[Shape, ...]:
@@ -173,3 +185,48 @@ def plant_functions(
         "accelerate": partial(function, robot.acceleration, 3),
         "ground": partial(function, robot.ground_reaction, 3),
     }
+
+
+def compiled_references(part: object, n: int) -> Any:
+    """A controller, or a part of one, with the references in its fields compiled, for n coordinates.
+
+    Controllers nest (`inner`), so fields of dataclasses are searched to any depth. What cannot be compiled
+    stays as it is.
+    """
+    if isinstance(part, Reference):
+        return _in_code(part, n)
+    if not is_dataclass(part) or isinstance(part, type | Biped):
+        return part
+    given = {f.name: getattr(part, f.name) for f in fields(part) if f.init}
+    made = {name: compiled_references(value, n) for name, value in given.items()}
+    changed = {name: value for name, value in made.items() if value is not given[name]}
+    return replace(part, **changed) if changed else part
+
+
+def _in_code(reference: Reference, n: int) -> Reference:
+    """The reference, still of its class, called in machine code; itself where it cannot be compiled."""
+    try:
+        point = _point(reference, n)
+    except NotCompiled:
+        return reference
+    kind = new_class(type(reference).__name__, (type(reference),))
+    setattr(kind, "__call__", staticmethod(point))  # noqa: B010
+    return with_content(reference, content(reference), kind)
+
+
+def _point(reference: Reference, n: int) -> Callable[[float, Array, Array], ReferencePoint]:
+    """The reference as a function of t [s], q (n,) [rad], v (n,) [rad/s]. Raises NotCompiled."""
+    K, inp = Vector("K", count(reference)), Vector("inp", 1 + 2 * n)
+    at = inp.take(), inp.take(n), inp.take(n)
+    symbols = run(Tracer(), call, K.like(reference), *at)
+    shapes = [np.shape(part) for part in symbols]
+    function = SymbolicFunction(K.symbol, inp.symbol, column(*symbols))
+    code = generated(("point", n, structure(reference)), {"point": lambda: function})
+    numbers = np.array([*floats(reference), 0.0])
+    called = Call(code, "point", numbers, np.zeros(1 + 2 * n), sum(map(math.prod, shapes)))
+
+    def point(t: float, q: Array, v: Array) -> ReferencePoint:
+        called.inp[0], called.inp[1 : 1 + n], called.inp[1 + n :] = t, q, v
+        return ReferencePoint(*parts_of(called(), shapes))
+
+    return point

@@ -4,7 +4,13 @@ What ran is in the settings of the trajectory:
 
     engine    "compiled"; "compiled model" where the controller runs in Python, with the reason as "why"
 
-A controller that cannot be compiled still gets the model's terms and its references from machine code.
+A sample instant is one call of machine code,
+
+    sample (t, step, t_start, x) -> x, xi^, least pivot
+
+whose measurement, model, controller, limits and queue of torques are those of `closed_loop.semantics`, traced
+as for a walker (`engine.equations`). A controller that cannot be compiled still gets the model's terms and its
+references from machine code.
 """
 
 from __future__ import annotations
@@ -15,15 +21,20 @@ from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from threading import get_ident
 
+import numpy as np
+
 from biped_adrc.closed_loop.protocols import Mode
+from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import Load
-from biped_adrc.engine.compiled_biped import CompiledBiped
-from biped_adrc.engine.compiled_push import CompiledPush
-from biped_adrc.engine.compiled_tick import CompiledTick
-from biped_adrc.engine.controller_inputs import compiled_references
-from biped_adrc.engine.program import NotCompiled
+from biped_adrc.engine.compiled_biped import Call, CompiledBiped, compiled_references
+from biped_adrc.engine.compiled_push import CompiledPush, summed
+from biped_adrc.engine.equations import WalkerStructure
+from biped_adrc.engine.kernels.record import OUTSIDE
+from biped_adrc.engine.mechanics import robot_of
+from biped_adrc.engine.program import controller_numbers, machine_of
 from biped_adrc.engine.run import COMPILED
+from biped_adrc.engine.symbols import NotCompiled, floats
 from biped_adrc.errors import ModelError
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import RunOptions
@@ -33,6 +44,55 @@ from biped_adrc.types import Array
 
 COMPILED_MODEL = "compiled model"
 """Name of the engine where the controller runs in Python on a compiled model."""
+
+
+class CompiledTick:
+    """The function `sample` of a loop whose controller has `size` states, with room for what it is given.
+
+    Not to be shared between threads. Raises NotCompiled where a part cannot be traced, with the reason.
+    """
+
+    def __init__(self, loop: SteppingLoop, size: int):
+        if not isinstance(loop.model, Biped):
+            raise NotCompiled(f"the model is a {type(loop.model).__name__}, expected a Biped")
+        assert loop.held is not None
+        try:
+            robot = robot_of(loop.model)
+        except ModelError as reason:
+            raise NotCompiled(str(reason)) from reason
+        self.make = WalkerStructure(robot.structure, size, loop.held.sizes)
+        self.numbers = controller_numbers(robot, loop)
+        K = np.array([*floats(self.numbers), 0.0])
+        if np.any(np.isnan(K)):
+            raise NotCompiled(f"a parameter of {type(loop.controller).__name__} or its loop is NaN")
+        owner, _ = machine_of(self.make, self.numbers, ["sample"])
+        n, p, nx = loop.plant.n, loop.plant.p, self.make.nx
+        self.sample = Call(owner, "sample", K, np.zeros(3 + nx + n + OUTSIDE), nx + p + 1)
+        self.x, self.xi = np.zeros(0), np.zeros(0)
+        still = np.zeros(n)
+        m = loop.measure(0.0, still, still, Mode())
+        self.blind = loop.calls.estimate(np.zeros(size), m) is None  # no observer
+        noticing = loop.held.touchdown
+        self.felt = loop if noticing and noticing.needs_force else None
+
+    def __call__(self, t: float, x: Array, mode: Mode) -> Array | None:
+        """x (nx,) after the sample instant at t [s]; None where Python has to say what is wrong.
+
+        It is kept as `x`, and the estimate of xi (p,) there as `xi`.
+        """
+        inp = self.sample.inp
+        inp[0], inp[1], inp[2] = t, mode.step, mode.start
+        inp[3 : 3 + len(x)] = x
+        if self.felt is not None:
+            q, v, _, tail = parts(self.felt, x)
+            inp[-OUTSIDE:] = self.felt.foot_forces(t, q, v, tail, mode)
+        out = self.sample()
+        if not (out[-1] > 0.0 and math.isfinite(out.dot(out))):
+            return None
+        self.x, self.xi = out[: len(x)], out[len(x) : -1]
+        if self.blind:
+            self.xi = np.full(len(self.xi), math.nan)
+        return self.x
 
 
 @dataclass(frozen=True)
@@ -76,8 +136,10 @@ class LoopInCode(SteppingLoop):
 
     def zetas(self, t: Array, rows: Array, mode: Mode) -> Array:
         """zeta (K, n) [N m] at K times [s], in the plant's rows, where Python does not compute it."""
-        push = self.compiled_push
-        return super().zetas(t, rows, mode) if push is None else push.zetas(t, rows, mode)
+        if self.compiled_push is None:
+            return super().zetas(t, rows, mode)
+        n = self.plant.n
+        return summed(self.compiled_push.terms, t, rows[:, :n], rows[:, n : 2 * n], mode)
 
 
 @dataclass(frozen=True)
@@ -123,7 +185,7 @@ def on_compiled_model(loop: LoopInCode) -> LoopInCode:
     """The loop with the terms of its model and the references of its controller in machine code, where they
     have any.
     """
-    controller = compiled_references(loop.controller, loop.plant.n, [])
+    controller = compiled_references(loop.controller, loop.plant.n)
     model = loop.model
     if isinstance(model, Biped):
         with suppress(ModelError):  # of a robot that is no planar tree

@@ -1,60 +1,55 @@
-"""What acts from outside on a plant that moves by itself, by machine code, in one state or at many."""
+"""Disturbances in machine code: each term by itself, so that another one does not recompile the walker.
+
+The methods `torque` and `resultant` of a term become functions `void f(double* K, double* inp, double* out)`: K
+its numbers, inp (t, step, t_start, q, v), out zeta (n,) [N m] or the force (2,) [N]. Its method `acts` is
+evaluated first: where it is not above 0, out is zero and the rest is not computed, since most pushes act for a
+small part of a walk.
+"""
 
 from __future__ import annotations
 
-import ctypes
 from collections.abc import Sequence
+from operator import methodcaller
 
 import numpy as np
 
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.disturbances.base import Disturbance
-from biped_adrc.engine.compiled_biped import pointer_call
-from biped_adrc.engine.compiled_walker import term_code
-from biped_adrc.engine.machine import LoadedCode
-from biped_adrc.engine.symbols import floats
+from biped_adrc.engine.compiled_biped import Call, pointer_call
+from biped_adrc.engine.equations import SymbolicFunction, count
+from biped_adrc.engine.ir import in_memory, module_text
+from biped_adrc.engine.kernels.record import PART
+from biped_adrc.engine.kernels.run_plan import Push
+from biped_adrc.engine.machine import LoadedCode, ModuleText
+from biped_adrc.engine.structure import structure
+from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
+from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.types import Array
 
-_LAW = ctypes.PYFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)
+Terms = Sequence[tuple[LoadedCode, Array]]
+"""Machine code and numbers of each term."""
 
 
-class CompiledPush:
-    """By the machine code of a disturbance. Raises NotCompiled for one without.
-
-    f(K, inp, out) is called for each torque and each resultant; the rows of `out` are (zeta, force) (n + 2,).
-    """
-
-    def __init__(self, disturbance: Disturbance, n: int):
-        """n: number of coordinates."""
-        self.inp, self.terms = np.zeros(3 + 2 * n), terms_of(disturbance, n)
-        self.out = np.zeros((len(self.terms), n + 2))
-        given, places = self.inp.ctypes.data, {"torque": 0, "resultant": n}
-        self.calls = [
-            (_LAW(code.addresses[name]), (K.ctypes.data, given, row[at:].ctypes.data))
-            for (code, K), row in zip(self.terms, self.out, strict=True)
-            for name, at in places.items()
-            if name in code.addresses
-        ]
-
-    def __call__(self, t: float, row: Array, mode: Mode) -> Array:
-        """zeta and force (n + 2,) at t [s] for a row (q, q', ..) of a plant."""
-        inp = self.inp
-        inp[0], inp[1], inp[2] = t, mode.step, mode.start
-        inp[3:] = row[: len(inp) - 3]
-        for function, given in self.calls:
-            function(*given)
-        return self.out.sum(axis=0) if len(self.out) > 1 else self.out[0].copy()
-
-    def zetas(self, t: Array, rows: Array, mode: Mode) -> Array:
-        """zeta (K, n) [N m] at K times [s] for rows (q, q', ..) of a plant."""
-        n = (len(self.inp) - 3) // 2
-        return summed(self.terms, t, rows[:, :n], rows[:, n : 2 * n], mode)
+def terms_of(disturbance: Disturbance | None, n: int) -> Terms:
+    """The terms of a disturbance of n coordinates. Raises NotCompiled for one without machine code."""
+    terms = () if disturbance is None else disturbance.terms
+    return [(term_code(term, n), np.array([*floats(term), 0.0])) for term in terms]
 
 
-def summed(
-    terms: Sequence[tuple[LoadedCode, Array]], t: Array, q: Array, v: Array, mode: Mode
-) -> Array:
-    """zeta (K, n) [N m] at K times [s], q (K, n) [rad], v (K, n) [rad/s]: of code and numbers of each term."""
+def push_of(disturbance: Disturbance | None, n: int) -> Push:
+    """The terms of a disturbance as addresses and numbers. Raises NotCompiled as `terms_of`."""
+    if disturbance is None:
+        return Push()
+    parts, K = list[tuple[int, int, int]](), list[float]()
+    for code, numbers in terms_of(disturbance, n):
+        parts.append((code.addresses["torque"], len(K), code.addresses.get("resultant", 0)))
+        K += numbers.tolist()
+    table = np.array(parts, dtype=np.int64).reshape(-1, PART)
+    return Push(table, np.array(K), np.array(disturbance.switches).reshape(-1, 2))
+
+
+def summed(terms: Terms, t: Array, q: Array, v: Array, mode: Mode) -> Array:
+    """zeta (K, n) [N m] at K times [s], q (K, n) [rad], v (K, n) [rad/s]."""
     ones = np.ones((len(t), 1))
     inp = np.hstack((t[:, np.newaxis], mode.step * ones, mode.start * ones, q, v))
     total, out = np.zeros(q.shape), np.empty(q.shape)
@@ -64,7 +59,93 @@ def summed(
     return total
 
 
-def terms_of(disturbance: Disturbance | None, n: int) -> list[tuple[LoadedCode, Array]]:
-    """Machine code and numbers of each term, for n coordinates. Raises NotCompiled for a term without."""
-    terms = () if disturbance is None else disturbance.terms
-    return [(term_code(term, n), np.array([*floats(term), 0.0])) for term in terms]
+class CompiledPush:
+    """A disturbance at one instant. Raises NotCompiled for one without machine code."""
+
+    def __init__(self, disturbance: Disturbance, n: int):
+        """n: number of coordinates."""
+        self.n, self.inp, self.terms = n, np.zeros(3 + 2 * n), terms_of(disturbance, n)
+        places = {"torque": slice(n), "resultant": slice(n, n + 2)}
+        self.calls = [
+            (at, Call(code, name, K, self.inp, at.stop - (at.start or 0)))
+            for code, K in self.terms
+            for name, at in places.items()
+            if name in code.addresses
+        ]
+
+    def __call__(self, t: float, row: Array, mode: Mode) -> Array:
+        """zeta and force (n + 2,) at t [s] for a row (q, q', ..) of a plant."""
+        inp, found = self.inp, np.zeros(self.n + 2)
+        inp[0], inp[1], inp[2] = t, mode.step, mode.start
+        inp[3:] = row[: 2 * self.n]
+        for at, call in self.calls:
+            found[at] += call.evaluate()
+        return found
+
+
+GUARDED = """
+define void @{name}(ptr %K, ptr %inp, ptr %out) nounwind {{
+  %flag = alloca double
+  call void @acts(ptr %K, ptr %inp, ptr %flag)
+  %a = load double, ptr %flag
+  %acts = fcmp ogt double %a, 0.0
+  br i1 %acts, label %act, label %rest
+act:
+  call void @{name}_acting(ptr %K, ptr %inp, ptr %out)
+  ret void
+rest:
+  call void @llvm.memset.p0.i64(ptr %out, i8 0, i64 {bytes}, i1 false)
+  ret void
+}}
+"""
+"""A function that looks at `acts` first."""
+
+
+def term_code(term: Disturbance, n: int) -> LoadedCode:
+    """Machine code with the functions `torque` and, where the class writes it, `resultant`, for n coordinates.
+
+    Raises NotCompiled for a term that cannot be traced, with the reason.
+    """
+    if _writes(term, "switching_times"):
+        raise NotCompiled(f"{type(term).__name__} writes switching_times in place of switches")
+    key = "disturbance", n, structure(term)
+    return in_memory(key, list(_sizes(term, n)), lambda: ModuleText(term_text(term, n)))
+
+
+def term_text(term: Disturbance, n: int) -> str:
+    """What `term_code` is made from, in LLVM's language.
+
+    A class that writes `acts` gets three functions: `acts`, the function proper, and one that calls it only
+    where the first is above 0. Raises NotCompiled.
+    """
+    sizes = _sizes(term, n)
+    if not _writes(term, "acts"):
+        return module_text({name: _function(term, n, name, size) for name, size in sizes.items()})
+    functions = {"acts": _function(term, n, "acts", 1)}
+    functions |= {f"{name}_acting": _function(term, n, name, sizes[name]) for name in sizes}
+    guarded = [GUARDED.format(name=name, bytes=8 * size) for name, size in sizes.items()]
+    clear = "declare void @llvm.memset.p0.i64(ptr, i8, i64, i1)"
+    return "\n".join([module_text(functions), clear, *guarded])
+
+
+def _writes(term: Disturbance, name: str) -> bool:
+    return getattr(type(term), name) is not getattr(Disturbance, name)
+
+
+def _sizes(term: Disturbance, n: int) -> dict[str, int]:
+    """The functions of a term, and how many numbers each gives."""
+    return {"torque": n, "resultant": 2} if term.pulls else {"torque": n}
+
+
+def _function(term: Disturbance, n: int, name: str, size: int) -> SymbolicFunction:
+    """A method of a term on symbols. Raises NotCompiled, also where it gives other than `size` numbers."""
+    K, inp = Vector("K", count(term)), Vector("inp", 3 + 2 * n)
+    k, at = K.like(term), (inp.take(), inp.take(), inp.take(), inp.take(n), inp.take(n))
+    method = methodcaller(name, *(at if name == "torque" else at[:3]))
+    try:
+        out = column(run(Tracer(), method, k))
+    except TypeError:  # no numbers
+        out = column()
+    if out.numel() != size:
+        raise NotCompiled(f"{type(term).__name__}.{name} gives no {size} numbers")
+    return SymbolicFunction(K.symbol, inp.symbol, out)

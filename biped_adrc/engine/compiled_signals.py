@@ -31,9 +31,9 @@ from biped_adrc.engine.equations import (
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.machine import LoadedCode
-from biped_adrc.engine.program import NotCompiled, Program
+from biped_adrc.engine.program import Program
 from biped_adrc.engine.structure import structure
-from biped_adrc.engine.symbols import Untraceable, Vector, floats
+from biped_adrc.engine.symbols import NotCompiled, Vector, floats
 from biped_adrc.engine.tracer import run
 from biped_adrc.errors import ModelError
 from biped_adrc.gait.reference import Reference, ReferencePoint
@@ -85,7 +85,7 @@ def compiled_readings(
         program = Program.of(walker, walker.controller_size(nx))
         code = reading_code("observe", signals_at, program, reference)
         watched = SignalNumbers(program.numbers, reference)
-    except (NotCompiled, Untraceable, ModelError):
+    except (NotCompiled, ModelError):
         return None
     K = np.array([*floats(watched), 0.0])
     first = trajectory.arcs[0]
@@ -115,7 +115,7 @@ def reading_code(name: str, read: Reading, program: Program, curve: Reference) -
     """Machine code of what `read` says of a walker that errs from this curve, a function of this name as
     `observe`.
 
-    Under the walker's structure, that of the curve, and `read` itself. Raises Untraceable for a curve without a
+    Under the walker's structure, that of the curve, and `read` itself. Raises NotCompiled for a curve without a
     compiled form.
     """
     watched = SignalNumbers(program.numbers, curve)

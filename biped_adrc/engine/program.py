@@ -26,14 +26,9 @@ from biped_adrc.engine.ir import generated
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.mechanics import RobotData, RobotStructure, robot_of
 from biped_adrc.engine.structure import structure
-from biped_adrc.engine.symbols import Vector, column, floats
+from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
 from biped_adrc.engine.tracer import located
-from biped_adrc.errors import InputError
 from biped_adrc.types import Array
-
-
-class NotCompiled(InputError):
-    """A part of the walker cannot be compiled; the text says which, and what is used instead."""
 
 
 @dataclass(frozen=True)
@@ -65,10 +60,9 @@ class Program:
         if np.any(np.isnan(K)):
             raise NotCompiled(
                 f"a parameter of {type(walker.controller).__name__} or its walker is NaN, of which generated "
-                "code would make 0 where it is multiplied by 0; it runs in Python on the compiled plant"
+                "code would make 0 where it is multiplied by 0"
             )
-        names, then = Equations.names(numbers), "; it runs in Python on the compiled plant"
-        code, key = machine_of(make, numbers, names, then)
+        code, key = machine_of(make, numbers, Equations.names(numbers))
         return cls(make, code, K, numbers, key)
 
     def address(self, name: str) -> int:
@@ -102,10 +96,7 @@ def _common(plant: RobotData, model: RobotData | None) -> RobotStructure:
         return plant.structure
     one, other = plant.structure, model.structure
     if one.p != other.p or not np.array_equal(one.A, other.A):
-        raise NotCompiled(
-            "the links of the model are joined otherwise than those of the plant; the run goes on in Python on "
-            "the compiled plant"
-        )
+        raise NotCompiled("the links of the model are joined otherwise than those of the plant")
     present = tuple(
         a | b for a, b in zip(plant.structure.present, model.structure.present, strict=True)
     )
@@ -145,12 +136,11 @@ def controller_numbers(robot: RobotData, loop: Walker | SteppingLoop) -> WalkerN
 
 
 def machine_of(
-    make: WalkerStructure, numbers: WalkerNumbers, names: Sequence[str], then: str = ""
+    make: WalkerStructure, numbers: WalkerNumbers, names: Sequence[str]
 ) -> tuple[LoadedCode, Hashable]:
     """Functions of `Equations` in memory, and their key; traced one by one where there is no code on disk.
 
-    then: what happens otherwise, for the text of the error. Raises NotCompiled for a method that cannot be
-    traced or an operation without machine code.
+    Raises NotCompiled for a method that cannot be traced or an operation without machine code.
     """
 
     def traced(name: str) -> SymbolicFunction:
@@ -158,11 +148,8 @@ def machine_of(
             made: SymbolicFunction = getattr(Equations.of(make, numbers), name)()
             return made
 
-    try:
-        key = *names, structure_of_walker(make), structure(numbers)
-        return generated(key, {name: partial(traced, name) for name in names}), key
-    except InputError as reason:
-        raise NotCompiled(f"{reason}{then}") from reason
+    key = *names, structure_of_walker(make), structure(numbers)
+    return generated(key, {name: partial(traced, name) for name in names}), key
 
 
 def structure_of_walker(make: WalkerStructure) -> Hashable:

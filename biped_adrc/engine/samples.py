@@ -31,10 +31,8 @@ from biped_adrc.engine.compiled_signals import Reading, reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.equations import WalkerNumbers
 from biped_adrc.engine.kernels.run_plan import CompiledRun, table_height
-from biped_adrc.engine.program import NotCompiled
-from biped_adrc.engine.simulate import compiled_plant
-from biped_adrc.engine.symbols import floats
-from biped_adrc.engine.ticks import TicksWithHardware, flowing
+from biped_adrc.engine.simulate import Ticks, compiled_plant
+from biped_adrc.engine.symbols import NotCompiled, floats
 from biped_adrc.errors import RaisedError
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.integrators import OneStepMethod
@@ -123,7 +121,7 @@ class CompiledWalk:
 
     @property
     def addresses(self) -> list[int]:
-        """In the order of `kernels.samples.WALK`."""
+        """In the order of `kernels.record.WALK`."""
         torque, at = torque_place(self.made.program.numbers), self.run.address
         return [at, at + 8 * (self.run.place("K") + torque), at + 8 * force_place(self.made)]
 
@@ -186,20 +184,19 @@ class PythonWalk:
         """From x (nx,). loop: a walker with inputs, or its parts around another plant; outside: their array."""
         p, system, places = loop.plant.p, cast(HybridSystem, loop), [(outside, slice(None))]
         if isinstance(loop, Walker):
-            system = loop = compiled_plant(loop)[0]
-            assert loop.held is not None
+            system = loop = compiled_plant(loop)
             with suppress(NotCompiled):
                 held = CompiledWalker.held(loop, method)
                 at, cells = force_place(held), held.plan.cells.copy()
                 held = replace(held, plan=replace(held.plan, cells=cells))
                 places.append((cells.view(np.float64)[at : at + 2], slice(p, None)))
-                system = TicksWithHardware(loop, held, flowing(loop.held.sizes, len(x)))
+                system = Ticks(loop, held, len(x))
         elif isinstance(loop, CompiledLoop):
             size = loop.controller_size(x)
             system = made = loop.compiled(size)
             if made.code is not None:
                 at = torque_place(made.code.numbers)
-                places.append((made.code.K[at : at + p], slice(p)))
+                places.append((made.code.sample.K[at : at + p], slice(p)))
             if made.compiled_push is not None:
                 places.append((made.compiled_push.terms[-1][1][:2], slice(p, None)))
         return cls(loop, system, method, tuple(places), Now(mode.start, x, mode, mode.start))

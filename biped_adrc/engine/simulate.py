@@ -4,34 +4,114 @@ Three ways, the fastest that fits is taken:
 
 - all compiled: controller, observer, disturbance and method of integration can be compiled; an arc
   is one call of a kernel;
-- compiled plant, sampled time: the controller runs in Python, called once per sample instant, and
-  the plant moves in between in compiled code (`engine.ticks`);
+- compiled plant, sampled time: the walker's own sample instants run in Python, and the plant, (q, q', u) with
+  the torque held, or (q, q', u_m, u) where the motors lag, moves in between by one call of machine code each;
 - compiled plant otherwise: the Python loop of `hybrid.simulator` on compiled dynamics.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import cast
 
 import numpy as np
 
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
-from biped_adrc.engine.compiled_biped import CompiledBiped
+from biped_adrc.engine.compiled_biped import CompiledBiped, compiled_references
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.controller_inputs import CompiledReference, compiled_references
-from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.kernels.run import arc
 from biped_adrc.engine.kernels.run_plan import STATUS, CompiledRun
-from biped_adrc.engine.program import NotCompiled
 from biped_adrc.engine.run import COMPILED, COMPILED_PLANT
-from biped_adrc.engine.ticks import TERMINAL, run_ticks
+from biped_adrc.engine.symbols import NotCompiled
+from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.constants import COMPLETED, STRUCK
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import FlownArc, RunOptions, run_arcs
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
-from biped_adrc.types import Array
+from biped_adrc.hybrid.system import Clock, FoundEvent, HybridSystem, Mover
+from biped_adrc.hybrid.trajectory import Arc, Event, Record, Trajectory
+from biped_adrc.types import Array, Indices
+
+TERMINAL = {Status.FELL: "hip_too_low", Status.STALLED: "step_too_long"}
+"""Names of the event functions that end a run, by status."""
+
+
+@dataclass(frozen=True)
+class Ticks(HybridSystem):
+    """The walker's sample instants, on the plant under a held torque."""
+
+    walker: Walker
+    """With compiled dynamics."""
+    plant: CompiledWalker
+    """As `CompiledWalker.held`."""
+    nx: int
+    """Numbers in a state of the walker."""
+
+    @cached_property
+    def flowing(self) -> Indices:
+        """Places of the plant's state in the walker's: of q, q', with lag u_m, and u."""
+        sizes = cast(HeldParts, self.walker.held).sizes
+        motors = self.nx - sizes.p * (sizes.waiting + 2)
+        lagging = range(motors, motors + sizes.p) if sizes.lag else ()
+        return np.array([*range(2 * sizes.n), *lagging, *range(self.nx - sizes.p, self.nx)])
+
+    def clocks(self) -> tuple[Clock, ...]:
+        return self.walker.clocks()
+
+    def mover(self, fired: str | None) -> Mover:
+        return HeldMotion(self, fired)
+
+
+class HeldMotion:
+    """Moves `Ticks` from one sample instant to the next, over one arc.
+
+    run: the plant's, made at the first call and carried on, so that an event function keeps its value across a
+    sample instant, where the plant's q does not jump.
+    """
+
+    def __init__(self, system: Ticks, fired: str | None):
+        self.system, self.fired = system, fired
+        self.run: CompiledRun | None = None
+
+    def __call__(
+        self, t: float, x: Array, mode: Mode, until: float, record: Record
+    ) -> tuple[float, Array, FoundEvent | None]:
+        """From (t, x) to `until` [s] or the first event, as `hybrid.system.Mover`."""
+        plan, at, run = self.system.plant.plan, self.system.flowing, self.run
+        if run is None:
+            fired = self.fired is not None
+            run = self.run = plan.start(x[at], t, mode.step, mode.start, until, fired)
+        run.x[:], run["t_end"] = x[at], until
+        nodes = run.arc(record.every, room=16)
+        rows, slopes = np.zeros((2, len(nodes.t), len(x)))
+        rows[:] = x
+        rows[:, at], slopes[:, at] = nodes.x, nodes.dx
+        record.add(nodes.t.copy(), rows, slopes)
+        t, x = run["t"], x.copy()
+        x[at] = run.x
+        return t, x, _ended(self.system.walker, nodes.code, t, x, mode)
+
+
+def _ended(walker: Walker, code: int, t: float, x: Array, mode: Mode) -> FoundEvent | None:
+    """The event behind a code of the loops at t [s], x (nx,); None for COMPLETED.
+
+    An impact is carried out here, by the walker itself. Raises one of `simulator.FAILURES` where
+    the plant's motion was lost, or what the controller's jump raises.
+    """
+    if code == COMPLETED:
+        return None
+    if code == STRUCK:
+        outcome = walker.struck(t, x, mode)
+        return FoundEvent(Event(FOOT_STRIKE, t, x, outcome[0]), outcome)
+    status = STATUS[code]
+    if status in simulator.FAILURES:
+        raise simulator.FAILURES[status](
+            f"the plant's motion ends after t = {t:.6g} s: {status.name}"
+        )
+    return FoundEvent(Event(TERMINAL[status], t, x, None), None, status)
+
 
 ONWARD, STORE = 0.005, 1_000_000
 """How far Python looks past the last good state of a lost run [s]; it keeps no nodes between."""
@@ -51,7 +131,8 @@ def run_compiled(
         made = CompiledWalker.of(walker, method, walker.controller_size(x0), options.t0)
     except NotCompiled as reason:
         run = on_compiled_plant(walker, x0, mode, method, options)
-        why = {"engine": COMPILED_PLANT, "why": str(reason)}
+        text = f"{reason}; it runs in Python on the compiled plant"
+        why = {"engine": COMPILED_PLANT, "why": text}
         return replace(run, settings={**run.settings, **why})
     run = run_made(made, x0, mode, method, options)
     return replace(
@@ -97,22 +178,19 @@ def on_compiled_plant(
     walker: Walker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
 ) -> Trajectory:
     """A run in Python from x0 (nx,) with compiled dynamics and references. Raises as `run_compiled`."""
-    walker, points = compiled_plant(walker)
+    walker, system = compiled_plant(walker), None
     if walker.sampled:
-        try:
-            return run_ticks(walker, x0, mode, method, options, points)
-        except NotCompiled:  # a disturbance or a method without a compiled form
-            pass
-    return simulator.run(walker, x0, mode, method, options)
+        with suppress(NotCompiled):  # a disturbance or a method without a compiled form
+            system = Ticks(walker, CompiledWalker.held(walker, method), len(x0))
+    return simulator.run(system or walker, x0, mode, method, options)
 
 
-def compiled_plant(walker: Walker) -> tuple[Walker, list[CompiledReference]]:
-    """The walker with compiled dynamics and references, and these references. Raises ModelError."""
-    points: list[CompiledReference] = []
-    controller = compiled_references(walker.controller, walker.plant.n, points)
+def compiled_plant(walker: Walker) -> Walker:
+    """The walker with compiled dynamics and references. Raises ModelError."""
+    controller = compiled_references(walker.controller, walker.plant.n)
     model = None if walker.model is None else CompiledBiped.of(walker.model)
     plant = CompiledBiped.of(walker.plant)
-    return replace(walker, plant=plant, model=model, controller=controller), points
+    return replace(walker, plant=plant, model=model, controller=controller)
 
 
 def flown(run: CompiledRun, mode: Mode, every: int, room: int) -> FlownArc:
@@ -120,10 +198,10 @@ def flown(run: CompiledRun, mode: Mode, every: int, room: int) -> FlownArc:
 
     every: each so many-th step is kept. room: nodes to make room for at first.
     """
-    code, t, x, dx = arc(run, every, room)
+    code, t, x, dx = run.arc(every, room)
     x_minus, event, outcome = run.x.copy(), None, None
     if code == STRUCK:
-        code = kernels().strike(run.cells)
+        code = run.land()
         if code == COMPLETED:
             outcome = run.x.copy(), Mode(mode.step + 1, run["t"])
             event = Event(FOOT_STRIKE, run["t"], x_minus, outcome[0])

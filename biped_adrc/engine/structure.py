@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.engine.symbols import HIDDEN, Untraceable
+from biped_adrc.engine.symbols import HIDDEN, NotCompiled
 from biped_adrc.part import content, is_part
 from biped_adrc.parts import LIBRARIES, is_users
 
@@ -23,8 +23,13 @@ from biped_adrc.parts import LIBRARIES, is_users
 def structure(tree: Any, exact: bool = False) -> Hashable:
     """All that decides the code of a tree of parts, tuples, arrays and numbers; exact: floats by value too.
 
-    Raises Untraceable for an object whose content cannot be compared.
+    Raises NotCompiled for an object whose content cannot be compared.
     """
+    if isinstance(tree, float | np.floating) and not exact:
+        return float
+    if isinstance(tree, np.ndarray):
+        numbers = tree.dtype.kind == "f" and not exact
+        return tree.dtype.str, tree.shape, None if numbers else tree.tobytes()
     if isinstance(tree, HIDDEN):
         return "hidden", type(tree)
     if is_part(tree):
@@ -33,15 +38,10 @@ def structure(tree: Any, exact: bool = False) -> Hashable:
         return type(tree), *(structure(x, exact) for x in tree)
     if isinstance(tree, dict):
         return dict, *((name, structure(x, True)) for name, x in tree.items())
-    if isinstance(tree, np.ndarray):
-        numbers = tree.dtype.kind == "f" and not exact
-        return tree.dtype.str, tree.shape, None if numbers else tree.tobytes()
-    if isinstance(tree, float | np.floating) and not exact:
-        return float
     try:
         hash(tree)
     except TypeError:
-        raise Untraceable(
+        raise NotCompiled(
             f"a part holds {tree!r}, a {type(tree).__name__} whose content cannot be compared"
         ) from None
     known = isinstance(tree, type | types.FunctionType | types.ModuleType)

@@ -8,7 +8,7 @@ lines are not rewritten.
 
 Numbers of type int decide (sizes, flags) and are part of the expression's structure; floats are
 symbols, to be given at run time, so that one compilation serves all values. What branches on
-a symbol raises `Untraceable`; np.where is the way to write such a choice.
+a symbol raises `NotCompiled`; np.where is the way to write such a choice.
 
 Symbols are typed as the numbers and arrays that they stand for, since the functions that take them
 are typed for numbers.
@@ -34,10 +34,8 @@ from biped_adrc.types import Array, frozen
 T = TypeVar("T")
 
 
-class Untraceable(InputError):
-    """A method looks at a number to decide what to do, or does what has no symbol. The text names
-    the function.
-    """
+class NotCompiled(InputError):
+    """What has no machine code, such as a method that branches on the value of a number; the text names it."""
 
 
 Number = Union["Scalar", float]
@@ -45,13 +43,13 @@ Number = Union["Scalar", float]
 
 
 def expression(x: Number) -> ca.SX | float:
-    """The CasADi expression behind a Scalar, or the number itself as a float. Raises Untraceable for others."""
+    """The CasADi expression behind a Scalar, or the number itself as a float. Raises NotCompiled for others."""
     if isinstance(x, Scalar):
         return x.e
     try:
         return float(x)
     except (TypeError, ValueError) as error:
-        raise Untraceable(f"a law gives {x!r}, expected a real number") from error
+        raise NotCompiled(f"a law gives {x!r}, expected a real number") from error
 
 
 def _binary(code: int, reflected: bool = False) -> Callable[[Scalar, Number], Scalar]:
@@ -73,7 +71,7 @@ def _binary(code: int, reflected: bool = False) -> Callable[[Scalar, Number], Sc
 class Scalar:
     """One number of an expression; arithmetic with another Scalar or a float gives another Scalar.
 
-    e: the CasADi expression. Turning it into a bool or a float raises Untraceable, since that is
+    e: the CasADi expression. Turning it into a bool or a float raises NotCompiled, since that is
     where a method would decide by a number. Comparisons give Scalars that are 0 or 1, for np.where.
     """
 
@@ -83,10 +81,10 @@ class Scalar:
         self.e = e
 
     def __bool__(self) -> bool:
-        raise Untraceable("the law branches on the value of a number")
+        raise NotCompiled("the law branches on the value of a number")
 
     def __float__(self) -> float:
-        raise Untraceable("the law turns a number into a float of Python's or of an array's")
+        raise NotCompiled("the law turns a number into a float of Python's or of an array's")
 
     def __pow__(self, other: Number) -> Scalar:
         """A whole exponent stays an int, which CasADi turns into products; any other is a power."""
@@ -106,7 +104,7 @@ class Scalar:
         return self
 
     def __hash__(self) -> int:
-        raise Untraceable("the law looks a number up in a dictionary or a set")
+        raise NotCompiled("the law looks a number up in a dictionary or a set")
 
     __add__, __radd__ = _binary(ca.OP_ADD), _binary(ca.OP_ADD, reflected=True)
     __sub__, __rsub__ = _binary(ca.OP_SUB), _binary(ca.OP_SUB, reflected=True)
@@ -285,13 +283,13 @@ def rebuilt(like: tuple[object, ...] | list[object], parts: list[object]) -> obj
 
 
 class Hidden:
-    """In place of what has no symbols: a robot, complex or random numbers. Raises Untraceable when used."""
+    """In place of what has no symbols: a robot, complex or random numbers. Raises NotCompiled when used."""
 
     def __init__(self, what: str):
         self._what = what
 
     def __getattr__(self, name: str) -> Any:
-        raise Untraceable(f"the law uses {self._what}, which has no form on symbols")
+        raise NotCompiled(f"the law uses {self._what}, which has no form on symbols")
 
     __iter__ = __len__ = __add__ = __radd__ = __mul__ = __rmul__ = __array__ = __call__ = (
         lambda self, *_: self.__getattr__("")
@@ -346,13 +344,15 @@ class Vector:
 
 def floats(tree: object) -> list[float]:
     """The numbers that `Vector.like` takes symbols for, in its order."""
-    if isinstance(tree, tuple | list):
-        return list(chain.from_iterable(map(floats, tree)))
+    if isinstance(tree, float | np.floating):
+        return [float(tree)]
     if isinstance(tree, np.ndarray):
         return tree.ravel().tolist() if tree.dtype.kind == "f" else []
+    if isinstance(tree, tuple | list):
+        return list(chain.from_iterable(map(floats, tree)))
     if is_part(tree) and not isinstance(tree, HIDDEN):
         return floats(tuple(content(tree).values()))
-    return [float(tree)] if isinstance(tree, float | np.floating) else []
+    return []
 
 
 def paths(tree: object, name: str = "") -> Iterator[str]:

@@ -18,9 +18,9 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.engine.equations import Equations, WalkerNumbers, WalkerStructure
-from biped_adrc.engine.program import NotCompiled, structure_of, structure_of_walker
+from biped_adrc.engine.program import structure_of, structure_of_walker
 from biped_adrc.engine.structure import structure
-from biped_adrc.engine.symbols import Untraceable, floats
+from biped_adrc.engine.symbols import NotCompiled, floats
 from biped_adrc.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.types import Array
 
@@ -48,7 +48,7 @@ def tick_derivative(walker: Walker, nx: int) -> Ticked:
     try:
         make, numbers = structure_of(walker, walker.controller_size(nx))
         function = _function(make, numbers)
-    except (NotCompiled, ModelError, Untraceable):
+    except (NotCompiled, ModelError):
         return partial(_differenced, walker)
     return _Evaluated(function, np.array([*floats(numbers), 0.0]), nx)
 

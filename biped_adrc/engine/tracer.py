@@ -32,10 +32,10 @@ from biped_adrc.engine.symbols import (
     FUNCTIONS,
     HIDDEN,
     Hidden,
+    NotCompiled,
     Scalar,
     Solver,
     T,
-    Untraceable,
     elementwise,
     function_of,
     maximum,
@@ -88,7 +88,7 @@ class Unchangeable(list[Any]):
     """In place of a list that a function finds: machine code keeps nothing."""
 
     def _refuse(self, *_: object, **__: object) -> Any:
-        raise Untraceable("the law changes a list")
+        raise NotCompiled("the law changes a list")
 
     append = extend = insert = pop = remove = clear = reverse = sort = _refuse
     __setitem__ = __delitem__ = __iadd__ = __imul__ = _refuse
@@ -281,7 +281,7 @@ def run(trace: Tracer, f: Callable[..., T], *arguments: object) -> T:
         return trace(f)(*map(trace.on_symbols, arguments))
 
 
-class Located(Untraceable):
+class Located(NotCompiled):
     """One whose text says where."""
 
 

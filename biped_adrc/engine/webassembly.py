@@ -7,29 +7,115 @@ called from outside, which `_with_exports` adds.
 
 What the module does not have it imports from `env`: its memory, the table of the functions that the loops call
 by address (their number in that table), the stack's end, and `sin`, `pow` and the like.
+
+`web_walkers` makes it, and the numbers of each walker. In place of an address a block has a function's number
+in `WebWalkers.functions`, from 1 on. Walkers of the same structure share their functions.
 """
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator, Mapping, Set
-from functools import cache
-from pathlib import Path
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
+from dataclasses import replace
+from functools import partial
+from typing import Any, NamedTuple
 
 from llvmlite import binding
 
-from biped_adrc.engine.kernels.load import kernels, source
-from biped_adrc.engine.machine import keep, key_of, stored
+from biped_adrc.engine.compiled_push import term_text
+from biped_adrc.engine.compiled_signals import SignalNumbers, observe
+from biped_adrc.engine.compiled_walker import CompiledWalker
+from biped_adrc.engine.equations import Equations
+from biped_adrc.engine.ir import module_text
+from biped_adrc.engine.kernels.load import loops
+from biped_adrc.engine.kernels.record import PART, PLACES
+from biped_adrc.engine.kernels.run_plan import Functions, RunPlan
+from biped_adrc.errors import InputError
+from biped_adrc.gait.reference import Reference
+
+
+class WebWalker(NamedTuple):
+    """The numbers of one walker."""
+
+    plan: RunPlan
+    """With numbers of functions in place of addresses."""
+    observe: int
+    """Number of the function that says its signals (`closed_loop.instant_signals`)."""
+
+
+class WebWalkers(NamedTuple):
+    """Walkers for a page."""
+
+    code: bytes
+    """The module."""
+    functions: tuple[str, ...]
+    """Names in the module of those that are called by their number, from 1 on."""
+    walkers: tuple[WebWalker, ...]
+
+
+def web_walkers(walkers: Sequence[CompiledWalker], reference: Reference) -> WebWalkers:
+    """One module for walkers on one gait, made with the reference to which their signals refer.
+
+    Raises InputError for the exponential method, whose product with matrices has another form.
+    """
+    laws = _Laws({}, {}, [])
+    made = [_walker(one, reference, laws) for one in walkers]
+    return WebWalkers(web_module(laws.texts), tuple(laws.functions), tuple(made))
+
+
+class _Laws(NamedTuple):
+    """What the walkers share, filled by one after the other."""
+
+    texts: dict[str, str]
+    """Functions of walkers in LLVM's language, by a name for them."""
+    names: dict[int, str]
+    """That name by the address of one of the functions here."""
+    functions: list[str]
+    """Names of those that are called by their number."""
+
+    def of(self, address: int, text: Callable[[], str]) -> str:
+        """The name of the text to which a function belongs; it is made where it is not there yet."""
+        if address not in self.names:
+            self.names[address] = f"laws{len(self.names)}"
+            self.texts[self.names[address]] = text()
+        return self.names[address]
+
+    def number(self, name: str) -> int:
+        """The number of a function, a new one where it has none yet."""
+        if name not in self.functions:
+            self.functions.append(name)
+        return 1 + self.functions.index(name)
+
+
+def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker:
+    """The numbers of one walker, whose functions join those of the others. Raises InputError."""
+    program = one.program
+    if program.numbers.split is not None:
+        raise InputError("an offline page takes the steps of RK4; leave out the exponential method")
+    signals = SignalNumbers(program.numbers, reference)
+
+    def text() -> str:
+        equations = Equations.of(program.make, program.numbers)
+        made = {name: getattr(equations, name)() for name in Equations.names(program.numbers)}
+        return module_text(made | {"observe": observe(program.make, signals)})
+
+    own = laws.of(program.address("flow"), text)
+    cells = one.plan.cells.copy()
+    for name in Functions._fields:
+        at = PLACES[name]
+        cells[at] = laws.number(f"{own}.{name}") if cells[at] else 0
+    terms = one.walker.disturbance.terms if one.walker.disturbance else ()
+    for k, term in enumerate(terms):
+        part = cells[one.plan.places["parts"] + PART * k :][:PART]
+        push = laws.of(int(part[0]), partial(term_text, term, one.walker.plant.n))
+        part[0] = laws.number(f"{push}.torque")
+        part[2] = laws.number(f"{push}.resultant") if part[2] else 0
+    return WebWalker(replace(one.plan, cells=cells), laws.number(f"{own}.observe"))
+
 
 TARGET = "wasm32-unknown-unknown"
 """LLVM's name of what a browser runs."""
 LOOPS = ("go_on", "land", "look")
 """The units of the kernels that a page calls."""
-ERRORS = re.compile(
-    r'^declare (.*?@"?(?:Py|NRT_|numba_(?!nextafter))[^"(]*"?\(.*?\)).*$', re.MULTILINE
-)
-"""What numba calls where Python would raise an error, which the loops never do."""
 CUSTOM, EXPORTS, LATER = 0, 7, (9, 10, 11, 12)
 """Sections of WebAssembly: those of the linker, the names of functions, and those that stand behind it."""
 SYMBOLS, FUNCTION, DATA, SECTION, UNDEFINED, NAMED = 8, 0, 1, 3, 0x10, 0x40
@@ -44,7 +130,7 @@ def web_module(laws: Mapping[str, str]) -> bytes:
     binding.initialize_all_targets()
     binding.initialize_all_asmprinters()
     machine = binding.Target.from_triple(TARGET).create_target_machine(opt=3)
-    module = _parsed(_loops(), machine)
+    module = _parsed(loops(), machine)
     called = {*LOOPS}
     for name, text in laws.items():
         made = _parsed(text, machine)
@@ -72,43 +158,6 @@ def _parsed(text: str, machine: Any) -> Any:
 def _defined(module: Any) -> list[Any]:
     """The functions that a module has, not only names."""
     return [function for function in module.functions if not function.is_declaration]
-
-
-@cache
-def _loops() -> str:
-    """All units of the kernels in one text for LLVM, from the disk where it is there."""
-    key = key_of(f"{TARGET}\0{source()}\0{Path(__file__).read_text(encoding='utf-8')}")
-    kept = stored(key)
-    text = kept.decode() if kept is not None else _written_loops()
-    if kept is None:
-        keep(key, text.encode())
-    return text
-
-
-def _written_loops() -> str:
-    """As `_loops`, each unit under its own name; errors of Python end the module.
-
-    numba compiles them once more, since what it keeps on the disk is for this processor.
-    """
-    from numba import cfunc
-
-    made = {
-        symbol: cfunc(signature, error_model="numpy")(function)
-        for symbol, (signature, function) in kernels().UNITS.items()
-    }
-    module: Any = None
-    for one in made.values():
-        text = re.sub(r"^target .*$", "", one.inspect_llvm(), flags=re.MULTILINE)
-        for symbol, compiled in made.items():
-            names = "|".join(map(re.escape, (compiled.native_name, symbol)))
-            text = re.sub(rf'@"?(?:{names})"?\(', f"@{symbol.rpartition('.')[2]}(", text)
-        part = binding.parse_assembly(text.replace(" = common ", " = weak "))
-        if module is None:
-            module = part
-        else:
-            module.link_in(part)
-    text = ERRORS.sub(r"define \1 { call void @llvm.trap() unreachable }", str(module))
-    return f"{text}\ndeclare void @llvm.trap()\n"
 
 
 def _with_exports(code: bytes, called: Set[str]) -> bytes:

@@ -111,14 +111,8 @@ def _doubled(phi: Phi) -> Phi:
 
 
 def phi_levels(h: float, A: Array) -> Array:
-    """The `matrices` of steps h 2^-level [s], (levels, 6, k, k), for A (k, k) [1/s]; read-only.
-
-    Raises InputError for a matrix that is not square or not finite.
-    """
-    A = np.ascontiguousarray(A, dtype=float)
-    if A.ndim != 2 or A.shape[0] != A.shape[1] or not np.all(np.isfinite(A)):
-        raise InputError(f"A has shape {A.shape}, expected a square matrix of finite numbers")
-    return _phi_levels(h, A.tobytes())
+    """The `matrices` of steps h 2^-level [s], (levels, 6, k, k), for A (k, k) [1/s]; read-only."""
+    return _phi_levels(h, np.asarray(A, dtype=float).tobytes())
 
 
 @lru_cache(maxsize=64)

@@ -11,11 +11,11 @@ from __future__ import annotations
 
 import io
 import json
+import math
 import os
 import zipfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -107,7 +107,7 @@ def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: number
             if meta["format"] != FORMAT:
                 raise InputError(f"it has format '{meta['format']}', expected '{FORMAT}'")
             arcs = tuple(_arc(data, i, event, mode) for i, event in enumerate(meta["events"]))
-            _check_order(arcs)
+            _check(arcs)
             if not arcs or f"t{len(arcs)}" in data:
                 raise ValueError(f"there are events of {len(arcs)} arcs")
         settings = dict(meta["settings"])
@@ -163,9 +163,7 @@ def _arc(
     event: Mapping[str, Any] | None,
     mode: Callable[..., object],
 ) -> Arc:
-    """Arc i of the arrays in a file, with its event as noted in the JSON. Raises ValueError for
-    what does not fit.
-    """
+    """Arc i of the arrays in a file, with its event as noted in the JSON."""
     found = None
     if event is not None:
         plus = data.get(f"x_plus{i}")
@@ -173,35 +171,24 @@ def _arc(
     numbers = np.atleast_1d(data[f"mode{i}"]).tolist()
     mark = f"read{i}_"
     read = {name.removeprefix(mark): data[name] for name in data if name.startswith(mark)}
-    arc = Arc(mode(*numbers), data[f"t{i}"], data[f"x{i}"], data[f"dx{i}"], found, read)
-    _check_arc(arc, f"arc {i}")
-    return arc
+    return Arc(mode(*numbers), data[f"t{i}"], data[f"x{i}"], data[f"dx{i}"], found, read)
 
 
-def _check_order(arcs: Sequence[Arc]) -> None:
-    """Raise ValueError where an arc begins before the one before it ends, or an event is of another time."""
-    for i, (arc, later) in enumerate(pairwise(arcs)):
-        if later.t[0] < arc.t[-1]:
-            raise ValueError(f"arc {i + 1} begins at {later.t[0]} s, arc {i} ends at {arc.t[-1]} s")
+def _check(arcs: Sequence[Arc]) -> None:
+    """Raise ValueError for arcs that are none: other shapes, what is no number, times that go back."""
+    end = -math.inf
     for i, arc in enumerate(arcs):
-        if arc.event is not None and arc.event.t != arc.t[-1]:
-            raise ValueError(f"arc {i} ends at {arc.t[-1]} s, its event is at {arc.event.t} s")
-
-
-def _check_arc(arc: Arc, name: str) -> None:
-    """Raise ValueError for times (K,) that go back, rows and states that do not fit, and what is no number."""
-    t, x, event = arc.t, arc.x, arc.event
-    parts: dict[str, Stored | None] = {"t": t, "x": x, "x'": arc.dx, **arc.read}
-    parts |= {} if event is None else {"x-": event.x_minus, "x+": event.x_plus}
-    for key, values in parts.items():
-        if values is not None and values.dtype.kind != "f":
-            raise ValueError(f"{name} has {key} of type {values.dtype}, expected floating point")
-        if values is not None and key not in arc.read and not np.isfinite(values).all():
-            raise ValueError(f"{name} has {key} with NaN or infinity")
-    if t.ndim != 1 or len(t) == 0 or not np.all(np.isfinite(t)) or np.any(np.diff(t) < 0.0):
-        raise ValueError(f"{name} has no times t (K,) that ascend")
-    if x.ndim != 2 or x.shape != arc.dx.shape or {len(x), *map(len, arc.read.values())} != {len(t)}:
-        raise ValueError(f"{name} has {len(t)} times, x {x.shape} and x' {arc.dx.shape}")
-    states = () if event is None else (event.x_minus, event.x_plus)
-    if any(state is not None and state.shape != x.shape[1:] for state in states):
-        raise ValueError(f"{name} ends in states of another size than its {x.shape[1]}")
+        t, x, read = arc.t, arc.x, arc.read.values()
+        ends = [] if arc.event is None else [arc.event.x_minus, arc.event.x_plus]
+        states = [state for state in ends if state is not None]
+        if any(values.dtype.kind != "f" for values in (t, x, arc.dx, *read, *states)):
+            raise ValueError(f"arc {i} has what is no floating point")
+        if t.ndim != 1 or x.ndim != 2 or {len(x), *map(len, read)} != {len(t) or -1}:
+            raise ValueError(f"arc {i} has {len(t)} times and states {x.shape}")
+        if arc.dx.shape != x.shape or any(state.shape != x.shape[1:] for state in states):
+            raise ValueError(f"arc {i} has slopes or ends of another size than its {x.shape}")
+        if not all(np.isfinite(values).all() for values in (t, x, arc.dx, *states)):
+            raise ValueError(f"arc {i} has NaN or infinity")
+        if t[0] < end or np.any(np.diff(t) < 0.0) or (arc.event and arc.event.t != t[-1]):
+            raise ValueError(f"the times of arc {i} do not ascend to its event")
+        end = t[-1]

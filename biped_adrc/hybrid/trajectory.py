@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -21,8 +21,6 @@ from biped_adrc.types import Array, freeze, frozen
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-T = TypeVar("T")
 
 
 class Viewer(Protocol):
@@ -216,14 +214,6 @@ class Trajectory(Shown):
     def final_state(self) -> Array:
         """The state at the end (nx,): x+ when the run ended at an event."""
         return self(self.t_end)
-
-    def sample(self, function: Callable[[float, Array, Any], T]) -> list[T]:
-        """function(t, x, mode) at every stored node, in order of time; t [s], x (nx,)."""
-        return [
-            function(float(t), x, arc.mode)
-            for arc in self.arcs
-            for t, x in zip(arc.t, arc.x, strict=True)
-        ]
 
     # -- pictures --------------------------------------------------------------------------------
     def animate(self, path: Path | str) -> None:

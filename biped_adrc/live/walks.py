@@ -25,9 +25,8 @@ from biped_adrc.disturbances.step import TorqueStep
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.record import PLACES, Ints
 from biped_adrc.engine.kernels.run_plan import STATUS
-from biped_adrc.engine.program import NotCompiled
-from biped_adrc.engine.symbols import paths
-from biped_adrc.engine.web_walker import WebWalker, web_walkers
+from biped_adrc.engine.symbols import NotCompiled, paths
+from biped_adrc.engine.webassembly import WebWalker, web_walkers
 from biped_adrc.errors import InputError
 from biped_adrc.hybrid.constants import STRUCK
 from biped_adrc.model.biped import Biped

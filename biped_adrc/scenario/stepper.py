@@ -31,13 +31,13 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.engine.compiled_signals import Reading
-from biped_adrc.engine.kernels.load import step_kernels
-from biped_adrc.engine.kernels.record import Ints
+from biped_adrc.engine.kernels.load import kernels
+from biped_adrc.engine.kernels.record import WALK, Ints
 from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.engine.on_plant import as_walked
-from biped_adrc.engine.program import NotCompiled
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.engine.samples import CompiledWalk, PythonWalk, reading, with_inputs
+from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.status import Status
@@ -118,16 +118,19 @@ class Stepper:
         self.in_python = False  # whether one of them is
         self.over: list[tuple[int, Support]] = []
         """Single supports that ended in the last sample, each with the number of its walk, where judged."""
-        self._kernels = step_kernels()
-        self.addresses = np.zeros(count * self._kernels.WALK, dtype=np.int64)
+        self._kernels = kernels()
+        self.addresses = np.zeros((count, WALK), dtype=np.int64)
+        self._walks = self.addresses.ctypes.data, count
+        self._inputs = np.zeros((count, self.p + 2))
         self._impacts = np.zeros(count, dtype=np.int64)
         """In the last sample."""
         self.codes = np.full(count, -1, dtype=np.int64)
         """0 for a walk that goes on, -1 for one that has not begun."""
         self.rows = np.zeros((count, 0))
         """t, number of the single support, x of each walk."""
-        self._laws = dict[Reading, tuple[Ints, int]]()
-        """By function for `read`: addresses of its machine code (N,), and how many numbers it gives."""
+        self._laws = dict[Reading, tuple[Ints, Array, tuple[int, ...]]]()
+        """By function for `read`: addresses of its machine code (N,), what it says in N rows, and both for
+        `kernels.looks`."""
         self._complete = set[Reading]()  # those whose addresses are there for all walks
 
     @property
@@ -187,14 +190,14 @@ class Stepper:
         _, t, x, mode = walk.at
         if not self.rows.size:
             self.rows = np.zeros((len(self.walks), 2 + len(x)))
+            arrays = (self._inputs, self.rows, self.codes, self._impacts)
+            self._states = self.p, self.rows.shape[1], *(x.ctypes.data for x in arrays)
         self.rows[i] = (t, mode.step, *x)
         self.walks[i], self.codes[i] = walk, code
-        size = self._kernels.WALK
-        addresses = walk.addresses if isinstance(walk, CompiledWalk) else [0] * size
-        self.addresses[size * i : size * (i + 1)] = addresses
+        self.addresses[i] = walk.addresses if isinstance(walk, CompiledWalk) else 0
         self.in_python |= isinstance(walk, PythonWalk)
         self._complete.clear()
-        for laws, _ in self._laws.values():
+        for laws, _, _ in self._laws.values():
             laws[i] = 0
 
     def step(self, torque: ArrayLike | None = None, force: ArrayLike | None = None) -> Sample:
@@ -217,8 +220,9 @@ class Stepper:
     def move(self, inputs: Array) -> None:
         """As `step`, of walks that have begun, under rows (torque, force) of inputs (N, p + 2), not checked."""
         before = self.codes.copy()
-        over = self._kernels.samples(self.addresses, inputs, self.rows, self.codes, self._impacts)
-        self.over = self._judged(before) if over > 0 and self.within is not None else []
+        self._inputs[:] = inputs
+        ends = self._kernels.samples(*self._walks, *self._states)
+        self.over = self._judged(before) if ends > 0 and self.within is not None else []
         for i, walk in enumerate(self.walks) if self.in_python else ():
             if isinstance(walk, PythonWalk) and self.codes[i] == 0:
                 after, status, over = walk.sample(inputs[i])
@@ -272,9 +276,10 @@ class Stepper:
         if view not in self._laws:
             first = next(walk for walk in self.walks if walk is not None)
             size = len(reading(first, view, self.curve))
-            self._laws[view] = np.zeros(len(self.walks), dtype=np.int64), size
-        laws, size = self._laws[view]
-        found = np.zeros((len(laws), size))
+            laws = np.zeros(len(self.walks), dtype=np.int64)
+            found = np.zeros((len(laws), size))
+            self._laws[view] = laws, found, (size, laws.ctypes.data, found.ctypes.data)
+        laws, found, at = self._laws[view]
         for i in () if view in self._complete else np.flatnonzero(laws == 0).tolist():
             walk = self.walks[i]
             if isinstance(walk, CompiledWalk):
@@ -283,8 +288,8 @@ class Stepper:
                 found[i] = reading(walk, view, self.curve)
         if not self.in_python:
             self._complete.add(view)
-        self._kernels.looks(self.addresses, laws, found)
-        return found
+        self._kernels.looks(*self._walks, *at)
+        return found.copy()
 
 
 def finite_numbers(what: str, values: ArrayLike, shape: tuple[int, ...]) -> Array:

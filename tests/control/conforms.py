@@ -20,12 +20,12 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.disturbances.base import Windowed
-from biped_adrc.engine.compiled_walker import term_code
+from biped_adrc.engine.compiled_push import term_code
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.machine import ModuleText, load_or_compile
 from biped_adrc.engine.program import Program
-from biped_adrc.engine.symbols import Untraceable, Vector, column, floats
+from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
 from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.gait.curves import Curve
 from biped_adrc.gait.outputs import Outputs
@@ -366,7 +366,7 @@ def methods_compile(law, sampled):
         a, kind = 0.1 * random.normal(size=(5, 2)), type(law)
         try:
             agree(kind.output, law, s, m)
-        except Untraceable:
+        except NotCompiled:
             return False
         calls = {"correct": (s, m), "predict": (s, m, u)} if sampled else {"flow": (s, m, u)}
         calls |= {"initial_state": (m,), "jump": (s, m, SWAP)}

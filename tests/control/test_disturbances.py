@@ -14,7 +14,7 @@ from biped_adrc.disturbances.hip_force import HipForce
 from biped_adrc.disturbances.link import OnLink
 from biped_adrc.disturbances.noise import TorqueNoise
 from biped_adrc.disturbances.recorded import RecordedTorque
-from biped_adrc.engine.compiled_walker import term_code
+from biped_adrc.engine.compiled_push import term_code
 from biped_adrc.errors import InputError
 from biped_adrc.model.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.model.pinned import frame_index

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.engine.compiled_walker import term_code
+from biped_adrc.engine.compiled_push import term_code
 from biped_adrc.engine.ir import in_memory
 from biped_adrc.engine.machine import ModuleText
 from biped_adrc.engine.structure import structure

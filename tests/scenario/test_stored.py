@@ -201,11 +201,11 @@ def test_plain_values_come_back() -> None:
         (
             "x0",
             lambda x: np.where(np.arange(x.size).reshape(x.shape) == 7, np.nan, x),
-            "x with NaN",
+            "arc 0 has NaN",
         ),
-        ("x1", lambda x: x.astype(complex), "x of type complex128"),
-        ("t1", lambda t: t - 0.2, "arc 1 begins at"),
-        ("t1", lambda t: np.append(t[:-1], 1e12), "its event is at"),
+        ("x1", lambda x: x.astype(complex), "arc 1 has what is no floating point"),
+        ("t1", lambda t: t - 0.2, "the times of arc 1 do not ascend"),
+        ("t1", lambda t: np.append(t[:-1], 1e12), "the times of arc 1 do not ascend"),
     ],
 )
 def test_what_is_no_number_and_goes_back_in_time_is_refused(sound, tmp_path, name, change, said):

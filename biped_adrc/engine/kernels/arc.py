@@ -1,18 +1,24 @@
-"""What Python calls: an arc of a run, its impact, a whole walk, and a sample under a controller in Python.
+"""What Python calls: an arc of a run, its impact, a whole walk, and samples of many walks.
 
-`stride` is the whole walk in compiled code, for many walks at once: arcs and impacts until enough of them,
-the end, or a terminal status. `hold` is for controllers in Python: it moves the plant to the next sample
-instant and computes there what the controller is given.
+`stride` is the whole walk in compiled code, for many walks in threads: arcs and impacts until enough of them,
+the end, or a terminal status. `samples` moves many walks by one sample each, from one sample instant to the
+next. An impact within it is made on the way; where the clock restarts with it, a sample instant is due there,
+and the sample ends. So a walk is the same either way, and its inputs may be others at every sample instant.
 """
 
 from __future__ import annotations
 
+import math
+
 from biped_adrc.engine.kernels.call import *
 from biped_adrc.engine.kernels.operations import *
-from biped_adrc.engine.kernels.record import FOOT_STRIKE, Ints, Run
+from biped_adrc.engine.kernels.record import FOOT_STRIKE, WALK, Ints, Run
 from biped_adrc.hybrid.constants import *
 from biped_adrc.hybrid.march import arm, travel
 from biped_adrc.types import Array
+
+MOST_ARCS = 100
+"""In one sample (EVENT_LIMIT)."""
 
 
 @unit
@@ -44,28 +50,6 @@ def go_on(r: Run) -> int:
     return code
 
 
-@kernel
-def arc(run: Ints) -> int:
-    """Go on to the first event or t_end; a code."""
-    return go_on(data(run))
-
-
-@unit
-def hold(call_of: Ints, out: Array) -> int:
-    """As `go_on`; then in `out` (t, q, q') there, and behind them what a function says of these.
-
-    call_of (3,): addresses of the run, of the function, and of its numbers. By addresses, so that Python
-    passes two pointers and no arrays.
-    """
-    r = ints_at(call_of[0])
-    code, size = go_on(r), 2 * r.n
-    if code != FULL:
-        out[0] = r.t
-        copy(r.x0, shift(out, 1), size)
-        call(call_of[1], floats_at(call_of[2]), out, shift(out, 1 + size))
-    return code
-
-
 @unit
 def land(r: Run) -> int:
     """x+ in place of x- in x0, and the start of the next arc; a status, all as before where it is not 0."""
@@ -76,41 +60,107 @@ def land(r: Run) -> int:
     return code
 
 
-@kernel
-def strike(run: Ints) -> int:
-    """x+ in place of x-, as `land`; a status."""
-    return land(data(run))
+@unit
+def stride(r: Run, impacts: int, strikes: Array, room: int) -> int:
+    """Over `impacts` impacts, or over any number until t_end for 0; a status.
 
-
-@kernel
-def stride(run: Ints, impacts: int, strikes: Rows) -> tuple[int, int]:
-    """Over `impacts` impacts, or over any number until t_end for 0: status and how many were made.
-
-    strikes (m, 1 + 2 nx) gets a row (t, x-, x+) of each; more than m of them end as EVENT_LIMIT. No nodes are
-    kept in between, but columns of `table`; where there is no room for those (FULL), the run is at the start of
-    its arc.
+    strikes (room, 1 + 2 nx) gets a row (t, x-, x+) of each; more than `room` of them end as EVENT_LIMIT. No
+    nodes are kept in between, but columns of `table`; where there is no room for those (FULL), the run is at
+    the start of its arc.
     """
-    r, count = data(run), 0
+    count, nx = 0, r.nx
     r.every = 0
     while True:
         code = go_on(r)
         if code == COMPLETED:
-            code = TIME_OUT if count < impacts else COMPLETED
-            break
+            return TIME_OUT if count < impacts else COMPLETED
         if code != STRUCK:
-            break
-        if count >= strikes.shape[0]:
-            code = EVENT_LIMIT
-            break
-        for i in range(r.nx):
-            strikes[count, 1 + i] = r.x0[i]
+            return code
+        if count >= room:
+            return EVENT_LIMIT
+        row = shift(strikes, count * (1 + 2 * nx))
+        copy(r.x0, shift(row, 1), nx)
         code = land(r)
         if code != 0:
-            break
-        strikes[count, 0] = r.t
-        for i in range(r.nx):
-            strikes[count, 1 + r.nx + i] = r.x0[i]
+            return code
+        row[0] = r.t
+        copy(r.x0, shift(row, 1 + nx), nx)
         count += 1
         if count == impacts:
-            break
-    return code, count
+            return COMPLETED
+
+
+@unit
+def sample(r: Run) -> int:
+    """From a sample instant to the next one; a code, 0 for COMPLETED.
+
+    Where there is no room for columns of the table, those in it are given up. Where the walk ends, the run is
+    at its end.
+    """
+    for _ in range(MOST_ARCS):
+        r.t_end = next_tick(r, r.t, clock_start(r))
+        code = go_on(r)
+        if code == FULL:
+            r.columns = 0
+            code = go_on(r)
+        if code == STRUCK:
+            code = land(r)
+        if code != COMPLETED:
+            return code
+        if is_tick(r, r.t, clock_start(r)):
+            return COMPLETED
+    return EVENT_LIMIT
+
+
+@unit
+def look(r: Run, law: int, out: Array) -> None:
+    """out = law(t, step, t_start, x, zeta, force) where the run is, as a sample instant there is given
+    them."""
+    lower(r)
+    r.limit = math.inf
+    measure(r, r.x0)
+    call(law, r.K, r.inp, out)
+
+
+@unit
+def samples(
+    walks: Ints,
+    count: int,
+    p: int,
+    width: int,
+    inputs: Array,
+    states: Array,
+    codes: Ints,
+    impacts: Ints,
+) -> int:
+    """One sample of each of `count` walks whose code is 0; how many of them end a single support, by an impact
+    or with the walk.
+
+    walks (count, WALK); inputs (count, p + 2): torque [N m] and force [N]. codes (count,) become those of
+    `sample`; rows of states (count, width = 2 + nx) are (t, step, x) after it, as they were where a walk has
+    ended. impacts (count,) are those made.
+    """
+    over = 0
+    for i in range(count):
+        if codes[i] == COMPLETED and walks[WALK * i] != 0:
+            r, u = ints_at(walks[WALK * i]), shift(inputs, i * (p + 2))
+            copy(u, floats_at(walks[WALK * i + 1]), p)
+            copy(shift(u, p), floats_at(walks[WALK * i + 2]), 2)
+            step = r.step
+            codes[i] = sample(r)
+            impacts[i] = int(r.step - step)
+            over += int(impacts[i] > 0 or codes[i] != COMPLETED)
+            row = shift(states, i * width)
+            row[0], row[1] = r.t, r.step
+            copy(r.x0, shift(row, 2), r.nx)
+    return over
+
+
+@unit
+def looks(walks: Ints, count: int, width: int, laws: Ints, views: Array) -> None:
+    """Rows of views (count, width): what the functions at the addresses laws (count,) say of the walks where
+    they are.
+    """
+    for i in range(count):
+        if walks[WALK * i] != 0:
+            look(ints_at(walks[WALK * i]), laws[i], shift(views, i * width))

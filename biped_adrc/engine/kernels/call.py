@@ -4,30 +4,25 @@ The loops work on pointers, written and read as arrays are; a vector is a pointe
 number. A run r is a pointer to its cells, and r.name the field of that name (`record`). Generated functions are
 called by an address that is data of the run, so the loops are compiled once for all walkers.
 
-There are three decorators. `inner` functions are compiled into each of their callers, those of `unit` once
-each and called by their symbol, which keeps the compile time down; those of `kernel` are what Python calls.
-The annotations of units and kernels are read as their signatures (int, float, Ints, Array, Rows),
-so nothing is compiled for types seen at run time.
+`inner` functions are compiled into each of their callers, those of `unit` once each and called by their name,
+which keeps the compile time down. The annotations of units are read as their signatures (int, float, Run, Ints,
+Array), so nothing is compiled for types seen at run time.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any, TypeVar
 
 import numba
-import numpy as np
-from llvmlite import binding, ir
+from llvmlite import ir
 from numba import extending
-from numba.core.dispatcher import Dispatcher
 from numba.core.imputils import lower_getattr_generic, lower_setattr_generic
 from numba.core.types import Type
 from numba.core.typing.templates import AttributeTemplate, Signature, infer_getattr
-from numpy.typing import NDArray
 
 from biped_adrc.engine.kernels.record import KINDS, PLACES
 
-Rows = NDArray[np.float64]
 _Function = TypeVar("_Function", bound=Callable[..., object])
 """A function that keeps its type through a decorator."""
 
@@ -39,23 +34,20 @@ Generated = tuple[Signature, Callable[..., ir.Value]]
 Context = Any
 """numba.core.base.BaseContext, whose methods have no annotations."""
 njit: Any = numba.njit
-cfunc: Any = numba.cfunc
 types: Any = numba.types
 
-KERNELS: list[Dispatcher] = []
-"""All kernels, to be compiled."""
-UNITS: dict[str, tuple[Signature, Callable[..., object]]] = {}
-"""By symbol: the signature and the function, in the order in which they need each other."""
-ADDRESSES: dict[str, int] = {}
-"""Of the units in memory, by name."""
-_NUMBERS = {"int": types.int64, "float": types.float64, "None": types.void}
-"""numba's types by the annotations of numbers."""
+UNITS: dict[str, tuple[str, Signature, Callable[..., object]]] = {}
+"""By name: symbol, signature and function, in the order in which they need each other."""
 _CELLS = types.CPointer(types.int64)
-_POINTERS = {"Run": _CELLS, "Ints": _CELLS, "Array": types.CPointer(types.float64)}
-"""Of a run and of vectors, in units."""
-_ARRAYS = {"Ints": types.int64[::1], "Array": types.float64[::1], "Rows": types.float64[:, ::1]}
-"""Of vectors and matrices, in kernels."""
-_KEEP: list[object] = []
+_TYPES = {
+    "int": types.int64,
+    "float": types.float64,
+    "None": types.void,
+    "Run": _CELLS,
+    "Ints": _CELLS,
+    "Array": types.CPointer(types.float64),
+}
+"""numba's types by annotation; a run and vectors are pointers."""
 
 
 def intrinsic(function: Callable[..., Generated]) -> Callable[..., Any]:
@@ -64,99 +56,35 @@ def intrinsic(function: Callable[..., Generated]) -> Callable[..., Any]:
     return made(function)
 
 
-def kernel(function: _Function) -> _Function:
-    """Callable from Python without the GIL, with arrays, once `compile_those` has run."""
-    made: Any = njit(nogil=True, error_model="numpy", cache=True)(function)
-    KERNELS.append(made)
-    return made
-
-
 def inner(function: _Function) -> _Function:
-    """Compiled into the units and kernels that call it, and kept on disk with them; for small functions."""
-    return njit(
-        nogil=True,
-        error_model="numpy",
-        no_cpython_wrapper=True,
-        no_cfunc_wrapper=True,
-    )(function)
-
-
-def _signature(
-    function: Callable[..., object], kinds: Mapping[str, Type]
-) -> tuple[list[Type], Any]:
-    """numba's types of the arguments and of the result (None for none known), from the annotations."""
-    known = {**_NUMBERS, **kinds}
-    hints = function.__annotations__
-    return [known[hint] for name, hint in hints.items() if name != "return"], known.get(
-        hints["return"]
-    )
+    """Compiled into the units that call it; for small functions."""
+    return njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)
 
 
 def unit(function: _Function) -> _Function:
-    """A C function with a symbol of its own, once `compile_those` has run; its annotations are its signature.
+    """A C function of its own (`kernels.load`); its annotations are its signature.
 
-    What it is given comes back as a reference to that symbol, so callers do not compile it again.
+    The result stands for its name, so callers do not compile it again.
     """
-    arguments, result = _signature(function, _POINTERS)
-    signature = result(*arguments)
-    symbol = f"{function.__module__}.{function.__name__}"
-    UNITS[symbol] = signature, function
+    *arguments, result = (_TYPES[hint] for hint in function.__annotations__.values())
+    symbol, signature = f"biped_adrc.{function.__name__}", result(*arguments)
+    UNITS[function.__name__] = symbol, signature, function
     return types.ExternalFunction(symbol, signature)
-
-
-def compile_those(chosen: Callable[[str], bool]) -> None:
-    """The machine code of units and kernels by name, from the disk if it is there; no more is compiled after.
-
-    Units come first, in the order in which they need each other: a kernel links to their symbols.
-    """
-    for symbol, (signature, function) in UNITS.items():
-        if not chosen(function.__name__):
-            continue
-        compiled = cfunc(signature, cache=True, error_model="numpy")(function)
-        _KEEP.append(compiled)
-        ADDRESSES[symbol.rpartition(".")[2]] = compiled.address
-        binding.add_symbol(symbol, compiled.address)
-    for made in KERNELS:
-        if not chosen(made.py_func.__name__):
-            continue
-        made.compile(tuple(_signature(made.py_func, _ARRAYS)[0]))
-        made.disable_compile()
-
-
-def _pointer(context: Context, builder: ir.IRBuilder, kind: Type, value: ir.Value) -> ir.Value:
-    """The first address of an array; a pointer as it is."""
-    if isinstance(kind, types.Array):
-        return context.make_array(kind)(context, builder, value).data
-    return value
 
 
 @intrinsic
 def call(typingctx: object, address: Type, K: Type, inp: Type, out: Type) -> Generated:
-    """Call `void f(double* K, double* inp, double* out)` at `address`, with pointers or arrays of float64."""
+    """Call `void f(double* K, double* inp, double* out)` at `address`."""
 
     def codegen(
         context: Context, builder: ir.IRBuilder, signature: Signature, arguments: list[ir.Value]
     ) -> ir.Value:
         double = ir.DoubleType().as_pointer()
         kind = ir.FunctionType(ir.VoidType(), [double] * 3).as_pointer()
-        pairs = zip(signature.args[1:], arguments[1:], strict=True)
-        pointers = [_pointer(context, builder, *pair) for pair in pairs]
-        builder.call(builder.inttoptr(arguments[0], kind), pointers)
+        builder.call(builder.inttoptr(arguments[0], kind), arguments[1:])
         return context.get_dummy_value()
 
     return types.void(types.int64, K, inp, out), codegen
-
-
-@intrinsic
-def data(typingctx: object, array: Any) -> Generated:
-    """Pointer to the first number of an array."""
-
-    def codegen(
-        context: Context, builder: ir.IRBuilder, signature: Signature, arguments: list[ir.Value]
-    ) -> ir.Value:
-        return _pointer(context, builder, signature.args[0], arguments[0])
-
-    return types.CPointer(array.dtype)(array), codegen
 
 
 @intrinsic
@@ -202,7 +130,7 @@ class _Fields(AttributeTemplate):
 
     def generic_resolve(self, run: Type, name: str) -> Any:  # type: ignore[override]
         """numba's type of a field; None for a pointer to something else, or another name."""
-        return {**_NUMBERS, **_POINTERS}[KINDS[name]] if run == _CELLS and name in KINDS else None
+        return _TYPES[KINDS[name]] if run == _CELLS and name in KINDS else None
 
 
 def _cell(builder: ir.IRBuilder, run: ir.Value, name: str) -> ir.Value:

@@ -1,22 +1,26 @@
-"""The kernels as one module on disk, so that its machine code is kept under the hash of all of its text.
+"""The loops as machine code: one text for LLVM, made by numba from the files of FILES, and kept on disk.
 
-numba's own cache looks at one file at a time and would not notice that a kernel in another file has
-changed. So the files of FILES are joined into one text, without their imports of each other,
-written to the cache folder by `engine.machine`, and imported from there. Read the files as one
-module; in the editor and for type checks they are ordinary ones.
+The files are joined into one text of Python, without their imports of each other, since `hybrid.march` stands
+in it around other operations than in Python. Read them as one module; in the editor and for type checks they
+are ordinary ones. Where LLVM's text is on disk, numba is not imported. `engine.webassembly` has the same text.
 """
 
 from __future__ import annotations
 
 import ast
+import re
+import sys
+from collections.abc import Callable
+from ctypes import CFUNCTYPE, c_int64, c_void_p
 from functools import cache
 from pathlib import Path
 from threading import Lock
 from types import ModuleType
+from typing import Any, NamedTuple
 
-from numba.core import config
+from llvmlite import binding
 
-from biped_adrc.engine.machine import load_source, note_checksums
+from biped_adrc.engine.machine import ModuleText, keep, key_of, load_or_compile, stored
 from biped_adrc.errors import ModelError
 
 _HERE = "biped_adrc.engine.kernels"
@@ -28,54 +32,95 @@ FILES = (
     "biped_adrc.hybrid.relaxation",
     "biped_adrc.hybrid.march",
     f"{_HERE}.arc",
-    f"{_HERE}.samples",
 )
 """Their modules, in the order in which they need each other."""
-_LEFT_OUT = (*FILES, "biped_adrc.hybrid.on_arrays")
+_LEFT_OUT = ("__future__", *FILES, "biped_adrc.hybrid.on_arrays")
 """Imports that are left out: what is there, and the march's operations of Python."""
+ERRORS = re.compile(r'^declare (.*?@"?(?:Py|NRT_|numba_)[^"(]*"?\(.*?\)).*$', re.MULTILINE)
+"""What numba calls where Python would raise an error, which the loops never do."""
+
+Loop = Callable[..., int]
+"""Takes whole numbers and addresses, and lets other threads of Python run."""
 
 
+class Kernels(NamedTuple):
+    """The units of `kernels.arc` that Python calls."""
+
+    go_on: Loop
+    land: Loop
+    stride: Loop
+    samples: Loop
+    looks: Loop
+
+
+SIZES = Kernels(1, 1, 4, 8, 5)  # type: ignore[arg-type]
+"""How many arguments each of them has."""
 _LOCK = Lock()
 
 
-def kernels() -> ModuleType:
-    """The compiled module, with `arc`, `strike`, `stride`; made by the first thread that asks."""
+def kernels() -> Kernels:
+    """The loops; the first thread that asks loads them, or compiles them where they are not on disk."""
     with _LOCK:
-        return _compiled(False)
-
-
-def step_kernels() -> ModuleType:
-    """The same module with `samples` and `looks` too."""
-    with _LOCK:
-        return _compiled(True)
+        return _loaded()[0]
 
 
 @cache
-def _compiled(for_steppers: bool) -> ModuleType:
-    """The module with its code for all, or with that for steppers too."""
-    if getattr(config, "DISABLE_JIT", 0):
-        raise ModelError("NUMBA_DISABLE_JIT is set, so nothing can be compiled; unset it")
-    module = _compiled(False) if for_steppers else load_source(source())
-    module.compile_those(lambda name: (name in module.FOR_STEPPERS) == for_steppers)
-    note_checksums(module)
-    return module
+def _loaded() -> tuple[Kernels, object]:
+    """The loops, and what keeps them in memory."""
+    code = load_or_compile(ModuleText(loops()), Kernels._fields)
+    calls = (
+        CFUNCTYPE(c_int64, *[c_void_p] * size)(code.addresses[name])
+        for name, size in SIZES._asdict().items()
+    )
+    return Kernels(*calls), code
+
+
+def loops() -> str:
+    """All units in one text for LLVM, each under its own name, from the disk where it is there."""
+    text = source()
+    key = key_of(f"{text}\0{Path(__file__).read_text(encoding='utf-8')}")
+    code = stored(key)
+    if code is None:
+        code = _written(text).encode()
+        keep(key, code)
+    return code.decode()
 
 
 def source() -> str:
-    """The text of all kernels, their imports of each other left out."""
+    """The text of all files, their imports of each other left out."""
     root = Path(__file__).parents[3]
     paths = (root / f"{name.replace('.', '/')}.py" for name in FILES)
-    texts = [_alone(path.read_text(encoding="utf-8")) for path in paths]
-    return "\n\n".join(['"""Compiled loops."""', "from __future__ import annotations", *texts])
+    kept = [
+        statement
+        for path in paths
+        for statement in ast.parse(path.read_text(encoding="utf-8")).body
+        if not (isinstance(statement, ast.ImportFrom) and statement.module in _LEFT_OUT)
+    ]
+    return "from __future__ import annotations\n" + ast.unparse(ast.Module(kept, []))
 
 
-def _alone(text: str) -> str:
-    """A file's text with imports from this package's kernels and from __future__ blanked; line numbers stay."""
-    lines = text.splitlines()
-    for statement in ast.parse(text).body:
-        if isinstance(statement, ast.ImportFrom) and (
-            statement.module == "__future__" or statement.module in _LEFT_OUT
-        ):
-            for i in range(statement.lineno - 1, statement.end_lineno or statement.lineno):
-                lines[i] = ""
-    return "\n".join(lines)
+def _written(text: str) -> str:
+    """LLVM's text of all units of a module; errors of Python end the process."""
+    from numba import cfunc, config
+
+    if getattr(config, "DISABLE_JIT", 0):
+        raise ModelError("NUMBA_DISABLE_JIT is set, so nothing can be compiled; unset it")
+    module = ModuleType("biped_adrc_kernels")
+    sys.modules[module.__name__] = module  # where numba looks for what a unit names
+    exec(compile(text, module.__name__, "exec"), vars(module))
+    names, linked = dict[str, str](), None
+    for name, (symbol, signature, function) in module.UNITS.items():
+        made: Any = cfunc(signature, error_model="numpy")(function)
+        binding.add_symbol(symbol, made.address)
+        names |= {symbol: name, made.native_name: name}
+        part = re.sub(r"^target .*$", "", made.inspect_llvm(), flags=re.MULTILINE)
+        for theirs, ours in names.items():
+            part = re.sub(rf'@"?{re.escape(theirs)}"?\(', f"@{ours}(", part)
+        one = binding.parse_assembly(part.replace(" = common ", " = weak "))
+        if linked is None:
+            linked = one
+        else:
+            linked.link_in(one)
+    found = re.sub("numba_nextafter", "nextafter", str(linked))
+    found = ERRORS.sub(r"define \1 { call void @llvm.trap() unreachable }", found)
+    return f"{found}\ndeclare void @llvm.trap()\n"

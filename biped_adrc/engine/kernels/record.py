@@ -17,6 +17,8 @@ FOOT_STRIKE, HIP_TOO_LOW, FOOT_X = 0, 1, 3
 """Places in what a walker's `events` gives: two event functions; x of the swing foot [m]."""
 PART = 3
 """Numbers in `parts` for one."""
+WALK = 3
+"""Numbers for one of many walks: addresses of its run, and of the torque and the force in it; 0 for no walk."""
 OUTSIDE = 2
 """Numbers behind the inputs of a sample instant: force from outside, or those on both feet."""
 

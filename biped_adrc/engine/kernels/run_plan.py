@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import (
     FOOT_STRIKE,
     KINDS,
@@ -28,11 +29,11 @@ from biped_adrc.engine.kernels.record import (
     Ints,
 )
 from biped_adrc.errors import InputError
-from biped_adrc.hybrid.constants import STRUCK
+from biped_adrc.hybrid.constants import FULL, STRUCK
 from biped_adrc.hybrid.status import Status
 from biped_adrc.types import Array, frozen
 
-STATUS = tuple(Status)[:STRUCK]
+STATUS: tuple[Status, ...] = tuple(Status)[:STRUCK]
 """The status for each code of `hybrid.constants`; STRUCK and FULL have none."""
 
 
@@ -78,6 +79,19 @@ class Push(NamedTuple):
     """Times at which zeta is not smooth, where a step of integration has to end, as `record.Run.switches`."""
 
 
+class ArcNodes(NamedTuple):
+    """Nodes of one arc and how it ended."""
+
+    code: int
+    """One of `hybrid.constants`; after STRUCK the run is at x-."""
+    t: Array
+    """Node times (m,) [s]."""
+    x: Array
+    """States (m, nx), in their own units."""
+    dx: Array
+    """Their time derivatives (m, nx)."""
+
+
 LEAST_PERIOD = 1e-9
 """Shortest sampling period [s]; with shorter ones ticks could not be counted exactly in floats."""
 
@@ -88,19 +102,12 @@ class CompiledRun:
     def __init__(self, cells: Ints, pointers: Ints, nx: int):
         """cells: of the plan, copied; pointers: which of them point into the block, from its start."""
         self.cells, self.pointers, self.nx = cells.copy(), pointers, nx
+        self.address = int(self.cells.ctypes.data)
         self.cells[pointers] += self.address
         self.numbers = self.cells.view(np.float64)
-
-    @property
-    def address(self) -> int:
-        """Of the block."""
-        return int(self.cells.ctypes.data)
-
-    @property
-    def x(self) -> Array:
-        """State (nx,), as a view."""
         at = self.place("x0")
-        return self.numbers[at : at + self.nx]
+        self.x = self.numbers[at : at + nx]
+        """State (nx,), as a view."""
 
     @property
     def block(self) -> Ints:
@@ -123,9 +130,34 @@ class CompiledRun:
         where = self.numbers if KINDS[name] == "float" else self.cells
         where[PLACES[name]] = value
 
-    def set_nodes(self, rows: Array) -> None:
-        """Room for nodes (N, 1 + 2 nx), C-contiguous; whoever gives it keeps it alive."""
-        self["nodes"], self["room"] = rows.ctypes.data, len(rows)
+    def arc(self, every: int = 1, room: int = 1024) -> ArcNodes:
+        """March to the first event, or to run["t_end"] [s].
+
+        every: each so many-th step is kept as a node. room: rows for nodes; where they do not suffice, the arc
+        is marched again with twice as many.
+        """
+        nx, self["every"], self["count"] = self.nx, every, 0
+        while True:
+            rows = np.empty((room, 1 + 2 * nx))
+            self["nodes"], self["room"] = rows.ctypes.data, room
+            code = kernels().go_on(self.address)
+            if code != FULL:
+                rows = rows[: int(self["count"])]
+                return ArcNodes(code, rows[:, 0], rows[:, 1 : 1 + nx], rows[:, 1 + nx :])
+            room *= 2
+
+    def land(self) -> int:
+        """x+ in place of x- after an arc that has STRUCK; a status."""
+        return kernels().land(self.address)
+
+    def stride(self, impacts: int, strikes: Array) -> tuple[int, int]:
+        """Over `impacts` impacts, or until run["t_end"] for 0: status and how many were made.
+
+        strikes (m, 1 + 2 nx), C-contiguous, gets a row (t, x-, x+) of each.
+        """
+        step = self["step"]
+        code = kernels().stride(self.address, impacts, strikes.ctypes.data, len(strikes))
+        return code, int(self["step"] - step)
 
     def set_table(self, look: int, table: Array) -> None:
         """Room for columns of `table` (height, N), likewise; look: address of the function that fills them."""

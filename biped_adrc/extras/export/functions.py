@@ -17,8 +17,12 @@ import numpy as np
 
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.protocols import Mode
-from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerStructure
-from biped_adrc.engine.symbolic_loop import SymbolicInstant
+from biped_adrc.engine.equations import (
+    Equations,
+    SymbolicFunction,
+    SymbolicInstant,
+    WalkerStructure,
+)
 from biped_adrc.engine.symbols import Scalar, Vector, column, where
 from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.extras.export.computer import Computer

@@ -12,7 +12,7 @@ import casadi as ca
 
 from biped_adrc.engine.c_text import CFunction, Entry
 from biped_adrc.engine.equations import SymbolicFunction
-from biped_adrc.engine.instructions import straight_line
+from biped_adrc.engine.ir import straight_line
 from biped_adrc.extras.export.computer import Computer
 from biped_adrc.extras.export.functions import HEAD, init, step, touchdown
 

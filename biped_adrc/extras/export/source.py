@@ -15,7 +15,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from biped_adrc.engine.c_text import Written, c_text, decimal, used_numbers
-from biped_adrc.engine.symbols import Untraceable, floats, paths
+from biped_adrc.engine.symbols import NotCompiled, floats, paths
 from biped_adrc.errors import InputError
 from biped_adrc.extras.export.computer import Computer
 from biped_adrc.extras.export.layout import Field, Functions, functions
@@ -87,7 +87,7 @@ def source_of(
         raise InputError(f"the type of numbers is {real!r}, expected one of {list(REALS)}")
     try:
         made, k = functions(computer), computer.held.sizes
-    except Untraceable as error:
+    except NotCompiled as error:
         raise InputError(f"there is no C of {spoken(computer.walker.law)}: {error}") from error
     used = used_numbers(made.all)
     values, names = list(floats(computer.numbers)), list(paths(computer.numbers))

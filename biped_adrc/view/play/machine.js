@@ -22,7 +22,7 @@ async function startMachine() {
   const env = {
     __linear_memory: machine.memory, __indirect_function_table: machine.table,
     __stack_pointer: new WebAssembly.Global({ value: "i32", mutable: true }, STACK),
-    numba_nextafter: nextafter, exp2: (x) => 2 ** x,
+    nextafter, exp2: (x) => 2 ** x,
   };
   for (const { name } of WebAssembly.Module.imports(module)) if (!(name in env)) env[name] = Math[name];
   machine.calls = (await WebAssembly.instantiate(module, { env })).exports;
