@@ -28,8 +28,6 @@ package a dataclass or a NamedTuple is preferred.
 
 MuJoCoModel: TypeAlias = Any
 """`mujoco.MjModel`, a compiled robot: MuJoCo is optional."""
-MuJoCoSpec: TypeAlias = Any
-"""`mujoco.MjSpec`, or a part of one, from which a model is compiled."""
 MuJoCoData: TypeAlias = Any
 """`mujoco.MjData`, the state and work space of a model."""
 

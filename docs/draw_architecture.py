@@ -52,7 +52,7 @@ def main() -> None:
         0.9,
         30,
         1.3,
-        "errors, types, files, linear, ground and other modules of one file",
+        "errors, types, files, linear and other modules of one file",
         GREY,
     )
     d.arrow((wide / 2, high - 0.1), (wide / 2, 1.58), colour=GREY)

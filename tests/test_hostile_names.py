@@ -20,7 +20,7 @@ from biped_adrc.extras.mujoco.mjcf import mjcf
 from biped_adrc.files import c_comment, toml_key, toml_value
 from biped_adrc.model.robot_import.import_robot import to_toml
 from biped_adrc.model.robots.urdf import to_xml
-from biped_adrc.model.robots.urdf_reader import load_tree
+from biped_adrc.model.robots.urdf_reader import read
 from biped_adrc.resources import data_folder
 from biped_adrc.scenario.columns import write_csv
 from biped_adrc.view.pages import player
@@ -120,7 +120,7 @@ def test_in_mjcf_and_urdf_they_are_attributes(hostile):
     assert hostile.joint in {joint.get("name") for joint in root.iter("joint")}
     tree = hostile.biped.tree
     (hostile.folder / "again.urdf").write_text(to_xml(tree))
-    assert load_tree(hostile.folder / "again.urdf").joints == tree.joints
+    assert read(hostile.folder / "again.urdf").tree.joints == tree.joints
 
 
 def test_in_pages_they_are_text(hostile):

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import mujoco
 from peers.chains import Chain, Coordinates, H, Simulate
 
-from biped_adrc.extras.mujoco.robot import pinned_model
+from biped_adrc.extras.mujoco.robot import compiled, pinned_mjcf
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
 
@@ -23,7 +23,7 @@ class MuJoCoChain(Chain):
 
     def __init__(self, biped: Biped) -> None:
         super().__init__(biped)
-        self.model = pinned_model(biped, H)
+        self.model = compiled(pinned_mjcf(biped, H))
         self.data = mujoco.MjData(self.model)
         joints = [self.model.joint(j).name for j in range(self.model.njnt)]
         self.coordinates = Coordinates(biped, joints)

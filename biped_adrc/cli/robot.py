@@ -1,8 +1,8 @@
 """`biped-adrc robot`: the robots that come with the package, and robots from a user's own URDF.
 
-`check` and `new` derive a biped from a URDF (`robot_import.derive`): what the file does not say is
+`check` and `new` derive a biped from a URDF (`model.robot_import.derive`): what the file does not say is
 guessed, each guess is printed, and the model is checked against laws of mechanics. `list` prints
-the records (robot.toml), `export` writes a robot for MuJoCo's own viewer (`soft.mjcf`).
+the records (robot.toml), `export` writes a robot for MuJoCo's own viewer (`extras.mujoco.mjcf`).
 """
 
 from __future__ import annotations

@@ -21,7 +21,6 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.engine.compiled_loop import CompiledLoop
 from biped_adrc.engine.run import COMPILED, PINOCCHIO
 from biped_adrc.errors import InputError
-from biped_adrc.hardware.motors import Motors
 from biped_adrc.hybrid.simulator import Progress, RunOptions
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 from biped_adrc.model.biped import Biped
@@ -48,10 +47,10 @@ def stepping_loop(
             f"{type(plant).__name__} is controlled at ticks, and this walker acts at every instant; give a "
             "period, as timing=SampledTime(1e-3), or period = 0.001 in a scenario"
         )
-    plant, motors = with_motors(on_ground(plant, walker, first_step), walker.motors)
-    made = CompiledLoop if engine == COMPILED else SteppingLoop
-    return made(
-        plant,
+    motors = None if walker.motors is None else replace(walker.motors, lag=0.0)
+    loop = CompiledLoop if engine == COMPILED else SteppingLoop
+    return loop(
+        _fitted(plant, walker, first_step),
         walker.controller,
         walker.nominal,
         walker.timing,
@@ -65,42 +64,23 @@ def stepping_loop(
     )
 
 
-def on_ground(plant: SteppingPlant, walker: Walker, first_step: int) -> SteppingPlant:
-    """The plant on the walker's steps of the ground; InputError for one that takes none, or has others."""
-    steps, has = walker.ground_steps, plant.ground_steps if isinstance(plant, UnevenPlant) else ()
-    if has not in ((), steps):
-        raise InputError(
-            f"the plant has the steps of the ground {has} and the walker {steps}; give them to the "
-            "walker alone"
-        )
-    if not steps:
-        return plant
-    if not isinstance(plant, UnevenPlant):
-        raise InputError(
-            f"{type(plant).__name__} takes no steps of the ground, and the walker has some; leave them out"
-        )
-    return plant.on_steps(steps, first_step)
+def _fitted(plant: SteppingPlant, walker: Walker, first_step: int) -> SteppingPlant:
+    """The plant with the lag of the walker's motors, and on the steps of its ground.
 
-
-def with_motors(plant: SteppingPlant, motors: Motors | None) -> tuple[SteppingPlant, Motors | None]:
-    """The plant with the lag of these motors, and the motors without.
-
-    Raises InputError for a plant that takes none, or that has another one.
+    Raises InputError for a plant that takes none, or that has others.
     """
-    lag = 0.0 if motors is None else motors.lag
-    if lag_of(plant) != lag:
-        if lag_of(plant) > 0.0:
+    name, steps = type(plant).__name__, walker.ground_steps
+    lag = 0.0 if walker.motors is None else walker.motors.lag
+    own = {"lag": lag_of(plant), "steps": getattr(plant, "ground_steps", ())}
+    for what, kind, other in (("lag", LaggingPlant, lag), ("steps", UnevenPlant, steps)):
+        if own[what] != other and (own[what] or not isinstance(plant, kind)):
             raise InputError(
-                f"the plant's motors have a lag of {lag_of(plant)} s and the walker's of {lag} s; give it to "
-                "the walker alone, as motors=Motors(lag=...)"
+                f"{name} has {what} {own[what]} and the walker {other}; give motors with lag and steps of the "
+                "ground to the walker alone, and to a plant that takes them"
             )
-        if not isinstance(plant, LaggingPlant):
-            raise InputError(
-                f"{type(plant).__name__} takes no lag of motors, and the walker's have one of {lag} s; "
-                "leave it out"
-            )
+    if lag and isinstance(plant, LaggingPlant):
         plant = plant.lagging(lag)
-    return plant, None if motors is None else replace(motors, lag=0.0)
+    return plant.on_steps(steps, first_step) if steps and isinstance(plant, UnevenPlant) else plant
 
 
 def walk_on(
@@ -132,7 +112,7 @@ def as_walked(loop: SteppingLoop, run: Trajectory) -> Trajectory:
         run = with_readings(loop, run)
     arcs = tuple(_as_rigid(loop, arc) for arc in run.arcs)
     engine = {"engine": PINOCCHIO, "why": "the plant moves by itself"}
-    settings = {**engine, **run.settings, "plant": told(loop.plant)}
+    settings = {**engine, **run.settings, "plant": _values(loop.plant)}
     return replace(run, arcs=arcs, settings=settings)
 
 
@@ -156,11 +136,11 @@ def _as_rigid(loop: SteppingLoop, arc: Arc) -> Arc:
     return replace(arc, x=without(arc.x), dx=without(arc.dx), event=event)
 
 
-def told(thing: Any) -> Any:
+def _values(thing: Any) -> Any:
     """A plant as plain values for the record of a run: its class and what it was made with."""
     if isinstance(thing, tuple):
-        return tuple(map(told, thing))
+        return tuple(map(_values, thing))
     if not is_dataclass(thing) or isinstance(thing, Biped):
         return thing if isinstance(thing, int | float | str) else type(thing).__name__
-    values = {f.name: told(getattr(thing, f.name)) for f in fields(thing) if f.init}
+    values = {f.name: _values(getattr(thing, f.name)) for f in fields(thing) if f.init}
     return {"class": type(thing).__name__, **values}

@@ -1,6 +1,8 @@
 """Dynamics of the plant: inertia, bias, impact and their derivatives, all in the paper's coordinates.
 
 - `biped`       the planar biped, made of a robot's record and its two Pinocchio models
+- `robots`      URDF and record of a robot; `robot_import` a robot from a URDF alone
+- `ground`      slopes and steps
 - `pinned`      single support: the tree pinned at the stance foot, D_s and Omega of (1)
 - `contact`     double support: the floating tree and the plastic impact (2)-(9)
 - `reduction`   kappa and xi of the actuated joints (11)-(15)

@@ -7,7 +7,7 @@ is the absolute pitch of the torso. Angles are counter-clockwise positive with x
 up; a link of absolute angle a points along (-sin a, cos a). zeta is an external generalised force
 and delta what the model has wrong.
 
-`Biped` joins a robot's record (`robots.robot_toml`), its URDF tree and two Pinocchio models made
+`Biped` joins a robot's record (`model.robots.robot_toml`), its URDF tree and two Pinocchio models made
 from that tree: `pinned` at the stance foot for single support, `floating` for the impact. Every
 method here checks its angles and passes them on to one of the two. Walkers, observers, controllers,
 gait design and the compiled engine all take their numbers from this class. Use it for the plant and
@@ -24,6 +24,7 @@ from pathlib import Path
 from types import NoneType
 
 import numpy as np
+import pinocchio as pin
 
 from biped_adrc.errors import ModelError
 from biped_adrc.model.contact import FloatingDynamics, Impact
@@ -31,7 +32,7 @@ from biped_adrc.model.physical import check_numbers, check_planar
 from biped_adrc.model.pinned import PinnedDynamics, finite_angles, reroot
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
 from biped_adrc.model.robots.robot_toml import RobotDescription, load_description
-from biped_adrc.model.robots.symmetry import absolute_angles, relabelling
+from biped_adrc.model.robots.symmetry import absolute_angles, relabelling, unlike
 from biped_adrc.model.robots.urdf import Inertial, Tree
 from biped_adrc.parts import check_part
 from biped_adrc.shown import Shown
@@ -91,16 +92,15 @@ class Biped(Shown):
         """
         check_planar(self.tree, self.description)
         check_numbers(self)
-        n, R = self.n, self.R
-        q, v = 0.3 * np.arange(1.0, n + 1.0), np.cos(np.arange(float(n)))
-        one, other = (self.floating.inertia_on_fixed_base(x) for x in (q, self.relabel(q)))
-        lengths = [float(np.linalg.norm(self.swing_foot(x))) for x in (q, self.relabel(q))]
-        w = R @ v
-        alike = math.isclose(v @ one @ v, w @ other @ w, rel_tol=1e-9)
-        if not (alike and math.isclose(*lengths, rel_tol=1e-9)):
+        q, v = 0.3 * np.arange(1.0, self.n + 1.0), np.cos(np.arange(float(self.n)))
+        lengths, energies = [], []
+        for x, w in ((q, v), (self.relabel(q), self.R @ v)):
+            lengths.append(float(np.linalg.norm(self.swing_foot(x))))
+            energies.append(float(w @ self.floating.inertia_on_fixed_base(x) @ w))
+        if not (math.isclose(*energies, rel_tol=1e-9) and math.isclose(*lengths, rel_tol=1e-9)):
             raise ModelError(
-                f"robot '{self.description.name}': the legs differ in mass or length; relabelling at "
-                "impact needs equal legs"
+                f"URDF '{self.tree.source}': the legs differ in mass or length, as in the links "
+                f"{unlike(self.tree, self.description.feet)}; they change over at impact, so make them equal"
             )
         _ = self.swap
 
@@ -199,23 +199,30 @@ class Biped(Shown):
     # -- single support (1), (11)-(15) -----------------------------------------------------------
     def inertia(self, q: Array) -> Array:
         """Inertia matrix D_s(q) (n, n) [kg m^2], rotors included."""
-        return self.pinned.inertia(self._angles(q))
+        k = self.pinned
+        return k.T.T @ pin.crba(k.model, k.data, k.T @ self._angles(q)) @ k.T
 
     def bias(self, q: Array, v: Array) -> Array:
         """Omega(q, q') = C q' + G_s (n,) [N m] of (11)."""
-        return self.pinned.bias(self._angles(q), self._angles(v))
+        k, x, w = self.pinned, self._angles(q), self._angles(v)
+        return k.T.T @ pin.nonLinearEffects(k.model, k.data, k.T @ x, k.T @ w)
 
     def gravity(self, q: Array) -> Array:
         """G_s(q) = dV/dq (n,) [N m], the torques of gravity."""
-        return self.pinned.gravity(self._angles(q))
+        k = self.pinned
+        return k.T.T @ pin.computeGeneralizedGravity(k.model, k.data, k.T @ self._angles(q))
 
     def coriolis(self, q: Array, v: Array) -> Array:
         """C(q, q') (n, n) [N m s]; D_s' - 2 C is skew-symmetric."""
-        return self.pinned.coriolis(self._angles(q), self._angles(v))
+        k, x, w = self.pinned, self._angles(q), self._angles(v)
+        return k.T.T @ pin.computeCoriolisMatrix(k.model, k.data, k.T @ x, k.T @ w) @ k.T
 
     def reduction(self, q: Array, v: Array) -> Reduction:
         """The split (11)-(15) at (q, q') (n,) [rad, rad/s]: D, Omega, kappa, xi and the unactuated rows."""
-        D, Omega = self.pinned.inertia_and_bias(self._angles(q), self._angles(v))
+        k = self.pinned
+        T, x = k.T, k.T @ self._angles(q)
+        D = T.T @ pin.crba(k.model, k.data, x) @ T
+        Omega = T.T @ pin.nonLinearEffects(k.model, k.data, x, T @ self._angles(v))
         return reduce(D, Omega, self.p)
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
@@ -225,9 +232,9 @@ class Biped(Shown):
         """
         q, v = self._angles(q), self._angles(v)
         F_0 = self.ground_reaction(q, v, np.zeros(self.n))
-        turning = self.pinned.coriolis(q, v).T @ v
+        turning = self.coriolis(q, v).T @ v
         F_a, J_2 = self.pinned.mass_jacobian(q), self.pinned.jacobian(q, self.pinned.swing)
-        return BodyTerms(self.pinned.gravity(q), turning, F_a, F_0, J_2, self.mass)
+        return BodyTerms(self.gravity(q), turning, F_a, F_0, J_2, self.mass)
 
     def friction_torque(self, v: Array) -> Array:
         """Joint friction (n,) [N m]: -viscous v - static tanh(v / STICTION_SPEED), at rates v (n,) [rad/s].
@@ -257,11 +264,13 @@ class Biped(Shown):
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
         """q'' (n,) [rad/s^2] under the generalised force B_s u + delta + zeta (n,) [N m].
 
-        By the articulated body algorithm; joint friction is added where `friction` is set.
+        By the articulated body algorithm; joint friction is added where `friction` is set. T is square with
+        determinant +-1: tau_tree = T^-T force and q'' = T^-1 a_tree.
         """
         if self.friction:
             force = force + self.friction_torque(v)
-        return self.pinned.acceleration(self._angles(q), self._angles(v), force)
+        k, x, w = self.pinned, self._angles(q), self._angles(v)
+        return k.inverse @ pin.aba(k.model, k.data, k.T @ x, k.T @ w, k.inverse.T @ force)
 
     def kinetic_energy(self, q: Array, v: Array) -> float:
         """q'^T D_s q' / 2 [J], rotors included."""
@@ -269,7 +278,8 @@ class Biped(Shown):
 
     def potential_energy(self, q: Array) -> float:
         """V(q) [J], zero at the height of the stance foot."""
-        return self.pinned.potential_energy(self._angles(q))
+        k = self.pinned
+        return float(pin.computePotentialEnergy(k.model, k.data, k.T @ self._angles(q)))
 
     def angular_momentum(self, q: Array, v: Array) -> float:
         """sigma [kg m^2/s], the last row of D_s q': the angular momentum about the stance foot.
@@ -302,7 +312,7 @@ class Biped(Shown):
     @cached_property
     def mass(self) -> float:
         """Total mass [kg]."""
-        return self.pinned.mass
+        return float(pin.computeTotalMass(self.pinned.model))
 
     @property
     def weight(self) -> float:
@@ -326,11 +336,11 @@ class Biped(Shown):
 
     def extended_inertia(self, q: Array) -> Array:
         """Inertia matrix D_e(q) (n + 2, n + 2) of the unpinned model (2) in q_e = (q_s, p_e)."""
-        return self.floating.extended_inertia(self._angles(q))
+        return self.floating.extended(self._angles(q))[0]
 
     def E_2(self, q: Array) -> Array:
         """Jacobian dp_2/dq_e (2, n + 2) of the swing foot, (4)."""
-        return self.floating.swing_jacobian(self._angles(q))
+        return self.floating.extended(self._angles(q))[1]
 
     def impact(self, q: Array, v: Array) -> Impact:
         """The plastic impact at (q-, q'-) (n,) [rad, rad/s]: Delta (8), Sigma (9), and the state after
@@ -349,17 +359,12 @@ class Biped(Shown):
 
         Factors are dimensionless, 1.1 is ten per cent more. `mass` alone leaves the inertias about
         the COM as they are. friction: None keeps the setting. Raises ModelError for an unknown body
-        or a factor <= 0.
+        or a factor that leaves no mass or inertia.
         """
         check_part(mass, "mass", Mapping, NoneType)
         check_part(inertia, "inertia", Mapping, NoneType)
-        factors = {"mass": mass or {}, "inertia": inertia or {}}
-        for kind, by_body in factors.items():
-            for body, factor in by_body.items():
-                if not (math.isfinite(factor) and factor > 0):
-                    raise ModelError(f"{kind} factor of '{body}' is {factor}, expected > 0")
-        friction = self.friction if friction is None else friction
-        return replace(self, tree=self.scaled(factors), friction=friction)
+        tree = self.scaled({"mass": mass or {}, "inertia": inertia or {}})
+        return replace(self, tree=tree, friction=self.friction if friction is None else friction)
 
     def scaled(self, factors: Mapping[str, Mapping[str, float]]) -> Tree:
         """The tree with "mass", "com" or "inertia" multiplied: factors by kind, then by class or link name.

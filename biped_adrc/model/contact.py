@@ -113,16 +113,8 @@ class FloatingDynamics:
         )
         return J[XZ]
 
-    def extended_inertia(self, q: Array) -> Array:
-        """D_e(q) (n + 2, n + 2) of (2): [kg m^2] for angles, [kg] for p_e."""
-        return self._of_impact(q)[0]
-
-    def swing_jacobian(self, q: Array) -> Array:
-        """E_2 = dp_2/dq_e (2, n + 2) of (4), [m] for angles."""
-        return self._of_impact(q)[1]
-
-    def _of_impact(self, q: Array) -> tuple[Array, Array]:
-        """D_e (n + 2, n + 2) and E_2 (2, n + 2) of (7)."""
+    def extended(self, q: Array) -> tuple[Array, Array]:
+        """D_e (n + 2, n + 2) [kg m^2, kg] of (2) and E_2 = dp_2/dq_e (2, n + 2) [m] of (4)."""
         x = self.configuration(q)
         J_e = self._velocity_map(x)
         D_e = J_e.T @ pin.crba(self.model, self.data, x) @ J_e
@@ -154,7 +146,7 @@ class FloatingDynamics:
 
         R (n, n) and offset (n,) [rad] are those of `Biped`. Raises SingularError.
         """
-        n, (D_e, E_2) = self.n, self._of_impact(q)
+        n, (D_e, E_2) = self.n, self.extended(q)
         K = np.block([[D_e, -E_2.T], [E_2, np.zeros((2, 2))]])
         rhs = np.concatenate((D_e[:, :n] @ v, np.zeros(2)))
         try:

@@ -20,7 +20,6 @@ import numpy as np
 
 from biped_adrc.errors import InputError, ModelError, check_whole
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robots.symmetry import twins
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
@@ -103,27 +102,17 @@ class ModelErrors(Shown):
 
     def _rubbed(self, biped: Biped) -> Biped:
         """The biped with its viscous and static friction multiplied; twin joints must have the same error."""
-        d = biped.description
-        if not biped.friction:
+        d, pairs = biped.description, list(_rubbing(biped))
+        unlike = [pair for pair in pairs if len({self.friction.get(name) for name in pair}) > 1]
+        if unlike or set(self.friction) - {name for pair in pairs for name in pair}:
             raise ModelError(
-                f"robot '{d.name}' has no friction, so its friction has no error; load it with friction=True"
+                f"robot '{d.name}': errors of friction in {list(self.friction)}, expected them in joints with "
+                f"friction, and the same one for both joints of a pair: {pairs}. A robot has friction where it "
+                "is loaded with friction=True"
             )
-        pairs = list(_rubbing(biped))
-        for joint in self.friction:
-            pair = next((pair for pair in pairs if joint in pair), ())
-            if not pair:
-                known = [name for pair in pairs for name in pair]
-                raise ModelError(
-                    f"robot '{d.name}' has no friction in joint '{joint}'; it has in {known}"
-                )
-            if len({self.friction.get(name) for name in pair}) > 1:
-                raise ModelError(
-                    f"robot '{d.name}': joints {list(pair)} are the same joint of both legs, which change over "
-                    "at impact; give them the same error of friction"
-                )
         viscous, static = (
-            {name: (1.0 + self.friction.get(name, 0.0)) * x for name, x in found.items()}
-            for found in (d.viscous, d.static)
+            {name: (1.0 + self.friction.get(name, 0.0)) * x for name, x in coefficients.items()}
+            for coefficients in (d.viscous, d.static)
         )
         return replace(biped, description=replace(d, viscous=viscous, static=static))
 
@@ -144,15 +133,9 @@ def _random(seed: int) -> np.random.Generator:
 
 def _rubbing(biped: Biped) -> Iterator[tuple[str, ...]]:
     """Joints with friction, a joint and its twin of the other leg together; none where friction is off."""
-    d, met = biped.description, set[str]()
-    twin = twins(biped.tree, d.feet)
-    above = {joint.child: joint.name for joint in biped.tree.joints}
-    below = {joint.name: joint.child for joint in biped.tree.joints}
-    rubbing = [name for name in d.joints if d.viscous.get(name) or d.static.get(name)]
-    for joint in rubbing if biped.friction else ():
-        if joint in met:
-            continue
-        other = above.get(twin.get(below[joint], ""), joint)
-        pair = (joint, other) if other in rubbing and other != joint else (joint,)
-        met.update(pair)
-        yield pair
+    joints, d = biped.description.joints, biped.description
+    rubs = [biped.friction and bool(d.viscous.get(x) or d.static.get(x)) for x in joints]
+    for i, joint in enumerate(joints):
+        twin = int(np.argmax(np.abs(biped.R[i])))  # of a knee the other knee, of a spine itself
+        if rubs[i] and (twin >= i or not rubs[twin]):
+            yield (joint, joints[twin]) if twin > i and rubs[twin] else (joint,)

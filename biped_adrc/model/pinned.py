@@ -73,10 +73,11 @@ def finite_angles(q: Array, shape: tuple[int]) -> Array:
 
 
 class PinnedDynamics:
-    """D_s, Omega, forward dynamics and kinematics at (q_s, q_s') (n,) [rad, rad/s], stance foot at rest.
+    """Pinocchio's model pinned at the stance foot, and kinematics at (q_s, q_s') (n,) [rad, rad/s].
 
     Positions are (x, z) from the stance foot. `model` and `data` are Pinocchio's, `T` (n, n) maps
-    q_s to the tree's coordinates, `swing` and `hip` are frame numbers.
+    q_s to the tree's coordinates and `inverse` back, `swing` and `hip` are frame numbers. `Biped` has the
+    dynamics.
     """
 
     def __init__(self, tree: Tree, d: RobotDescription, stance_chain: Array, armature: float):
@@ -96,46 +97,9 @@ class PinnedDynamics:
         for j, name in enumerate(joints[:-1]):
             self.T[velocity_index(self.model, name), j] = 1.0
         self.T[velocity_index(self.model, PIN_JOINT)] = stance_chain
-        self._inverse = np.linalg.inv(self.T)
+        self.inverse = np.linalg.inv(self.T)
         self.swing = frame_index(self.model, d.swing_foot)
         self.hip = frame_index(self.model, d.hip)
-
-    def inertia(self, q: Array) -> Array:
-        """D_s(q) (n, n) [kg m^2] by the composite rigid body algorithm."""
-        M = pin.crba(self.model, self.data, self.T @ q)
-        return self.T.T @ M @ self.T
-
-    def bias(self, q: Array, v: Array) -> Array:
-        """Omega = C q' + G (n,) [N m], by recursive Newton-Euler with zero acceleration."""
-        return self.T.T @ pin.nonLinearEffects(self.model, self.data, self.T @ q, self.T @ v)
-
-    def inertia_and_bias(self, q: Array, v: Array) -> tuple[Array, Array]:
-        """D_s (n, n) [kg m^2] and Omega (n,) [N m] at one state."""
-        T, x = self.T, self.T @ q
-        M = pin.crba(self.model, self.data, x)
-        nle = pin.nonLinearEffects(self.model, self.data, x, T @ v)
-        return T.T @ M @ T, T.T @ nle
-
-    def gravity(self, q: Array) -> Array:
-        """G_s(q) = dV/dq (n,) [N m]."""
-        return self.T.T @ pin.computeGeneralizedGravity(self.model, self.data, self.T @ q)
-
-    def coriolis(self, q: Array, v: Array) -> Array:
-        """C(q, q') (n, n) [N m s] in the form for which D' - 2 C is skew-symmetric."""
-        C = pin.computeCoriolisMatrix(self.model, self.data, self.T @ q, self.T @ v)
-        return self.T.T @ C @ self.T
-
-    def acceleration(self, q: Array, v: Array, force: Array) -> Array:
-        """q'' (n,) [rad/s^2] under generalised forces `force` (n,) [N m], by the articulated body algorithm.
-
-        T is square with determinant +-1: tau_tree = T^-T force and q'' = T^-1 a_tree.
-        """
-        T, inverse = self.T, self._inverse
-        return inverse @ pin.aba(self.model, self.data, T @ q, T @ v, inverse.T @ force)
-
-    def potential_energy(self, q: Array) -> float:
-        """V(q) [J], zero at the height of the stance foot."""
-        return float(pin.computePotentialEnergy(self.model, self.data, self.T @ q))
 
     def position(self, q: Array, frame: int) -> Array:
         """Place (x, z) of a frame, given by its index, from the stance foot (2,) [m]."""
@@ -166,7 +130,7 @@ class PinnedDynamics:
     def mass_jacobian(self, q: Array) -> Array:
         """m dp_com/dq_s (2, n) [kg m]: times q' it is the linear momentum."""
         J = pin.jacobianCenterOfMass(self.model, self.data, self.T @ q).reshape(3, -1)
-        return self.mass * J[XZ] @ self.T
+        return float(pin.computeTotalMass(self.model)) * J[XZ] @ self.T
 
     def bodies(self) -> tuple[Array, Array, Array]:
         """Masses (n,) [kg], inertias about the COM (n,) [kg m^2] and rows A (n, n) of the absolute
@@ -198,11 +162,6 @@ class PinnedDynamics:
             for frame in (self.swing, self.hip)
         ]
         return np.array([*coms, *frames])[:, XZ]
-
-    @property
-    def mass(self) -> float:
-        """Total mass [kg]."""
-        return float(pin.computeTotalMass(self.model))
 
 
 PIN_JOINT = "stance_pin"

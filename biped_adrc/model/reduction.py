@@ -114,19 +114,11 @@ def unknown_force(terms: Reduction, a: Array, u: Array) -> Array:
     return force
 
 
-def disturbance_acceleration(terms: Reduction, force: Array) -> Array:
-    """The part of (14) that a generalised force xi~ = delta + zeta adds to q_b'' (p,) [rad/s^2].
-
-    `force` (n,) [N m] acts on all coordinates; its last rows enter through -D12 D22^-1 xi~2.
-    """
-    matched, unmatched = disturbance_parts(terms, force)
-    return matched + unmatched
-
-
 def disturbance_parts(terms: Reduction, force: Array) -> tuple[Array, Array]:
     """The matched part (from xi~1) and the unmatched part (from xi~2) of (14), each (p,) [rad/s^2].
 
-    A motor could cancel the matched part at once. force is xi~ (n,) [N m].
+    A motor could cancel the matched part at once; the unmatched one enters through -D12 D22^-1 xi~2. force
+    is xi~ = delta + zeta (n,) [N m], on all coordinates.
     """
     p = terms.kappa.shape[0]
     return terms.kappa @ force[:p], terms.kappa @ (terms.A_N.T @ force[p:])

@@ -23,7 +23,6 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.errors import InputError
-from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.gait import Gait, load_gait
 from biped_adrc.gait.published import PassiveCycle, passive_cycle
@@ -299,6 +298,8 @@ def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
     g = s.ground
     if g.plant == RIGID:
         return None
+    from biped_adrc.extras.mujoco.soft_ground import SoftGround
+
     make = find("plant", g.plant).load()
     all_taken("ground", g.own, {*takes(make), *takes(SoftGround)})
     given = g.own | {name: getattr(g, name) for name in OF_GROUND}

@@ -317,7 +317,7 @@ def loads(scene: WalkScene, t: float) -> DrawnLoads:
 
 
 def slipping(scene: WalkScene, arc: Arc) -> NDArray[np.bool_]:
-    """Whether a foot slips at each node of an arc on soft ground (K,), as `soft.meters` counts it."""
+    """Whether a foot slips at each node of an arc on soft ground (K,), as `analysis.soft_steps` counts it."""
     mu = scene.trajectory.settings["plant"]["ground"]["friction"]
     F, v = (arc.read[name].reshape(-1, 2, 2) for name in (FORCE, SPEED))
     return np.any(meters.slipping(F, v, mu, ground_axes(scene.walker.slope)), axis=1)

@@ -7,7 +7,6 @@ import biped_adrc as ba
 from biped_adrc.errors import InputError, ModelError
 from biped_adrc.model.model_errors import ModelErrors, impact_error
 from biped_adrc.model.robot_import.import_checks import checks
-from biped_adrc.model.robots.urdf import Inertial
 
 ERRORS = ModelErrors(
     mass={"torso": 0.2, "shin": -0.1}, com={"thigh": 0.3}, inertia={"shin": 0.5, "torso": -0.2}
@@ -102,13 +101,6 @@ def test_impact_errors():
     assert np.array_equal(e[3], impact_error(3, 0.1, 5))
     assert np.max(np.abs(e)) <= 0.1
     np.testing.assert_allclose(e.std(axis=0), 0.1 / np.sqrt(3.0), rtol=0.15)
-
-
-def test_each_kind_of_error_scales_what_it_names():
-    body = Inertial(2.0, (0.1, -0.2, 0.3), (1.0, 0.1, 0.2, 3.0, 0.3, 4.0))
-    assert body.scaled("mass", 1.1) == Inertial(2.0 * 1.1, body.com, body.inertia)
-    assert body.scaled("com", 1.1).com == pytest.approx((0.11, -0.22, 0.33))
-    assert body.scaled("inertia", 0.5).inertia == pytest.approx((0.5, 0.05, 0.1, 1.5, 0.15, 2.0))
 
 
 @pytest.mark.parametrize("engine", ["pinocchio", "compiled"])

@@ -1,9 +1,9 @@
 """A robot from one URDF: the same physics in all frames and senses, guesses said, refusals that help."""
 
-import itertools
 import math
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,8 +13,7 @@ import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.errors import ModelError, OutputError
 from biped_adrc.gait.conventions import AngleMap
-from biped_adrc.model import physical
-from biped_adrc.model.robot_import import import_checks
+from biped_adrc.model.physical import check_numbers
 from biped_adrc.model.robot_import.import_checks import checks
 from biped_adrc.model.robot_import.import_robot import Hints, biped_from_urdf, derive
 from biped_adrc.resources import data_folder
@@ -68,8 +67,15 @@ SIDEWAYS = f"0 0 {math.pi / 2!r}"
         (rabbit(rpy=SIDEWAYS, leg_axis="1 0 0", lateral="x"), TURNED),
         (rabbit(base=False), TURNED),
         (rabbit(axis="0 -1 0", base=False), COUNTER),
+        (
+            rabbit().replace(
+                '<child link="left_thigh"/><origin xyz="0 0',
+                '<child link="left_thigh"/><origin xyz="0 0.1',
+            ),
+            TURNED,
+        ),
     ],
-    ids=["frost", "hanging", "hanging-2", "upside-down", "sideways", "no-base", "paper"],
+    ids=["frost", "hanging", "hanging-2", "upside-down", "sideways", "no-base", "paper", "wide"],
 )
 def test_physics_is_that_of_rabbit(urdf, text, to_paper):
     """D, Omega, energies, feet and impact in any frames and senses, at random states, to 1e-10."""
@@ -190,20 +196,28 @@ def test_guesses_are_said_and_laws_hold(urdf):
     assert d.peak_torque == 150.0
     assert derived.broken == ()
     said = "\n".join(derived.said)
-    for part in ("base_x", "right_toe", "150 N m", "sticks"):
+    for part in ("base_x", "right_toe", "150 N m", "balls"):
         assert part in said
     assert derived.biped.mass == pytest.approx(32.0)
+
+
+def test_legs_that_are_not_alike_are_refused():
+    rabbit = ba.Biped.load("rabbit")
+    offset = replace(
+        rabbit, description=replace(rabbit.description, offset=(0.1, 0.0) * 2 + (0.0,))
+    )
+    for biped in (offset, rabbit.with_errors(mass={"left_shin": 1.1})):
+        with pytest.raises(ModelError, match="legs differ"):
+            biped.check()
 
 
 @pytest.mark.parametrize(
     ("change", "law"),
     [
-        (lambda b: replace(b, description=replace(b.description, offset=(0.1,) * 5)), "exchang"),
         (lambda b: replace(b, description=replace(b.description, phase=(1.0,) * 5)), "Theta falls"),
-        (lambda b: b.with_errors(mass={"left_shin": 1.1}), "alike in mass"),
         (lambda b: replace(b, description=replace(b.description, hip="right_thigh")), "hip"),
     ],
-    ids=["offset", "phase", "mass", "hip"],
+    ids=["phase", "hip"],
 )
 def test_a_broken_law_is_found(urdf, change, law):
     """Each check can fail. The stance thigh's origin moves in re-rooting, so it is no hip."""
@@ -221,7 +235,7 @@ def test_written_record_is_loaded_again(urdf, tmp_path):
     for q, v in states(5, 3):
         np.testing.assert_array_equal(again.inertia(q), own.inertia(q))
         np.testing.assert_array_equal(again.bias(q, v), own.bias(q, v))
-    with pytest.raises(OutputError, match=r"floating\.urdf' exists already"):
+    with pytest.raises(OutputError, match=r"floating\.urdf.* exist already"):
         derived.write(tmp_path / "mine")
 
 
@@ -237,8 +251,7 @@ TOE = joint("left_end", "fixed", "left_shin", "left_toe", xyz="0 0 0.4")
     ("old", "new", "named"),
     [
         (KNEE_AXIS, KNEE_AXIS.replace("0 1 0", "1 0 0"), "q2_right"),
-        (KNEE_PLACE, KNEE_PLACE.replace("0 0 0.4", "0 0.1 0.4"), "q2_left"),
-        (KNEE_PLACE, KNEE_PLACE.replace("0.4", "0.5"), "q2_left"),
+        (KNEE_PLACE, KNEE_PLACE.replace("0.4", "0.5"), "left_shin"),
         (MASS, '<mass value="-1"/>', "right_thigh"),
         (MASS, '<mass value="6.9"/>', "right_thigh"),
         (KNEE, KNEE.replace('"left_thigh"', '"left_shin"'), "circle"),
@@ -307,19 +320,10 @@ def test_a_robot_is_checked_written_and_not_overwritten(urdf, tmp_path):
 
 
 def test_an_inertia_matrix_that_is_not_definite_is_refused():
-    from types import SimpleNamespace
-
-    rabbit = ba.Biped.load("rabbit")
-    D = np.diag([1.0, 1.0, 1.0, 1.0, -1e-3])
-    odd = SimpleNamespace(floating=SimpleNamespace(projected=lambda q, v: (D, np.ones(5))))
-    wrong = SimpleNamespace(inertia=lambda q: D, bias=lambda q, v: np.ones(5), **vars(odd))
-    laws = import_checks._single_support(wrong, np.zeros(5), np.zeros(5))
-    assert dict(itertools.islice(laws, 3))[import_checks.DEFINITE] == np.inf
-    with pytest.raises(ba.BipedError, match="expected positive ones"):
-        physical._check_definite(D, "here")
+    rabbit, D = ba.Biped.load("rabbit"), np.diag([1.0, 1.0, 1.0, 1.0, -1e-3])
     wrong = SimpleNamespace(
         n=5, tree=rabbit.tree, description=rabbit.description, impact=rabbit.impact,
         inertia=lambda q: D, bias=rabbit.bias,
     )  # fmt: skip
-    with pytest.raises(ba.BipedError, match="expected positive ones"):
-        physical.check_numbers(wrong)
+    with pytest.raises(ModelError, match="expected positive ones"):
+        check_numbers(wrong)

@@ -10,7 +10,7 @@ from biped_adrc.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.model.pinned import frame_index, reroot
 from biped_adrc.model.robots import symmetry
 from biped_adrc.model.robots.robot_toml import robot_names
-from biped_adrc.model.robots.urdf_reader import load_tree
+from biped_adrc.model.robots.urdf_reader import read
 from biped_adrc.model.robots.urdf_xml import parse
 from biped_adrc.resources import data_folder
 
@@ -30,10 +30,14 @@ THIGH_INERTIA = 'ixx="0.47" ixy="0" ixz="0" iyy="0.47"'
         (THIGH_INERTIA, 'ixx="-0.47" ixy="0" ixz="0" iyy="0.47"', "positive definite"),
         (THIGH_INERTIA, THIGH_INERTIA.replace('ixy="0"', 'ixy="-0.48"'), "positive definite"),
         (FIRST_AXIS, '<axis xyz="0 -2 0"/>', "length 2"),
-        ('name="left_hip" type="revolute"', 'name="left_hip" type="continuous"', "'continuous'"),
+        ('name="left_hip" type="revolute"', 'name="left_hip" type="planar"', "'planar'"),
         ('name="left_hip"', 'name="right_hip"', "two joints are named 'right_hip'"),
-        (HIP, HIP.replace("torso", "pelvis"), "no link 'pelvis'"),
-        ('<child link="left_thigh"/>', '<child link="right_thigh"/>', "two parent joints"),
+        (HIP, HIP.replace("torso", "pelvis"), "links ['pelvis'] that are not there"),
+        (
+            '<child link="left_thigh"/>',
+            '<child link="right_thigh"/>',
+            "two parent joints ['right_thigh']",
+        ),
         ("</robot>", "", "not well-formed"),
     ],
 )
@@ -43,20 +47,20 @@ def test_bad_urdf_is_refused(tmp_path, old, new, message):
     path = tmp_path / "bad.urdf"
     path.write_text(text.replace(old, new, 1))
     with pytest.raises(ModelError) as caught:
-        load_tree(path)
+        read(path)
     assert message in str(caught.value)
     assert "bad.urdf" in str(caught.value)
 
 
 def test_stored_pinned_urdf_is_the_floating_one_rerooted():
-    stored = load_tree(FLOATING.with_name("pinned.urdf"))
-    derived = reroot(load_tree(FLOATING), "left_foot", "torso")
+    stored = read(FLOATING.with_name("pinned.urdf")).tree
+    derived = reroot(read(FLOATING).tree, "left_foot", "torso")
     assert stored.links == derived.links
     assert stored.joints == derived.joints
 
 
 def test_the_default_preset_is_what_the_urdf_says(biped):
-    for name, link in load_tree(FLOATING).links.items():
+    for name, link in read(FLOATING).tree.links.items():
         if link.inertial is not None:
             one, other = link.inertial, biped.description.tree().links[name].inertial
             assert (one.mass, one.com, one.inertia[3]) == (other.mass, other.com, other.inertia[3])
@@ -113,25 +117,23 @@ def test_bad_robot_record_is_refused(tmp_path, old, new, message):
         ba.Biped.load(tmp_path / "robot.toml")
 
 
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({}, None),
-        ({"axis": "turned"}, "the same type and sense"),
-        ({"type": "fixed"}, "the same type and sense"),
-        ({"origin": (0.0, 0.0, -0.4)}, "make it equal"),
-    ],
-)
-def test_twins_turn_in_the_same_sense(change, message):
-    """A knee that bends the other way about would be relabelled with the wrong sign at impact."""
-    one = next(j for j in ba.Biped.load("rabbit").tree.joints if j.type == "revolute")
-    turned = {"axis": tuple(-x for x in one.axis)} if "axis" in change else change
-    other = replace(one, name="twin", **turned)
-    if message is None:
-        symmetry._check_joints(one, other, "pitch", (one.name, "twin"), "legs")
-        return
-    with pytest.raises(ModelError, match=message):
-        symmetry._check_joints(one, other, "pitch", (one.name, "twin"), "legs")
+def test_twins_that_differ_are_named(biped):
+    """A knee in another place; one that turns in the other sense is relabelled with its sign."""
+    d, tree = biped.description, biped.tree
+
+    def changed(**change):
+        joints = tuple(replace(j, **change) if j.name == "right_knee" else j for j in tree.joints)
+        return replace(biped, tree=replace(tree, joints=joints))
+
+    assert symmetry.unlike(tree, d.feet) == []
+    with pytest.raises(ModelError, match=r"legs differ.*'right_shin'"):
+        changed(origin=(0.0, 0.0, 0.5)).check()
+    other = changed(axis=(0.0, 1.0, 0.0))
+    other.check()
+    q, v = np.array([0.1, 0.4, -0.3, -0.6, 0.2]), np.array([1.0, -2.0, 0.5, 3.0, 0.7])
+    sign = np.array([1.0, 1.0, 1.0, -1.0, 1.0])
+    np.testing.assert_allclose(other.impact(q * sign, v * sign).q, biped.impact(q, v).q * sign)
+    np.testing.assert_allclose(other.impact(q * sign, v * sign).v, biped.impact(q, v).v * sign)
 
 
 @pytest.mark.parametrize(
@@ -140,7 +142,7 @@ def test_twins_turn_in_the_same_sense(change, message):
         ("<robot name='a'>" + "<link>" * 200_000 + "</link>" * 200_000 + "</robot>", "51 deep"),
         (
             "<robot name='a'>" + "<link name='l'/>" * 1501 + "</robot>",
-            "1501 links, expected at most 200",
+            "1501 links, expected .* at most 200",
         ),
         ("<?xml version='1.0' encoding='utf-7'?><robot name='a'/>", "multi-byte encodings"),
     ],

@@ -119,15 +119,3 @@ def test_one_loop_walks_alike_in_many_threads(plant, gait):
         runs = list(pool.map(lambda _: loop.run(begin, ba.RunOptions(0.05)), range(8)))
     alone = loop.run(begin, ba.RunOptions(0.05))
     assert all(np.array_equal(run.final_state, alone.final_state) for run in runs)
-
-
-@pytest.mark.parametrize("made", LOOPS)
-def test_the_start_of_another_loop_is_refused(made, plant, gait):
-    npd, adrc = (
-        made(plant, law(gait.constraint), plant.biped, TICK)
-        for law in (ba.NPDController, ba.ADRCController)
-    )
-    starts = [loop.initial_state(*gait.start(plant.biped)) for loop in (npd, adrc)]
-    for loop, other in ((adrc, starts[0]), (npd, np.zeros(5)), (npd, starts[0] * math.nan)):
-        with pytest.raises(InputError):
-            loop.run(other, ba.RunOptions(0.01))

@@ -13,7 +13,7 @@ from biped_adrc.closed_loop.stepping_plant import Load
 from biped_adrc.errors import InputError
 from biped_adrc.extras.mujoco import robot as mujoco_robot
 from biped_adrc.extras.mujoco.plant import TOUCHING, MuJoCoPlant, Own
-from biped_adrc.extras.mujoco.robot import floating_model, mujoco, pinned_model
+from biped_adrc.extras.mujoco.robot import compiled, mujoco, pinned_mjcf
 from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.model.ground import ground_axes
@@ -40,7 +40,7 @@ def in_joints_of(model, biped):
 
 
 def test_pinned_it_accelerates_as_pinocchio_says(robot):
-    mj, model, random = mujoco(), pinned_model(robot, 1e-3), np.random.default_rng(3)
+    mj, model, random = mujoco(), compiled(pinned_mjcf(robot, 1e-3)), np.random.default_rng(3)
     data, T = mj.MjData(model), in_joints_of(model, robot)
     for _ in range(20):
         q, v = random.uniform(-np.pi, np.pi, robot.n), random.normal(size=robot.n)
@@ -51,24 +51,6 @@ def test_pinned_it_accelerates_as_pinocchio_says(robot):
         expected = robot.acceleration(q, v, force)
         gap = np.linalg.solve(T, data.qacc) - expected
         assert np.max(np.abs(gap)) < 1e-12 * np.max(np.abs(expected))
-
-
-def test_in_free_flight_the_centre_falls_and_the_spin_stays(robot):
-    """Newton and Euler for the whole robot, with torques in its joints."""
-    mj, model = mujoco(), floating_model(robot, SoftGround(), 0.0, 1e-3)
-    data, random = mj.MjData(model), np.random.default_rng(4)
-    data.qpos[:], data.qvel[:] = random.normal(size=model.nv), random.normal(size=model.nv)
-    data.qpos[model.joint("base_z").qposadr[0]] = 50.0
-    data.ctrl[:] = random.normal(scale=20.0, size=model.nu)
-    spins, centres = [], []
-    for _ in range(3):
-        mj.mj_forward(model, data)
-        mj.mj_subtreeVel(model, data)
-        spins.append(data.subtree_angmom[0, 1])
-        centres.append(data.subtree_com[0, 2])
-        mj.mj_step(model, data, 100)
-    assert np.ptp(spins) < 1e-7 * abs(spins[0])
-    assert np.diff(centres, n=2)[0] == pytest.approx(-robot.description.gravity * 0.1**2, rel=1e-7)
 
 
 def placed(plant, q, v, own, u=0.0, load=None):

@@ -4,7 +4,7 @@
 
 rest is, on steps of the ground, (number of the single support, levels under stance and swing foot), then
 u_m (p,) of motors with lag. A row is the whole state of a
-`mujoco_plant.MuJoCoPlant`. `moved` puts it in, lets MuJoCo step and reads what came of it. Integrators:
+`plant.MuJoCoPlant`. `moved` puts it in, lets MuJoCo step and reads what came of it. Integrators:
 
     rk4         v, q by the classical method, four evaluations of the forces in a step
     leapfrog    q <- q + h v / 2;  N times (v <- v + h a(q, v), q <- q + h v);  q <- q - h v / 2

@@ -36,7 +36,7 @@ from biped_adrc.closed_loop.stepping_plant import Advanced, Contact, Load, Plant
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.errors import InputError, check_count, check_positive
 from biped_adrc.extras.mujoco.engine import INTEGRATORS, MuJoCoEngine, Own
-from biped_adrc.extras.mujoco.robot import PLANES, floating_model, mujoco
+from biped_adrc.extras.mujoco.robot import PLANES, compiled, floating_mjcf, mujoco
 from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.hardware.motors import check_lag
 from biped_adrc.hybrid.status import Status
@@ -61,7 +61,7 @@ class MuJoCoPlant(Checked, Shown):
     - h [s]: step of the engine. slope [rad]: of the ground, positive downhill.
     - touchdown_force [N], ahead [m]: what the swing foot has to carry, and how far in front it has to
       be. flight_height [m]: the run ends as infeasible where the stance foot is higher above the ground.
-    - integrator: "rk4", or "leapfrog" at a quarter of the price (`mujoco_engine`).
+    - integrator: "rk4", or "leapfrog" at a quarter of the price (`engine`).
     - lag [s]: time constant tau of the motors, tau u_m' = u - u_m; 0 for none.
     - ground_steps: where the ground falls or rises. first_step: number of the first single support.
     - fall_height [1], max_step_time [s]: ends of a run, as of a `Walker`.
@@ -110,7 +110,7 @@ class MuJoCoPlant(Checked, Shown):
                 stacklevel=3,
             )
         planes = PLANES if self.ground_steps else PLANES[:1]
-        model = floating_model(self.biped, self.ground, self.slope, self.h, planes)
+        model = compiled(floating_mjcf(self.biped, self.ground, self.slope, self.h, planes))
         model.opt.integrator = getattr(mujoco().mjtIntegrator, INTEGRATORS[self.integrator])
         object.__setattr__(self, "model", model)
         object.__setattr__(self, "data", mujoco().MjData(model))
@@ -170,8 +170,8 @@ class MuJoCoPlant(Checked, Shown):
                 model = copy(model)
                 data = mujoco().MjData(model)
             numbers = self.h, self.integrator, self.lag
-            made = engines[get_ident()] = MuJoCoEngine(self.biped, model, data, *numbers)
-        return made
+            engine = engines[get_ident()] = MuJoCoEngine(self.biped, model, data, *numbers)
+        return engine
 
     def lagging(self, lag: float) -> MuJoCoPlant:
         """The same plant, whose motors have this lag [s]."""

@@ -128,21 +128,15 @@ def _checked_feet(body: PlanarBase, feet: tuple[str, ...]) -> tuple[str, str]:
 
     Raises ModelError that names what is wrong.
     """
-    source, links = body.tree.source, body.tree.links
-    for foot in feet:
-        if foot not in links:
-            raise ModelError(
-                f"URDF '{source}': there is no link '{foot}' to be a foot; the ends of the tree are "
-                f"{_leaves(body)}"
-            )
-    if len(feet) != 2 or feet[0] == feet[1]:
+    where = f"URDF '{body.tree.source}'"
+    if unknown := [foot for foot in feet if foot not in body.tree.links]:
         raise ModelError(
-            f"URDF '{source}': feet {list(feet)}, expected two different links, the stance foot first"
+            f"{where}: there is no link {unknown} to be a foot; the ends of the tree are {_leaves(body)}"
         )
-    if _chain(body, feet[0]) == _chain(body, feet[1]):
+    if len(feet) != 2 or _chain(body, feet[0]) == _chain(body, feet[1]):
         raise ModelError(
-            f"URDF '{source}': no joint between '{feet[0]}' and '{feet[1]}' moves one foot against the "
-            "other; give two feet on different legs by feet=(...) or --feet"
+            f"{where}: feet {list(feet)}, expected two links that a joint moves against each other, the stance "
+            "foot first; give them by feet=(...) or --feet"
         )
     for foot in feet:
         _check_foot(body.tree, foot)
@@ -194,15 +188,13 @@ def _guessed_hip(tree: Tree, feet: tuple[str, str]) -> tuple[str, str]:
 
 def _check_hip(body: PlanarBase, hip: str, foot: str) -> None:
     """Raise ModelError unless the hip hangs on the trunk and its origin survives re-rooting at the foot."""
-    if hip not in body.tree.links:
+    tree = body.tree
+    below = [link for link in tree.links if tree.path_below(link, body.trunk) is not None]
+    fits = [link for link in below if _keeps_its_origin(tree, link, foot)]
+    if hip not in fits:
         raise ModelError(
-            f"URDF '{body.tree.source}': there is no link '{hip}' to be the hip; it has {list(body.tree.links)}"
-        )
-    _chain(body, hip)
-    if not _keeps_its_origin(body.tree, hip, foot):
-        raise ModelError(
-            f"URDF '{body.tree.source}': hip '{hip}' carries the stance foot '{foot}', and its origin moves "
-            "when the tree is turned round at that foot; name a link of the swing leg, or one fixed at the hip"
+            f"URDF '{tree.source}': hip '{hip}', expected a link whose origin stays when the tree is turned "
+            f"round at the stance foot '{foot}': one of {fits}"
         )
 
 
@@ -212,14 +204,11 @@ def _keeps_its_origin(tree: Tree, link: str, foot: str) -> bool:
     `pinned.reroot` moves the frame of a link on the stance leg to the joint below it.
     """
     outwards = [joint for joint in tree.path_to_root(foot) if joint.parent == link]
-    return all(math.hypot(*joint.origin) < _AWAY for joint in outwards)
+    return all(math.hypot(*joint.origin[::2]) < _AWAY for joint in outwards)
 
 
 def _phase(tree: Tree, foot: str, hip: str, joints: tuple[Joint, ...]) -> Array:
-    """Row c (n,) of Theta: the leg from the foot to the hip, cut into lengths [m] where its links meet.
-
-    Raises ModelError where hip and foot coincide.
-    """
+    """Row c (n,) of Theta: the leg from the foot to the hip, cut into lengths [m] where its links meet."""
     carriers = {hip, *(joint.parent for joint in tree.path_to_root(hip))}
     points, links = [position(tree, foot)], []
     for joint in tree.path_to_root(foot):
@@ -229,11 +218,6 @@ def _phase(tree: Tree, foot: str, hip: str, joints: tuple[Joint, ...]) -> Array:
         points.append(position(tree, joint.child))
     points.append(position(tree, hip))
     lengths = np.array([math.dist(a, b) for a, b in pairwise(points)])
-    if not np.sum(lengths) > _AWAY:
-        raise ModelError(
-            f"URDF '{tree.source}': hip '{hip}' and foot '{foot}' lie in one point, so there is no leg; "
-            "give the hip by hip=... or --hip"
-        )
     counter_clockwise = -joints[-1].axis[1]
     rows = absolute_angles(tree, tuple(joint.name for joint in joints), links)
     c: Array = counter_clockwise * lengths @ rows / np.sum(lengths) + 0.0

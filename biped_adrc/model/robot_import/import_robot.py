@@ -15,9 +15,8 @@ The way of `derive`, each stage raising ModelError with what to change in the fi
     urdf_reader.read      links and joints, frames turned parallel at zero angles
     on_planar_base        joints in the plane x-z, base (x, z, pitch) found or added
     anatomy               feet, hip, order of the joints, phase variable
-    drawable              shapes to draw, sticks where there are none
+    drawable              shapes to draw, balls where there are none
     _motors, _torque      joints with a motor, and their torque limit
-    check_alike           equal legs
     record_of             the robot.toml, from which the Biped is made
     checks                laws of mechanics, with numbers
 
@@ -25,20 +24,21 @@ The record uses the words of a robot.toml, and is written as TOML by `to_toml`: 
 does not write. Strings, numbers, lists and tables are all a record holds, and JSON's strings are
 basic strings of TOML.
 
-A robot whose URDF has no shape that can be drawn gets sticks from joint to joint, and balls. A
-stick runs from the origin of a link to every joint below it, or to its COM where nothing lies
-below. It is a cylinder along z, a box along x, and a row of balls where it stands obliquely. At
-every COM lies a ball of steel with the mass of the body, r = (3 m / (4 pi rho))^(1/3).
+A robot whose URDF has no shape that can be drawn gets rows of balls, from the origin of a link to every
+joint below it, or to its COM where nothing lies below. At every COM lies a ball of steel with the mass of
+the body, r = (3 m / (4 pi rho))^(1/3).
 """
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from biped_adrc.checks import Check
 from biped_adrc.errors import ModelError, OutputError
@@ -48,20 +48,19 @@ from biped_adrc.model.robot_import.anatomy import Anatomy, anatomy
 from biped_adrc.model.robot_import.import_checks import checks
 from biped_adrc.model.robot_import.planar_base import PlanarBase, on_planar_base
 from biped_adrc.model.robots.robot_toml import GRAVITY, description_of
-from biped_adrc.model.robots.symmetry import check_alike, pairs
-from biped_adrc.model.robots.urdf import Joint, Link, Tree, Vector, Visual, to_xml
+from biped_adrc.model.robots.symmetry import pairs
+from biped_adrc.model.robots.urdf import Joint, Link, Tree, Visual, to_xml
 from biped_adrc.model.robots.urdf_reader import UrdfContents, read, tip_of
 
 Colour = tuple[float, float, float, float]
 """Red, green, blue, opacity, each from 0 to 1."""
 _STEEL = 7800.0  # [kg/m^3]
-_RADIUS = 0.03  # of a stick, as a fraction of its length
-_BEADS = 9
+_RADIUS, _BALLS = 0.04, 13  # of a row: radius as a fraction of its length, and number
 _STANCE, _SWING, _TRUNK = (0.0, 0.45, 0.7, 1.0), (0.84, 0.37, 0.0, 1.0), (0.35, 0.35, 0.4, 1.0)
 
 
 def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[str, ...]]:
-    """The tree itself where a link has a shape, else the tree with sticks, and a sentence that says so.
+    """The tree itself where a link has a shape, else the tree with balls, and a sentence that says so.
 
     Links of the stance leg, the swing leg and the trunk get different colours.
     """
@@ -73,33 +72,26 @@ def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[str, ...]]:
         stance, swing = (name in leg for leg in legs)
         colour = _TRUNK if stance == swing else _STANCE if stance else _SWING
         links[name] = replace(link, visuals=_shapes(tree, link, colour))
-    said = "shapes: the URDF has none that can be drawn, so sticks and balls are drawn instead"
+    said = "shapes: the URDF has none that can be drawn, so balls are drawn instead"
     return replace(tree, links=links), (said,)
 
 
 def _shapes(tree: Tree, link: Link, rgba: Colour) -> tuple[Visual, ...]:
-    """Sticks from the link's origin to the joints below it, or to its COM, and a ball at the COM."""
+    """Rows of balls from the link's origin to the joints below it, or to its COM, and a ball at the COM."""
     ends = [joint.origin for joint in tree.joints_below(link.name) if any(joint.origin)]
-    if link.inertial is None:
-        return tuple(shape for end in ends for shape in _stick(end, rgba))
-    com = link.inertial.com
-    radius = (3.0 * link.inertial.mass / (4.0 * math.pi * _STEEL)) ** (1.0 / 3.0)
-    sticks = [shape for end in ends or [com] if any(end) for shape in _stick(end, rgba)]
-    return (*sticks, Visual("sphere", (radius,), com, rgba))
-
-
-def _stick(end: Vector, rgba: Colour) -> tuple[Visual, ...]:
-    """A stick from the origin to `end` [m]: upright cylinder, horizontal box, or a row of balls between."""
-    x, _, z = end
-    length = math.hypot(x, z)
-    radius = _RADIUS * length
-    middle = (0.5 * x, 0.0, 0.5 * z)
-    if abs(x) < radius:
-        return (Visual("cylinder", (radius, abs(z)), middle, rgba),)
-    if abs(z) < radius:
-        return (Visual("box", (abs(x), 2.0 * radius, 2.0 * radius), middle, rgba),)
-    shares = [k / (_BEADS - 1) for k in range(_BEADS)]
-    return tuple(Visual("sphere", (radius,), (s * x, 0.0, s * z), rgba) for s in shares)
+    balls: list[Visual] = []
+    if link.inertial is not None:
+        com = link.inertial.com
+        radius = (3.0 * link.inertial.mass / (4.0 * math.pi * _STEEL)) ** (1.0 / 3.0)
+        balls = [Visual("sphere", (radius,), com, rgba)]
+        ends = ends or [com]
+    for end in ends:
+        radius, shares = _RADIUS * math.hypot(*end), np.linspace(0.0, 1.0, _BALLS).tolist()
+        x, y, z = end
+        balls += [
+            Visual("sphere", (radius,), (s * x, s * y, s * z), rgba) for s in shares if radius
+        ]
+    return tuple(balls)
 
 
 PRESET = "urdf"
@@ -197,19 +189,17 @@ def _bodies(tree: Tree, feet: tuple[str, str]) -> dict[str, list[str]]:
 
 
 def to_toml(record: Mapping[str, object]) -> str:
-    """TOML text of `record`: its values first, then its tables; empty tables are left out."""
-    return "\n".join(_lines(record, ())).strip() + "\n"
+    """TOML text of `record`: its values first, then its tables."""
+    tables = {key: value for key, value in record.items() if isinstance(value, Mapping)}
+    lines = _lines({key: value for key, value in record.items() if key not in tables})
+    for name, table in tables.items():
+        lines += ["", f"[{toml_key(name)}]", *_lines(table)]
+    return "\n".join(lines) + "\n"
 
 
-def _lines(table: Mapping[str, object], path: tuple[str, ...]) -> Iterator[str]:
-    """Lines of a table and of those inside it; `path` is its name, part by part."""
-    values = {key: value for key, value in table.items() if not isinstance(value, Mapping)}
-    tables = {key: value for key, value in table.items() if isinstance(value, Mapping)}
-    if path and values:
-        yield f"\n[{'.'.join(map(toml_key, path))}]"
-    yield from (f"{toml_key(key)} = {toml_value(value)}" for key, value in values.items())
-    for key, value in tables.items():
-        yield from _lines(value, (*path, key))
+def _lines(table: Mapping[str, object]) -> list[str]:
+    """The keys of a table with their values."""
+    return [f"{toml_key(key)} = {toml_value(value)}" for key, value in table.items()]
 
 
 @dataclass(frozen=True)
@@ -236,9 +226,8 @@ class Derived:
         """
         folder = Path(folder)
         urdf, record = folder / "floating.urdf", folder / "robot.toml"
-        for path in (urdf, record):
-            if path.exists():
-                raise OutputError(f"'{path}' exists already; give a new folder, or remove it first")
+        if there := [str(path) for path in (urdf, record) if path.exists()]:
+            raise OutputError(f"{there} exist already; give a new folder, or remove them first")
         write_text(urdf, to_xml(self.biped.tree))
         write_text(record, to_toml({**self.record, "urdf": urdf.name}))
         return record
@@ -275,20 +264,13 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     parts = anatomy(body, feet, hints.hip)
     tree, said_shapes = drawable(body.tree, parts.feet)
     actuated, said_motors = _motors(reading, parts.moving, hints)
-    check_alike(body.tree, parts.feet, body.pitch, actuated)
     torque, said_torque = _torque(reading, actuated, hints)
     record = record_of(reading, body, parts, actuated, torque, hints)
     description = description_of(record, Path(path))
     biped = Biped(description, tree, PRESET, hints.armature)
     biped.check()
-    said = (
-        *body.said,
-        *parts.said,
-        *said_motors,
-        *said_torque,
-        *said_shapes,
-        *_remarks(reading, hints),
-    )
+    said = (*body.said, *parts.said, *said_motors, *said_torque, *said_shapes)
+    said += _remarks(reading, hints)
     return Derived(biped, said, checks(biped), record)
 
 
@@ -319,12 +301,11 @@ def _motors(
         free = ", ".join(f"'{name}'" for name in names if name not in found)
         motors = ", ".join(f"q{i + 1} = '{name}'" for i, name in enumerate(found)) or "none"
         return found, (f"motors: {motors}" + (f"; {free} free (effort 0)" if free else ""),)
-    for name in hints.actuated:
-        if name not in names or hints.actuated.count(name) > 1:
-            raise ModelError(
-                f"URDF '{reading.tree.source}': motors {list(hints.actuated)}, expected each at most once and "
-                f"from {list(names)}"
-            )
+    if len(set(hints.actuated) & set(names)) < len(hints.actuated):
+        raise ModelError(
+            f"URDF '{reading.tree.source}': motors {list(hints.actuated)}, expected each at most once and "
+            f"from {list(names)}"
+        )
     return hints.actuated, ()
 
 

@@ -65,10 +65,9 @@ class Limits(Shown):
                 f"the friction limit is {mu}, expected a number above 0 and at most 1, or None for the "
                 "robot's record"
             )
-        if torque is not None and not torque > 0.0:
-            raise InputError(
-                f"the torque limit is {torque} N m, expected a positive number, or None for the robot's record"
-            )
+        if torque is not None:
+            hint = ", or None for the robot's record"
+            check_positive(torque, f"the torque limit is {torque} N m", hint)
         check_positive(self.window, f"the force window is {self.window} s")
 
     def of(self, robot: RobotDescription) -> KnownLimits:

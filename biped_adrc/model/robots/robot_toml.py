@@ -37,7 +37,7 @@ from typing import Any
 from biped_adrc.errors import ModelError, check_positive
 from biped_adrc.files import reading
 from biped_adrc.model.robots.urdf import Inertial, Tree
-from biped_adrc.model.robots.urdf_reader import load_tree
+from biped_adrc.model.robots.urdf_reader import read
 from biped_adrc.parts import check_part
 from biped_adrc.resources import data_folder
 from biped_adrc.shown import Shown
@@ -143,18 +143,14 @@ class RobotDescription(Shown):
 
         Raises ModelError with the names that are possible.
         """
-        names = self.joints
-        if isinstance(joint, int):
-            if 0 <= joint < len(names):
-                return joint
-        elif joint in names:
-            return names.index(joint)
-        elif joint in (aliases := [f"q{i + 1}" for i in range(len(names))]):
-            return aliases.index(joint)
-        raise ModelError(
-            f"robot '{self.name}' has no joint '{joint}'; "
-            f"expected one of {list(names)}, q1..q{len(names)}, or an index from 0"
-        )
+        n = len(self.joints)
+        known = [*self.joints, *(f"q{i + 1}" for i in range(n)), *range(n)]
+        if joint not in known:
+            raise ModelError(
+                f"robot '{self.name}' has no joint '{joint}'; expected one of {list(self.joints)}, q1..q{n}, "
+                "or an index from 0"
+            )
+        return known.index(joint) % n
 
     def tree(self, preset: str | None = None) -> Tree:
         """The floating URDF with the inertials of `preset`. Raises ModelError.
@@ -162,7 +158,7 @@ class RobotDescription(Shown):
         A preset has one moment of inertia per body, about y. The moments about x and z get values
         of a slender link, since a URDF needs them and planar motion does not depend on them.
         """
-        tree = load_tree(self.urdf)
+        tree = read(self.urdf).tree
         inertials: dict[str, Inertial] = {}
         for body, p in self.preset(preset).bodies.items():
             for link in self.links[body]:
@@ -184,20 +180,13 @@ def load_description(robot: str | Path) -> RobotDescription:
     """
     check_part(robot, "robot", str, Path)
     path = Path(robot)
-    if path.suffix.lower() == ".urdf":
-        raise ModelError(
-            f"robot '{robot}' is a URDF, expected a name or a robot.toml; biped_from_urdf('{robot}') "
-            "takes a URDF, and 'biped-adrc robot new' makes a robot.toml of it"
-        )
-    if path.suffix != ".toml":
-        if str(robot) not in robot_names():
-            inside = path / "robot.toml"
-            meant = f"did you mean '{inside}'? C" if inside.is_file() else "c"
-            raise ModelError(
-                f"there is no robot '{robot}'; {meant}hoose one of {list(robot_names())}, "
-                "or give the path of a robot.toml"
-            )
+    if str(robot) in robot_names():
         path = data_folder("urdf") / str(robot) / "robot.toml"
+    elif path.suffix != ".toml":
+        raise ModelError(
+            f"there is no robot '{robot}'; choose one of {list(robot_names())}, or give the path of a "
+            "robot.toml; biped_from_urdf takes a URDF, and 'biped-adrc robot new' makes a robot.toml of it"
+        )
     with reading("robot record", path, ModelError):
         data = tomllib.loads(path.read_text(encoding="utf-8"))
     return description_of(data, path)
@@ -209,76 +198,65 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
     Raises ModelError that names the key, what was found and what was expected.
     """
     with reading("robot record", path, ModelError):
-        friction = data.get("friction", {})
-        description = RobotDescription(
-            name=data["name"],
-            unactuated=data["unactuated"],
-            stance_foot=data["stance_foot"],
-            swing_foot=data["swing_foot"],
-            hip=data["hip"],
-            default_preset=data["default_preset"],
+        friction, ranges = data.get("friction", {}), data.get("ranges", {})
+        actuated, passive = tuple(data["actuated"]), tuple(data.get("passive", ()))
+        joints = (*actuated, *passive, data["unactuated"])
+        names = ("name", "unactuated", "stance_foot", "swing_foot", "hip", "default_preset")
+        if unknown := sorted(set(ranges) - set(joints)):
+            raise ValueError(f"ranges names {unknown}, the joints are {list(joints)}")
+        phase = _numbers("phase", data["phase"], len(joints))
+        if phase[-1] == 0.0:
+            raise ValueError(f"phase is {list(phase)}; the last number must not be 0")
+        return RobotDescription(
+            **{name: data[name] for name in names},
             urdf=path.parent / data["urdf"],
-            actuated=tuple(data["actuated"]),
-            passive=tuple(data.get("passive", ())),
+            actuated=actuated,
+            passive=passive,
             base=(data["base"][0], data["base"][1]),
             trunk=data.get("trunk", data["hip"]),
-            phase=_numbers(data, "phase", data["phase"]),
-            offset=_numbers(data, "offset", data.get("offset", [0.0] * _count(data))),
+            phase=phase,
+            offset=_numbers("offset", data.get("offset", [0.0] * len(joints)), len(joints)),
             peak_torque=_positive(data["peak_torque"], "peak_torque"),
             friction_coefficient=_positive(data["friction_coefficient"], "friction_coefficient"),
             gravity=_positive(data.get("gravity", GRAVITY), "gravity"),
             viscous=dict(friction.get("viscous", {})),
             static=dict(friction.get("static", {})),
-            links={body: tuple(names) for body, names in data["links"].items()},
+            links={body: tuple(links) for body, links in data["links"].items()},
             presets={name: _preset(name, record, data) for name, record in data["presets"].items()},
-            ranges={joint: _range(joint, ends) for joint, ends in data.get("ranges", {}).items()},
+            ranges={joint: _range(joint, ends) for joint, ends in ranges.items()},
         )
-        unknown = sorted(set(description.ranges) - set(description.joints))
-        if unknown:
-            raise ValueError(f"ranges names {unknown}, the joints are {list(description.joints)}")
-        if description.phase[-1] == 0.0:
-            raise ValueError(f"phase is {list(description.phase)}; the last number must not be 0")
-        return description
 
 
-def _count(data: Mapping[str, Any]) -> int:
-    """Number of coordinates: actuated joints, passive joints and the pitch."""
-    return len(data["actuated"]) + len(data.get("passive", ())) + 1
-
-
-def _numbers(data: Mapping[str, Any], key: str, values: Sequence[float]) -> tuple[float, ...]:
-    """One finite number per coordinate. Raises ValueError that names the key."""
-    found = tuple(float(c) for c in values)
-    if len(found) != _count(data) or not all(map(math.isfinite, found)):
-        raise ValueError(f"{key} is {list(values)}, expected {_count(data)} finite numbers")
-    return found
+def _numbers(
+    key: str, values: Sequence[float], count: int, least: float = -math.inf
+) -> tuple[float, ...]:
+    """So many finite numbers, none below `least`. Raises ValueError that names the key."""
+    numbers = tuple(float(c) for c in values)
+    if len(numbers) != count or not all(least <= x and math.isfinite(x) for x in numbers):
+        above = f", at least {least:g}" if math.isfinite(least) else ""
+        raise ValueError(f"{key} is {list(values)}, expected {count} finite numbers{above}")
+    return numbers
 
 
 def _range(joint: str, ends: Sequence[float]) -> tuple[float, float]:
     """Lower and upper end of a joint's range [rad]. Raises ValueError unless they are in this order."""
-    low, high = (float(end) for end in ends)
+    low, high = _numbers(f"ranges.{joint}", ends, 2)
     if not low < high:
-        raise ValueError(
-            f"ranges.{joint} is [{low}, {high}], expected two angles, the lower one first"
-        )
+        raise ValueError(f"ranges.{joint} is [{low}, {high}], expected the lower angle first")
     return low, high
 
 
 def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Preset:
     """One of the tables [presets.NAME]: all bodies of the record, or none of them. Raises ValueError."""
-    bodies = {}
-    own = not any(body in record for body in data["links"])
-    for body in () if own else data["links"]:
+    bodies, where = {}, f"presets.{name}"
+    for body in data["links"] if any(body in record for body in data["links"]) else ():
         p = record[body]
-        where = f"presets.{name}.{body}"
         bodies[body] = BodyParameters(
-            _positive(p["mass"], f"{where}.mass"),
+            _positive(p["mass"], f"{where}.{body}.mass"),
             float(p["com"]),
-            _positive(p["inertia"], f"{where}.inertia"),
+            _positive(p["inertia"], f"{where}.{body}.inertia"),
         )
-    armature = float(record["armature"])
-    if not (math.isfinite(armature) and armature >= 0):
-        raise ValueError(f"presets.{name}.armature is {armature}, expected a number >= 0")
+    (armature,) = _numbers(f"{where}.armature", [record["armature"]], 1, least=0.0)
     return Preset(name, record["source"], armature, bodies)
 
 

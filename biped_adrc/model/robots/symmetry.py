@@ -7,20 +7,16 @@ the absolute angles of the links, a = A q, and P the exchange of twins, R solves
 a permutation for hips that count from a torso, and a combination for a hip that counts from the
 other leg. r is not zero for robots with spokes; it comes from the record.
 
-This assumes two legs that are alike, body by body, which `check_alike` tests when a robot is
-imported. Twins are paired upwards from the feet. They must agree in mass, COM, inertia about y,
-place on their parent, in the sense of their joints and in having a motor; then r = 0 and, where
-hips count from a torso, R is a permutation.
+This assumes two legs that are alike, body by body, which `Biped.check` tests; `unlike` names those that are
+not. Twins are paired upwards from the feet.
 """
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from biped_adrc.errors import ModelError
-from biped_adrc.model.robots.urdf import Inertial, Joint, Tree
+from biped_adrc.model.robots.urdf import Inertial, Tree
 from biped_adrc.types import Array
 
 _EXACT = 1e-9  # largest residual of A R = P A, dimensionless
@@ -76,29 +72,6 @@ def relabelling(tree: Tree, joints: tuple[str, ...], feet: tuple[str, str]) -> A
     return R
 
 
-_ALIKE = 1e-9  # relative to the numbers compared
-
-
-def check_alike(tree: Tree, feet: tuple[str, str], pitch: str, actuated: tuple[str, ...]) -> None:
-    """Check that twins agree in mass, COM, inertia, place, joint sense and motor.
-
-    pitch: name of the pitch joint; actuated: joints with a motor. Raises ModelError that names the
-    two bodies or joints, and what differs.
-    """
-    for one, other in pairs(tree, feet):
-        where = f"URDF '{tree.source}': the legs differ:"
-        a, b = (_numbers(tree.links[link].inertial) for link in (one, other))
-        for what in a:
-            if not _close(a[what], b[what]):
-                raise ModelError(
-                    f"{where} {what} is {text_of(a[what])} of '{one}' and {text_of(b[what])} of '{other}'; the "
-                    "legs change over at impact, so make them equal, with equal zeros of their joints"
-                )
-        joints = tree.joint_above(one), tree.joint_above(other)
-        if joints[0] is not None and joints[1] is not None:
-            _check_joints(joints[0], joints[1], pitch, actuated, where)
-
-
 def pairs(tree: Tree, feet: tuple[str, str]) -> tuple[tuple[str, str], ...]:
     """Links of the stance leg with their twins in the swing leg, from the feet upwards."""
     found = twins(tree, feet)
@@ -106,44 +79,21 @@ def pairs(tree: Tree, feet: tuple[str, str]) -> tuple[tuple[str, str], ...]:
     return tuple((link, found[link]) for link in stance if link in found)
 
 
-def _numbers(inertial: Inertial | None) -> dict[str, tuple[float, ...]]:
-    """What twins must have alike, by its name with unit; zeros for a link without mass."""
-    body = inertial or Inertial(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-    com = body.com[0], body.com[2]
-    return {
-        "mass [kg]": (body.mass,),
-        "COM (x, z) [m]": com,
-        "inertia iyy [kg m^2]": body.inertia[3:4],
-    }
+def unlike(tree: Tree, feet: tuple[str, str]) -> list[tuple[str, str]]:
+    """Twins that differ in mass, COM or inertia, or in their place on their parent."""
+    return [(one, other) for one, other in pairs(tree, feet) if not _alike(tree, one, other)]
 
 
-def _check_joints(
-    one: Joint, other: Joint, pitch: str, actuated: tuple[str, ...], where: str
-) -> None:
-    """Raise ModelError where the joints above two twins differ in place, type, sense or motor."""
-    if pitch in (one.name, other.name):
-        return  # one leg is the trunk: its place is the base's
-    places = (one.origin[0], one.origin[2]), (other.origin[0], other.origin[2])
-    if not _close(*places):
-        raise ModelError(
-            f"{where} the place (x, z) [m] is {text_of(places[0])} of '{one.name}' and {text_of(places[1])} of "
-            f"'{other.name}'; make it equal"
-        )
-    if one.type != other.type or (one.type == "revolute" and one.axis != other.axis):
-        raise ModelError(
-            f"{where} '{one.name}' is {one.type} about {text_of(one.axis)} and '{other.name}' {other.type} "
-            f"about {text_of(other.axis)}; give both the same type and sense"
-        )
-    if (one.name in actuated) != (other.name in actuated):
-        raise ModelError(
-            f"{where} of '{one.name}' and '{other.name}' only one has a motor; name both or none by "
-            "actuated=(...) or --actuated"
-        )
-
-
-def _close(a: tuple[float, ...], b: tuple[float, ...]) -> bool:
-    """Whether two tuples differ by no more than round-off, relative to the larger one."""
-    return math.dist(a, b) <= _ALIKE * max(math.hypot(*a), math.hypot(*b))
+def _alike(tree: Tree, one: str, other: str) -> bool:
+    """Whether two links have the same numbers in the plane, but for round-off."""
+    rows = []
+    for link in (one, other):
+        body = tree.links[link].inertial or Inertial(0.0, (0.0,) * 3, (0.0,) * 6)
+        joint = tree.joint_above(link)
+        place = (0.0, 0.0) if joint is None else joint.origin[::2]
+        rows.append((body.mass, body.inertia[3], *body.com[::2], *place))
+    a, b = np.array(rows)
+    return bool(np.allclose(a, b, rtol=_EXACT, atol=0.0))
 
 
 def text_of(values: tuple[float, ...]) -> str:

@@ -1,8 +1,7 @@
-"""A robot as a small tree of links and joints: edits on it, what makes it physical, writing it as
-URDF.
+"""A robot as a small tree of links and joints: edits on it, what makes a body physical, writing it as URDF.
 
 Pinocchio's parser accepts negative masses and zero axes and turns a mass it cannot read into 0. So
-a file is read by `urdf_reader` and validated here first; parameters are changed on this tree
+a file is read by `urdf_reader`, which checks it; parameters are changed on this tree
 (presets, model errors, re-rooting at a foot), and Pinocchio is given the text that `to_xml` writes.
 All records are frozen: an edit makes a new tree.
 """
@@ -133,16 +132,16 @@ class Tree(Shown):
         return path[: ends[0]] if ends else None
 
     def with_inertials(self, inertials: Mapping[str, Inertial]) -> Tree:
-        """The same tree with the inertials of some links replaced. Raises ModelError as `validated`."""
-        links = {
-            name: replace(link, inertial=inertials.get(name, link.inertial))
-            for name, link in self.links.items()
-        }
-        return validated(replace(self, links=links))
+        """The same tree with the inertials of some links replaced. Raises ModelError for what no body has."""
+        links = dict(self.links)
+        for name, inertial in inertials.items():
+            check_inertial(inertial, f"URDF '{self.source}', link '{name}'")
+            links[name] = replace(links[name], inertial=inertial)
+        return replace(self, links=links)
 
 
 def to_xml(tree: Tree) -> str:
-    """URDF text of `tree`; `load_tree` of it gives the same tree back.
+    """URDF text of `tree`; `urdf_reader.read` of it gives the same tree back.
 
     Joints are written with wide limits but for their speed, since the tree has none: <limit> is
     compulsory in URDF.
@@ -190,72 +189,17 @@ def _write_visual(element: ET.Element, visual: Visual, link: str) -> None:
     ET.SubElement(material, "color", rgba=_text(*visual.rgba))
 
 
-def validated(tree: Tree) -> Tree:
-    """The tree itself, once its links form one tree and every moving body is physical.
-
-    Raises ModelError for names used twice, unknown links, closed chains, several roots, and masses
-    or inertias that no rigid body can have.
+def check_inertial(inertial: Inertial, where: str) -> None:
+    """Raise ModelError unless mass and moments are those of a rigid body: positive and finite, and no
+    principal moment above the sum of the other two. Moments are scaled, so that tiny bodies do not underflow.
     """
-    where = f"URDF '{tree.source}'"
-    names = [joint.name for joint in tree.joints]
-    for name in names:
-        if names.count(name) > 1:
-            raise ModelError(f"{where}: two joints are named '{name}'; names must differ")
-    for joint in tree.joints:
-        for link in (joint.parent, joint.child):
-            if link not in tree.links:
-                raise ModelError(f"{where}, joint '{joint.name}': there is no link '{link}'")
-    children = [joint.child for joint in tree.joints]
-    for link in tree.links:
-        if children.count(link) > 1:
-            raise ModelError(
-                f"{where}: link '{link}' has two parent joints; closed chains are not supported"
-            )
-    roots = [link for link in tree.links if link not in children]
-    if len(roots) != 1:
-        raise ModelError(f"{where}: found root links {roots}, expected exactly one")
-    loose = set(tree.links) - _below(tree, roots[0])
-    if loose:
+    J = np.array(inertial.inertia)[SYMMETRIC]
+    size = float(np.sum(np.abs(J)))
+    fits = 0.0 < inertial.mass < math.inf and 0.0 < size < math.inf
+    principal = np.linalg.eigvalsh(J / size) if fits else np.zeros(3)
+    if principal[0] <= 0.0 or 2.0 * principal[2] > np.sum(principal) * (1.0 + 1e-9):
         raise ModelError(
-            f"{where}: links {sorted(loose)} hang on each other in a circle, not on '{roots[0]}'; closed "
-            "chains are not supported"
-        )
-    for body in tree.links.values():
-        if body.inertial is not None:
-            _check_inertial(body.inertial, f"{where}, link '{body.name}'")
-    return tree
-
-
-def _below(tree: Tree, root: str) -> set[str]:
-    """`root` and every link that hangs on it; each has one parent, so no link is met twice."""
-    found, edge = {root}, [root]
-    while edge:
-        edge = [joint.child for link in edge for joint in tree.joints_below(link)]
-        found.update(edge)
-    return found
-
-
-def _check_inertial(inertial: Inertial, where: str) -> None:
-    """Raise ModelError unless mass > 0 and the inertia matrix is positive definite and obeys the
-    triangle inequality of its principal moments. It is scaled before the test, so tiny bodies do
-    not underflow.
-    """
-    if not 0 < inertial.mass < math.inf:
-        raise ModelError(
-            f"{where}: mass {inertial.mass:g} kg, expected a positive number; a frame without mass has no "
-            "<inertial>"
-        )
-    size = sum(abs(moment) for moment in inertial.inertia)
-    if not 0 < size < math.inf:
-        raise ModelError(
-            f"{where}: the moments of inertia are {inertial.inertia}, expected finite ones"
-        )
-    J = np.array(inertial.inertia)[SYMMETRIC] / size
-    if min(np.linalg.det(J[:k, :k]) for k in (1, 2, 3)) <= 0:
-        raise ModelError(f"{where}: the inertia matrix is not positive definite")
-    if np.any(2 * np.diag(J) > np.trace(J) * (1 + 1e-9)):
-        xx, _, _, yy, _, zz = inertial.inertia
-        raise ModelError(
-            f"{where}: inertia ({xx:g}, {yy:g}, {zz:g}) kg m^2 breaks the triangle inequality; "
-            "no body has a principal moment above the sum of the other two"
+            f"{where}: mass {inertial.mass:g} kg and moments of inertia {inertial.inertia} kg m^2 are those of "
+            "no body; expected a positive mass and a positive definite matrix that obeys the triangle "
+            "inequality. A frame without mass has no <inertial>"
         )

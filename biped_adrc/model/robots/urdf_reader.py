@@ -1,17 +1,14 @@
-"""Reading a URDF: a strict one with parallel frames, or any planar robot, whose frames may be turned.
+"""Reading the URDF of a planar robot: frames of any orientation become parallel at zero angles.
 
-The rest of the package works with parallel frames at zero angles (`urdf.Joint`). `load_tree`
-demands them, for the robots of the package. `read` accepts frames of any orientation and turns them
-parallel, for `robot_import`. With R_p the rotation of the parent's frame at zero angles and (x, R)
-the origin of a joint in it,
+The rest of the package works with parallel frames (`urdf.Joint`). With R_p the rotation of the parent's
+frame at zero angles and (x, R) the origin of a joint in it,
 
     R_c = R_p R,   x' = R_p x,   n' = R_c n                          (joints)
     c' = R_c c,    I' = (R_c R_i) I (R_c R_i)'                       (bodies)
 
 so a leg that hangs down by an origin of rpy = (0, pi, 0) becomes a leg that points along -z. Angles
 keep their names, senses and zeros. A `continuous` joint becomes `revolute`, for which nq = nv.
-Shapes that are meshes or stand oblique after the turn are not kept: the strict tree has upright
-primitives only.
+Shapes that are meshes or stand oblique after the turn are not kept: the tree has upright primitives only.
 
 The limits <limit effort lower upper> and the friction <dynamics damping friction> are kept beside
 the tree. Every ModelError names the file, the element, what was found and what was expected.
@@ -22,9 +19,9 @@ from __future__ import annotations
 import math
 import re
 import xml.etree.ElementTree as ET
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -43,21 +40,21 @@ from biped_adrc.model.robots.urdf import (
     Tree,
     Vector,
     Visual,
-    validated,
+    check_inertial,
 )
-from biped_adrc.model.robots.urdf_xml import expanded, parse
+from biped_adrc.model.robots.urdf_xml import parse
 from biped_adrc.types import Array
 
 LARGEST = 1e100
 """Bound on every number in a URDF, in any unit; products of larger ones overflow."""
+SMALLEST = 1e-9
+"""Least size of a shape [m]."""
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _ALMOST_ONE = 1e-6  # how far an axis may be from unit length, dimensionless
 _ROUND_OFF = 1e-15  # entries of a turn below this are the round-off of pi, dimensionless
 _UPRIGHT = 1e-6  # how far a shape's axes may be from the frame's, dimensionless
+_SLENDER = np.array([1.0, 0.0, 0.0, 1.0, 0.0, 0.05])  # moments of a link along z over its iyy
 _CIRCULAR = ("revolute", "continuous")
-
-Turns = Mapping[str, Array] | None
-"""Rotation R (3, 3) of every link at zero angles; None where all frames have to be parallel."""
 
 
 @dataclass(frozen=True)
@@ -82,41 +79,39 @@ class UrdfContents:
     """
 
 
-def load_tree(path: Path | str) -> Tree:
-    """Read and validate a URDF file with parallel frames, as the robots of the package have.
-
-    Raises ModelError that names the file, the element, what was found and what was expected.
-    """
-    return _tree(parse(path), str(path), None)[0]
-
-
 def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> UrdfContents:
-    """Read and validate a URDF with frames of any orientation.
+    """Read and check a URDF.
 
     tips: by link, a place in its own frame [m] where a link without mass, `LINK_tip`, is put: a
     foot for legs that end with a shin. Raises ModelError.
     """
-    path = Path(path)
-    source, robot = str(path), expanded(path)
+    robot, file = parse(path), f"URDF '{path}'"
     for link, place in (tips or {}).items():
         _add_tip(robot, link, place)
-    tree, flat = _tree(robot, source, _turns(robot, source))
-    shapes = ((e.get("name", ""), len(e.findall("visual"))) for e in robot.findall("link"))
-    undrawn = tuple(name for name, count in shapes if count > len(tree.links[name].visuals))
-    moving = [j for j in robot.findall("joint") if j.get("type") in _CIRCULAR]
-    low, high = (_by_joint(moving, "limit", key, source, -math.inf) for key in ("lower", "upper"))
+    bodies, movers = robot.findall("link"), robot.findall("joint")
+    for (tag, name), count in Counter((e.tag, _name(e, file)) for e in (*bodies, *movers)).items():
+        if count > 1:
+            raise ModelError(f"{file}: two {tag}s are named '{name}'; names must differ")
+    ends = [_ends(joint, file) for joint in movers]
+    turns = _turns([link.get("name", "") for link in bodies], movers, ends, file)
+    read_links = [_link(link, file, turns) for link in bodies]
+    links = {link.name: link for link, _ in read_links}
+    joints = tuple(_joint(j, file, turns, *pair) for j, pair in zip(movers, ends, strict=True))
+    robot.set("name", robot.get("name", Path(path).stem))
+    turning = [joint for joint in movers if joint.get("type") in _CIRCULAR]
+    low, high = (_by_joint(turning, "limit", key, file, -LARGEST) for key in ("lower", "upper"))
     return UrdfContents(
-        tree,
-        _by_joint(moving, "limit", "effort", source),
+        Tree(_name(robot, file), links, joints, str(path)),
+        _by_joint(turning, "limit", "effort", file),
         {
             name: (low[name], high[name])
             for name in low
             if name in high and 0.0 < high[name] - low[name] < 2.0 * math.pi
         },
-        _by_joint(moving, "dynamics", "damping", source),
-        _by_joint(moving, "dynamics", "friction", source),
-        undrawn,
-        flat,
+        _by_joint(turning, "dynamics", "damping", file),
+        _by_joint(turning, "dynamics", "friction", file),
+        tuple(e.get("name", "") for e in bodies if _undrawn(e, links)),
+        tuple(link.name for link, flat in read_links if flat),
     )
 
 
@@ -134,30 +129,39 @@ def _add_tip(robot: ET.Element, link: str, place: Vector) -> None:
     ET.SubElement(joint, "origin", xyz=" ".join(repr(float(x)) for x in place))
 
 
-def place_of(element: ET.Element, source: str) -> str:
+# -- attributes ------------------------------------------------------------------------------------
+def _place_of(element: ET.Element, file: str) -> str:
     """How messages call a link or joint: file, kind of element and name."""
-    return f"URDF '{source}', {element.tag} '{element.get('name')}'"
+    return f"{file}, {element.tag} '{element.get('name')}'"
 
 
-def _by_joint(
-    joints: list[ET.Element], tag: str, key: str, source: str, least: float = 0.0
-) -> dict[str, float]:
-    """The number <tag key> of each joint that has it. Raises ModelError when it is below `least`."""
-    found = {}
-    for joint in joints:
-        element = joint.find(tag)
-        if element is None or key not in element.attrib:
-            continue
-        where = f"{place_of(joint, source)} <{tag}>"
-        value = numbers(element, key, "", 1, where)[0]
-        if value < least:
-            raise ModelError(f"{where}: {key} is {value:g}, expected a number >= 0")
-        found[joint.get("name", "")] = value
-    return found
+def _name(element: ET.Element, where: str, key: str = "name") -> str:
+    """The attribute `key`, which must be printable: line breaks and tabs would spoil tables and messages."""
+    name = element.get(key, "")
+    if not name or not name.isprintable():
+        raise ModelError(
+            f"{where}: <{element.tag}> has {key}={name!r}, expected a name on one line"
+        )
+    return name
 
 
-def numbers(element: ET.Element | None, key: str, default: str, count: int, where: str) -> Vector:
-    """`count` finite numbers of an attribute, `default` where it is missing; for xyz, rpy, rgba and size.
+def _required(element: ET.Element, tag: str, where: str) -> ET.Element:
+    """The first child <tag>. Raises ModelError where it is missing."""
+    child = element.find(tag)
+    if child is None:
+        raise ModelError(f"{where}: <{tag}> is missing")
+    return child
+
+
+def _numbers(
+    element: ET.Element | None,
+    key: str,
+    default: str,
+    count: int,
+    where: str,
+    least: float = -LARGEST,
+) -> Vector:
+    """`count` numbers of an attribute, none below `least`; `default` where it is missing.
 
     Raises ModelError that quotes the attribute after `where`. Only decimal notation counts: Python
     would also read "nan", "inf" and "1_0".
@@ -165,83 +169,72 @@ def numbers(element: ET.Element | None, key: str, default: str, count: int, wher
     text = default if element is None else element.get(key, default)
     words = text.split()
     values = tuple(float(word) for word in words) if all(map(_NUMBER.fullmatch, words)) else ()
-    if len(values) != count or not all(abs(value) < LARGEST for value in values):
+    if len(values) != count or not all(least <= value < LARGEST for value in values):
         raise ModelError(
-            f"{where}: {key}={text!r}, expected {count} finite number(s) below {LARGEST:g}"
+            f"{where}: {key}={text!r}, expected {count} number(s) from {least:g} to {LARGEST:g}"
         )
     return values  # type: ignore[return-value]
 
 
-def _required(element: ET.Element, tag: str, where: str) -> ET.Element:
-    """The first child <tag>. Raises ModelError where it is missing."""
-    found = element.find(tag)
-    if found is None:
-        raise ModelError(f"{where}: <{tag}> is missing")
-    return found
+def _by_joint(
+    joints: list[ET.Element], tag: str, key: str, file: str, least: float = 0.0
+) -> dict[str, float]:
+    """The number <tag key> of each joint that has it."""
+    values = {}
+    for joint in joints:
+        element = joint.find(tag)
+        if element is not None and key in element.attrib:
+            where = f"{_place_of(joint, file)} <{tag}>"
+            values[joint.get("name", "")] = _numbers(element, key, "", 1, where, least)[0]
+    return values
 
 
-def _name(element: ET.Element, key: str, where: str) -> str:
-    """The attribute `key`. Raises ModelError where it is missing or empty."""
-    name = element.get(key)
-    if not name:
-        raise ModelError(f"{where}: <{element.tag}> has no '{key}'")
-    return _printable(name, element.tag, where)
+# -- frames ----------------------------------------------------------------------------------------
+def _ends(joint: ET.Element, file: str) -> tuple[str, str]:
+    """Names of the parent and the child link of a joint."""
+    where = _place_of(joint, file)
+    parent, child = (
+        _name(_required(joint, role, where), where, "link") for role in ("parent", "child")
+    )
+    return parent, child
 
 
-def _printable(name: str, tag: str, where: str) -> str:
-    """The name itself. Raises ModelError for line breaks and tabs, which would spoil tables and messages."""
-    if not name.isprintable():
-        raise ModelError(
-            f"{where}: <{tag}> names {name!r}, expected a name on one line, without tabs"
-        )
-    return name
+def _turns(
+    links: list[str], joints: list[ET.Element], ends: list[tuple[str, str]], file: str
+) -> dict[str, Array]:
+    """Rotation R (3, 3) of every link at zero angles, from the root down.
 
-
-def _turns(robot: ET.Element, source: str) -> dict[str, Array]:
-    """Rotation R (3, 3) of every link at zero angles, from the roots down; each link is met once.
-
-    Closed chains are refused later, by `validated`; here they only must not loop for ever.
+    Raises ModelError unless the links form one tree.
     """
-
-    def link_of(joint: ET.Element, role: str) -> str:
-        found = joint.find(role)
-        return "" if found is None else found.get("link", "")
-
-    joints = robot.findall("joint")
-    children = {link_of(joint, "child") for joint in joints}
-    names = [link.get("name", "") for link in robot.findall("link")]
-    turns = {name: np.eye(3) for name in names if name not in children}
-    edge = list(turns)
-    while edge:
-        below = [j for j in joints if link_of(j, "parent") in edge]
-        edge = []
-        for joint in below:
-            child = link_of(joint, "child")
-            if child not in turns:
-                turn = _origin(joint, place_of(joint, source), turns[link_of(joint, "parent")])[1]
-                turns[child] = np.eye(3) if turn is None else turn
-                edge.append(child)
+    parents = Counter(child for _, child in ends)
+    roots = [link for link in links if link not in parents]
+    turns = dict.fromkeys(roots, np.eye(3))
+    each = list(zip(joints, ends, strict=True))
+    while below := [(j, a, b) for j, (a, b) in each if a in turns and b not in turns]:
+        for joint, parent, child in below:
+            turns[child] = _origin(joint, _place_of(joint, file), turns[parent])[1]
+    twice = [link for link, count in parents.items() if count > 1]
+    circle = [link for link in links if link not in turns]
+    missing = sorted({link for pair in ends for link in pair} - set(links))
+    if len(roots) != 1 or twice or circle or missing:
+        raise ModelError(
+            f"{file}: links must hang in one tree; found the roots {roots}, links with two parent joints "
+            f"{twice}, links in a circle {circle}, and joints of links {missing} that are not there. Closed "
+            "chains are not supported"
+        )
     return turns
 
 
-def _origin(element: ET.Element, where: str, R: Array | None) -> tuple[Vector, Array | None]:
-    """Place [m] and rotation (3, 3) of an <origin> in axes turned by R; None for R demands parallel frames.
+def _origin(element: ET.Element, where: str, R: Array) -> tuple[Vector, Array]:
+    """Place [m] and rotation (3, 3) of an <origin> in axes turned by R.
 
     rpy turns about the fixed axes x, y, z in this order. Round-off of pi in rpy is set to zero, so
     that turns by right angles stay exact.
     """
     origin, where = element.find("origin"), f"{where} <origin>"
-    rpy = numbers(origin, "rpy", "0 0 0", 3, where)
-    if R is None and any(rpy):
-        raise ModelError(
-            f"{where.removesuffix(' <origin>')}: <origin> has a rotation (rpy); expected parallel frames at "
-            "zero angles. Turn the geometry and the inertia into the parent's axes instead"
-        )
-    place = numbers(origin, "xyz", "0 0 0", 3, where)
-    if R is None or origin is None:
-        return place, R
-    own: Array = pin.rpy.rpyToMatrix(*rpy)
-    return _vector(R @ place), R @ np.where(np.abs(own) < _ROUND_OFF, 0.0, own)
+    place = _numbers(origin, "xyz", "0 0 0", 3, where)
+    turn = pin.rpy.rpyToMatrix(*_numbers(origin, "rpy", "0 0 0", 3, where))
+    return _vector(R @ place), R @ np.where(np.abs(turn) < _ROUND_OFF, 0.0, turn)
 
 
 def _vector(values: Array) -> Vector:
@@ -250,126 +243,77 @@ def _vector(values: Array) -> Vector:
     return x, y, z
 
 
-def _tree(root: ET.Element, source: str, turns: Turns) -> tuple[Tree, tuple[str, ...]]:
-    """The tree that <robot> describes, and its links whose moments had to be completed."""
-    links: dict[str, Link] = {}
-    flat: list[str] = []
-    for element in root.findall("link"):
-        name = _name(element, "name", f"URDF '{source}'")
-        where = place_of(element, source)
-        R = None if turns is None else turns.get(name, np.eye(3))
-        visuals = [_visual(v, where, R) for v in element.findall("visual")]
-        inertial = element.find("inertial")
-        body, completed = (None, False) if inertial is None else _inertial(inertial, where, R)
-        if name in links:
-            raise ModelError(f"URDF '{source}': two links are named '{name}'; names must differ")
-        links[name] = Link(name, body, tuple(v for v in visuals if v is not None))
-        flat += [name] if completed else []
-    joints = tuple(_joint(element, source, turns) for element in root.findall("joint"))
-    name = _printable(root.get("name", Path(source).stem), "robot", f"URDF '{source}'")
-    return validated(Tree(name, links, joints, source)), tuple(flat)
+# -- links and joints ------------------------------------------------------------------------------
+def _link(element: ET.Element, file: str, turns: Mapping[str, Array]) -> tuple[Link, bool]:
+    """A link with parallel axes, and whether its moments had to be completed."""
+    where, R = _place_of(element, file), turns[element.get("name", "")]
+    visuals = tuple(v for e in element.findall("visual") if (v := _visual(e, where, R)) is not None)
+    body, inertial, flat = element.find("inertial"), None, False
+    if body is not None:
+        inertial, flat = _inertial(body, where, R)
+        check_inertial(inertial, where)
+    return Link(element.get("name", ""), inertial, visuals), flat
 
 
-def _inertial(element: ET.Element, where: str, R: Array | None) -> tuple[Inertial, bool]:
-    """The body in axes turned by R, and whether its moments had to be completed."""
-    mass = numbers(_required(element, "mass", where), "value", "", 1, f"{where} <mass>")[0]
-    com, own = _origin(element, f"{where} <inertial>", R)
-    inertia = _required(element, "inertia", where)
-    moments, completed = _moments(inertia, f"{where} <inertia>", own)
-    return Inertial(mass, com, tuple(moments.tolist())), completed
+def _inertial(element: ET.Element, where: str, R: Array) -> tuple[Inertial, bool]:
+    """The body in axes turned by R, and whether its moments had to be completed.
 
-
-def _moments(inertia: ET.Element, where: str, R: Array | None) -> tuple[Array, bool]:
-    """xx, xy, xz, yy, yz, zz (6,) [kg m^2] turned by R, and whether they were completed.
-
-    A body with yy alone, as some planar URDFs have, gets the moments of a slender link along z.
+    A body with a moment about y alone, as some planar URDFs have, gets those of a slender link along z.
     """
-
-    def given(default: str = "") -> Array:
-        defaults = (default if key[1] == key[2] else "0" for key in MOMENTS)
-        read = zip(MOMENTS, defaults, strict=True)
-        return np.array([numbers(inertia, key, text, 1, where)[0] for key, text in read])
-
-    if R is None:
-        return given(), False
-    parallel = np.array_equal(R, np.eye(3))
-    found = given("0" if parallel else "")
-    if not parallel:
-        turned = R @ found[SYMMETRIC] @ R.T
-        found = (0.5 * (turned + turned.T))[np.triu_indices(3)]
-    yy = found[3]
-    if yy > 0.0 and np.all(np.abs(np.delete(found, 3)) <= _ROUND_OFF * yy):
-        return yy * np.array([1.0, 0.0, 0.0, 1.0, 0.0, 0.05]), True
-    return (given() if parallel else found), False
+    mass = _numbers(_required(element, "mass", where), "value", "", 1, f"{where} <mass>")[0]
+    com, turn = _origin(element, f"{where} <inertial>", R)
+    inertia, where = _required(element, "inertia", where), f"{where} <inertia>"
+    moments = np.array([_numbers(inertia, key, "0", 1, where)[0] for key in MOMENTS])
+    turned = turn @ moments[SYMMETRIC] @ turn.T
+    moments = (0.5 * (turned + turned.T))[np.triu_indices(3)]
+    yy = moments[3]
+    flat = bool(yy > 0.0 and np.all(np.abs(np.delete(moments, 3)) <= _ROUND_OFF * yy))
+    return Inertial(mass, com, tuple((yy * _SLENDER if flat else moments).tolist())), flat
 
 
-def _visual(element: ET.Element, where: str, R: Array | None) -> Visual | None:
-    """A shape in axes turned by R; None where frames may be turned and it is no upright primitive then.
+def _undrawn(element: ET.Element, links: Mapping[str, Link]) -> bool:
+    """Whether a link has a shape that was not kept."""
+    return len(element.findall("visual")) > len(links[element.get("name", "")].visuals)
 
-    Raises ModelError for sizes or colours that are impossible.
-    """
-    geometry = element.find("geometry")
-    if geometry is None and R is None:
-        geometry = _required(element, "geometry", f"{where} <visual>")
-    shapes = () if geometry is None else tuple(geometry)
-    shape = next((g for g in shapes if g.tag in GEOMETRY_SIZES), None)
-    if shape is None and R is None:
-        found = ", ".join(f"<{g.tag}>" for g in shapes) or "nothing"
-        raise ModelError(f"{where} <visual>: found {found}, expected one of {list(GEOMETRY_SIZES)}")
-    place, own = _origin(element, f"{where} <visual>", R)
+
+def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
+    """A shape in axes turned by R; None where it is no upright primitive then."""
+    shape = next((g for g in element.iterfind("geometry/*") if g.tag in GEOMETRY_SIZES), None)
     if shape is None:
         return None
-    axes = np.eye(3)
-    if own is not None:
-        axes = np.asarray(np.round(np.abs(own)), dtype=np.float64)
-        oblique = {"box": np.max(np.abs(np.abs(own) - axes)), "cylinder": 1.0 - abs(own[2, 2])}
-        if not abs(oblique.get(shape.tag, 0.0)) < _UPRIGHT:
-            return None
-    count, keys = (3 if shape.tag == "box" else 1), GEOMETRY_SIZES[shape.tag]
-    read = (numbers(shape, k, "", count, f"{where} <{shape.tag}>") for k in keys)
-    size = tuple(chain.from_iterable(read))
-    if shape.tag == "box":
-        size = _vector(axes @ size)
-    if min(size) <= 0:
-        raise ModelError(f"{where} <{shape.tag}>: sizes {size}, expected positive numbers")
-    colour = element.find("material/color")
-    rgba = numbers(colour, "rgba", "0.5 0.5 0.5 1", 4, f"{where} <color>")
-    if not all(0.0 <= part <= 1.0 for part in rgba):
-        raise ModelError(f"{where} <color>: rgba {rgba}, expected numbers between 0 and 1")
-    return Visual(shape.tag, size, place, rgba)  # type: ignore[arg-type]
+    place, turn = _origin(element, f"{where} <visual>", R)
+    axes = np.asarray(np.round(np.abs(turn)), dtype=np.float64)
+    oblique = {"box": np.max(np.abs(np.abs(turn) - axes)), "cylinder": 1.0 - abs(turn[2, 2])}
+    if not abs(oblique.get(shape.tag, 0.0)) < _UPRIGHT:
+        return None
+    where, box = f"{where} <{shape.tag}>", shape.tag == "box"
+    count, keys = 3 if box else 1, GEOMETRY_SIZES[shape.tag]
+    size = sum((_numbers(shape, key, "", count, where, SMALLEST) for key in keys), ())
+    rgba = _numbers(element.find("material/color"), "rgba", "0.5 0.5 0.5 1", 4, where)
+    size = _vector(axes @ size) if box else size
+    return Visual(shape.tag, size, place, tuple(np.clip(rgba, 0.0, 1.0).tolist()))
 
 
-def _joint(element: ET.Element, source: str, turns: Turns) -> Joint:
+def _joint(
+    element: ET.Element, file: str, turns: Mapping[str, Array], parent: str, child: str
+) -> Joint:
     """A joint with its place and axis in the turned axes. Raises ModelError for unknown types, mimic
     joints and axes that are not of unit length.
     """
-    name = _name(element, "name", f"URDF '{source}'")
-    where = place_of(element, source)
-    kind = _name(element, "type", where)
-    known = JOINT_TYPES if turns is None else ("continuous", *JOINT_TYPES)
-    if kind not in known:
-        hint = (
-            "give a 'continuous' joint as 'revolute' with wide limits"
-            if turns is None
-            else "a robot that floats needs no joint for that, its planar base is added"
-        )
-        raise ModelError(f"{where}: type '{kind}', expected one of {list(known)}; {hint}")
-    if turns is not None and element.find("mimic") is not None:
+    where, kind = _place_of(element, file), element.get("type", "")
+    if kind not in (*JOINT_TYPES, "continuous") or element.find("mimic") is not None:
         raise ModelError(
-            f"{where}: it mimics another joint; coupled joints are not supported, give it a motor of its own "
-            "or make it 'fixed'"
+            f"{where}: type '{kind}', expected one of {['continuous', *JOINT_TYPES]}, without <mimic>; coupled "
+            "joints are not supported, and a robot that floats needs no joint, its planar base is added"
         )
-    parent, child = (
-        _name(_required(element, role, where), "link", where) for role in ("parent", "child")
-    )
-    above, below = (None if turns is None else turns.get(x, np.eye(3)) for x in (parent, child))
-    given = None if below is not None and kind == "fixed" else element.find("axis")
-    axis = numbers(given, "xyz", "1 0 0", 3, f"{where} <axis>")
-    if below is not None and kind != "fixed":
-        axis = _vector(below @ axis)
+    given = None if kind == "fixed" else element.find("axis")
+    axis = np.array(_numbers(given, "xyz", "1 0 0", 3, f"{where} <axis>"))
     if abs(math.hypot(*axis) - 1.0) > _ALMOST_ONE:
         raise ModelError(f"{where}: axis {axis} has length {math.hypot(*axis):g}, expected 1")
+    if kind != "fixed":
+        axis = turns[child] @ axis
+    speed = _numbers(element.find("limit"), "velocity", "0", 1, f"{where} <limit>")[0]
+    place = _origin(element, where, turns[parent])[0]
+    speed = speed if 0.0 < speed < FREE else math.inf
     kind = "revolute" if kind == "continuous" else kind
-    speed = numbers(element.find("limit"), "velocity", "0", 1, f"{where} <limit>")[0]
-    place = _origin(element, where, above)[0]
-    return Joint(name, kind, parent, child, place, axis, speed if 0.0 < speed < FREE else math.inf)
+    return Joint(element.get("name", ""), kind, parent, child, place, _vector(axis), speed)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import os
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
 from biped_adrc.errors import ModelError
-from biped_adrc.files import check_regular
+from biped_adrc.files import reading
 
 DEEPEST, MOST_LINKS = 50, 200
 """Of elements inside one another, and links of a robot."""
@@ -16,20 +15,22 @@ DEEPEST, MOST_LINKS = 50, 200
 def parse(path: Path | str) -> ET.Element:
     """The element <robot> of a URDF file, as it stands. Raises ModelError."""
     path = Path(path)
-    check_regular(path, f"URDF '{path}'", ModelError)
-    if not os.path.isfile(path):
-        raise ModelError(f"URDF '{path}' not found; give the path of an existing .urdf file")
-    try:
-        root = ET.fromstring(path.read_bytes(), ET.XMLParser(target=_Shallow()))
-    except (ET.ParseError, ValueError, LookupError) as error:  # the last two of an encoding
-        raise ModelError(f"URDF '{path}' is not well-formed XML: {error}") from error
-    except OSError as error:
-        raise ModelError(f"URDF '{path}' cannot be read: {error.strerror}") from error
-    if root.tag != "robot":
-        raise ModelError(f"URDF '{path}': root element is <{root.tag}>, expected <robot>")
-    count = len(root.findall("link"))
-    if count > MOST_LINKS:
-        raise ModelError(f"URDF '{path}' has {count} links, expected at most {MOST_LINKS}")
+    with reading("URDF", path, ModelError):
+        data = path.read_bytes()
+        if path.suffix == ".xacro" or b"<xacro:" in data:
+            raise ValueError(
+                "it holds xacro macros, expected the URDF they expand to; try "
+                f"'xacro {path.name} > robot.urdf' and give robot.urdf"
+            )
+        try:
+            root = ET.fromstring(data, ET.XMLParser(target=_Shallow()))
+        except (ET.ParseError, LookupError) as error:  # the last one of an encoding
+            raise ValueError(f"not well-formed XML: {error}") from error
+        count = len(root.findall("link"))
+        if root.tag != "robot" or count > MOST_LINKS:
+            raise ValueError(
+                f"<{root.tag}> with {count} links, expected <robot> with at most {MOST_LINKS}"
+            )
     return root
 
 
@@ -47,20 +48,3 @@ class _Shallow(ET.TreeBuilder):
     def end(self, tag: str, /) -> ET.Element:
         self.depth -= 1
         return super().end(tag)
-
-
-def expanded(path: Path) -> ET.Element:
-    """<robot> of a file without xacro macros. Raises ModelError that says how to expand them."""
-    try:
-        robot = parse(path)
-        macros = path.suffix == ".xacro" or any("xacro}" in element.tag for element in robot.iter())
-    except ModelError:
-        if not os.path.isfile(path) or b"<xacro:" not in path.read_bytes():
-            raise
-        macros = True
-    if macros:
-        raise ModelError(
-            f"'{path}' holds xacro macros, expected the URDF they expand to; try "
-            f"'xacro {path.name} > robot.urdf' and give robot.urdf"
-        )
-    return robot
