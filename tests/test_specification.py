@@ -14,15 +14,9 @@ import biped_adrc as ba
 from biped_adrc.engine.tick_derivative import _differenced, tick_derivative
 from biped_adrc.hardware.pitch_sensor import PitchSensor
 from biped_adrc.hardware.sensors import Sensors
-from biped_adrc.observer_design.disk_margin import (
-    balanced_bound,
-    disk_margin,
-    structured_value,
-)
+from biped_adrc.observer_design.disk_margin import balanced_bound, disk_margin, structured_value
 from biped_adrc.observer_design.frequency_response import Response
-from biped_adrc.observer_design.tick_matrices import (
-    linear_twin,
-)
+from biped_adrc.observer_design.tick_matrices import linear_twin
 from biped_adrc.observer_design.walker_loop import FREQUENCIES, robot_step
 from biped_adrc.scenario.specified import specification_of
 from tests.specified_walks import candidate, multiplier, rippled, specified
@@ -62,9 +56,7 @@ def test_a_walk_bears_nine_tenths_of_the_delay_margin_and_not_eleven(bandwidth):
     [
         {"controller": "NPD"},
         {
-            "controller.name": "LESO",
-            "controller.observer.bandwidth": 160.0,
-            "controller.observer.order": 2,
+            "controller": {"name": "LESO", "observer": {"bandwidth": 160.0, "order": 2}},
             "hardware.encoders.filter_time": 5e-3,
         },
     ],
@@ -104,39 +96,20 @@ def missed(T, **values):
     return np.max(np.abs(found - expected)) / np.max(np.abs(expected))
 
 
+LESO = {"controller.name": "LESO", "controller.observer.bandwidth": 200.0, "hardware.delay": 1.6}
+DIFFERENCES = {"hardware.encoders.velocity": "differences"}
+
+
 @pytest.mark.parametrize(
     "values",
     [
-        {
-            "controller.name": "LESO",
-            "controller.observer.bandwidth": 200.0,
-            "hardware.delay": 1.6,
-            "hardware.lag": 0.7,
-        },
-        {
-            "controller.name": "LESO",
-            "controller.observer.bandwidth": 200.0,
-            "hardware.delay": 1.6,
-            "hardware.delay_known": True,
-        },
-        {
-            "controller.name": "DOB",
-            "hardware.delay": 2,
-            "hardware.encoders.velocity": "differences",
-            "hardware.encoders.filter_time": 1.5,
-        },
-        {
-            "controller.name": "LESO",
-            "controller.observer.bandwidth": 200.0,
-            "hardware.delay": 1.6,
-            "controller.prediction": 1.6,
-        },
-        {
-            "controller.name": "NPD",
-            "hardware.friction": True,
-            "controller.feedforward": 0.8,
-            "hardware.delay": 0.5,
-        },
+        LESO | {"hardware.lag": 0.7},
+        LESO | {"hardware.delay_known": True},
+        LESO | {"controller.prediction": 1.6},
+        {"controller.name": "DOB", "hardware.delay": 2, "hardware.encoders.filter_time": 1.5}
+        | DIFFERENCES,
+        {"controller.name": "NPD", "controller.feedforward": 0.8, "hardware.delay": 0.5}
+        | {"hardware.friction": True},
     ],
 )
 def test_a_small_deviation_goes_as_the_matrices_say(values):
@@ -153,10 +126,11 @@ def test_a_delay_that_is_predicted_leaves_the_modes_of_the_loop_without_it(contr
         loop = loop_of(**{"controller.name": controller, "hardware.period": 1e-3, **more})[2]
         return np.sort(np.abs(np.linalg.eigvals(loop.matrices().M)))[::-1]
 
+    late = {"hardware.delay": 1e-3}
     free, hidden, predicted = (
         modes(),
-        modes(**{"hardware.delay": 1e-3}),
-        modes(**{"hardware.delay": 1e-3, "controller.prediction": 1e-3}),
+        modes(**late),
+        modes(**late, **{"controller.prediction": 1e-3}),
     )
     gaps = [np.max(np.abs(x[: len(free)] - free)) for x in (hidden, predicted)]
     assert gaps[1] < 0.05 * gaps[0]
@@ -164,13 +138,7 @@ def test_a_delay_that_is_predicted_leaves_the_modes_of_the_loop_without_it(contr
 
 # -- the matrices ----------------------------------------------------------------------------------
 def test_the_derivative_of_a_tick_is_that_of_differences():
-    walker, gait, _ = loop_of(
-        **{
-            "controller": "LESO",
-            "hardware.delay": 1e-3,
-            "hardware.encoders.velocity": "differences",
-        }
-    )
+    walker, gait, _ = loop_of(**{"controller": "LESO", "hardware.delay": 1e-3, **DIFFERENCES})
     twin = linear_twin(walker)
     q, v = gait.start(walker.plant)
     x = twin.tick(0.0, twin.initial_state(q, v), ba.Mode())
