@@ -105,7 +105,6 @@ from biped_adrc.scenario.cycle import find_cycle as find_cycle
 from biped_adrc.scenario.push import Push as Push
 from biped_adrc.scenario.recording import Walk as Walk
 from biped_adrc.scenario.registry import register as register
-from biped_adrc.scenario.run import passive_walk as passive_walk
 from biped_adrc.scenario.run import walk_scenario as walk_scenario
 from biped_adrc.scenario.scenario import Scenario as Scenario
 from biped_adrc.scenario.specified import specified as specified

@@ -76,22 +76,18 @@ def optional(extra: str, need: str, instead: str = "") -> Iterator[None]:
         raise InputError(f"{need}; pip install 'biped-adrc[{extra}]'{instead}") from None
 
 
-def check_count(count: object, what: str) -> None:
-    """Raise InputError unless `count` is a whole number from 1 on; numpy's integers count, True does not.
-
-    what: how the message begins, with the value found.
-    """
-    if isinstance(count, bool) or not isinstance(count, Integral) or int(count) < 1:
-        raise InputError(f"{what}, expected a whole number, at least 1")
-
-
 def check_whole(value: object, what: str, least: int = 0) -> None:
-    """Raise InputError unless `value` is an int, at least `least`; True is no number here.
+    """Raise InputError unless `value` is a whole number, at least `least`; NumPy's count, True does not.
 
     what: how the message begins, with the value found.
     """
-    if isinstance(value, bool) or not isinstance(value, int) or value < least:
-        raise InputError(f"{what}, expected a whole number >= {least}")
+    if isinstance(value, bool) or not isinstance(value, Integral) or int(value) < least:
+        raise InputError(f"{what}, expected a whole number, at least {least}")
+
+
+def check_count(count: object, what: str) -> None:
+    """`check_whole` from 1 on."""
+    check_whole(count, what, 1)
 
 
 def check_positive(

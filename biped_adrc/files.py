@@ -148,22 +148,25 @@ def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[No
     check_regular(path, where, error)
     try:
         yield
-    except FileNotFoundError:
-        raise error(f"{where} not found") from None
-    except OSError as found:
-        raise error(f"{where} cannot be read: {found.strerror}") from found
-    except (JSONDecodeError, TOMLDecodeError, UnicodeDecodeError) as found:
-        raise error(f"{where} is not valid {kind}: {found}") from found
-    except KeyError as found:
-        raise error(f"{where}: the key {found} is missing") from found
-    except (TypeError, ValueError, AttributeError, IndexError) as found:
-        raise error(f"{where}: {found}") from found
-    except RecursionError as found:
-        raise error(f"{where} is nested too deeply") from found
-    except BipedError:
-        raise
     except Exception as found:  # whatever damaged bytes may raise in a parser
-        raise error(f"{where} cannot be used, {type(found).__name__}: {found}") from found
+        match found:
+            case FileNotFoundError():
+                why = " not found"
+            case OSError():
+                why = f" cannot be read: {found.strerror}"
+            case JSONDecodeError() | TOMLDecodeError() | UnicodeDecodeError():
+                why = f" is not valid {kind}: {found}"
+            case KeyError():
+                why = f": the key {found} is missing"
+            case TypeError() | ValueError() | AttributeError() | IndexError():
+                why = f": {found}"
+            case RecursionError():
+                why = " is nested too deeply"
+            case BipedError():
+                raise
+            case _:
+                why = f" cannot be used, {type(found).__name__}: {found}"
+        raise error(where + why) from found
 
 
 def number_in(text: str, line: int, column: str) -> float:

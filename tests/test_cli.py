@@ -23,7 +23,7 @@ def command(preloaded, tmp_path):
 
 def test_help_of_a_fresh_interpreter():
     done = subprocess.run(
-        [sys.executable, "-m", "biped_adrc.cli", "--help"],
+        [sys.executable, "-m", "biped_adrc", "--help"],
         capture_output=True,
         text=True,
         timeout=120,

@@ -15,6 +15,7 @@ from biped_adrc.engine.run import COMPILED
 from biped_adrc.model.robots.limits import KnownLimits
 from biped_adrc.paper.convergence import (
     AGREE,
+    WalkEnd,
     error_text,
     halved,
     largest_gap,
@@ -98,7 +99,8 @@ def test_two_steps_have_to_agree(half, holds):
     ],
 )
 def test_an_error_is_printed_with_what_the_step_does_to_it(half, word):
-    text = error_text(made_up(half=made_up(**half)))
+    end = WalkEnd(1e-3, "COMPLETED", 2)
+    text = error_text(end, end._replace(**half))
     assert text.startswith("1.000e-03 rad (")
     assert word in text
 

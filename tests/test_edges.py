@@ -30,12 +30,7 @@ def pulse(step, start, stop, amplitude=TORQUE):
 
 
 @pytest.mark.parametrize(
-    "push",
-    [
-        pulse(1, 0.1, 0.3),
-        pulse(1, 0.1, math.inf),
-        ba.TorqueSine(TORQUE, frequency=5.0),
-    ],
+    "push", [pulse(1, 0.1, 0.3), pulse(1, 0.1, math.inf), ba.TorqueSine(TORQUE, frequency=5.0)]
 )
 def test_a_push_that_acts_as_asked_for_is_passed_over(push, walked):
     assert walked(push).remarks == ()

@@ -72,10 +72,7 @@ PYTHON = {
         lambda r: ba.walk_scenario(ba.Scenario({"name": "NPD", "Kp": 0.1})),
         "did you mean 'K_p'",
     ),
-    "a gait for a passive cycle": (
-        lambda r: ba.find_cycle("compass", gait="v0.8"),
-        "no motors",
-    ),
+    "a gait for a passive cycle": (lambda r: ba.find_cycle("compass", gait="v0.8"), "no motors"),
 }
 COMMANDS = {
     "simulate --preset foo": (3, "no preset 'foo'"),

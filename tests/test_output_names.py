@@ -78,11 +78,7 @@ def test_nothing_that_is_read_is_overwritten(line, names, folder, monkeypatch):
 
 @pytest.mark.parametrize(
     ("out", "written"),
-    [
-        ("push_0.1", "push_0.1.npz"),
-        ("a.b/push 2", "a.b/push 2.npz"),
-        ("push.mat", "push.mat"),
-    ],
+    [("push_0.1", "push_0.1.npz"), ("a.b/push 2", "a.b/push 2.npz"), ("push.mat", "push.mat")],
 )
 def test_a_run_goes_where_it_is_said_to_be(out, written, folder):
     assert f"written to {written}\n" in command(*WALK, "-o", out)

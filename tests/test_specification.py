@@ -104,6 +104,7 @@ def missed(T, **values):
 LESO = {"controller.name": "LESO", "controller.observer.bandwidth": 200.0, "hardware.delay": 1.6}
 DOB = {"controller.name": "DOB", "hardware.delay": 2, "hardware.encoders.filter_time": 1.5}
 NPD = {"controller.name": "NPD", "hardware.delay": 0.5, "hardware.friction": True}
+DIFFERENCES = {"hardware.encoders.velocity": "differences"}
 
 
 @pytest.mark.parametrize(
@@ -112,7 +113,7 @@ NPD = {"controller.name": "NPD", "hardware.delay": 0.5, "hardware.friction": Tru
         {**LESO, "hardware.lag": 0.7},
         {**LESO, "hardware.delay_known": True},
         {**LESO, "controller.prediction": 1.6},
-        {**DOB, "hardware.encoders.velocity": "differences"},
+        {**DOB, **DIFFERENCES},
         {**NPD, "controller.feedforward": 0.8},
     ],
 )
@@ -130,10 +131,11 @@ def test_a_delay_that_is_predicted_leaves_the_modes_of_the_loop_without_it(contr
         loop = loop_of(**{"controller.name": controller, "hardware.period": 1e-3, **more})[2]
         return np.sort(np.abs(np.linalg.eigvals(loop.matrices().M)))[::-1]
 
+    late = {"hardware.delay": 1e-3}
     free, hidden, predicted = (
         modes(),
-        modes(**{"hardware.delay": 1e-3}),
-        modes(**{"hardware.delay": 1e-3, "controller.prediction": 1e-3}),
+        modes(**late),
+        modes(**late, **{"controller.prediction": 1e-3}),
     )
     gaps = [np.max(np.abs(x[: len(free)] - free)) for x in (hidden, predicted)]
     assert gaps[1] < 0.05 * gaps[0]
@@ -141,13 +143,7 @@ def test_a_delay_that_is_predicted_leaves_the_modes_of_the_loop_without_it(contr
 
 # -- the matrices ----------------------------------------------------------------------------------
 def test_the_derivative_of_a_tick_is_that_of_differences():
-    walker, gait, _ = loop_of(
-        **{
-            "controller": "LESO",
-            "hardware.delay": 1e-3,
-            "hardware.encoders.velocity": "differences",
-        }
-    )
+    walker, gait, _ = loop_of(**{"controller": "LESO", "hardware.delay": 1e-3, **DIFFERENCES})
     twin = linear_twin(walker)
     q, v = gait.start(walker.plant)
     x = twin.tick(0.0, twin.initial_state(q, v), ba.Mode())

@@ -15,7 +15,6 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from scipy.integrate import cumulative_trapezoid
 
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Walker
@@ -98,7 +97,8 @@ def mean_forces(walker: Walker, n: Nodes, window: float) -> MeanForces:
     ends = np.flatnonzero((t - t[first][of] >= long) & (long > SHORTEST))
     of, long = of[ends], long[ends]
     if n.outside.any():
-        whole = whole - cumulative_trapezoid(n.outside, t, axis=0, initial=0.0)
+        pieces = np.diff(t)[:, np.newaxis] * (n.outside[1:] + n.outside[:-1]) / 2.0
+        whole = whole - np.vstack((np.zeros(2), np.cumsum(pieces, axis=0)))
     begins = t[ends] - long
     i = np.clip(np.searchsorted(t, begins, side="right") - 1, first[of], last[of] - 1)
     h = t[i + 1] - t[i]

@@ -19,7 +19,6 @@ from importlib import import_module
 from threading import Timer, main_thread
 from typing import TYPE_CHECKING
 
-from biped_adrc.cli import early
 from biped_adrc.cli.app import EXIT_INTERRUPTED, app, complain, gait_app
 from biped_adrc.cli.terminal import lasting, reason_lost
 from biped_adrc.errors import BipedError, OutputError
@@ -45,7 +44,6 @@ COMMANDS = (
 """Modules, each of which adds its commands to the app, in the order of the help."""
 for _module in COMMANDS:
     import_module(f"biped_adrc.cli.{_module}")
-early.ready()
 
 
 def main() -> None:

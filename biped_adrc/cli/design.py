@@ -15,7 +15,7 @@ from rich.status import Status
 from rich.table import Table
 
 from biped_adrc.cli.app import GAITS, console, gait_app, inputs, say_written, target
-from biped_adrc.cli.options import texts, with_sets
+from biped_adrc.cli.options import options, with_sets
 from biped_adrc.errors import GaitError, InputError
 from biped_adrc.files import check_folder
 
@@ -44,7 +44,7 @@ class Curves:
 
 
 @gait_app.command("design")
-@texts("gait.design")
+@options("gait.design")
 def gait_design(
     speed: float | None = None,
     step: float | None = None,

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from biped_adrc.cli.app import app, say
-from biped_adrc.cli.options import scenario_from, texts
+from biped_adrc.cli.options import options, scenario_from
 
 if TYPE_CHECKING:
     from biped_adrc.extras.export.source import Source
@@ -21,7 +21,7 @@ SLOW = 10.0
 
 
 @app.command("export")
-@texts("export")
+@options("export")
 def export_command(
     scenario: Path,
     out: Path,

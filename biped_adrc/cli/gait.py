@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from rich.table import Table
 
 from biped_adrc.cli.app import FIGURES, GAITS, console, gait_app, inputs, say, say_written, target
-from biped_adrc.cli.options import pairs, texts, with_sets
+from biped_adrc.cli.options import options, pairs, with_sets
 from biped_adrc.files import keep_inputs, output_path
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 @gait_app.command("show")
-@texts("gait.show")
+@options("gait.show")
 def gait_show(
     gait: str | None = None,
     robot: str = "rabbit",
@@ -76,7 +76,7 @@ def _print_zero(biped: Biped, found: Gait, plot: Path | None, sets: list[str] | 
 
 
 @gait_app.command("export")
-@texts("gait.export")
+@options("gait.export")
 def gait_export(
     gait: str,
     out: Path,
@@ -97,7 +97,7 @@ def gait_export(
 
 
 @gait_app.command("import")
-@texts("gait.import")
+@options("gait.import")
 def gait_import(
     file: Path,
     robot: str = "rabbit",

@@ -9,12 +9,12 @@ from __future__ import annotations
 from pathlib import Path
 
 from biped_adrc.cli.app import FIGURES, app, say_written
-from biped_adrc.cli.options import texts, with_sets
+from biped_adrc.cli.options import options, with_sets
 from biped_adrc.files import keep_inputs, output_path
 
 
 @app.command()
-@texts("animate")
+@options("animate")
 def animate(
     run: Path,
     ghost: list[Path] | None = None,
@@ -37,7 +37,7 @@ def animate(
 
 
 @app.command()
-@texts("plot")
+@options("plot")
 def plot(
     run: Path,
     beside: list[Path] | None = None,

@@ -1,10 +1,9 @@
 """Options of commands, without writing each of them out in every command.
 
-    texts          puts the help texts of options.toml on the parameters of a command
-    of_scenario    puts short options in front for values of a scenario, with the value's own text
-
-`scenario_from` joins a scenario file, what was on the command line, pushes, and --set NAME=VALUE with the
-dotted names that values have everywhere. All of them read units: `--period "1 ms"`.
+`options` puts the help texts of options.toml on the parameters of a command, and short options in front for
+values of a scenario, with the value's own text. `scenario_from` joins a scenario file, what was on the command
+line, pushes, and --set NAME=VALUE with the dotted names that values have everywhere. All of them read units:
+`--period "1 ms"`.
 """
 
 from __future__ import annotations
@@ -12,7 +11,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from functools import reduce, wraps
-from inspect import Parameter, signature
+from inspect import Parameter, Signature, signature
 from pathlib import Path
 from typing import Annotated, Any, TypeVar, get_type_hints
 
@@ -49,23 +48,30 @@ Command = Callable[..., None]
 T = TypeVar("T")
 
 
-def texts(name: str) -> Callable[[Command], Command]:
-    """Options and arguments with the texts that options.toml has under this name, such as "gait.design"."""
-    said = dict(TEXTS["every"])
-    said |= reduce(lambda table, part: table[part], name.split("."), TEXTS)
+def options(place: str, *names: str, **usual: str) -> Callable[[Command], Command]:
+    """Decorator: the options and arguments of a command, for typer.
+
+    place: of their texts in options.toml, such as "gait.design". names: of SHORT, values of a scenario, which
+    the command gets in `given`, as texts by dotted name. usual: by name, the default that the help shows.
+    """
+    said = TEXTS["every"] | reduce(lambda table, part: table[part], place.split("."), TEXTS)
 
     def decorate(command: Command) -> Command:
-        """Give typer a signature in which the parameters that have a text are annotated with it."""
-        plain = signature(command, eval_str=True)
-        parameters = [
-            p.replace(annotation=Annotated[p.annotation, _shown(said[p.name])])
-            if p.name in said
-            else p
-            for p in plain.parameters.values()
-        ]
-        command.__signature__ = plain.replace(parameters=parameters)  # type: ignore[attr-defined]
-        command.__annotations__ = {}
-        return command
+        @wraps(command)
+        def run(**values: Any) -> None:
+            texts = {SHORT[name]: values.pop(name) for name in names}
+            given = {"given": {name: x for name, x in texts.items() if x is not None}}
+            command(**(given if names else {}), **values)
+
+        parameters = [_option(name, usual.get(name)) for name in names]
+        for p in signature(command, eval_str=True).parameters.values():
+            text = [_shown(said[p.name])] if p.name in said else []
+            kind = Annotated[p.annotation, *text] if text else p.annotation
+            own = p.replace(annotation=kind, kind=Parameter.KEYWORD_ONLY)
+            parameters += [own] if p.name != "given" else []
+        run.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
+        run.__annotations__ = {}
+        return run
 
     return decorate
 
@@ -76,33 +82,6 @@ def _shown(text: str | PlainRecord) -> object:
     if "argument" in entry:
         return typer.Argument(help=entry["argument"])
     return typer.Option(*entry.get("flags", ()), help=entry["help"])
-
-
-def of_scenario(*names: str, **usual: str) -> Callable[[Command], Command]:
-    """Decorator: short options for values of a scenario, put in front of a command's own.
-
-    names: of SHORT. usual: by name, what the help says is taken by default. The command gets as `given` the
-    texts that are on the command line, by dotted name.
-    """
-
-    def decorate(command: Command) -> Command:
-        """Give typer a signature with the short options in front of the command's own parameters."""
-
-        @wraps(command)
-        def with_given(**values: Any) -> None:
-            given = {SHORT[name]: values.pop(name) for name in names}
-            command({name: x for name, x in given.items() if x is not None}, **values)
-
-        own = [
-            p for p in signature(command, eval_str=True).parameters.values() if p.name != "given"
-        ]
-        options = [*(_option(name, usual.get(name)) for name in names), *own]
-        options = [p.replace(kind=Parameter.KEYWORD_ONLY) for p in options]
-        with_given.__signature__ = signature(with_given).replace(parameters=options)  # type: ignore[attr-defined]
-        with_given.__annotations__ = {}
-        return with_given
-
-    return decorate
 
 
 def _option(name: str, usual: str | None) -> Parameter:

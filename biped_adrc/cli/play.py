@@ -7,14 +7,13 @@ import webbrowser
 from pathlib import Path
 
 from biped_adrc.cli.app import app, say, say_written
-from biped_adrc.cli.options import WALKS, of_scenario, scenario_from, texts
+from biped_adrc.cli.options import WALKS, options, scenario_from
 from biped_adrc.files import keep_inputs, output_path
 from biped_adrc.types import PlainRecord
 
 
 @app.command("play")
-@of_scenario(*WALKS)
-@texts("play")
+@options("play", *WALKS)
 def play_command(
     given: PlainRecord,
     scenario: Path | None = None,

@@ -10,14 +10,13 @@ from pathlib import Path
 from rich.table import Table
 
 from biped_adrc.cli.app import app, console, inputs, say, say_written
-from biped_adrc.cli.options import WALKS, of_scenario, scenario_from, texts
+from biped_adrc.cli.options import WALKS, options, scenario_from
 from biped_adrc.files import check_folder, keep_inputs, output_path, write_text
 from biped_adrc.types import PlainRecord
 
 
 @app.command("replay")
-@of_scenario(*WALKS)
-@texts("replay")
+@options("replay", *WALKS)
 def replay_command(
     given: PlainRecord,
     log: Path,

@@ -13,14 +13,14 @@ from typing import Any
 import typer
 
 from biped_adrc.cli.app import EXIT_CHECK_FAILED, app, bar, command, say
-from biped_adrc.cli.options import texts
+from biped_adrc.cli.options import options
 
 SHOWN = 5
 """Checks that do not hold and are said by name; more are in the report."""
 
 
 @app.command()
-@texts("reproduce")
+@options("reproduce")
 def reproduce(
     out: Path = Path("out"),
     preset: str = "identified",

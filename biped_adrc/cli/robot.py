@@ -13,16 +13,8 @@ from typing import TYPE_CHECKING
 import typer
 from rich.table import Table
 
-from biped_adrc.cli.app import (
-    EXIT_CHECK_FAILED,
-    app,
-    complain,
-    console,
-    inputs,
-    say,
-    say_written,
-)
-from biped_adrc.cli.options import scenario_from, texts, with_sets
+from biped_adrc.cli.app import EXIT_CHECK_FAILED, app, complain, console, inputs, say, say_written
+from biped_adrc.cli.options import options, scenario_from, with_sets
 from biped_adrc.errors import ModelError
 from biped_adrc.files import check_folder, keep_inputs, output_path
 
@@ -39,7 +31,7 @@ app.add_typer(robot_app, name="robot")
 
 
 @robot_app.command("list")
-@texts("robot.list")
+@options("robot.list")
 def robot_list(robot: str | None = None, preset: str | None = None) -> None:
     """The robots of the package, and all values of a scenario that --set takes; or the record of one robot."""
     from biped_adrc.model.biped import Biped
@@ -79,7 +71,7 @@ def _print_values() -> None:
 
 
 @robot_app.command("check")
-@texts("robot.own")
+@options("robot.own")
 def robot_check(
     file: Path,
     feet: str | None = None,
@@ -100,7 +92,7 @@ def robot_check(
 
 
 @robot_app.command("new")
-@texts("robot.own")
+@options("robot.own")
 def robot_new(
     file: Path,
     out: Path,
@@ -120,12 +112,9 @@ def robot_new(
 
 
 @robot_app.command("export")
-@texts("robot.export")
+@options("robot.export")
 def robot_export(
-    robot: str,
-    out: Path,
-    gait: str | None = None,
-    sets: list[str] | None = None,
+    robot: str, out: Path, gait: str | None = None, sets: list[str] | None = None
 ) -> None:
     """Write a robot with feet and motors on soft ground as MJCF, for MuJoCo's own viewer."""
     from biped_adrc.extras.mujoco.mjcf import write_mjcf

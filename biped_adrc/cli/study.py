@@ -21,7 +21,7 @@ from rich.progress import (
 from rich.table import Table
 
 from biped_adrc.cli.app import EXIT_INTERRUPTED, app, console, say
-from biped_adrc.cli.options import texts
+from biped_adrc.cli.options import options
 from biped_adrc.files import output_path
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 @app.command()
-@texts("study")
+@options("study")
 def study(
     study: Path,
     out: Path,

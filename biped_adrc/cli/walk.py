@@ -8,25 +8,24 @@ stores the run. `poincare` finds the fixed point of the return map and its multi
 
 from __future__ import annotations
 
-from dataclasses import replace
+from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
-from rich.table import Table
+from rich.box import SIMPLE_HEAD
+from rich.table import Column, Table
 
 from biped_adrc.cli.app import EXIT_FELL, app, bar, console, inputs, say, say_written, target
-from biped_adrc.cli.options import WALKS, of_scenario, scenario_from, texts
-from biped_adrc.cli.steps import print_on_ground, print_supports
+from biped_adrc.cli.options import WALKS, options, scenario_from
 from biped_adrc.errors import InputError, RaisedError
 from biped_adrc.hybrid.status import Status
 from biped_adrc.types import PlainRecord
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.certificate import Certificate
-    from biped_adrc.analysis.feasibility import Feasibility
+    from biped_adrc.analysis.soft_steps import SoftStep
     from biped_adrc.model.robots.limits import Limits
-    from biped_adrc.scenario.outcome import Outcome
     from biped_adrc.scenario.recording import Walk
     from biped_adrc.scenario.scenario import Scenario
 
@@ -38,8 +37,7 @@ WHY = {
 
 
 @app.command()
-@of_scenario(*WALKS, "impacts", "period", "torque_limit", "plant", "engine")
-@texts("simulate")
+@options("simulate", *WALKS, "impacts", "period", "torque_limit", "plant", "engine")
 def simulate(
     given: PlainRecord,
     push: list[str] | None = None,
@@ -91,11 +89,8 @@ def _walk(
         from biped_adrc.extras.logs.log_of_walk import logged
 
         write_log(logged(full), log, full.walker.nominal)
-    if half is None:
-        _print_passive(full, limits)
-    else:
-        print_on_ground(full.soft_steps)
-        _print_steps(replace(full.outcome, half=half.outcome), full.feasible_within(limits))
+    _print_on_ground(full.soft_steps)
+    _print_steps(full, half, limits)
     settings = full.trajectory.settings
     console.print(f"engine {settings['engine']}: {settings.get('why') or WHY[settings['engine']]}")
     for remark in full.remarks:
@@ -106,48 +101,76 @@ def _walk(
         raise typer.Exit(EXIT_FELL)
 
 
-def _print_steps(o: Outcome, feasibility: Feasibility) -> None:
-    """Print what every step needed of ground and motors, a row each, and below how the walk ended."""
-    from biped_adrc.paper.convergence import error_text
+def _print_steps(walk: Walk, half: Walk | None, limits: Limits) -> None:
+    """Print what every step needed of ground and motors, a row each; below how the walk ended.
 
-    print_supports(
-        feasibility,
-        o.certificates,
-        f"{o.status}: {o.message}\n{o.impacts} impacts, largest tracking error {error_text(o)}, "
-        f"peak torque {o.peak_torque:.1f} N m, {o.method}",
+    half: the same walk at half the step, where there are joints with an error.
+    """
+    from biped_adrc.analysis.certificate import ratio_text
+
+    columns = (
+        "step",
+        "time [s]",
+        "length [m]",
+        "torque [N m]",
+        "F_N [N]",
+        Column("friction", min_width=8),
+        "at impact",
+        "scuffs [mm]",
+        Column("breaks", min_width=8),
     )
-    stays = [c.step for c in o.certificates if not c.old_foot_velocity > 0.0]
-    if stays:
+    table = Table(*columns, box=SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
+    feasibility, certificates = walk.feasible_within(limits), walk.certified(limits)
+    for s, c in zip_longest(feasibility.supports, certificates):
+        table.add_row(
+            f"{s.step}",
+            f"{s.duration:.4f}",
+            f"{c.step_length:.4f}" if c else "",
+            f"{s.peak_torque:.1f}",
+            f"{s.mean_normal_force:.1f}",
+            ratio_text(s.mean_friction),
+            ratio_text(s.impulse_ratio) if c else "",
+            f"{1e3 * s.scuffing:.2g}",
+            ", ".join(name.replace("_", " ") for name in s.infeasible()),
+        )
+    console.print(table)
+    run = walk.trajectory
+    console.print(
+        f"F_N and friction: least and largest mean over {1e3 * limits.window:g} ms\n"
+        f"{run.status.name}: {run.status.value} {run.detail}".strip()
+        + f"\n{walk.impacts} impacts, {walk.note if half is None else _errors(walk, half)}\n"
+        + feasibility.text()
+    )
+    stays = [c.step for c in certificates if not c.old_foot_velocity > 0.0]
+    if stays and half is not None:
         console.print(f"the old stance foot does not lift off after steps {stays}")
 
 
-def _print_passive(walk: Walk, limits: Limits) -> None:
-    """Print the steps of a robot without motors, with the energy that each impact loses."""
-    from biped_adrc.analysis.certificate import ratio_text
-    from biped_adrc.closed_loop.walker import FOOT_STRIKE
+def _errors(walk: Walk, half: Walk) -> str:
+    """The largest error at both steps, the largest torque, and the method."""
+    from biped_adrc.paper.convergence import WalkEnd, error_text
 
-    names = ("step", "time [s]", "length [m]", "drop [m]", "friction", "at impact", "F_N [N]")
-    table = Table(*names, "lost [J]")
-    n, plant = walk.walker.plant.n, walk.walker.plant
-    events = walk.trajectory.events(FOOT_STRIKE)
-    for c, event in zip(walk.certified(limits), events, strict=True):
-        table.add_row(
-            f"{c.step}",
-            f"{c.duration:.4f}",
-            f"{c.step_length:.4f}",
-            f"{-float(plant.swing_foot(event.x_minus[:n])[1]):.4f}",
-            ratio_text(c.mean_friction),
-            ratio_text(c.impulse_ratio),
-            f"{c.mean_normal_force:.1f}",
-            f"{c.energy_lost:.4f}",
-        )
-    console.print(table)
-    status = walk.trajectory.status
-    feasibility = walk.feasible_within(limits)
-    console.print(
-        f"{status.name}: {status.value}\n{len(events)} impacts, {walk.note}; friction and F_N in the mean of "
-        f"{1e3 * limits.window:g} ms\n{feasibility.text()}"
+    ends = [
+        WalkEnd(w.signals.peak_error, w.trajectory.status.name, w.impacts) for w in (walk, half)
+    ]
+    return (
+        f"largest tracking error {error_text(*ends)}, peak torque {walk.peak_torque:.1f} N m, "
+        f"{walk.trajectory.settings['method']}"
     )
+
+
+def _print_on_ground(steps: tuple[SoftStep, ...]) -> None:
+    """Print what the feet did on soft ground, a row for each single support; nothing without."""
+    if not steps:
+        return
+    table = Table(
+        "step", "slip [mm]", "in the air [ms]", "on both feet [ms]", "depth [mm]", "friction"
+    )
+    for k, s in enumerate(steps, 1):
+        slip, depth = f"{1e3 * max(s.slip):.2g}", f"{1e3 * s.depth:.2g}"
+        flight, both = f"{1e3 * s.flight:.1f}", f"{1e3 * s.double_support:.1f}"
+        table.add_row(f"{k}", slip, flight, both, depth, f"{s.friction_used:.3f}")
+    console.print(table)
 
 
 def _nominal(c: Certificate) -> str:
@@ -166,8 +189,7 @@ def _nominal(c: Certificate) -> str:
 
 
 @app.command()
-@of_scenario(*WALKS, controller="NPD, or passive")
-@texts("poincare")
+@options("poincare", *WALKS, controller="NPD, or passive")
 def poincare(
     given: PlainRecord,
     sets: list[str] | None = None,

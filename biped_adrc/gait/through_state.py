@@ -19,7 +19,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq, least_squares
 
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
@@ -182,6 +181,8 @@ def constraint_through(
         raise GaitError(
             f"the swing foot of the state is {height:.3g} m above the ground; move it with onto_section"
         )
+    from scipy.optimize import least_squares  # takes long to load
+
     problem = _problem(biped, q, v, degree, limits or GaitLimits())
     # Gauss-Newton, closure and limits as weighted residuals
     start = np.zeros(biped.p * (degree - 3))
@@ -208,6 +209,8 @@ def _close(problem: _Problem, f: Array) -> Array:
 
     Least squares leaves a closure of about 1e-6, since it trades it against torque.
     """
+    from scipy.optimize import brentq
+
     base, step = problem.closure(f), 1e-7
     direction = np.array([(problem.closure(f + step * e) - base) / step for e in np.eye(len(f))])
     direction /= direction @ direction

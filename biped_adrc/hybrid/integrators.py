@@ -10,10 +10,10 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
+from importlib import import_module
+from typing import ClassVar, NamedTuple
 
 import numpy as np
-from scipy.integrate import DOP853, RK45, OdeSolver, Radau
 
 from biped_adrc.errors import (
     NotFiniteError,
@@ -95,8 +95,8 @@ class _SciPy(Solver):
     rtol: float = 1e-9
     atol: float = 1e-9
     max_step: float = 0.02
-
-    _solver = RK45
+    solver: ClassVar[str]
+    """Its name in `scipy.integrate`, which is loaded when a step is taken."""
 
     def __post_init__(self) -> None:
         for name in ("rtol", "atol", "max_step"):
@@ -129,7 +129,7 @@ class _SciPy(Solver):
 
         if not np.all(np.isfinite(f(t, x))):  # of which SciPy's first step would never end
             raise NotFiniteError(f"the slope is not finite at t = {t:.6g} s")
-        solver: OdeSolver = self._solver(
+        solver = getattr(import_module("scipy.integrate"), self.solver)(
             tried, t, x, t_end, rtol=self.rtol, atol=self.atol, max_step=self.max_step
         )
         mark, count = t, 0
@@ -161,11 +161,11 @@ class _SciPy(Solver):
 class Adaptive(_SciPy):
     """The explicit pair of Dormand and Prince of order 8(5, 3), with step control, as SciPy's DOP853."""
 
-    _solver = DOP853
+    solver = "DOP853"
 
 
 @dataclass(frozen=True)
 class Stiff(_SciPy):
     """Radau IIA of order 5, implicit, with step control; for the observer of Table I as it stands."""
 
-    _solver = Radau
+    solver = "Radau"

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
@@ -42,25 +41,18 @@ class GroundStep:
     """Number of the single support, from 1, that ends on the changed ground."""
     height: float
     """[m], positive whichever way the step goes."""
-    way: ClassVar[str]
-    """The word for it in messages, "down" or "up"."""
-    other: ClassVar[str]
-    """The other way, which a message names for a height with the wrong sign."""
 
     def __post_init__(self) -> None:
-        way, height = self.way, self.height
-        check_count(
-            self.step, f"the step {way} is in single support {self.step}; they are counted from 1"
-        )
-        hint = f"; a step {self.other} is a Step{self.other.capitalize()}"
-        check_positive(height, f"the step {way} is {height} m high", hint)
+        name, step, height = type(self).__name__, self.step, self.height
+        check_count(step, f"{name} is in single support {step}; they are counted from 1")
+        check_positive(height, f"{name} is {height} m high", "; StepDown and StepUp say the way")
 
     @property
     def drop(self) -> float:
         """How far the ground lies below the stance foot where this single support ends [m]; negative
         for a step up.
         """
-        return self.height if self.way == "down" else -self.height
+        return self.height if isinstance(self, StepDown) else -self.height
 
 
 class StepDown(GroundStep):
@@ -68,8 +60,6 @@ class StepDown(GroundStep):
 
     Raises InputError for a height that is not positive; a step up is a `StepUp`.
     """
-
-    way, other = "down", "up"
 
 
 class StepUp(GroundStep):
@@ -81,8 +71,6 @@ class StepUp(GroundStep):
 
     Raises InputError for a height that is not positive; a step down is a `StepDown`.
     """
-
-    way, other = "up", "down"
 
 
 def check_steps(steps: object) -> None:

@@ -21,6 +21,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -51,6 +52,15 @@ class Quantity:
     """Values nearer than this agree, in the same unit."""
     of: Callable[[Outcome], float]
     """The value of an outcome."""
+
+
+class WalkEnd(NamedTuple):
+    """What `error_text` says of a walk."""
+
+    peak_error: float
+    """[rad]"""
+    status: str
+    impacts: int
 
 
 QUANTITIES: dict[str, Quantity] = {
@@ -151,15 +161,14 @@ def _ending(o: Outcome | None) -> tuple[str, int, str] | None:
     return None if o is None else (o.status, o.impacts, o.feasibility.outcome)
 
 
-def error_text(o: Outcome) -> str:
-    """The largest tracking error [rad] at both steps, with a hint where the step is too long for it."""
-    assert o.half is not None
-    text = f"{o.peak_error:.3e} rad ({o.half.peak_error:.3e} at half the step)"
-    if (o.status, o.impacts) != (o.half.status, o.half.impacts):
-        ends = f"at half the step the walk ends as {o.half.status} after {o.half.impacts} impacts"
+def error_text(end: WalkEnd, half: WalkEnd) -> str:
+    """The largest tracking error at both steps, with a hint where the step is too long for it."""
+    text = f"{end.peak_error:.3e} rad ({half.peak_error:.3e} at half the step)"
+    if end[1:] != half[1:]:
+        ends = f"at half the step the walk ends as {half.status} after {half.impacts} impacts"
         return f"{text}; {ends}: shorten the step"
-    found = next(h for h in halved(o) if h.name == "peak error")
-    if found.agrees or max(found.value, found.half) < NEGLIGIBLE:
+    errors = end.peak_error, half.peak_error
+    if Halved("peak error", "rad", *errors, PEAK_RESOLUTION).agrees or max(errors) < NEGLIGIBLE:
         return text
     return f"{text}, the step decides it: shorten it"
 

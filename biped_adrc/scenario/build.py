@@ -37,7 +37,7 @@ from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.disturbances import disturbances
 from biped_adrc.scenario.hardware import EncoderRecord, PartRecord
-from biped_adrc.scenario.records import all_taken
+from biped_adrc.scenario.records import all_taken, named_part
 from biped_adrc.scenario.registry import construct, find, own, takes
 from biped_adrc.scenario.scenario import Scenario, drawn
 from biped_adrc.timing import ContinuousTime, SampledTime
@@ -126,14 +126,15 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
     scene: robot and gait where they are at hand. Raises InputError for what does not fit together.
     """
     scene = RobotAndGait.of(s) if scene is None else scene
-    if scene.cycle is not None:
-        return _passive(s, scene.biped, scene.cycle)
-    biped, gait = scene.biped, scene.walked
-    if s.controller.name == "passive":
+    biped, name = scene.biped, s.controller.name
+    if (name == "passive") != (biped.p == 0):
         raise InputError(
-            f"controller 'passive' does not fit robot '{s.robot.name}' with {biped.p} motors; choose another "
-            "one, such as 'NPD'"
+            f"controller '{name}' does not fit robot '{s.robot.name}' with {biped.p} motors; 'passive' is for "
+            "robots without motors, and for no others"
         )
+    if scene.cycle is not None:
+        return _passive(s, biped, scene.cycle)
+    gait = scene.walked
     plant = plant_of(s, biped)
     width, hardware = s.errors.impact_width, s.hardware
     gain = impact_error(drawn(s, "impact"), width, biped.n if width else 0)
@@ -164,18 +165,13 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
 def _passive(s: Scenario, biped: Biped, known: PassiveCycle) -> Walker:
     """The walker of a robot without motors, on the slope of its known cycle plus the scenario's [rad].
 
-    Raises InputError for another controller than 'passive', and for values that have no effect without motors.
+    Raises InputError for values that have no effect without motors.
     """
-    robot = s.robot.name
-    if s.controller.name != "passive":
-        raise InputError(
-            f"controller '{s.controller.name}' does not fit robot '{robot}' with 0 motors; choose 'passive'"
-        )
     for name in s.dotted():
         if not name.startswith(WITHOUT_MOTORS):
             raise InputError(
-                f"robot '{robot}' has no motors, so it takes no {name}; leave that out, or take a robot with "
-                "motors ('biped-adrc robot list')"
+                f"robot '{s.robot.name}' has no motors, so it takes no {name}; leave that out, or take "
+                "a robot with motors ('biped-adrc robot list')"
             )
     return Walker(
         biped,
@@ -261,10 +257,8 @@ def touchdown(s: Scenario, gait: Gait) -> Touchdown | None:
 def _named(kind: str, s: Scenario, known: Mapping[str, object], base: type[_T]) -> _T:
     """The sensor or touchdown that a scenario names, of its own values and of what is known here."""
     record: PartRecord = getattr(s.hardware, kind)
-    entry = find(kind, str(record.name))
-    values = {**known, "seed": drawn(s, kind), **record.own, **entry.defaults}
-    all_taken(f"hardware.{kind}", record.own, takes(entry.load()))
-    return construct(f"{kind} '{record.name}'", entry.load(), values, base, f"hardware.{kind}")
+    known = {**known, "seed": drawn(s, kind)}
+    return named_part(kind, str(record.name), known, record.own, base, f"hardware.{kind}")
 
 
 def plant_step(s: Scenario) -> float:
@@ -285,8 +279,7 @@ def plant_around(name: str, walker: Walker, given: Mapping[str, object]) -> Step
         "max_step_time": walker.max_step_time,
         "fall_height": walker.fall_height,
     }
-    what, entry = f"plant '{name}'", find("plant", name)
-    return construct(what, entry.load(), {**given, **values}, SteppingPlant)  # type: ignore[type-abstract]
+    return named_part("plant", name, {**given, **values}, {}, SteppingPlant, "ground")  # type: ignore[type-abstract]
 
 
 def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:

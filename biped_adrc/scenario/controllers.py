@@ -13,7 +13,7 @@ number of its name. A value that nothing takes is an error, since the user expec
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Container, Mapping
 from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
@@ -28,8 +28,8 @@ from biped_adrc.gait.outputs import LinearOutputs
 from biped_adrc.model.biped import Biped
 from biped_adrc.observers.base import Observer, ResetPolicy
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.scenario.dotted import flat, unknown
-from biped_adrc.scenario.records import Misfit
+from biped_adrc.scenario.dotted import unknown
+from biped_adrc.scenario.records import Misfit, named_part
 from biped_adrc.scenario.registry import REGISTRY, construct, find, lacking, takes
 from biped_adrc.scenario.scenario import ControllerRecord, ObserverRecord, Scenario
 
@@ -67,7 +67,7 @@ def _made(place: str, c: ControllerRecord, known: Values) -> Controller:
     if "inner" in accepted:
         inner = _made(f"{place}.inner", c.inner or ControllerRecord(), known)
         made = construct(what, make, {**known, **c.own, "inner": inner}, Controller, place)
-        _all_taken(place, c.name, c, set(accepted), accepted)
+        _all_taken(place, c, accepted, accepted)
         return made  # around the policies: its state does not begin anew at a touchdown
     if c.inner is not None:
         raise Misfit(f"{place}.inner", f"{what} is no outer loop, and takes none")
@@ -75,7 +75,7 @@ def _made(place: str, c: ControllerRecord, known: Values) -> Controller:
     made = construct(what, make, {**known, **values}, Controller, place)
     if type(made).output is Controller.output:
         raise InputError(f"{what} has no method output(s, m); write it")
-    _all_taken(place, c.name, c, used, accepted)
+    _all_taken(place, c, used, accepted)
     return _around(place, c, made, known)
 
 
@@ -83,18 +83,13 @@ def _around(place: str, c: ControllerRecord, made: Controller, known: Values) ->
     """A controller with the policy across contact around it, and what has a number in the registry."""
     contact = c.contact
     if contact.name is not None:
-        make = find("contact", contact.name).load()
-        given = contact.own | ({} if contact.window is None else {"window": contact.window})
-        at = f"{place}.contact"
-        _all_taken(at, contact.name, given, set(takes(make)), takes(make))
-        what = f"contact '{contact.name}'"
-        made = construct(what, make, {**known, **given, "inner": made}, AcrossContact, at)
+        own = contact.own | ({} if contact.window is None else {"window": contact.window})
+        inside = {**known, "inner": made}
+        made = named_part("contact", contact.name, inside, own, AcrossContact, f"{place}.contact")
     for name in REGISTRY["around"]:
-        number = getattr(c, name)
-        if number:
-            values = {**known, "inner": made, name: number}
-            outer = find("around", name).load()
-            made = construct(f"{name} = {number:g}", outer, values, Controller)
+        if number := getattr(c, name):
+            inside = {**known, "inner": made, name: number}
+            made = named_part("around", name, inside, {}, Controller, place)
     return made
 
 
@@ -162,12 +157,11 @@ def _default(make: Callable[..., object]) -> Observer:
 
 
 def _all_taken(
-    place: str, name: str, given: ControllerRecord | Values, used: set[str], known: Iterable[str]
+    place: str, c: ControllerRecord, used: Container[str], known: Collection[str]
 ) -> None:
-    """Raise Misfit for a value that nothing takes, with the names that `name` knows."""
-    record = given.record() if isinstance(given, ControllerRecord) else given
-    for at in flat(record):
+    """Raise Misfit for a value that nothing takes, with the names that the controller knows."""
+    for at in c.dotted():
         if at.partition(".")[0] not in AROUND and at not in used:
             others = [x for x in (*known, *(GAINS if "gains" in known else ())) if x not in CONTEXT]
-            text = unknown(at, others).replace("unknown name", f"'{name}' does not take it")
+            text = unknown(at, others).replace("unknown name", f"'{c.name}' does not take it")
             raise Misfit(f"{place}.{at}", text)

@@ -9,7 +9,6 @@ import numpy as np
 
 from biped_adrc.disturbances.base import Disturbance, Sum, Windowed
 from biped_adrc.disturbances.link import OnLink
-from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.push import RANDOM, Push
 from biped_adrc.scenario.records import Misfit, all_taken
@@ -86,7 +85,7 @@ def window(s: Scenario, i: int, period: float) -> dict[str, Any]:
 def torques(s: Scenario, i: int, biped: Biped) -> Array:
     """Torques (n,) [N m] of push i on the coordinates.
 
-    Raises InputError for a joint that there is not, and for torques that cancel.
+    Raises InputError for a joint that there is not.
     """
     push, zeta = s.pushes[i], np.zeros(biped.n)
     if push.joints == RANDOM and not isinstance(push.torque, dict):
@@ -95,8 +94,4 @@ def torques(s: Scenario, i: int, biped: Biped) -> Array:
         return zeta
     for joint, torque in push.factors.items():
         zeta[biped.description.joint_index(joint)] += torque
-    if push.torque and not zeta.any():
-        raise InputError(
-            f"the torques of the push on '{push.joints}' cancel; leave one of them out"
-        )
     return zeta

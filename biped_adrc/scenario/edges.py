@@ -18,7 +18,7 @@ import numpy as np
 
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.disturbances.base import Disturbance, summands
-from biped_adrc.hybrid.trajectory import Arc, Trajectory
+from biped_adrc.hybrid.trajectory import Trajectory
 
 NEAR = 1e-3
 """[s], the usual integration step: whether an edge this close to an impact acts before or after it is decided
@@ -33,13 +33,15 @@ def edge_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
     An edge within `NEAR` of an impact is named on both sides of it. One at s = 0 of a single support is not: it
     is how "from the impact on" is written.
     """
-    if walker.disturbance is None:
-        return ()
     found = list[str]()
-    for part in summands(walker.disturbance):
-        said = list(_remarks(_edges(part), trajectory))
-        n = walker.plant.n
-        found += said if said or _acted(part, trajectory, n) else [_idle(part)]
+    for part in () if walker.disturbance is None else summands(walker.disturbance):
+        edges = _edges(part)
+        said = [x for step, times in edges.items() for x in _remarks(step, times, trajectory)]
+        if not said and not _acted(part, trajectory, walker.plant.n):
+            names = [_name(step, times) for step, times in edges.items()]
+            name = names[0] if names else f"the push {type(part).__name__}"
+            said = [f"{name} did not act: it was zero at every instant of the walk"]
+        found += said
     return tuple(dict.fromkeys(found))
 
 
@@ -52,11 +54,31 @@ def _acted(part: Disturbance, trajectory: Trajectory, n: int) -> bool:
     )
 
 
-def _idle(part: Disturbance) -> str:
-    """The sentence for one that did not act."""
-    edges = _edges(part)
-    name = _name(*next(iter(edges.items()))) if edges else f"the push {type(part).__name__}"
-    return f"{name} did not act: it was zero at every instant of the walk"
+def _remarks(step: int, times: list[float], trajectory: Trajectory) -> Iterator[str]:
+    """Sentences on the edges of one push, times [s] from the start of the single support, of the walk at 0."""
+    name, arcs = _name(step, times), trajectory.arcs
+    starts = [0.0] if step == 0 else [arc.mode.start for arc in arcs if arc.mode.step == step]
+    if not starts:
+        yield f"{name} did not act: the walk has no single support {step}"
+        return
+    if step == 0 and times[0] > trajectory.t_end:
+        yield f"{name} did not act: the walk ended at {trajectory.t_end:.4g} s"
+    impacts = [
+        (arc.mode.step, e.t - starts[0])
+        for arc in arcs
+        if (e := arc.event) and e.guard == FOOT_STRIKE
+    ]
+    near = {(s, end) for s in times if s > 0.0 for _, end in impacts if abs(s - end) <= NEAR}
+    for s, end in sorted(near):
+        yield (
+            f"{name} has the edge at {s:g} s within {1e3 * NEAR:g} ms of the impact at {end:.4f} s; move it "
+            "away from there"
+        )
+    own = [end for number, end in impacts if number == step]
+    late = [s for end in own for s in times if s > end + NEAR]
+    if late and not near:
+        begun = "was cut by" if len(late) < len(times) else "did not begin before"
+        yield f"{name} {begun} the impact at {own[0]:.4f} s"
 
 
 def step_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
@@ -94,52 +116,6 @@ def _edges(disturbance: Disturbance) -> dict[int, list[float]]:
     for step, s in disturbance.switches:
         edges.setdefault(step, []).append(s)
     return {step: sorted(times) for step, times in edges.items()}
-
-
-def _remarks(edges: dict[int, list[float]], trajectory: Trajectory) -> Iterator[str]:
-    """Sentences on the edges of one disturbance."""
-    arcs = [a for a in trajectory.arcs if a.event is not None and a.event.guard == FOOT_STRIKE]
-    walked = {arc.mode.step for arc in trajectory.arcs}
-    for step, times in edges.items():
-        name = _name(step, times)
-        if step > 0 and step not in walked:
-            yield f"{name} did not act: the walk has no single support {step}"
-        elif step == 0 and times[0] > trajectory.t_end:
-            yield f"{name} did not act: the walk ended at {trajectory.t_end:.4g} s"
-        for arc in arcs:
-            if step in (0, arc.mode.step):
-                yield from _beside(name, times, 0.0 if step == 0 else arc.mode.start, step > 0, arc)
-            elif arc.mode.step == step - 1:
-                yield from _just_after(name, times, arc)
-
-
-def _beside(name: str, times: list[float], origin: float, bound: bool, arc: Arc) -> Iterator[str]:
-    """Sentences on edges beside the impact that ends an arc, and on those that it cut off.
-
-    times, origin: edges [s] counted from the time origin [s]. bound: they belong to this single support, so
-    that what comes after the impact does not act.
-    """
-    assert arc.event is not None
-    end = arc.event.t - origin
-    near = [s for s in times if s > 0.0 and abs(s - end) <= NEAR]
-    late = [s for s in times if s > end + NEAR]
-    impact = f"the impact at {end:.4f} s"
-    for s in near:
-        yield _at_impact(name, s, impact)
-    if bound and late and not near:
-        begun = len(late) < len(times)
-        yield f"{name} was cut by {impact}" if begun else f"{name} did not begin before {impact}"
-
-
-def _just_after(name: str, times: list[float], arc: Arc) -> Iterator[str]:
-    """Sentences on edges within `NEAR` after the impact that begins their single support and ends this arc."""
-    assert arc.event is not None
-    for s in (s for s in times if 0.0 < s <= NEAR):
-        yield _at_impact(name, s, f"the impact before it, at {arc.event.t:.4f} s")
-
-
-def _at_impact(name: str, s: float, impact: str) -> str:
-    return f"{name} has the edge at {s:g} s within {1e3 * NEAR:g} ms of {impact}; move it away from there"
 
 
 def _name(step: int, times: list[float]) -> str:

@@ -17,7 +17,7 @@ import re
 from decimal import Decimal
 from typing import Any
 
-from pydantic import ConfigDict, field_validator, model_validator
+from pydantic import ConfigDict, model_validator
 
 from biped_adrc.errors import InputError
 from biped_adrc.scenario.records import Misfit, Record, field
@@ -27,8 +27,9 @@ from biped_adrc.scenario.units import quantity
 RANDOM = "random"
 """Joints of a push with factors that are drawn."""
 _NUMBER = r"[0-9.eE+-]+?\s*[^\s@:,=0-9-]*"
+_TORQUE = r"[^@=]+=[^@=,]+"
 _PUSH = re.compile(
-    rf"(?P<joints>[^@]+)@(?P<step>\d+):(?P<start>{_NUMBER})-(?P<stop>({_NUMBER})?)"
+    rf"(?P<joints>{_TORQUE}(,{_TORQUE})*)@(?P<step>\d+):(?P<start>{_NUMBER})-(?P<stop>({_NUMBER})?)"
     rf"(:sine=(?P<frequency>{_NUMBER})|:rise=(?P<rise>{_NUMBER}))?"
 )
 _FORM = "expected JOINTS=TORQUE@STEP:START-STOP, such as 'q1,q2=30@19:0.1-0.3'"
@@ -67,12 +68,6 @@ class Push(Record):
     """Of a sine; the highest of noise."""
     across_impacts: bool | None = field(None)
     """Whether it goes on over impacts; by default as its shape does."""
-
-    @field_validator("shape")
-    @classmethod
-    def _there(cls, shape: str) -> str:
-        find("disturbance", shape)
-        return shape
 
     @model_validator(mode="after")
     def _one_kind(self) -> Push:
@@ -141,43 +136,27 @@ def parse_push(text: str) -> Push:
     match = _PUSH.fullmatch(text.strip())
     if match is None:
         raise InputError(f"push '{text}' is not understood; {_FORM}")
+    start, stop = match["start"], match["stop"]
+    values: dict[str, Any] = {"step": int(match["step"])}
+    values["shape"] = "sine" if match["frequency"] else "pulse" if stop else "step"
+    values["across_impacts"] = False if match["frequency"] else None
+    values |= {name: match[name] for name in ("frequency", "rise") if match[name]}
     try:
-        torque = _torques(match["joints"])
-        start, stop = quantity(match["start"], "s"), match["stop"]
-        values: dict[str, Any] = {"step": int(match["step"]), "onset": start}
-        values["shape"] = "sine" if match["frequency"] else "pulse" if stop else "step"
+        values["onset"] = begin = quantity(start, "s")
         if stop:
-            end = quantity(stop, "s")
-            if not end > start:
-                raise ValueError(f"it stops at {end:g} s, expected after {start:g} s")
-            values["duration"] = float(Decimal(repr(end)) - Decimal(repr(start)))
-        for name, unit in (("frequency", "Hz"), ("rise", "s")):
-            if match[name]:
-                values[name] = quantity(match[name], unit)
-        if values.get("rise") and not stop:
-            raise ValueError("only a pulse, which has a stop, has a rise")
+            values["duration"] = float(Decimal(repr(quantity(stop, "s"))) - Decimal(repr(begin)))
+        torque = _torques(match["joints"])
+        alike = set(torque.values())
+        one = {"joints": ",".join(torque), "torque": alike.pop()}
+        return Push(**values, **({"torque": torque} if alike else one))
     except ValueError as error:
         raise InputError(f"push '{text}': {error}; {_FORM}") from error
-    alike = set(torque.values())
-    on = (
-        {"joints": ",".join(torque), "torque": alike.pop()}
-        if len(alike) == 1
-        else {"torque": torque}
-    )
-    over = False if values["shape"] == "sine" else None
-    return Push(**on, **values, across_impacts=over)
 
 
 def _torques(text: str) -> dict[str, float]:
     """Torque [N m] by joint of "q1,q2=30,q5=20". Raises ValueError."""
     torque: dict[str, float] = {}
-    waiting: list[str] = []
-    for part in text.split(","):
-        joint, equals, value = part.partition("=")
-        waiting.append(joint.strip())
-        if equals:
-            torque |= dict.fromkeys(waiting, quantity(value, "N m"))
-            waiting = []
-    if waiting:
-        raise ValueError(f"no torque for {waiting}")
+    for joints, value in re.findall(r"([^=]+)=([^,]+),?", text):
+        names = (joint.strip() for joint in joints.split(","))
+        torque |= dict.fromkeys(names, quantity(value, "N m"))
     return torque

@@ -29,12 +29,7 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from biped_adrc.analysis.certificate import (
-    Certificate,
-    after_last_impact,
-    certificates,
-    supports,
-)
+from biped_adrc.analysis.certificate import Certificate, after_last_impact, certificates, supports
 from biped_adrc.analysis.feasibility import Feasibility, until_infeasible
 from biped_adrc.analysis.ground_force import Nodes
 from biped_adrc.analysis.recorded_signals import PLACE, recorded
@@ -79,8 +74,7 @@ class Walk(Shown):
     """Remarks that came with it, as from a file."""
 
     def __repr__(self) -> str:
-        run = self.trajectory
-        impacts = len(run.events(FOOT_STRIKE))
+        run, impacts = self.trajectory, self.impacts
         made = f"{impacts} impact{'' if impacts == 1 else 's'} in {run.t_end - run.t_start:.4g} s"
         return f"Walk({self.note}: {made}, {run.status.name})"
 
@@ -110,6 +104,16 @@ class Walk(Shown):
     def certificates(self) -> tuple[Certificate, ...]:
         """What each finished step would have asked of a real robot: friction, torque, clearance, energy."""
         return self.certified()
+
+    @property
+    def impacts(self) -> int:
+        """How many impacts were made."""
+        return len(self.trajectory.events(FOOT_STRIKE))
+
+    @property
+    def peak_torque(self) -> float:
+        """max |u_i| [N m]; 0 without motors."""
+        return float(np.max(np.abs(self.signals.u), initial=0.0))
 
     @property
     def soft(self) -> bool:
@@ -150,7 +154,7 @@ class Walk(Shown):
     def feasible_within(self, limits: Limits) -> Feasibility:
         """As `feasibility`, within other limits; the unfinished last step counts too."""
         run, slips, k = self.trajectory, None, limits.of(self.walker.plant.description)
-        impacts, after = len(run.events(FOOT_STRIKE)), after_last_impact(self.walker, run)
+        impacts, after = self.impacts, after_last_impact(self.walker, run)
         if self.soft:
             slips = [max(step.slip) for step in self.soft_steps] or [0.0] * len(run.arcs)
         return Feasibility(
@@ -267,8 +271,7 @@ class Walk(Shown):
         from biped_adrc.view.meshcat.view import animation_html
         from biped_adrc.view.pages import inline
 
-        impacts = len(self.trajectory.events(FOOT_STRIKE))
-        status = self.trajectory.status
+        impacts, status = self.impacts, self.trajectory.status
         summary = f"{self.controller_name}: {impacts} impacts. {status.name}: {status.value}"
         summary = " ".join((summary, *(f"Note: {remark}." for remark in self.remarks)))
         return inline(summary, animation_html({self.controller_name: self}), [self.plot()])

@@ -14,8 +14,9 @@ Records of parts of the user's own are open: they keep other names in `own`, and
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from functools import lru_cache
 from types import NoneType, UnionType
-from typing import Any, ClassVar, Literal, NamedTuple, Self, Union, get_args, get_origin
+from typing import Any, ClassVar, Literal, NamedTuple, Self, TypeVar, Union, get_args, get_origin
 
 import numpy as np
 from pydantic import (
@@ -31,10 +32,13 @@ from pydantic.fields import FieldInfo
 
 from biped_adrc.errors import InputError
 from biped_adrc.scenario.dotted import NAME, flat, merged, nested, unknown
-from biped_adrc.scenario.registry import portable, spelled
+from biped_adrc.scenario.registry import construct, find, known_name, portable, spelled, takes
 from biped_adrc.scenario.units import in_si, quantity
 from biped_adrc.shown import LONGEST
 
+_T = TypeVar("_T")
+OF_FILES = ("robot", "gait")
+"""Kinds whose names may be those of files."""
 NONE = "none"
 """Text for no value."""
 
@@ -60,6 +64,24 @@ def all_taken(place: str, own: Mapping[str, object], known: Collection[str]) -> 
     for name in own:
         if name not in known:
             raise Misfit(f"{place}.{name}", unknown(name, known))
+
+
+def named_part(
+    kind: str,
+    name: str,
+    known: Mapping[str, object],
+    own: Mapping[str, object],
+    base: type[_T],
+    place: str,
+) -> _T:
+    """A thing of the registry, made of what is known of the scenario, and of own values.
+
+    place: the dotted name of its record. Raises InputError for what is not there or cannot be made, and Misfit
+    for an own value that it does not take.
+    """
+    make = find(kind, name).load()
+    all_taken(place, own, takes(make))
+    return construct(f"{kind} '{name}'", make, {**known, **own}, base, place)
 
 
 class Described(NamedTuple):
@@ -227,21 +249,21 @@ def read(what: Described, x: Any) -> Any:
     """A value as a field takes it. Raises ValueError with what was found and expected."""
     types, number = set(what.types), what.number
     if isinstance(x, Mapping) and dict in types:
-        return {key: _in_unit(y, what.unit) if isinstance(y, str) else y for key, y in x.items()}
+        return {key: quantity(y, what.unit) if isinstance(y, str) else y for key, y in x.items()}
     if isinstance(x, str):
         if x == NONE and NoneType in types:
             return None
         if what.kind:
-            return spelled(what.kind, x)
+            return spelled(what.kind, x) if what.kind in OF_FILES else known_name(what.kind, x)
         if not types:
             found = in_si(x)
             return x if found is None else found
         if number:
-            x = _in_unit(x, what.unit)
+            x = quantity(x, what.unit)
         elif bool in types and x in ("true", "false"):
             return x == "true"
         elif tuple in types and what.unit != "1":
-            return tuple(_in_unit(word, what.unit) for word in x.split(","))
+            return tuple(quantity(word, what.unit) for word in x.split(","))
     if number and isinstance(x, bool):
         raise ValueError(f"found {x!r}, expected a number [{what.unit}]")
     if int in types and isinstance(x, float) and x.is_integer():
@@ -249,13 +271,7 @@ def read(what: Described, x: Any) -> Any:
     return x
 
 
-def _in_unit(text: str, unit: str) -> float:
-    try:
-        return quantity(text, unit)
-    except ValueError as error:
-        raise ValueError(f"found {text!r}: {error}") from None
-
-
+@lru_cache(maxsize=1024)
 def described(cls: type[Record], name: str, place: str = "") -> Described:
     """One field of a record."""
     info = cls.model_fields[name]

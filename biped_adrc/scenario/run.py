@@ -13,7 +13,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 from types import NoneType
 
 from biped_adrc.analysis.return_map import ReturnMap
@@ -24,7 +23,6 @@ from biped_adrc.control.base import Controller
 from biped_adrc.control.passive import Passive
 from biped_adrc.engine.on_plant import walk_on
 from biped_adrc.engine.run import COMPILED
-from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod, Stiff
@@ -159,37 +157,6 @@ def walk_scenario(
         engine=s.run.engine,
         scenario=kept,
     )
-
-
-def passive_walk(
-    robot: str | Path = "compass",
-    impacts: int = 10,
-    slope: float | None = None,
-    preset: str | None = None,
-    method: OneStepMethod | None = None,
-    progress: Progress | None = None,
-) -> Walk:
-    """Walk on the cycle of a robot without motors, on its stored slope or another one nearby [rad].
-
-    method: RK4 at 1 ms if None. A fall is a status of the trajectory. Raises InputError for a robot with
-    motors or a number of impacts that is no walk, GaitError when no cycle is stored, and SimulationError when
-    there is none on this slope.
-    """
-    check_count(impacts, f"the walk asks for {impacts} impacts")
-    biped = Biped.load(robot, preset)
-    if biped.p:
-        raise InputError(
-            f"robot '{biped.description.name}' has {biped.p} motors, a passive walk needs a robot without; "
-            "take 'compass', 'rimless_wheel' or 'simplest', or walk a gait with biped_adrc.walk"
-        )
-    beside = 0.0 if slope is None else slope - passive_cycle(biped).slope
-    s = Scenario(
-        "passive",
-        robot={"name": str(robot), "preset": preset},
-        ground={"slope": beside},
-        run={"impacts": int(impacts)},
-    )
-    return walk_scenario(s, progress, method)
 
 
 def execute(s: Scenario) -> Outcome:

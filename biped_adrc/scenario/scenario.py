@@ -33,7 +33,6 @@ from biped_adrc.scenario.records import (
     plain,
     read,
 )
-from biped_adrc.scenario.registry import find
 
 MOST_SEED = 2**63 - 1
 """Largest seed: the largest integer that a file of results can hold."""
@@ -141,12 +140,6 @@ class GroundRecord(Record):
     """Single support in which it falls."""
     rms: float = field(0.0, "m", ge=0, le=0.1)
     """Unevenness, drawn."""
-
-    @field_validator("plant")
-    @classmethod
-    def _there(cls, plant: str) -> str:
-        find("plant", plant)
-        return plant
 
 
 class ErrorRecord(Record):

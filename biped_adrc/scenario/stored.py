@@ -17,6 +17,8 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import NoneType
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -32,7 +34,6 @@ from biped_adrc.hybrid import storage
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import Walk, watched
-from biped_adrc.scenario.registry import read_from_a_file
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walker_record import MissingPart, PartRecord, Reader, Writer
 from biped_adrc.types import Array
@@ -93,7 +94,7 @@ def load_walk(path: Path | str) -> Walk:
     """
     trajectory = storage.load(path, lambda step, start: Mode(int(step), start))
     beside = storage.load_beside(path)
-    with storage.reading_run(path), read_from_a_file():
+    with storage.reading_run(path):
         if "walker" not in beside:
             raise InputError(
                 "it does not say which robot, gait and controller it is of; runs written by Walk.save, "
@@ -110,51 +111,43 @@ def _stored(trajectory: Trajectory, beside: Mapping[str, Array]) -> Walk:
     reader = Reader(record["parts"])
     walker = _walker(reader, record["parts"][record["walker"]])
     seen = {k.removeprefix("signal."): x for k, x in beside.items() if k.startswith("signal.")}
-    made = watched(walker, reader.whole(record["gait"]), trajectory, _scenario(trajectory))
+    made = watched(walker, reader.made(record["gait"]), trajectory, _scenario(trajectory))
     said = tuple(map(str, trajectory.settings.get("remarks", ())))
     return replace(made, recorded=Signals(**seen), said=said)
 
 
-def _check_readings(walk: Walk) -> None:
-    """Raise ValueError where a walk with readings of its feet lacks some, or they are none of its nodes."""
-    arcs, plant = walk.trajectory.arcs, walk.walker.plant
-    if not any(set(NAMES) & set(arc.read) for arc in arcs):
-        return
-    width = {**dict.fromkeys(NAMES, 4), "u": plant.p, "zeta": plant.n}
-    for i, arc in enumerate(arcs):
-        for name, count in width.items():
-            rows = arc.read.get(name)
-            if rows is None or rows.shape != (len(arc.t), count) or not np.all(np.isfinite(rows)):
-                found = "none" if rows is None else f"an array {rows.shape}"
-                raise ValueError(
-                    f"{name} of arc {i} is {found}, expected finite numbers ({len(arc.t)}, {count})"
-                )
-
-
 def _check(walk: Walk) -> None:
-    """Raise ValueError where gait, states or signals of a file do not fit the walker."""
-    walker, arcs, n = walk.walker, walk.trajectory.arcs, walk.walker.plant.n
-    _check_readings(walk)
-    expected = Gait if walker.plant.p else type(None)
-    if not isinstance(walk.gait, expected):
-        raise ValueError(f"its gait is a {type(walk.gait).__name__}")
+    """Raise ValueError where gait, states, signals or readings of a file do not fit the walker."""
+    arcs, plant, signals = walk.trajectory.arcs, walk.walker.plant, vars(walk.signals)
     t = np.concatenate([arc.t for arc in arcs])
-    rows = {len(signal) for signal in vars(walk.signals).values()}
-    if rows != {len(t)} or not np.array_equal(walk.signals.t, t):
-        raise ValueError(f"its signals are not of its {len(t)} nodes")
-    if any(arc.x.shape[1] < 2 * n for arc in arcs):
-        raise ValueError(f"its states have {arcs[0].x.shape[1]} numbers, expected {2 * n} or more")
+    of_feet = {**dict.fromkeys(NAMES, 4), "u": plant.p, "zeta": plant.n}
+    soft = any(set(NAMES) & set(arc.read) for arc in arcs)
+    readings = [
+        (arc.read.get(x), len(arc.t), n) for arc in arcs if soft for x, n in of_feet.items()
+    ]
+    fits = {
+        "gait": isinstance(walk.gait, Gait if plant.p else NoneType),
+        "signals": {len(x) for x in signals.values()} == {len(t)}
+        and np.array_equal(signals["t"], t),
+        "states": all(arc.x.shape[1] >= 2 * plant.n for arc in arcs),
+        "readings": all(
+            x is not None and x.shape == (k, n) and np.isfinite(x).all() for x, k, n in readings
+        ),
+    }
+    if wrong := [name for name, fit in fits.items() if not fit]:
+        raise ValueError(f"its {' and '.join(wrong)} do not fit its walker")
 
 
 def _walker(reader: Reader, record: PartRecord) -> Walker:
     """The walker of a record, with a stand-in for a controller or a disturbance of the user's."""
-    values = {name: reader.made(x) for name, x in record["values"].items()}
-    for name, x in list(values.items()):
-        if isinstance(x, MissingPart) and name in STAND_INS:
-            values[name] = STAND_INS[name](x.home)
-        elif isinstance(x, MissingPart):
-            del values[name]
-    return Walker(**values)  # type: ignore[arg-type]
+    values = dict[str, Any]()
+    for name, x in record["values"].items():
+        try:
+            values[name] = reader.made(x)
+        except MissingPart as missing:
+            if name in STAND_INS:
+                values[name] = STAND_INS[name](missing.home)
+    return Walker(**values)
 
 
 def _scenario(trajectory: Trajectory) -> Scenario | None:

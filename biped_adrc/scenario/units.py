@@ -44,13 +44,11 @@ WHOLE: dict[str, Unit] = {
 """Symbols that take no prefix: "mmin" or "krpm" is refused."""
 PREFIXES = {"k": 1e3, "M": 1e6, "c": 1e-2, "m": 1e-3, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "n": 1e-9}
 """SI prefixes and their factors; the two letters for micro are different characters that look alike."""
-MOST_POWER = 9
-"""Largest exponent of a symbol; more is a mistake and would overflow."""
 
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
 """A decimal number, and what follows it."""
-_FACTOR = re.compile(r"([^\d\s/*^·+-]+|1)(?:\^?(-?\d+))?")
-"""A symbol and its exponent, such as "m", "s2" or "s^-2"."""
+_FACTOR = re.compile(r"([^\d\s/*^·+-]+|1)(?:\^?(-?\d))?")
+"""A symbol and its exponent of one digit, such as "m", "s2" or "s^-2"."""
 
 
 def quantity(text: str, unit: str) -> float:
@@ -60,19 +58,18 @@ def quantity(text: str, unit: str) -> float:
     """
     match = _QUANTITY.fullmatch(text)
     if match is None:
-        raise ValueError(f"expected a number [{unit}] or a number and its unit")
+        raise ValueError(f"found '{text}', expected a number [{unit}] or a number and its unit")
     number, given = float(match[1]), match[2]
+    if given:
+        found, expected = unit_of(given), unit_of(unit)
+        if found.powers != expected.powers:
+            raise ValueError(
+                f"found '{text}': '{given}' is another dimension, expected a unit such as '{unit}'"
+            )
+        number = _scaled(number, found.factor / expected.factor)
     if not math.isfinite(number):
-        raise ValueError(f"{match[1]} is too large, expected a finite number [{unit}]")
-    if not given:
-        return number
-    found, expected = unit_of(given), unit_of(unit)
-    if found.powers != expected.powers:
-        raise ValueError(f"'{given}' is another dimension, expected a unit such as '{unit}'")
-    scaled = _scaled(number, found.factor / expected.factor)
-    if not math.isfinite(scaled):
-        raise ValueError(f"it is too large, expected a finite number [{unit}]")
-    return scaled
+        raise ValueError(f"found '{text}', too large, expected a finite number [{unit}]")
+    return number
 
 
 def in_si(text: str) -> float | None:
@@ -89,35 +86,27 @@ def in_si(text: str) -> float | None:
 def unit_of(text: str) -> Unit:
     """The unit that a text such as "kg m^2/s^2" names.
 
-    Raises ValueError for an unknown symbol, an exponent beyond `MOST_POWER`, or a factor out of range.
+    Raises ValueError for an unknown symbol, and a factor out of range.
     """
     factor, powers = 1.0, (0, 0, 0, 0)
     over, *under = text.split("/")
     for sign, part in [(1, over), *((-1, part) for part in under)]:
         for word in re.split(r"[\s*·]+", part.strip()):
-            symbol, power = _factor(word, text)
-            factor *= symbol.factor ** (sign * power)
+            match = _FACTOR.fullmatch(word)
+            symbol = match and _symbol(match[1])
+            if match is None or symbol is None:
+                known = ", ".join([*SYMBOLS, *WHOLE])
+                raise ValueError(
+                    f"the unit '{text}' is not known; units are products such as 'N m' or 'rad/s', of {known}"
+                )
+            power = sign * int(match[2] or 1)
+            factor *= symbol.factor**power
             powers = tuple(  # type: ignore[assignment]
-                a + sign * power * b for a, b in zip(powers, symbol.powers, strict=True)
+                a + power * b for a, b in zip(powers, symbol.powers, strict=True)
             )
     if not 0.0 < factor < math.inf:
         raise ValueError(f"the unit '{text}' is out of range")
     return Unit(factor, powers)
-
-
-def _factor(word: str, text: str) -> tuple[Unit, int]:
-    """One symbol of a unit's text and its exponent; `text` is the whole of it, for the error."""
-    match = _FACTOR.fullmatch(word)
-    symbol = None if match is None else _symbol(match[1])
-    if match is None or symbol is None:
-        known = ", ".join([*SYMBOLS, *WHOLE])
-        raise ValueError(
-            f"the unit '{text}' is not known; units are products such as 'N m' or 'rad/s', of {known}"
-        )
-    power = match[2] or "1"
-    if len(power) > 4 or abs(int(power)) > MOST_POWER:
-        raise ValueError(f"the unit '{text}' has the power {power}, expected at most {MOST_POWER}")
-    return symbol, int(power)
 
 
 def _symbol(name: str) -> Unit | None:
@@ -137,6 +126,6 @@ def _scaled(number: float, factor: float) -> float:
     """
     digits = math.log10(factor)
     shift = round(digits)
-    if abs(digits - shift) < 1e-12:
+    if abs(digits - shift) < 1e-12 and math.isfinite(number):
         return float(f"{number!r}e{shift}") if "e" not in repr(number) else number * 10.0**shift
     return number * factor

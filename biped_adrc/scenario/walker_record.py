@@ -4,7 +4,7 @@
 with inner objects in records of their own, each once, referred to by number. `Reader` makes the objects again.
 
 Only classes of this package are imported when a record is read (`is_ours`), so that a file cannot run code of
-its own. A class of the user's is stored by name, and becomes a `MissingPart`. `stored` uses both to write walks
+its own. A class of the user's is stored by name, and raises `MissingPart`. `stored` uses both to write walks
 that can be read without the files they were made from.
 
 How values are written:
@@ -40,20 +40,12 @@ PartRecord = dict[str, Any]
 """One object: `class` as module:Class, `values` that its constructor takes; without them it is the user's."""
 
 
-@dataclass(frozen=True, eq=False)
-class MissingPart:
-    """In place of an object whose class, or that of an object inside of it, is the user's."""
+class MissingPart(InputError):
+    """An object whose class, or that of an object inside of it, is the user's."""
 
-    home: str
-    """The user's class, module:Class."""
-
-
-def _missing(x: object) -> MissingPart | None:
-    """A missing part in a value, also inside lists and mappings."""
-    if isinstance(x, MissingPart):
-        return x
-    inner = x.values() if isinstance(x, Mapping) else x if isinstance(x, list | tuple) else ()
-    return next((found for value in inner if (found := _missing(value))), None)
+    def __init__(self, home: str) -> None:
+        super().__init__(f"'{home}' is not of this package")
+        self.home = home
 
 
 def home_of(kind: Any) -> str:
@@ -112,7 +104,7 @@ class Writer:
 
     def _record(self, x: object) -> PartRecord:
         """The record of one object; of one that is the user's its class alone."""
-        home = x.home if isinstance(x, MissingPart) else home_of(type(x))
+        home = home_of(type(x))
         values = {name: self.plain(getattr(x, name)) for name in _names(x) if hasattr(x, name)}
         if is_ours(home) and values.keys() >= set(_names(x)):
             return {"class": home, "values": values}
@@ -128,55 +120,44 @@ def _names(x: Any) -> list[str]:
 
 @dataclass
 class Reader:
-    """Makes objects of records; the inverse of `Writer`. What contains a part of the user's is missing too."""
+    """Makes objects of records; the inverse of `Writer`."""
 
     records: list[PartRecord]
     _made: dict[int, object] = field(default_factory=dict)
 
-    def made(self, x: object) -> object:
-        """The value that `Writer.plain` was given; a `MissingPart` for what is not at hand.
+    def made(self, x: object) -> Any:
+        """The value that `Writer.plain` was given.
 
-        Raises InputError for a class that this version of the package does not have, and for values that a
-        class does not take.
+        Raises MissingPart for an object of the user's and what contains one, and InputError for a class that
+        this version of the package does not have, and for values that a class does not take.
         """
-        if not isinstance(x, dict):
-            return x
-        kind = next(iter(x))
-        if kind == "part":
-            return self._part(int(x["part"]))
-        if kind == "array":
-            return np.array(x["array"], dtype=np.dtype(x["dtype"])).reshape(x["shape"])
-        if kind == "map":
-            return {key: self.made(inner) for key, inner in x["map"].items()}
-        if kind in ("list", "tuple"):
-            made = [self.made(inner) for inner in x[kind]]
-            return made if kind == "list" else tuple(made)
-        if kind == "enum":
-            return _class(x["enum"][0])[x["enum"][1]]
-        return complex(*x["complex"]) if kind == "complex" else Path(x["path"])
-
-    def whole(self, x: object) -> Any:
-        """As `made`, of whatever class was stored. Raises InputError where something is missing."""
-        made = self.made(x)
-        if missing := _missing(made):
-            raise InputError(f"'{missing.home}' is not of this package")
-        return made
-
-    def _part(self, i: int) -> object:
-        """The object of a record, made the first time it is asked for."""
-        if i not in self._made:
-            self._made[i] = self._new(self.records[i])
-        return self._made[i]
+        match x:
+            case {"part": int(i)}:
+                if i not in self._made:
+                    self._made[i] = self._new(self.records[i])
+                return self._made[i]
+            case {"array": values, "shape": shape, "dtype": kind}:
+                return np.array(values, dtype=np.dtype(kind)).reshape(shape)
+            case {"map": values}:
+                return {key: self.made(inner) for key, inner in values.items()}
+            case {"list": values}:
+                return [self.made(inner) for inner in values]
+            case {"tuple": values}:
+                return tuple(self.made(inner) for inner in values)
+            case {"enum": (home, name)}:
+                return _class(home)[name]
+            case {"complex": (real, imaginary)}:
+                return complex(real, imaginary)
+            case {"path": path}:
+                return Path(path)
+        return x
 
     def _new(self, record: PartRecord) -> object:
-        """The object of a record. Raises InputError for values that its class does not take."""
+        """The object of a record."""
         home = record["class"]
         if "values" not in record:
-            return MissingPart(home)
-        kind = _class(home)
-        values = {name: self.made(x) for name, x in record["values"].items()}
-        if missing := _missing(values):
-            return missing
+            raise MissingPart(home)
+        kind, values = _class(home), {name: self.made(x) for name, x in record["values"].items()}
         try:
             return kind(**values)
         except BipedError:

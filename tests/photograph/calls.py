@@ -102,7 +102,6 @@ CHAINS: dict[str, tuple[Call, ...]] = {
             "observer by Table I",
             "observer --set hardware.delay=0.0005 --set hardware.delay_known=true --period 0.0005",
         ),
-        Call("observer confirmed", "observer --bandwidth 300 --order 1 --confirm"),
         Call("study dry", "study study.toml -o study --dry-run"),
         Call("study", "study study.toml -o study --workers 1 --table study.csv"),
     ),

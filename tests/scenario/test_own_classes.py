@@ -98,7 +98,7 @@ def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ({"controller": "nowhere_at_all.x:Mine"}, "no module 'nowhere_at_all'.*installed"),
+        ({"controller": "nowhere_at_all.x:Mine"}, "No module named 'nowhere_at_all'.*installed"),
         ({"controller": "OWN:Mien"}, "no class 'Mien'; it has .'Mine'"),
         ({"controller": "OWN:Lawless"}, "Lawless' has no method output"),
         ({"controller": "OWN:Needy"}, "needs stiffness; give controller.stiffness"),

@@ -10,7 +10,7 @@ import typer
 
 from biped_adrc.cli import app
 
-PROGRAM = (sys.executable, "-m", "biped_adrc.cli")
+PROGRAM = (sys.executable, "-m", "biped_adrc")
 """In front of the arguments."""
 
 

@@ -106,7 +106,7 @@ def stored(name: str) -> Plain:
 
 def stored_passive(robot: str) -> Plain:
     """The same of a robot without motors."""
-    return reread(ba.passive_walk(robot, 2))
+    return reread(ba.walk_scenario(ba.Scenario("passive", robot=robot, run={"impacts": 2})))
 
 
 def reread(walk: ba.Walk) -> Plain:
