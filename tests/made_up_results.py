@@ -123,8 +123,8 @@ def results(**odd):
         },
         "jumps": {
             "identified": {
-                "xi at impact": 20.0,
-                "xi at an edge": 30.0,
+                "xi_at_impact": 20.0,
+                "xi_at_an_edge": 30.0,
                 "published": 1e-14,
                 "recipe": 2.0,
                 "period": 0.4,

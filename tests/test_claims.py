@@ -21,7 +21,7 @@ from biped_adrc.paper.scenarios import (
     on_torso,
     plain,
 )
-from biped_adrc.paper.table import claims, le, rows
+from biped_adrc.paper.table import claims, limit, rows
 from biped_adrc.paper.values import noise_spectrum
 from biped_adrc.paper.verdict import (
     AtTwoSteps,
@@ -138,7 +138,7 @@ def test_kept_nodes_are_those_of_the_push_and_enough_of_the_others():
 )
 def test_a_number_is_judged_at_both_steps(value, half, holds, marginal):
     found = AtTwoSteps(value, half)
-    claim = Claim("", "", "", lambda r: {"a": found}, lambda x: x, le(0.01))
+    claim = Claim("", "", "", limit("<= 0.01"), lambda x: x, lambda r: {"a": found})
     (case,) = claim.cases(results())
     assert (case.holds, case.marginal) == (holds, marginal)
 

@@ -17,7 +17,6 @@ from biped_adrc.paper.convergence import (
     AGREE,
     WalkEnd,
     error_text,
-    halved,
     largest_gap,
     observed_order,
 )
@@ -150,8 +149,7 @@ def test_the_default_of_adrc_resolves_the_spike_after_a_push(biped, gait):
 def test_the_headline_does_not_depend_on_its_step(controller):
     run = pushed_run(Plan(), controller).replace(run={"first_step": 19, "impacts": 2})
     assert run.run.engine == COMPILED
-    found = halved(execute_twice(run))
-    assert all(h.agrees for h in found), found
+    assert largest_gap(execute_twice(run)) <= AGREE
 
 
 def test_energy_is_balanced_in_the_pushed_step():

@@ -25,8 +25,5 @@ def test_both_controllers_are_run_alike() -> None:
     for name, run in runs.items():
         if name.endswith(" NPD"):
             other = runs[f"{name.removesuffix('NPD')}ADRC"]
-            assert (other.pushes, other.errors, other.run.impacts) == (
-                run.pushes,
-                run.errors,
-                run.run.impacts,
-            )
+            assert (other.pushes, other.errors) == (run.pushes, run.errors)
+            assert other.run.impacts == run.run.impacts

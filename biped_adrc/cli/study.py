@@ -22,7 +22,6 @@ from rich.table import Table
 
 from biped_adrc.cli.app import EXIT_INTERRUPTED, app, console, say
 from biped_adrc.cli.options import options
-from biped_adrc.files import output_path
 
 if TYPE_CHECKING:
     from biped_adrc.study.results import Results
@@ -46,7 +45,7 @@ def study(
     if table is not None:
         from biped_adrc.study.results import check_table
 
-        check_table(output_path(table, (".csv", ".parquet")))
+        check_table(table)
     if dry_run:
         found.rehearse()
         most = "at most " if found.search else ""

@@ -9,8 +9,7 @@ step, three steps h, h/2, h/4 show
     k = log2 (|y(h) - y(h/2)| / |y(h/2) - y(h/4)|)
 
 Takes outcomes (`scenario.outcome.Outcome`) that hold the run at half the step in `half`. Called by
-`paper.table` (checks), by `paper.reproduction` (all quantities) and by the command `simulate`, which prints
-the error.
+`paper.table` (checks) and by the command `simulate`, which prints the error.
 
 For feasibility the two runs have to agree as well: a walk that is feasible at one step and not at the other has
 no verdict.
@@ -19,12 +18,12 @@ no verdict.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
+from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.outcome import Outcome
 
@@ -38,20 +37,76 @@ steps.
 """
 RMS_RESOLUTION = 2e-10
 """The same for the root mean square [rad], where they differ by 1.3e-10 at most."""
-MULTIPLIER_ROUND_OFF = 1e-4
-"""Accuracy of a multiplier from finite differences of 1e-5 over a walk; a smaller one is not told from zero."""
 
 
-@dataclass(frozen=True)
-class Quantity:
+class Quantity(NamedTuple):
     """A figure of merit of an outcome."""
 
-    unit: str
-    """Of its value; empty for a ratio."""
-    resolution: float
-    """Values nearer than this agree, in the same unit."""
     of: Callable[[Outcome], float]
     """The value of an outcome."""
+    resolution: float = 0.0
+    """Values nearer than this agree."""
+
+    def gap(self, o: Outcome) -> float:
+        """Its relative change when every step is halved."""
+        assert o.half is not None
+        return gap(self.of(o), self.of(o.half), self.resolution)
+
+
+def gap(value: float, at_half: float, resolution: float) -> float:
+    """Relative change from one step to half of it; 0 within the resolution, infinite where not finite."""
+    if abs(value - at_half) <= resolution:
+        return 0.0
+    change = AtTwoSteps(value, at_half).change
+    return math.inf if math.isnan(change) else change
+
+
+def _of_supports(of: Callable[[Feasibility], float]) -> Callable[[Outcome], float]:
+    """A number of the judged steps; 0 where no window is long enough to say, and for a ratio at its pole."""
+
+    def value(o: Outcome) -> float:
+        x = of(o.feasibility) if o.feasibility.supports else 0.0
+        return 0.0 if x == math.inf else x
+
+    return value
+
+
+def _last(name: str) -> Callable[[Outcome], float]:
+    """A value of the last step's certificate; 0 where no step was finished."""
+    return lambda o: float(getattr(o.certificates[-1], name)) if o.certificates else 0.0
+
+
+QUANTITIES = {
+    "peak error": Quantity(lambda o: o.peak_error, PEAK_RESOLUTION),
+    "rms error": Quantity(lambda o: o.rms_error, RMS_RESOLUTION),
+    "peak torque": Quantity(lambda o: o.peak_torque),
+    "longest step": Quantity(lambda o: float(np.max(o.durations, initial=0.0))),
+    "shortest step": Quantity(lambda o: float(np.min(o.durations, initial=math.inf))),
+    "joint work of the last step [J]": Quantity(_last("joint_work"), 1e-6),
+    "energy lost at the last impact [J]": Quantity(_last("energy_lost"), 1e-6),
+    "least mean F_N": Quantity(_of_supports(lambda f: f.mean_normal_force)),
+    "largest mean friction, with its pole at F_N = 0": Quantity(
+        _of_supports(lambda f: f.mean_friction if f.mean_normal_force > 0.0 else 0.0)
+    ),
+    "impulse ratio": Quantity(_of_supports(lambda f: f.impulse_ratio)),
+}
+"""The figures of merit that are compared, by name."""
+
+
+def largest_gap(o: Outcome) -> float:
+    """The largest relative change of a figure of merit when every step is halved.
+
+    Infinite where the two runs end differently; "feasible" and "not feasible" are different endings. A run that
+    falls before its last impact has no figures of merit: only its ending has to be the same.
+    """
+    if _ending(o) != _ending(o.half):
+        return math.inf
+    return float(np.max([q.gap(o) for q in QUANTITIES.values()])) if o.walked else 0.0
+
+
+def _ending(o: Outcome | None) -> tuple[str, int, str] | None:
+    """Status, impacts and feasibility of a run."""
+    return None if o is None else (o.status, o.impacts, o.feasibility.outcome)
 
 
 class WalkEnd(NamedTuple):
@@ -63,104 +118,6 @@ class WalkEnd(NamedTuple):
     impacts: int
 
 
-QUANTITIES: dict[str, Quantity] = {
-    "peak error": Quantity("rad", PEAK_RESOLUTION, lambda o: o.peak_error),
-    "rms error": Quantity("rad", RMS_RESOLUTION, lambda o: o.rms_error),
-    "peak torque": Quantity("N m", 0.0, lambda o: o.peak_torque),
-    "longest step": Quantity("s", 0.0, lambda o: float(np.max(o.durations, initial=0.0))),
-    "shortest step": Quantity("s", 0.0, lambda o: float(np.min(o.durations, initial=math.inf))),
-    "joint work of the last step": Quantity("J", 1e-6, lambda o: _last(o, "joint_work")),
-    "energy lost at the last impact": Quantity("J", 1e-6, lambda o: _last(o, "energy_lost")),
-    "least mean F_N": Quantity("N", 0.0, lambda o: _normal(o)),
-    "largest mean friction": Quantity("", 0.0, lambda o: _friction(o)),
-    "impulse ratio": Quantity("", 0.0, lambda o: _impulse(o)),
-}
-"""The figures of merit that are compared, by name."""
-
-
-def _normal(o: Outcome) -> float:
-    """The least normal force averaged over a window [N]; 0 where no window is long enough to say."""
-    return o.feasibility.mean_normal_force if o.feasibility.supports else 0.0
-
-
-def _friction(o: Outcome) -> float:
-    """Largest averaged |F_T| / F_N; 0 where F_N <= 0: the ratio has a pole there, and F_N alone decides."""
-    return o.feasibility.mean_friction if _normal(o) > 0.0 else 0.0
-
-
-def _impulse(o: Outcome) -> float:
-    """Largest |F_T| / F_N of an impact; 0 where the ground would have had to pull, where the ratio
-    is infinite.
-    """
-    ratio = o.feasibility.impulse_ratio if o.feasibility.supports else 0.0
-    return 0.0 if ratio == math.inf else ratio
-
-
-def _last(o: Outcome, name: str) -> float:
-    """A value of the last step's certificate; 0 where no step was finished."""
-    return float(getattr(o.certificates[-1], name)) if o.certificates else 0.0
-
-
-@dataclass(frozen=True)
-class Halved:
-    """One quantity at the step used and at half of it."""
-
-    name: str
-    """As in `QUANTITIES`."""
-    unit: str
-    """Of its values."""
-    value: float
-    """At the step used."""
-    half: float
-    """At half of it."""
-    resolution: float
-    """Values nearer than this agree."""
-
-    @property
-    def gap(self) -> float:
-        """Their difference relative to the second; 0 within the resolution, infinite where a value is not
-        finite.
-        """
-        if abs(self.value - self.half) <= self.resolution:
-            return 0.0
-        change = AtTwoSteps(self.value, self.half).change
-        return math.inf if math.isnan(change) else change
-
-    @property
-    def agrees(self) -> bool:
-        """Whether the difference is at most `AGREE`: the result does not depend on the step."""
-        return self.gap <= AGREE
-
-    def record(self) -> dict[str, object]:
-        """In plain values, for the summary."""
-        return {**vars(self), "gap": self.gap, "agrees": self.agrees}
-
-
-def halved(o: Outcome) -> tuple[Halved, ...]:
-    """Every quantity of an outcome at both steps; empty where it was not run twice."""
-    if o.half is None:
-        return ()
-    return tuple(
-        Halved(name, q.unit, q.of(o), q.of(o.half), q.resolution) for name, q in QUANTITIES.items()
-    )
-
-
-def largest_gap(o: Outcome) -> float:
-    """The largest relative change of a figure of merit when every step is halved.
-
-    Infinite where the two runs end differently; "feasible" and "not feasible" are different endings. A run that
-    falls before its last impact has no figures of merit: only its ending has to be the same.
-    """
-    if _ending(o) != _ending(o.half):
-        return math.inf
-    return float(np.max([found.gap for found in halved(o)])) if o.walked else 0.0
-
-
-def _ending(o: Outcome | None) -> tuple[str, int, str] | None:
-    """Status, impacts and feasibility of a run."""
-    return None if o is None else (o.status, o.impacts, o.feasibility.outcome)
-
-
 def error_text(end: WalkEnd, half: WalkEnd) -> str:
     """The largest tracking error at both steps, with a hint where the step is too long for it."""
     text = f"{end.peak_error:.3e} rad ({half.peak_error:.3e} at half the step)"
@@ -168,7 +125,7 @@ def error_text(end: WalkEnd, half: WalkEnd) -> str:
         ends = f"at half the step the walk ends as {half.status} after {half.impacts} impacts"
         return f"{text}; {ends}: shorten the step"
     errors = end.peak_error, half.peak_error
-    if Halved("peak error", "rad", *errors, PEAK_RESOLUTION).agrees or max(errors) < NEGLIGIBLE:
+    if gap(*errors, PEAK_RESOLUTION) <= AGREE or max(errors) < NEGLIGIBLE:
         return text
     return f"{text}, the step decides it: shorten it"
 
@@ -181,10 +138,3 @@ def observed_order(o: Outcome, of: Callable[[Outcome], float]) -> float:
     if first == second or second == third:
         return math.nan
     return math.log2(abs(first - second) / abs(second - third))
-
-
-def records(named: dict[str, Outcome]) -> Iterator[dict[str, object]]:
-    """A row for every quantity of every run that was run twice, for the summary."""
-    for name, o in named.items():
-        for found in halved(o):
-            yield {"run": name, **found.record()}

@@ -7,6 +7,7 @@ matplotlib is imported when something is drawn, since importing it takes longer 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -43,18 +44,15 @@ def draw(name: str, walks: Mapping[str, Walk]) -> Figure:
             f"figure '{name}' shows what motors do and these walks have a robot without; choose one of "
             "'tracking', 'ground', 'energy', 'phase'"
         )
-    if name == "tracking":
-        return walk.plot(title, push)
-    if name == "disturbance":
-        return figures.disturbance_figure(first, title, push)
-    if name == "ground":
-        mu = walk.walker.plant.description.friction_coefficient
-        return figures.ground_figure(first, title, mu, walk.walker.slope, push)
-    if name == "energy":
-        return figures.energy_figure(first, title, push)
-    if name == "phase":
-        return figures.phase_figure(signals)
-    return figures.comparison_figure(signals, push)
+    mu, slope = walk.walker.plant.description.friction_coefficient, walk.walker.slope
+    return {
+        "tracking": partial(walk.plot, title, push),
+        "disturbance": partial(figures.disturbance_figure, first, title, push),
+        "ground": partial(figures.ground_figure, first, title, mu, slope, push),
+        "energy": partial(figures.energy_figure, first, title, push),
+        "phase": partial(figures.phase_figure, signals),
+        "comparison": partial(figures.comparison_figure, signals, push),
+    }[name]()
 
 
 def push_window(s: Signals) -> tuple[float, float] | None:

@@ -146,9 +146,10 @@ def limits_broken(f: Feasibility) -> float:
 def member_walk(member: Member, controller: str, **values: Any) -> MemberWalk:
     """A member carried out under a controller at both steps; values: of the scenario, in place of its own."""
     usual = replace(member, amplitude=0.0, onset=0.0, joints=("q1",), rise=0.0)
-    at = [_at(member, usual, controller, share, values) for share in (1.0, 0.5)]
-    figures = [AtTwoSteps(*both) for both in zip(*(a[0] for a in at), strict=True)]
-    return MemberWalk(figures[0], figures[1], figures[2], figures[3], figures[4], at[0][1])
+    (numbers, why), (at_half, _) = (
+        _at(member, usual, controller, share, values) for share in (1.0, 0.5)
+    )
+    return MemberWalk._make((*map(AtTwoSteps, numbers, at_half), why))
 
 
 def _at(
@@ -159,9 +160,7 @@ def _at(
     walks = pieces(run, member.start == "zero", share)
     one, other = track(walks[0]), undisturbed(usual, controller, share)
     made = sum(len(walk.trajectory.events(FOOT_STRIKE)) for walk in walks) == run.run.impacts
-    why: dict[str, str] = {}
-    for walk in walks:
-        why = walk.feasibility.reasons | why
+    why = {k: x for walk in reversed(walks) for k, x in walk.feasibility.reasons.items()}
     broken = longest = math.inf
     if made:
         broken = max(limits_broken(walk.feasibility) for walk in walks)

@@ -6,21 +6,24 @@ a number.
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
+from typing import Any
 
 import numpy as np
 
+from biped_adrc.analysis.feasibility import COUNTED
 from biped_adrc.analysis.return_map import PeriodicOrbit
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
-from biped_adrc.paper.members import MemberOutcome
+from biped_adrc.paper.members import MemberOutcome, limits_broken
 from biped_adrc.paper.poincare import PoincareResult
 from biped_adrc.paper.push_map import LOST, PushCell
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.runs import Start
-from biped_adrc.paper.scenarios import KINDS, declared
+from biped_adrc.paper.scenarios import CONTROLLERS, KINDS, declared
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.types import Array
@@ -29,15 +32,29 @@ Pair = tuple[Outcome, Outcome, float]
 """A walk under NPD and under ADRC, and the period of its gait [s]."""
 
 
-def at_two(of: Callable[[Outcome], float], o: Outcome) -> AtTwoSteps:
-    """A number of a walk at the step used and at half of it."""
-    assert o.half is not None
-    return AtTwoSteps(of(o), of(o.half))
+def at_two(of: Callable[..., float], *found: Any) -> AtTwoSteps:
+    """A number of walks or cycles at the step used and at half of it."""
+    return AtTwoSteps(of(*found), of(*(x.half for x in found)))
 
 
 def share_made(o: Outcome) -> float:
     """Share of the impacts asked for that are made."""
     return o.impacts / o.run.run.impacts
+
+
+def made(o: Outcome) -> AtTwoSteps:
+    """The same at both steps."""
+    return at_two(share_made, o)
+
+
+def adrc_made(pair: Pair) -> AtTwoSteps:
+    """The same under ADRC."""
+    return made(pair[1])
+
+
+def broken(o: Outcome) -> AtTwoSteps:
+    """How many limits of ground and motors a walk breaks, as `members.limits_broken`."""
+    return at_two(lambda x: limits_broken(x.feasibility), o)
 
 
 def distance(o: Outcome) -> float:
@@ -49,27 +66,26 @@ def distance(o: Outcome) -> float:
     return float(np.max(np.abs(o.x_minus[-1][: len(X_STAR)] - X_STAR)))
 
 
-def peak(o: Outcome, period: float) -> float:
-    """Largest tracking error [rad]."""
-    return o.peak_error
-
-
 def delay(o: Outcome, period: float) -> float:
     """Largest change of a step's time against that of the gait [s]."""
     return float(np.max(np.abs(o.durations - period), initial=0.0))
 
 
-def adrc_over_npd(of: Callable[[Outcome, float], float], pair: Pair) -> AtTwoSteps:
+def _adrc_over_npd(of: Callable[[Outcome, float], float], pair: Pair) -> AtTwoSteps:
     """ADRC's value over NPD's; infinite where not both make all impacts."""
     npd, adrc, period = pair
 
-    def at(a: Outcome | None, b: Outcome | None) -> float:
-        assert a is not None
-        assert b is not None
+    def ratio(a: Outcome, b: Outcome) -> float:
         usual = of(b, period)
         return of(a, period) / usual if a.walked and b.walked and usual else math.inf
 
-    return AtTwoSteps(at(adrc, npd), at(adrc.half, npd.half))
+    return at_two(ratio, adrc, npd)
+
+
+late = partial(_adrc_over_npd, delay)
+"""Of a pair, what a push changes of the time of a step."""
+error = partial(_adrc_over_npd, lambda o, _: o.peak_error)
+"""Of a pair, the largest tracking error."""
 
 
 def worst(name: str, sign: float, o: Outcome) -> float:
@@ -83,11 +99,16 @@ def last(name: str, o: Outcome) -> float:
     return float(getattr(o.certificates[-1], name)) if o.certificates else math.nan
 
 
+def last_at_two(name: str, o: Outcome) -> AtTwoSteps:
+    """The same at both steps."""
+    return at_two(partial(last, name), o)
+
+
 def of_orbit(of: Callable[[PeriodicOrbit], float], found: PoincareResult | str) -> AtTwoSteps:
     """A number of a cycle at both steps; NaN where none was found."""
-    if isinstance(found, str) or found.half is None:
+    if isinstance(found, str):
         return AtTwoSteps(math.nan, math.nan)
-    return AtTwoSteps(of(found.orbit), of(found.half.orbit))
+    return at_two(lambda x: of(x.orbit), found)
 
 
 def largest_multiplier(found: PoincareResult | str) -> AtTwoSteps:
@@ -111,6 +132,12 @@ def speed_error(found: PoincareResult | str) -> AtTwoSteps:
     return of_orbit(lambda orbit: abs(phase_rate(orbit.x_minus) / PRINTED_SPEED - 1.0), found)
 
 
+def walked(controller: str, name: str, o: MemberOutcome) -> AtTwoSteps:
+    """A number of a member under one controller."""
+    found: AtTwoSteps = getattr(o.walked[controller], name)
+    return found
+
+
 def deviation(o: MemberOutcome) -> AtTwoSteps:
     """What the push adds to the error under ADRC over what it adds under NPD."""
     return o.walked["ADRC"].deviation.over(o.walked["NPD"].deviation)
@@ -128,8 +155,7 @@ def longest(o: MemberOutcome) -> AtTwoSteps:
 
 def reached(start: Start) -> AtTwoSteps:
     """Share of the impacts asked for, of the controller that makes more."""
-    both = (at_two(share_made, o) for o in start.outcomes.values())
-    return AtTwoSteps(*map(max, zip(*both, strict=True)))
+    return AtTwoSteps(*map(max, zip(*map(made, start.outcomes.values()), strict=True)))
 
 
 def longest_step(multiplier: float) -> float:
@@ -137,17 +163,68 @@ def longest_step(multiplier: float) -> float:
     return float(-2.0 * np.log(multiplier) / float(np.max(TABLE_II.K_d)))
 
 
-def period_gap(pair: Pair) -> float:
+def period_gap(pair: tuple[Outcome, Outcome]) -> float:
     """Largest difference of the step times of two walks, as a share of a usual step; infinite where they make
     another number of steps.
     """
-    npd, adrc = (o.durations for o in pair[:2])
+    npd, adrc = (o.durations for o in pair)
     if len(npd) != len(adrc) or len(npd) == 0:
         return math.inf
     return float(np.max(np.abs(npd - adrc)) / np.median(npd[:2]))
 
 
+def adrc_counts(cell: PushCell) -> float:
+    """1 where ADRC makes all steps, feasible but for the impact, else 0."""
+    return float(cell.adrc.outcome in COUNTED)
+
+
+def quotient(pair: tuple[float, float]) -> float:
+    """The first over the second."""
+    return pair[0] / pair[1]
+
+
+def number_of(found: AtTwoSteps) -> AtTwoSteps:
+    """A scenario that is its own number."""
+    return found
+
+
+def item(name: str, found: Mapping[str, float]) -> float:
+    """A number by its name."""
+    return found[name]
+
+
+def periods(found: Mapping[str, float]) -> float:
+    """Period over the longest in which a tracking error decays to the least printed multiplier."""
+    return found["period"] / longest_step(LEAST_PRINTED)
+
+
+# -- what of (name, scenario) a verdict may depend on ------------------------------------------------
+def theta_of(name: str, o: MemberOutcome) -> str:
+    """The choice of Theta'' of a member, the one cause of what is left under ADRC."""
+    return {"solved": "Theta'' solved", "printed": "(20) as printed"}[o.member.theta]
+
+
+def setting_of(name: str, cell: PushCell) -> str:
+    """Preset and torque limit of a push of the map."""
+    return cell.setting
+
+
+def torque_of(name: str, pair: Pair) -> str:
+    """The torque on the torso."""
+    return name.partition(" on")[0]
+
+
 # -- scenarios -------------------------------------------------------------------------------------
+def headline(r: Results) -> dict[str, Outcome]:
+    """The pushed walks, by controller."""
+    return {c: r.headline[c].outcome for c in CONTROLLERS}
+
+
+def jumps(r: Results) -> Mapping[str, Mapping[str, float]]:
+    """What is not smooth, by preset."""
+    return r.jumps
+
+
 def members(r: Results) -> dict[str, MemberOutcome]:
     """The push on the joints at all declared choices."""
     return {o.member.name: o for part in r.members.values() for o in part}
@@ -160,14 +237,11 @@ def on_recipe(r: Results) -> dict[str, MemberOutcome]:
 
 def heavier(r: Results) -> dict[str, Pair]:
     """A plant heavier than the model, in all presets."""
-    return {
-        f"{preset}, heavier {kind}": (
-            *r.pair(f"heavier, {kind}" + ("" if preset == r.plan.preset else f", {preset}")),
-            r.jumps[preset]["period"],
-        )
-        for preset in r.plan.presets
-        for kind in KINDS
-    }
+    found = {}
+    for preset, kind in itertools.product(r.plan.presets, KINDS):
+        name = f"heavier, {kind}" + ("" if preset == r.plan.preset else f", {preset}")
+        found[f"{preset}, heavier {kind}"] = (*r.pair(name), r.jumps[preset]["period"])
+    return found
 
 
 def torso(r: Results, most: float = math.inf) -> dict[str, Pair]:
@@ -181,9 +255,8 @@ def torso(r: Results, most: float = math.inf) -> dict[str, Pair]:
     return {name: (*r.pair(name), r.jumps[preset]["period"]) for name, preset in names.items()}
 
 
-def usual_torso(r: Results) -> dict[str, Pair]:
-    """Those with which a claim on the rejection of what no motor can cancel is tried."""
-    return torso(r, 20.0)
+usual_torso = partial(torso, most=20.0)
+"""Those with which a claim on the rejection of what no motor can cancel is tried."""
 
 
 def lost_by_npd(r: Results) -> dict[str, PushCell]:
@@ -206,24 +279,20 @@ def npd_cycles(r: Results) -> dict[str, PoincareResult | str]:
 
 
 def undisturbed(gaits: str, r: Results) -> dict[str, Outcome]:
-    """The undisturbed walks under NPD on these gaits."""
-    return {
-        name.removesuffix(", NPD"): o
-        for gait in gaits
-        for name, o in r.on_gait(gait).items()
-        if name.endswith("NPD")
-    }
+    """The undisturbed walks under NPD on these gaits, by "gait (.), preset"."""
+    every = {name: o for gait in gaits for name, o in r.on_gait(gait).items()}
+    return {name.removesuffix(", NPD"): o for name, o in every.items() if name.endswith("NPD")}
 
 
 def both_gaits(r: Results) -> dict[str, tuple[Outcome, Outcome]]:
     """The undisturbed walks under NPD on gait (b) and gait (a), by preset."""
-    a, b = (list(undisturbed(gait, r).values()) for gait in "ab")
+    b, a = (undisturbed(gait, r).values() for gait in "ba")
     return dict(zip(r.plan.presets, zip(b, a, strict=True), strict=True))
 
 
 def cost_ratio(pair: tuple[Outcome, Outcome]) -> AtTwoSteps:
     """Cost of transport of the first walk over that of the second."""
-    one, other = (at_two(partial(last, "cost_of_transport"), o) for o in pair)
+    one, other = (last_at_two("cost_of_transport", o) for o in pair)
     return one.over(other)
 
 

@@ -50,26 +50,22 @@ def pictures(r: Results) -> dict[str, Task[tuple[bytes, bytes]]]:
     npd, adrc, window = signals["NPD"], signals["ADRC"], push_window(signals["NPD"])
     magnitudes = {c: r.multipliers[c].orbit.multipliers for c in CONTROLLERS if c in r.multipliers}
     mu = Biped.load("rabbit", r.plan.preset).description.friction_coefficient
-    maps = {
-        f"push_map_{preset}": (
-            push_map_figure,
-            [cell.row() for cell in cells if cell.push.preset == preset],
-        )
-        for preset in (r.plan.presets if r.plan.full else ())
-    }
+    pushed = "ADRC under the push"
     made: dict[str, tuple[object, ...]] = {
         "figure1": (draw_robot, r.plan.preset),
         "figure4": (figures.tracking_figure, npd, "NPD under the push", window),
-        "figure5": (figures.tracking_figure, adrc, "ADRC under the push", window),
+        "figure5": (figures.tracking_figure, adrc, pushed, window),
         "figure6": (figures.phase_figure, signals),
         "comparison": (figures.comparison_figure, signals, window),
-        "disturbance": (figures.disturbance_figure, adrc, "ADRC under the push", window),
-        "ground": (figures.ground_figure, adrc, "ADRC under the push", mu, 0.0, window),
-        "energy": (figures.energy_figure, adrc, "ADRC under the push", window),
+        "disturbance": (figures.disturbance_figure, adrc, pushed, window),
+        "ground": (figures.ground_figure, adrc, pushed, mu, 0.0, window),
+        "energy": (figures.energy_figure, adrc, pushed, window),
         "multipliers": (figures.multiplier_figure, magnitudes, PUBLISHED_MULTIPLIERS),
         "return_map": (figures.return_map_figure, *r.returns["map"]),
-        **maps,
     }
+    for preset in r.plan.presets if r.plan.full else ():
+        rows = [cell.row() for cell in cells if cell.push.preset == preset]
+        made[f"push_map_{preset}"] = (push_map_figure, rows)
     return {name: Task(name, rendered, arguments) for name, arguments in made.items()}
 
 

@@ -51,19 +51,15 @@ class Fate:
     @classmethod
     def of(cls, o: Outcome) -> Fate:
         """Of a run computed at two steps; marginal where word or status differ between them."""
-        assert o.half is not None
-        used, half = cls._at(o), cls._at(o.half)
-        same = (used.word, used.status) == (half.word, half.status)
-        return replace(used, marginal=not same)
+        used, half = (cls._at(x) for x in (o, o.half) if x is not None)
+        return replace(used, marginal=(used.word, used.status) != (half.word, half.status))
 
     @classmethod
     def _at(cls, o: Outcome) -> Fate:
-        found = o.feasibility
-        normal, friction, impulse = (
-            x if math.isfinite(x) else None
-            for x in (found.mean_normal_force, found.mean_friction, found.impulse_ratio)
-        )
-        return cls(found.outcome, o.status, normal, friction, impulse, tuple(found.reasons))
+        f = o.feasibility
+        found = (f.mean_normal_force, f.mean_friction, f.impulse_ratio)
+        normal, friction, impulse = (x if math.isfinite(x) else None for x in found)
+        return cls(f.outcome, o.status, normal, friction, impulse, tuple(f.reasons))
 
     @property
     def word(self) -> str:
@@ -117,8 +113,7 @@ def counts(cells: Sequence[PushCell]) -> dict[str, dict[str, dict[str, int]]]:
     """How many walks are what, by setting, controller and word: the table of the map."""
     found: dict[str, dict[str, dict[str, int]]] = {}
     for cell in cells:
-        new = {c: dict.fromkeys(WORDS, 0) for c in CONTROLLERS}
-        here = found.setdefault(cell.setting, new)
-        for c, fate in zip(CONTROLLERS, (cell.npd, cell.adrc), strict=True):
-            here[c][fate.word] += 1
+        here = found.setdefault(cell.setting, {c: dict.fromkeys(WORDS, 0) for c in CONTROLLERS})
+        here["NPD"][cell.npd.word] += 1
+        here["ADRC"][cell.adrc.word] += 1
     return found

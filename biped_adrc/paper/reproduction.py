@@ -7,8 +7,8 @@ and report.html. Each file is written whole or not at all, so that an interrupte
 command `reproduce` calls this; its exit code says whether all checks hold.
 
 In summary.json: `holds` and `checks` (what is asserted), `tally` and `claims` (what became of the paper's
-claims), `findings` and `tables` (what the report shows), `convergence` (every figure of merit at two steps),
-`settings` and `versions`, and the wall time of each task.
+claims), `findings` and `tables` (what the report shows), `settings` and `versions`, and the wall time of each
+task.
 """
 
 from __future__ import annotations
@@ -21,7 +21,6 @@ from typing import Any
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.files import check_folder, check_place, plain, write_text
 from biped_adrc.observers.gpi import TABLE_I
-from biped_adrc.paper.convergence import records
 from biped_adrc.paper.figures import push_window
 from biped_adrc.paper.pictures import draw_all
 from biped_adrc.paper.results import Results
@@ -93,7 +92,6 @@ def judgement(r: Results) -> dict[str, Any]:
         "tables": tables(r),
         "members": [o for part in r.members.values() for o in part],
         "multipliers": {name: found.record() for name, found in r.multipliers.items()},
-        "convergence": list(records(r.run_twice)),
         "push_map": [cell.row() for cell in r.cells],
     }
     summary: dict[str, Any] = plain(made)

@@ -81,13 +81,11 @@ class Headline:
 
 def headline(run: Scenario) -> Headline:
     """A pushed run that is kept; at a quarter of the step only the single supports from the push on."""
-    walk = sparse(walk_scenario(run))
-    half = halved(run)
+    walk, half = sparse(walk_scenario(run)), halved(run)
     quarter = execute(scenarios.from_the_push(halved(half)))
     at_half = replace(sparse(walk_scenario(half), 0.5 * NODE_DISTANCE).outcome, half=quarter)
-    return Headline(
-        replace(walk.outcome, half=at_half), walk.trajectory, walk.signals, walk_laws(walk)
-    )
+    outcome = replace(walk.outcome, half=at_half)
+    return Headline(outcome, walk.trajectory, walk.signals, walk_laws(walk))
 
 
 def engines(one: Scenario, other: Scenario) -> float:
@@ -105,12 +103,10 @@ def engines(one: Scenario, other: Scenario) -> float:
 def cycle(run: Scenario, with_states: bool) -> PoincareResult | str:
     """A walking cycle at 1 ms and half of it, or why none is found, in words."""
     try:
-        found, half = (
-            poincare(with_values(run, h=share * COARSE), with_states) for share in (1.0, 0.5)
-        )
+        half = poincare(with_values(run, h=0.5 * COARSE), with_states)
+        return replace(poincare(with_values(run, h=COARSE), with_states), half=half)
     except BipedError as error:
         return str(error)
-    return replace(found, half=half)
 
 
 @dataclass(frozen=True)
@@ -132,15 +128,11 @@ def starts(preset: str) -> list[Start]:
 
     No controller of the joints helps a start below it, which matters for the promise of global stability.
     """
-    least = least_speed(preset)
-    return [
-        Start(
-            least,
-            k,
-            {c: execute_twice(scenarios.starting(c, preset, k * least)) for c in CONTROLLERS},
-        )
-        for k in scenarios.declared()["basin"]["factors"]
-    ]
+    least, found = least_speed(preset), []
+    for k in scenarios.declared()["basin"]["factors"]:
+        runs = {c: scenarios.starting(c, preset, k * least) for c in CONTROLLERS}
+        found.append(Start(least, k, {c: execute_twice(run) for c, run in runs.items()}))
+    return found
 
 
 def least_speed(preset: str) -> float:
@@ -172,16 +164,10 @@ def jumps(preset: str) -> dict[str, float]:
     biped, gait = scenes["published"].biped, scenes["published"].walked
     before = biped.reduction(gait.q_minus, gait.v_minus)
     after = biped.reduction(*gait.start(biped))
-    edge = after.kappa @ np.full(biped.p, 30.0)
-    return {
-        "xi at impact": float(np.max(np.abs(after.xi - relabelled(before.xi, biped.swap)))),
-        "xi at an edge": float(np.max(np.abs(edge))),
-        **{
-            name: float(np.max(np.abs(impact_smoothness(of.walked, biped))))
-            for name, of in scenes.items()
-        },
-        "period": gait.period,
-    }
+    xi, edge = after.xi - relabelled(before.xi, biped.swap), after.kappa @ np.full(biped.p, 30.0)
+    rates = {name: impact_smoothness(of.walked, biped) for name, of in scenes.items()}
+    found = {"xi_at_impact": xi, "xi_at_an_edge": edge, **rates}
+    return {name: float(np.max(np.abs(x))) for name, x in found.items()} | {"period": gait.period}
 
 
 class Order(NamedTuple):
@@ -227,16 +213,14 @@ def _order(preset: str, observer: GPIObserver) -> Order:
     """The record of one observer: closed forms, and a walk."""
     loop, w = ObserverLoop(observer), np.geomspace(1.0, 1e7, 2000)
     poles = tuple(float(np.real(pole)) for pole in observer.poles)
-    pushed = member_walk(
-        replace(scenarios.on_the_recipe(preset), gait="published"), "ADRC", poles=poles
-    )
+    member = replace(scenarios.on_the_recipe(preset), gait="published")
     return Order(
         float(np.max(np.abs(observer.gains))),
         float(np.max(np.abs(loop.noise(w)))),
         observer.scale,
         loop.delay_margin().delay,
         float(np.abs(loop.tracking_error(np.array([10.0 * np.pi])))[0]),
-        pushed.peak,
+        member_walk(member, "ADRC", poles=poles).peak,
     )
 
 

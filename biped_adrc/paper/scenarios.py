@@ -22,6 +22,8 @@ from biped_adrc.resources import packaged
 from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.scenario import Scenario
 
+Values = dict[str, Any]
+"""Of a scenario, by the names of PLACES."""
 CONTROLLERS = ("NPD", "ADRC")
 """The two that the paper compares, in the order of every pair: PD with inertia decoupling, and ADRC."""
 PLACES = {
@@ -45,19 +47,15 @@ GAITS = ("published", "recipe")
 """Gait (a), through x*, and gait (b), by the recipe of section IV."""
 MOTORS = ("q1", "q2", "q3", "q4")
 """The actuated joints."""
-PAPER_PUSH = Push(joints=",".join(MOTORS), torque=30.0, step=19, onset=0.1, duration=0.2)
-"""The push of figures 4 to 6: 30 N m on all joints for 0.2 s in step 19. The paper prints no amplitude."""
-SINE = Push(
-    shape="sine",
-    joints=",".join(MOTORS),
-    torque=40.0,
-    step=19,
-    onset=0.05,
-    duration=0.25,
-    frequency=5.0,
-    across_impacts=False,
-)
-"""A disturbance of 5 Hz on all joints [N m]."""
+
+
+def declared() -> dict[str, Any]:
+    """The tables of admissible.toml."""
+    return packaged("biped_adrc.paper", "admissible.toml")
+
+
+PAPER_PUSH, SINE = (Push(**declared()["pushes"][name]) for name in ("paper", "sine"))
+"""The push of figures 4 to 6, and a sine."""
 HEAVIER = {"torso": 1.2, "thigh": 1.15}
 """Factors on the links' masses (and inertias) of the plant alone, not of the controller's model."""
 KINDS: dict[str, dict[str, Any]] = {
@@ -81,28 +79,6 @@ ENGINES_STEP = 1e-3
 """Step [s] at which the two engines are compared over the pushed step."""
 TORSO_STEP = 17
 """Single support in which walks start whose push in single support 19 changes the speed."""
-PATTERNS: dict[str, dict[str, float]] = {
-    "all +": {"q1": 1.0, "q2": 1.0, "q3": 1.0, "q4": 1.0},
-    "all -": {"q1": -1.0, "q2": -1.0, "q3": -1.0, "q4": -1.0},
-    "hips +": {"q1": 1.0, "q2": 1.0},
-    "hips -": {"q1": -1.0, "q2": -1.0},
-    "hips apart": {"q1": 1.0, "q2": -1.0},
-    "hips together": {"q1": -1.0, "q2": 1.0},
-    "stance knee +": {"q3": 1.0},
-    "stance knee -": {"q3": -1.0},
-    "swing knee +": {"q4": 1.0},
-    "swing knee -": {"q4": -1.0},
-}
-"""Factors by joint of the map of pushes, to be multiplied by the amplitude [N m]."""
-MAP_ONSETS = tuple(round(0.05 * k, 2) for k in range(8))
-"""Onsets of the map of pushes [s] after an impact; a single support takes about 0.4 s."""
-MAP_AMPLITUDES = (30.0, 60.0, 90.0, 120.0, 150.0)
-"""Amplitudes of the map of pushes [N m], up to what RABBIT's motors give."""
-
-
-def declared() -> dict[str, Any]:
-    """The tables of admissible.toml."""
-    return packaged("biped_adrc.paper", "admissible.toml")
 
 
 @dataclass(frozen=True)
@@ -135,10 +111,12 @@ class Plan:
         late = "the map of pushes, but for late pushes of 150 N m"
         if not self.quick:
             return (f"{late} (--full)",)
+        multipliers = "the multipliers of ADRC, its observer's states included"
+        presets = f"presets other than {self.preset}"
         return (
             late,
-            "the multipliers of ADRC, its observer's states included",
-            f"presets other than {self.preset}",
+            multipliers,
+            presets,
             "(20) as printed",
             "the observer's resets at impact compared",
         )
@@ -195,7 +173,7 @@ def pushed_run(plan: Plan, controller: str) -> Scenario:
 
 def engine_runs(plan: Plan, controller: str) -> tuple[Scenario, Scenario]:
     """The pushed step of the headline run on Pinocchio's dynamics, and compiled, at the same step."""
-    values: dict[str, Any] = {"pushes": plan.pushes, "h": ENGINES_STEP, "impacts": 1}
+    values: Values = {"pushes": plan.pushes, "h": ENGINES_STEP, "impacts": 1}
     one = scenario(controller, plan.preset, first_step=plan.pushes[0].step, **values)
     return with_values(one, engine=PINOCCHIO), one
 
@@ -215,10 +193,9 @@ def base_runs(plan: Plan) -> dict[str, Scenario]:
         for preset in plan.presets:
             runs[f"nominal {preset} {c}"] = plain(c, preset)
             runs[f"gait (b) {preset} {c}"] = loose(c, preset, gait="recipe", impacts=8)
-        runs[f"rising push {c}"] = plain(
-            c, p, pushes=rising, first_step=first, impacts=2, fine=fine
-        )
-        late: dict[str, Any] = {"first_step": TORSO_STEP, "impacts": 9}
+        rises: Values = {"pushes": rising, "first_step": first, "impacts": 2, "fine": fine}
+        runs[f"rising push {c}"] = plain(c, p, **rises)
+        late: Values = {"first_step": TORSO_STEP, "impacts": 9}
         runs[f"sine {c}"] = plain(c, p, pushes=(SINE,), fine=fine, **late)
         runs[f"torso {c}"] = loose(c, p, pushes=(on_torso(20.0),), **late)
         runs[f"1 kHz {c}"] = scenario(c, p, pushes=plan.pushes, period=1e-3, h=1e-3)
@@ -237,7 +214,7 @@ def reset_runs(preset: str) -> dict[str, Scenario]:
     runs = {}
     for policy, limit in itertools.product(POLICIES, (None, 150.0)):
         h = DIVERGING_STEP if policy == "none" and limit is None else RESET_STEP
-        values: dict[str, Any] = {"reset": policy, "torque_limit": limit, "impacts": 2}
+        values: Values = {"reset": policy, "torque_limit": limit, "impacts": 2}
         name = f"reset {policy}, {'unlimited' if limit is None else '150 N m'}"
         runs[name] = loose("ADRC", preset, h, **values)
     return runs
@@ -248,16 +225,11 @@ def claim_runs(plan: Plan) -> dict[str, Scenario]:
     runs, step = {}, declared()["push"]["step"]
     for preset, c in itertools.product(plan.presets, CONTROLLERS):
         for torque in declared()["torso"]["amplitudes"]:
-            values: dict[str, Any] = {
-                "pushes": (on_torso(torque),),
-                "first_step": step,
-                "impacts": 4,
-            }
-            run = loose(c, preset, COARSE, **values)
-            runs[f"{torque:g} N m on the torso, {preset} {c}"] = with_values(run, h=COARSE)
-        for kind, factors in KINDS.items():
-            if preset != plan.preset:
-                runs[f"heavier, {kind}, {preset} {c}"] = loose(c, preset, impacts=8, **factors)
+            late: Values = {"pushes": (on_torso(torque),), "first_step": step, "impacts": 4}
+            run = with_values(loose(c, preset, **late), h=COARSE)
+            runs[f"{torque:g} N m on the torso, {preset} {c}"] = run
+        for kind, factors in KINDS.items() if preset != plan.preset else ():
+            runs[f"heavier, {kind}, {preset} {c}"] = loose(c, preset, impacts=8, **factors)
     return runs
 
 
@@ -281,7 +253,7 @@ def multiplier_runs(plan: Plan) -> dict[str, Scenario]:
     more = (
         {} if plan.quick else {"ADRC": adrc, "ADRC measured": with_values(adrc, reset="measured")}
     )
-    return {"NPD": npd} | more
+    return {"NPD": npd, **more}
 
 
 def starting(controller: str, preset: str, speed: float) -> Scenario:
@@ -331,22 +303,16 @@ class Member:
 
     def run(self, controller: str, pushed: bool = True, **values: Any) -> Scenario:
         """The walk from the pushed step on, or the same step without the push; h is that of the pushed step."""
-        k, steps = declared()["push"], declared()["steps"]
-        push = Push(
-            joints=",".join(self.joints),
-            torque=self.amplitude,
-            step=k["step"],
-            onset=self.onset,
-            duration=k["duration"],
-            rise=self.rise,
-        )
-        usual: dict[str, Any] = {
+        k, steps, joints = declared()["push"], declared()["steps"], ",".join(self.joints)
+        push = Push(joints=joints, torque=self.amplitude, onset=self.onset, rise=self.rise, **k)
+        zero = self.start == "zero" and controller == "ADRC"
+        usual: Values = {
             "gait": self.gait,
             "pushes": (push,) if pushed else (),
-            "first_step": k["step"],
+            "first_step": push.step,
             "impacts": steps["impacts"] if pushed else 1,
             "solve_theta": self.theta == "solved",
-            "reset": "measured" if self.start == "zero" and controller == "ADRC" else "model",
+            "reset": "measured" if zero else "model",
             "h": steps[controller],
         }
         return plain(controller, self.preset, **usual | values)
@@ -356,7 +322,7 @@ def members(preset: str | None = None) -> tuple[Member, ...]:
     """The combinations that the file declares, of all presets or one, always in the same order."""
     factors, fraction = declared()["factors"], declared()["fraction"]
     found = []
-    for i, j, k, m in itertools.product(range(3), range(3), range(2), range(2)):
+    for i, j, k, m in itertools.product(*map(range, (3, 3, 2, 2))):
         at = _levels(fraction["three_levels"], i, j, 3) | _levels(fraction["two_levels"], k, m, 2)
         chosen = {name: factors[name][level] for name, level in at.items()}
         found.append(Member(**(chosen | {"joints": tuple(chosen["joints"])})))
@@ -384,7 +350,7 @@ class MapPush:
     amplitude: float
     """[N m]."""
     pattern: str
-    """One of `PATTERNS`."""
+    """One of those in admissible.toml."""
     torque_limit: float | None
     """[N m], None for unlimited."""
 
@@ -392,19 +358,17 @@ class MapPush:
         """Four impacts from the push of 0.2 s in single support 19 on, on a reference that goes on past its
         end, so that a fall is one of the robot and not of a polynomial.
         """
-        factors = PATTERNS[self.pattern].items()
-        torque = {joint: self.amplitude * factor for joint, factor in factors}
+        signs = zip(MOTORS, declared()["map"]["patterns"][self.pattern], strict=True)
+        torque = {joint: self.amplitude * sign for joint, sign in signs if sign}
         push = Push(torque=torque, step=19, onset=self.onset, duration=0.2)
-        return scenario(
-            controller,
-            self.preset,
-            pushes=(push,),
-            torque_limit=self.torque_limit,
-            continued=True,
-            first_step=19,
-            impacts=4,
-            h=1e-3,
-        )
+        run: Values = {
+            "pushes": (push,),
+            "first_step": 19,
+            "impacts": 4,
+            "h": 1e-3,
+            "continued": True,
+        }
+        return scenario(controller, self.preset, torque_limit=self.torque_limit, **run)
 
 
 def map_pushes(plan: Plan) -> Iterator[list[MapPush]]:
@@ -412,9 +376,10 @@ def map_pushes(plan: Plan) -> Iterator[list[MapPush]]:
     the late ones of the largest amplitude within the torque limit alone.
     """
     limits = (None, 150.0) if plan.full else (150.0,)
-    onsets, amplitudes = (MAP_ONSETS, MAP_AMPLITUDES) if plan.full else ((0.3,), (150.0,))
+    k, patterns = declared()["map"], [*declared()["map"]["patterns"]]
+    onsets, amplitudes = (k["onsets"], k["amplitudes"]) if plan.full else ((0.3,), (150.0,))
     for preset, limit in itertools.product(plan.presets, limits):
-        parts = [[of] for of in PATTERNS] if plan.full else [list(PATTERNS)]
+        parts = [[of] for of in patterns] if plan.full else [patterns]
         for part in parts:
             every = itertools.product(part, amplitudes, onsets)
             yield [MapPush(preset, onset, amplitude, of, limit) for of, amplitude, onset in every]

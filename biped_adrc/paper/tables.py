@@ -13,7 +13,6 @@ import numpy as np
 from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.observers.gpi import TABLE_I
-from biped_adrc.paper.metrics import distance
 from biped_adrc.paper.push_map import PushCell, counts
 from biped_adrc.paper.results import Results
 from biped_adrc.scenario.outcome import Outcome
@@ -26,26 +25,24 @@ Table = dict[str, Sequence[object]]
 
 
 def tables(r: Results) -> dict[str, Table]:
-    """All tables by title; a quick run has no literal equation."""
-    here = "here, 180 x 1.8^k"
-    poles = zip(PRINTED_TABLE_I, TABLE_I, strict=True)
-    constants = {"K_p [1/s^2]": (5000, TABLE_II.K_p), "K_d [1/s]": (50, TABLE_II.K_d)}
-    found = {
-        "Table I: observer eigenvalues [rad/s]": table(
-            {"paper, rounded": printed, here: pole} for printed, pole in poles
-        ),
-        "Table II: controller constants": table(
-            {"constant": k, "paper": printed, "here": x} for k, (printed, x) in constants.items()
-        ),
+    """All tables by title."""
+    poles = {"paper, rounded": PRINTED_TABLE_I, "here, 180 x 1.8^k": TABLE_I}
+    constants = [["K_p [1/s^2]", 5000, TABLE_II.K_p], ["K_d [1/s]", 50, TABLE_II.K_d]]
+    return {
+        "Table I: observer eigenvalues [rad/s]": {
+            "columns": list(poles),
+            "rows": list(zip(*poles.values(), strict=True)),
+        },
+        "Table II: controller constants": {
+            "columns": ["constant", "paper", "here"],
+            "rows": constants,
+        },
         "Runs": _runs(r),
         "Stability: multipliers": _multipliers(r),
         "Gait (b), the paper's recipe": _recipe(r),
         "Numerics": table({"figure": k, "value": v} for k, v in r.figures.items()),
         "Map of pushes": _map(r.cells),
     }
-    if not r.plan.quick:
-        found["Literal equation and resets at impact"] = _literal(r)
-    return found
 
 
 def table(rows: Iterable[dict[str, object]]) -> Table:
@@ -55,8 +52,11 @@ def table(rows: Iterable[dict[str, object]]) -> Table:
 
 
 def _runs(r: Results) -> Table:
-    """Every walk but those of the reset policies: how it ended, errors, torques, forces."""
-    return table(_run(name, o) for name, o in r.run_twice.items() if not name.startswith("reset"))
+    """Every walk: how it ended, errors, torques, forces.
+
+    A walk that ended early has no peak error or torque in the table: they would be those of a fall.
+    """
+    return table(_run(name, o) for name, o in r.run_twice.items())
 
 
 def _run(name: str, o: Outcome) -> dict[str, object]:
@@ -69,10 +69,10 @@ def _run(name: str, o: Outcome) -> dict[str, object]:
         "status": o.status,
         "outcome": o.feasibility.outcome,
         "impacts": o.impacts,
-        "peak error [rad]": o.peak_error,
-        "at half the step [rad]": None if o.half is None else o.half.peak_error,
+        "peak error [rad]": o.peak_error if o.walked else None,
+        "at half the step [rad]": o.half.peak_error if o.walked and o.half else None,
         "rms error [rad]": o.rms_error,
-        "peak torque [N m]": o.peak_torque,
+        "peak torque [N m]": o.peak_torque if o.walked else None,
         "median step [s]": float(np.median([s.duration for s in steps])) if steps else None,
         "mean friction": o.feasibility.mean_friction,
         "mean F_N [N]": o.feasibility.mean_normal_force,
@@ -87,18 +87,14 @@ def _multipliers(r: Results) -> Table:
     (27), the paper.
     """
     found: dict[str, tuple[list[float], str]] = {}
-    for name in ("NPD", "ADRC", "ADRC measured"):
-        if name in r.multipliers:
-            z = np.abs(r.multipliers[name].orbit.multipliers)
-            of = name.replace(" measured", ", reset 'measured'")
-            remembers = "the observer's xi^ and its derivatives live on through the impact"
-            remark = remembers if name.endswith("measured") else ""
-            said = f"central differences, {of}, {len(z)} coordinates"
-            found[said] = z[:10].tolist(), remark
+    for name, x in r.multipliers.items():
+        z, of = np.abs(x.orbit.multipliers), name.replace(" measured", ", reset 'measured'")
+        remembers = "the observer's xi^ and its derivatives live on through the impact"
+        remark = remembers if name.endswith("measured") else ""
+        found[f"central differences, {of}, {len(z)} coordinates"] = z[:10].tolist(), remark
     found["delta^2 of the zero dynamics"] = [r.multipliers["NPD"].delta_squared], ""
     for c, test in r.regressions.items():
-        said = f"regression (27) on the pushed walk, {c}"
-        found[said] = test.magnitudes.tolist(), test.warning
+        found[f"regression (27) on the pushed walk, {c}"] = test.magnitudes.tolist(), test.warning
     found["printed in the paper"] = list(PUBLISHED_MULTIPLIERS), "from a regression: no target"
     return table(
         {"method": said, "magnitudes": z, "remark": remark} for said, (z, remark) in found.items()
@@ -110,41 +106,16 @@ def _recipe(r: Results) -> Table:
     motors is in "Runs".
     """
     rows = []
-    for name in (name for name in r.cycles if name.startswith("gait (b)")):
-        x = r.cycles[name]
+    for name, x in r.cycles.items():
+        if not name.startswith("gait (b)"):
+            continue
         found = None if isinstance(x, str) else x.orbit
-        rows.append(
-            {
-                "gait": name,
-                "stable": found and found.stable,
-                "largest multipliers": found and np.abs(found.multipliers[:3]).tolist(),
-                "rate jump at impact [rad/s]": r.jumps[name.split(", ")[1]]["recipe"],
-                "x- minus x*": found and (found.x_minus[: len(X_STAR)] - X_STAR).tolist(),
-                "remark": x if isinstance(x, str) else "",
-            }
-        )
+        row: dict[str, object] = {"gait": name, "stable": found and found.stable}
+        row["largest multipliers"] = found and np.abs(found.multipliers[:3]).tolist()
+        row["rate jump at impact [rad/s]"] = r.jumps[name.split(", ")[1]]["recipe"]
+        row["x- minus x*"] = found and (found.x_minus[: len(X_STAR)] - X_STAR).tolist()
+        rows.append(row | {"remark": x if isinstance(x, str) else ""})
     return table(rows)
-
-
-def _literal(r: Results) -> Table:
-    """Walks with (20) as printed, and the observer's reset policies with and without a torque limit.
-
-    A walk that ended early has no peak error or torque in the table: they would be those of a fall.
-    """
-    names = [name for name in r.runs if name.startswith(("as printed", "reset"))]
-    return table(
-        {
-            "variant": name,
-            "status": o.status,
-            "impacts": o.impacts,
-            "peak error [rad]": o.peak_error if o.walked else None,
-            "at half the step [rad]": o.half.peak_error if o.walked and o.half else None,
-            "peak torque [N m]": o.peak_torque if o.walked else None,
-            "median step [s]": float(np.median(o.durations)) if len(o.durations) else None,
-            "distance to x*": distance(o),
-        }
-        for name, o in ((name, r.runs[name]) for name in names)
-    )
 
 
 def _map(cells: list[PushCell]) -> Table:

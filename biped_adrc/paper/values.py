@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import numpy as np
 
@@ -49,9 +50,6 @@ def of_members(r: Results) -> dict[str, object]:
         **by_theta,
         "npd": Extremes.of(w.deviation for w in npd),
         "adrc": Extremes.of(w.deviation for w in adrc),
-        "ratios": Extremes.of(map(m.deviation, every)),
-        "peaks": Extremes.of(map(m.error_ratio, every)),
-        "rates": Extremes.of(w.rate for w in adrc),
         "npd_rates": Extremes.of(w.rate for w in npd),
         "steps": declared()["steps"]["impacts"],
         "why": "; ".join(why) or "nothing",
@@ -62,11 +60,7 @@ def of_members(r: Results) -> dict[str, object]:
 
 def of_recipe_push(r: Results) -> dict[str, object]:
     """The push on gait (b)."""
-    found = list(m.on_recipe(r).values())
-    return {
-        "deviations": Extremes.of(map(m.deviation, found)),
-        "peaks": Extremes.of(map(m.error_ratio, found)),
-    }
+    return {"peaks": Extremes.of(map(m.error_ratio, m.on_recipe(r).values()))}
 
 
 def of_map(r: Results) -> dict[str, object]:
@@ -85,30 +79,19 @@ def of_map(r: Results) -> dict[str, object]:
 
 def of_torso(r: Results) -> dict[str, object]:
     """How pushes of the torso change a step, and up to which one a walk goes on."""
-    usual = m.usual_torso(r).values()
-    stopped = {
-        preset: [
-            torque
-            for torque in declared()["torso"]["amplitudes"]
-            if not r.pair(f"{torque:g} N m on the torso, {preset}")[1].walked
-        ]
-        for preset in r.plan.presets
-    }
-    said = (f"{min(x):g} N m ({p})" if x else f"none ({p})" for p, x in stopped.items())
+    usual, every = m.usual_torso(r).values(), m.torso(r)
+    stopped: dict[str, str] = {}
+    for name, (_, adrc, _) in every.items():
+        torque, _, preset = name.partition(" on the torso, ")
+        if not adrc.walked:
+            stopped.setdefault(preset, torque)
+    alike = all(npd.walked == adrc.walked for npd, adrc, _ in every.values())
     return {
         "slow": Extremes(1e3 * m.delay(adrc, period) for _, adrc, period in usual),
-        "ratios": Extremes.of(m.adrc_over_npd(m.delay, pair) for pair in usual),
-        "peaks": Extremes.of(m.adrc_over_npd(m.peak, pair) for pair in usual),
-        "stops": ", ".join(said),
-        "alike": ""
-        if all(npd.walked == adrc.walked for npd, adrc, _ in m.torso(r).values())
-        else "not ",
+        "peaks": Extremes.of(m.error(pair) for pair in usual),
+        "stops": ", ".join(f"{stopped.get(p, 'none')} ({p})" for p in r.plan.presets),
+        "alike": "" if alike else "not ",
     }
-
-
-def of_heavier(r: Results) -> dict[str, object]:
-    """The ratio of the errors with a heavier plant."""
-    return {"ratios": Extremes.of(m.adrc_over_npd(m.peak, pair) for pair in m.heavier(r).values())}
 
 
 def of_orders(r: Results) -> dict[str, object]:
@@ -129,25 +112,19 @@ def of_orders(r: Results) -> dict[str, object]:
 
 def of_jumps(r: Results) -> dict[str, object]:
     """What is not smooth at an impact and at an edge."""
-    found = {
+    return {
         name: Extremes(x[name] for x in r.jumps.values()) for name in next(iter(r.jumps.values()))
     }
-    return {name.replace(" ", "_"): x for name, x in found.items()}
 
 
 def of_cycles(r: Results) -> dict[str, object]:
-    """Largest multipliers of both gaits, and of gait (a) beside the closed form."""
-    npd = r.multipliers["NPD"]
-    observer = r.multipliers.get("ADRC")
-    z = None if observer is None else np.abs(observer.orbit.multipliers)
-    more = "" if z is None else f"; under ADRC, {len(z)} with the observer's states, {z[0]:.4f}"
-    return {
-        "a": Extremes.of(map(m.largest_multiplier, m.cycles("a", r).values())),
-        "b": Extremes.of(map(m.largest_multiplier, m.cycles("b", r).values())),
-        "largest": float(abs(npd.orbit.multipliers[0])),
-        "delta_squared": npd.delta_squared,
-        "observer": more,
-    }
+    """The largest multiplier of gait (a) beside the closed form."""
+    npd, more = r.multipliers["NPD"], ""
+    if "ADRC" in r.multipliers:
+        z = np.abs(r.multipliers["ADRC"].orbit.multipliers)
+        more = f"; under ADRC, {len(z)} with the observer's states, {z[0]:.4f}"
+    largest = float(abs(npd.orbit.multipliers[0]))
+    return {"largest": largest, "delta_squared": npd.delta_squared, "observer": more}
 
 
 def of_speed(r: Results) -> dict[str, object]:
@@ -165,26 +142,16 @@ def of_speed(r: Results) -> dict[str, object]:
 
 def of_needs(r: Results) -> dict[str, object]:
     """What gait (b) asks of ground and motors, undisturbed, beside gait (a)."""
-    b, a = (m.undisturbed(gait, r) for gait in "ba")
-    instant = {
-        name: max((c.friction for c in o.certificates), default=math.nan) for name, o in b.items()
-    }
-    shown = (
-        f"{name.split(', ')[1]}: friction {o.feasibility.mean_friction:.2f} in the mean over 5 ms and "
-        f"{instant[name]:.2f} at an instant, {o.peak_torque:.0f} N m"
-        for name, o in b.items()
+    both, cost = m.both_gaits(r), partial(m.last, "cost_of_transport")
+    needs = (
+        f"{preset}: friction {b.feasibility.mean_friction:.2f} in the mean over 5 ms and "
+        f"{max((c.friction for c in b.certificates), default=math.nan):.2f} at an instant, "
+        f"{b.peak_torque:.0f} N m"
+        for preset, (b, _) in both.items()
     )
-    costs = (
-        f"{name.split(', ')[1]} {m.last('cost_of_transport', o):.3f} against "
-        f"{m.last('cost_of_transport', other):.3f}"
-        for (name, o), other in zip(b.items(), a.values(), strict=True)
-    )
-    return {
-        "needs": "; ".join(shown),
-        "costs": "; ".join(costs),
-        "torques": Extremes(o.peak_torque for o in b.values()),
-        "ratios": Extremes(m.last("impulse_ratio", o) for o in (*a.values(), *b.values())),
-    }
+    costs = (f"{preset} {cost(b):.3f} against {cost(a):.3f}" for preset, (b, a) in both.items())
+    torques = Extremes(b.peak_torque for b, _ in both.values())
+    return {"needs": "; ".join(needs), "costs": "; ".join(costs), "torques": torques}
 
 
 def of_starts(r: Results) -> dict[str, object]:

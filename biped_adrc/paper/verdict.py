@@ -1,6 +1,6 @@
 """One verdict: a statement, the scenarios on which it is tried, a metric, its limit, and the word they give.
 
-    Claim(name, where, statement, scenarios, metric, limit)
+    Claim(name, where, statement, limit, metric, scenarios)
 
 `paper.table` has all of them: what the paper claims, and the laws and consistencies that every run is held
 against. A case is one scenario with the value of the metric at the integration step used and at half of it; it
@@ -12,7 +12,8 @@ cases of a claim, h that hold and m marginal ones:
     h = 0                       contradicted
     otherwise                   depends, on the variant of the scenario, which the share names
 
-Words for a reader are in claims.toml: {limit} and what `Claim.values` gives stand in braces there.
+Words for a reader are in claims.toml. In braces stand {limit}, {found} (the least and the largest number of the
+cases) and what `Claim.values` gives.
 """
 
 from __future__ import annotations
@@ -33,9 +34,7 @@ if TYPE_CHECKING:
 REPLICATED, DEPENDS, CONTRADICTED = "replicated", "depends", "contradicted"
 NOT_TESTABLE = "not testable"
 CLAIM = "claim"
-"""Kind of a statement of the paper, judged over all its cases; of the others (`checks.KINDS`) every case is a
-check.
-"""
+"""Kind of a statement of the paper, which is judged over all its cases."""
 CONVERGED, ROUND_OFF = 0.01, 1e-9
 """A number moves by less than this share when the step is halved, or by less than this [rad], [s], [1]."""
 SHOWN = 8
@@ -97,14 +96,12 @@ class Claim:
     """Place in the paper."""
     statement: str
     """What is claimed."""
-    scenarios: Callable[[Results], Mapping[str, Any]]
-    """What was computed of each scenario, by its name for a reader."""
-    metric: Callable[[Any], AtTwoSteps | float]
-    """The number of one of them."""
     limit: Limit
     """That the number has to keep."""
-    kind: str = CLAIM
-    """`CLAIM`, or one of `checks.KINDS`."""
+    metric: Callable[[Any], AtTwoSteps | float]
+    """The number of one scenario."""
+    scenarios: Callable[[Results], Mapping[str, Any]] = lambda _: {}
+    """What was computed of each scenario, by its name for a reader; none where no run can decide."""
     variant: Callable[[str, Any], str] = lambda name, _: name
     """What of (name, scenario) the verdict may depend on; a few words for all scenarios together."""
     values: Callable[[Results], Mapping[str, object]] = lambda _: {}
@@ -119,18 +116,9 @@ class Claim:
     def _case(self, name: str, x: Any) -> Case:
         found = self.metric(x)
         figure = found if isinstance(found, AtTwoSteps) else AtTwoSteps(float(found), float(found))
-        used, half = (self.limit("", self.kind, value).holds for value in figure)
+        used, half = (self.limit("", CLAIM, value).holds for value in figure)
         doubtful = used != half or not figure.converged(self.round_off)
         return Case(name, figure, half, doubtful, self.variant(name, x))
-
-    def checks(self, r: Results) -> list[Check]:
-        """Every scenario as a check of its own."""
-        found = {name: self.metric(x) for name, x in self.scenarios(r).items()}
-        return [
-            self.limit(f"{name}: {self.statement}" if name else self.statement, self.kind, value)
-            for name, value in found.items()
-            if not isinstance(value, AtTwoSteps)
-        ]
 
 
 @dataclass(frozen=True)
@@ -146,8 +134,6 @@ class Row:
     """What the metric has to keep."""
     share: str
     """How many cases hold, in words, by variant where it depends."""
-    convergence: str
-    """How far the numbers change at half of the step."""
     reason: str
     """Why the word is what it is."""
     finding: str = ""
@@ -186,7 +172,8 @@ def row_of(claim: Claim, r: Results) -> Row:
     said, cases = texts()[claim.name], claim.cases(r)
     word = said.get("word") or word_of(cases)
     limit = claim.limit("", CLAIM, math.nan).limit if "metric" in said else ""
-    values = {"limit": limit, **claim.values(r)}
+    figures = Extremes.of(case.figure for case in cases)
+    values = {"limit": limit, "found": figures, **claim.values(r)}
     number, reason, finding = (
         str(said.get(key, "")).format(**values) for key in ("number", "reason", "finding")
     )
@@ -198,7 +185,6 @@ def row_of(claim: Claim, r: Results) -> Row:
         number,
         f"{said['metric']} {limit}" if limit else "",
         share_text(cases, word == DEPENDS),
-        changes([case.figure for case in cases if not case.marginal]),
         reason,
         finding,
         sum(held) / max(len(held), 1) if said.get("asserted") else None,
@@ -217,20 +203,6 @@ def share_text(cases: Sequence[Case], apart: bool) -> str:
         text += ": " + "; ".join(f"{name} {held[name]} of {n}" for name, n in every.items())
     marginal = [case.name for case in cases if case.marginal]
     return f"{text}; marginal: {', '.join(marginal)}" if marginal else text
-
-
-def changes(figures: Sequence[AtTwoSteps]) -> str:
-    """The largest change of numbers when the step is halved, in words; empty for counts and closed forms.
-
-    Of numbers that change by more than the share `CONVERGED`, though they are taken as converged, the absolute
-    change is said.
-    """
-    known = [f for f in figures if f.value != f.at_half and math.isfinite(f.change)]
-    small = [abs(f.value - f.at_half) for f in known if f.change > CONVERGED]
-    parts = [f.change for f in known if f.change <= CONVERGED]
-    said = [f"at most {100.0 * max(parts):.2g} %"] if parts else []
-    said += [f"round-off, at most {max(small):.1g}, in {len(small)}"] if small else []
-    return f"half the step: {'; '.join(said)}" if said else ""
 
 
 def claim_checks(rows: Sequence[Row]) -> list[Check]:

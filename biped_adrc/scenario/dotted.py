@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from difflib import get_close_matches
 from typing import Any
 
@@ -37,17 +37,21 @@ def merged(before: Any, more: Any) -> Any:
     return before | {name: merged(before.get(name), x) for name, x in more.items()}
 
 
-def flat(values: Mapping[str, Any], before: str = "") -> dict[str, Any]:
-    """The inverse of `nested`; records in a list have numbers in their names."""
+def flat(
+    values: Mapping[str, Any], before: str = "", whole: Collection[str] = ()
+) -> dict[str, Any]:
+    """The inverse of `nested`; records in a list have numbers in their names.
+
+    whole: a table with one of these keys is a value.
+    """
     made: dict[str, Any] = {}
     for name, x in values.items():
         if isinstance(x, list) and x and all(isinstance(y, Mapping) for y in x):
             x = {str(i): y for i, y in enumerate(x)}
-        made |= (
-            flat(x, f"{before}{name}.")
-            if isinstance(x, Mapping)
-            else {f"{before}{name}": tuple(x) if isinstance(x, list) else x}
-        )
+        if isinstance(x, Mapping) and not set(x) & set(whole):
+            made |= flat(x, f"{before}{name}.", whole)
+        else:
+            made[f"{before}{name}"] = tuple(x) if isinstance(x, list) else x
     return made
 
 

@@ -7,7 +7,6 @@ classes of the user: their contents are hashed into the versions of its results.
 from __future__ import annotations
 
 import hashlib
-import os
 import tomllib
 from collections.abc import Iterable
 from functools import lru_cache
@@ -20,8 +19,8 @@ from biped_adrc.errors import InputError
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, soft_loop, start
 from biped_adrc.scenario.registry import find, is_own, source_hash
 from biped_adrc.scenario.run import method_of
-from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario
-from biped_adrc.study.parameters import PLANT, SUFFIXES, field_of
+from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario, field_of
+from biped_adrc.study.parameters import PLANT, SUFFIXES
 
 
 def versions_of(values: Iterable[tuple[str, object]]) -> dict[str, str]:
@@ -32,8 +31,7 @@ def versions_of(values: Iterable[tuple[str, object]]) -> dict[str, str]:
     found: dict[str, str] = {}
     for name, x in values:
         for path in files_of(name, x):
-            text = path.read_bytes() if os.path.isfile(path) else b""
-            found[f"file {path}"] = hashlib.sha256(text).hexdigest()[:12]
+            found[f"file {path}"] = _hash(path)
         kind = field_of(name).kind
         if kind and is_own(str(x)):
             found[f"source {x}"] = source_hash(find(kind, str(x)).load())
@@ -43,21 +41,22 @@ def versions_of(values: Iterable[tuple[str, object]]) -> dict[str, str]:
     return dict(sorted(found.items()))
 
 
+def _hash(path: Path) -> str:
+    """Of a file's content; that of nothing for a file that there is not."""
+    return hashlib.sha256(path.read_bytes() if path.is_file() else b"").hexdigest()[:12]
+
+
 def files_of(name: str, value: object) -> tuple[Path, ...]:
     """The files that a value names: of a robot its TOML and its URDF; empty for a registered name."""
     if not isinstance(value, str) or Path(value).suffix != SUFFIXES.get(name):
         return ()
     path = Path(value)
-    if name != "robot.name" or not os.path.isfile(path):
+    if name != "robot.name" or not path.is_file():
         return (path,)
     try:
         return path, path.parent / tomllib.loads(path.read_text(encoding="utf-8"))["urdf"]
     except (OSError, ValueError, KeyError, TypeError):
         return (path,)  # who loads it says what is wrong
-
-
-Stamp = tuple[tuple[str, int, int], ...]
-"""Of each file: path, time of the last change [ns] and size [bytes]; another stamp means to load it again."""
 
 
 def scene_of(s: Scenario) -> RobotAndGait:
@@ -66,14 +65,14 @@ def scene_of(s: Scenario) -> RobotAndGait:
     Raises InputError where there is none.
     """
     paths = (*files_of("robot.name", s.robot.name), *files_of("gait.name", s.gait.name))
-    there = [(str(path), path.stat()) for path in paths if os.path.isfile(path)]
-    stamp = tuple((path, found.st_mtime_ns, found.st_size) for path, found in there)
-    return _scene(s.robot, s.gait, s.hardware.friction, stamp)
+    return _scene(s.robot, s.gait, s.hardware.friction, tuple(map(_hash, paths)))
 
 
 @lru_cache(maxsize=16)
-def _scene(robot: RobotRecord, gait: GaitRecord, friction: bool, stamp: Stamp) -> RobotAndGait:
-    """The cached part of `scene_of`: the values that robot and gait depend on, and the stamp of their files."""
+def _scene(
+    robot: RobotRecord, gait: GaitRecord, friction: bool, hashes: tuple[str, ...]
+) -> RobotAndGait:
+    """The cached part of `scene_of`: what robot and gait depend on."""
     return RobotAndGait.of(Scenario(robot=robot, gait=gait, hardware={"friction": friction}))
 
 
@@ -83,16 +82,14 @@ def case(s: Scenario) -> Case:
     Raises InputError for values that do not fit together, or that a study cannot use: continuous time, fine
     steps besides, another engine.
     """
-    if s.hardware.period is None or s.run.fine is not None:
-        what = "has no period" if s.run.fine is None else f"has run.fine = {s.run.fine:g} s"
-        raise InputError(
-            f"the scenario {what}; a study walks in sampled time, with one step: expected a period [s], "
-            "such as 1 ms, and no fine step"
-        )
-    if s.run.engine != COMPILED:
-        raise InputError(
-            f"a study walks on the engine '{COMPILED}'; leave out run.engine = '{s.run.engine}'"
-        )
+    wrong = {
+        "hardware.period is none, expected a time [s] such as 1 ms": s.hardware.period is None,
+        "run.fine is a step besides, expected none": s.run.fine is not None,
+        f"run.engine is '{s.run.engine}', expected '{COMPILED}'": s.run.engine != COMPILED,
+    }
+    if any(wrong.values()):
+        found = "; ".join(text for text, is_so in wrong.items() if is_so)
+        raise InputError(f"a study walks in sampled time, with one step, compiled: {found}")
     scene = scene_of(s)
     q, v = start(s, scene)
     walker = build(s, scene)

@@ -14,6 +14,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -22,18 +23,14 @@ from biped_adrc.scenario.file import write_scenario
 from biped_adrc.study.parameters import SEED, Values, scenario_of
 from biped_adrc.study.proposals import optuna_library, searched
 from biped_adrc.study.results import BEFORE, CANDIDATE, CHOSEN, SET, SETTING, Choice, Results
+from biped_adrc.study.run import run_trials
 from biped_adrc.study.runner import Crew, Function, Progress, Runner
 from biped_adrc.study.search import Candidate, Search, Walks, judged, ranked
 from biped_adrc.study.store import opened
 from biped_adrc.study.study import CASE, CONDITION, Point, Study, chosen_file, read_study
-from biped_adrc.study.without_walk import numbers_without_walk
 
 Asked = Sequence[tuple[int, Values, Mapping[str, Any]]]
 """Candidates to be walked: number, values, and what locates their walks besides."""
-
-
-class NoneKeepsLimits(InputError):
-    """No candidate of a case keeps all limits."""
 
 
 def study(
@@ -57,8 +54,6 @@ def study(
     if asked.search is not None:
         optuna_library()
     if function is None:
-        from biped_adrc.study.run import run_trials
-
         asked.rehearse()
         function = run_trials
     files = [x for x in asked.versions if x.startswith("file ")]
@@ -74,21 +69,16 @@ def study(
             runner.run(asked.points())
             return Results(asked, folder)
         walker = _Searched(asked, asked.search, runner)
-        choices: dict[str, Choice] = {}
-        failures: list[str] = []
-        for name in asked.cases or ("",):
-            try:
-                choices[name] = walker.choice(name)
-            except NoneKeepsLimits as error:
-                failures.append(str(error))
-                runner.tell(failures[-1])
+        found = {name: walker.choice(name) for name in asked.cases or ("",)}
+        choices = {name: x for name, x in found.items() if isinstance(x, Choice)}
+        failures = tuple(x for x in found.values() if isinstance(x, str))
         if not choices:
-            raise NoneKeepsLimits("\n".join(failures))
+            raise InputError("\n".join(failures))
         walker.test(choices)
-    for name, found in choices.items():
-        comment = f"Chosen by the study '{asked.name}', candidate {found.selected[0].number}."
-        write_scenario(folder / chosen_file(name), scenario_of(found.values), comment)
-    return Results(asked, folder, choices, tuple(failures))
+    for name, x in choices.items():
+        comment = f"Chosen by the study '{asked.name}', candidate {x.selected[0].number}."
+        write_scenario(folder / chosen_file(name), scenario_of(x.values), comment)
+    return Results(asked, folder, choices, failures)
 
 
 class _Searched:
@@ -97,10 +87,9 @@ class _Searched:
     def __init__(self, study: Study, search: Search, runner: Runner) -> None:
         self.study, self.search, self.runner, self.place = study, search, runner, 0
 
-    def choice(self, case: str) -> Choice:
-        """Search a case, and choose among the best few. Raises NoneKeepsLimits."""
+    def choice(self, case: str) -> Choice | str:
+        """Search a case, and choose among the best few; or why none keeps all limits."""
         search, base = self.search, self.study.values_of(case)
-        named = {CASE: case} if case else {}
         best: list[int] = []
 
         def told(c: Candidate) -> None:
@@ -110,40 +99,37 @@ class _Searched:
                 words = f"{search.objective.words} {c.objective:.4g}{missed}"
                 self.runner.tell(f"{case or self.study.name}: candidate {c.number}, {words}")
 
-        def walk(asked: Sequence[tuple[int, Values]]) -> list[Walks]:
-            return self.walk("search", [(n, values, named) for n, values in asked])
+        def walk(kind: str, asked: Sequence[Candidate]) -> list[Walks]:
+            return self.walk(kind, [(c.number, c.values, _named(case)) for c in asked])
 
-        found = searched(search, base, walk, told)
-        self.check(found, case, "search")
-        few = _few(search, base, found)
-        values = [search.values(base, c.chosen) for c in few]
-        walks = self.walk(
-            "choice", [(c.number, v, named) for c, v in zip(few, values, strict=True)]
-        )
-        columns = [m.column for m in search.measures]
-        again = [
-            judged(search, c.number, c.chosen, w, numbers_without_walk(columns, v))
-            for c, v, w in zip(few, values, walks, strict=True)
-        ]
-        self.check(again, case, "choice")
-        selected = ranked(search, again)
-        return Choice(tuple(found), tuple(selected), search.values(base, selected[0].chosen))
+        found = searched(search, base, partial(walk, "search"), told)
+        failure = self.failure(found, case, "search")
+        if not failure:
+            few = _few(search, found)
+            again = [
+                judged(search, base, c.number, c.chosen, walks)
+                for c, walks in zip(few, walk("choice", few), strict=True)
+            ]
+            failure = self.failure(again, case, "choice")
+        if not failure:
+            return Choice(tuple(found), tuple(ranked(search, again)))
+        self.runner.tell(failure)
+        return failure
 
     def test(self, choices: Mapping[str, Choice]) -> None:
         """Walk the settings on the test set: what was chosen for each case, and each case as it was.
 
         The first of them is what the others are compared with: without cases the setting as it was.
         """
-        settings = [CHOSEN, BEFORE] if self.study.cases else [BEFORE, CHOSEN]
-        asked = [
-            (choice.selected[0].number, choice.values, named | {SETTING: CHOSEN})
-            if setting == CHOSEN
-            else (0, self.study.values_of(case), named | {SETTING: BEFORE})
-            for setting in settings
-            for case, choice in choices.items()
-            for named in [{CASE: case} if case else {}]
-        ]
-        self.walk("test", asked)
+        chosen, before = (
+            [
+                (c.number, c.values, _named(case) | {SETTING: setting})
+                for case, choice in choices.items()
+                for c in [choice.selected[0] if setting == CHOSEN else choice.candidates[0]]
+            ]
+            for setting in (CHOSEN, BEFORE)
+        )
+        self.walk("test", [*chosen, *before] if self.study.cases else [*before, *chosen])
         self.runner.total = self.runner.done
         self.runner.tell()
 
@@ -169,26 +155,31 @@ class _Searched:
         ]
         return [found[i : i + count] for i in range(0, len(found), count)]
 
-    def check(self, found: Sequence[Candidate], case: str, kind: str) -> None:
-        """Raises NoneKeepsLimits, with what excluded how many and the nearest one."""
+    def failure(self, found: Sequence[Candidate], case: str, kind: str) -> str:
+        """Where none keeps all limits: what excluded how many, and the nearest one; else empty."""
         if any(c.feasible for c in found):
-            return
-        counts = [
+            return ""
+        counts = (
             f"{m.sentence}: missed by {sum(c.missed[i] > 0.0 for c in found)}"
             for i, m in enumerate(self.search.limits)
-        ]
+        )
         nearest = min(found, key=lambda c: (not c.walked, sum(c.missed), c.number))
-        raise NoneKeepsLimits(
+        return (
             f"study '{self.study.name}'{case and f', {case}'}: none of {len(found)} candidates keeps all "
             f"limits on the walks of {kind}; {'; '.join(counts)}. The nearest is number {nearest.number}, "
             f"{nearest.chosen or 'the case itself'}; ease a limit, widen a range, or give a larger budget"
         )
 
 
-def _few(search: Search, base: Values, found: Sequence[Candidate]) -> list[Candidate]:
+def _named(case: str) -> dict[str, Any]:
+    """What locates the walks of a case."""
+    return {CASE: case} if case else {}
+
+
+def _few(search: Search, found: Sequence[Candidate]) -> list[Candidate]:
     """The best few, settings that come twice once, and the case itself."""
     some: dict[str, Candidate] = {}
     for c in ranked(search, found):
-        some.setdefault(repr(sorted(search.values(base, c.chosen).items())), c)
+        some.setdefault(repr(sorted(c.values.items())), c)
     best = list(some.values())[: search.finalists]
     return best if any(c.number == 0 for c in best) else [*best, found[0]]

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from biped_adrc.scenario.dotted import unknown
 from biped_adrc.study.run import COLUMNS, WORDS
@@ -42,25 +42,27 @@ def is_counted(row: Row) -> bool:
     return is_made(row) and 1 in (row.get("feasible"), row.get("but_impact"))
 
 
+def _known(column: str) -> str:
+    """Raises ValueError for a column that there is not."""
+    if column not in MEASURED:
+        raise ValueError(unknown(column, MEASURED))
+    return column
+
+
+Column = Annotated[str, AfterValidator(_known)]
+Over = Literal["median", "mean", "worst"] | Annotated[float, Field(gt=0.0, lt=1.0)]
+"""What is taken over all walks: a float is a quantile, of which the next worse walk counts."""
+
+
 class Measure(Part):
     """A column, and how many walks become one number of it."""
 
-    column: str
-    over: Literal["median", "mean", "worst"] | float = "median"
-    """What is taken over all walks: a float in (0, 1) is a quantile, of which the next worse walk counts."""
+    column: Column
+    over: Over = "median"
     condition: str | None = None
     """The walks under this condition alone; None for all."""
     counts: Literal["feasible", "made"] = "feasible"
     """Walks that count with their number; all others rank worst."""
-
-    @model_validator(mode="after")
-    def _known(self) -> Measure:
-        """Raises ValueError for a column that there is not, or what is no quantile."""
-        if self.column not in MEASURED:
-            raise ValueError(f"column '{self.column}': {unknown(self.column, MEASURED)}")
-        if isinstance(self.over, float) and not 0.0 < self.over < 1.0:
-            raise ValueError(f"found over = {self.over}, expected a quantile between 0 and 1")
-        return self
 
     @property
     def less_is_better(self) -> bool:
@@ -91,20 +93,15 @@ class Measure(Part):
         if self.column in known:
             x = known[self.column]
             return self.worst if x is None else x
-        return self.over_all(
-            [self.number(row) for name, row in walks if self.condition in (None, name)]
-        )
-
-    def over_all(self, numbers: Sequence[float]) -> float:
-        """The measure of these numbers of walks."""
-        x: Array = np.asarray(numbers, dtype=float)
+        every = [self.number(row) for name, row in walks if self.condition in (None, name)]
+        numbers: Array = np.array(every)
         if self.over == "mean":
-            return float(x.mean())
-        sign = 1.0 if self.less_is_better else -1.0
+            return float(numbers.mean())
         if self.over == "median":
-            return float(np.median(x))
+            return float(np.median(numbers))
+        sign = 1.0 if self.less_is_better else -1.0
         p = 1.0 if self.over == "worst" else float(self.over)
-        return sign * float(np.quantile(sign * x, p, method="inverted_cdf"))
+        return sign * float(np.quantile(sign * numbers, p, method="inverted_cdf"))
 
 
 class Objective(Measure):
@@ -120,9 +117,9 @@ class Objective(Measure):
 class Limit(Measure):
     """A measure that has to be at least, or at most, so large."""
 
-    over: Literal["median", "mean", "worst"] | float = "mean"
-    least: float | None = Field(default=None)
-    most: float | None = Field(default=None)
+    over: Over = "mean"
+    least: float | None = None
+    most: float | None = None
 
     @model_validator(mode="after")
     def _one(self) -> Limit:

@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 
 from biped_adrc.analysis.statistics import Interval
 from biped_adrc.files import write_text
+from biped_adrc.scenario.scenario import field_of
 from biped_adrc.study.measure import OF_ALL, is_counted
-from biped_adrc.study.parameters import field_of
 from biped_adrc.study.results import Group, Line, Results
 from biped_adrc.study.run import COLUMNS
 from biped_adrc.study.study import measure_of
@@ -49,17 +49,9 @@ def write_page(found: Results) -> Path:
 
 def headings(found: Results) -> tuple[str, ...]:
     """Of the table of a study."""
-    column = measure_of(found.study).column
-    first = next((line.name for line in found.table()), "")
-    return (
-        "case",
-        "condition",
-        "feasible",
-        "made",
-        f"median {column}",
-        f"ratio to {first or 'first'}",
-        "p",
-    )
+    middle = f"median {measure_of(found.study).column}"
+    first = next((line.name for line in found.table()), "") or "first"
+    return "case", "condition", "feasible", "made", middle, f"ratio to {first}", "p"
 
 
 def chosen(found: Results) -> dict[str, str]:
@@ -78,11 +70,10 @@ def texts(line: Line, short: bool = False) -> tuple[str, ...]:
     short: with the interval of the ratio alone.
     """
     count = f"{round(line.feasible.value * line.walks)} of {line.walks}"
-    ratio, p = "–", "–"
+    middle, ratio, p = interval(line.median), "–", "–"
     if line.ratio is not None:
         ratio = interval(line.ratio.ratio)
         p = "–" if math.isnan(line.ratio.p) else f"{line.ratio.p:.2g}"
-    middle = interval(line.median)
     if short:
         middle = middle.partition(" ")[0]
     else:
@@ -104,14 +95,15 @@ def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
     if not lines:
         return
     by = {(x.name, x.condition): x for x in lines}
+    medians = {key: x.median for key, x in by.items()}
     ratios = {key: x.ratio.ratio for key, x in by.items() if x.ratio is not None}
     shares = {key: (round(x.feasible.value * x.walks), x.walks) for key, x in by.items()}
     yield "Whose walks are feasible?", cells_figure(shares)
-    column = _named(measure.column)
-    counts = measure.column in OF_ALL
+    column, counts = _named(measure.column), measure.column in OF_ALL
+    better = f"ratio to {lines[0].name} in {column}"
     for question, title, numbers, at in (
-        ("How large is the error?", f"median {column}", {k: x.median for k, x in by.items()}, None),
-        ("Who is better on the same walk?", f"ratio to {lines[0].name} in {column}", ratios, 1.0),
+        ("How large is the error?", f"median {column}", medians, None),
+        ("Who is better on the same walk?", better, ratios, 1.0),
     ):
         if not counts and any(0.0 < x.value < math.inf for x in numbers.values()):
             yield question, dots_figure(numbers, title, at)
@@ -120,10 +112,8 @@ def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
         yield "Where are walks feasible?", _map(found, shown, "share of feasible walks", False)
         mean, means = f"mean {column}", [list(g.numbers) for g in found.groups]
         if any(0.0 < x < math.inf for one in means for x in one):
-            yield (
-                f"How large is {measure.column}, and where?",
-                _map(found, means, mean, not counts),
-            )
+            question = f"How large is {measure.column}, and where?"
+            yield question, _map(found, means, mean, not counts)
     if found.choices:
         paths = {
             name: [(c.number, c.objective, c.feasible) for c in x.candidates if c.walked]

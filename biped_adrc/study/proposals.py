@@ -21,7 +21,6 @@ from typing import Any
 from biped_adrc.errors import optional
 from biped_adrc.study.parameters import Values
 from biped_adrc.study.search import Candidate, Search, Variable, Walks, judged, ranked
-from biped_adrc.study.without_walk import numbers_without_walk
 
 FIRST_PART = 0.4
 """The share of the budget that TPE has."""
@@ -32,8 +31,8 @@ ASKED = 8
 MISSED = 1e30
 """What the sampler is told of a candidate that misses limits, times 1 + what it misses."""
 
-Walk = Callable[[Sequence[tuple[int, Values]]], Sequence[Walks]]
-"""From numbers and values of candidates to their walks, in the same order."""
+Walk = Callable[[Sequence[Candidate]], Sequence[Walks]]
+"""From candidates to their walks, in the same order."""
 
 
 def optuna_library() -> Any:
@@ -53,35 +52,27 @@ def searched(
 
     told: called with the best candidate after each generation. Raises InputError where none may be walked.
     """
-    optuna = optuna_library()
-    proposals = _Proposals(optuna, search, base)
-    columns = [m.column for m in search.measures]
+    proposals = _Proposals(optuna_library(), search, base)
     found: list[Candidate] = []
     numbers = itertools.count()
     while (left := search.budget - sum(c.walked for c in found)) > 0:
-        asked: list[tuple[int, dict[str, Any], Values]] = []
-        known: dict[int, dict[str, float | None]] = {}
-        out: list[Candidate] = []
-        for _ in range(ASKED * search.generation):
+        asked: list[Candidate] = []
+        new: list[Candidate] = []
+        for number in itertools.islice(numbers, ASKED * search.generation):
+            c = judged(search, base, number, proposals.ask(number) if number else {})
+            if any(c.missed) and number:
+                new.append(c)
+                proposals.tell(c)
+                continue
+            asked.append(c)
             if len(asked) == min(left, search.generation):
                 break
-            number = next(numbers)
-            chosen = proposals.ask(number) if number else {}
-            values = search.values(base, chosen)
-            known[number] = numbers_without_walk(columns, values)
-            c = judged(search, number, chosen, None, known[number])
-            if any(c.missed) and number:
-                out.append(c)
-                proposals.tell(c)
-            else:
-                asked.append((number, chosen, values))
         if not asked:
             break
-        walks = walk([(number, values) for number, _, values in asked])
-        for (number, chosen, _), rows in zip(asked, walks, strict=True):
-            out.append(judged(search, number, chosen, rows, known[number]))
-            proposals.tell(out[-1])
-        found += sorted(out, key=lambda c: c.number)
+        for c, walks in zip(asked, walk(asked), strict=True):
+            new.append(judged(search, base, c.number, c.chosen, walks))
+            proposals.tell(new[-1])
+        found += sorted(new, key=lambda c: c.number)
         told(ranked(search, found)[0])
         proposals.refine(found)
     return found
@@ -91,15 +82,13 @@ class _Proposals:
     """Optuna's study of one case, and its trials that are not judged yet, by number of the candidate."""
 
     def __init__(self, optuna: Any, search: Search, base: Values) -> None:
-        self.optuna, self.search, self.base = optuna, search, base
+        self.optuna, self.search = optuna, search
         self.space = {n: self._distribution(v) for n, v in search.acting(base).items()}
         self.fixed: dict[str, Any] = {}
         self.open: dict[int, Any] = {}
         self.refining = False
-        self.study = self._study(optuna.samplers.TPESampler(seed=search.seed, n_startup_trials=10))
-
-    def _study(self, sampler: Any) -> Any:
-        return self.optuna.create_study(sampler=sampler)
+        sampler = optuna.samplers.TPESampler(seed=search.seed, n_startup_trials=10)
+        self.study = optuna.create_study(sampler=sampler)
 
     def _distribution(self, variable: Variable) -> Any:
         """One variable as Optuna has it."""
@@ -133,12 +122,11 @@ class _Proposals:
         if self.refining or len(best) < max(SMALLEST, FIRST_PART * self.search.budget):
             return
         self.refining = True
-        categorical = self.optuna.distributions.CategoricalDistribution
-        acting = self.search.values(self.base, best[0].chosen)
+        choices = self.optuna.distributions.CategoricalDistribution
         space = {
             name: x
             for name, x in self.space.items()
-            if name in acting and not isinstance(x, categorical)
+            if name in best[0].values and not isinstance(x, choices)
         }
         if len(space) < 2 or self.search.generation < 4:
             return
@@ -154,5 +142,5 @@ class _Proposals:
         sampler = self.optuna.samplers.CmaEsSampler(
             seed=self.search.seed, popsize=self.search.generation, source_trials=trials
         )
-        self.study = self._study(sampler)
+        self.study = self.optuna.create_study(sampler=sampler)
         self.study.add_trials(trials)

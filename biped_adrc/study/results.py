@@ -15,11 +15,11 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from biped_adrc.analysis.statistics import Interval, Paired, median, paired, share
-from biped_adrc.errors import InputError, optional
-from biped_adrc.files import replacing
+from biped_adrc.errors import optional
+from biped_adrc.files import output_path, replacing
 from biped_adrc.shown import Shown
 from biped_adrc.study.measure import is_counted, is_made
-from biped_adrc.study.parameters import NO_WALK, scenario_of
+from biped_adrc.study.parameters import NO_WALK
 from biped_adrc.study.run import COLUMNS
 from biped_adrc.study.search import Candidate
 from biped_adrc.study.store import Result, opened
@@ -40,8 +40,11 @@ class Choice(NamedTuple):
     """All of them by number, judged on the first set of walks."""
     selected: tuple[Candidate, ...]
     """Those of the second set, as judged there, best first: the first one was chosen."""
-    values: dict[str, Any]
-    """The values of the chosen scenario, without condition and seed."""
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """The values of the chosen scenario, without condition and seed."""
+        return self.selected[0].values
 
 
 class Group(NamedTuple):
@@ -116,15 +119,14 @@ class Results(Shown):
 
     def table(self) -> list[Line]:
         """A line for each case and condition."""
-        drawn, first, lines = self.study.drawn, dict[str, Group](), []
+        first, lines = dict[str, Group](), []
         for g in self.groups:
             reference = first.setdefault(g.condition, g)
             ratio = None if g is reference else paired(*_pairs(g, reference))
-            if ratio is not None and not drawn:
-                ratio = Paired(_alone(ratio.ratio), float("nan"), ratio.pairs)
             counted, middle = share(g.feasible, len(g.rows)), median(g.numbers)
-            if not drawn:
+            if not self.study.drawn:
                 counted, middle = _alone(counted), _alone(middle)
+                ratio = ratio and Paired(_alone(ratio.ratio), float("nan"), ratio.pairs)
             lines.append(Line(g.name, g.condition, len(g.rows), counted, g.made, middle, ratio))
         return lines
 
@@ -133,16 +135,11 @@ class Results(Shown):
         with opened(self.folder, self.study) as store:
             return store.statuses()
 
-    @property
-    def scenarios(self) -> dict[str, Any]:
-        """The scenario that a search chose, by name of the case."""
-        return {name: scenario_of(x.values) for name, x in self.choices.items()}
-
     def export(self, path: Path) -> None:
         """Write all rows as CSV or Parquet, by the suffix of `path`. Raises InputError, OutputError."""
         check_table(path)
         names = {name: None for row in self.rows() for name in row}
-        if path.suffix == ".csv":
+        if path.suffix.lower() == ".csv":
             with replacing(path) as made, open(made, "w", newline="", encoding="utf-8") as file:
                 writer = csv.DictWriter(file, names)
                 writer.writeheader()
@@ -151,7 +148,8 @@ class Results(Shown):
         import pyarrow
         from pyarrow import parquet
 
-        columns = {name: [row.get(name) for row in self.rows()] for name in names}
+        rows = list(self.rows())
+        columns = {name: [row.get(name) for row in rows] for name in names}
         for name, x in columns.items():
             if any(isinstance(one, str) for one in x):  # one type in a column
                 columns[name] = [None if one is None else str(one) for one in x]
@@ -161,11 +159,7 @@ class Results(Shown):
 
 def check_table(path: Path) -> None:
     """Raises InputError for a kind of table that cannot be written, or Parquet without pyarrow installed."""
-    if path.suffix not in KINDS:
-        raise InputError(
-            f"cannot write a table to '{path}', expected a name that ends in .csv or .parquet"
-        )
-    if path.suffix == ".parquet":
+    if output_path(path, KINDS).suffix.lower() == ".parquet":
         with optional("tables", "Parquet needs pyarrow, which is not installed"):
             import pyarrow  # noqa: F401
 
@@ -178,13 +172,15 @@ def _name(at: Mapping[str, Any]) -> str:
 
 def _pairs(a: Group, b: Group) -> tuple[list[float], list[float]]:
     """The numbers of the walks that two groups have in common, told apart by what varies besides the case."""
-    keys = [{_key(x.at): n for x, n in zip(g.rows, g.numbers, strict=True)} for g in (a, b)]
-    both = [key for key in keys[0] if key in keys[1]]
-    return [keys[0][key] for key in both], [keys[1][key] for key in both]
 
+    def by_place(g: Group) -> dict[str, float]:
+        apart = (CASE, SETTING, CANDIDATE)
+        keys = (repr([(k, v) for k, v in x.at.items() if k not in apart]) for x in g.rows)
+        return dict(zip(keys, g.numbers, strict=True))
 
-def _key(at: Mapping[str, Any]) -> str:
-    return repr([(k, x) for k, x in at.items() if k not in (CASE, SETTING, CANDIDATE)])
+    one, other = by_place(a), by_place(b)
+    both = [key for key in one if key in other]
+    return [one[key] for key in both], [other[key] for key in both]
 
 
 def _alone(x: Interval) -> Interval:

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from functools import partial
 from threading import Lock
 
 import numpy as np
@@ -31,7 +32,7 @@ from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.study.build import case, scene_of
 from biped_adrc.study.counted import WalkRow, counted, counted_in
-from biped_adrc.study.parameters import NO_WALK, REFUSED, Record, scenario_of
+from biped_adrc.study.parameters import NO_WALK, RAISED, REFUSED, Record, scenario_of
 
 COLUMNS: Mapping[str, str] = packaged("biped_adrc.study", "columns.toml")
 """The columns of a row and what each means, with units."""
@@ -49,49 +50,39 @@ def run_trials(records: Sequence[Record]) -> list[WalkRow]:
 
 def run_trial(record: Record) -> WalkRow:
     """The row of one trial. record: values of a scenario by name; those not given have their defaults."""
+    walk = None
     try:
         s = scenario_of(record)
         with _PREPARING:
             made = case(s)
-            run = None if s.ground.plant != RIGID else run_case(made)
+            run = run_case(made) if s.ground.plant == RIGID else None
         if run is None:
-            return _row(_recorded(s, made))
+            walk = walk_scenario(s)
+            run = partial(ends_of, walk)
     except BipedError as error:
         return _row({"status": REFUSED, "detail": str(error), "impacts": 0})
-    return _row(measured(s, made, run()))
-
-
-def _recorded(s: Scenario, made: Case) -> WalkRow:
-    """The row of a walk on another plant. Raises InputError for values that do not fit together."""
-    try:
-        walk = walk_scenario(s)
-    except BipedError:
-        raise
     except Exception as error:  # whatever a controller in Python may raise
-        return {
-            "status": Status.RAISED.name,
-            "detail": f"{type(error).__name__}: {error}",
-            "impacts": 0,
-        }
-    row = ended(s, made, ends_of(walk))
-    return row | _with_cost(made, row, counted_in(walk, limits(s)))
+        detail = f"{type(error).__name__}: {error}"
+        return _row({"status": RAISED, "detail": detail, "impacts": 0})
+    return _row(measured(s, made, run(), walk))
 
 
-def measured(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
+def measured(s: Scenario, made: Case, walked: BatchWalk, walk: Walk | None = None) -> WalkRow:
     """The row of a walk that has been carried out.
 
-    s: its scenario; made: the walker and its start; walked: trajectory, impacts and status.
+    s: its scenario; made: the walker and its start; walked: trajectory, impacts and status; walk: with all its
+    nodes, on another plant. The cost of transport, work / (weight x distance), is None without forward motion.
     """
     row = ended(s, made, walked)
-    if walked.trajectory is None and walked.table is None:
+    if walk is None and walked.trajectory is None and walked.table is None:
         return row
     with _PREPARING:
-        if walked.trajectory is None:
-            found = _by_table(made, walked, limits(s))
-        else:
+        if walk is None and walked.trajectory is not None:
             walk = Walk(made.walker, scene_of(s).walked, walked.trajectory, s)
-            found = counted_in(walk, limits(s))
-    return row | _with_cost(made, row, found)
+        found = _by_table(made, walked, limits(s)) if walk is None else counted_in(walk, limits(s))
+    weighed = made.walker.plant.weight * float(row.get("distance") or 0.0)
+    cost = float(found["work"] or 0.0) / weighed if weighed > 0.0 else None
+    return row | found | {"cost_of_transport": cost}
 
 
 def _by_table(made: Case, walked: BatchWalk, limits: Limits) -> WalkRow:
@@ -105,15 +96,6 @@ def _by_table(made: Case, walked: BatchWalk, limits: Limits) -> WalkRow:
         after = plant.momentum(x[: plant.n], x[plant.n : 2 * plant.n])
     found = supports(walker, n, k, walked.impacts, after)
     return counted(n, Feasibility(walked.status, found, k, walked.impacts))
-
-
-def _with_cost(made: Case, row: WalkRow, found: WalkRow) -> WalkRow:
-    """What was counted, and the cost of transport work / (weight x distance), None without forward motion."""
-    distance, work = row.get("distance"), found["work"]
-    assert isinstance(work, float)
-    forward = isinstance(distance, float) and distance > 0.0
-    cost = work / (made.walker.plant.weight * distance) if forward else None  # type: ignore[operator]
-    return found | {"cost_of_transport": cost}
 
 
 def ends_of(made: Walk) -> BatchWalk:
@@ -154,18 +136,17 @@ def _pace(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
     plant, gait = made.walker.plant, scene_of(s).walked
     steps = [float(plant.swing_foot(x[: plant.n])[0]) for x in walked.x_minus]
     speed = sum(steps) / float(walked.times[-1] - walked.t_start)
-    usual = float(scene_of(s).biped.swing_foot(gait.q_minus)[0]) / gait.period
+    change = speed / (float(scene_of(s).biped.swing_foot(gait.q_minus)[0]) / gait.period) - 1.0
     last = sum(steps[-2:]) / float(np.sum(walked.durations[-2:]))
-    return {
-        "distance": sum(steps),
-        "speed": speed,
-        "speed_change": speed / usual - 1.0,
-        "last_speed": last,
-    }
+    return {"distance": sum(steps), "speed": speed, "speed_change": change, "last_speed": last}
 
 
 def _row(known: WalkRow) -> WalkRow:
     """All columns in order, None where there is no number or it is not finite."""
-    found = {k: float(x) if isinstance(x, float) else x for k, x in known.items()}
-    finite = {k: x for k, x in found.items() if not isinstance(x, float) or math.isfinite(x)}
-    return dict.fromkeys(COLUMNS) | finite
+    row: WalkRow = dict.fromkeys(COLUMNS)
+    for k, x in known.items():
+        if not isinstance(x, float):
+            row[k] = x
+        elif math.isfinite(x):
+            row[k] = float(x)  # NumPy's floats too
+    return row

@@ -12,6 +12,7 @@ import itertools
 import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -61,10 +62,10 @@ def rows_of(function: Function, records: Sequence[Record]) -> list[tuple[str, st
     raises has a row with the status RAISED, so that one bad record spoils no other.
     """
     try:
-        rows = function(records)
-        if len(rows) != len(records):
-            raise ValueError(f"the function gave {len(rows)} rows for {len(records)} records")
-        return [(json.dumps(dict(row), allow_nan=False), row.get("status")) for row in rows]
+        return [
+            (json.dumps(dict(row), allow_nan=False), row.get("status"))
+            for row, _ in zip(function(records), records, strict=True)
+        ]
     except (Exception, SystemExit) as error:
         if len(records) > 1:
             return [one for record in records for one in rows_of(function, [record])]
@@ -86,7 +87,7 @@ class Crew:
     def __enter__(self) -> Crew:
         if self.cluster is not None and self.workers is not None:
             raise InputError("a cluster brings its own workers; leave out their number")
-        self.executor = self._start()
+        self.start()
         return self
 
     def __exit__(self, kind: object, *_: object) -> None:
@@ -95,10 +96,14 @@ class Crew:
         elif self.executor is not self.workers:
             stop(self.executor)
 
-    def _start(self) -> Executor:
+    def start(self) -> None:
+        """Start the executor."""
         if isinstance(self.workers, Executor):
-            return self.workers
-        return processes(self.workers, PRELOADED) if self.cluster is None else dask(self.cluster)
+            self.executor: Executor = self.workers
+        elif self.cluster is None:
+            self.executor = processes(self.workers, PRELOADED)
+        else:
+            self.executor = dask(self.cluster)
 
     @property
     def count(self) -> int:
@@ -114,7 +119,7 @@ class Crew:
         if self.executor is self.workers:
             raise WorkersError("a worker of the executor died, which the study cannot start anew")
         stop(self.executor)
-        self.executor = self._start()
+        self.start()
 
 
 def dask(address: str) -> Executor:
@@ -124,31 +129,25 @@ def dask(address: str) -> Executor:
     """
     with optional("cluster", "a study on a cluster needs Dask, which is not installed"):
         from distributed import Client
-    try:
-        connect: Callable[..., DaskClient] = Client
-        client = connect(address, timeout=TIMEOUT, set_as_default=False)
-    except (OSError, ValueError, TypeError) as error:
-        raise InputError(
-            f"no Dask scheduler answers at '{address}' within {TIMEOUT:g} s ({type(error).__name__}: {error}); "
-            "expected an address such as tcp://host:8786, which 'dask scheduler' prints when it starts"
-        ) from error
-    try:
-        client.wait_for_workers(1, timeout=TIMEOUT)
-        there = client.run(numerical_versions)
+    connect: Callable[..., DaskClient] = Client
+    with ExitStack() as stack:
+        try:
+            client = connect(address, timeout=TIMEOUT, set_as_default=False)
+            stack.callback(client.close, timeout=1)
+            client.wait_for_workers(1, timeout=TIMEOUT)
+            there = client.run(numerical_versions)
+        except (OSError, ValueError, TypeError, ImportError) as error:
+            raise InputError(
+                f"no Dask scheduler answers at '{address}' within {TIMEOUT:g} s, with workers that have "
+                f"biped-adrc ({type(error).__name__}: {error}); expected an address such as tcp://host:8786, "
+                f"which 'dask scheduler' prints, and 'dask worker {address}' where biped-adrc is installed"
+            ) from error
         for worker, found in there.items():
             if text := differences(found, numerical_versions()):
                 raise InputError(
                     f"worker {worker} of the scheduler at {address} would give other numbers: {text}"
                 )
-    except (TimeoutError, ImportError) as error:
-        client.close(timeout=1)
-        raise InputError(
-            f"the scheduler at {address} has no workers with biped-adrc after {TIMEOUT:g} s; start some with "
-            f"'dask worker {address}' where it is installed"
-        ) from error
-    except BaseException:
-        client.close(timeout=1)
-        raise
+        stack.pop_all()
     executor: Executor = client.get_executor(pure=False)
     return executor
 
@@ -248,10 +247,8 @@ class Runner:
         self.lost = []
         self.crashed += 1
         self.crew.renew()
-        row = {
-            "status": CRASHED,
-            "detail": "the worker that walked it died, each time it was tried",
-        }
+        detail = "the worker that walked it died, each time it was tried"
+        row = {"status": CRASHED, "detail": detail}
         self._keep([point], [(json.dumps(row), CRASHED)])
         self.tell(f"left out, since it kills its worker: {dict(point.at)}")
         if self.crashed >= MOST_CRASHED:

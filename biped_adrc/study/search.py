@@ -12,15 +12,16 @@ is searched by itself, with the same budget.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from pydantic import Field, model_validator
 
+from biped_adrc.scenario.scenario import field_of
 from biped_adrc.study.measure import Limit, Measure, Objective, Row
-from biped_adrc.study.parameters import SEED, Refused, Values, field_of, flat, read
-from biped_adrc.study.space import Part, Range, Seeds, each, read_range
+from biped_adrc.study.parameters import Values
+from biped_adrc.study.space import Part, Range, Seeds, each, read_list, read_range, table
+from biped_adrc.study.without_walk import numbers_without_walk
 
 Walks = Sequence[tuple[str, Row]]
 """Walks of a candidate: the name of the condition of each, and its row."""
@@ -42,17 +43,6 @@ class WalkSets(Part):
     search: WalkSet
     choice: WalkSet
     test: WalkSet
-
-    @model_validator(mode="after")
-    def _disjoint(self) -> WalkSets:
-        """Raises ValueError for seeds in two sets."""
-        for (a, x), (b, y) in itertools.combinations(self, 2):
-            if both := sorted({*x.seeds} & {*y.seeds}):
-                raise ValueError(
-                    f"{a} and {b} share the seeds {both[:5]}, expected others: a choice made on walks makes "
-                    "them look better than they are"
-                )
-        return self
 
 
 class Variable(Part):
@@ -85,21 +75,14 @@ class Variable(Part):
 
 def _variable(name: str, given: Any) -> Variable:
     """One variable of a file. Raises ValueError."""
-    field_of(name)
-    if name == SEED:
-        raise Refused("the sets of walks have the seeds; a search may not choose its luck")
-    if not isinstance(given, Mapping):
-        raise Refused(f"found {given!r}, expected {{from, to}} or {{choices}}")
-    beside = flat(dict(given.get("when", {})))
-    lists = {n: x if isinstance(x, list) else [x] for n, x in beside.items()}
-    when = {n: tuple(read(n, x) for x in values) for n, values in lists.items()}
-    rest = {key: x for key, x in given.items() if key != "when"}
-    if "choices" not in rest:
-        return Variable(range=read_range(name, rest), when=when)
-    choices = tuple(read(name, x) for x in rest["choices"])
-    if set(rest) != {"choices"} or len({repr(x) for x in choices}) < max(len(choices), 2):
-        raise Refused(f"found {given!r}, expected {{choices, when}} with different choices")
-    return Variable(choices=choices, when=when)
+    keys = table(given)
+    beside = keys.pop("when", {})
+    when = each(beside, lambda n, x: read_list(n, x if isinstance(x, list | tuple) else [x]))
+    if "choices" in keys:
+        return Variable.model_validate(
+            {**keys, "choices": read_list(name, keys["choices"], 2), "when": when}
+        )
+    return Variable(range=read_range(name, keys), when=when)
 
 
 class Search(Part):
@@ -180,10 +163,10 @@ class Candidate(NamedTuple):
     """Its place in the search; 0 is the setting of the case itself."""
     chosen: dict[str, Any]
     """A value of every variable; empty for number 0."""
+    values: dict[str, Any]
+    """Of its scenario, without condition and seed."""
     objective: float
     """Infinite where walks that rank worst decide."""
-    limits: tuple[float | None, ...]
-    """The numbers that are limited; None for those of walks where it was not walked."""
     missed: tuple[float, ...]
     """By how much each limit is missed, as a share of its bound; 0 where it is kept."""
     walked: bool
@@ -196,22 +179,17 @@ class Candidate(NamedTuple):
 
 
 def judged(
-    search: Search,
-    number: int,
-    chosen: Values,
-    walks: Walks | None,
-    known: Mapping[str, float | None],
+    search: Search, base: Values, number: int, chosen: dict[str, Any], walks: Walks | None = None
 ) -> Candidate:
-    """The candidate with these walks, None where it is not walked. known: its columns that need no walk."""
-    found = [
-        None if walks is None and m.column not in known else m.of(walks or (), known)
+    """The candidate of a case with the values `base`, by its walks; None where it is not walked."""
+    values = search.values(base, chosen)
+    known = numbers_without_walk([m.column for m in search.measures], values)
+    missed = (
+        0.0 if walks is None and m.column not in known else m.excess(m.of(walks or (), known))
         for m in search.limits
-    ]
-    missed = [0.0 if x is None else m.excess(x) for m, x in zip(search.limits, found, strict=True)]
-    objective = search.objective.worst if walks is None else search.objective.of(walks, known)
-    return Candidate(
-        number, dict(chosen), objective, tuple(found), tuple(missed), walks is not None
     )
+    objective = search.objective.worst if walks is None else search.objective.of(walks, known)
+    return Candidate(number, chosen, values, objective, tuple(missed), walks is not None)
 
 
 def ranked(search: Search, found: Sequence[Candidate]) -> list[Candidate]:

@@ -7,12 +7,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeVar
 
 import numpy as np
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
-from biped_adrc.study.parameters import Refused, check_seed, field_of, flat, read
+from biped_adrc.scenario.dotted import flat
+from biped_adrc.scenario.records import Misfit
+from biped_adrc.scenario.scenario import MOST_SEED, field_of
+from biped_adrc.study.parameters import read
 
 MOST = 1_000_000
 """Most levels of a field, samples, and seeds."""
@@ -21,19 +24,36 @@ MOST = 1_000_000
 class Part(BaseModel):
     """A part of a study: it cannot be changed, and takes no other keys."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", allow_inf_nan=False, populate_by_name=True
+    )
+
+
+def problem(error: Any) -> str:
+    """One error of pydantic's in words: its place, what was found and what was expected."""
+    text = error["msg"].removeprefix("Value error, ")
+    if text.startswith("Input should"):
+        text = f"found {error['input']!r}, {text.replace('Input should', 'should')}"
+    return ": ".join([*filter(None, [".".join(map(str, error["loc"]))]), text])
+
+
+def table(given: object) -> dict[str, Any]:
+    """A table of a file. Raises ValueError for what is none."""
+    if not isinstance(given, Mapping):
+        raise ValueError(f"found {given!r}, expected a table")
+    return dict(given)
 
 
 def each(given: object, read_one: Callable[[str, Any], Any]) -> dict[str, Any]:
     """`read_one(name, value)` for each entry of a table. Raises ValueError with all entries that it refuses."""
-    if not isinstance(given, Mapping):
-        raise ValueError(f"found {given!r}, expected a table")
     found, wrong = {}, []
-    for name, x in flat(given).items():
+    for name, x in flat(table(given), whole=("from", "to", "choices")).items():
         try:
             found[name] = read_one(name, x)
+        except ValidationError as error:
+            wrong += [f"{name}: {problem(one)}" for one in error.errors()]
         except ValueError as error:
-            wrong.append(f"{name}: {error}")
+            wrong.append(f"{name}: {error.text if isinstance(error, Misfit) else error}")
     if wrong:
         raise ValueError("; ".join(wrong))
     return found
@@ -42,12 +62,23 @@ def each(given: object, read_one: Callable[[str, Any], Any]) -> dict[str, Any]:
 class Range(Part):
     """An interval of one field, in its SI unit."""
 
-    low: float
-    high: float
+    low: float = Field(alias="from", strict=True)
+    high: float = Field(alias="to", strict=True)
     scale: Literal["linear", "log"] = "linear"
     """Equal steps of w are equal steps, or equal ratios."""
     whole: bool = False
     """Integers only, both ends included."""
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Range:
+        """Raises ValueError for ends in another order, and whole or negative numbers on a log scale."""
+        log = self.scale == "log"
+        if self.low >= self.high or (log and (self.whole or self.low <= 0.0)):
+            raise ValueError(
+                f"found {self.low:g} to {self.high:g}, expected from < to, and on a logarithmic scale a field "
+                "with a fraction and from > 0"
+            )
+        return self
 
     def at(self, w: float) -> float | int:
         """The value at w in [0, 1): low at w = 0, and high only in the limit; each integer equally likely."""
@@ -58,66 +89,57 @@ class Range(Part):
             return self.low * (self.high / self.low) ** w
         return self.low + (self.high - self.low) * w
 
-    def levels(self, count: int) -> list[float]:
-        """`count` values from low to high, evenly spaced on the scale, with both ends exactly."""
+
+class Levels(Range):
+    """Levels of one field of the grid, evenly spaced on the scale."""
+
+    count: int = Field(ge=1, le=MOST)
+
+    def levels(self) -> list[float]:
+        """`count` values from low to high, with both ends exactly."""
         spaced = np.geomspace if self.scale == "log" else np.linspace
-        found = spaced(self.low, self.high, count).tolist()
-        return [self.low, *found[1:-1], self.high][:count]
+        found = spaced(self.low, self.high, self.count).tolist()
+        return [self.low, *found[1:-1], self.high][: self.count]
 
 
-def read_range(name: str, given: object, *more: str) -> Range:
-    """The range {from, to, scale} of a number, read with its unit. more: keys that may be there besides.
+R = TypeVar("R", bound=Range)
 
-    Raises ValueError.
-    """
-    field = field_of(name)
-    keys = ("from", "to", "scale", "whole", *more)
-    if not isinstance(given, Mapping) or not {"from", "to"} <= set(given) <= set(keys):
-        raise Refused(f"found {given!r}, expected {{{', '.join(keys)}}}")
-    if field.types and not field.number:
-        raise Refused("has no ranges; give a list of values")
-    low, high = read(name, given["from"]), read(name, given["to"])
-    scale, whole = (
-        given.get("scale", "linear"),
-        given.get("whole", int in field.types and float not in field.types),
-    )
-    if scale not in ("linear", "log") or type(whole) is not bool:
-        raise Refused(
-            f"found scale {scale!r}, whole {whole!r}, expected 'linear' or 'log', and true or false"
+
+def read_range(name: str, given: object, kind: type[R] = Range) -> R:  # type: ignore[assignment]
+    """The range {from, to, scale} of a number, read with its unit. Raises ValueError."""
+    types, keys = field_of(name).types, table(given)
+    whole = int in types and float not in types
+    ends = {key: read(name, keys[key]) for key in ("from", "to") if key in keys}
+    return kind.model_validate({"whole": whole, **keys, **ends})
+
+
+def read_list(name: str, given: object, least: int = 1) -> tuple[Any, ...]:
+    """At least so many different values of one field. Raises ValueError."""
+    found = tuple(read(name, x) for x in given) if isinstance(given, list | tuple) else ()
+    if len({repr(x) for x in found}) < max(least, len(found)):
+        raise ValueError(
+            f"found {given!r}, expected a list of different values or {{from, to, ..}}"
         )
-    if not isinstance(low, int | float) or not isinstance(high, int | float) or low >= high:
-        raise Refused(f"found from {given['from']!r} to {given['to']!r}, expected from < to")
-    if scale == "log" and (low <= 0.0 or whole):
-        raise Refused("a logarithmic scale expects a field with a fraction and from > 0")
-    return Range(low=low, high=high, scale=scale, whole=whole)
+    return found
 
 
 def _levels(name: str, given: object) -> tuple[Any, ...]:
     """The levels of one field of the grid, from a list or {from, to, count}. Raises ValueError."""
     if isinstance(given, Mapping):
-        count = given.get("count")
-        if type(count) is not int or not 1 <= count <= MOST:
-            raise Refused(f"found count {count!r}, expected a whole number from 1 to {MOST}")
-        given = read_range(name, given, "count").levels(count)
-    if not isinstance(given, list) or not given:
-        raise Refused(f"found {given!r}, expected a list of values or {{from, to, count}}")
-    levels = tuple(read(name, x) for x in given)
-    if len({repr(x) for x in levels}) < len(levels):
-        raise Refused(f"found {given!r}, expected different values")
-    return levels
+        given = read_range(name, given, Levels).levels()
+    return read_list(name, given)
 
 
 def _seeds(given: object) -> object:
     """The seeds 0 .. n-1 of a number n, those of {from, count}, or of a list of different ones."""
-    if type(given) is int and 1 <= given <= MOST:
-        return tuple(range(given))
-    if isinstance(given, Mapping) and set(given) == {"from", "count"}:
-        first, count = check_seed(given["from"]), given["count"]
-        if type(count) is int and 1 <= count <= MOST:
+    keys = given if isinstance(given, Mapping) else {"from": 0, "count": given}
+    if set(keys) == {"from", "count"}:
+        first, count = keys["from"], keys["count"]
+        if type(first) is type(count) is int and 1 <= count <= MOST:
             return tuple(range(first, first + count))
     if not isinstance(given, list | tuple) or len(set(map(repr, given))) < len(given):
         raise ValueError(f"found {given!r}, expected how many, {{from, count}}, or a list")
-    return tuple(check_seed(x) for x in given)
+    return tuple(given)
 
 
 Values = Annotated[dict[str, Any], BeforeValidator(lambda given: each(given, read))]
@@ -126,7 +148,8 @@ Sets = dict[str, Values]
 """Values by name of the case or condition."""
 Grid = Annotated[dict[str, tuple[Any, ...]], BeforeValidator(lambda given: each(given, _levels))]
 """Levels by name."""
-Seeds = Annotated[tuple[int, ...], BeforeValidator(_seeds)]
+Seed = Annotated[int, Field(ge=0, le=MOST_SEED, strict=True)]
+Seeds = Annotated[tuple[Seed, ...], BeforeValidator(_seeds)]
 """Different seeds."""
 Ranges = Annotated[dict[str, Range], BeforeValidator(lambda given: each(given, read_range))]
 """Ranges by name."""

@@ -10,7 +10,6 @@ the same study and the same versions.
 from __future__ import annotations
 
 import json
-import os
 import sqlite3
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -27,6 +26,14 @@ APPLICATION = 0x62614453
 """SQLite's application_id, by which a results file is told from other databases."""
 RESULTS = "results.sqlite"
 """Name of the file in the folder of a study."""
+CANNOT_WRITE = (
+    sqlite3.SQLITE_BUSY,
+    sqlite3.SQLITE_FULL,
+    sqlite3.SQLITE_READONLY,
+    sqlite3.SQLITE_IOERR,
+    sqlite3.SQLITE_CANTOPEN,
+)
+"""Error codes of a file that cannot be written."""
 SCHEMA = """
 CREATE TABLE study (name TEXT, hash TEXT, study TEXT, versions TEXT);
 CREATE TABLE walks (place INTEGER PRIMARY KEY, at TEXT, record TEXT, row TEXT, status TEXT);
@@ -53,36 +60,28 @@ class Store:
         Raises OutputError.
         """
         rows = [(p.place, json.dumps(p.at), json.dumps(p.record), *said) for p, *said in walks]
-        with self._errors(), self.db:
+        with _errors(self.path), self.db:
             self.db.executemany("INSERT OR REPLACE INTO walks VALUES (?, ?, ?, ?, ?)", rows)
 
     def there(self, first: int, last: int) -> set[int]:
         """The places from `first` to `last` that have a row."""
         text = "SELECT place FROM walks WHERE place BETWEEN ? AND ?"
-        with self._errors():
+        with _errors(self.path):
             return {place for (place,) in self.db.execute(text, (first, last))}
 
     def results(self, first: int = 0, count: int = 2**62) -> Iterator[Result]:
         """Finished walks in the order of the study, read one after the other."""
         text = "SELECT at, row FROM walks WHERE place >= ? AND place < ? ORDER BY place"
-        with self._errors():
+        with _errors(self.path):
             for at, row in self.db.execute(text, (first, first + count)):
                 yield Result(json.loads(at), json.loads(row))
 
     def statuses(self) -> dict[str, tuple[int, str]]:
         """By status how many walks ended so, and what the first of them says."""
         text = "SELECT status, count(*), row, min(place) FROM walks GROUP BY status ORDER BY 2 DESC"
-        with self._errors():
+        with _errors(self.path):
             found = self.db.execute(text).fetchall()
         return {str(s): (n, str(json.loads(row).get("detail") or "")) for s, n, row, _ in found}
-
-    @contextmanager
-    def _errors(self) -> Iterator[None]:
-        """Raises OutputError where SQLite cannot write, and InputError where the file is damaged."""
-        try:
-            yield
-        except (sqlite3.DatabaseError, ValueError, UnicodeError) as error:
-            raise _refused(self.path, error) from error
 
 
 @contextmanager
@@ -95,61 +94,55 @@ def opened(folder: Path, study: Study) -> Iterator[Store]:
     check_folder(folder)
     path = folder / RESULTS
     check_place(path)
-    try:
+    versions = study.versions
+    with _errors(path):
         folder.mkdir(parents=True, exist_ok=True)
         db = sqlite3.connect(path)
-    except (sqlite3.Error, OSError) as error:
-        raise _refused(path, error) from error
     try:
-        _check(path, db, study)
+        with _errors(path):
+            wrong = _wrong(db, study, versions)
+        if wrong:
+            raise InputError(f"'{path}' {wrong}; it is left as it is, choose another folder")
         yield Store(path, db)
-    except sqlite3.Error as error:
-        raise _refused(path, error) from error
     finally:
         db.close()
 
 
-def _check(path: Path, db: sqlite3.Connection, study: Study) -> None:
-    """Write the tables into an empty file; raises InputError for a file of something else."""
+def _wrong(db: sqlite3.Connection, study: Study, versions: dict[str, str]) -> str:
+    """Write the tables into an empty file; what is wrong with a file of something else, or empty."""
     (mark,) = db.execute("PRAGMA application_id").fetchone()
     if not mark and not db.execute("SELECT 1 FROM sqlite_master").fetchone():
-        told = study.name, study.hash, study.model_dump_json(), json.dumps(study.versions)
+        told = study.name, study.hash, study.model_dump_json(), json.dumps(versions)
         with db:
             db.execute("BEGIN IMMEDIATE")
             for statement in SCHEMA.split(";")[:-1]:
                 db.execute(statement)
             db.execute("INSERT INTO study VALUES (?, ?, ?, ?)", told)
             db.execute(f"PRAGMA application_id = {APPLICATION}")
-        return
+        return ""
     if mark != APPLICATION:
-        raise InputError(f"'{path}' is a database of another program; choose another folder")
-    found = db.execute("SELECT name, hash, versions FROM study").fetchone()
-    name, key, versions = found or ("", "", "{}")
+        return "is a database of another program"
+    name, key, before = db.execute("SELECT name, hash, versions FROM study").fetchone()
     if key != study.hash:
-        raise InputError(
-            f"'{path}' holds the rows of the study '{name}' ({key[:8]}), and the study is '{study.name}' "
-            f"({study.hash[:8]}); it is left as it is, choose another folder"
-        )
-    if other := differences(json.loads(versions), study.versions):
-        raise InputError(
-            f"'{path}' was made with other versions, and numbers may differ: {other}; choose another folder"
-        )
+        there, here = f"'{name}' ({key[:8]})", f"'{study.name}' ({study.hash[:8]})"
+        return f"holds the rows of the study {there}, and the study is {here}"
+    other = differences(json.loads(before), versions)
+    return other and f"was made with other versions, and numbers may differ: {other}"
 
 
-def _refused(path: Path, error: Exception) -> InputError | OutputError:
-    """The error for a results file that cannot be read or written."""
-    code = getattr(error, "sqlite_errorcode", 0) & 0xFF
-    writing = (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_FULL, sqlite3.SQLITE_READONLY)
-    if isinstance(error, OSError) or code in (
-        *writing,
-        sqlite3.SQLITE_IOERR,
-        sqlite3.SQLITE_CANTOPEN,
-    ):
-        return OutputError(
-            f"cannot write the results file '{path}': {error}; what was finished is kept, and the same command "
-            "goes on"
-        )
-    here = "is empty" if not os.path.isfile(path) or not os.path.getsize(path) else "is damaged"
-    return InputError(
-        f"'{path}' is no results file, or {here}: {error}; it is left as it is, choose another folder"
-    )
+@contextmanager
+def _errors(path: Path) -> Iterator[None]:
+    """Raises OutputError where the results file cannot be written, and InputError where it is damaged."""
+    try:
+        yield
+    except (sqlite3.Error, OSError, ValueError) as error:
+        code = getattr(error, "sqlite_errorcode", 0) & 0xFF
+        if isinstance(error, OSError) or code in CANNOT_WRITE:
+            raise OutputError(
+                f"cannot write the results file '{path}': {error}; what was finished is kept, and the same "
+                "command goes on"
+            ) from error
+        raise InputError(
+            f"'{path}' is no results file, or is empty or damaged: {error}; it is left as it is, choose "
+            "another folder"
+        ) from error

@@ -34,10 +34,10 @@ from biped_adrc.files import reading
 from biped_adrc.scenario.dotted import unknown
 from biped_adrc.scenario.file import read_scenario
 from biped_adrc.study.build import case, versions_of
-from biped_adrc.study.measure import MEASURED, Limit, Measure, Objective
+from biped_adrc.study.measure import Column, Limit, Measure, Objective
 from biped_adrc.study.parameters import SEED, Record, scenario_of
 from biped_adrc.study.search import Search, Variable, WalkSets
-from biped_adrc.study.space import Draw, Grid, Part, Seeds, Sets, Values
+from biped_adrc.study.space import Draw, Grid, Part, Seeds, Sets, Values, problem
 from biped_adrc.versions import numerical_versions, packages
 
 MOST_POINTS = 10_000_000
@@ -64,7 +64,7 @@ class Study(Part):
     name: str = Field(min_length=1)
     description: str = ""
     """A text for the reader; it takes no part in the hash."""
-    column: str = "rms_error"
+    column: Column = "rms_error"
     """Of the results: whose median the table and the page show."""
     base: Values = Field(default_factory=dict)
     cases: Sets = Field(default_factory=dict)
@@ -78,8 +78,6 @@ class Study(Part):
     def _together(self) -> Study:
         """Raises ValueError with what no single entry shows."""
         wrong = [*self._twice(), *(() if self.search is None else self._searched(self.search))]
-        if self.column not in MEASURED:
-            wrong.append(f"column '{self.column}': {unknown(self.column, MEASURED)}")
         if self.count > MOST_POINTS:
             wrong.append(f"has {self.count:.3g} walks, expected at most {MOST_POINTS:.0e}")
         if wrong:
@@ -111,6 +109,12 @@ class Study(Part):
         files = [chosen_file(name) for name in self.cases]
         if len(set(files)) < len(files) or any(len(name) > LONGEST for name in files):
             yield f"cases: their files would be {files}, expected different, shorter names"
+        for (a, x), (b, y) in itertools.combinations(search.walks, 2):
+            if both := sorted({*x.seeds} & {*y.seeds}):
+                yield (
+                    f"search.walks: {a} and {b} share the seeds {both[:5]}, expected others: a choice made on "
+                    "walks makes them look better than they are"
+                )
         for kind, walks in search.walks:
             for name in {*walks.conditions} - self.conditions.keys():
                 yield f"search.walks.{kind}: there is no condition '{name}'"
@@ -127,18 +131,11 @@ class Study(Part):
     def count(self) -> int:
         """The number of its walks; of a search what it walks at most, but for candidates that no walk needs."""
         if self.search is not None:
-            sets = {
-                kind: len(x.seeds) * len(self.conditions_of(x)) for kind, x in self.search.walks
-            }
+            sets = {k: len(x.seeds) * len(self.conditions_of(x)) for k, x in self.search.walks}
             return max(len(self.cases), 1) * self.search.count(sets)
-        sizes = [
-            len(self.cases),
-            len(self.conditions),
-            len(self.seeds),
-            *map(len, self.grid.values()),
-        ]
+        axes = (self.cases, self.conditions, self.seeds, *self.grid.values())
         samples = 1 if self.draw is None else self.draw.count
-        return samples * math.prod(max(size, 1) for size in sizes)
+        return samples * math.prod(max(len(x), 1) for x in axes)
 
     @property
     def axes(self) -> tuple[str, ...]:
@@ -227,10 +224,7 @@ class Study(Part):
         for name, levels in axes.items():
             step = math.ceil(len(levels) / MOST_LEVELS)
             yield from (first | samples[0] | {name: x} for x in levels[1::step])
-        worded = [
-            levels if any(isinstance(x, str) for x in levels) else levels[:1]
-            for levels in axes.values()
-        ]
+        worded = (x if any(isinstance(y, str) for y in x) else x[:1] for x in axes.values())
         for combined in itertools.islice(itertools.product(*worded), 1, MOST_LEVELS):
             yield dict(zip(axes, combined, strict=True)) | samples[0]
 
@@ -265,19 +259,13 @@ def read_study(given: Path | str | Mapping[str, Any]) -> Study:
 
 
 def _problem(error: Any) -> str:
-    """One thing that is wrong in a file: its place, what was found and what was expected."""
-    place = ".".join(map(str, error["loc"]))
-    if error["type"] == "extra_forbidden":
-        known = {
-            n
-            for of in (Study, Search, WalkSets, Variable, Objective, Limit)
-            for n in of.model_fields
-        }
-        return f"{place}: {unknown(str(error['loc'][-1]), sorted(known)).replace('name;', 'key;')}"
-    text = error["msg"].removeprefix("Value error, ")
-    if text.startswith("Input should"):
-        text = f"found {error['input']!r}, {text.replace('Input should', 'should')}"
-    return f"{place}: {text}" if place else text
+    """One thing that is wrong in a file; an unknown key with the nearest ones."""
+    if error["type"] != "extra_forbidden":
+        return problem(error)
+    parts = (Study, Search, WalkSets, Variable, Objective, Limit)
+    known = sorted({name for part in parts for name in part.model_fields})
+    text = unknown(str(error["loc"][-1]), known).replace("name;", "key;")
+    return f"{'.'.join(map(str, error['loc']))}: {text}"
 
 
 def chosen_file(case: str) -> str:

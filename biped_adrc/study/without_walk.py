@@ -22,9 +22,12 @@ WITHOUT_WALK = ("stable", "delay_margin", "disk_margin", "ripple")
 """Such columns: numbers of a `Specification`."""
 
 
-@lru_cache(maxsize=1)
+@lru_cache(maxsize=128)
 def _specification(text: str) -> Specification:
-    """Of the values of a scenario as JSON, kept for its other columns. Raises InputError."""
+    """Of the values of a scenario as JSON, kept for its columns before and after its walks.
+
+    Raises InputError.
+    """
     s = scenario_of(json.loads(text))
     g = s.ground
     s = s.replace(ground=GroundRecord(slope=g.slope, drop=g.drop, drop_step=g.drop_step, rms=g.rms))

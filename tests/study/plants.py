@@ -33,6 +33,13 @@ ROWS = {
 """A study of 60 rows."""
 
 
+def carried(tables, folder, function, workers=None, **more):
+    """The results of a study, walked in a thread of this process where no workers are said."""
+    with ThreadPoolExecutor(1) as pool:
+        workers = workers or (None if "cluster" in more else pool)
+        return ba.study(tables, folder, workers, function=function, **more)
+
+
 def rows(records):
     """A row of each record; `raise` raises, `kill` ends the process, `once` does so at first."""
     return [_row(record) for record in records]
@@ -47,14 +54,8 @@ def _row(record):
         x == 7 and _first_time(record.get("controller.once"))
     ):
         os.kill(os.getpid(), signal.SIGKILL)
-    return {
-        "status": "COMPLETED",
-        "survived": 1,
-        "feasible": 1,
-        "rms_error": (2.0 + math.sin(x)) / 3.0,
-        "impacts": x,
-        "detail": f"µ{x}",
-    }
+    walk = {"status": "COMPLETED", "survived": 1, "feasible": 1, "detail": f"µ{x}"}
+    return walk | {"rms_error": (2.0 + math.sin(x)) / 3.0, "impacts": x}
 
 
 def _first_time(path):
@@ -97,35 +98,31 @@ def _cost(record):
     return {"status": "COMPLETED", "survived": 1, "feasible": 1, **told}
 
 
-def tables(seeds=([0], [1], [2]), base=(), **search):
+def tables(seeds=([0], [1], [2]), base_of=(), **search):
     """The tables of a search on the linear plant."""
     spans = {"k1": (1.0, 100.0), "k2": (1.0, 100.0), "l1": (0.05, 2.0), "l2": (0.1, 10.0)}
     log = {f"controller.{k}": {"from": a, "to": b, "scale": "log"} for k, (a, b) in spans.items()}
     walks = {k: {"seeds": x} for k, x in zip(("search", "choice", "test"), seeds, strict=True)}
     given = {"budget": 200, "generation": 10, "seed": 1, "objective": {"column": "rms_error"}}
-    return {
-        "name": "linear plant",
-        "base": {
-            "controller.k1": 5.0,
-            "controller.k2": 5.0,
-            "controller.l1": 0.5,
-            "controller.l2": 1.0,
-            **dict(base),
-        },
-        "search": {"variables": log, "walks": walks, **given, **search},
-    }
+    base = {"controller.k1": 5.0, "controller.k2": 5.0, "controller.l1": 0.5, "controller.l2": 1.0}
+    search = {"variables": log, "walks": walks, **given, **search}
+    return {"name": "linear plant", "base": {**base, **dict(base_of)}, "search": search}
+
+
+def slowly(kind, pause):
+    """The study of a kind with a pause in each row, and the function of its rows."""
+    base = {"controller.pause": pause}
+    if kind == "costs":
+        return tables(base_of=base, budget=40, generation=8), costs
+    return {**ROWS, "base": base}, rows
 
 
 def main(kind, folder, pause):
-    pause = float(pause)
-    study = {**ROWS, "base": {"controller.pause": pause}}
-    if kind == "costs":
-        study = tables(base={"controller.pause": pause}, budget=40, generation=8)
+    study, function = slowly(kind, float(pause))
 
     def progress(p):
         print(p.done, flush=True)
 
-    function = {"rows": rows, "costs": costs}[kind]
     ba.study(study, folder, ThreadPoolExecutor(2), function=function, progress=progress)
     print("end", flush=True)
 

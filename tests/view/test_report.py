@@ -26,7 +26,6 @@ SUMMARY = {
             "word": "replicated",
             "number": "1 & 2",
             "share": "2 of 2",
-            "convergence": "1 %",
             "reason": '"',
         },
         {
@@ -35,7 +34,6 @@ SUMMARY = {
             "word": "contradicted",
             "number": "1",
             "share": "0 of 2",
-            "convergence": "",
             "reason": "",
         },
     ],
