@@ -166,7 +166,7 @@ def check_table(path: Path) -> None:
             f"cannot write a table to '{path}', expected a name that ends in .csv or .parquet"
         )
     if path.suffix == ".parquet":
-        with optional("tables", "Parquet needs pyarrow, which is not installed"):
+        with optional("study", "Parquet needs pyarrow, which is not installed"):
             import pyarrow  # noqa: F401
 
 
