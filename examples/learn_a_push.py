@@ -1,6 +1,6 @@
 """A push at the torso makes the feet ask for friction: a torque beside NPD's, found by CMA-ES, needs less.
 
-Run: pip install 'biped-adrc[gym,tune]', then python examples/learn_a_push.py
+Run: pip install 'biped-adrc[gym,study]', then python examples/learn_a_push.py
 """
 
 import cmaes

@@ -84,7 +84,7 @@ def preloaded():
         process.close()
 
 
-WAIT = ("viz", "study")
+WAIT = ("view", "study")
 """Folders whose tests wait, for browsers and processes: first, as other work goes on beside the suite then."""
 
 

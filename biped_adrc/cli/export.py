@@ -1,6 +1,6 @@
 """`biped-adrc export`: the controller of a scenario as a folder of C files.
 
-The work is that of `deploy.export`. Where there is a C compiler the files are compiled once, so that
+The work is that of `extras.export.export`. Where there is a C compiler the files are compiled once, so that
 what is printed has been seen; without one they are written all the same, and that is said.
 """
 

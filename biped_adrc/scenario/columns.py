@@ -68,7 +68,7 @@ def write_csv(columns: Mapping[str, Any], path: Path | str) -> Path:
 def data_frame(columns: Mapping[str, Any], note: str) -> pandas.DataFrame:
     """As a pandas DataFrame, the note in its `attrs`. Raises InputError where pandas is not installed."""
     need = "a table of a walk needs pandas, which is not installed"
-    with optional("tables", need, ", or write a file with walk.to_csv(path)"):
+    with optional("study", need, ", or write a file with walk.to_csv(path)"):
         import pandas
     frame = pandas.DataFrame(dict(columns))
     frame.attrs["note"] = note

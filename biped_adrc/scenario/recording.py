@@ -251,7 +251,7 @@ class Walk(Shown):
         return write_csv(columns_of(self.signals, self.trajectory), path)
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The table of `to_csv` as a DataFrame. Raises InputError without pandas, of the extra `tables`."""
+        """The table of `to_csv` as a DataFrame. Raises InputError without pandas, of the extra `study`."""
         return data_frame(columns_of(self.signals, self.trajectory), self.note)
 
     def export(self, path: Path | str) -> None:

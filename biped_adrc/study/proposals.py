@@ -37,7 +37,7 @@ Walk = Callable[[Sequence[Candidate]], Sequence[Walks]]
 
 def optuna_library() -> Any:
     """Optuna, which says warnings alone. Raises InputError where it or cmaes is missing."""
-    with optional("tune", "a search needs Optuna and cmaes, which are not installed"):
+    with optional("study", "a search needs Optuna and cmaes, which are not installed"):
         import cmaes  # noqa: F401
         import optuna
     optuna.logging.set_verbosity(optuna.logging.WARNING)

@@ -160,7 +160,7 @@ class Results(Shown):
 def check_table(path: Path) -> None:
     """Raises InputError for a kind of table that cannot be written, or Parquet without pyarrow installed."""
     if output_path(path, KINDS).suffix.lower() == ".parquet":
-        with optional("tables", "Parquet needs pyarrow, which is not installed"):
+        with optional("study", "Parquet needs pyarrow, which is not installed"):
             import pyarrow  # noqa: F401
 
 

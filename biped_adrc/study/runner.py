@@ -127,7 +127,7 @@ def dask(address: str) -> Executor:
 
     Raises InputError where none answers, it has no workers, or they have other versions than this machine.
     """
-    with optional("cluster", "a study on a cluster needs Dask, which is not installed"):
+    with optional("study", "a study on a cluster needs Dask, which is not installed"):
         from distributed import Client
     connect: Callable[..., DaskClient] = Client
     with ExitStack() as stack:

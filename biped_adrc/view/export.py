@@ -1,7 +1,7 @@
 """A walk as a file; the suffix of its name says what kind.
 
     .html          an offline page with the animation in Meshcat's viewer (`meshcat.view`)
-    .gif, .mp4     a moving picture from the side (`from_the_side.moving_picture`); a video needs `video`
+    .gif           a moving picture from the side (`from_the_side.moving_picture`)
     .png, .svg     a strip of stick figures (`from_the_side.stick_figures`)
 
 `biped-adrc animate` and `Walk.animate` call `export` with a `Clip` of what is to be shown; each of
@@ -17,22 +17,18 @@ from pathlib import Path
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_text
 from biped_adrc.view.from_the_side.moving_parts import Motion
-from biped_adrc.view.from_the_side.moving_picture import (
-    ENCODERS,
-    write_moving_picture,
-)
-from biped_adrc.view.from_the_side.mp4 import check_library
+from biped_adrc.view.from_the_side.moving_picture import write_moving_picture
 from biped_adrc.view.from_the_side.stick_figures import write_strip
 from biped_adrc.view.meshcat.view import Look, animation_html
 from biped_adrc.view.placement import Recorded
 
-SUFFIXES = (".html", *ENCODERS, ".png", ".svg")
+GIF = ".gif"
+SUFFIXES = (".html", GIF, ".png", ".svg")
 """Kinds of files a walk can be drawn to."""
 
 
 def check_suffix(path: Path) -> str:
-    """The suffix of `path` in small letters. Raises InputError for one that is not in `SUFFIXES`, and for one
-    whose library is not installed.
+    """The suffix of `path` in small letters. Raises InputError for one that is not in `SUFFIXES`.
 
     Called before a walk is computed or loaded, so that a wrong name costs no time.
     """
@@ -40,10 +36,8 @@ def check_suffix(path: Path) -> str:
     if suffix not in SUFFIXES:
         raise InputError(
             f"cannot write a walk to '{path}': the name ends in '{suffix}', expected .html (a page with "
-            "the animation), .gif or .mp4 (a moving picture) or .png or .svg (a strip of stick figures)"
+            "the animation), .gif (a moving picture) or .png or .svg (a strip of stick figures)"
         )
-    if suffix == ".mp4":
-        check_library()
     return suffix
 
 
@@ -57,7 +51,6 @@ class Clip:
     view: camera of a page, "side" or "perspective"; all else is from the side.
     apart: moving picture with the walks side by side and their errors below, instead of over one
     another.
-    magnify [1]: deviations from the reference are drawn so many times as large; it needs `apart`.
     slower [1]: how many times slower than the walk a moving picture plays.
     """
 
@@ -66,13 +59,12 @@ class Clip:
     fps: float | None = None
     view: str = "side"
     apart: bool = False
-    magnify: float | None = None
     slower: float = 1.0
 
     @property
     def moving(self) -> bool:
-        """Whether something is asked for that only a moving picture has: apart, magnify or slower."""
-        return self.apart or self.magnify is not None or self.slower != 1.0
+        """Whether something is asked for that only a moving picture has: apart or slower."""
+        return self.apart or self.slower != 1.0
 
     def look(self) -> Look:
         """The settings of a page."""
@@ -82,7 +74,7 @@ class Clip:
         """The settings of a moving picture. Raises InputError for values that do not fit."""
         fps = 25.0 if self.fps is None else self.fps
         width = 800 if self.apart else 600
-        return Motion(self.apart, self.magnify, self.slower, fps, width)
+        return Motion(self.apart, self.slower, fps, width)
 
 
 def export(path: Path, walks: Mapping[str, Recorded], clip: Clip | None = None) -> None:
@@ -95,15 +87,15 @@ def export(path: Path, walks: Mapping[str, Recorded], clip: Clip | None = None) 
     suffix = check_suffix(path)
     if not walks:
         raise InputError("there is no walk to draw; expected at least one")
-    if suffix not in ENCODERS and clip.moving:
+    if suffix != GIF and clip.moving:
         raise InputError(
-            f"'{path}' is no moving picture, and apart, magnify and slower are of one; write a .gif or .mp4"
+            f"'{path}' is no moving picture, and apart and slower are of one; write a .gif"
         )
     if suffix != ".html" and clip.view != "side":
         raise InputError(f"'{path}' is seen from the side; view '{clip.view}' is of a page (.html)")
     if suffix == ".html":
         write_text(path, animation_html(walks, clip.look()))
-    elif suffix in ENCODERS:
+    elif suffix == GIF:
         write_moving_picture(path, walks, start=clip.start, stop=clip.stop, motion=clip.motion())
     else:
         write_strip(path, list(walks.values())[-1], clip.start, clip.stop)

@@ -265,17 +265,12 @@ class WalkScene:
         ends = [arc.t[-1] for arc in self.trajectory.arcs]
         return min(int(np.searchsorted(ends, t, side="right")), len(ends) - 1)
 
-    def joints(self, t: float, change: Array | None = None) -> dict[str, float]:
-        """Joint values of the URDF [rad], [m] at t [s]; before and after the run, those of its ends.
-
-        change: added to the actuated joints (p,) [rad], for a deviation drawn larger than it is.
-        """
+    def joints(self, t: float) -> dict[str, float]:
+        """Joint values of the URDF [rad], [m] at t [s]; before and after the run, those of its ends."""
         t = min(max(t, self.trajectory.t_start), self.trajectory.t_end)
         i = self.arc_at(t)
         arc = self.trajectory.arcs[i]
         q = arc(t)[: self.biped.n]
-        if change is not None:
-            q = np.concatenate((q[: len(change)] + change, q[len(change) :]))
         return joint_values(self.biped, q, arc.mode.step, *self.foot(i, t))
 
 

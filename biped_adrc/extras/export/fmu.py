@@ -1,6 +1,6 @@
 """A controller as a functional mock-up unit (FMU) of FMI 2.0, that other simulators step: `controller.fmu`.
 
-    fmu = fmu_of(source)         # of a `deploy.source.Source`
+    fmu = fmu_of(source)         # of a `export.source.Source`
     fmu.data                     # the bytes of the archive
 
 The FMU is the exported C, unchanged, a wrapper with the functions of FMI, the description of its

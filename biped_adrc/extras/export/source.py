@@ -1,4 +1,4 @@
-"""The text of a controller in C: header and source, from the functions of `deploy.layout`.
+"""The text of a controller in C: header and source, from the functions of `export.layout`.
 
 The same scenario gives the same bytes: nothing of the day, the machine or the path is in the text.
 """

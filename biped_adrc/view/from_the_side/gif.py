@@ -30,7 +30,6 @@ def encoded(frames: Sequence[Array], fps: float, rest: float) -> bytes:
         *draw.COLOURS.values(),
         REACTION,
         TORQUE,
-        draw.REFERENCE,
         *LINES,
         "black",
         "white",

@@ -25,8 +25,6 @@ from biped_adrc.view.style import METRES_PER_NEWTON_METRE, REACTION, STANCE, SWI
 
 COLOURS = {"stance": STANCE, "swing": SWING, "": TRUNK}
 """Colour of a bone by its role; the trunk has none."""
-REFERENCE = "#B9B9B9"
-"""Light grey, of a reference posture behind the robot."""
 SOLE, HEADROOM = 0.12, 1.2
 """Ground shown below the foot [m], and the height of the picture above it as a multiple of the robot's."""
 EDGE = 0.04
@@ -45,8 +43,6 @@ class Motion:
     """How walks are set in motion.
 
     apart: side by side instead of over one another, with their errors over time below.
-    magnify [1]: factor by which the deviation from the reference is drawn larger, with the
-    reference in grey; None for the posture as it is. It needs `apart`.
     slower [1]: how many times slower than the walk, in SLOWER.
     fps [1/s]: frames per second, in FPS, as a GIF counts time in hundredths of a second.
     width [px]: of the picture, 100 to 4000.
@@ -55,7 +51,6 @@ class Motion:
     """
 
     apart: bool = False
-    magnify: float | None = None
     slower: float = 1.0
     fps: float = 25.0
     width: int = 600
@@ -66,8 +61,6 @@ class Motion:
                 raise InputError(f"{name} is {x:g}, expected {least:g} to {most:g}")
         if not 100 <= self.width <= 4000:
             raise InputError(f"width is {self.width} px, expected 100 to 4000")
-        if self.magnify is not None and not self.apart:
-            raise InputError("a magnified deviation is drawn of walks side by side; add 'apart'")
 
     def pace(self, before: str = "") -> str:
         """By how much slower the picture is than the walk, in words behind `before`; empty for the
@@ -117,20 +110,11 @@ def follow(axes: Axes, view: SideView, t: float, left: float, right: float) -> N
 class DrawnRobot:
     """The links of one posture as thick lines, in the colours of stance leg, swing leg and trunk.
 
-    opacity: 0 to 1. order: number of the layer. colour: one colour for all links. width: factor of
-    the lines' widths.
+    opacity: 0 to 1. order: number of the layer.
     """
 
-    def __init__(
-        self,
-        axes: Axes,
-        view: SideView,
-        opacity: float,
-        order: int,
-        colour: str | None = None,
-        width: float = 1.0,
-    ) -> None:
-        self.view, self.colour, self.width = view, colour, width
+    def __init__(self, axes: Axes, view: SideView, opacity: float, order: int) -> None:
+        self.view = view
         self.lines = LineCollection([], capstyle="round", alpha=opacity, zorder=10 * order)
         axes.add_collection(self.lines)
 
@@ -138,8 +122,8 @@ class DrawnRobot:
         """Move the links to the posture at t [s]."""
         roles = self.view.roles(t)
         self.lines.set_segments(list(self.view.segments(t)))
-        self.lines.set_color([self.colour or COLOURS[role] for role in roles])
-        self.lines.set_linewidth([self.width * (9.0 if role == "" else 6.5) for role in roles])
+        self.lines.set_color([COLOURS[role] for role in roles])
+        self.lines.set_linewidth([9.0 if role == "" else 6.5 for role in roles])
 
 
 class Trail:

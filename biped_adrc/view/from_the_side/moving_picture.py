@@ -1,7 +1,7 @@
 """A moving picture of walks from the side, drawn by matplotlib; no browser is needed.
 
 Times of the frames are chosen (`_times`), each frame is drawn to an array of pixels (walks over one
-another here, walks side by side in `side_by_side`), and all frames are made one file by `gif` or `mp4`.
+another here, walks side by side in `side_by_side`), and `gif` writes all frames to one file.
 The figure is made once; from frame to frame only its lines move, as making a figure takes longer
 than drawing it.
 """
@@ -19,8 +19,8 @@ from matplotlib.figure import Figure
 from biped_adrc.errors import InputError
 from biped_adrc.files import write_bytes
 from biped_adrc.types import Array
-from biped_adrc.view.from_the_side import gif, mp4
 from biped_adrc.view.from_the_side import moving_parts as draw
+from biped_adrc.view.from_the_side.gif import encoded
 from biped_adrc.view.from_the_side.side_by_side import frames_apart
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.placement import Recorded, WalkScene, check_frames, ending
@@ -32,8 +32,6 @@ SHOWN = 2.6
 """Width [m] of the picture of walks laid over one another."""
 REST = 2.0
 """How much longer [s] the last frame is shown where a walk ended badly, to read why."""
-ENCODERS = {".gif": gif.encoded, ".mp4": mp4.encoded}
-"""By the suffix of a file: its bytes, of frames (K, height, width, 3), frames per second, and rest [s]."""
 
 
 def write_moving_picture(
@@ -43,7 +41,7 @@ def write_moving_picture(
     stop: float | None = None,
     motion: draw.Motion | None = None,
 ) -> None:
-    """Write walks, over one another or side by side, as a GIF that repeats or as a video (.mp4).
+    """Write walks, over one another or side by side, as a GIF that repeats.
 
     walks: name -> walk, one or more. Where they are laid over one another, the last is drawn opaque, and
     the picture follows it. start, stop [s]: the part shown, the whole if None. motion: pace, size and
@@ -51,7 +49,6 @@ def write_moving_picture(
 
     Raises InputError for a part or a motion that does not fit, and OutputError.
     """
-    encoded = ENCODERS[path.suffix.lower()]
     motion = draw.Motion() if motion is None else motion
     times = _times(walks, start, stop, motion)
     with style():

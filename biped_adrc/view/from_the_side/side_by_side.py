@@ -1,8 +1,7 @@
 """Walks side by side in a moving picture, and the tracking errors of all of them below.
 
-With a factor k the posture drawn is q_d + k (q_b - q_d), the reference q_d in grey behind it;
-without one it is the walk's own. A tracking error of a milliradian is invisible on a robot 1.4 m
-high: this shows which controller has it. One `_Panel` for each walk, one `_Errors` for all, put
+A tracking error of a milliradian is invisible on a robot 1.4 m high: the curves show which controller has it.
+One `_Panel` for each walk, one `_Errors` for all, put
 together by `frames_apart`.
 """
 
@@ -17,9 +16,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from biped_adrc.errors import InputError
 from biped_adrc.types import Array
 from biped_adrc.view.from_the_side import moving_parts as draw
-from biped_adrc.view.from_the_side.side_view import Deviation, SideView
+from biped_adrc.view.from_the_side.side_view import SideView, Tracked
 from biped_adrc.view.placement import Recorded, WalkScene, ending, is_wheel
 from biped_adrc.view.plots.over_time import angle_unit
 from biped_adrc.view.style import PUSH, REACTION, TORQUE
@@ -36,12 +36,11 @@ def frames_apart(walks: Mapping[str, Recorded], times: Array, motion: draw.Motio
     """Frames (height, width, 3) at `times` (K,) [s], a panel for each walk and the errors of all below.
 
     All panels have the height of the tallest robot. Raises InputError for walks without a
-    reference, and for a factor of deviations that is negative.
+    reference.
     """
-    start, width, k = float(times[0]), motion.width, motion.magnify
+    start, width = float(times[0]), motion.width
     panels = [
-        _Panel(n, walk, k, LINES[i % len(LINES)], start)
-        for i, (n, walk) in enumerate(walks.items())
+        _Panel(n, walk, LINES[i % len(LINES)], start) for i, (n, walk) in enumerate(walks.items())
     ]
     tall = max(draw.HEADROOM * panel.view.height + draw.SOLE for panel in panels)
     body = width / len(panels) * tall / SHOWN
@@ -66,18 +65,17 @@ def frames_apart(walks: Mapping[str, Recorded], times: Array, motion: draw.Motio
 class _Panel:
     """One walk in its panel.
 
-    factor [1]: by which its deviation is drawn larger; None for none. colour: of its name and its
-    error. start [s]: from when the largest error counts.
+    colour: of its name and its error. start [s]: from when the largest error counts.
     """
 
-    def __init__(
-        self, name: str, walk: Recorded, factor: float | None, colour: str, start: float
-    ) -> None:
+    def __init__(self, name: str, walk: Recorded, colour: str, start: float) -> None:
+        if not isinstance(walk, Tracked) or walk.walker.plant.p == 0:
+            raise InputError(
+                "a walk without motors has no reference to deviate from; leave 'apart' out"
+            )
         scene = WalkScene.of(walk)
-        self.name, self.colour, self.magnified = name, colour, factor is not None
-        self.tracked = Deviation.of(walk, 0.0)
-        shown = None if factor is None else Deviation.of(walk, factor)
-        self.view, self.reference = SideView(scene, shown), SideView(scene, self.tracked)
+        self.name, self.colour, self.signals = name, colour, walk.signals
+        self.view = SideView(scene)
         self.ending, self.start = ending(scene.trajectory), start
 
     def draw(self, axes: Axes) -> None:
@@ -86,12 +84,6 @@ class _Panel:
         draw.ground(axes, [self.view])
         self.axes = axes
         self.prints = draw.Footprints(axes, self.view, 1.0, 2)
-        # wider than the robot, so that a posture on its reference shows it
-        self.behind = (
-            draw.DrawnRobot(axes, self.reference, 1.0, 2, draw.REFERENCE, 1.7)
-            if self.magnified
-            else None
-        )
         self.robot = draw.DrawnRobot(axes, self.view, 1.0, 3)
         self.forces = draw.Forces(axes, self.view, 1.0, 4)
         self.title = axes.text(0.04, 0.99, self.name, fontsize=15, color=self.colour, weight="bold")
@@ -103,8 +95,6 @@ class _Panel:
         """Draw the walk at t [s], and in words its largest error so far, or how it has ended."""
         draw.follow(self.axes, self.view, t, 0.5 * SHOWN, 0.5 * SHOWN)
         self.prints.show(t)
-        if self.behind is not None:
-            self.behind.show(t)
         self.robot.show(t)
         self.forces.show(t)
         if self.ending and t >= self.view.scene.trajectory.t_end:
@@ -117,11 +107,8 @@ class _Panel:
         self.text.set_text(f"largest error so far {size}")
 
     def largest(self, start: float, t: float) -> float:
-        """max_i |q_i - q_di| [rad] from start to t [s], at the nodes of the walk.
-
-        Of the walk itself, also where its deviation is drawn larger.
-        """
-        s = self.tracked.signals
+        """max_i |q_i - q_di| [rad] from start to t [s], at the nodes of the walk."""
+        s = self.signals
         return float(np.max(np.abs(s.error[(s.t >= start) & (s.t <= t)]), initial=0.0))
 
 
@@ -135,7 +122,7 @@ class _Errors:
     def __init__(self, axes: Axes, panels: list[_Panel], times: Array) -> None:
         self.axes, self.lines = axes, []
         low, high = float(times[0]), float(times[-1])
-        signals = [panel.tracked.signals for panel in panels]
+        signals = [panel.signals for panel in panels]
         largest = [np.max(np.abs(s.error), axis=1) for s in signals]
         seen = [(s.t >= low) & (s.t <= high) for s in signals]
         tops = np.concatenate([e[rows] for e, rows in zip(largest, seen, strict=True)])
@@ -169,7 +156,7 @@ class _Errors:
 
 
 def _legend(figure: Figure, panels: list[_Panel], motion: draw.Motion, height: float) -> None:
-    """Say what the colours mean, and what is drawn larger or slower than it is; height [px] of the picture."""
+    """Say what the colours mean, and how much slower the picture is; height [px] of the picture."""
     entries: list[Patch | Line2D] = []
     if not is_wheel(panels[0].view.scene.biped):
         entries += [
@@ -177,11 +164,6 @@ def _legend(figure: Figure, panels: list[_Panel], motion: draw.Motion, height: f
         ]
     entries.append(Patch(color=REACTION, label="ground force"))
     entries.append(Patch(color=TORQUE, label="push"))
-    said = []
-    if motion.magnify is not None:
-        entries.append(Patch(color=draw.REFERENCE, label="reference"))
-        said.append(f"deviation from the reference drawn {motion.magnify:g} times as large")
-    said += [pace] if (pace := motion.pace()) else []
     figure.legend(
         handles=entries,
         loc="upper center",
@@ -190,6 +172,4 @@ def _legend(figure: Figure, panels: list[_Panel], motion: draw.Motion, height: f
         fontsize=11,
         columnspacing=1.4,
     )
-    if said:
-        sentence = ", ".join(said)
-        figure.text(0.5, 1.0 - 6 / height, sentence, ha="center", va="top", fontsize=13)
+    figure.text(0.5, 1.0 - 6 / height, motion.pace(), ha="center", va="top", fontsize=13)

@@ -2,15 +2,10 @@
 
 `bones` finds a line for each link in the frame of that link; `SideView` moves these lines with a
 walk. Strips, moving pictures and the scale of the page in Meshcat are made from it.
-
-A posture whose deviation from the reference is drawn larger than it is, is q_d + k (q_b - q_d): k =
-1 is the walk itself, k = 0 its reference. The unactuated joint and the stance foot stay where they
-are.
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Protocol, runtime_checkable
@@ -18,7 +13,6 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.urdf import Visual
 from biped_adrc.types import Array
@@ -32,38 +26,6 @@ class Tracked(Recorded, Protocol):
 
     @property
     def signals(self) -> Signals: ...
-
-
-@dataclass(frozen=True)
-class Deviation:
-    """The tracking error of a walk and the factor k [1] it is drawn with."""
-
-    signals: Signals
-    factor: float
-
-    @classmethod
-    def of(cls, walk: Recorded, factor: float) -> Deviation:
-        """Raises InputError for a factor that is negative or not finite, or a walk without motors: it
-        has no reference.
-        """
-        if not (math.isfinite(factor) and factor >= 0.0):
-            raise InputError(f"magnify is {factor}, expected a number that is not negative")
-        if not isinstance(walk, Tracked) or walk.walker.plant.p == 0:
-            raise InputError(
-                "a walk without motors has no reference to deviate from; leave 'magnify' and 'apart' out"
-            )
-        return cls(walk.signals, factor)
-
-    def change(self, t: float, step: int) -> Array:
-        """What is added to q_b (p,) [rad] at t [s] for the posture drawn: (k - 1)(q_b - q_d).
-
-        q_b - q_d in single support `step` is linear between nodes, and has its ends outside them.
-        """
-        s = self.signals
-        first, last = np.searchsorted(s.step, [step, step + 1])
-        rows = slice(int(first), int(last))
-        error = np.array([np.interp(t, s.t[rows], column) for column in s.error[rows].T])
-        return (self.factor - 1.0) * error
 
 
 @dataclass(frozen=True)
@@ -131,13 +93,9 @@ def _axis(visual: Visual) -> Array | None:
 
 @dataclass(frozen=True)
 class SideView:
-    """Where the lines of a walk are in the x-z plane of the world.
-
-    scene: the walk laid out. deviation: changes the posture drawn; None for the walk's own.
-    """
+    """Where the lines of a walk, laid out as a scene, are in the x-z plane of the world."""
 
     scene: WalkScene
-    deviation: Deviation | None = None
 
     @cached_property
     def bones(self) -> list[Bone]:
@@ -146,8 +104,7 @@ class SideView:
 
     def placements(self, t: float) -> dict[str, Array]:
         """World placement (4, 4) of every link, by name, of the posture drawn at t [s]."""
-        change = None if self.deviation is None else self.deviation.change(t, self.step(t))
-        return link_placements(self.scene.biped.tree, self.scene.joints(t, change))
+        return link_placements(self.scene.biped.tree, self.scene.joints(t))
 
     def segments(self, t: float) -> Array:
         """(bones, 2, 2), x and z [m] of both ends of every line at t [s], in the order of `bones`."""
@@ -162,9 +119,7 @@ class SideView:
         return roles_of(self.bones, self.scene.biped, self.step(t))
 
     def points(self, t: float) -> Array:
-        """(4,), x and z [m] of the hip and of the swing foot at t [s], of the walk itself without a
-        deviation.
-        """
+        """(4,), x and z [m] of the hip and of the swing foot at t [s]."""
         trajectory, biped = self.scene.trajectory, self.scene.biped
         t = min(max(t, trajectory.t_start), trajectory.t_end)
         i = self.scene.arc_at(t)
