@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[1]
 LEAVES = {"control", "hardware", "observers", "disturbances", "gait"}
 """Where a research idea is one file."""
 PAGE = Path(__file__).resolve().parent / "architecture.md"
-WORDS = dict(re.findall(r"^- \*\*([\w.]+)\*\*: (.+)$", PAGE.read_text("utf-8"), re.MULTILINE))
+WORDS = dict(re.findall(r"^- \*\*(\w+)\*\*: (.+)$", PAGE.read_text("utf-8"), re.MULTILINE))
 """What a room is for, from the list of the page."""
 
 
@@ -24,7 +24,7 @@ def layers() -> list[list[str]]:
     text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     contract = tomllib.loads(text)["tool"]["importlinter"]["contracts"][0]
     rows = ([name.strip() for name in layer.split("|")] for layer in contract["layers"])
-    found = [[name.removeprefix("biped_adrc.") for name in row if is_room(name)] for row in rows]
+    found = [[name.rpartition(".")[2] for name in row if is_room(name)] for row in rows]
     return [row for row in found if row]
 
 
@@ -41,9 +41,8 @@ def main() -> None:
     for i, row in enumerate(rows):
         y = high * (len(rows) - i) + 0.9
         for j, name in enumerate(row):
-            each = min(12.4, (wide - 1.0) / len(row))
-            x = wide / 2 + (j - (len(row) - 1) / 2) * each
-            d.box(x, y, each - 0.8, 2.0, "", ORANGE if name in LEAVES else BLUE)
+            x = wide / 2 + (j - (len(row) - 1) / 2) * 12.4
+            d.box(x, y, 11.6, 2.0, "", ORANGE if name in LEAVES else BLUE)
             d.text(x, y + 0.4, name)
             d.text(x, y - 0.5, WORDS[name], GREY, 8)
         if i:
@@ -53,7 +52,7 @@ def main() -> None:
         0.9,
         30,
         1.3,
-        "errors, types, files, linear and other modules of one file",
+        "errors, types, files, linear, ground and other modules of one file",
         GREY,
     )
     d.arrow((wide / 2, high - 0.1), (wide / 2, 1.58), colour=GREY)

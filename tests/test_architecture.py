@@ -22,11 +22,9 @@ def script():
 
 
 def rooms():
-    """Folders with modules, those of extras one by one."""
-    package = ROOT / "biped_adrc"
-    folders = [*package.glob("*/__init__.py"), *package.glob("extras/*/__init__.py")]
-    found = {".".join(p.parent.relative_to(package).parts) for p in folders}
-    return found - {"extras"} | {"validation"}
+    """Folders with modules."""
+    found = {p.parent.name for p in (ROOT / "biped_adrc").glob("*/__init__.py")}
+    return found | {"validation"}
 
 
 def test_every_room_is_in_the_contract_and_in_the_list_of_the_page():
