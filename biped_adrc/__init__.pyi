@@ -65,9 +65,6 @@ from biped_adrc.gait.published import X_STAR as X_STAR
 from biped_adrc.gait.reference import Reference as Reference
 from biped_adrc.gait.reference import ReferencePoint as ReferencePoint
 from biped_adrc.gait.reference import TimeReference as TimeReference
-from biped_adrc.gait.through_state import GaitLimits as GaitLimits
-from biped_adrc.gait.through_state import constraint_through as constraint_through
-from biped_adrc.gait.through_state import onto_section as onto_section
 from biped_adrc.gait.zero_dynamics import ZeroDynamics as ZeroDynamics
 from biped_adrc.gait.zero_orbits import ZeroOrbits as ZeroOrbits
 from biped_adrc.hardware.motors import Motors as Motors

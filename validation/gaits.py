@@ -35,7 +35,6 @@ from biped_adrc.control.npd import NPDController
 from biped_adrc.errors import SimulationError
 from biped_adrc.gait.design.request import StepLimits
 from biped_adrc.gait.gait import Gait, gait_names, load_gait
-from biped_adrc.gait.published import design_published_gait
 from biped_adrc.gait.recipe import design_recipe_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
@@ -46,6 +45,7 @@ from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import walk
 from biped_adrc.types import Array
 from validation.passive import simplest
+from validation.published_gait import design_published_gait
 from validation.row import Row, at_most
 
 FASTER = 0.01  # of the speed before impact, dimensionless

@@ -28,9 +28,8 @@ from biped_adrc.analysis.variational import periodic_orbit
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.npd import NPDController
 from biped_adrc.gait.design.request import StepLimits
-from biped_adrc.gait.gait import Gait, load_gait
+from biped_adrc.gait.gait import Gait, load_gait, onto_section
 from biped_adrc.gait.published import X_STAR
-from biped_adrc.gait.through_state import onto_section
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.gait.zero_orbits import ZeroOrbits
 from biped_adrc.hybrid.integrators import Adaptive

@@ -20,8 +20,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from biped_adrc.errors import GaitError
-from biped_adrc.gait.curves import ControlledCurve, Curve
+from biped_adrc.gait.curves import ControlledCurve
 from biped_adrc.types import Array
 
 CUBIC = 3
@@ -35,12 +34,7 @@ class BSpline(ControlledCurve):
     Raises GaitError for fewer than 4 coefficients per joint.
     """
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.degree < CUBIC:
-            raise GaitError(
-                f"a cubic B-spline has {self.degree + 1} coefficients per joint, expected at least 4"
-            )
+    least = CUBIC + 1
 
     @property
     def pieces(self) -> tuple[Array, Array]:
@@ -50,20 +44,6 @@ class BSpline(ControlledCurve):
     def abscissae(cls, degree: int) -> Array:
         t = knots(degree)
         return np.array([np.mean(t[k + 1 : k + 1 + CUBIC]) for k in range(degree + 1)])
-
-    @classmethod
-    def like(cls, curve: Curve, degree: int = 8) -> BSpline:
-        """Least squares from another curve, with its ends and their slopes, as a B-spline of this degree M.
-
-        Both ends stay where they are, so that a gait keeps its impact.
-        """
-        (h, dh, _), (end, last, _) = curve(0.0), curve(1.0)
-        alpha, s = cls.between(h, dh, last, end, degree), np.linspace(0.0, 1.0, 20 * degree)
-        alpha[:, 2:-2] = 0.0
-        N = cls(np.eye(degree + 1)).over(s)
-        left = curve.over(s) - N @ alpha.T
-        alpha[:, 2:-2] = np.linalg.lstsq(N[:, 2:-2], left, rcond=None)[0].T
-        return cls(alpha)
 
 
 def knots(degree: int) -> Array:

@@ -68,15 +68,11 @@ class VirtualConstraint(Reference):
     def __post_init__(self) -> None:
         c = read_only(self.phase)
         span = self.theta_minus - self.theta_plus
-        if not np.all(np.isfinite(c)) or not np.isfinite(span) or span == 0.0:
+        fade = FADE if self.fade is None else self.fade
+        if not (np.all(np.isfinite([*c, span])) and span != 0.0 and 0.0 < fade < np.inf):
             raise GaitError(
-                f"phase row {c} from {self.theta_plus} to {self.theta_minus} rad; expected finite numbers "
-                "and two different ends"
-            )
-        if self.fade is not None and not (np.isfinite(self.fade) and self.fade > 0.0):
-            raise GaitError(
-                f"the fade of the constraint is {self.fade}, expected a positive share of its phase range, or "
-                "None for a curve that goes on as it is"
+                f"phase row {c} from {self.theta_plus} to {self.theta_minus} rad, fade {self.fade}; expected "
+                "finite numbers, two different ends, and a positive fade or None"
             )
         object.__setattr__(self, "phase", c)
 

@@ -41,7 +41,7 @@ _RELABELLING = (1, 0, 3, 2, 4)
 
 @dataclass(frozen=True)
 class AngleMap:
-    """The affine map q = A q' + b of angles. `f @ g` is g first, then f."""
+    """The affine map q = A q' + b of angles."""
 
     A: Array
     """(n, n), invertible [rad/rad]."""
@@ -72,9 +72,6 @@ class AngleMap:
         inverse: Array = np.asarray(np.linalg.inv(self.A), dtype=np.float64)
         return AngleMap(inverse, -inverse @ self.b)
 
-    def __matmul__(self, first: AngleMap) -> AngleMap:
-        return AngleMap(self.A @ first.A, self.A @ first.b + self.b)
-
 
 @dataclass(frozen=True)
 class Convention:
@@ -91,9 +88,6 @@ class Convention:
     """+1 if its phase falls while the robot walks to +x, as the paper's Theta, -1 if it grows."""
     paper_phase: Array
     """(n,), Theta = paper_phase q."""
-    relabelling: AngleMap
-    """The legs change over at impact: q'+ = R q'- + r in this convention's coordinates."""
-    source: str
 
     @property
     def n(self) -> int:
@@ -114,18 +108,32 @@ def own_convention(biped: Biped) -> Convention:
     """The coordinates of a robot as they are; `to_paper` is then to these, and the phase is its record's."""
     n, p, d = biped.n, biped.p, biped.description
     same = AngleMap(np.eye(n), np.zeros(n))
-    swap = AngleMap(biped.R, biped.relabel(np.zeros(n)))
-    phase = np.array(d.phase)
-    return Convention(OWN, d.joints, same, np.eye(p, n), 1.0, phase, swap, f"robot '{d.name}'")
+    return Convention(OWN, d.joints, same, np.eye(p, n), 1.0, np.array(d.phase))
 
 
 def of_the_paper(biped: Biped) -> bool:
     """Whether phase and relabelling of a robot are those of the conventions, with knees or without."""
     if biped.n not in (3, 5):
         return False
-    both = convention("paper", knees=biped.n == 5), own_convention(biped)
-    ours, theirs = ((c.paper_phase, c.relabelling.A, c.relabelling.b) for c in both)
-    return all(map(np.array_equal, ours, theirs))
+    paper = [i for i in range(5) if biped.n == 5 or i not in _KNEES]
+    R = np.eye(5)[list(_RELABELLING)][np.ix_(paper, paper)]
+    same = np.array_equal(biped.R, R) and np.array_equal(biped.phase, np.array(_PHASE)[paper])
+    return bool(same and not np.any(biped.relabel(np.zeros(biped.n))))
+
+
+def layout_of(name: str, biped: Biped) -> Convention:
+    """The convention of this name for a robot; "own": its coordinates as they are. Raises GaitError."""
+    if name == OWN:
+        return own_convention(biped)
+    found = convention(name, knees=biped.n == 5)
+    if not of_the_paper(biped):
+        d = biped.description
+        raise GaitError(
+            f"robot '{d.name}' has the coordinates {list(d.joints)} and the phase {list(d.phase)}, which are "
+            f"not laid out as convention '{name}' has them; take convention 'own', the coordinates of its "
+            "record"
+        )
+    return found
 
 
 def convention(name: str, knees: bool = True) -> Convention:
@@ -139,8 +147,6 @@ def convention(name: str, knees: bool = True) -> Convention:
     to_paper = AngleMap(
         np.array(d["A"])[np.ix_(paper, own)], np.pi * np.array(d["half_turns"])[paper]
     )
-    R = np.eye(5)[list(_RELABELLING)][np.ix_(paper, paper)]
-    swap = to_paper.inverse @ AngleMap(R, np.zeros(len(R))) @ to_paper
     return Convention(
         name,
         tuple(d["coordinates"][i] for i in own),
@@ -148,8 +154,6 @@ def convention(name: str, knees: bool = True) -> Convention:
         np.eye(5)[np.ix_(rows, own)],
         d["sense"],
         np.array(_PHASE)[paper],
-        swap,
-        " ".join(d["source"].split()),
     )
 
 

@@ -8,7 +8,7 @@ late, and the reference must not stop there.
 
 Every curve says itself as polynomials by pieces, and all that needs its values, Python, machine code, the zero
 dynamics and the optimisation of gaits, works with these. A curve of another basis is a class with `pieces` and
-what shifts, reverses and draws a line with its coefficients (`bspline` is one), and a line of the registry.
+the coefficients of a line, `ramp` (`bspline` is one), and a line of the registry.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from importlib import import_module
 from math import comb
-from typing import Any, Self
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import invpascal, pascal
+from scipy.linalg import invpascal
 
 from biped_adrc.errors import GaitError
 from biped_adrc.part import derived
@@ -38,13 +38,15 @@ class Curve(Shown, ABC):
     """
 
     coefficients: Array
+    least: ClassVar[int] = 2
+    """Coefficients that a joint has at least."""
 
     def __post_init__(self) -> None:
         a = read_only(self.coefficients)
-        if a.ndim != 2 or a.shape[1] < 2 or not np.all(np.isfinite(a)):
+        if a.ndim != 2 or a.shape[1] < self.least or not np.all(np.isfinite(a)):
             raise GaitError(
-                f"curve coefficients have shape {a.shape}, expected (joints, degree + 1) finite numbers "
-                "with degree >= 1"
+                f"curve coefficients have shape {a.shape}, expected finite numbers, a row for each joint, at "
+                f"least {self.least} columns"
             )
         object.__setattr__(self, "coefficients", a)
 
@@ -61,18 +63,14 @@ class Curve(Shown, ABC):
         All that is computed of a curve comes from this: a new kind of curve need not say its derivatives.
         """
 
-    @abstractmethod
-    def shifted(self, b: Array) -> Array:
-        """Coefficients (p, M + 1) of h(s) + b, for b (p,) [rad]."""
-
-    @abstractmethod
-    def reversed(self) -> Self:
-        """h(1 - s), the step backwards, for gaits whose phase falls."""
-
     @classmethod
     @abstractmethod
     def ramp(cls, degree: int, start: float, end: float) -> Array:
         """Coefficients (M + 1,) of the straight line start + s (end - start)."""
+
+    def shifted(self, b: Array) -> Array:
+        """Coefficients (p, M + 1) of h(s) + b, for b (p,) [rad]."""
+        return np.asarray(self.coefficients + np.outer(b, self.ramp(self.degree, 1.0, 1.0)))
 
     @property
     def power_coefficients(self) -> Array:
@@ -142,15 +140,6 @@ class Polynomial(Curve):
     def pieces(self) -> tuple[Array, Array]:
         return np.zeros(0), self.coefficients[np.newaxis]
 
-    def shifted(self, b: Array) -> Array:
-        a = np.array(self.coefficients)
-        a[:, 0] += b
-        return a
-
-    def reversed(self) -> Polynomial:
-        T = pascal(self.degree + 1, kind="lower").astype(float)
-        return Polynomial(self.coefficients @ (T * (-1.0) ** np.arange(self.degree + 1)))
-
     @classmethod
     def ramp(cls, degree: int, start: float, end: float) -> Array:
         a = np.zeros(degree + 1)
@@ -170,12 +159,6 @@ class ControlledCurve(Curve):
     @abstractmethod
     def abscissae(cls, degree: int) -> Array:
         """Coefficients (M + 1,) of h(s) = s; the second says how far the slope at an end reaches."""
-
-    def shifted(self, b: Array) -> Array:
-        return np.asarray(self.coefficients + b[:, np.newaxis])
-
-    def reversed(self) -> Self:
-        return type(self)(self.coefficients[:, ::-1])
 
     @classmethod
     def ramp(cls, degree: int, start: float, end: float) -> Array:
@@ -234,12 +217,9 @@ def curve_kind(name: str) -> type[Curve]:
     Raises GaitError with the names there are.
     """
     if name not in CURVES:
-        own = (
-            "; a class of one's own gets a name with biped_adrc.register('curve', NAME, CLASS) first, since "
-            "files of gaits name their curve and are read without importing anything"
-        )
         raise GaitError(
-            f"curve is '{name}', expected one of {sorted(CURVES)}{own if ':' in name else ''}"
+            f"curve is '{name}', expected one of {sorted(CURVES)}; a class of one's own gets a name with "
+            "biped_adrc.register('curve', NAME, CLASS) first, since files are read without importing anything"
         )
     found = CURVES[name]
     if isinstance(found, str):

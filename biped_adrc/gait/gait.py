@@ -15,19 +15,20 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from biped_adrc.errors import GaitError, check_positive
+from biped_adrc.errors import GaitError
 from biped_adrc.files import CONTROL, output_path, reading, write_text
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import curve_kind
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.ground import ground_axes
 from biped_adrc.parts import check_part
 from biped_adrc.resources import data_folder
 from biped_adrc.shown import Shown
@@ -106,58 +107,48 @@ class Gait(Shown):
         return self
 
     def check(self, biped: Biped) -> Gait:
-        """The gait itself, when it fits the robot and its curve closes.
-
-        Raises GaitError for other numbers of joints, a period or slope out of range, Theta' against the
-        direction of the curve, a swing foot off the ground before impact, and a start that is not the
-        relabelled end.
-        """
-        c = self.constraint
-        p, n = c.curve.coefficients.shape[0], len(c.phase)
-        if (p, n) != (biped.p, biped.n):
-            raise GaitError(
-                f"gait '{self.name}' has {p} joints and a phase row of {n}, robot "
-                f"'{biped.description.name}' has {biped.p} motors and {biped.n} coordinates"
-            )
-        check_positive(
-            self.period, f"gait '{self.name}': the period is {self.period} s", error=GaitError
-        )
-        if not abs(self.slope) < 0.5 * math.pi:
-            raise GaitError(
-                f"gait '{self.name}': the slope is {self.slope} rad, expected less than a right angle"
-            )
-        rate = float(c.phase @ self.v_minus)
-        if not rate * (c.theta_minus - c.theta_plus) > 0.0:
-            raise GaitError(
-                f"gait '{self.name}': Theta' is {rate:.4g} rad/s before impact, but the curve runs from "
-                f"{c.theta_plus:.5g} to {c.theta_minus:.5g} rad: v_minus has the wrong sign or is not there"
-            )
-        x, z = biped.swing_foot(self.q_minus)
-        height = float(z + math.tan(self.slope) * x)
-        if not abs(height) <= CLOSES:
-            raise GaitError(
-                f"gait '{self.name}': the swing foot is {height:.3g} m above the ground before impact, "
-                f"expected 0 within {CLOSES:g} m"
-            )
-        after = biped.relabel(self.q_minus)
-        begins, ends = float(c.phase @ after), float(c.phase @ self.q_minus)
-        if max(abs(begins - c.theta_plus), abs(ends - c.theta_minus)) > CLOSES:
-            raise GaitError(
-                f"gait '{self.name}': the curve covers Theta from {c.theta_plus:.5g} to {c.theta_minus:.5g} "
-                f"rad, the step runs from {begins:.5g} to {ends:.5g} rad; theta_plus has to be c q+ after the "
-                "relabelled impact, theta_minus c q- before it"
-            )
-        end, begin = c.h(c.theta_minus)[0], c.h(c.theta_plus)[0]
-        gap = max(
-            float(np.max(np.abs(begin - after[: biped.p]))),
-            float(np.max(np.abs(end - self.q_minus[: biped.p]))),
-        )
-        if gap > CLOSES:
-            raise GaitError(
-                f"gait '{self.name}' does not close: the end of the step, relabelled, misses its start by "
-                f"{gap:.3g} rad, expected at most {CLOSES:g} rad; check the order and sign of the joints"
-            )
+        """The gait itself, when it fits the robot and its curve closes. Raises GaitError, with the joint."""
+        for fits, text in self._laws(biped):
+            if not fits:
+                raise GaitError(f"gait '{self.name}': {text}")
         return self
+
+    def _laws(self, biped: Biped) -> Iterator[tuple[bool, str]]:
+        """What a gait of a robot keeps, the first ones first: whether it does, and the sentence where not."""
+        c, q, d = self.constraint, self.q_minus, biped.description
+        p, n = c.curve.coefficients.shape[0], len(c.phase)
+        expected = f"robot '{d.name}' has {biped.p} motors and {biped.n} coordinates"
+        yield (p, n) == (biped.p, biped.n), f"{p} joints and a phase row of {n}, {expected}"
+        yield 0.0 < self.period < math.inf, f"the period is {self.period} s, expected above 0"
+        yield (
+            abs(self.slope) < 0.5 * math.pi,
+            f"the slope is {self.slope} rad, a right angle or more",
+        )
+        for end, theta, pose in (
+            ("end", c.theta_minus, q),
+            ("start", c.theta_plus, biped.relabel(q)),
+        ):
+            angles, goals = np.append(c.h(theta)[0], theta), np.append(pose[:p], c.phase @ pose)
+            k = int(np.argmax(np.round(np.abs(angles - goals), 9)))  # joints before Theta
+            yield (
+                bool(abs(angles[k] - goals[k]) <= CLOSES),
+                f"{(*d.joints[:p], 'Theta')[k]} at the {end} of the curve is {angles[k]:.6g} rad, expected "
+                f"{goals[k]:.6g} within {CLOSES:g}: the end of the step, relabelled, is not its start; are "
+                "there degrees, a time, a sign or an order of joints, another convention, another robot?",
+            )
+        x, z = biped.swing_foot(q)
+        height, rate = z + math.tan(self.slope) * x, float(c.phase @ self.v_minus)
+        yield (
+            abs(height) <= CLOSES and x > 0.0,
+            f"the swing foot ends {height:.3g} m above the ground and {x:.4g} m ahead of the stance foot, "
+            f"expected 0 within {CLOSES:g}, and x > 0: other legs, another slope, a time in place of the "
+            "phase, or it walks to -x",
+        )
+        yield (
+            rate * (c.theta_minus - c.theta_plus) > 0.0,
+            f"Theta' is {rate:.4g} rad/s before impact, but the curve runs from {c.theta_plus:.5g} to "
+            f"{c.theta_minus:.5g} rad: v_minus has the wrong sign or is not there",
+        )
 
     @property
     def file_name(self) -> str:
@@ -255,6 +246,38 @@ def _from_record(record: Mapping[str, Any]) -> Gait:
     period, slope = float(record["period"]), float(record.get("slope", 0.0))
     names = record["name"], record["robot"], record["preset"]
     return Gait(*names, h, q, v, period, record["provenance"], slope)
+
+
+def onto_section(biped: Biped, q: Array, slope: float = 0.0) -> Array:
+    """The configuration (n,) [rad] nearest to q (n,) whose swing foot is on ground of `slope` [rad].
+
+    Newton's method on the foot's height moves the driven joints q_b only, by the least change; the last
+    coordinate q_N is kept. Raises GaitError when no configuration near q reaches the ground.
+    """
+    q = np.array(q, dtype=float)
+    normal = ground_axes(slope)[1]
+    for _ in range(30):
+        height = float(normal @ biped.swing_foot(q))
+        row = (normal @ biped.swing_foot_jacobian(q))[:-1]
+        if abs(height) < 1e-15 or not row @ row > 1e-12:
+            break
+        q[:-1] -= row * height / (row @ row)
+    if not abs(height) < 1e-12:
+        raise GaitError(
+            f"the swing foot stays {height:.3g} m off the ground: no configuration near this one reaches it"
+        )
+    return q
+
+
+def impact_smoothness(gait: Gait, biped: Biped) -> Array:
+    """Jump of the tracking error's rate at impact: q_b'+ - h'(Theta+) Theta'+ (p,) [rad/s].
+
+    Zero for a hybrid-invariant constraint; otherwise each impact disturbs the tracking controller by this much.
+    """
+    q, v = gait.start(biped)
+    c = gait.constraint
+    _, slope, _ = c.h(float(c.phase @ q))
+    return v[: biped.p] - slope * float(c.phase @ v)
 
 
 def finite_vector(record: Mapping[str, object], key: str, length: int) -> Array:

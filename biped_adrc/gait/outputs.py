@@ -10,7 +10,7 @@ Koditschek, IEEE TAC 48(1), 2003). Where [H0; c] is invertible they are a virtua
     [H0; c] q = [h_d(Theta); Theta]   gives   q_b = h(Theta)
 
 Any smooth y(q) is an output too: J = dy/dq and drift = J' q'. `FunctionOutputs` differentiates a Python
-function numerically where no derivatives are given.
+function numerically.
 
 Output controllers (`control.output_adrc`, feedback linearisation) call an `Outputs` object at each evaluation
 and use J and drift to solve y'' for the torque.
@@ -26,7 +26,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import GaitError, check_positive
+from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Curve
 from biped_adrc.parts import called_checked, returned
@@ -37,6 +37,10 @@ _SLOPE = np.array([1.0, -8.0, 0.0, 8.0, -1.0]) / 12.0
 """Central difference of order 4 for f' over -2 h .. 2 h, times 1 / h; its error is h^4 f^(5) / 30."""
 _BEND = np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / 12.0
 """The same for f'', times 1 / h^2; its error is h^4 f^(6) / 90."""
+
+
+_H = 4e-3
+"""Half width of the differences [rad]."""
 
 
 class OutputPoint(NamedTuple):
@@ -135,50 +139,29 @@ class FunctionOutputs(Outputs):
 
         height = FunctionOutputs(lambda q: np.array([biped.hip(q)[1] - 0.78, q[4]]))
 
-    What is not given of its derivatives comes from central differences of order 4. For a function and
-    derivatives of order one and the width of 4e-3, J is within 1e-11 and the drift within 1e-10 |v|^2 of the
-    truth, 1e-11 |v|^2 where J is given. Raises InputError or NotFiniteError, at a call, for a result of the
-    wrong shape or not finite.
+    Its derivatives are central differences of order 4. For a function and derivatives of order one, J is within
+    1e-11 and the drift within 1e-10 |v|^2 of the truth. Raises InputError or NotFiniteError, at a call, for a
+    result of the wrong shape or not finite. Outputs with derivatives of their own are a class below `Outputs`.
     """
 
     function: Callable[[Array], Array]
     """q (n,) -> y (p,)."""
-    jacobian: Callable[[Array], Array] | None = None
-    """q (n,) -> dy/dq (p, n)."""
-    drift: Callable[[Array, Array], Array] | None = None
-    """(q, v), each (n,) -> J' v (p,)."""
-    difference: float = 4e-3
-    """Half width of the differences [rad]."""
-
-    def __post_init__(self) -> None:
-        check_positive(self.difference, f"difference is {self.difference} rad", " such as 4e-3")
 
     def __call__(self, t: float, q: Array, v: Array) -> OutputPoint:
         y = returned(self.function(q), None, self, "function")
-        J = self.jacobian(q) if self.jacobian else self._slopes(q)
-        J = returned(J, (len(y), len(q)), self, "jacobian")
-        drift = self.drift(q, v) if self.drift else self._bend(q, v)
-        drift = returned(drift, y.shape, self, "drift")
-        return OutputPoint(y, J @ v, J, drift)
+        J = self._slopes(q)
+        return OutputPoint(y, J @ v, J, self._bend(q, v))
 
     def _slopes(self, q: Array) -> Array:
         """dy/dq (p, n) by central differences."""
-        h = self.difference
-        columns = [_along(self.function, q, h * e, _SLOPE) / h for e in np.eye(len(q))]
+        columns = [_along(self.function, q, _H * e, _SLOPE) / _H for e in np.eye(len(q))]
         return np.array(columns).T
 
     def _bend(self, q: Array, v: Array) -> Array:
-        """J' v (p,): the second derivative of y along v, or the first derivative of J v where J is given.
-
-        The step along v is scaled to the length `difference`, whatever the speed.
-        """
+        """J' v (p,): the second derivative of y along v; the step has the length _H, whatever the speed."""
         speed = math.sqrt(v.dot(v))
-        h = self.difference / np.where(speed > 0.0, speed, 1.0)
-        if self.jacobian is None:
-            drift = _along(self.function, q, h * v, _BEND) / h**2
-        else:
-            drift = _along(self.jacobian, q, h * v, _SLOPE) @ v / h
-        return np.where(speed > 0.0, drift, 0.0)
+        h = _H / np.where(speed > 0.0, speed, 1.0)
+        return np.where(speed > 0.0, _along(self.function, q, h * v, _BEND) / h**2, 0.0)
 
 
 def _along(f: Callable[[Array], Array], q: Array, dq: Array, weights: Array) -> Array:

@@ -1,16 +1,14 @@
-"""Published orbits: the paper's fixed point x* with gait (a) through it, and cycles of robots without motors.
+"""Published orbits: the paper's fixed point x*, and cycles of robots without motors.
 
-x* is the state just before impact of the paper's periodic walk (its section VI), gait (a) the virtual
-constraint made here so that its orbit passes through x* (`through_state`). As printed, x* puts the swing foot
-0.13 mm under the ground. So q1..q4 are moved until the foot is on the ground, by less than half a unit of their
-last printed digit; q5, printed with four decimals, and the rates are kept.
+x* is the state just before impact of the paper's periodic walk (its section VI). Gait (a), the stored gait
+"published", is the virtual constraint of least torque whose orbit passes through it; `design_gait(through=)`
+finds it again within its flat minimum. As printed, x* puts the swing foot 0.13 mm under the ground. So q1..q4
+are moved until the foot is on the ground (`gait.onto_section`), by less than half a unit of their last printed
+digit; q5, printed with four decimals, and the rates are kept.
 
 A cycle of a robot without motors is a slope, and the state just after an impact on it. It is stored as a small
 readable TOML file `gaits/<robot>/<preset>.toml` with its source. The numbers are as they were published; they
 only start Newton's method on the return map, which finds the cycle itself (`scenario.run.known_cycle`).
-
-`design_published_gait` is run once, by `biped-adrc gait published`, to make the stored gait file; walks load
-that file.
 """
 
 from __future__ import annotations
@@ -19,13 +17,9 @@ import os
 import tomllib
 from dataclasses import dataclass
 
-import numpy as np
-
 from biped_adrc.errors import GaitError
 from biped_adrc.files import reading
-from biped_adrc.gait.gait import Gait, finite_vector
-from biped_adrc.gait.through_state import GaitLimits, constraint_through, onto_section
-from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.gait.gait import finite_vector
 from biped_adrc.model.biped import Biped
 from biped_adrc.resources import data_folder
 from biped_adrc.types import Array, read_only
@@ -81,25 +75,3 @@ X_STAR = read_only([3.247, 3.672, -0.622, -0.644, -0.0104, -0.298, 0.340, -1.578
 
 PUBLISHED_MULTIPLIERS = (0.640, 0.640, 0.844, 0.844, 0.237, 0.237, 0.138, 0.354, 0.354, 0.6609)
 """|lambda| (10,) as printed in the paper's section VI, from its regression (27) on a disturbed walk."""
-
-
-def design_published_gait(biped: Biped, degree: int = 6, limits: GaitLimits | None = None) -> Gait:
-    """Gait (a): of the Bezier constraints whose periodic orbit passes through x*, the one of least int u'u dt.
-
-    degree: of the curves. limits: of friction, torque, clearance and knees. Raises GaitError when there is
-    none.
-    """
-    q = onto_section(biped, X_STAR[: biped.n])
-    v = np.array(X_STAR[biped.n :])
-    constraint = constraint_through(biped, q, v, degree, limits)
-    zero = ZeroDynamics.of(biped, constraint)
-    sigma = biped.angular_momentum(q, v)
-    orbit = zero.orbit(sigma * zero.delta)
-    provenance = {
-        "method": "Bezier virtual constraint whose periodic orbit passes through the published x*",
-        "source": "x* of the paper, section VI; q1..q4 moved onto the ground by at most "
-        f"{np.max(np.abs(q - X_STAR[: biped.n])):.2g} rad",
-        "command": f"biped-adrc gait published --preset {biped.preset}",
-    }
-    robot, preset = biped.description.name, biped.preset
-    return Gait("published", robot, preset, constraint, q, v, orbit.period, provenance)

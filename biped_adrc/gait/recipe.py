@@ -25,9 +25,8 @@ import numpy as np
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Polynomial
-from biped_adrc.gait.gait import Gait
+from biped_adrc.gait.gait import Gait, onto_section
 from biped_adrc.gait.published import X_STAR
-from biped_adrc.gait.through_state import onto_section
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
@@ -57,7 +56,7 @@ class RecipeParameters:
     """Of the polynomials of the regression."""
 
 
-def fit_to_x_star(biped: Biped, degree: int = 8) -> RecipeParameters:
+def fit_to_x_star(biped: Biped) -> RecipeParameters:
     """The parameters that give the pose of x* and the ratios of its hip, swing-foot and torso rates.
 
     With the hip moving evenly, x' = L s', so z'/x' = -pi A / L at the hip, at the swing foot x2'/x' = 2 c and
@@ -73,7 +72,6 @@ def fit_to_x_star(biped: Biped, degree: int = 8) -> RecipeParameters:
         clearance=float(-foot[1] / hip[0]) * L / np.pi,
         evenness=float(foot[0] / hip[0]) / 2.0,
         torso_amplitude=float(-v[-1] / hip[0]) * L / (2.0 * np.pi),
-        degree=degree,
     )
 
 
@@ -149,13 +147,12 @@ def recipe_constraint(biped: Biped, p: RecipeParameters) -> tuple[VirtualConstra
     return constraint, residual
 
 
-def design_recipe_gait(biped: Biped, parameters: RecipeParameters | None = None) -> Gait:
+def design_recipe_gait(biped: Biped) -> Gait:
     """Gait (b) with the pre-impact state of its zero dynamics, as if the impact were smooth.
 
-    parameters: by default those fitted to x*. Raises GaitError when a foot is out of reach, Theta is no phase,
-    or the zero dynamics have no periodic orbit.
+    Raises GaitError when a foot is out of reach, Theta is no phase, or there is no periodic orbit.
     """
-    p = parameters or fit_to_x_star(biped)
+    p = fit_to_x_star(biped)
     constraint, residual = recipe_constraint(biped, p)
     provenance = {
         "method": "section IV: hip sine, inverse kinematics, polynomial regression on Theta",
@@ -170,14 +167,3 @@ def design_recipe_gait(biped: Biped, parameters: RecipeParameters | None = None)
         "command": f"biped-adrc gait recipe --preset {biped.preset}",
     }
     return Gait.of_cycle("recipe", ZeroDynamics.of(biped, constraint), provenance)
-
-
-def impact_smoothness(gait: Gait, biped: Biped) -> Array:
-    """Jump of the tracking error's rate at impact: q_b'+ - h'(Theta+) Theta'+ (p,) [rad/s].
-
-    Zero for a hybrid-invariant constraint; otherwise each impact disturbs the tracking controller by this much.
-    """
-    q, v = gait.start(biped)
-    c = gait.constraint
-    _, slope, _ = c.h(float(c.phase @ q))
-    return v[: biped.p] - slope * float(c.phase @ v)

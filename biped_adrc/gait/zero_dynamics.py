@@ -27,6 +27,7 @@ from numpy.polynomial import legendre
 
 from biped_adrc.errors import GaitError
 from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.curves import ControlledCurve
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part
 from biped_adrc.shown import Shown
@@ -68,8 +69,6 @@ class ZeroDynamicsOrbit(Shown):
     """(K, p) [N m]."""
     ground_reaction: Array
     """(K, 2), (F_T, F_N) [N]."""
-    swing_height: Array
-    """(K,) [m]."""
     time_weights: Array
     """(K,) [s]: sum of weights * f is the integral of f over the step in time."""
     period: float
@@ -164,38 +163,34 @@ class ZeroDynamics(Shown):
         square: Array = sigma_plus**2 + 2.0 * self.cumulative @ (-self.gravity * self.inertia)
         return square
 
-    def orbit(self, sigma_plus: float, floor: float = 0.0) -> ZeroDynamicsOrbit:
+    def orbit(self, sigma_plus: float) -> ZeroDynamicsOrbit:
         """The step that starts with sigma_plus [kg m^2/s]: states, torques and ground reaction at the nodes.
 
-        floor: sigma^2 is held above it, so that an optimiser gets numbers for steps that would stop as well.
         Raises GaitError when the step does not reach its end, or Theta is no phase since I changes its sign.
         """
-        if floor == 0.0 and not (np.all(self.inertia > 0.0) or np.all(self.inertia < 0.0)):
+        low, high = np.min(self.inertia), np.max(self.inertia)
+        square = self.sigma_squared(sigma_plus)
+        if not (low * high > 0.0 and np.min(square) > 0.0):
             raise GaitError(
-                f"I(Theta) runs from {np.min(self.inertia):.4g} to {np.max(self.inertia):.4g} kg m^2 and "
-                "changes its sign: sigma does not give Theta' there, choose another phase or curve"
-            )
-        square = np.maximum(self.sigma_squared(sigma_plus), floor)
-        if np.min(square) <= 0:
-            raise GaitError(
-                "the step stops before its end: the kinetic energy at start is too small"
+                f"the step does not reach its end: sigma^2 falls to {np.min(square):.4g} kg^2 m^4/s^2, "
+                f"expected above 0, and I(Theta) runs from {low:.4g} to {high:.4g} kg m^2, expected one sign; "
+                "begin faster, or choose another phase or curve"
             )
         sigma = np.sign(sigma_plus) * np.sqrt(square)
         rate = sigma / self.inertia
         v = self.dq * rate[:, np.newaxis]
         rows = zip(*(self.dynamics(k, rate[k]) for k in range(len(rate))), strict=True)
         time = self.weights / rate
-        a, u, reaction, height = map(np.array, rows)
-        period = float(np.sum(time))
-        return ZeroDynamicsOrbit(self.theta, self.q, v, a, u, reaction, height, time, period)
+        a, u, reaction = map(np.array, rows)
+        return ZeroDynamicsOrbit(self.theta, self.q, v, a, u, reaction, time, float(np.sum(time)))
 
-    @property
+    @cached_property
     def cycle(self) -> ZeroDynamicsOrbit:
         """The periodic orbit. Raises GaitError when there is none."""
         return self.orbit(self.sigma_minus * self.delta)
 
-    def dynamics(self, k: int, rate: float) -> tuple[Array, Array, Array, float]:
-        """q'' (n,) [rad/s^2], u (p,) [N m], ground reaction (2,) [N] and swing-foot height [m] at node k.
+    def dynamics(self, k: int, rate: float) -> tuple[Array, Array, Array]:
+        """q'' (n,) [rad/s^2], u (p,) [N m] and ground reaction (2,) [N] at node k.
 
         rate: Theta' [rad/s]; Theta'' follows from the unactuated row of D q'' + Omega = (u, 0).
         """
@@ -205,7 +200,7 @@ class ZeroDynamics(Shown):
         rate2 = -(Omega[-1] + D[-1] @ ddq * rate**2) / (D[-1] @ dq)
         a = dq * rate2 + ddq * rate**2
         u = (D @ a + Omega)[: b.p]
-        return a, u, b.ground_reaction(q, v, a), float(b.swing_foot(q)[1])
+        return a, u, b.ground_reaction(q, v, a)
 
 
 def configuration(constraint: VirtualConstraint, theta: float) -> tuple[Array, Array, Array]:
@@ -220,3 +215,18 @@ def configuration(constraint: VirtualConstraint, theta: float) -> tuple[Array, A
         np.append(dh, (1.0 - c_b @ dh) / c_N),
         np.append(ddh, -(c_b @ ddh) / c_N),
     )
+
+
+def invariant_constraint(
+    kind: type[ControlledCurve], biped: Biped, q: Array, dq: Array, degree: int
+) -> VirtualConstraint:
+    """The constraint between a pose before impact and itself relabelled, which the impact does not leave.
+
+    q: pre-impact configuration (n,) [rad], dq (n,): dq/dTheta there. The slopes at both ends are those before
+    and after the impact, which is linear in the rates; coefficients between lie on a straight line.
+    """
+    p, c, impact = biped.p, biped.phase, biped.impact(q, dq)
+    plus, minus = float(c @ impact.q), float(c @ q)
+    slopes = impact.v[:p] / float(c @ impact.v) * (minus - plus), dq[:p] * (minus - plus)
+    alpha = kind.between(impact.q[:p], *slopes, q[:p], degree)
+    return VirtualConstraint(kind(alpha), c, plus, minus)

@@ -89,22 +89,19 @@ class ZeroOrbits(Shown):
     def of(cls, zero: ZeroDynamics) -> ZeroOrbits:
         """The map of a constraint.
 
-        Raises GaitError when the robot has not exactly one unactuated coordinate, when I changes its sign
-        (Theta is no phase), or when the impact reverses the motion.
+        Raises GaitError when I changes its sign (Theta is no phase), or when the impact reverses the motion.
         """
-        b, c = zero.biped, zero.constraint
-        if b.n != b.p + 1:
-            raise GaitError(
-                f"robot '{b.description.name}' has {b.n} coordinates and {b.p} motors; its zero dynamics have "
-                "one degree of freedom only when one coordinate is unactuated"
-            )
+        c = zero.constraint
         inertia = series(zero, zero.inertia)
-        _check_phase(inertia, grid(zero))
-        delta = zero.delta
-        if not delta > 0:
+        delta, values = zero.delta, inertia(grid(zero))
+        turns = np.flatnonzero(values[1:] * values[:-1] <= 0.0)
+        if len(turns) or not delta > 0.0:
+            where = f", near Theta = {grid(zero)[turns[0]]:.4g} rad" if len(turns) else ""
             raise GaitError(
-                f"the impact at the end of the curve maps sigma- to {delta:.4g} sigma-: the step after it runs "
-                "backwards; expected a positive factor, take shorter steps"
+                f"I(Theta) runs from {np.min(values):.4g} to {np.max(values):.4g} kg m^2, expected one "
+                f"sign{where}, or Theta cannot be the phase; the impact maps sigma- to {delta:.4g} sigma-, "
+                "expected a positive factor, or the next step runs backwards: swing the free links less, take "
+                "shorter steps"
             )
         potential = series(zero, zero.gravity * zero.inertia).integ(lbnd=c.theta_plus)
         return cls(zero, inertia, potential, delta, _highest(potential, grid(zero)))
@@ -137,24 +134,29 @@ class ZeroOrbits(Shown):
 
         Raises GaitError that says which condition of existence or stability fails, and by how much.
         """
-        d2, V, top = self.delta**2, self.v_end, self.v_max
-        if not d2 < 1.0:
-            raise GaitError(
-                f"the zero dynamics have no stable orbit: delta^2 = {d2:.6g}, expected below 1 (the impact "
-                "has to take angular momentum); take longer steps or a faster retraction of the swing leg"
-            )
-        if not V < 0.0:
-            raise GaitError(
-                f"the zero dynamics have no periodic orbit: V_zero(Theta-) = {V:.6g} kg^2 m^4/s^2, expected "
-                "below 0: gravity takes from a step more than it gives; move the hip forward over the step"
-            )
-        if not self.existence < 0.0:
-            begin = -d2 * V / (1.0 - d2)
-            raise GaitError(
-                f"the zero dynamics have no periodic orbit: a step would begin with zeta = {begin:.6g} "
-                f"kg^2 m^4/s^2, {top - begin:.3g} short of the V_max = {top:.6g} that it has to pass at "
-                f"Theta = {self.theta_max:.4g} rad; shorten the first half of the step or lower the hip in it"
-            )
+        d2, V = self.delta**2, self.v_end
+        for holds, text in (
+            (
+                d2 < 1.0,
+                f"delta^2 = {d2:.6g}, expected below 1 (the impact has to take angular momentum); take longer "
+                "steps or a faster retraction of the swing leg",
+            ),
+            (
+                V < 0.0,
+                f"V_zero(Theta-) = {V:.6g} kg^2 m^4/s^2, expected below 0: gravity takes from a step more than "
+                "it "
+                "gives; move the hip forward over the step",
+            ),
+            (
+                self.existence < 0.0,
+                f"a step would begin {self.existence:.3g} kg^2 m^4/s^2 short of the V_max = {self.v_max:.6g} "
+                f"that it has to pass at Theta = {self.theta_max:.4g} rad; shorten the first half of the step "
+                "or lower "
+                "the hip in it",
+            ),
+        ):
+            if not holds:
+                raise GaitError(f"the zero dynamics have no stable orbit: {text}")
         return -V / (1.0 - d2)
 
     def sigma(self, zeta: float) -> float:
@@ -166,8 +168,8 @@ class ZeroOrbits(Shown):
     # -- the return map ----------------------------------------------------------------------------
     def rho(self, zeta: float) -> float:
         """The return map: zeta one step later. Raises GaitError for a step that is not finished."""
-        begin = self.delta**2 * self._checked(zeta)
-        if not begin > self.v_max:
+        begin = self.delta**2 * zeta
+        if not self.v_max < begin < math.inf:
             raise GaitError(
                 f"the step after zeta = {zeta:.6g} begins with {begin:.6g} and stops before V_max = "
                 f"{self.v_max:.6g} kg^2 m^4/s^2; expected zeta above {self.lowest:.6g}"
@@ -176,7 +178,7 @@ class ZeroOrbits(Shown):
 
     def iterate(self, zeta: float, steps: int) -> Array:
         """zeta, rho(zeta), rho(rho(zeta)), ... (steps + 1,) [kg^2 m^4/s^2]. Raises GaitError as rho."""
-        found = [self._checked(zeta)]
+        found = [zeta]
         for _ in range(steps):
             found.append(self.rho(found[-1]))
         return np.array(found)
@@ -253,26 +255,6 @@ class ZeroOrbits(Shown):
     def kinetic_energy(self, zeta: float) -> float:
         """Kinetic energy [J] just before an impact with zeta."""
         return self.zero.biped.kinetic_energy(*self.zero.end_state(self.sigma(zeta)))
-
-    def _checked(self, zeta: float) -> float:
-        """zeta itself. Raises GaitError unless it is a finite number >= 0."""
-        if not (math.isfinite(zeta) and zeta >= 0):
-            raise GaitError(f"zeta = {zeta} kg^2 m^4/s^2, expected a finite number >= 0")
-        return zeta
-
-
-def _check_phase(inertia: Legendre, theta: Array) -> None:
-    """Raise GaitError, which names the phase, where I(Theta) changes its sign on the grid theta (K,) [rad]."""
-    values = inertia(theta)
-    turns = np.flatnonzero(values[1:] * values[:-1] <= 0)
-    if len(turns):
-        k = int(turns[0])
-        where = brentq(inertia, theta[k], theta[k + 1])
-        raise GaitError(
-            f"I(Theta) changes its sign at Theta = {where:.4g} rad (it runs from {np.min(values):.4g} to "
-            f"{np.max(values):.4g} kg m^2): there sigma does not move Theta, so Theta cannot be the phase "
-            "of this constraint; expected one sign from Theta+ to Theta-, swing the free links less"
-        )
 
 
 def _highest(potential: Legendre, theta: Array) -> float:

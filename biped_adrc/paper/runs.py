@@ -17,7 +17,7 @@ from scipy.optimize import brentq
 from biped_adrc.analysis.observer.loop import ObserverLoop
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.errors import BipedError
-from biped_adrc.gait.recipe import impact_smoothness
+from biped_adrc.gait.gait import impact_smoothness
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.observers.gpi import GPIObserver

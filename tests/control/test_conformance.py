@@ -125,17 +125,18 @@ ROWS = {
     },
 }
 UNNAMED = {
-    "virtual constraint": lambda h: [h, ba.continued(h), with_curve(h, BSpline.like(h.curve, 9))],
+    "virtual constraint": lambda h: [
+        h,
+        ba.continued(h),
+        with_curve(h, BSpline(h.curve.coefficients)),
+    ],
     "corrected constraint": lambda h: [
         CorrectedConstraint(h, leaning),
         CorrectedConstraint(CorrectedConstraint(ba.continued(h), leaning), leaning),
     ],
     "time": lambda h: [ba.TimeReference(swung)],
     "linear outputs": lambda h: [outputs(h), ba.LinearOutputs(ABSOLUTE, h)],
-    "outputs of a function": lambda h: [
-        FunctionOutputs(bent),
-        FunctionOutputs(bent, lambda q: np.eye(4, 5) * np.cos(q)),
-    ],
+    "outputs of a function": lambda h: [FunctionOutputs(bent)],
     "added torque": lambda h: [
         AddedTorque(Passive(), np.array([3.0, -2.0, 1.0, 0.5])),
         AddedTorque(ba.ADRCController(h), np.full(4, 2.0)),

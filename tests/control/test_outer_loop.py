@@ -179,7 +179,7 @@ def test_what_cannot_be_corrected_is_refused(bare, published):
     h, gains = published.constraint, StrideGains(-1.0, -0.4)
     inner = ba.NPDController(h)
     in_time = ba.TimeReference(lambda t: (np.zeros(4), np.zeros(4), np.zeros(4)))
-    local = replace(published, constraint=replace(h, curve=BSpline.like(h.curve)))
+    local = replace(published, constraint=replace(h, curve=BSpline(h.curve.coefficients)))
     for make in (
         lambda: ReferenceReset(ba.Passive()),
         lambda: ReferenceReset(ba.NPDController(in_time)),

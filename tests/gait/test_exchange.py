@@ -8,18 +8,11 @@ from scipy.io import loadmat
 
 import biped_adrc as ba
 from biped_adrc.errors import GaitError, InputError
-from biped_adrc.gait.conventions import CONVENTIONS
+from biped_adrc.gait.conventions import CONVENTIONS, own_convention
 from biped_adrc.gait.curves import Bezier, Polynomial
-from biped_adrc.gait.exchange.closure import check, closing_conventions
-from biped_adrc.gait.exchange.convert import mapped, record_of
-from biped_adrc.gait.exchange.files import (
-    RUN_UNITS,
-    export_run,
-    read_mat,
-    read_record,
-)
-from biped_adrc.gait.exchange.importing import export_gait, import_gait
-from biped_adrc.gait.exchange.record import GaitRecord
+from biped_adrc.gait.exchange.files import RUN_UNITS, export_run, read_mat, read_record
+from biped_adrc.gait.exchange.importing import closing_conventions, export_gait, import_gait
+from biped_adrc.gait.exchange.record import GaitRecord, coordinates, mapped, record_of
 
 
 def assert_same(one, other, abs=1e-13):
@@ -56,7 +49,7 @@ def test_published_gait_through_every_convention_and_file(name, suffix, biped, g
     path = tmp_path / f"gait{suffix}"
     export_gait(gait, path, name)
     back = import_gait(path, biped)
-    assert_same(gait, back)
+    assert_same(gait, back, abs=0.0 if name == "paper" else 1e-13)
     assert (back.name, back.robot, back.preset) == (gait.name, gait.robot, gait.preset)
     assert dict(back.provenance) == dict(gait.provenance)
 
@@ -67,17 +60,6 @@ def test_polynomials_that_are_not_hybrid_invariant(biped, recipe, tmp_path):
     assert_same(recipe, import_gait(path, biped, slopes=False))
     with pytest.raises(GaitError, match="slopes=False"):
         import_gait(path, biped)
-
-
-@pytest.mark.parametrize("suffix", [".json", ".mat"])
-def test_in_this_paper_s_convention_not_a_bit_changes(suffix, biped, gait, tmp_path):
-    export_gait(gait, tmp_path / f"gait{suffix}")
-    back = import_gait(tmp_path / f"gait{suffix}", biped)
-    for key in ("q_minus", "v_minus"):
-        assert np.array_equal(getattr(gait, key), getattr(back, key))
-    one, other = gait.constraint, back.constraint
-    assert np.array_equal(one.curve.coefficients, other.curve.coefficients)
-    assert (one.theta_plus, one.theta_minus) == (other.theta_plus, other.theta_minus)
 
 
 def test_what_a_mat_file_holds(gait, tmp_path):
@@ -101,35 +83,27 @@ def test_state_and_period_come_from_the_zero_dynamics(biped, gait, record):
         "method": "imported from convention 'paper'",
         "source": "arrays",
     }
-    assert np.array_equal(check(record).constraint.phase, biped.phase)
+    assert np.array_equal(found.constraint.phase, biped.phase)
 
 
 @pytest.mark.parametrize("factor", [-1.0, 2.0, -0.25])
 def test_phase_that_runs_the_other_way_or_in_other_units(factor, biped, gait, record):
-    other = replace(
-        record,
-        phase=factor * biped.phase,
-        theta_plus=factor * record.theta_plus,
-        theta_minus=factor * record.theta_minus,
-    )
-    assert_same(gait, import_gait(other, biped), abs=1e-9)
-    assert np.array_equal(check(other).constraint.phase, biped.phase)
+    ends = {name: factor * getattr(record, name) for name in ("theta_plus", "theta_minus")}
+    found = import_gait(replace(record, phase=factor * biped.phase, **ends), biped)
+    assert_same(gait, found, abs=1e-9)
+    assert np.array_equal(found.constraint.phase, biped.phase)
 
 
-def test_curves_given_from_the_end_of_the_step(biped, gait, record):
-    curve = gait.constraint.curve
-    backwards = replace(record, coefficients=curve.coefficients[:, ::-1], reverse=True)
-    assert_same(gait, import_gait(backwards, biped), abs=1e-9)
+@pytest.mark.parametrize("kind", [Bezier, Polynomial])
+def test_curves_under_affine_maps(kind):
     rng, degree = np.random.default_rng(5), 5
-    for kind in (Bezier, Polynomial):
-        h = kind(rng.normal(size=(3, degree + 1)))
-        A, b = rng.normal(size=(2, 3)), rng.normal(size=2)
-        for s in rng.uniform(0, 1, 5):
-            assert h.reversed()(s)[0] == pytest.approx(h(1 - s)[0], abs=1e-12)
-            assert mapped(h, A, b)(s)[0] == pytest.approx(A @ h(s)[0] + b, abs=1e-12)
-            assert mapped(h, A, b)(s)[2] == pytest.approx(A @ h(s)[2], abs=1e-10)
-            line = kind(kind.ramp(degree, 3.4, 2.9)[np.newaxis])
-            assert line(s)[0] == pytest.approx(3.4 - 0.5 * s, abs=1e-13)
+    h = kind(rng.normal(size=(3, degree + 1)))
+    A, b = rng.normal(size=(2, 3)), rng.normal(size=2)
+    line = kind(kind.ramp(degree, 3.4, 2.9)[np.newaxis])
+    for s in rng.uniform(0, 1, 5):
+        assert mapped(h, A, b)(s)[0] == pytest.approx(A @ h(s)[0] + b, abs=1e-12)
+        assert mapped(h, A, b)(s)[2] == pytest.approx(A @ h(s)[2], abs=1e-10)
+        assert line(s)[0] == pytest.approx(3.4 - 0.5 * s, abs=1e-13)
 
 
 def test_rows_that_are_other_outputs(biped, gait, record):
@@ -137,7 +111,7 @@ def test_rows_that_are_other_outputs(biped, gait, record):
     H0 = np.array(
         [[0, 0, 0, 0, 1], [-1, 1, 0, 0, 0], [0, 0, 1, 0, 0], [0, 0, 0, 1, 0]], dtype=float
     )
-    curve = check(record).curve
+    curve = coordinates(record, own_convention(biped)).curve
     other = replace(record, coefficients=H0 @ curve.coefficients, outputs=H0)
     assert_same(gait, import_gait(other, biped), abs=1e-9)
 
@@ -145,13 +119,8 @@ def test_rows_that_are_other_outputs(biped, gait, record):
 def test_whole_turns(biped, gait, record):
     a = np.array(record.coefficients)
     a[:2] -= 2 * np.pi
-    turned = replace(
-        record,
-        coefficients=a,
-        theta_plus=record.theta_plus - 2 * np.pi,
-        theta_minus=record.theta_minus - 2 * np.pi,
-    )
-    found = import_gait(turned, biped)
+    ends = {name: getattr(record, name) - 2 * np.pi for name in ("theta_plus", "theta_minus")}
+    found = import_gait(replace(record, coefficients=a, **ends), biped)
     assert_same(gait, found, abs=1e-9)
     assert found.provenance["whole turns added to q"] == "1, 1, 0, 0, 0"
 
@@ -170,14 +139,13 @@ def changed(key, place, by):
 
 def turned(record):
     """The mirror image over the stance thigh, a phase whose direction is not known beforehand."""
-    q = check(record).curve.coefficients
-    thigh = q[0] + q[4]
+    knee = record.coefficients[2, [0, -1]]  # thigh = Theta - q3 / 2
     return replace(
         record,
         coefficients=-record.coefficients,
         phase=np.array([1.0, 0, 0, 0, 1.0]),
-        theta_plus=-thigh[0],
-        theta_minus=-thigh[-1],
+        theta_plus=0.5 * knee[0] - record.theta_plus,
+        theta_minus=0.5 * knee[1] - record.theta_minus,
     )
 
 
@@ -187,70 +155,72 @@ def in_degrees(record):
 
 
 OPEN = {
-    "damaged": ("frost", changed("coefficients", (3, -1), 0.01), "damaged"),
-    "state": ("frost", changed("q_minus", 3, 0.02), "swing hip"),
-    "rates": ("frost", changed("v_minus", 3, 0.02), "swing hip"),
+    "damaged": ("frost", changed("coefficients", (3, -1), 0.01), "knee at the"),
+    "state": ("frost", changed("q_minus", 3, 0.02), "right_hip"),
+    "rates": ("frost", changed("v_minus", 3, 0.02), "v_minus of right_hip"),
     "another phase": (
         "optimtraj",
         changed("coefficients", (slice(None), 3), 0.05),
         "another phase",
     ),
-    "time": ("paper", lambda r: replace(r, theta_plus=0.0, theta_minus=-0.4138030549), "time"),
+    "time": ("paper", lambda r: replace(r, theta_plus=0.0, theta_minus=-0.4138030549), "a time"),
     "exchanged": (
         "paper",
         lambda r: replace(r, theta_plus=r.theta_minus, theta_minus=r.theta_plus),
-        "exchanged",
+        "Theta",
     ),
     "backwards": ("paper", turned, "walks to -x"),
     "degrees": ("paper", in_degrees, "degrees"),
+    "half a state": ("paper", lambda r: replace(r, q_minus=np.zeros(5)), "both left out"),
+    "a row too many": ("paper", lambda r: replace(r, coefficients=np.zeros((6, 8))), "6 rows"),
+    "another phase row": ("paper", lambda r: replace(r, phase=np.ones(4)), "5 numbers"),
+    "too few outputs": ("paper", lambda r: replace(r, outputs=np.eye(5)[:3]), "outputs"),
+    "no phase": ("paper", lambda r: replace(r, theta_plus=3.0, theta_minus=3.0), "Theta|ends"),
+    "no convention": ("paper", lambda r: replace(r, convention="kelly"), "kelly"),
+    "no curve": ("paper", lambda r: replace(r, curve="spline"), "spline"),
 }
 
 
 @pytest.mark.parametrize("name", OPEN)
 def test_a_gait_that_is_not_one_of_the_robot_is_refused(name, biped, gait, record):
-    made, change, word = OPEN[name]
-    words = record if made == "paper" else record_of(gait, made)
-    check(words, biped)
+    convention, change, word = OPEN[name]
+    words = record if convention == "paper" else record_of(gait, biped, convention)
+    import_gait(words, biped)
     with pytest.raises(GaitError, match=word):
-        check(change(words), biped)
+        import_gait(change(words), biped)
 
 
 @pytest.mark.parametrize(
     ("made", "claimed"), [("frost", "paper"), ("paper", "tac2003"), ("optimtraj", "frost")]
 )
 def test_wrong_convention_is_recognised(made, claimed, biped, gait):
-    words = replace(record_of(gait, made), phase=None)  # each with its own phase
+    words = replace(record_of(gait, biped, made), phase=None)  # each with its own phase
     wrong = replace(words, convention=claimed)
     assert made in closing_conventions(wrong, biped)
     with pytest.raises(GaitError, match=made):
-        check(wrong, biped)
+        import_gait(wrong, biped)
 
 
 def test_gait_of_another_preset(gait):
     heavier = ba.Biped.load("rabbit", "tac2003")
     with pytest.raises(GaitError, match="preset identified"):
-        check(record_of(gait, "tac2003"), heavier)
-    check(record_of(gait, "tac2003"), heavier, slopes=False)
+        import_gait(record_of(gait, heavier, "tac2003"), heavier)
+    import_gait(record_of(gait, heavier, "tac2003"), heavier, slopes=False)
 
 
 @pytest.mark.parametrize(
     "wrong",
     [
-        {"convention": "optimtraj"},
-        {"coefficients": np.zeros((6, 8))},
         {"coefficients": np.full((4, 7), np.nan)},
         {"coefficients": [[1.0, 2.0], [3.0]]},
-        {"phase": np.ones(4)},
-        {"outputs": np.eye(5)[:3]},
-        {"convention": "kelly"},
+        {"coefficients": None},
+        {"coefficients": np.ones((4, 7)) * 1j},
         {"theta_plus": np.inf},
-        {"theta_plus": 3.0, "theta_minus": 3.0},
-        {"q_minus": np.zeros(5)},
-        {"curve": "spline"},
+        {"period": "long"},
     ],
 )
-def test_what_is_no_record_is_refused(record, wrong):
-    with pytest.raises(GaitError):
+def test_what_is_no_number_is_refused(record, wrong):
+    with pytest.raises(GaitError, match=next(iter(wrong))):
         replace(record, **wrong)
 
 
@@ -260,11 +230,11 @@ def test_what_is_no_record_is_refused(record, wrong):
     [
         ("none.mat", None, "not found"),
         ("gait.txt", b"", "expected"),
-        ("damaged.mat", b"not a MATLAB file", "cannot be read"),
+        ("damaged.mat", b"not a MATLAB file", "MATLAB file"),
         (
             "new.mat",
             b"MATLAB 7.3 MAT-file".ljust(124) + b"\x00\x02IM" + b"\x89HDF\r\n\x1a\n" * 64,
-            "-v7",
+            "HDF",
         ),
         ("bad.json", b"{", "JSON"),
         ("bad.json", b'{"coefficients": 1}', "missing"),
@@ -302,11 +272,8 @@ def test_run_as_mat_comes_back_equal(biped, gait, tmp_path):
     assert (raw["units"]["ground_reaction"], raw["units"]["u"]) == ("N", "N m")
     assert raw["note"] == "one step"
     assert loadmat(path)["t"].shape == (len(columns["t"]), 1)
-
-
-def test_runs_that_cannot_be_exported(tmp_path):
     with pytest.raises(InputError):
-        export_run({"t": np.arange(3.0)}, tmp_path / "run.csv")
+        export_run(columns, tmp_path / "run.csv")
 
 
 def test_a_file_says_its_convention_once(gait, tmp_path):

@@ -13,7 +13,6 @@ from typer.testing import CliRunner
 
 import biped_adrc as ba
 from biped_adrc.cli import app
-from biped_adrc.gait.conventions import own_convention
 from biped_adrc.gait.exchange.samples import Samples
 from biped_adrc.resources import data_folder
 
@@ -87,7 +86,7 @@ def test_what_is_wrong_with_an_own_gait_is_said_with_its_own_joints(turned, gait
     own = turned_gait(gait, biped)
     c, a = own.constraint, own.constraint.curve.coefficients.copy()
     a[3, 0] += 0.1
-    record = ba.GaitRecord("own", a, c.theta_plus, c.theta_minus, own=own_convention(biped))
+    record = ba.GaitRecord("own", a, c.theta_plus, c.theta_minus)
     with pytest.raises(ba.BipedError, match="right_knee"):
         ba.import_gait(record, biped)
     for wrong in ({"convention": "paper"}, {"coefficients": a[:3]}):
@@ -144,7 +143,7 @@ def test_samples_in_files(step, kind, biped, gait, tmp_path):
         names = ["t", *(f"q{i}" for i in range(1, 6)), *(f"v{i}" for i in range(1, 6))]
         np.savetxt(path, np.column_stack(step), delimiter=",", header=",".join(names), comments="")
     elif kind == "mat":
-        savemat(path, {"S": step._asdict()})
+        savemat(path, step._asdict())
     else:
         path.write_text(json.dumps({name: x.tolist() for name, x in step._asdict().items()}))
     done = run("gait", "import", path, "-o", out)
@@ -180,11 +179,3 @@ def test_masses_that_differ_are_told_from_a_bad_fit(step, biped):
     heavy = biped.with_errors(mass={"torso": 3.0}, inertia={"torso": 3.0})
     with pytest.raises(ba.BipedError, match="masses"):
         ba.import_gait(step, heavy)
-
-
-# -- gravity and passive cycles -----------------------------------------------------------------------
-def test_a_robot_in_another_gravity(tmp_path):
-    urdf = data_folder("urdf") / "rabbit" / "floating.urdf"
-    made = run("robot", "new", urdf, "-o", tmp_path / "moon", "--set", "gravity=1.62")
-    assert made.exit_code == 0, made.exception
-    assert ba.Biped.load(tmp_path / "moon" / "robot.toml").description.gravity == 1.62

@@ -10,8 +10,7 @@ from __future__ import annotations
 
 import signal
 import threading
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -88,30 +87,20 @@ def solve(
         "ipopt.acceptable_iter": 5,
     }
     solver = ca.nlpsol("gait", "ipopt", problem, options)
-    with _interruptible(watch):
-        found = solver(x0=x0, lbx=bounds[0], ubx=bounds[1], lbg=low, ubg=high)
-    stats = solver.stats()
-    return IpoptResult(
-        np.array(found["x"]).ravel(), str(stats["return_status"]), int(stats["iter_count"])
-    )
-
-
-@contextmanager
-def _interruptible(watch: _Watch) -> Iterator[None]:
-    """Context in which Ctrl-C ends IPOPT at its next iteration and is raised afterwards.
-
-    An exception inside of a CasADi callback is swallowed by CasADi, so the signal only sets a flag that the
-    callback reads. Signals reach the main thread alone; in any other nothing is changed.
-    """
+    # CasADi swallows an exception in a callback, so Ctrl-C sets a flag; it reaches the main thread alone
     here = threading.current_thread() is threading.main_thread()
-    before = signal.signal(signal.SIGINT, lambda *_: watch.interrupt()) if here else None
+    before = signal.signal(signal.SIGINT, watch.interrupt) if here else None
     try:
-        yield
+        found = solver(x0=x0, lbx=bounds[0], ubx=bounds[1], lbg=low, ubg=high)
     finally:
         if here:
             signal.signal(signal.SIGINT, before)
     if watch.interrupted:
         raise KeyboardInterrupt
+    stats = solver.stats()
+    return IpoptResult(
+        np.array(found["x"]).ravel(), str(stats["return_status"]), int(stats["iter_count"])
+    )
 
 
 class _Watch(ca.Callback):
@@ -130,15 +119,12 @@ class _Watch(ca.Callback):
         self.interrupted = False
         self.construct("watch", {})
 
-    def interrupt(self) -> None:
-        """Stop at the next iteration."""
+    def interrupt(self, *_: object) -> None:
+        """Stop at the next iteration; a handler of a signal."""
         self.interrupted = True
 
     def get_n_in(self) -> int:
         return int(ca.nlpsol_n_out())
-
-    def get_n_out(self) -> int:
-        return 1
 
     def get_sparsity_in(self, i: int) -> ca.Sparsity:
         """Shape of the solver's output i: a dense column, or empty for the multipliers of no parameters."""
@@ -192,27 +178,13 @@ def relaxed(
         tuple(rows),
     )
     low, high = bounds
-    none, all_of_it = np.zeros(count), np.full(count, np.inf)
-    ends = np.concatenate((low, none)), np.concatenate((high, all_of_it))
+    ends = np.append(low, np.zeros(count)), np.append(high, np.full(count, np.inf))
     found = solve(softened, np.concatenate((x0, np.ones(count))), ends, None, "monotone")
-    if not found.solved:
+    missed = {k: s for k, s in zip(names, found.x[-count:], strict=True) if s > MISSED}
+    if missed or not found.solved:
+        reason = f"; these would have to give: {'; '.join(programme.in_words(missed))}"
+        unknown = f" ({status}), and no limits that would have to; ask for a slower or shorter step, or less"
         raise GaitError(
-            f"no gait with {asked} was found ({status}), and what stands in the way could not be told; ask "
-            "for a slower or shorter step, give one of speed and step only, or loosen the limits"
-        )
-    missed = _named(programme, names, found.x[-count:])
-    if missed:
-        raise GaitError(
-            f"no gait with {asked} keeps the limits; these would have to give: {'; '.join(missed)}"
+            f"no gait with {asked} keeps the limits{reason if found.solved else unknown}"
         )
     return found.x[:-count]
-
-
-def _named(programme: NonlinearProgram, names: list[str], gives: Array) -> list[str]:
-    """Sentences for the limits whose slack is above MISSED, the largest slack first."""
-    units = {row.name: row.unit for row in programme.rows}
-    return [
-        f"{name} by {amount:.3g} {units[name]}".rstrip()
-        for name, amount in sorted(zip(names, gives, strict=True), key=lambda pair: -pair[1])
-        if amount > MISSED
-    ]

@@ -19,6 +19,7 @@ limit.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -29,6 +30,7 @@ from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
 from biped_adrc.gait.design.start import LONGEST
 from biped_adrc.gait.design.step import SymbolicStep, Unknowns
 from biped_adrc.model.biped import Biped
+from biped_adrc.types import Array
 
 SHORTEST = 0.05
 """Shortest step that is looked for, as a share of the leg length."""
@@ -65,10 +67,26 @@ class NonlinearProgram:
     rows: tuple[Bounded, ...]
     """Equality and inequality constraints."""
 
+    def missed(self, x: Array) -> dict[str, float]:
+        """By how much x (nx,) violates the rows of each name, dimensionless or [rad]; 0 where it keeps them."""
+        values = ca.Function("rows", [self.x], [row.value for row in self.rows]).call([x])
+        found = dict[str, float]()
+        for row, value in zip(self.rows, values, strict=True):
+            v = np.array(value).ravel()
+            gaps = np.maximum(row.low - v, v - row.high)
+            found[row.name] = float(np.max(gaps, initial=found.get(row.name, 0.0)))
+        return found
+
+    def in_words(self, missed: Mapping[str, float]) -> list[str]:
+        """A sentence for each limit, from its name and by how much it is missed, the largest first."""
+        units = {row.name: row.unit for row in self.rows}
+        ordered = sorted(missed.items(), key=lambda pair: -pair[1])
+        return [f"{name} by {amount:.3g} {units[name]}".rstrip() for name, amount in ordered]
+
 
 def transcribe(
     biped: Biped, request: GaitRequest, limits: RobotLimits, direction: float
-) -> tuple[NonlinearProgram, Unknowns]:
+) -> tuple[NonlinearProgram, Unknowns[ca.MX]]:
     """The nonlinear programme of a request, and the symbols of its unknowns.
 
     direction: sign of Theta' in the walk, from the first guess: Theta falls in a walk to +x with the paper's
@@ -76,7 +94,8 @@ def transcribe(
     """
     step = SymbolicStep(biped, request, limits, direction)
     rows = (*_equalities(step), *_limits(step))
-    return NonlinearProgram(step.x.vector(), _objective(step), rows), step.x
+    x = ca.vertcat(*(ca.vec(part) for part in step.x))
+    return NonlinearProgram(x, _objective(step), rows), step.x
 
 
 def _equalities(k: SymbolicStep) -> tuple[Bounded, ...]:

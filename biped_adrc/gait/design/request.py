@@ -10,11 +10,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from enum import Enum
 
-from biped_adrc.errors import GaitError, check_positive
-from biped_adrc.gait.curves import CURVES, ControlledCurve, curve_kind
+from biped_adrc.errors import GaitError
+from biped_adrc.gait.curves import ControlledCurve, curve_kind
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_fields
 from biped_adrc.shown import Shown
@@ -94,20 +94,17 @@ class StepLimits(Shown):
 
     def __post_init__(self) -> None:
         check_fields(self)
-        for name in (f.name for f in fields(self) if f.name != "ranges"):
-            value = getattr(self, name)
-            divides = name in ("friction", "impulse_friction", "torque")
-            if value is not None and not (value > 0.0 if divides else value >= 0.0):
-                kind = "a positive number" if divides else "a number >= 0"
-                raise GaitError(f"limit '{name}' is {value}, expected {kind} or None")
-        if self.torque == math.inf:
-            raise GaitError(
-                "limit 'torque' is infinite; give a number, the objective is scaled by it"
-            )
-        for joint, (low, high) in self.ranges.items():
-            if not low < high:
+        for name, value in vars(self).items():
+            if name == "ranges":
+                fits = all(low < high for low, high in value.values())
+            elif name in ("friction", "impulse_friction", "torque"):
+                fits = value is None or value > 0.0
+            else:
+                fits = (value is None and name == "clearance") or value >= 0.0
+            if not fits or (name == "torque" and value == math.inf):
                 raise GaitError(
-                    f"the range of '{joint}' is [{low}, {high}] rad, expected low < high"
+                    f"limit '{name}' is {value}, expected a number >= 0, of friction and torque above 0, a "
+                    "finite torque, and ranges low < high"
                 )
 
 
@@ -151,29 +148,18 @@ class GaitRequest(Shown):
 
     def __post_init__(self) -> None:
         check_fields(self)
-        given = [x for x in (self.speed, self.step) if x is not None]
-        if self.through is not None and given:
-            raise GaitError(
-                "a gait through a given state has its own speed and step; leave them out"
-            )
-        if self.through is None and not given:
-            raise GaitError("neither speed nor step length is given; give one of them, or both")
-        if self.through is not None and not all(map(math.isfinite, self.through)):
-            raise GaitError(f"the state to pass through is {self.through}, expected finite numbers")
-        for name, value in (("speed", self.speed), ("step length", self.step)):
-            if value is not None:
-                check_positive(value, f"the {name} is {value}", error=GaitError)
-        if not abs(self.slope) < 0.5:
-            raise GaitError(f"the slope is {self.slope} rad, expected less than 0.5 rad either way")
-        if not issubclass(curve_kind(self.curve), ControlledCurve):
-            between = [x for x in CURVES if issubclass(curve_kind(x), ControlledCurve)]
-            raise GaitError(
-                f"gaits are not designed of a {self.curve} curve; choose one of {between}"
-            )
-        if not 4 <= self.degree <= 12:
-            raise GaitError(f"the degree is {self.degree}, expected 4 to 12")
-        if not 8 <= self.nodes <= 2 * MOST_NODES:
-            raise GaitError(f"found {self.nodes} nodes, expected 8 to {MOST_NODES}")
+        wanted = [x for x in (self.speed, self.step) if x is not None]
+        for fits, expected in (
+            (bool(wanted) != bool(self.through), "a speed, a step length or both, or a state"),
+            (all(0.0 < x < math.inf for x in wanted), "a positive speed [m/s] and step length [m]"),
+            (all(map(math.isfinite, self.through or ())), "finite numbers"),
+            (abs(self.slope) < 0.5, "a slope below 0.5 rad either way"),
+            (issubclass(self.kind, ControlledCurve), "a curve with ends, such as bezier"),
+            (4 <= self.degree <= 12, "a degree from 4 to 12"),
+            (8 <= self.nodes <= 2 * MOST_NODES, f"8 to {MOST_NODES} nodes"),
+        ):
+            if not fits:
+                raise GaitError(f"no gait can be designed for {self!r}: expected {expected}")
 
     def stages(self) -> tuple[GaitRequest, ...]:
         """Requests from an easy one to this one, each the first guess of the next.
@@ -208,7 +194,6 @@ class GaitRequest(Shown):
 
         A robot of the user's own appears by its name; whoever repeats the command has to give its robot.toml.
         """
-        limits, usual = self.limits, StepLimits()
         options = {
             "robot": biped.description.name,
             "preset": biped.preset,
@@ -217,18 +202,18 @@ class GaitRequest(Shown):
             "slope": self.slope or None,
             "minimise": self.objective.value,
         }
-        sets = {
-            "degree": self.degree,
-            "curve": None if self.curve == "bezier" else self.curve,
-            "nodes": self.nodes,
-            "through": None if self.through is None else ",".join(map(repr, self.through)),
-            **{
-                f"limits.{x}": getattr(limits, x)
-                for x in ("torque", "friction", "impulse_friction")
-            },
-        }
-        if limits.clearance != usual.clearance:
-            sets["limits.clearance"] = limits.clearance or "none"
+        usual, own = (
+            {
+                **{name: getattr(r, name) for name in ("degree", "curve", "nodes", "through")},
+                **{f"limits.{name}": x for name, x in vars(r.limits).items() if name != "ranges"},
+            }
+            for r in (GaitRequest(1.0), self)
+        )
         words = [f"--{name} {x}" for name, x in options.items() if x is not None]
-        words += [f"--set {name}={x}" for name, x in sets.items() if x is not None]
+        for name, x in own.items():
+            if x != usual[name]:
+                text = (
+                    ",".join(map(repr, x)) if isinstance(x, tuple) else "none" if x is None else x
+                )
+                words.append(f"--set {name}={text}")
         return f"biped-adrc gait design {' '.join(words)}"

@@ -20,11 +20,11 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from biped_adrc.errors import GaitError
-from biped_adrc.gait.curves import ControlledCurve
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits
-from biped_adrc.gait.through_state import onto_section
+from biped_adrc.gait.design.step import Unknowns, at_gait
+from biped_adrc.gait.gait import onto_section
+from biped_adrc.gait.zero_dynamics import invariant_constraint
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.contact import Impact
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.planar import PlanarTree, point, turned
 from biped_adrc.types import Array
@@ -104,56 +104,32 @@ def _given_state(biped: Biped, state: Array, slope: float) -> tuple[Array, Array
         raise GaitError(f"the state to pass through has {len(state)} numbers, expected {2 * n}")
     q = onto_section(biped, state[:n], slope)
     moved = float(np.max(np.abs(q - state[:n])))
-    if moved > MOVED:
-        raise GaitError(
-            f"the state to pass through has its swing foot off the ground: q would have to move by {moved:.3g} "
-            f"rad, expected at most {MOVED:g}; give the state just before impact"
-        )
     span, rate = float(c @ (q - biped.relabel(q))), float(c @ state[n:])
-    if not span * rate > 0.0:
+    if not (moved <= MOVED and span * rate > 0.0):
         raise GaitError(
-            f"Theta changes by {span:.4g} rad over the step that ends in this state, and its rate there is "
-            f"{rate:.4g} rad/s; they need one sign: the state before impact of a walk forwards"
+            f"q of the state to pass through is {moved:.3g} rad from one with the swing foot on the ground, "
+            f"Theta changes by {span:.4g} rad over the step, and its rate is {rate:.4g} rad/s; expected at "
+            f"most {MOVED:g} rad, and one sign: the state just before the impact of a walk forwards"
         )
     return q, state[n:]
 
 
-def curve_through(
-    kind: type[ControlledCurve], biped: Biped, q: Array, dq: Array, degree: int
-) -> tuple[Impact, float, float, Array]:
-    """The Bezier curves that are hybrid-invariant for an impact from (q, dq), with evenly spaced inner points.
-
-    q: pre-impact configuration (n,) [rad], dq (n,): dq/dTheta there. Returns the impact (at Theta' = 1 rad/s),
-    Theta+ and Theta- [rad], and coefficients alpha (p, M + 1) [rad] whose end slopes fit the impact.
-    """
-    p, c, impact = biped.p, biped.phase, biped.impact(q, dq)
-    plus, minus = float(c @ impact.q), float(c @ q)
-    slopes = impact.v[:p] / float(c @ impact.v) * (minus - plus), dq[:p] * (minus - plus)
-    return impact, plus, minus, kind.between(impact.q[:p], *slopes, q[:p], degree)
-
-
-def cold_start(
-    biped: Biped, request: GaitRequest, limits: RobotLimits
-) -> tuple[float, dict[str, Array]]:
-    """Sign of Theta' and a first guess of the unknowns, such as q (n,) [rad], by the names of `step.Unknowns`.
+def cold_start(biped: Biped, request: GaitRequest, limits: RobotLimits) -> Unknowns[Array]:
+    """A first guess of the unknowns.
 
     The rate |Theta'| is constant over the step: the span of Theta over the duration that speed and step give.
     Raises GaitError for a speed or a step that legs of this length cannot walk.
     """
-    p, c, M = biped.p, biped.phase, request.degree
+    c = biped.phase
     if request.through is None:
         leg = PlanarTree.of(biped).leg
         step = request.step or STEP * leg
         most = FROUDE * math.sqrt(biped.description.gravity * leg)
-        if request.speed is not None and request.speed > most:
+        if step > LONGEST * leg or (request.speed or 0.0) > most:
             raise GaitError(
-                f"{request.speed:g} m/s is asked for; legs of {leg:g} m cannot walk, one foot always on the "
-                f"ground, faster than {most:.3g} m/s: ask for less"
-            )
-        if step > LONGEST * leg:
-            raise GaitError(
-                f"a step of {step:g} m is asked for, the legs are {leg:g} m long: ask for at most "
-                f"{LONGEST * leg:.3g} m"
+                f"{request.in_words()} is asked for; legs of {leg:g} m cannot walk, one foot always on the "
+                f"ground, faster than {most:.3g} m/s, or in steps of more than {LONGEST * leg:.3g} m: ask for "
+                "less"
             )
         q = apart(biped, step, request.slope, limits.ranges)
         q_plus = biped.relabel(q)
@@ -163,16 +139,5 @@ def cold_start(
     else:
         q, v = _given_state(biped, np.array(request.through), request.slope)
         dq, rate = v / float(c @ v), abs(float(c @ v))
-    impact, plus, minus, alpha = curve_through(request.kind, biped, q, dq, M)
-    guess = {
-        "q": q,
-        "slope": dq[:p],
-        "alpha": alpha,
-        "theta": np.array([plus, minus]),
-        "after": impact.v_e,
-        "impulse": impact.impulse,
-        "rate": np.array(rate),
-        "rates": np.full(request.nodes, rate),
-        "peak": np.array(0.5),
-    }
-    return float(np.sign(minus - plus)), guess
+    h = invariant_constraint(request.kind, biped, q, dq, request.degree)
+    return at_gait(biped, h, q, dq, rate, np.full(request.nodes, rate), 0.5)

@@ -15,11 +15,12 @@ of `Unknowns`.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, Generic, NamedTuple, TypeVar
 
 import casadi as ca
 import numpy as np
 
+from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import ControlledCurve
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits
 from biped_adrc.gait.zero_dynamics import gauss_nodes
@@ -36,41 +37,54 @@ from biped_adrc.model.planar import (
 )
 from biped_adrc.types import Array
 
+T = TypeVar("T", bound=Any)
 
-class Unknowns(NamedTuple):
-    """Symbols of the unknowns, in the order of the decision vector; n coordinates, p motors, K nodes."""
 
-    q: ca.MX
+class Unknowns(NamedTuple, Generic[T]):
+    """The unknowns as symbols or as numbers, in the order of the decision vector; n coordinates, p motors, K
+    nodes.
+    """
+
+    q: T
     """q- (n,): configuration just before impact [rad]."""
-    slope: ca.MX
+    slope: T
     """dq_b/dTheta just before impact (p,) [rad/rad]."""
-    alpha: ca.MX
+    alpha: T
     """Bezier coefficients (p, M + 1) [rad]."""
-    theta: ca.MX
+    theta: T
     """Theta+ after impact and Theta- before the next one (2,) [rad]."""
-    after: ca.MX
+    after: T
     """q_e' (n + 2,) just after an impact at Theta'- = 1 rad/s, before the legs are relabelled [rad/s, m/s].
 
     The impact map is linear in q', so the rates of the real impact are these times Theta'-."""
-    impulse: ca.MX
+    impulse: T
     """(F_T, F_N) of that impact (2,) [N s]."""
-    rate: ca.MX
+    rate: T
     """|Theta'| just before impact (1,) [rad/s]."""
-    rates: ca.MX
-    """|Theta'| at the nodes (1, K) [rad/s]."""
-    peak: ca.MX
+    rates: T
+    """|Theta'| at the nodes (K,) [rad/s]."""
+    peak: T
     """Largest |u_i| of the step as a share of the torque limit (1,)."""
 
-    def vector(self) -> ca.MX:
-        """The decision vector: all unknowns as one column, matrices column by column."""
-        return ca.vertcat(*(ca.vec(part) for part in self))
+    def split(self, x: Array) -> Unknowns[Array]:
+        """The numbers in a decision vector x (nx,), in the shapes of these, such as (n, 1) and (p, M + 1)."""
+        cuts = np.split(np.ravel(x), np.cumsum([np.prod(part.shape) for part in self])[:-1])
+        both = zip(cuts, self, strict=True)
+        return Unknowns(*(cut.reshape(part.shape, order="F") for cut, part in both))
 
-    def parts(self, x: Array) -> dict[str, Array]:
-        """The numbers in a decision vector x (nx,), by name, in shapes such as (n, 1) and (p, M + 1)."""
-        sizes = [part.numel() for part in self]
-        cuts = np.split(np.asarray(x).ravel(), np.cumsum(sizes)[:-1])
-        named = zip(self._fields, cuts, self, strict=True)
-        return {name: cut.reshape(part.shape, order="F") for name, cut, part in named}
+
+def flat(numbers: Unknowns[Array]) -> Array:
+    """The decision vector (nx,) of numbers, matrices column by column."""
+    return np.concatenate([np.ravel(part, order="F") for part in numbers])
+
+
+def at_gait(
+    biped: Biped, h: VirtualConstraint, q: Array, dq: Array, rate: float, rates: Array, peak: float
+) -> Unknowns[Array]:
+    """The numbers of a step on a constraint that ends in q (n,) with slope dq (n,) at these |Theta'|."""
+    impact, ends = biped.impact(q, dq), np.array([h.theta_plus, h.theta_minus])
+    about = dq[: biped.p], h.curve.coefficients, ends, impact.v_e, impact.impulse
+    return Unknowns(q, *about, np.array(rate), rates, np.array(peak))
 
 
 class Node(NamedTuple):
@@ -133,7 +147,7 @@ def node_function(tree: PlanarTree, phase: Array, degree: int, direction: float)
     return ca.Function("node", [alpha, theta, s, *basis, r], [ca.vertcat(*rows)])
 
 
-def unknowns(n: int, degree: int, nodes: int) -> Unknowns:
+def unknowns(n: int, degree: int, nodes: int) -> Unknowns[ca.MX]:
     """Fresh symbols for n coordinates, Bezier curves of a degree, and so many Gauss nodes."""
     p, scalar = n - 1, (1, 1)
     sizes = (n, 1), (p, 1), (p, degree + 1), (2, 1), (n + 2, 1), (2, 1), scalar, (1, nodes), scalar

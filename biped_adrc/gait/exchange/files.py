@@ -7,8 +7,8 @@ MATLAB files are of version 5, read by MATLAB and Octave: plain arrays, text, an
 over time. Every array has a unit in the struct `units`, which is written last, so that a file cut off is
 noticed.
 
-Entries are checked here for what only a file can get wrong (missing keys, text in place of numbers);
-`record.GaitRecord` checks shapes and numbers, `closure` whether it is a gait.
+Here it is checked that the entries are there; `record.GaitRecord` checks shapes and numbers, `importing`
+whether it is a gait.
 
 A gait file of another program needs three entries, and one more unless the caller states the convention:
 
@@ -33,8 +33,8 @@ import numpy as np
 from scipy.io import loadmat, savemat
 
 from biped_adrc.errors import GaitError, InputError
-from biped_adrc.files import output_path, read_json, reading, write_bytes, write_text
-from biped_adrc.gait.conventions import OWN, Convention
+from biped_adrc.files import output_path, plain, read_json, reading, write_bytes, write_text
+from biped_adrc.gait.conventions import OWN
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.exchange.samples import Samples, read_csv
 from biped_adrc.gait.gait import FORMAT as STORED
@@ -54,20 +54,12 @@ def write_mat(path: Path | str, entries: Mapping[str, object], units: Mapping[st
 def read_mat(path: Path | str) -> dict[str, Any]:
     """The variables of a .mat file; arrays without their dimensions of length 1, structs as dicts.
 
-    Raises InputError for a file that is missing, damaged or of version 7.3.
+    Raises InputError for a file that is missing, damaged, or of version 7.3 (HDF5), which MATLAB writes with
+    -v7.3.
     """
     path = Path(path)
     with reading("MATLAB file", path, InputError):
-        data = path.read_bytes()
-    try:
-        found = loadmat(io.BytesIO(data), simplify_cells=True)
-    except NotImplementedError as error:
-        raise InputError(
-            f"MATLAB file '{path}' is of version 7.3 (HDF5), expected 5 or 7; save it again in MATLAB with "
-            "save(file, '-v7', ...)"
-        ) from error
-    except Exception as error:  # a damaged file makes scipy raise errors of many kinds
-        raise InputError(f"MATLAB file '{path}' cannot be read: {error}") from error
+        found = loadmat(io.BytesIO(path.read_bytes()), simplify_cells=True)
     return {name: _text(value) for name, value in found.items() if not name.startswith("__")}
 
 
@@ -86,16 +78,13 @@ UNITS = {  # of the entries of a gait file, written into it
     "theta_minus": "rad",
     "phase": "1",
     "outputs": "1",
-    "reverse": "1",
     "q_minus": "rad",
     "v_minus": "rad/s",
     "period": "s",
     "slope": "rad",
 }
-_KEYS = tuple(f.name for f in fields(GaitRecord) if f.name != "own")
-_SAMPLES = ("t", "q", "v")
+_KEYS = tuple(f.name for f in fields(GaitRecord))
 _REQUIRED = ("coefficients", "theta_plus", "theta_minus")
-_TEXT = ("convention", "curve", "name", "robot", "preset")
 
 
 def write_record(record: GaitRecord, path: Path | str) -> None:
@@ -105,19 +94,15 @@ def write_record(record: GaitRecord, path: Path | str) -> None:
     and OutputError.
     """
     path = output_path(path, (".json", ".mat"))
-    entries = {key: getattr(record, key) for key in _KEYS if getattr(record, key) is not None}
-    entries["provenance"] = json.dumps(dict(record.provenance))
+    entries = {key: x for key, x in vars(record).items() if x is not None}
     if path.suffix.lower() == ".mat":
-        entries["reverse"] = float(record.reverse)
-        for key in ("phase", "q_minus", "v_minus"):
-            if key in entries:
-                entries[key] = entries[key][np.newaxis, :]  # a row
+        for key, x in entries.items():
+            entries[key] = np.atleast_2d(x) if isinstance(x, np.ndarray) else x  # rows stay rows
+        entries["provenance"] = json.dumps(dict(record.provenance))
         units = {key: unit for key, unit in UNITS.items() if key in entries}
         write_mat(path, {"format": FORMAT, **entries}, units)
     else:
-        plain = {k: v.tolist() if isinstance(v, np.ndarray) else v for k, v in entries.items()}
-        plain["provenance"] = dict(record.provenance)
-        text = json.dumps({"format": FORMAT, **plain, "units": UNITS}, indent=1)
+        text = json.dumps({"format": FORMAT, **plain(entries), "units": UNITS}, indent=1)
         write_text(path, text + "\n")
 
 
@@ -125,36 +110,54 @@ def read_record(
     path: Path | str,
     convention: str | None = None,
     names: Mapping[str, str] | None = None,
-    own: Convention | None = None,
+    usual: str | None = None,
 ) -> GaitRecord | Samples:
     """The record in a .json or .mat file, or the samples of a step where it has t and q and no coefficients.
 
-    convention: where the file does not say its own. names: the file's names of its entries where they are not
-    ours, such as {"coefficients": "alpha"}; entries of a struct are "struct.entry", and where one struct has
-    all that is needed it is looked into. own: of the robot, for the convention "own"; where the gait is one
-    that this package has stored, too. A .csv has samples. Raises InputError and GaitError that name the file.
+    convention: where the file does not say its own; usual: where nobody says one. names: the file's names of
+    its entries where they are not ours, such as {"coefficients": "alpha"}; entries of a struct are
+    "struct.entry". A stored gait is in the robot's own coordinates. A .csv has samples. Raises InputError and
+    GaitError that name the file.
     """
     path = Path(path)
-    if path.suffix.lower() == ".csv":
-        return Samples(**read_csv(path))
-    if path.suffix.lower() == ".mat":
-        found = read_mat(path)
-    elif path.suffix.lower() == ".json":
-        found = read_json(path, "gait file")
-        if not isinstance(found, dict):
-            kind = type(found).__name__
-            raise InputError(f"gait file '{path}' holds a {kind}, expected an object")
-    else:
+    suffix = path.suffix.lower()
+    if suffix == ".csv":
+        return read_csv(path)
+    if suffix not in (".json", ".mat"):
         raise InputError(
             f"gait file '{path}' ends in '{path.suffix}', expected .json, .mat or .csv"
         )
-    if found.get("format") == FORMAT and "units" not in found:
-        raise InputError(f"gait file '{path}' ends before its units: it is cut off; copy it again")
+    found = read_mat(path) if suffix == ".mat" else read_json(path, "gait file")
     with reading("gait file", path, GaitError):
-        entries = _ours(found, names or {})
-        if "coefficients" not in entries and {"t", "q"} <= set(entries):
-            return Samples(*(entries.get(key) for key in _SAMPLES))  # type: ignore[arg-type]
-        return _record(entries, convention, own)
+        entries = _flat(found)
+        cut_off = found.get("format") == FORMAT and "units" not in found
+        absent = ["units, so it is cut off"] if cut_off else []
+        absent += [theirs for theirs in (names or {}).values() if theirs not in entries]
+        entries |= {ours: entries.get(theirs) for ours, theirs in (names or {}).items()}
+        samples = "coefficients" not in entries and {"t", "q"} <= set(entries)
+        absent += [key for key in _REQUIRED if not samples and key not in entries]
+        if absent:
+            raise GaitError(
+                f"the entries {absent} are missing; the file has {sorted(_flat(found))}. Say what they are "
+                'called there with names={"coefficients": "..."}, or --name coefficients=...'
+            )
+        if samples:
+            return Samples(entries["t"], entries["q"], entries.get("v"))
+        own = entries.get("convention")
+        said = own or convention or (OWN if found.get("format") == STORED else usual)
+        if said is None or (own and convention not in (None, own)):
+            raise GaitError(
+                f"the file says convention '{own}', and '{convention}' is given; expected one of the two to be "
+                "a name: add an entry 'convention', or give convention=..."
+            )
+        record = {key: entries[key] for key in _KEYS if key in entries}
+        for key in ("coefficients", "outputs"):
+            if isinstance(record.get(key), np.ndarray):
+                record[key] = np.atleast_2d(record[key])  # one row, squeezed by loadmat
+        provenance = record.get("provenance", {})
+        if isinstance(provenance, str):
+            provenance = json.loads(provenance)
+        return GaitRecord(**{**record, "convention": str(said), "provenance": dict(provenance)})
 
 
 def _flat(found: Mapping[str, Any], above: str = "") -> dict[str, Any]:
@@ -165,85 +168,6 @@ def _flat(found: Mapping[str, Any], above: str = "") -> dict[str, Any]:
         if isinstance(x, Mapping) and name not in ("units", "provenance"):
             flat |= _flat(x, f"{above}{name}.")
     return flat
-
-
-def _inside(found: Mapping[str, Any]) -> Mapping[str, Any]:
-    """The one struct that has all that is required, where the file itself has not; else nothing."""
-    for required in (_REQUIRED, ("t", "q")):
-        if set(required) <= set(found):
-            return {}
-        structs = [x for x in _flat(found).values() if isinstance(x, Mapping)]
-        having = [x for x in structs if set(required) <= set(x)]
-        if len(having) == 1:
-            return having[0]
-    return {}
-
-
-def _ours(found: Mapping[str, object], names: Mapping[str, str]) -> dict[str, object]:
-    """The entries by the names of `GaitRecord` or `Samples`. Raises GaitError for names that are not there."""
-    known = (*_KEYS, *_SAMPLES)
-    unknown = [ours for ours in names if ours not in known]
-    if unknown:
-        raise GaitError(f"names gives {unknown}, expected names of {list(known)}")
-    flat = _flat(found)
-    absent = [theirs for theirs in names.values() if theirs not in flat]
-    if absent:
-        raise GaitError(f"there are no entries {absent}; the file has {sorted(flat)}")
-    given = {ours: flat[theirs] for ours, theirs in names.items()}
-    return {**_inside(found), **found, **given}
-
-
-def _record(
-    found: Mapping[str, object], convention: str | None, robot: Convention | None
-) -> GaitRecord:
-    """The record of the entries of a file, under our names.
-
-    Raises GaitError for missing entries, a convention that is not stated or stated twice, and wrong types.
-    """
-    missing = [key for key in _REQUIRED if key not in found]
-    if missing:
-        raise GaitError(
-            f"the entries {missing} are missing; the file has {sorted(_flat(found))}. Say what they are "
-            'called there with names={"coefficients": "..."}, or --name coefficients=...'
-        )
-    stored = OWN if robot is not None else "paper"
-    own = stored if found.get("format") == STORED else found.get("convention")
-    if own is None and convention is None and robot is not None:
-        convention = OWN
-    if own is None and convention is None:
-        raise GaitError(
-            "the file does not say its angle convention; add an entry 'convention' or give convention=..."
-        )
-    if own is not None and convention is not None and str(own) != convention:
-        raise GaitError(
-            f"convention is '{convention}', but the file says '{own}'; leave one of them out"
-        )
-    given: dict[str, Any] = {key: found[key] for key in _KEYS if key in found}
-    for key in _TEXT:
-        if not isinstance(given.get(key, ""), str):
-            raise GaitError(f"{key} is {given[key]!r}, expected text")
-    given["convention"] = str(own) if own is not None else convention
-    reverse = given.get("reverse", False)
-    if reverse not in (0, 1):
-        raise GaitError(f"reverse is {reverse!r}, expected true or false, or 1 or 0")
-    given["reverse"] = bool(reverse)
-    given["provenance"] = _provenance(given.get("provenance", {}))
-    for key in ("coefficients", "outputs"):
-        if isinstance(given.get(key), np.ndarray):
-            given[key] = np.atleast_2d(given[key])  # one row, squeezed by loadmat
-    return GaitRecord(**given, own=robot if given["convention"] == OWN else None)
-
-
-def _provenance(value: object) -> dict[str, object]:
-    """Provenance by name, from a mapping, text of JSON (in .mat files), or any other text as its source."""
-    if isinstance(value, str):
-        try:
-            value = json.loads(value)
-        except json.JSONDecodeError:
-            value = {"source": value}
-    if not isinstance(value, Mapping):
-        raise GaitError(f"provenance is a {type(value).__name__}, expected text or a mapping")
-    return dict(value)
 
 
 RUN_FORMAT = "biped_adrc exchanged run 1"

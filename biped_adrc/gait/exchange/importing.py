@@ -1,30 +1,35 @@
 """Import and export of gaits: `import_gait` and `export_gait`, the two functions a user calls.
 
-An import reads a file or takes a `GaitRecord`, converts it to the paper's coordinates, checks that it closes
-(`closure`), completes what is missing (state before impact, period) from the zero dynamics, and ends with the
-same `Gait.check` that stored gaits pass. Robots with a URDF of the user's own are refused: the conventions
-describe the angles of the packaged robots only.
+An import reads a file or takes a `GaitRecord`, converts it to the paper's coordinates, completes what is
+missing (state before impact, period) from the zero dynamics, and passes the `Gait.check` of stored gaits: the
+end of the step, relabelled, is the start of the next one. Degrees, a sign, an order of joints, another
+convention: all break it, so it finds them without knowing which one was made. Where the same numbers would be a
+gait in another convention, the error says which. `check_slopes` asks for hybrid invariance besides.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
 from biped_adrc.errors import GaitError
-from biped_adrc.gait.conventions import CONVENTIONS, OWN, of_the_paper, own_convention
-from biped_adrc.gait.conventions import convention as known_convention
-from biped_adrc.gait.exchange.closure import check
-from biped_adrc.gait.exchange.convert import record_of, state_to_paper
+from biped_adrc.gait.conventions import CONVENTIONS, OWN, layout_of, of_the_paper
 from biped_adrc.gait.exchange.files import read_record, write_record
-from biped_adrc.gait.exchange.record import GaitRecord
+from biped_adrc.gait.exchange.record import GaitRecord, coordinates, record_of
 from biped_adrc.gait.exchange.samples import Samples, gait_of_samples
-from biped_adrc.gait.gait import Gait
+from biped_adrc.gait.gait import Gait, impact_smoothness
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robots.robot_toml import robot_names
 from biped_adrc.parts import check_part
+
+SLOPES = 1e-2
+"""[rad/rad]: largest jump of dq/dTheta through the impact in a gait whose slopes close."""
+RATES = 1e-2
+"""[rad/s]: largest gap between the stored rates before impact and those of the curve."""
 
 
 def import_gait(
@@ -51,54 +56,94 @@ def import_gait(
 
     The gait is named by the record ("imported" where it has no name) and can be walked and saved as any other.
 
-    Raises GaitError that names the joint, what was found, what was expected, the likely cause and what to
-    try; InputError for a file that cannot be read.
+    Raises GaitError that names the joint, what was found, what was expected and what to try; InputError for a
+    file that cannot be read.
     """
     check_part(biped, "biped", Biped)
-    record, source = gait, "arrays"
-    if not isinstance(gait, GaitRecord | Samples):
-        check_part(gait, "gait", GaitRecord, Samples, str, Path)
+    check_part(gait, "gait", GaitRecord, Samples, str, Path)
+    source = "arrays"
+    if isinstance(gait, str | Path):
         source = Path(gait).name
-        layout = own_convention(biped)
-        asked = layout if convention == OWN or not of_the_paper(biped) else None
-        record = read_record(gait, convention, names, asked)
-    if isinstance(record, Samples):
-        return _of_samples(record, biped, convention, (degree, slope), source)
-    assert isinstance(record, GaitRecord)
-    _check_angles(record.convention, biped)
-    if record.convention == OWN and record.own is None:
-        record = replace(record, own=own_convention(biped))
-    along = check(record, biped, slopes)
-    constraint = along.constraint
-    state = state_to_paper(record, along.turns)
-    period = record.period
-    if state is None or period is None:
-        own = Gait.of_cycle(record.name, ZeroDynamics.of(biped, constraint), {})
-        period = own.period
-        state = (own.q_minus, own.v_minus) if state is None else state
-    provenance: dict[str, object] = dict(record.provenance) or {
+        gait = read_record(gait, convention, names, None if of_the_paper(biped) else OWN)
+    if isinstance(gait, Samples):
+        layout = layout_of(convention or OWN, biped)
+        title = "samples" if source == "arrays" else Path(source).stem
+        return gait_of_samples(gait, biped, layout, degree, slope, title, source)
+    try:
+        found = _gait_of(gait, biped, source)
+    except GaitError as error:
+        others = [name for name in closing_conventions(gait, biped) if name != gait.convention]
+        hint = f'; it would close in {others}, try convention="{others[0]}"' if others else ""
+        raise GaitError(f"{error}{hint}") from error
+    if slopes:
+        check_slopes(found, biped)
+    return found
+
+
+def closing_conventions(record: GaitRecord, biped: Biped) -> tuple[str, ...]:
+    """Names of the conventions in which the same numbers would be a gait that closes, slopes aside."""
+    closing = []
+    for name in CONVENTIONS:
+        with suppress(GaitError):  # another number of joints, or a phase that says nothing there
+            _gait_of(replace(record, convention=name), biped, "")
+            closing.append(name)
+    return tuple(closing)
+
+
+def _gait_of(record: GaitRecord, biped: Biped, source: str) -> Gait:
+    """The gait of a record, completed by the zero dynamics and checked. Raises GaitError."""
+    layout = layout_of(record.convention, biped)
+    along = coordinates(record, layout)
+    constraint, span = along.constraint, along.theta_minus - along.theta_plus
+    q, dq, _ = along.curve(1.0)
+    provenance = dict(record.provenance) or {
         "method": f"imported from convention '{record.convention}'",
         "source": source,
     }
     if along.turns.any():
         provenance["whole turns added to q"] = ", ".join(f"{k:g}" for k in along.turns)
     robot, preset = record.robot or biped.description.name, record.preset or biped.preset
-    return Gait(
-        record.name, robot, preset, constraint, *state, period, provenance, record.slope
-    ).check(biped)
+    names = record.name, robot, preset
+    # of |Theta'| = 1 rad/s: what the curve alone says of the state before impact
+    gait = Gait(*names, constraint, q, dq / abs(span), 1.0, provenance, record.slope).check(biped)
+    if record.q_minus is not None and record.v_minus is not None:
+        to_paper = layout.to_paper
+        q, v = (
+            to_paper.angles(record.q_minus) + 2.0 * np.pi * along.turns,
+            to_paper.rates(record.v_minus),
+        )
+        gap = np.abs(v - dq * float(along.phase @ v) / span)
+        joint = int(np.argmax(gap))
+        if not gap[joint] <= RATES:
+            raise GaitError(
+                f"gait '{record.name}': v_minus of {biped.description.joints[joint]} is {gap[joint]:.3g} rad/s "
+                f"from the curve's end, expected at most {RATES:g}; leave q_minus and v_minus out to have them "
+                "computed"
+            )
+        gait = replace(gait, q_minus=q, v_minus=v)
+    if record.q_minus is None or record.period is None:
+        orbit = Gait.of_cycle(record.name, ZeroDynamics.of(biped, constraint), {})
+        gait = replace(gait, period=orbit.period)
+        if record.q_minus is None:
+            gait = replace(gait, q_minus=orbit.q_minus, v_minus=orbit.v_minus)
+    return replace(gait, period=record.period or gait.period).check(biped)
 
 
-def _of_samples(
-    samples: Samples, biped: Biped, name: str | None, fit: tuple[int, float], source: str
-) -> Gait:
-    """The gait of samples; they are in the robot's own coordinates where no convention is named."""
-    if name is None or name == OWN:
-        layout = own_convention(biped)
-    else:
-        _check_angles(name, biped)
-        layout = known_convention(name, knees=biped.n == 5)
-    title = "samples" if source == "arrays" else Path(source).stem
-    return gait_of_samples(samples, biped, layout, *fit, name=title, source=source)
+def check_slopes(gait: Gait, biped: Biped) -> None:
+    """Raise GaitError unless dq/dTheta after the impact is the slope at the start: hybrid invariance.
+
+    It depends on the masses, so this is the one check that tells robots of equal link lengths apart.
+    """
+    jump = np.abs(impact_smoothness(gait, biped) / (gait.constraint.phase @ gait.start(biped)[1]))
+    joint = int(np.argmax(jump))
+    if not jump[joint] <= SLOPES:
+        raise GaitError(
+            f"gait '{gait.name}': the slope of {biped.description.joints[joint]} jumps by {jump[joint]:.4g} "
+            f"rad/rad through the impact, expected at most {SLOPES:g}: the masses differ (gait for "
+            f"{gait.robot}, preset {gait.preset}; robot {biped.description.name}, preset {biped.preset}), or "
+            "the constraint is not hybrid-invariant; load the robot it was made for, or accept the jump with "
+            "slopes=False"
+        )
 
 
 def export_gait(
@@ -106,29 +151,9 @@ def export_gait(
 ) -> None:
     """Write a gait as .json or .mat (plain arrays, a `units` struct) in any convention.
 
-    biped: its robot, for the convention "own". `import_gait` gives it back. Raises InputError for another
-    suffix or convention, GaitError for a robot that the convention does not fit, and OutputError.
+    biped: its robot, needed where that is not one of the package. `import_gait` gives it back. Raises
+    InputError for another suffix, convention or robot, and OutputError.
     """
     check_part(gait, "gait", Gait)
-    if biped is not None:
-        _check_angles(convention, biped)
-    elif convention == OWN or (gait.robot and gait.robot not in robot_names()):
-        raise GaitError(
-            f"the gait is of robot '{gait.robot}' and convention '{convention}' is asked for; give "
-            "its robot too: "
-            "export_gait(gait, path, 'own', biped) writes the coordinates of the robot's record as they are"
-        )
-    own = own_convention(biped) if biped is not None and convention == OWN else None
-    write_record(record_of(gait, convention, own), path)
-
-
-def _check_angles(name: str, biped: Biped) -> None:
-    """Raises GaitError for a convention of other legs or another phase than the robot's."""
-    if name == OWN or of_the_paper(biped) or name not in CONVENTIONS:
-        return
-    d = biped.description
-    raise GaitError(
-        f"robot '{d.name}' has the coordinates {list(d.joints)} and the phase {list(d.phase)}, which "
-        "are not laid out "
-        f"as convention '{name}' has them; take convention 'own', the coordinates of its record as they are"
-    )
+    biped = Biped.load(gait.robot, gait.preset) if biped is None else biped
+    write_record(record_of(gait, biped, convention), path)

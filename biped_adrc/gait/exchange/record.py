@@ -1,10 +1,16 @@
-"""A gait in one angle convention as plain arrays, the form in which gaits are exchanged.
+"""A gait in one angle convention as plain arrays, the form in which gaits are exchanged, to and from the
+paper's.
 
     y(s) = H0 q'(s),   s = (theta - theta+) / (theta- - theta+),   theta = c' q'
 
-The rows of `coefficients` are y: by default the outputs of the convention, or all of its coordinates, which the
-number of rows tells. The record checks itself when it is made (shapes, finite numbers, a phase range), so that
-`convert` and `closure` need not; whether the numbers are a gait is for `closure` to say.
+The rows of `coefficients` are y: the outputs of the convention, all of its coordinates, or what `outputs` says.
+Curves are linear in their coefficients and their basis adds up to 1, so A h(s) + b has the coefficients
+A alpha_k + b, and s is the same under every affine map of the phase. With y and the phase
+
+    q'(s) = [H0; c']^-1 [y(s); theta+ + s (theta- - theta+)]
+
+every coordinate is a curve. `coordinates` brings a record into the paper's coordinates, `record_of` takes a
+gait to another convention; both keep kind and degree of the curves.
 """
 
 from __future__ import annotations
@@ -12,17 +18,36 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.errors import GaitError
-from biped_adrc.gait.conventions import CONVENTIONS, OWN, Convention, convention
+from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.conventions import OWN, Convention, layout_of
 from biped_adrc.gait.curves import Curve, curve_kind
+from biped_adrc.gait.gait import CLOSES, Gait
+from biped_adrc.gait.outputs import all_coordinates
+from biped_adrc.model.biped import Biped
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array, read_only
 
-_COORDINATES = {5: True, 3: False}
-"""By the number of coordinates, whether the robot has knees."""
+LARGEST = 4.0 * math.pi
+"""[rad]: angles above this are taken for degrees."""
+_TURN = 2.0 * math.pi
+_PARALLEL = 1e-12
+"""Largest relative difference of two phase rows that count as parallel."""
+_DIMENSIONS = {
+    "coefficients": 2,
+    "theta_plus": 0,
+    "theta_minus": 0,
+    "phase": 1,
+    "outputs": 2,
+    "q_minus": 1,
+    "v_minus": 1,
+    "period": 0,
+    "slope": 0,
+}
 
 
 @dataclass(frozen=True)
@@ -33,12 +58,11 @@ class GaitRecord(Shown):
         gait = ba.import_gait(record, biped)
 
     Only convention, coefficients and the range of the phase are needed; everything else has a default or
-    follows from the robot when the record is imported. Raises GaitError that names the entry, what was found,
-    what was expected and what to try.
+    follows from the robot when the record is imported. Raises GaitError that names the entry.
     """
 
     convention: str
-    """Name of the angle convention, of `conventions.CONVENTIONS`."""
+    """Name of the angle convention, of `conventions.CONVENTIONS`; "own" for the robot's own coordinates."""
     coefficients: Array
     """Of the curves (rows, M + 1) [rad], one row per output or per coordinate."""
     theta_plus: float
@@ -51,8 +75,6 @@ class GaitRecord(Shown):
     """H0 (rows, n); the convention's own outputs, or all coordinates, when None."""
     curve: str = "bezier"
     """Kind of the curves, "bezier" or "polynomial"."""
-    reverse: bool = False
-    """True if the first coefficients belong to the end of the step (s runs from 1 to 0)."""
     q_minus: Array | None = None
     """(n,) just before impact [rad], in this convention; from the zero dynamics when None."""
     v_minus: Array | None = None
@@ -66,149 +88,152 @@ class GaitRecord(Shown):
     preset: str = ""
     provenance: Mapping[str, object] = field(default_factory=dict)
     """Where the gait comes from, free text by name."""
-    own: Convention | None = field(default=None, repr=False)
-    """The robot's coordinates, `own_convention(biped)`, for the convention "own"."""
 
     def __post_init__(self) -> None:
-        curve_kind(self.curve)
-        for key in ("coefficients", "phase", "q_minus", "v_minus", "outputs"):
+        for key, dimensions in _DIMENSIONS.items():
             value = getattr(self, key)
-            if value is not None or key == "coefficients":
-                dimensions = 2 if key in ("coefficients", "outputs") else 1
-                object.__setattr__(self, key, self._array(key, value, dimensions))
-        self._check_phase_range()
-        layout = self.layout
-        for key in ("phase", "q_minus", "v_minus"):
-            value = getattr(self, key)
-            if value is not None and value.shape != (layout.n,):
-                raise self.error(
-                    f"{key} has {len(value)} numbers, expected {layout.n}: {', '.join(layout.coordinates)}"
-                )
-        if (self.q_minus is None) != (self.v_minus is None):
-            raise self.error("only one of q_minus and v_minus is given; give both or neither")
+            if value is not None or key in ("coefficients", "theta_plus", "theta_minus"):
+                object.__setattr__(self, key, self._numbers(key, value, dimensions))
 
-    @property
-    def layout(self) -> Convention:
-        """The convention, with knees or without, as the number of rows tells. Raises GaitError."""
-        rows = self.coefficients.shape[0]
-        if self.convention == OWN:
-            return self._of_robot(rows)
-        if self.outputs is not None:
-            n = self.outputs.shape[1]
-            if n not in _COORDINATES or self.outputs.shape[0] != rows:
-                raise self.error(
-                    f"outputs have shape {self.outputs.shape} for {rows} rows of coefficients; expected "
-                    f"({rows}, 5), or ({rows}, 3) without knees"
-                )
-            return convention(self.convention, _COORDINATES[n])
-        both = (convention(self.convention, knees) for knees in (True, False))
-        fitting = [known for known in both if rows in _row_counts(known)]
-        if not fitting:
-            raise self._wrong_rows(rows)
-        return fitting[0]
-
-    @property
-    def of_all_coordinates(self) -> bool:
-        """True where the rows are the n coordinates themselves rather than outputs."""
-        return self.outputs is None and self.coefficients.shape[0] == self.layout.n
-
-    @property
-    def curve_of_rows(self) -> Curve:
-        """The curve y(s) of the rows [rad]."""
-        return curve_kind(self.curve)(self.coefficients)
+    def _numbers(self, key: str, value: object, dimensions: int) -> Array | float:
+        """An entry as a read-only array of so many dimensions, or a float. Raises GaitError."""
+        try:
+            a = np.array(value)
+            a = read_only(np.full(1, np.nan) if np.iscomplexobj(a) else a)
+        except (TypeError, ValueError):  # text, or rows of different lengths
+            a = np.full(1, np.nan)
+        if a.ndim != dimensions or not np.all(np.isfinite(a)):
+            kind = ("one number", "one row of numbers", "a row of numbers for each joint")[
+                dimensions
+            ]
+            raise self.error(f"{key} is {value}, expected {kind}, all finite")
+        return a if dimensions else float(a)
 
     def error(self, text: str) -> GaitError:
         """An error that names the gait and its convention."""
         return GaitError(f"gait '{self.name}' in convention '{self.convention}': {text}")
 
-    def _of_robot(self, rows: int) -> Convention:
-        """The robot's own coordinates. Raises GaitError."""
-        if self.own is None:
-            raise self.error(
-                "the robot is not known; give own=own_convention(biped), or import_gait"
-            )
-        n = self.own.n if self.outputs is None else self.outputs.shape[1]
-        counts = (len(self.own.outputs), n) if self.outputs is None else (len(self.outputs),)
-        if n != self.own.n or rows not in counts:
-            raise self.error(
-                f"coefficients have {rows} rows for {self.own.source}, expected {counts[0]}, one per motor, or "
-                f"{self.own.n}, one per coordinate ({', '.join(self.own.coordinates)}); rows are joints, "
-                "columns k = 0..M"
-            )
-        return self.own
 
-    def _wrong_rows(self, rows: int) -> GaitError:
-        """The error for a number of rows that the convention does not have.
+class Coordinates(NamedTuple):
+    """All n coordinates of this paper along a step, and the phase they belong to."""
 
-        The likely cause is another convention that has so many rows, or a matrix that is transposed.
-        """
-        takes = _counts_of(self.convention)
-        others = [name for name in CONVENTIONS if rows in _counts_of(name)]
-        columns = self.coefficients.shape[1]
-        if others:
-            cause = (
-                f"the conventions {others} take {rows}: try one of them, or give all coordinates"
-            )
-        elif columns in takes:
-            cause = f"it has {columns} columns, so it may be transposed: rows are joints, columns k = 0..M"
-        else:
-            cause = "give one row per joint, or the matrix `outputs` that makes the rows from the coordinates"
-        expected = " or ".join(str(count) for count in takes)
-        return self.error(f"coefficients have {rows} joints (rows), expected {expected}; {cause}")
+    curve: Curve
+    """q(s), (n, M + 1) coefficients [rad]."""
+    phase: Array
+    """c (n,), Theta = c q."""
+    theta_plus: float
+    """Theta at s = 0, after impact [rad]."""
+    theta_minus: float
+    """Theta at s = 1, before the next impact [rad]."""
+    turns: Array
+    """(n,) whole turns that were added so that hips lie near pi and the others near 0."""
 
-    def _array(self, key: str, value: object, dimensions: int) -> Array:
-        """An entry as a read-only real array of so many dimensions.
-
-        Raises GaitError that says what is wrong.
-        """
-        try:
-            a = np.array(value)
-            if np.iscomplexobj(a):
-                raise TypeError("its numbers are complex")
-            a = read_only(a)
-        except (TypeError, ValueError) as error:
-            raise self.error(f"{key} is not an array of real numbers: {error}") from error
-        if a.ndim != dimensions or a.size == 0 or (key == "coefficients" and a.shape[1] < 2):
-            shape = "(joints, degree + 1) with degree >= 1" if dimensions == 2 else "one row"
-            raise self.error(f"{key} has shape {a.shape}, expected {shape}")
-        if not np.all(np.isfinite(a)):
-            where = tuple(int(i) for i in np.argwhere(~np.isfinite(a))[0])
-            kinds = ("joint", "column") if a.ndim == 2 else ("entry",)
-            what = ", ".join(f"{kind} {i + 1}" for kind, i in zip(kinds, where, strict=True))
-            raise self.error(
-                f"{key}: {what} (counted from 1) is {a[where]}, expected finite numbers; was the file "
-                "written by an optimisation that did not converge?"
-            )
-        return a
-
-    def _check_phase_range(self) -> None:
-        """Make the scalar entries floats.
-
-        Raises GaitError for one that is not finite or a range without extent.
-        """
-        for key in ("theta_plus", "theta_minus", "period", "slope"):
-            value = getattr(self, key)
-            if key == "period" and value is None:
-                continue
-            try:
-                number = float(value)
-            except (TypeError, ValueError):
-                number = math.nan
-            if not math.isfinite(number):
-                raise self.error(f"{key} is {value}, expected one finite number")
-            object.__setattr__(self, key, number)
-        if self.theta_plus == self.theta_minus:
-            raise self.error(
-                f"theta_plus and theta_minus are both {self.theta_plus} rad, expected two different ends; a "
-                "normalised s in [0, 1] needs the phase at s = 0 and at s = 1"
-            )
+    @property
+    def constraint(self) -> VirtualConstraint:
+        """The virtual constraint of the actuated coordinates, all but the last."""
+        curve = type(self.curve)(self.curve.coefficients[:-1])
+        return VirtualConstraint(curve, self.phase, self.theta_plus, self.theta_minus)
 
 
-def _counts_of(name: str) -> tuple[int, ...]:
-    """Numbers of rows that a gait may have in a convention, with knees and without."""
-    return tuple(k for knees in (True, False) for k in _row_counts(convention(name, knees)))
+def mapped(curve: Curve, A: Array, b: Array) -> Curve:
+    """The curve A h(s) + b, of the same kind and degree; A (rows, p), b (rows,) [rad]."""
+    return type(curve)(type(curve)(A @ curve.coefficients).shifted(b))
 
 
-def _row_counts(c: Convention) -> tuple[int, ...]:
-    """Numbers of rows a gait may have without `outputs`."""
-    return tuple(sorted({c.outputs.shape[0], c.n}))
+def coordinates(record: GaitRecord, layout: Convention) -> Coordinates:
+    """All coordinates of this paper along the step of a record in a convention.
+
+    Completes the coordinates by the phase, maps the angles, scales the phase to the paper's own row where it is
+    parallel to it, and adds whole turns. Raises GaitError when the rows do not determine the coordinates.
+    """
+    c = layout.phase if record.phase is None else record.phase
+    plus, minus = record.theta_plus, record.theta_minus
+    curve = _of_all(record, layout, c)
+    to_paper = layout.to_paper
+    curve = mapped(curve, to_paper.A, to_paper.b)
+    # theta = c' q' = (c' A^-1) q - c' A^-1 b
+    row = c @ to_paper.inverse.A
+    ends = np.array([plus, minus]) + float(row @ to_paper.b)
+    k = float(row @ layout.paper_phase) / float(layout.paper_phase @ layout.paper_phase)
+    if np.max(np.abs(row - k * layout.paper_phase)) <= _PARALLEL * np.max(np.abs(row)):
+        row, ends = layout.paper_phase, ends / k
+    turns = np.zeros(layout.n) if layout.name == OWN else whole_turns(curve(0.5)[0])
+    curve = mapped(curve, np.eye(layout.n), _TURN * turns)
+    ends = ends + row @ (_TURN * turns)
+    return Coordinates(curve, row, float(ends[0]), float(ends[1]), turns)
+
+
+def _of_all(record: GaitRecord, layout: Convention, c: Array) -> Curve:
+    """The curves (n, M + 1) of all coordinates of a convention. Raises GaitError for what does not fit it."""
+    n, rows = layout.n, len(record.coefficients)
+    outputs = record.outputs
+    if outputs is None:
+        outputs = np.eye(n) if rows == n else layout.outputs
+    half = (record.q_minus is None) != (record.v_minus is None)
+    if (
+        half
+        or outputs.shape != (rows, n)
+        or any(x is not None and x.shape != (n,) for x in (c, record.q_minus, record.v_minus))
+    ):
+        raise record.error(
+            f"{rows} rows of coefficients and outputs of shape {outputs.shape}, expected {len(layout.outputs)} "
+            f"rows or one per coordinate, which are {', '.join(layout.coordinates)}; phase, q_minus and "
+            f"v_minus have {n} numbers each, the last two are both given or both left out"
+        )
+    curve = curve_kind(record.curve)(record.coefficients)
+    s, (plus, minus) = np.linspace(0.0, 1.0, 21), (record.theta_plus, record.theta_minus)
+    largest = float(np.max(np.abs(curve.over(s))))
+    if largest > LARGEST:
+        raise record.error(
+            f"an angle of the curves is {largest:.5g}, expected radians, at most {LARGEST:.4g}; are they "
+            "degrees?"
+        )
+    if rows != n or record.outputs is not None:
+        return all_coordinates(curve, outputs, c, (plus, minus))
+    gap = float(np.max(np.abs(curve.over(s) @ c - (plus + s * (minus - plus)))))
+    if gap > CLOSES:
+        raise record.error(
+            f"the phase c q(s) of the curves is {gap:.3g} rad from a straight line from theta_plus to "
+            f"theta_minus, expected at most {CLOSES:g}; they run over time or over another phase than the row c"
+        )
+    return curve
+
+
+def whole_turns(middle: Array) -> Array:
+    """Whole turns (n,) to add to q in the middle of a step (n,) [rad].
+
+    Then hips lie in (0, 2 pi), knees and torso in (-pi, pi). Angles that differ by whole turns are the same
+    pose, but not the same phase c q.
+    """
+    centre = np.zeros(len(middle))
+    centre[:2] = np.pi
+    return np.asarray(-np.round((middle - centre) / _TURN) + 0.0)
+
+
+def record_of(gait: Gait, biped: Biped, to: str = "paper") -> GaitRecord:
+    """The gait of a robot as a record in another convention, with its outputs and its sense of the phase.
+
+    Raises GaitError for a convention that there is not, or that does not fit the robot.
+    """
+    constraint, other = gait.constraint, layout_of(to, biped)
+    ends = constraint.theta_plus, constraint.theta_minus
+    curve = all_coordinates(constraint.curve, np.eye(biped.p, biped.n), constraint.phase, ends)
+    back = other.to_paper.inverse
+    # Theta = c q = c A q' + c b
+    plus, minus = other.sense * (np.array(ends) - constraint.phase @ other.to_paper.b)
+    return GaitRecord(
+        to,
+        other.outputs @ mapped(curve, back.A, back.b).coefficients,
+        float(plus),
+        float(minus),
+        phase=other.sense * (constraint.phase @ other.to_paper.A) + 0.0,
+        curve=type(constraint.curve).__name__.lower(),
+        q_minus=back.angles(gait.q_minus),
+        v_minus=back.rates(gait.v_minus),
+        period=gait.period,
+        slope=gait.slope,
+        name=gait.name,
+        robot=gait.robot,
+        preset=gait.preset,
+        provenance=gait.provenance,
+    )
