@@ -86,7 +86,7 @@ def test_in_flight_what_depends_on_rates_leaves_a_first_order_of_two_hundredths_
 
 def walked(biped, gait, controller, plant, impacts, push=None):
     loop = ba.CompiledLoop(
-        plant, controller(gait.constraint), biped, ba.SampledTime(1e-3), push, 150.0
+        plant, controller(gait.constraint), push, ba.SampledTime(1e-3), biped, 150.0
     )
     x0 = loop.initial_state(*gait.start(biped))
     return loop.run(x0, ba.RunOptions(0.8 * impacts, stop_after=("foot_strike", impacts)))
