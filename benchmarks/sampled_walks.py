@@ -128,7 +128,7 @@ def on_soft_ground(table: Table, quick: bool) -> None:
     for name, (kind, integrator) in names.items():
         plant = ba.MuJoCoPlant(biped, integrator=integrator)
         law = ba.ADRCController(gait.constraint)
-        loop = kind(plant, law, biped, ba.SampledTime(TICK), None, 150.0)
+        loop = kind(plant, law, None, ba.SampledTime(TICK), biped, 150.0)
         options = ba.RunOptions(0.8 * impacts, stop_after=(FOOT_STRIKE, impacts))
         runs[name] = partial(loop.run, loop.initial_state(*gait.start(biped)), options)
     walks = {name: run() for name, run in runs.items()}

@@ -13,6 +13,7 @@ the same sentences. Three rules stand behind it:
 
 from __future__ import annotations
 
+import csv
 import json
 import math
 import os
@@ -167,6 +168,18 @@ def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[No
             case _:
                 why = f" cannot be used, {type(found).__name__}: {found}"
         raise error(where + why) from found
+
+
+def csv_rows(file: Path | str) -> tuple[list[str], list[tuple[int, list[str]]]]:
+    """The first line of a CSV file, and the lines below it with their numbers, each of as many entries."""
+    with Path(file).open(newline="", encoding="utf-8-sig") as text:
+        lines = csv.reader(text)
+        rows = [(lines.line_num, [x.strip() for x in row]) for row in lines if row]
+    head = rows[0][1] if rows else []
+    for line, row in rows[1:]:
+        if len(row) != len(head):
+            raise InputError(f"line {line} has {len(row)} entries, expected {len(head)}: {head}")
+    return head, rows[1:]
 
 
 def number_in(text: str, line: int, column: str) -> float:

@@ -79,7 +79,7 @@ def _values(cls: Any) -> tuple[tuple[str, Callable[[Any], Any]], ...]:
     """
     found: list[tuple[str, Callable[[Any], Any]]] = []
     for f in fields(cls):
-        value = _as_floats if "float" in str(f.type) else _itself
+        value = _as_floats if "float" in str(f.type).lower() else _itself
         found.append((f.name, _hidden if f.metadata.get("setup") else value))
     return (*found, *((name, _itself) for name in derived_names(cls)))
 

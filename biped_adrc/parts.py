@@ -1,7 +1,7 @@
 """What a part of a walker is expected to be, and the sentence for a user who gives another thing.
 
-A dataclass calls `check_fields` and has each field held against its own annotation; a function calls
-`check_part` for one argument. Both raise InputError.
+A dataclass calls `check_fields` and has each field held against its own annotation, its range included
+(`ranges`); a function calls `check_part` for one argument. Both raise InputError.
 """
 
 from __future__ import annotations
@@ -14,14 +14,15 @@ from contextlib import contextmanager
 from dataclasses import fields, is_dataclass
 from functools import lru_cache, wraps
 from inspect import unwrap
-from numbers import Real
+from numbers import Integral, Real
 from pathlib import Path
 from types import NoneType, UnionType
-from typing import Any, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
 from biped_adrc.errors import BipedError, InputError, NotFiniteError, RaisedError
+from biped_adrc.ranges import Range
 from biped_adrc.types import Array
 
 SUCH_AS = {
@@ -44,22 +45,36 @@ SUCH_AS = {
 """An example of each, for the sentence only."""
 
 
+NUMBERS: dict[Any, str] = {float: "a number", Integral: "a whole number"}
+
+
 def check_part(value: object, what: str, *kinds: type) -> None:
     """Raise InputError, beginning with `what`, unless `value` is an instance of one of the classes."""
     if isinstance(value, kinds) or (float in kinds and _is_number(value)):
         return
     named = [kind for kind in kinds if kind is not NoneType]
-    words = " or ".join("a number" if kind is float else _a(kind) for kind in named)
+    words = " or ".join(NUMBERS.get(kind) or _a(kind) for kind in named)
     examples = [SUCH_AS[kind.__name__] for kind in named if kind.__name__ in SUCH_AS]
     such_as = f", such as {examples[0]}" if examples else ""
     raise InputError(f"{what} is {_shown(value)}, expected {words}{such_as}")
 
 
 def check_fields(part: Any) -> None:
-    """`check_part` for every field of a dataclass that is annotated with parts or numbers, None included."""
+    """`check_part` for every field of a dataclass that is annotated with parts or numbers, None included.
+
+    A number has to be in the range of its annotation, too.
+    """
     cls: Any = type(part)
-    for name, kinds in _expected(cls):
-        check_part(getattr(part, name), f"{name} of {type(part).__name__}", *kinds)
+    for name, kinds, range in _expected(cls):
+        value, what = getattr(part, name), f"{name} of {type(part).__name__}"
+        check_part(value, what, *kinds)
+        if (
+            range is not None
+            and not (value is None and NoneType in kinds)
+            and not range.holds(value)
+        ):
+            or_none = " or None" if NoneType in kinds else ""
+            raise InputError(f"{what} is {value!r}, expected {range.words}{or_none}")
 
 
 class Checked:
@@ -237,24 +252,30 @@ def is_users(file: str) -> bool:
 
 
 @lru_cache(maxsize=256)
-def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...]], ...]:
-    """Fields and what they may be; without those whose annotation says other things or cannot be read."""
+def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...], Range | None], ...]:
+    """Fields, what they may be and their ranges; without those whose annotation cannot be read or says more."""
     try:
-        hints = get_type_hints(cls)
+        hints = get_type_hints(cls, include_extras=True)
     except (NameError, TypeError, AttributeError, SyntaxError):
         return ()
-    found = ((f.name, _members(hints[f.name])) for f in (fields(cls) if is_dataclass(cls) else ()))
-    return tuple((name, kinds) for name, kinds in found if kinds and all(map(_looked_at, kinds)))
+    found = ((f.name, *_members(hints[f.name])) for f in (fields(cls) if is_dataclass(cls) else ()))
+    return tuple(each for each in found if each[1] and all(map(_looked_at, each[1])))
 
 
-def _members(hint: Any) -> tuple[Any, ...]:
-    return get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
+def _members(hint: Any) -> tuple[tuple[Any, ...], Range | None]:
+    """The classes of an annotation, and the range that it names."""
+    each = get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
+    ranges = [x.__metadata__[0] for x in each if get_origin(x) is Annotated]
+    kinds = tuple(x.__origin__ if get_origin(x) is Annotated else x for x in each)
+    if ranges and int in kinds:  # which the range itself looks at
+        kinds = (Integral, *(x for x in kinds if x is not int))
+    return kinds, ranges[0] if ranges else None
 
 
 def _looked_at(kind: Any) -> bool:
-    """Whether an annotation is a class of this package and no protocol, a float, or None."""
+    """Whether an annotation is a class of this package and no protocol, a number with a range, or None."""
     own = isinstance(kind, type) and kind.__module__.startswith("biped_adrc.")
-    return (own and not getattr(kind, "_is_protocol", False)) or kind in (float, NoneType)
+    return (own and not getattr(kind, "_is_protocol", False)) or kind in (float, Integral, NoneType)
 
 
 def _is_number(value: object) -> bool:

@@ -23,7 +23,6 @@ import numpy as np
 
 from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.closed_loop.semantics import instant
-from biped_adrc.control.base import Controller
 from biped_adrc.hybrid.system import Split
 from biped_adrc.types import Array
 
@@ -55,14 +54,6 @@ class ErrorForm:
         n, p = self.n, self.p
         z = (w[:p] - E[0], self.scale * w[n : n + p] - E[1], -E[2:].ravel())
         return np.concatenate((w[: 2 * n], *z, w[2 * n :]))
-
-
-def error_form(law: Controller, n: int, p: int) -> ErrorForm | None:
-    """The coordinates under a controller; None for one without a linear observer."""
-    error = law.error_system()
-    if error is None:
-        return None
-    return ErrorForm(n, p, error.A.shape[0], float(error.velocity_scale), error.A)
 
 
 def remainder(

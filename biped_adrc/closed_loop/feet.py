@@ -82,43 +82,32 @@ def readings(loop: SteppingLoop, arc: Arc, apart: float | None = None) -> Readin
     """The feet along an arc of a run of this loop, at the nodes and between them at most `apart` [s] apart.
 
     apart: the step of the plant's engine, or a multiple of it, since another step is another motion; None
-    for the nodes alone. Raises InputError for a plant without feet, and where the run is not of this loop
-    or was thinned.
+    for the nodes alone, where the plant is asked and goes nowhere. Raises InputError for a plant without feet,
+    and where the run is not of this loop or was thinned.
     """
     if apart is not None:
         check_positive(apart, f"readings are {apart} s apart", " or None")
-    if not isinstance(loop.plant, OnFeet):
+    plant = loop.plant
+    if not isinstance(plant, OnFeet):
         raise InputError(
-            f"{type(loop.plant).__name__} does not say what its feet do, expected a plant with footing(state, "
+            f"{type(plant).__name__} does not say what its feet do, expected a plant with footing(state, "
             "u, load), such as MuJoCoPlant"
         )
-    if "u" not in arc.read and len(arc.t) > 1:  # one that failed at once has none
-        raise InputError("the run has no torques at its nodes, expected one of a SteppingLoop")
-    return _readings(loop, _passed(loop, arc, apart))
-
-
-def _readings(loop: SteppingLoop, passed: Iterator[tuple[PlantState, Array, Load]]) -> Readings:
-    """Of the feet in these states, with the torques and loads that act there."""
-    plant = loop.plant
-    assert isinstance(plant, OnFeet)
     rows = [
         (*state, motor_torque(plant, state.own, u), load.zeta, *plant.footing(state, u, load))
-        for state, u, load in passed
+        for state, u, load in _passed(loop, arc, apart)
     ]
     return Readings(*(np.array(column) for column in zip(*rows, strict=True)))
 
 
 def with_readings(loop: SteppingLoop, run: Trajectory) -> Trajectory:
-    """The same run with `NAMES` at its nodes, so that they are stored with it.
-
-    The run is taken to be of this loop: the plant is asked in the states of the nodes, and goes nowhere.
-    """
+    """The same run with `NAMES` at its nodes, so that they are stored with it."""
     arcs = []
     for arc in run.arcs:
-        seen = _readings(loop, _at_nodes(loop, arc))
-        kept = (seen.force, seen.place, seen.speed)
-        read = {name: x.reshape(len(x), -1) for name, x in zip(NAMES, kept, strict=True)}
-        acting = {"u": seen.u, "zeta": seen.zeta}  # which an arc that failed at once has not
+        r = readings(loop, arc)
+        feet = zip(NAMES, (r.force, r.place, r.speed), strict=True)
+        read = {name: x.reshape(len(x), -1) for name, x in feet}
+        acting = {"u": r.u, "zeta": r.zeta}  # which an arc that failed at once has not
         arcs.append(replace(arc, read={**acting, **arc.read, **read}))
     return replace(run, arcs=tuple(arcs))
 
@@ -127,36 +116,27 @@ def _passed(
     loop: SteppingLoop, arc: Arc, apart: float | None
 ) -> Iterator[tuple[PlantState, Array, Load]]:
     """States that the plant passes with what acts on it, piece by piece between two nodes at most `apart` [s]
-    apart, both ends of each piece among them."""
+    apart, both ends of each piece among them; last that where the plant was lost."""
     states = [_state(loop, t, x) for t, x in zip(arc.t, arc.x, strict=True)]
     pieces, torques = np.flatnonzero(np.diff(arc.t) > 0.0), arc.x[:, -loop.plant.p :]
-    if len(pieces) == 0:
-        yield states[0], torques[0], _load(loop, states[0].t, states[0], arc.mode)
     for k in pieces:
         state, end, u = states[k], states[k + 1], torques[k]
         load = _load(loop, 0.5 * (state.t + end.t), state, arc.mode)
         yield state, u, load
+        if apart is None:
+            yield end, u, load
+            continue
         for until in _between(state.t, end.t, apart):
             state = loop.plant.advance(state, u, lambda *_, load=load: load, until).nodes[-1]
             yield state, u, load
         _check_again(state, end)
-
-
-def _at_nodes(loop: SteppingLoop, arc: Arc) -> Iterator[tuple[PlantState, Array, Load]]:
-    """The nodes of `_passed`, as the run has them; one behind the last piece is where the plant was lost."""
-    states = [_state(loop, t, x) for t, x in zip(arc.t, arc.x, strict=True)]
-    u, pieces = arc.x[:, -loop.plant.p :], np.flatnonzero(np.diff(arc.t) > 0.0)
-    for k in pieces:
-        load = _load(loop, 0.5 * (states[k].t + states[k + 1].t), states[k], arc.mode)
-        yield states[k], u[k], load
-        yield states[k + 1], u[k], load
     if len(states) > 2 * len(pieces):
-        yield states[-1], u[-1], _load(loop, states[-1].t, states[-1], arc.mode)
+        yield states[-1], torques[-1], _load(loop, states[-1].t, states[-1], arc.mode)
 
 
-def _between(begin: float, end: float, apart: float | None) -> list[float]:
+def _between(begin: float, end: float, apart: float) -> list[float]:
     """Times in (begin, end] [s], the same way apart, at most `apart`; the last is `end` itself."""
-    count = 1 if apart is None else max(1, math.ceil((end - begin) / apart - 1e-6))
+    count = max(1, math.ceil((end - begin) / apart - 1e-6))
     return [*(begin + (end - begin) * k / count for k in range(1, count)), end]
 
 

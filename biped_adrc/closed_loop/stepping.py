@@ -11,16 +11,14 @@ they cannot be computed again from the states.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, cast
 
 import numpy as np
 
-from biped_adrc.closed_loop.bounds import Bounds
 from biped_adrc.closed_loop.noticing import estimated
-from biped_adrc.closed_loop.protocols import Mode, Plant
+from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.semantics import landed, parts, torque_held
 from biped_adrc.closed_loop.stepping_plant import (
     Contact,
@@ -36,48 +34,29 @@ from biped_adrc.closed_loop.stepping_plant import (
 )
 from biped_adrc.closed_loop.stretches import Stretches
 from biped_adrc.closed_loop.system import ClosedLoop
-from biped_adrc.control.base import Controller
-from biped_adrc.disturbances.base import Disturbance
-from biped_adrc.errors import InputError, NotFiniteError, check_positive
-from biped_adrc.hardware.motors import Motors
-from biped_adrc.hardware.sensing import Sensor
-from biped_adrc.hardware.touchdown import Touchdown
+from biped_adrc.errors import InputError, NotFiniteError
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.system import FoundEvent, Mover
 from biped_adrc.hybrid.trajectory import Event, Trajectory
 from biped_adrc.parts import handing_out, numbers
-from biped_adrc.timing import SampledTime, check_ends
+from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array, Indices, frozen
 
 
 @dataclass(frozen=True)
 class SteppingLoop(ClosedLoop[Any]):
-    """A `SteppingPlant` under a controller at sample instants.
+    """A `SteppingPlant` under a controller at sample instants; the fields are those of `ClosedLoop`.
 
     - plant: what moves. model: what the controller knows of it, a `protocols.Plant`.
     - timing: sampled, since between sample instants the plant is given one torque.
-    - disturbance: zeta (n,) [N m] and its resultant, asked for by the plant as often as it likes.
-    - torque_limit [N m]: saturates every motor; None for no limit.
-    - sensors, motors: between controller and plant.
-    - touchdown: how the controller is told of one, with restart=False; None: as the plant reports it.
-    - runaway_speed, runaway_torque [1]: ends of a run, as of a `Walker`, where the model is a Biped.
+    - disturbance: asked for by the plant as often as it likes.
 
-    Raises InputError for what does not fit: continuous time, or a motor's lag, which belongs into
+    Raises InputError for what does not fit: continuous time, no model, or a motor's lag, which belongs into
     the plant.
     """
 
     plant: SteppingPlant
-    controller: Controller
-    model: Plant
-    timing: SampledTime
-    disturbance: Disturbance | None = None
-    torque_limit: float | None = None
-    sensors: Sensor | None = None
-    motors: Motors | None = None
-    touchdown: Touchdown | None = None
-    runaway_speed: float = 20.0
-    runaway_torque: float = 1000.0
 
     def __post_init__(self) -> None:
         """Raise InputError for what does not fit; see the class."""
@@ -86,14 +65,12 @@ class SteppingLoop(ClosedLoop[Any]):
                 f"a plant that moves by itself is controlled at ticks, found {type(self.timing).__name__}; "
                 "give timing=SampledTime(period)"
             )
-        if not isinstance(self.plant, SteppingPlant):
+        if not isinstance(self.plant, SteppingPlant) or self.model is None:
             raise InputError(
-                f"the plant is {self.plant!r:.60}, expected one that moves by itself, with n, p, swap, start "
-                "and advance, such as MuJoCoPlant(biped)"
+                f"the plant is {self.plant!r:.60} and the model {self.model!r:.60}, expected a plant that "
+                "moves by itself, with n, p, swap, start and advance, such as MuJoCoPlant(biped), and a model"
             )
-        self.check()
-        if (limit := self.torque_limit) is not None:
-            check_positive(limit, f"the torque limit is {limit} N m", " or None")
+        super().__post_init__()
         check_swap(self.plant)
         felt = self.touchdown is not None and self.touchdown.needs_force
         if felt and not hasattr(self.plant, "footing"):
@@ -101,26 +78,11 @@ class SteppingLoop(ClosedLoop[Any]):
                 f"{type(self.plant).__name__} does not say what its feet carry (footing), and "
                 f"{type(self.touchdown).__name__} goes by that; give another touchdown, such as ByKinematics()"
             )
-        check_ends(math.inf, 0.0, self.runaway_speed, self.runaway_torque)
         if self.motors is not None and self.motors.lag > 0.0:
             raise InputError(
                 f"the motors' lag is {self.motors.lag} s, expected 0: between ticks a plant that moves by "
                 "itself is given one torque; put the lag into the plant, as MuJoCoPlant(biped, lag=1e-3)"
             )
-
-    @property
-    def exact(self) -> bool:
-        """Never: the model is not the plant."""
-        return False
-
-    @cached_property
-    def bounds(self) -> Bounds:
-        """Angles, rates and torque beyond which the run ends as run away."""
-        return Bounds.of(self.nominal, self.plant.n, self.runaway_speed, self.runaway_torque)
-
-    def bounded(self, u: Array) -> Array:
-        """u (p,) [N m] itself. Raises RanAwayError for one beyond the bounds."""
-        return self.bounds.bounded(u)
 
     @cached_property
     def squares(self) -> tuple[float, float]:

@@ -4,23 +4,21 @@
 
 `closed_loop.stepping.SteppingLoop` drives such a plant, for instance MuJoCo or Drake behind a class
 of the user's. `started` and `advanced` call the plant and check once what it gives. What breaks
-this contract is an InputError that names the plant's class, what was found and what was expected;
-an exception of the plant's own is a SimulationError. Values that are not finite pass: the loop ends
-the run with NOT_FINITE, as for any plant.
+this contract is an InputError that names the plant's class, what was found and what was expected.
+Values that are not finite pass: the loop ends the run with NOT_FINITE, as for any plant.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple, Protocol, runtime_checkable
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
-from biped_adrc.errors import BipedError, InputError, SimulationError
-from biped_adrc.hybrid.integrators import StepFailed
+from biped_adrc.errors import InputError
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.ground import StepDown, StepUp
-from biped_adrc.types import Array, Indices, read_only
+from biped_adrc.types import Array, Indices, frozen, read_only
 
 ROUND_OFF = 1e-9
 """Largest difference [s] between a plant's own clock and the time that it was to reach."""
@@ -170,10 +168,7 @@ def lag_of(plant: SteppingPlant) -> float:
 def check_swap(plant: SteppingPlant) -> None:
     """Raise InputError for a relabelling that is none of p motors."""
     swap = np.asarray(plant.swap)
-    fits = swap.dtype.kind == "i" and swap.shape == (plant.p,)
-    if not fits or not np.array_equal(
-        np.sort(swap - plant.p * (swap >= plant.p)), np.arange(plant.p)
-    ):
+    if swap.dtype.kind != "i" or sorted(swap - plant.p * (swap >= plant.p)) != [*range(plant.p)]:
         raise InputError(
             f"{type(plant).__name__}.swap is {plant.swap!r}, expected an array of int with each of the numbers "
             f"0 to {plant.p - 1} once, plus {plant.p} where an angle changes its sign"
@@ -187,13 +182,9 @@ def started(plant: SteppingPlant, t: float, q: Array, v: Array, own: int | None)
     plant starts elsewhere.
     """
     who = f"{type(plant).__name__}.start"
-    found = _called(who, plant.start, t, read_only(q), read_only(v))
-    state = _state(who, found, len(q), own)
+    state = _state(who, plant.start(t, read_only(q), read_only(v)), len(q), own)
     if state.t != t or not np.array_equal(state[1:3], (q, v)):
-        raise InputError(
-            f"{who} gives t = {state.t} s, q = {state.q}, v = {state.v}, expected those that it was given: "
-            f"t = {t} s, q = {q}, v = {v}"
-        )
+        raise InputError(f"{who} gives {state}, expected the t = {t} s, q = {q}, v = {v} given")
     return state
 
 
@@ -209,111 +200,38 @@ def advanced(
 
     Raises InputError for what breaks the contract.
     """
-    who, (t, *arrays) = f"{type(plant).__name__}.advance", state
-    given = PlantState(t, *(read_only(numbers) for numbers in arrays)), read_only(u)
-    found = _called(who, plant.advance, *given, outside, until)
-    if not isinstance(found, Advanced):
+    who, sizes = f"{type(plant).__name__}.advance", (len(state.q), len(state.own))
+    found = plant.advance(frozen(state), frozen(u), outside, until)
+    if not (isinstance(found, Advanced) and type(found.contacts) is tuple and found.nodes):
         raise InputError(f"{who} gives {found!r:.60}, expected an Advanced(state, contacts, nodes)")
-    sizes = len(state.q), len(state.own)
-    nodes = [
-        _state(f"{who}: nodes[{k}]", node, *sizes)
-        for k, node in enumerate(_tuple(f"{who}: nodes", found.nodes))
-    ]
-    contacts = [
-        _contact(f"{who}: contacts[{k}]", contact)
-        for k, contact in enumerate(_tuple(f"{who}: contacts", found.contacts))
-    ]
+    nodes = [_state(f"{who}: nodes[{k}]", node, *sizes) for k, node in enumerate(found.nodes)]
     after = _state(f"{who}: state", found.state, *sizes)
-    return _in_time(who, state.t, until, Advanced(after, tuple(contacts), tuple(nodes)))
+    if not found.contacts and not abs(after.t - until) <= ROUND_OFF:
+        raise InputError(f"{who} came to {after.t} s without a contact, expected {until} s")
+    if not state.t < after.t <= until + ROUND_OFF:
+        raise InputError(
+            f"{who} came to a contact at {after.t} s, expected after {state.t} s, not after {until} s"
+        )
+    times = [node.t for node in nodes]
+    if not np.all(np.diff(times, prepend=state.t) > 0.0) or abs(times[-1] - after.t) > ROUND_OFF:
+        raise InputError(
+            f"{who} has nodes at {times} s, expected increasing times after {state.t} s, the last at "
+            f"{after.t} s, the time of state"
+        )
+    end = until if abs(after.t - until) <= ROUND_OFF else after.t
+    passed = *(node for node in nodes[:-1] if node.t < end), nodes[-1]._replace(t=end)
+    return Advanced(after._replace(t=end), found.contacts, passed)
 
 
-def _called(who: str, method: Callable[..., object], *given: object) -> object:
-    """method(*given); what it raises of its own becomes a SimulationError that names it."""
-    try:
-        return method(*given)
-    except (BipedError, StepFailed):
-        raise
-    except Exception as error:
-        raise SimulationError(
-            f"{who} raised {type(error).__name__}: {error}; a plant that cannot go on raises "
-            "biped_adrc.hybrid.integrators.StepFailed"
-        ) from error
-
-
-def _numbers(what: str, found: object, shape: tuple[int, ...]) -> Array:
-    """A copy in float64 of the expected shape. Raises InputError."""
-    try:
-        numbers = np.array(found, dtype=float)
-    except (TypeError, ValueError):
-        numbers = None
-    if numbers is None or numbers.shape != shape:
-        raise InputError(f"{what} is {found!r:.60}, expected numbers in an array of shape {shape}")
-    return numbers
-
-
-def _tuple(what: str, found: object) -> tuple[object, ...]:
-    """`found`, if it is a tuple. Raises InputError."""
-    if type(found) is not tuple:
-        raise InputError(f"{what} is {found!r:.60}, expected a tuple")
-    return found
-
-
-def _state(what: str, found: object, n: int, own: int | None) -> PlantState:
+def _state(what: str, found: Any, n: int, own: int | None) -> PlantState:
     """`found` as a PlantState of n coordinates with float64 copies. Raises InputError."""
-    if not isinstance(found, PlantState):
-        raise InputError(f"{what} is {found!r:.60}, expected a PlantState(t, q, v, own)")
-    return PlantState(
-        float(_numbers(f"{what}.t", found.t, ())),
-        _numbers(f"{what}.q", found.q, (n,)),
-        _numbers(f"{what}.v", found.v, (n,)),
-        _numbers(f"{what}.own", found.own, (np.size(found.own) if own is None else own,)),
-    )
-
-
-def _contact(what: str, found: object) -> Contact:
-    """`found` as a Contact with a float64 impulse (2,) [N s]. Raises InputError."""
-    if not isinstance(found, Contact) or not isinstance(found.name, str):
-        raise InputError(f"{what} is {found!r:.60}, expected a Contact(name, impulse, ends)")
-    if found.ends is not None and (not isinstance(found.ends, Status) or found.ends.ok):
+    try:
+        state = PlantState(float(found[0]), *(np.array(x, dtype=float) for x in found[1:]))
+        fits = state.q.shape == state.v.shape == (n,) and own in (None, len(state.own))
+    except (TypeError, ValueError, LookupError):
+        fits = False
+    if not fits:
         raise InputError(
-            f"{what}.ends is {found.ends!r:.60}, expected None, or a Status that says why the run ends, as "
-            "Status.FELL"
+            f"{what} is {found!r:.60}, expected a PlantState(t, q, v, own) of {n} coordinates"
         )
-    return found._replace(impulse=_numbers(f"{what}.impulse", found.impulse, (2,)))
-
-
-def _in_time(who: str, begin: float, until: float, moved: Advanced) -> Advanced:
-    """`moved` with its last two times equal, and `until` where they are that but for round-off."""
-    _check_times(who, begin, until, moved)
-    *before, last = moved.nodes
-    if not moved.contacts and not all(map(_same, last[1:], moved.state[1:])):
-        raise InputError(
-            f"{who}: nodes[-1] is {last}, expected the same as state, {moved.state}, without a contact"
-        )
-    end = until if abs(moved.state.t - until) <= ROUND_OFF else moved.state.t
-    passed = *(node for node in before if node.t < end), last._replace(t=end)
-    return Advanced(moved.state._replace(t=end), moved.contacts, passed)
-
-
-def _check_times(who: str, begin: float, until: float, moved: Advanced) -> None:
-    """Raise InputError for a clock that is elsewhere, or that went backwards on the way there."""
-    end, earlier = moved.state.t, begin
-    if not moved.contacts and not abs(end - until) <= ROUND_OFF:
-        raise InputError(f"{who} came to {end} s without a contact, expected {until} s")
-    if not begin < end <= until + ROUND_OFF:
-        raise InputError(
-            f"{who} came to a contact at {end} s, expected one after {begin} s, where it began, and not "
-            f"after {until} s"
-        )
-    for k, node in enumerate(moved.nodes):
-        if not node.t > earlier:
-            raise InputError(f"{who}: nodes[{k}] is at {node.t} s, expected later than {earlier} s")
-        earlier = node.t
-    if not moved.nodes or abs(earlier - end) > ROUND_OFF:
-        found = f"the last node is at {earlier} s" if moved.nodes else "there are no nodes"
-        raise InputError(f"{who}: {found}, expected the last at {end} s, the time of state")
-
-
-def _same(a: Array, b: Array) -> bool:
-    """Whether two arrays are equal; NaN equals NaN here, since such values pass to the loop."""
-    return np.array_equal(a, b, equal_nan=True)
+    return state

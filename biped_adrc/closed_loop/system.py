@@ -13,12 +13,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Generic, TypeVar
 
 import numpy as np
 
 from biped_adrc.closed_loop import semantics
+from biped_adrc.closed_loop.bounds import Bounds
 from biped_adrc.closed_loop.protocols import ControlLaw, Mode, Plant
 from biped_adrc.closed_loop.semantics import Instant
 from biped_adrc.control.base import Controller, Measurement, check_methods, nested
@@ -32,46 +34,59 @@ from biped_adrc.hardware.sample_hold import Held, HeldParts
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.hybrid.system import Clock, HybridSystem, Relaxing
+from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_fields, handing_out, returned
-from biped_adrc.timing import ContinuousTime, SampledTime, check_timing
+from biped_adrc.ranges import PositiveFloat
+from biped_adrc.timing import ContinuousTime, SampledTime, check_ends, check_timing
 from biped_adrc.types import Array, Indices, frozen
 
 P = TypeVar("P", bound=Plant)
 
 
+@dataclass(frozen=True)
 class ClosedLoop(HybridSystem, Generic[P]):
     """`semantics` on arrays, with a plant, a controller, its timing, and the model that it knows.
 
-    Subclasses are frozen dataclasses that name these fields; what they do not override here is: no
-    disturbance, no relabelling.
+    - plant: what moves. model: what the controller knows of it, the plant itself when None.
+    - controller, timing: in continuous time, or sampled with a period, a delay and restart at
+      impacts.
+    - disturbance: zeta (n,) [N m] and forces from outside; None for none.
+    - torque_limit [N m]: saturates every motor; the observer is fed the torque applied, not the one
+      asked for.
+    - sensors, motors: between controller and plant; in sampled time only.
+    - touchdown: how the controller is told of one, in sampled time with restart=False; None: at once.
+    - runaway_speed, runaway_torque [1]: the run ends as run away beyond so many times the speed
+      limits of the URDF, or the peak torque of the robot's record; infinite for no end. A joint
+      that turns by more than a whole turn ends it, too.
+
+    Raises InputError for values that do not fit together, such as sensors in continuous time.
     """
 
     plant: P
-    """What moves."""
     controller: Controller
-    """As the user wrote it; `law` is the same in the time base of `timing`."""
-    timing: ContinuousTime | SampledTime
-    """Continuous, or sampled with a period [s]."""
-    model: P | None
-    """What the controller knows; None where it knows the plant."""
-    sensors: Sensor | None = None
-    """Between plant and controller, in sampled time; None for exact measurements."""
-    motors: Motors | None = None
-    """Between controller and plant, in sampled time; None for ideal ones."""
-    touchdown: Touchdown | None = None
-    """How the controller is told of one, in sampled time; None for at once."""
-    torque_limit: float | None = None
-    """Saturates every motor [N m]; None for no limit."""
     disturbance: Disturbance | None = None
-    """What acts from outside; None for nothing."""
+    timing: ContinuousTime | SampledTime = ContinuousTime()  # noqa: RUF009
+    model: P | None = None
+    torque_limit: PositiveFloat | None = None
+    sensors: Sensor | None = None
+    motors: Motors | None = None
+    touchdown: Touchdown | None = None
+    runaway_speed: float = 20.0
+    runaway_torque: float = 1000.0
 
-    def check(self) -> None:
-        """Raise InputError for a part that is none, or a model with another number of coordinates."""
+    def __post_init__(self) -> None:
+        """Raise InputError for values that do not fit together; see the class."""
         check_timing(self.timing)
         check_fields(self)
+        check_ends(math.inf, 0.0, self.runaway_speed, self.runaway_torque)
         if self.nominal.n != self.plant.n:
             raise InputError(
                 f"the model has {self.nominal.n} coordinates, the plant {self.plant.n}; they must agree"
+            )
+        if not self.sampled and (self.sensors or self.motors):
+            raise InputError(
+                f"sensors and motors work in sampled time, found {type(self.timing).__name__}; give "
+                "timing=SampledTime(period)"
             )
         if self.touchdown is not None:
             check_noticing(self.timing, self.nominal)
@@ -84,8 +99,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
     @property
     def exact(self) -> bool:
-        """Whether the model the controller knows is all that there is."""
-        return self.model is None
+        """Whether the controller knows the plant: no other model is given and the plant has no friction."""
+        return self.model is None and not getattr(self.plant, "friction", False)
 
     @cached_property
     def law(self) -> Controller:
@@ -146,10 +161,11 @@ class ClosedLoop(HybridSystem, Generic[P]):
         """How many numbers of x a plant that moves by itself keeps for its own use; 0 for all others."""
         return 0
 
-    @property
-    def limit(self) -> float | None:
-        """Largest torque of every motor [N m]; None for none."""
-        return self.torque_limit
+    @cached_property
+    def bounds(self) -> Bounds:
+        """Angles, rates and torque beyond which the run ends as run away; none without a Biped."""
+        robot = self.plant if isinstance(self.plant, Biped) else self.nominal
+        return Bounds.of(robot, self.plant.n, self.runaway_speed, self.runaway_torque)
 
     @cached_property
     def torques(self) -> tuple[int]:
@@ -243,7 +259,10 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
         Raises InputError for what is not one real number per motor, NotFiniteError for NaN or infinity.
         """
-        u, limit = returned(u, self.torques, self.controller, "output", finite=False), self.limit
+        u, limit = (
+            returned(u, self.torques, self.controller, "output", finite=False),
+            self.torque_limit,
+        )
         if limit is not None:
             u = np.minimum(np.maximum(u, -limit), limit)
         # one product tests all of them, at every stage of every step
@@ -262,16 +281,12 @@ class ClosedLoop(HybridSystem, Generic[P]):
         return 0.0, 0.0
 
     def bounded(self, u: Array) -> Array:
-        """u (p,) [N m] itself, whatever it is; a subclass may have a bound."""
-        return u
+        """u (p,) [N m] itself. Raises RanAwayError for one beyond the bounds."""
+        return self.bounds.bounded(u)
 
     def instant(self, t: float, x: Array, mode: Mode) -> Instant:
         """Measurement, torque, force and acceleration at (t, x), t in [s]."""
         return semantics.instant(self, t, x, mode)
-
-    def unknown(self, i: Instant) -> Array:
-        """xi~ of (11) (n,) [N m]: zeta, and with a plant that is not the model all that is wrong with it."""
-        return semantics.unknown(self, i.measurement.terms, i.a, i.u, i.zeta)
 
     def flow(self, t: float, x: Array, mode: Mode) -> Array:
         """x' (nx,) between events, at t [s]."""

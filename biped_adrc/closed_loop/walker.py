@@ -18,23 +18,16 @@ from functools import cached_property
 import numpy as np
 
 from biped_adrc.closed_loop import semantics
-from biped_adrc.closed_loop.bounds import Bounds
-from biped_adrc.closed_loop.exponential_form import ErrorForm, error_form, split_of
+from biped_adrc.closed_loop.exponential_form import ErrorForm, split_of
 from biped_adrc.closed_loop.protocols import Mode as Mode
 from biped_adrc.closed_loop.semantics import Instant as Instant
 from biped_adrc.closed_loop.system import ClosedLoop
-from biped_adrc.control.base import Controller
-from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.errors import InputError
-from biped_adrc.hardware.motors import Motors
-from biped_adrc.hardware.sample_hold import check_parts
-from biped_adrc.hardware.sensing import Sensor
-from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Guard, Split
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import StepDown, StepUp, check_slope, check_steps, drop_of
-from biped_adrc.timing import ContinuousTime, SampledTime, check_ends
+from biped_adrc.timing import check_ends
 from biped_adrc.types import Array, Indices, read_only
 
 FOOT_STRIKE = "foot_strike"
@@ -49,75 +42,41 @@ in mid-swing, when the swing foot passes the stance foot.
 class Walker(ClosedLoop[Biped]):
     """A planar biped under a controller on a plane with steps, as a hybrid system.
 
-    - plant: the robot that moves. model: the robot that the controller knows, the plant itself when
-      None.
-    - controller, timing: in continuous time, or sampled with a period, a delay and restart at
-      impacts.
-    - disturbance: zeta (n,) [N m] and forces from outside; None for none.
-    - torque_limit [N m]: saturates every motor; the observer is fed the torque applied, not the one
-      asked for.
-    - slope [rad]: of the ground, positive downhill. ground_steps: where it falls or rises by steps.
-    - sensors, motors: between controller and plant; in sampled time only.
-    - touchdown: how the controller is told of one, in sampled time with restart=False; None: at once.
-    - impact_gain (n,) [1]: v+ = (1 + gain) v+ of (7), an error of the impact model; empty for none.
+    In addition to the fields of `ClosedLoop`:
+
     - fall_height [1]: the run ends as a fall when the hip is below this fraction of |p_hip| at q =
       0.
     - max_step_time [s]: a longer single support ends as stalled.
-    - runaway_speed, runaway_torque [1]: the run ends as run away beyond so many times the speed
-      limits of the URDF, or the peak torque of the robot's record; infinite for no end. A joint
-      that turns by more than a whole turn ends it, too.
-
-    Raises InputError for values that do not fit together, such as sensors in continuous time.
+    - slope [rad]: of the ground, positive downhill. ground_steps: where it falls or rises by steps.
+    - impact_gain (n,) [1]: v+ = (1 + gain) v+ of (7), an error of the impact model; empty for none.
     """
 
     plant: Biped
-    controller: Controller
-    disturbance: Disturbance | None = None
-    timing: ContinuousTime | SampledTime = ContinuousTime()  # noqa: RUF009
     model: Biped | None = None
-    torque_limit: float | None = None
     fall_height: float = 0.35
     max_step_time: float = 2.0
     slope: float = 0.0
     ground_steps: tuple[StepDown | StepUp, ...] = ()
-    sensors: Sensor | None = None
-    motors: Motors | None = None
-    touchdown: Touchdown | None = None
     impact_gain: tuple[float, ...] = ()
-    runaway_speed: float = 20.0
-    runaway_torque: float = 1000.0
 
     def __post_init__(self) -> None:
         """Raise InputError for values that do not fit together; see the class."""
-        self.check()
+        super().__post_init__()
         check_slope(self.slope)
         check_steps(self.ground_steps)
         if self.disturbance is not None:
             self.disturbance.check_size(self.plant.n)
-        limit = self.torque_limit
-        if limit is not None and not (math.isfinite(limit) and limit > 0):
-            raise InputError(f"the torque limit is {limit} N m, expected a positive number or None")
         check_ends(self.max_step_time, self.fall_height, self.runaway_speed, self.runaway_torque)
-        check_parts(self.plant.n, self.timing, self.sensors, self.motors, self.impact_gain)
+        gain, n = self.impact_gain, self.plant.n
+        if gain and not (len(gain) == n and all(math.isfinite(e) and e > -1.0 for e in gain)):
+            raise InputError(
+                f"the impact gain is {gain}, expected {n} finite numbers above -1, or none"
+            )
 
     # -- parts -------------------------------------------------------------------------------------
-    @property
-    def exact(self) -> bool:
-        """Whether the controller knows the plant: no other model is given and the plant has no friction."""
-        return self.model is None and not self.plant.friction
-
-    @cached_property
-    def bounds(self) -> Bounds:
-        """Angles, rates and torque beyond which the run ends as run away."""
-        return Bounds.of(self.plant, self.plant.n, self.runaway_speed, self.runaway_torque)
-
     def check_state(self, t: float, x: Array) -> None:
         """Raise RanAwayError for x (nx,) at t [s] with an angle or a rate beyond the bounds."""
         self.bounds.check(t, x[: self.plant.n], x[self.plant.n : 2 * self.plant.n])
-
-    def bounded(self, u: Array) -> Array:
-        """u (p,) [N m] itself. Raises RanAwayError for one beyond the bounds."""
-        return self.bounds.bounded(u)
 
     @cached_property
     def gain(self) -> Array:
@@ -207,7 +166,11 @@ class Walker(ClosedLoop[Biped]):
 
     def split_form(self) -> ErrorForm | None:
         """The coordinates of the exponential method; None for sampled time or no linear observer."""
-        return None if self.sampled else error_form(self.law, self.plant.n, self.plant.p)
+        error = None if self.sampled else self.law.error_system()
+        if error is None:
+            return None
+        scale = float(error.velocity_scale)
+        return ErrorForm(self.plant.n, self.plant.p, len(error.A), scale, error.A)
 
     def split(self, mode: Mode) -> Split | None:
         """As `split_form`, with the remainder of the closed loop in `mode`."""

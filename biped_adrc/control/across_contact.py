@@ -17,7 +17,6 @@ the touchdown itself is its `ResetPolicy`.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Self
 
@@ -25,8 +24,8 @@ import numpy as np
 
 from biped_adrc.control.around import Around
 from biped_adrc.control.base import Measurement
-from biped_adrc.errors import InputError
 from biped_adrc.part import derived
+from biped_adrc.ranges import NonNegativeFloat
 from biped_adrc.timing import SAME_INSTANT
 from biped_adrc.types import Array
 
@@ -43,13 +42,7 @@ class AcrossContact(Around):
 class ContactWindow(AcrossContact):
     """Base of the policies that act for `window` seconds T after touchdown. Raises InputError unless T >= 0."""
 
-    window: float = 0.015
-
-    def __post_init__(self) -> None:
-        if not (math.isfinite(self.window) and self.window >= 0.0):
-            raise InputError(
-                f"the window after touchdown is {self.window} s, expected 0 or more seconds, such as 0.015"
-            )
+    window: NonNegativeFloat = 0.015
 
     @derived
     def until(self) -> float:

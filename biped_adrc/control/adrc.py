@@ -22,24 +22,8 @@ from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.types import Array
 
 
-class JointObservingController(ObservingController):
-    """Base of the forms of ADRC whose observer measures the joints: y = q_b."""
-
-    def measured_output(self, m: Measurement) -> Estimate:
-        """q_b, q_b' and the nominal model's xi, each (p,)."""
-        return measured(m)
-
-    def observer_input(self, m: Measurement, u: Array) -> Array:
-        """kappa u (p,) [rad/s^2]."""
-        return m.terms.kappa @ u
-
-    def output_change(self, m: Measurement, a: Array) -> Array:
-        """Change of q_b' (p, 2)."""
-        return a[: m.terms.kappa.shape[0]]
-
-
 @dataclass(frozen=True)
-class ADRCController(JointObservingController):
+class ADRCController(ObservingController):
     """(20) with an observer that is its whole state; Table I and Table II by default.
 
     gains: K_p [1/s^2], K_d [1/s].
@@ -53,9 +37,22 @@ class ADRCController(JointObservingController):
     solve_theta: bool = True
     reset: ResetPolicy = ResetPolicy.MODEL
 
+    def measured_output(self, m: Measurement) -> Estimate:
+        """q_b, q_b' and the nominal model's xi, each (p,)."""
+        return measured(m)
+
+    def observer_input(self, m: Measurement, u: Array) -> Array:
+        """kappa u (p,) [rad/s^2]."""
+        return m.terms.kappa @ u
+
+    def output_change(self, m: Measurement, a: Array) -> Array:
+        """Change of q_b' (p, 2)."""
+        return a[: m.terms.kappa.shape[0]]
+
     def torque(
         self, r: ReferencePoint, x: Estimate, m: Measurement, a: Array | None = None
     ) -> Array:
+        x = self.joint_estimate(x, m)
         return tracking_torque(self.gains, r, x, m.terms, self.solve_theta, a)
 
     def error_system(self) -> ErrorSystem | None:

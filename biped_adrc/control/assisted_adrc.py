@@ -14,27 +14,18 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from biped_adrc.control.adrc import JointObservingController
+from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.base import Measurement, measured
-from biped_adrc.control.tracking import TABLE_II, Gains, tracking_torque
-from biped_adrc.gait.reference import Reference, ReferencePoint
-from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
+from biped_adrc.observers.base import ErrorSystem, Estimate, Observer
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)
-class AssistedADRCController(JointObservingController):
-    """The module's equations with an observer that is the whole state; m = 1 and Table II by default.
+class AssistedADRCController(ADRCController):
+    """The module's equations with an observer that is the whole state; m = 1 and Table II by default."""
 
-    gains: K_p [1/s^2], K_d [1/s]. solve_theta, reset: as in `ADRCController`.
-    """
-
-    reference: Reference
     observer: Observer = field(default_factory=lambda: GPIObserver.from_bandwidth(500.0, 1))
-    gains: Gains = TABLE_II
-    solve_theta: bool = True
-    reset: ResetPolicy = ResetPolicy.MODEL
 
     def measured_output(self, m: Measurement) -> Estimate:
         """q_b, q_b', each (p,), and d = 0: the model explains all that is expected."""
@@ -45,12 +36,10 @@ class AssistedADRCController(JointObservingController):
         """kappa u + xi (p,) [rad/s^2]: the acceleration that the model expects."""
         return super().observer_input(m, u) + m.terms.xi
 
-    def torque(
-        self, r: ReferencePoint, x: Estimate, m: Measurement, a: Array | None = None
-    ) -> Array:
-        x = self.joint_estimate(x, m)
-        return tracking_torque(self.gains, r, x, m.terms, self.solve_theta, a)
-
     def joint_estimate(self, x: Estimate, m: Measurement) -> Estimate:
         """The estimates with xi^ = xi + d^, each (p,)."""
         return x._replace(disturbance=m.terms.xi + x.disturbance)
+
+    def error_system(self) -> ErrorSystem | None:
+        """None: the observer's input is not kappa u alone."""
+        return None

@@ -35,10 +35,11 @@ import numpy as np
 from biped_adrc.control.base import Controller, Measurement, measured
 from biped_adrc.control.output_adrc import output_matrix
 from biped_adrc.control.tracking import body_of
-from biped_adrc.errors import InputError, NotFiniteError
+from biped_adrc.errors import NotFiniteError
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.linear import solve
 from biped_adrc.model.reduction import identity
+from biped_adrc.ranges import PositiveFloat
 from biped_adrc.types import Array
 
 ROOT = math.sqrt(3.0)
@@ -126,23 +127,11 @@ class CLFQPController(Controller):
     needs_body: ClassVar[bool] = True
 
     reference: Reference
-    epsilon: float = 0.01
-    torque_limit: float | None = 150.0
-    friction: float | None = 0.6
-    least_force: float | None = 30.0
-    relaxation: float = 1e4
-
-    def __post_init__(self) -> None:
-        limits = ("torque_limit", "friction", "least_force")
-        for name in ("epsilon", "relaxation", *limits):
-            value = getattr(self, name)
-            if value is None and name in limits:
-                continue
-            if value is None or not (math.isfinite(value) and value > 0.0):
-                raise InputError(
-                    f"{name} of the CLF-QP is {value}, expected a positive number; None is for no "
-                    f"limit, of {', '.join(limits)}"
-                )
+    epsilon: PositiveFloat = 0.01
+    torque_limit: PositiveFloat | None = 150.0
+    friction: PositiveFloat | None = 0.6
+    least_force: PositiveFloat | None = 30.0
+    relaxation: PositiveFloat = 1e4
 
     def output(self, s: Array, m: Measurement) -> Array:
         if not (np.isfinite(m.q).all() and np.isfinite(m.v).all()):
@@ -156,7 +145,12 @@ class CLFQPController(Controller):
         if self.allows(u, to.F_mu @ mu + to.F_1):
             return u
         solved = self._solved(self.program(d, to))
-        return self._cut(u) if solved is None else to.U @ solved + to.u_0
+        if solved is not None:
+            return to.U @ solved + to.u_0
+        limit = math.inf if self.torque_limit is None else self.torque_limit
+        return np.clip(
+            u, -limit, limit
+        )  # each motor by itself: the last resort, after which V may grow
 
     def allows(self, u: Array, F: Array) -> bool:
         """Whether a torque u (p,) [N m] and a force of the ground F = (F_T, F_N) (2,) [N] keep all limits."""
@@ -199,12 +193,6 @@ class CLFQPController(Controller):
         if z is None and program.ground > 0:
             z = _least(program.G[: -program.ground], program.h[: -program.ground])
         return None if z is None else z[:-1]
-
-    def _cut(self, u: Array) -> Array:
-        """u (p,) within the torque limit, each motor by itself; the last resort, after which V may grow."""
-        if self.torque_limit is None:
-            return u
-        return np.minimum(np.maximum(u, -self.torque_limit), self.torque_limit)
 
 
 def _least(G: Array, h: Array) -> Array | None:

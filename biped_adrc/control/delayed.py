@@ -29,9 +29,11 @@ import numpy as np
 
 from biped_adrc.control.around import Around
 from biped_adrc.control.base import Controller, Measurement
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.errors import InputError
 from biped_adrc.observers.base import Estimate
+from biped_adrc.observers.chain import whole
 from biped_adrc.part import derived
+from biped_adrc.ranges import PositiveFloat
 from biped_adrc.types import Array, Indices, relabelled
 
 HIGHEST = 10
@@ -46,24 +48,13 @@ class Delayed(Around):
     It compiles around whatever compiles in continuous time. Raises InputError.
     """
 
-    delay: float
+    delay: PositiveFloat
     order: int = 4
     known: bool = False
-    torque_limit: float | None = None
+    torque_limit: PositiveFloat | None = None
 
     def __post_init__(self) -> None:
-        check_positive(
-            self.delay,
-            f"the delay is {self.delay} s",
-            f"; use {type(self.inner).__name__} itself without one",
-        )
-        is_whole = isinstance(self.order, (int, np.integer)) and not isinstance(self.order, bool)
-        if not (is_whole and 1 <= self.order <= HIGHEST):
-            raise InputError(
-                f"the line's order is {self.order!r}, expected a whole number 1 to {HIGHEST}"
-            )
-        if (limit := self.torque_limit) is not None:
-            check_positive(limit, f"the torque limit is {limit} N m", " or None")
+        whole(self.order, 1, "k", "the line's order", HIGHEST)
 
     @derived
     def pade(self) -> tuple[Array, Array]:

@@ -22,8 +22,9 @@ import numpy as np
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.output_npd import linearising_torque
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.errors import InputError
 from biped_adrc.gait.outputs import Outputs
+from biped_adrc.ranges import PositiveFloat
 from biped_adrc.types import Array
 
 
@@ -49,7 +50,7 @@ class FiniteTimeController(Controller):
 
     outputs: Outputs
     alpha: float
-    eps: float
+    eps: PositiveFloat
 
     def __post_init__(self) -> None:
         if not 0.0 < self.alpha < 1.0:
@@ -57,7 +58,6 @@ class FiniteTimeController(Controller):
                 f"alpha is {self.alpha}, expected between 0 and 1; for a linear law use "
                 "OutputNPDController"
             )
-        check_positive(self.eps, f"eps is {self.eps} s", " such as 0.1")
 
     def output(self, s: Array, m: Measurement) -> Array:
         o = self.outputs(m.t, m.q, m.v)

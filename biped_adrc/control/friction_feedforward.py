@@ -30,6 +30,7 @@ from biped_adrc.gait.reference import Reference
 from biped_adrc.model.biped import STICTION_SPEED, Biped
 from biped_adrc.observers.base import Estimate
 from biped_adrc.part import derived
+from biped_adrc.ranges import NonNegativeFloat
 from biped_adrc.types import Array
 
 
@@ -44,14 +45,14 @@ class FrictionFeedforward(Around):
     path: Reference
     viscous: tuple[float, ...]
     static: tuple[float, ...]
-    share: float = 1.0
+    share: NonNegativeFloat = 1.0
 
     def __post_init__(self) -> None:
-        for x in (*self.viscous, *self.static, self.share):
+        for x in (*self.viscous, *self.static):
             if not (math.isfinite(x) and x >= 0.0):
                 raise InputError(
-                    f"friction feedforward has viscous = {self.viscous}, static = {self.static}, share = "
-                    f"{self.share}, expected finite numbers, none of them below 0"
+                    f"friction feedforward has viscous = {self.viscous}, static = {self.static}, "
+                    "expected finite numbers, none of them below 0"
                 )
 
     @derived

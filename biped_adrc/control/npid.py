@@ -33,6 +33,7 @@ from biped_adrc.errors import InputError, check_positive
 from biped_adrc.gait.reference import Reference
 from biped_adrc.part import derived
 from biped_adrc.parts import check_part
+from biped_adrc.ranges import PositiveFloat
 from biped_adrc.types import Array, Indices, relabelled
 
 
@@ -47,18 +48,12 @@ class NPIDController(Controller):
 
     reference: Reference
     gains: Gains = TABLE_II
-    K_i: float = 50000.0
-    filter_bandwidth: float = 1000.0
-    damping: float = 1.0
+    K_i: PositiveFloat = 50000.0
+    filter_bandwidth: PositiveFloat = 1000.0
+    damping: PositiveFloat = 1.0
     period: float | None = None
 
     def __post_init__(self) -> None:
-        check_positive(self.K_i, f"the integral gain K_i is {self.K_i} 1/s^3")
-        check_positive(self.filter_bandwidth, f"the PID's filter is {self.filter_bandwidth} rad/s")
-        check_positive(self.damping, f"the damping of the PID's filter is {self.damping}")
-        self._check_stable()
-
-    def _check_stable(self) -> None:
         """Raise InputError unless all roots of the loop with its filter have negative real parts.
 
         s^3 (s^2 + 2 zeta w s + w^2) + w^2 (K_d s^2 + K_p s + K_i) = 0

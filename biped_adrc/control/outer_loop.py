@@ -14,11 +14,12 @@ of outputs starts from the error of what is in force.
 from __future__ import annotations
 
 from abc import abstractmethod
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from biped_adrc.control.around import Around
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import CorrectedConstraint, Correction, VirtualConstraint
@@ -30,10 +31,8 @@ Constraint = VirtualConstraint | CorrectedConstraint
 
 
 @dataclass(frozen=True)
-class OuterLoop(Controller):
+class OuterLoop(Around):
     """Base of all outer loops. Raises InputError when `inner` has no virtual constraint as `reference`."""
-
-    inner: Controller
 
     def __post_init__(self) -> None:
         tracked_constraint(self.inner)
@@ -74,15 +73,12 @@ class OuterLoop(Controller):
         """The inner controller with its constraint corrected as w (own_size,) says."""
         return with_correction(self.inner, self.correction(w))
 
-    @property
-    def needs_body(self) -> bool:  # type: ignore[override]
-        """As the inner controller."""
-        return self.inner.needs_body
-
     # -- what a controller does ------------------------------------------------------------------
     def output(self, s: Array, m: Measurement) -> Array:
         z, w = self.parts(s)
         return self._acting(w).output(z, m)
+
+    projected_output, projected_correct = Controller.projected_output, Controller.projected_correct
 
     def initial_state(self, m: Measurement) -> Array:
         z = self.inner.initial_state(m)
@@ -109,9 +105,6 @@ class OuterLoop(Controller):
         made = np.concatenate((z, self.own_jump(w, reference_in_force(self.inner, z), after)))
         end, core = core_size(self, s), innermost(self, made)
         return np.concatenate((core.jump(s[:end], after, swap), made[end:]))
-
-    def sampled(self, period: float) -> OuterLoop:
-        return replace(self, inner=self.inner.sampled(period))
 
     def error_system(self) -> ErrorSystem | None:
         return self.inner.error_system()

@@ -17,14 +17,15 @@ Locomotion, 2007, on transition controllers).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.outer_loop import Constraint, OuterLoop, tracked_constraint
-from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import Correction
 from biped_adrc.part import derived
+from biped_adrc.ranges import Range
 from biped_adrc.types import Array
 
 LEAST_REACH = 0.2
@@ -58,6 +59,9 @@ def reset_coefficients(x: Array | float, rate: float, e: Array, slope: Array) ->
     return np.vstack((4.0 * A - B, (B - 3.0 * A) / x))
 
 
+ShareFloat = Annotated[float, Range("a share in (0, 1]", lambda x: 0.0 < x <= 1.0)]
+
+
 @dataclass(frozen=True)
 class ReferenceReset(OuterLoop):
     """The correction above around `inner`; its state is (a_0, a_1).
@@ -67,14 +71,7 @@ class ReferenceReset(OuterLoop):
     Raises InputError.
     """
 
-    share: float = 0.5
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if not 0.0 < self.share <= 1.0:
-            raise InputError(
-                f"the reference is reset over {self.share} of the step, expected a share in (0, 1]"
-            )
+    share: ShareFloat = 0.5
 
     @derived
     def range(self) -> tuple[float, float]:

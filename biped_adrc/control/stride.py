@@ -26,11 +26,13 @@ import numpy as np
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.outer_loop import Constraint, OuterLoop, tracked_constraint
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import Correction
 from biped_adrc.gait.gait import Gait
 from biped_adrc.model.biped import Biped
 from biped_adrc.part import derived
+from biped_adrc.parts import Checked
+from biped_adrc.ranges import FiniteFloat, PositiveFloat
 from biped_adrc.types import Array
 
 TORSO_LEAN = (1.0, 1.0, 0.0, 0.0)
@@ -62,23 +64,16 @@ class Bump:
 
 
 @dataclass(frozen=True)
-class StrideGains:
+class StrideGains(Checked):
     """K_P [rad s/m], K_I [rad s/m], and `limit`, the bound on |beta| [rad].
 
     `analysis.stride_gain` finds them from how the speed answers to beta. Raises InputError for gains that are
     not finite and a bound that is not positive.
     """
 
-    K_P: float
-    K_I: float
-    limit: float = 0.3
-
-    def __post_init__(self) -> None:
-        if not (math.isfinite(self.K_P) and math.isfinite(self.K_I)):
-            raise InputError(
-                f"stride gains are K_P = {self.K_P}, K_I = {self.K_I} rad s/m, expected finite numbers"
-            )
-        check_positive(self.limit, f"the bound on beta is {self.limit} rad")
+    K_P: FiniteFloat
+    K_I: FiniteFloat
+    limit: PositiveFloat = 0.3
 
 
 @dataclass(frozen=True)
@@ -89,8 +84,8 @@ class StridePI(OuterLoop):
     positive, and for a direction that has not p finite numbers.
     """
 
-    speed: float
-    step_length: float
+    speed: PositiveFloat
+    step_length: PositiveFloat
     direction: tuple[float, ...]
     gains: StrideGains
 
@@ -102,9 +97,6 @@ class StridePI(OuterLoop):
                 f"the direction of the stride's correction is {self.direction}, expected {p} finite "
                 "numbers, one per motor"
             )
-        for name, value, unit in (("speed", self.speed, "m/s"), ("length", self.step_length, "m")):
-            if not (math.isfinite(value) and value > 0):
-                raise InputError(f"the stride's {name} is {value} {unit}, expected > 0")
 
     @classmethod
     def on_gait(

@@ -28,9 +28,9 @@ import numpy as np
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.tracking import solved_acceleration
-from biped_adrc.errors import check_positive
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.part import derived
+from biped_adrc.ranges import PositiveFloat
 from biped_adrc.types import Array, Indices, relabelled
 
 
@@ -43,15 +43,10 @@ class SuperTwistingController(Controller):
     """
 
     reference: Reference
-    slope: float = 50.0
-    lipschitz: float = 1e4
-    layer: float = 0.05
+    slope: PositiveFloat = 50.0
+    lipschitz: PositiveFloat = 1e4
+    layer: PositiveFloat = 0.05
     period: float | None = None
-
-    def __post_init__(self) -> None:
-        check_positive(self.slope, f"the slope of the sliding surface is {self.slope} 1/s")
-        check_positive(self.lipschitz, f"the Lipschitz constant is {self.lipschitz} rad/s^3")
-        check_positive(self.layer, f"the layer of the sliding mode is {self.layer} rad/s")
 
     @derived
     def k_1(self) -> float:

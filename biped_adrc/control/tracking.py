@@ -45,12 +45,10 @@ class Gains(Shown):
     def __post_init__(self) -> None:
         for name in ("K_p", "K_d"):
             value = numbers(getattr(self, name), f"gain {name}")
-            if value.ndim > 1 or not np.all(np.isfinite(value)) or np.any(value <= 0):
+            if value.ndim > 1 or not np.all((value > 0.0) & (value <= HIGHEST)):
                 raise InputError(
-                    f"gain {name} is {value}, expected positive numbers, one per joint"
+                    f"gain {name} is {value}, expected positive numbers, one per joint, at most {HIGHEST:g}"
                 )
-            if np.any(value > HIGHEST):
-                raise InputError(f"gain {name} is {value}, expected at most {HIGHEST:g}")
             object.__setattr__(self, name, float(value) if value.ndim == 0 else frozen(value))
 
     def check(self, p: int) -> None:

@@ -21,9 +21,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.errors import InputError, check_count
+from biped_adrc.errors import InputError
 from biped_adrc.part import Part, derived, setup
 from biped_adrc.parts import check_part, numbers, returned
+from biped_adrc.ranges import PositiveInt
 from biped_adrc.types import Array
 
 
@@ -144,7 +145,7 @@ class Windowed(Disturbance):
     """
 
     amplitude: Array
-    step: int | None = setup(None)
+    step: PositiveInt | None = setup(None)
     """Single support, counted from 1."""
     start: float = 0.0
     """[s] from the start of that step, or of the run."""
@@ -160,10 +161,6 @@ class Windowed(Disturbance):
         if not (math.isfinite(self.start) and self.start >= 0 and self.stop > self.start):
             raise InputError(
                 f"torque window is [{self.start}, {self.stop}] s, expected 0 <= start < stop"
-            )
-        if self.step is not None:
-            check_count(
-                self.step, f"torque step is {self.step}; single supports are counted from 1"
             )
         amplitude.setflags(write=False)
         object.__setattr__(self, "amplitude", amplitude)

@@ -11,7 +11,6 @@ of `PIECES` straight pieces each, of which one acts at a time; all of them share
 
 from __future__ import annotations
 
-import csv
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -21,10 +20,11 @@ from pathlib import Path
 import numpy as np
 
 from biped_adrc.disturbances.base import Disturbance, Windowed
-from biped_adrc.errors import InputError, check_count
-from biped_adrc.files import number_in, reading
+from biped_adrc.errors import InputError
+from biped_adrc.files import csv_rows, number_in, reading
 from biped_adrc.model.biped import Biped
 from biped_adrc.parts import check_part, numbers
+from biped_adrc.ranges import PositiveInt
 from biped_adrc.types import Array, read_only
 
 PIECES = 16
@@ -62,7 +62,7 @@ class RecordedTorque(Disturbance):
     """(K,) [s], of the recording's own clock."""
     torques: Array
     """(K, n) [N m]."""
-    step: int | None = None
+    step: PositiveInt | None = None
     """Single support, counted from 1."""
     start: float = 0.0
     """[s] from the start of that step, or of the run."""
@@ -70,18 +70,22 @@ class RecordedTorque(Disturbance):
     def __post_init__(self) -> None:
         times = read_only(numbers(self.times, "the times of the recording"))
         torques = read_only(numbers(self.torques, "the torques of the recording"))
-        if times.ndim != 1 or torques.ndim != 2 or len(torques) != len(times):
+        if times.ndim != 1 or torques.ndim != 2 or len(torques) != len(times) or len(times) < 2:
             raise InputError(
                 f"the recording has times of shape {times.shape} and torques of shape {torques.shape}, "
                 "expected (K,) and (K, n) for K >= 2 rows and n coordinates"
             )
-        check_rows(times, torques, [f"row {i}" for i in range(1, len(times) + 1)])
+        finite = np.isfinite(times) & np.all(np.isfinite(torques), axis=1)
+        bad = np.flatnonzero(~finite | (np.diff(times, prepend=-math.inf) <= 0.0))
+        if len(bad):
+            raise InputError(
+                f"row {bad[0] + 1} of the recording has t = {times[bad[0]]:g} s and torques "
+                f"{torques[bad[0]].tolist()} N m, expected finite numbers, and times that increase"
+            )
         if not (math.isfinite(self.start) and self.start + times[0] >= 0.0):
             raise InputError(
                 f"the recording begins at {self.start + times[0]:g} s, expected a time from 0 on"
             )
-        if self.step is not None:
-            check_count(self.step, f"torque step is {self.step}; single supports count from 1")
         object.__setattr__(self, "times", times)
         object.__setattr__(self, "torques", torques)
 
@@ -98,21 +102,19 @@ class RecordedTorque(Disturbance):
         check_part(biped, "the robot of a recording", Biped)
         check_part(start, "the start of a recording", float)
         with reading("recording", file, InputError):
-            with Path(file).open(newline="", encoding="utf-8-sig") as text:
-                lines = csv.reader(text)
-                found = [(lines.line_num, [x.strip() for x in row]) for row in lines if row]
-            (_, head), *rows = found or [(1, [])]
+            head, rows = csv_rows(file)
             if head.count("t") != 1 or len(set(head)) < max(len(head), 2):
                 raise InputError(
                     f"its columns are {head}, expected one 't' [s] and different joints, as t,q1,q3"
                 )
-            table = np.array([_numbers(row, i, head) for i, row in rows]).reshape(-1, len(head))
-            columns = dict(zip(head, table.T, strict=True))
-            times = columns.pop("t")
+            table = {
+                name: np.array([number_in(row[k], line, name) for line, row in rows])
+                for k, name in enumerate(head)
+            }
+            times = table.pop("t")
             torques = np.zeros((len(times), biped.n))
-            for joint, values in columns.items():
+            for joint, values in table.items():
                 torques[:, biped.description.joint_index(joint)] += values
-            check_rows(times, torques, [f"line {i}" for i, _ in rows])
             return cls(times, torques, step, start)
 
     @property
@@ -138,29 +140,3 @@ class RecordedTorque(Disturbance):
         slopes[:, : len(t) - 1] = (np.diff(zeta, axis=0) / np.diff(t)[:, np.newaxis]).T
         opens, closes = float(self.start + t[0]), float(self.start + t[-1])
         return Lines(zeta[0], self.step, opens, closes, begin=begin, width=width, slopes=slopes)
-
-
-def check_rows(times: Array, torques: Array, names: list[str]) -> None:
-    """Raise InputError, with the name of the row, for less than two rows, no numbers and times that fall.
-
-    times (K,) [s], torques (K, n) [N m], names (K,): what each row is called, such as "line 7".
-    """
-    if len(times) < 2:
-        raise InputError(
-            f"the recording has rows of numbers: {len(times)}, expected at least 2, as a torque acts "
-            "from one row to the next"
-        )
-    finite = np.isfinite(times) & np.all(np.isfinite(torques), axis=1)
-    bad = np.flatnonzero(~finite | (np.diff(times, prepend=-math.inf) <= 0.0))
-    if len(bad):
-        raise InputError(
-            f"{names[bad[0]]} of the recording has t = {times[bad[0]]:g} s and torques "
-            f"{torques[bad[0]].tolist()} N m, expected finite numbers and a time after that of the row before"
-        )
-
-
-def _numbers(row: list[str], line: int, head: list[str]) -> list[float]:
-    """A row of the file as numbers. Raises InputError with the line of the file and the column."""
-    if len(row) != len(head):
-        raise InputError(f"line {line} has {len(row)} entries, expected {len(head)}: {head}")
-    return [number_in(text, line, column) for text, column in zip(row, head, strict=True)]

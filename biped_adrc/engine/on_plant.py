@@ -52,9 +52,9 @@ def stepping_loop(
     return loop(
         _fitted(plant, walker, first_step),
         walker.controller,
-        walker.nominal,
-        walker.timing,
         walker.disturbance,
+        walker.timing,
+        walker.nominal,
         walker.torque_limit,
         walker.sensors,
         motors,
@@ -95,6 +95,7 @@ def walk_on(
 
     Raises InputError for a start that is none.
     """
+    assert isinstance(loop.timing, SampledTime)
     x0 = loop.initial_state(*start, mode)
     longest = walker.max_step_time + loop.timing.period  # what takes too long is seen at a tick
     options = RunOptions(

@@ -130,7 +130,7 @@ def _numbers(
 
 def controller_numbers(robot: RobotData, loop: Walker | SteppingLoop) -> WalkerNumbers:
     """The numbers of a controller in sampled time with its model; of plant and ground there are none."""
-    limit = math.inf if loop.limit is None else float(loop.limit)
+    limit = math.inf if loop.torque_limit is None else float(loop.torque_limit)
     strongest, held = float(loop.bounds.strongest), loop.held or ()
     return WalkerNumbers(robot.arrays, None, loop.law, limit, strongest=strongest, held=held)
 

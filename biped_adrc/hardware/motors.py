@@ -21,8 +21,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import InputError
 from biped_adrc.parts import Checked
+from biped_adrc.ranges import NonNegativeFloat, PositiveFloat
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array, Indices, relabelled
 
@@ -90,12 +90,6 @@ class TorqueLine:
         return line.u
 
 
-def check_lag(lag: float) -> None:
-    """Raise InputError for a time constant [s] that is not finite or below zero."""
-    if not (math.isfinite(lag) and lag >= 0.0):
-        raise InputError(f"the motors' lag is {lag} s, expected zero or a positive number")
-
-
 @dataclass(frozen=True)
 class Motors(Checked, Shown):
     """rate_limit [N m/s], None for none; lag: time constant tau [s] of the torque, 0 for none.
@@ -103,14 +97,8 @@ class Motors(Checked, Shown):
     The same for all motors. Raises InputError for a limit that is not positive and a lag below zero.
     """
 
-    rate_limit: float | None = None
-    lag: float = 0.0
-
-    def __post_init__(self) -> None:
-        rate = self.rate_limit
-        if rate is not None and not (math.isfinite(rate) and rate > 0.0):
-            raise InputError(f"the motors' rate_limit is {rate} N m/s, expected a positive number")
-        check_lag(self.lag)
+    rate_limit: PositiveFloat | None = None
+    lag: NonNegativeFloat = 0.0
 
     def sampled(self, period: float, fraction: float) -> TorqueLine:
         """The line with ticks every `period` [s] and the delay's part f of a period."""

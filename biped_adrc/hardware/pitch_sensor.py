@@ -14,14 +14,13 @@ shifts the whole step in phase, and a drift of the angle goes on doing so from s
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from biped_adrc.errors import InputError, check_whole
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.sensors import Sensors, normals, seeded
+from biped_adrc.ranges import FiniteFloat, NonNegativeFloat, NonNegativeInt
 from biped_adrc.types import Array
 
 
@@ -32,24 +31,14 @@ class PitchSensor(Sensor):
     Raises InputError for numbers that are not finite or a noise that is negative.
     """
 
-    bias: float = 0.0
+    bias: FiniteFloat = 0.0
     """[rad]"""
-    drift: float = 0.0
+    drift: FiniteFloat = 0.0
     """[rad/s]"""
-    noise: float = 0.0
+    noise: NonNegativeFloat = 0.0
     """[rad]"""
-    seed: int = 0
+    seed: NonNegativeInt = 0
     """A whole number from 0."""
-
-    def __post_init__(self) -> None:
-        for name, unit in (("bias", "rad"), ("drift", "rad/s"), ("noise", "rad")):
-            value = getattr(self, name)
-            if not math.isfinite(value) or (name == "noise" and value < 0.0):
-                raise InputError(
-                    f"the pitch sensor's {name} is {value} {unit}, expected a finite number, and none "
-                    "below zero of noise"
-                )
-        check_whole(self.seed, f"the pitch sensor's seed is {self.seed}", 0)
 
     @property
     def noisy(self) -> bool:

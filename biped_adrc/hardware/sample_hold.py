@@ -13,17 +13,15 @@ ticks and at an impact is said once; `closed_loop.walker` does so for a tick, wh
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import InputError
 from biped_adrc.hardware.motors import IDEAL, Line, Motors, TorqueLine, whole_and_part
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import HEAD, Belief, Touchdown, numbers_of
 from biped_adrc.parts import returned
-from biped_adrc.timing import ContinuousTime, SampledTime
+from biped_adrc.timing import SampledTime
 from biped_adrc.types import Array, Indices, frozen
 
 
@@ -85,28 +83,6 @@ class Held(NamedTuple):
     """Of a plant that moves by itself."""
     b: Array
     """Of the controller's belief."""
-
-
-def check_parts(
-    n: int,
-    timing: ContinuousTime | SampledTime,
-    sensors: Sensor | None,
-    motors: Motors | None,
-    gain: tuple[float, ...],
-) -> None:
-    """Raise InputError for hardware in continuous time, or an impact gain that is none."""
-    hardware = {"sensors": sensors, "motors": motors}
-    given = [name for name, part in hardware.items() if part is not None]
-    if given and not isinstance(timing, SampledTime):
-        raise InputError(
-            f"{given[0]} work in sampled time, found {type(timing).__name__}; give "
-            "timing=SampledTime(period)"
-        )
-    fits = len(gain) == n and all(math.isfinite(e) and e > -1.0 for e in gain)
-    if gain and not fits:
-        raise InputError(
-            f"the impact gain is {gain}, expected {n} finite numbers above -1, or none"
-        )
 
 
 def held_parameters(

@@ -23,13 +23,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.ranges import NonNegativeFloat, NonNegativeInt, Range
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array, Indices
+
+CountsFloat = Annotated[float, Range("at least 1 count", lambda x: 1.0 <= x < math.inf)]
 
 
 @dataclass(frozen=True)
@@ -43,43 +47,28 @@ class Sensors(Shown, Sensor):
     seed: of the noise. Raises InputError for what is negative or not finite.
     """
 
-    counts: float | None = None
+    counts: CountsFloat | None = None
     """Per revolution."""
-    pitch_resolution: float | None = None
+    pitch_resolution: NonNegativeFloat | None = None
     """[rad]"""
-    noise: float = 0.0
+    noise: NonNegativeFloat = 0.0
     """[rad]"""
-    pitch_noise: float = 0.0
+    pitch_noise: NonNegativeFloat = 0.0
     """[rad]"""
-    rate_noise: float = 0.0
+    rate_noise: NonNegativeFloat = 0.0
     """[rad/s], of rates that are measured."""
     velocity: str = "differences"
     """One of `VELOCITIES`."""
-    filter_time: float = 0.0
+    filter_time: NonNegativeFloat = 0.0
     """[s]"""
-    seed: int = 0
+    seed: NonNegativeInt = 0
     """A whole number from 0."""
 
     def __post_init__(self) -> None:
-        if self.counts is not None and not (math.isfinite(self.counts) and self.counts >= 1):
-            raise InputError(
-                f"the encoders have {self.counts} counts per revolution, expected at least 1, or None "
-                "for exact angles"
-            )
-        units = {"pitch_resolution": "rad", "noise": "rad", "pitch_noise": "rad"}
-        units |= {"rate_noise": "rad/s", "filter_time": "s"}
-        for name, unit in units.items():
-            value = getattr(self, name)
-            if value is not None and not (math.isfinite(value) and value >= 0.0):
-                raise InputError(
-                    f"the sensors' {name} is {value} {unit}, expected zero or a positive number"
-                )
         if self.velocity not in VELOCITIES:
             raise InputError(
                 f"the sensors' velocity is '{self.velocity}', expected one of {list(VELOCITIES)}"
             )
-        if isinstance(self.seed, bool) or not isinstance(self.seed, int) or self.seed < 0:
-            raise InputError(f"the sensors' seed is {self.seed!r}, expected a whole number from 0")
 
     @property
     def noisy(self) -> bool:

@@ -13,19 +13,17 @@ A touchdown and a notice each turn `other`. So a notice before its touchdown is 
 that is not noticed before the next one leaves the labels right again and the belief two steps behind. Both
 engines run these methods, which are pure functions; randomness is a part of d.
 
-Leaves: `touchdown_told` has errors that are asked for; `touchdown_by_foot` goes by the measured angles, or
+Leaves are in `detectors`: one has errors that are asked for, the others go by the measured angles, or
 by the force on the foot that the controller takes for the swing foot.
 """
 
 from __future__ import annotations
 
-import math
 from abc import ABC, abstractmethod
 from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import InputError
 from biped_adrc.parts import Checked
 from biped_adrc.types import Array
 
@@ -102,15 +100,3 @@ def belief_of(b: Array) -> Belief:
 def numbers_of(belief: Belief) -> Array:
     """b of its parts, the inverse of `belief_of`."""
     return np.concatenate((np.array([belief.other, belief.step, belief.start]), belief.d))
-
-
-def check_finite(x: float, name: str) -> None:
-    """Raise InputError for a number that is not finite."""
-    if not math.isfinite(x):
-        raise InputError(f"{name} of the touchdown is {x}, expected a finite number")
-
-
-def check_time(x: float, name: str) -> None:
-    """Raise InputError for a time that is negative or not finite."""
-    if not (math.isfinite(x) and x >= 0.0):
-        raise InputError(f"{name} of the touchdown is {x} s, expected 0 or more seconds")

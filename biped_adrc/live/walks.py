@@ -21,7 +21,7 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.disturbances.base import Sum
 from biped_adrc.disturbances.link import OnLink
-from biped_adrc.disturbances.step import TorqueStep
+from biped_adrc.disturbances.waves import TorqueStep
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.record import PLACES, Ints
 from biped_adrc.engine.kernels.run_plan import STATUS

@@ -1,11 +1,11 @@
-"""A chain of integrators per joint in scaled states: what continuous and discrete GPI observers share.
+"""A chain of integrators per coordinate in scaled states: what all observers of the package share.
 
 x_k = z_k scale^(k-1), k = 1..m+2, with x1 position, x2 velocity, x3 disturbance and its derivatives. In x
-itself the observer matrix of Table I has condition number 3e29; scaled it has 5e6.
+itself the observer matrix of Table I has condition number 3e29; scaled it has 5e6. LEAD integrators lie between
+disturbance and measurement: two from an acceleration to an angle, one from a force to a momentum.
 
 Here are start, estimates and reset, which do not depend on how the gains were chosen; a leaf (`gpi`,
-`high_gain`, `kalman`) adds its flow. The checks of poles and the discrete form are shared with the momentum
-observer.
+`high_gain`, `kalman`, `momentum`) adds its flow.
 
 In discrete time a chain has its *current* (filtered) form,
 
@@ -13,7 +13,7 @@ In discrete time a chain has its *current* (filtered) form,
     Z <- Z + L (y - Z_1)             correction at the tick
 
 Phi is the Taylor matrix of a chain of integrators in states z_k = x_k T^(k-1), Phi_ij = 1/(j - i)!, and
-Gamma = T^2 (1/2, 1, 0, ...).
+Gamma = T^2 (1/2, 1, 0, ...), or T (1, 0, ...) with one integrator in front.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import factorial
+from typing import ClassVar
 
 import numpy as np
 
@@ -37,11 +38,10 @@ SLOWEST, FASTEST = 1e-6, 1e9
 
 
 # -- what is asked of poles ----------------------------------------------------------------------
-def stable_poles(poles: Sequence[complex], what: str, because: str) -> tuple[complex, ...]:
+def stable_poles(poles: Sequence[complex], what: str) -> tuple[complex, ...]:
     """Two poles [rad/s] or more with negative real parts, complex ones in conjugate pairs.
 
-    Without pairs the gains would not be real. `what` has them, `because` says why two. Raises InputError, with
-    the pole that is wrong.
+    Without pairs the gains would not be real. `what` has them. Raises InputError, with the pole that is wrong.
     """
     try:
         numbers = tuple(complex(pole) for pole in poles)
@@ -51,7 +51,7 @@ def stable_poles(poles: Sequence[complex], what: str, because: str) -> tuple[com
         ) from None
     check_chain(len(numbers), 1.0, what)
     if len(numbers) < 2:
-        raise InputError(f"{what} needs at least 2 poles{because}, found {len(numbers)}")
+        raise InputError(f"{what} needs at least 2 poles, found {len(numbers)}")
     for pole in numbers:
         if not np.isfinite(pole) or pole.real >= 0:
             raise InputError(
@@ -80,6 +80,11 @@ def whole(number: int, least: int, name: str, what: str, most: int = MOST_POLES 
     return int(number)
 
 
+def mean_bandwidth(poles: Sequence[complex]) -> float:
+    """Geometric mean of the poles [rad/s]."""
+    return float(np.exp(np.mean(np.log(np.abs(poles)))))
+
+
 def _show(pole: complex) -> str:
     return f"{pole.real:g}" if pole.imag == 0 else f"{pole:g}"
 
@@ -101,11 +106,13 @@ def scaled_polynomial(poles: Sequence[complex], scale: float) -> Array:
 
 @dataclass(frozen=True)
 class ChainObserver(Observer):
-    """m extended states; z is Z (m + 2, p) row by row. Leaves add their own flow, or correct and predict.
+    """m extended states; z is Z (LEAD + m, p) row by row. Leaves add their own flow, or correct and predict.
 
     scale [rad/s] is near the bandwidth, so that the scaled states have numbers of one size.
     """
 
+    LEAD: ClassVar[int] = 2
+    """Integrators between disturbance and measurement."""
     m: int
     scale: float
 
@@ -114,22 +121,27 @@ class ChainObserver(Observer):
 
     @property
     def order(self) -> int:
-        """m + 2, states per joint."""
-        return self.m + 2
+        """LEAD + m, states per coordinate."""
+        return self.LEAD + self.m
 
     def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
         """z that agrees with y, dy and xi, each (p,); higher derivatives are zero."""
         Z = np.zeros((self.order, len(y)))
-        Z[0], Z[1] = y, dy / self.scale
-        if self.order > 2:
-            Z[2] = xi / self.scale**2
+        Z[0] = y
+        if self.LEAD > 1:
+            Z[1] = dy / self.scale
+        if self.m > 0:
+            Z[self.LEAD] = xi / self.scale**self.LEAD
         return Z.ravel()
 
     def estimate(self, z: Array) -> Estimate:
-        """x1^, x2^ and xi^ in z, each (p,); xi^ = 0 for m = 0."""
+        """x1^, x2^ and xi^ in z, each (p,); xi^ = 0 for m = 0, x2^ = 0 for one integrator."""
         Z = z.reshape(self.order, -1)
-        xi = Z[2] * self.scale**2 if self.order > 2 else np.zeros(Z.shape[1])
-        return Estimate(Z[0], Z[1] * self.scale, xi)
+        none = np.zeros(Z.shape[1])
+        velocity = Z[1] * self.scale if self.LEAD > 1 else none
+        return Estimate(
+            Z[0], velocity, Z[self.LEAD] * self.scale**self.LEAD if self.m > 0 else none
+        )
 
     def reset(
         self, z: Array, policy: ResetPolicy, swap: Indices, y: Array, dy: Array, xi: Array
@@ -145,15 +157,11 @@ class ChainObserver(Observer):
         return Z.ravel()
 
 
-class CurrentForm(Observer):
-    """The module's discrete form. A leaf has `order` and `period`, T [s], and says what L is."""
+@dataclass(frozen=True)
+class SampledChain(ChainObserver):
+    """The module's discrete form for one period T [s]; `scale` is 1/T. A leaf says what L is."""
 
     period: float
-
-    @property
-    @abstractmethod
-    def order(self) -> int:
-        """k, states per joint."""
 
     @derived
     def Phi(self) -> Array:
@@ -163,9 +171,9 @@ class CurrentForm(Observer):
 
     @derived
     def Gamma(self) -> Array:
-        """(k,) [s^2]."""
-        Gamma = np.zeros(self.order)
-        Gamma[0], Gamma[1] = 0.5 * self.period**2, self.period**2
+        """(k,) [s^2], or [s] for one integrator."""
+        Gamma, lead = np.zeros(self.order), self.LEAD
+        Gamma[:lead] = [self.period**lead / factorial(lead - i) for i in range(lead)]
         return Gamma
 
     @property

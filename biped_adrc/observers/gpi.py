@@ -24,6 +24,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
@@ -31,8 +32,9 @@ from biped_adrc.errors import InputError, check_positive
 from biped_adrc.observers.base import ErrorSystem
 from biped_adrc.observers.chain import (
     ChainObserver,
-    CurrentForm,
+    SampledChain,
     equal_poles,
+    mean_bandwidth,
     scaled_polynomial,
     stable_poles,
     whole,
@@ -68,7 +70,7 @@ class InjectedChain(ChainObserver):
         Z, w = z.reshape(self.order, -1), self.scale
         dZ = w * np.outer(self.scaled_gains, y - Z[0])
         dZ[:-1] += w * Z[1:]
-        dZ[1] += input / w
+        dZ[self.LEAD - 1] += input / w ** (self.LEAD - 1)
         return dZ.ravel()
 
     def sampled(self, period: float) -> ChainObserver:
@@ -94,13 +96,12 @@ class GPIObserver(InjectedChain):
 
         m, when given, is checked against their number. Raises InputError.
         """
-        poles = stable_poles(poles, "a GPI observer", " (m >= 0)")
+        poles = stable_poles(poles, "a GPI observer")
         if m is not None and len(poles) != m + 2:
             raise InputError(
                 f"a GPI observer with m = {m} has {m + 2} poles, found {len(poles)}; give its bandwidth too"
             )
-        w = float(np.exp(np.mean(np.log(np.abs(poles)))))
-        return cls(len(poles) - 2, w, poles)
+        return cls(len(poles) - 2, mean_bandwidth(poles), poles)
 
     @classmethod
     def from_bandwidth(cls, bandwidth: float, m: int = 1) -> GPIObserver:
@@ -112,21 +113,20 @@ class GPIObserver(InjectedChain):
 
 
 @dataclass(frozen=True)
-class SampledGPIObserver(ChainObserver, CurrentForm):
+class SampledGPIObserver(SampledChain):
     """The discrete observer for one period T [s]; `scale` is 1/T, so that Phi has no T in it."""
 
-    period: float = 0.0
-    poles: tuple[complex, ...] = ()
+    poles: tuple[complex, ...]
 
     @classmethod
-    def from_poles(cls, poles: Sequence[complex], period: float) -> SampledGPIObserver:
+    def from_poles(cls, poles: Sequence[complex], period: float) -> Self:
         """Poles s [rad/s] of the continuous observer, as those of GPIObserver, and the period T [s].
 
         Raises InputError.
         """
-        poles = stable_poles(poles, "a discrete GPI observer", " (m >= 0)")
+        poles = stable_poles(poles, "a discrete observer")
         check_positive(period, f"the sampling period is {period} s")
-        return cls(len(poles) - 2, 1.0 / period, period, poles)
+        return cls(len(poles) - cls.LEAD, 1.0 / period, period, poles)
 
     @derived
     def L(self) -> Array:

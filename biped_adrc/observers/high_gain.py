@@ -21,10 +21,11 @@ from math import comb
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.errors import InputError, check_positive
 from biped_adrc.observers.chain import whole
 from biped_adrc.observers.gpi import InjectedChain
 from biped_adrc.part import derived
+from biped_adrc.parts import numbers
 from biped_adrc.types import Array
 
 
@@ -43,8 +44,7 @@ class HighGainObserver(InjectedChain):
         Raises InputError for an epsilon that is not positive, m below 1, and alphas that are not those of a
         stable polynomial of degree m + 2.
         """
-        if not (np.isfinite(epsilon) and epsilon > 0):
-            raise InputError(f"epsilon is {epsilon} s, expected a small positive number as 0.002")
+        check_positive(epsilon, f"epsilon is {epsilon} s", " as 0.002")
         m = whole(m, 1, "m", "order of an observer with a state for the disturbance")
         if alpha is None:
             alpha = [comb(m + 2, i) for i in range(1, m + 3)]
@@ -68,19 +68,10 @@ class HighGainObserver(InjectedChain):
 
 def _hurwitz(alpha: Sequence[float], m: int) -> tuple[float, ...]:
     """alpha as floats. Raises InputError unless they are the coefficients of a Hurwitz polynomial."""
-    try:
-        numbers = tuple(float(a) for a in alpha)
-    except (TypeError, ValueError):
+    a = numbers(alpha, "alpha")
+    if a.shape != (m + 2,) or not np.isfinite(a).all() or np.roots([1.0, *a]).real.max() >= 0.0:
         raise InputError(
-            f"alpha is {alpha!r}, expected {m + 2} numbers alpha_1 .. alpha_{m + 2}"
-        ) from None
-    if len(numbers) != m + 2:
-        raise InputError(
-            f"a high-gain observer with m = {m} has {m + 2} numbers alpha, found {len(numbers)}"
+            f"alpha is {a}, expected {m + 2} numbers for m = {m}: the roots of s^{m + 2} + alpha_1 "
+            f"s^{m + 1} + ... must have negative real parts; try those of (s + 1)^{m + 2}"
         )
-    if not np.all(np.isfinite(numbers)) or np.max(np.roots([1.0, *numbers]).real) >= 0.0:
-        raise InputError(
-            f"alpha is {numbers}: the roots of s^{m + 2} + alpha_1 s^{m + 1} + ... must have negative real "
-            f"parts; try those of (s + 1)^{m + 2}"
-        )
-    return numbers
+    return tuple(a.tolist())

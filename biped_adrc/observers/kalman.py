@@ -27,7 +27,7 @@ import numpy as np
 from scipy.linalg import solve_discrete_are
 
 from biped_adrc.errors import check_positive
-from biped_adrc.observers.chain import ChainObserver, CurrentForm, whole
+from biped_adrc.observers.chain import SampledChain, whole
 from biped_adrc.observers.gpi import InjectedChain
 from biped_adrc.part import derived
 from biped_adrc.types import Array
@@ -71,10 +71,9 @@ class KalmanObserver(InjectedChain):
 
 
 @dataclass(frozen=True)
-class SampledKalmanObserver(ChainObserver, CurrentForm):
+class SampledKalmanObserver(SampledChain):
     """The discrete filter for one period T [s]; `scale` is 1/T. Made by `KalmanObserver.sampled`."""
 
-    period: float
     continuous: KalmanObserver
 
     @derived

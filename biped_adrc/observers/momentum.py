@@ -29,49 +29,30 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
-from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
+from biped_adrc.observers.base import ResetPolicy
 from biped_adrc.observers.chain import (
     MOST_POLES,
-    CurrentForm,
+    ChainObserver,
     equal_poles,
-    scaled_polynomial,
+    mean_bandwidth,
     stable_poles,
     whole,
 )
-from biped_adrc.observers.gpi import GPIObserver, SampledGPIObserver
-from biped_adrc.part import derived
+from biped_adrc.observers.gpi import InjectedChain, SampledGPIObserver
 from biped_adrc.types import Array, Indices, relabelled
 
 
-@dataclass(frozen=True)
-class MomentumChain(Observer):
-    """What both forms of the observer share: poles (k,) [rad/s] of the continuous form, scale [rad/s].
+class MomentumChain(ChainObserver):
+    """What both forms of the observer share: one integrator from the force to the momentum, and the reset.
 
-    The state z is Z (k, n) row by row. A controller around it has to feed it with momentum and force of all n
-    coordinates: `control.momentum_dob`.
+    A controller around it has to feed it with momentum and force of all n coordinates: `control.momentum_dob`.
     """
 
-    poles: tuple[complex, ...]
-    scale: float
-
-    @property
-    def order(self) -> int:
-        """k, states per coordinate."""
-        return len(self.poles)
-
-    def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
-        """z with pi^ = y and r = xi, each (n,); the derivatives of r are zero, dy is not used."""
-        Z = np.zeros((self.order, len(y)))
-        Z[0], Z[1] = y, xi / self.scale
-        return Z.ravel()
-
-    def estimate(self, z: Array) -> Estimate:
-        """In z: position pi^ [kg m^2/s], disturbance r [N m], each (n,); velocity 0, unused."""
-        Z = z.reshape(self.order, -1)
-        return Estimate(Z[0], np.zeros(Z.shape[1]), Z[1] * self.scale)
+    LEAD: ClassVar[int] = 1
 
     def reset(
         self, z: Array, policy: ResetPolicy, swap: Indices, y: Array, dy: Array, xi: Array
@@ -94,8 +75,13 @@ class MomentumChain(Observer):
 
 
 @dataclass(frozen=True)
-class MomentumObserver(MomentumChain):
-    """The observer in continuous time. Make it with `from_poles` or `from_bandwidth`."""
+class MomentumObserver(MomentumChain, InjectedChain):
+    """The observer in continuous time. Make it with `from_poles` or `from_bandwidth`.
+
+    Its flow takes y = pi (n,), the momentum [kg m^2/s], and input = beta (n,), the known force [N m].
+    """
+
+    poles: tuple[complex, ...] = ()
 
     @classmethod
     def from_poles(cls, poles: Sequence[complex]) -> MomentumObserver:
@@ -103,30 +89,14 @@ class MomentumObserver(MomentumChain):
 
         Raises InputError for others.
         """
-        checked = GPIObserver.from_poles(_stable(poles))
-        return cls(checked.poles, checked.scale)
+        poles = stable_poles(poles, "a momentum observer")
+        return cls(len(poles) - 1, mean_bandwidth(poles), poles)
 
     @classmethod
     def from_bandwidth(cls, bandwidth: float, order: int = 2) -> MomentumObserver:
         """The observer with k = order poles, two or more, all at -bandwidth [rad/s]. Raises InputError."""
         number = whole(order, 2, "k", "the number of poles of a momentum observer", MOST_POLES)
         return cls.from_poles(equal_poles(bandwidth, number))
-
-    @derived
-    def scaled_gains(self) -> Array:
-        """l_i / scale^i (k,), dimensionless."""
-        return scaled_polynomial(self.poles, self.scale)
-
-    def flow(self, z: Array, y: Array, input: Array) -> Array:
-        """z' by the module's equations, in scaled states.
-
-        y = pi (n,) is the momentum [kg m^2/s], input = beta (n,) the known force [N m].
-        """
-        Z, w = z.reshape(self.order, -1), self.scale
-        dZ = w * np.outer(self.scaled_gains, y - Z[0])
-        dZ[:-1] += w * Z[1:]
-        dZ[0] += input
-        return dZ.ravel()
 
     def sampled(self, period: float) -> SampledMomentumObserver:
         """The discrete observer with period T [s] and poles exp(s T), in its current form.
@@ -137,33 +107,9 @@ class MomentumObserver(MomentumChain):
 
 
 @dataclass(frozen=True)
-class SampledMomentumObserver(MomentumChain, CurrentForm):
+class SampledMomentumObserver(MomentumChain, SampledGPIObserver):
     """The discrete observer for one sampling period [s]: a chain of integrators with beta in its first row.
 
     beta is held between ticks. Where it changes within a period T this looks like a part of zeta, so that r has
     an error of about (T / 2) dbeta/dt; for a constant beta it has none.
     """
-
-    period: float
-
-    @classmethod
-    def from_poles(cls, poles: Sequence[complex], period: float) -> SampledMomentumObserver:
-        """Of the poles s [rad/s] of the continuous observer and the period T [s]. Raises InputError."""
-        chain = SampledGPIObserver.from_poles(_stable(poles), period)
-        return cls(chain.poles, chain.scale, period)
-
-    @derived
-    def Gamma(self) -> Array:
-        """(k,) [s]."""
-        Gamma = np.zeros(self.order)
-        Gamma[0] = self.period
-        return Gamma
-
-    @derived
-    def L(self) -> Array:
-        """(k,), dimensionless: that of the GPI observer with these poles."""
-        return SampledGPIObserver.from_poles(self.poles, self.period).L
-
-
-def _stable(poles: Sequence[complex]) -> tuple[complex, ...]:
-    return stable_poles(poles, "a momentum observer", ", one of them for r")

@@ -261,13 +261,7 @@ def _(motors: Motors):
     for delay, known in ((2.0 * PERIOD, False), (1.3 * PERIOD, True)):
         timing = ba.SampledTime(PERIOD, delay=delay, delay_known=known)
         controller = ba.ADRCController(gait().constraint, SLOW)
-        walker = ba.Walker(
-            heavy(),
-            controller,
-            timing=timing,
-            motors=motors,
-            runaway_torque=np.inf,
-        )
+        walker = ba.Walker(heavy(), controller, timing=timing, motors=motors, runaway_torque=np.inf)
         assert walker.held.sizes.queue == int(delay / PERIOD)
         loop_compiles(replace(walker, model=robot()), 20, ticks=4)
     assert pickle.loads(pickle.dumps(motors)) == motors

@@ -82,10 +82,7 @@ ROWS = {
         "GPI": lambda make: [make.from_poles(), make.from_bandwidth(300.0, 0)],
         "high gain": lambda make: [make.from_epsilon(0.002), make.from_epsilon(0.01, m=2)],
         "Kalman": lambda make: [make.from_noise(100.0, 1e-5), make.from_noise(1e3, 1e-4, m=2)],
-        "momentum": lambda make: [
-            make.from_bandwidth(9.0, 3),
-            make.from_poles(THREE),
-        ],
+        "momentum": lambda make: [make.from_bandwidth(9.0, 3), make.from_poles(THREE)],
     },
     "sensor": {
         "pitch sensor": lambda make: [
@@ -142,7 +139,7 @@ UNNAMED = {
         AddedTorque(ba.ADRCController(h), np.full(4, 2.0)),
     ],
     "added force": lambda h: [
-        AddedForce(np.array([20.0, -5.0]), link_point(robot(), robot().description.trunk)),
+        AddedForce(np.array([20.0, -5.0]), link_point(robot(), robot().description.trunk))
     ],
     "RK4": lambda h: [ba.RK4(2e-3)],
     "adaptive": lambda h: [ba.Adaptive(1e-9, 1e-9)],
@@ -156,15 +153,11 @@ IN_PYTHON = {"CLF-QP", "output NPD", "finite time"}
 """Controllers that call a solver of their own; all other things of the registry compile."""
 EACH = [(kind, name) for kind, rows in ROWS.items() for name in rows]
 PARTS_OF_CONTROL = {"OuterLoop", "ObservingController", "AbsentController"}
-PARTS_OF_CONTROL |= {"JointObservingController"}
 PARTS_OF_CONTROL |= {"Around", "AcrossContact", "ContactWindow", "DoubleSupport"}
 BASES = {
     ba.Controller: ("control", PARTS_OF_CONTROL),
-    ba.Observer: ("observers", {"ChainObserver", "CurrentForm", "InjectedChain", "MomentumChain"}),
-    ba.Disturbance: (
-        "disturbances",
-        {"Windowed", "WindowedTorque", "Lines", "AbsentDisturbance"},
-    ),
+    ba.Observer: ("observers", {"ChainObserver", "SampledChain", "InjectedChain", "MomentumChain"}),
+    ba.Disturbance: ("disturbances", {"Windowed", "WindowedTorque", "Lines", "AbsentDisturbance"}),
     ba.Reference: ("gait", set()),
     Outputs: ("gait", set()),
     OneStepMethod: ("hybrid", {"Solver", "_SciPy"}),

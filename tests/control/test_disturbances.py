@@ -12,8 +12,8 @@ from biped_adrc.control.passive import Passive
 from biped_adrc.disturbances.base import Sum
 from biped_adrc.disturbances.hip_force import HipForce
 from biped_adrc.disturbances.link import OnLink
-from biped_adrc.disturbances.noise import TorqueNoise
 from biped_adrc.disturbances.recorded import RecordedTorque
+from biped_adrc.disturbances.waves import TorqueNoise
 from biped_adrc.engine.compiled_push import term_code
 from biped_adrc.errors import InputError
 from biped_adrc.model.ground import StepDown, StepUp, uneven_ground
@@ -277,23 +277,15 @@ def test_uneven_ground_has_heights_of_mean_zero_and_the_rms():
 def test_a_sine_is_its_amplitude_after_a_quarter_of_its_period(biped):
     """f = 2 Hz from 0.1 s on: amplitude at 0.225 s, 0 at 0.35 s, minus the amplitude at 0.475 s."""
     amplitude, rest = np.array([3.0, 0.0, 0.0, 0.0, 0.0]), np.zeros(5)
-    made = (
-        ba.TorqueSine(amplitude, 4, 0.1, 0.9, 2.0),
-        single_push(
-            Scenario(
-                pushes=[
-                    {
-                        "shape": "sine",
-                        "joints": "q1",
-                        "torque": 3.0,
-                        "frequency": 2.0,
-                        "onset": 0.1,
-                        "step": 1,
-                    }
-                ]
-            )
-        ),
-    )
+    push = {
+        "shape": "sine",
+        "joints": "q1",
+        "torque": 3.0,
+        "frequency": 2.0,
+        "onset": 0.1,
+        "step": 1,
+    }
+    made = ba.TorqueSine(amplitude, 4, 0.1, 0.9, 2.0), single_push(Scenario(pushes=[push]))
     for one, (step, begin) in zip(made, ((4, 0.0), (1, 0.0)), strict=True):
         for s, share in ((0.1, 0.0), (0.225, 1.0), (0.35 - 1e-12, 0.0), (0.475, -1.0)):
             zeta = one.zeta(begin + s, step, begin, rest, rest)

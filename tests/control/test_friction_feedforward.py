@@ -113,7 +113,7 @@ def test_what_is_estimated_is_the_disturbance_beside_the_torque_that_acts(
 def test_what_does_not_fit_is_refused(biped, gait):
     for wrong in ({"share": -0.1}, {"static": (1.0, np.nan, 0.0, 0.0)}):
         values = {"viscous": (1.0,) * 4, "static": (1.0,) * 4, **wrong}
-        with pytest.raises(InputError, match="none of them below 0"):
+        with pytest.raises(InputError):
             FrictionFeedforward(ba.NPDController(gait.constraint), gait.constraint, **values)
     smooth = ba.Biped.load("three_link")
     with pytest.raises(InputError, match="whose record has none"):

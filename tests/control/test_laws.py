@@ -6,26 +6,14 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.control.delayed import Delayed
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_adrc import OutputADRCController
-from biped_adrc.control.passive import Passive
 from biped_adrc.engine.structure import structure
 from biped_adrc.gait.reference import Reference
 from biped_adrc.observers.base import Estimate
 from biped_adrc.observers.chain import ChainObserver
 from biped_adrc.part import derived
-
-
-def measurements(biped, gait, count=5):
-    walker = ba.Walker(biped, Passive())
-    random = np.random.default_rng(3)
-    q, v = gait.start(biped)
-    for _ in range(count):
-        x = q + 0.05 * random.normal(size=5), v + 0.5 * random.normal(size=5)
-        m = walker.measure(0.1, *x, Mode())
-        yield m._replace(body=biped.body_terms(*x)), random
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,6 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.momentum_dob import MomentumDOBController
-from biped_adrc.errors import InputError
 from biped_adrc.observers.momentum import MomentumObserver
 
 NO_STATE = np.zeros(0)
@@ -41,15 +40,6 @@ def test_the_error_has_the_transfer_function_of_the_module(poles):
     error = 1.0 - Z[1] * observer.scale
     chi = np.prod([s - pole for pole in poles])
     assert error == pytest.approx(s ** (order - 1) * (s + l_1) / chi, rel=1e-9)
-
-
-@pytest.mark.parametrize("poles", [(-40.0, -60.0), (-30 + 20j, -30 - 20j, -50.0)])
-def test_in_discrete_time_the_error_has_the_poles_exp_s_T(poles):
-    T = 2e-3
-    k = MomentumObserver.from_poles(poles).sampled(T)
-    found = np.linalg.eigvals((np.eye(k.order) - np.outer(k.L, np.eye(k.order)[0])) @ k.Phi)
-    expected = np.exp(T * np.array(poles))
-    assert np.allclose(np.sort_complex(found), np.sort_complex(expected), rtol=1e-9)
 
 
 def test_a_constant_force_on_a_mass_is_found_without_error_in_discrete_time():
@@ -99,19 +89,3 @@ def test_an_impact_relabels_the_force_and_keeps_it(biped, gait):
         told = policy in (ba.ResetPolicy.MEASURED, ba.ResetPolicy.MODEL)
         assert x.position == pytest.approx(biped.inertia(q) @ v if told else np.ones(5))
         assert np.all(new[10:] == (0.0 if policy is ba.ResetPolicy.MODEL else 9.0))
-
-
-@pytest.mark.parametrize(
-    "make",
-    [
-        lambda: MomentumObserver.from_poles([-3.0]),
-        lambda: MomentumObserver.from_poles([-3.0, 1.0]),
-        lambda: MomentumObserver.from_bandwidth(-3.0),
-        lambda: MomentumObserver.from_bandwidth(3.0, 1),
-        lambda: MomentumObserver.from_bandwidth(3.0).sampled(0.0),
-        lambda: MomentumObserver.from_bandwidth(3.0).predict(NO_STATE, NO_STATE),
-    ],
-)
-def test_bad_momentum_observers(make):
-    with pytest.raises(InputError):
-        make()

@@ -11,12 +11,9 @@ from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import HybridSystem
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
 from biped_adrc.observers.kalman import KalmanObserver
+from biped_adrc.observers.momentum import MomentumObserver
 
-POLES = [
-    (-3.0, -5.0),
-    (-10 + 5j, -10 - 5j, -40.0, -8.0),
-    TABLE_I,
-]
+POLES = [(-3.0, -5.0), (-10 + 5j, -10 - 5j, -40.0, -8.0), TABLE_I]
 
 
 @pytest.mark.parametrize("poles", POLES)
@@ -72,8 +69,9 @@ def test_polynomial_disturbances_up_to_degree_m_minus_one_are_found_exactly(m):
 
 @pytest.mark.parametrize("period", [1e-3, 2e-2])
 @pytest.mark.parametrize("poles", [(-10.0, -20.0, -35.0), (-10 + 5j, -10 - 5j, -40.0)])
-def test_discrete_form_has_the_poles_exp_sT(poles, period):
-    k = GPIObserver.from_poles(poles).sampled(period)
+@pytest.mark.parametrize("kind", [GPIObserver, MomentumObserver])
+def test_discrete_form_has_the_poles_exp_sT(kind, poles, period):
+    k = kind.from_poles(poles).sampled(period)
     closed = (np.eye(len(poles)) - np.outer(k.L, np.eye(len(poles))[0])) @ k.Phi
     expected = np.exp(np.array(poles) * period)
     found = np.linalg.eigvals(closed)
@@ -134,6 +132,12 @@ def test_reset_policies():
         lambda: GPIObserver.from_bandwidth(-5.0),
         lambda: GPIObserver.from_bandwidth(500.0, 1.5),
         lambda: GPIObserver.from_poles().sampled(0.0),
+        lambda: MomentumObserver.from_poles([-3.0]),
+        lambda: MomentumObserver.from_poles([-3.0, 1.0]),
+        lambda: MomentumObserver.from_bandwidth(-3.0),
+        lambda: MomentumObserver.from_bandwidth(3.0, 1),
+        lambda: MomentumObserver.from_bandwidth(3.0).sampled(0.0),
+        lambda: MomentumObserver.from_bandwidth(3.0).predict(np.zeros(0), np.zeros(0)),
     ],
 )
 def test_bad_observers(call):

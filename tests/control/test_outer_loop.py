@@ -10,11 +10,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.stride_gain import BUMP, StrideResponse, stride_response
 from biped_adrc.control.outer_loop import reference_in_force
-from biped_adrc.control.reference_reset import (
-    ReferenceReset,
-    ResetPolynomial,
-    reset_coefficients,
-)
+from biped_adrc.control.reference_reset import ReferenceReset, ResetPolynomial, reset_coefficients
 from biped_adrc.control.stride import TORSO_LEAN, StrideGains, StridePI, bump
 from biped_adrc.disturbances.hip_force import HipForce
 from biped_adrc.errors import GaitError, InputError

@@ -120,26 +120,18 @@ def test_torques_on_their_way_are_relabelled_at_an_impact_and_move_up_at_a_tick(
     assert np.array_equal(law.output(s, m), by_hand)
 
 
-def test_both_engines_walk_alike_with_all_leaves(gait):
-    shared = {
-        "hardware.profile": "rabbit",
-        "hardware.delay": 2e-3,
-        "controller.prediction": 2e-3,
-        "controller.feedforward": 0.9,
-    }
-    shared |= {
-        "controller.contact.name": "hold",
-        "run.impacts": 2,
-        "controller.observer.bandwidth": 150.0,
-        "hardware.encoders.filter_time": 5e-3,
-    }
+def test_both_engines_walk_alike_with_all_leaves():
+    law = {"name": "LESO", "observer": {"bandwidth": 150.0}, "contact": {"name": "hold"}}
+    hardware = {"profile": "rabbit", "delay": 2e-3, "encoders": {"filter_time": 5e-3}}
+    s = ba.Scenario({**law, "prediction": 2e-3, "feedforward": 0.9}, hardware=hardware)
+    engines = ("compiled", "pinocchio")
     walks = [
-        ba.walk_scenario(ba.Scenario("LESO", run={"engine": engine}, **shared)).trajectory
-        for engine in ("compiled", "pinocchio")
+        ba.walk_scenario(s.replace(run={"engine": engine, "impacts": 2})).trajectory
+        for engine in engines
     ]
-    assert [walk.settings["engine"] for walk in walks] == ["compiled", "pinocchio"]
-    one, two = (walk.final_state for walk in walks)
+    assert tuple(walk.settings["engine"] for walk in walks) == engines
     assert walks[0].status is ba.Status.COMPLETED
+    one, two = (walk.final_state for walk in walks)
     np.testing.assert_allclose(one, two, rtol=1e-7, atol=1e-7)
 
 
@@ -190,11 +182,5 @@ def test_no_prediction_is_the_controller_itself_and_both_leaves_go_around_the_po
     assert (type(outer), outer.share) == (FrictionFeedforward, 0.5)
     assert (type(outer.inner), outer.inner.prediction) == (Predicted, T)
     assert type(outer.inner.inner) is Hold
-    assert (
-        type(
-            build(
-                ba.Scenario({"name": "NPD", "prediction": 0.0}, hardware={"period": T})
-            ).controller
-        )
-        is ba.NPDController
-    )
+    none = ba.Scenario({"name": "NPD", "prediction": 0.0}, hardware={"period": T})
+    assert type(build(none).controller) is ba.NPDController

@@ -5,7 +5,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.disturbances.recorded import PIECES, RecordedTorque
-from biped_adrc.errors import InputError
+from biped_adrc.scenario.build import build
 
 from .conforms import written
 
@@ -44,9 +44,11 @@ def test_columns_are_joints_by_either_name(biped):
     ("text", "message"),
     [
         ("q1,q2\n0,1\n1,2", "expected one 't'"),
-        ("t,q1\n0,1", "rows of numbers: 1, expected at least 2"),
-        ("t,q1\n0,1\n0,2", "line 3 of the recording has t = 0 s"),
+        ("t,q1\n0,1", r"times of shape \(1,\)"),
+        ("t,q1\n0,1\n0,2", "row 2 of the recording has t = 0 s"),
         ("t,q1\n0,nan\n1,2", "line 2, column 'q1': found 'nan'"),
+        ("t,q1\n0,1\n1,2,3", "line 3 has 3 entries"),
+        ("t,q1,q1\n0,1,1\n1,2,2", "expected one 't'"),
         ("t,q9\n0,1\n1,2", "no joint 'q9'"),
     ],
 )
@@ -56,21 +58,20 @@ def test_bad_recordings(biped, text, message):
     assert "given.csv" in str(raised.value)
 
 
-def test_by_name_and_without_its_file(biped):
-    file = str(written("t,q1\n0,0\n0.1,20\n0.3,0\n"))
-    named = {
-        "pushes.0.shape": "recorded",
-        "pushes.0.step": 1,
-        "pushes.0.onset": 0.05,
-        "run.impacts": 1,
-    }
-    walk = ba.walk_scenario(ba.Scenario("NPD", **{"pushes.0.file": file, **named}))
-    assert walk.walker.disturbance.switches == ((0, 0.05), (0, 0.35))
-    with pytest.raises(InputError, match=r"pushes\.0\.torque: the push 'recorded' takes no torque"):
-        ba.walk_scenario(
-            ba.Scenario("NPD", **{"pushes.0.file": file, "pushes.0.torque": 3.0, **named})
-        )
-    with pytest.raises(ba.BipedError, match="needs file"):
-        ba.walk_scenario(ba.Scenario("NPD", **named))
-    with pytest.raises(ba.BipedError, match=r"gone\.csv' not found"):
-        ba.walk_scenario(ba.Scenario("NPD", **{"pushes.0.file": "gone.csv", **named}))
+def test_by_name_and_without_its_file():
+    file, named = (
+        str(written("t,q1\n0,0\n0.1,20\n0.3,0\n")),
+        {"shape": "recorded", "step": 1, "onset": 0.05},
+    )
+
+    def made(**more):
+        return build(ba.Scenario("NPD", pushes=[named | more])).disturbance
+
+    assert made(file=file).switches == ((0, 0.05), (0, 0.35))
+    for more, message in (
+        ({"file": file, "torque": 3.0}, r"pushes\.0\.torque: the push 'recorded' takes no torque"),
+        ({}, "needs file"),
+        ({"file": "gone.csv"}, r"gone\.csv' not found"),
+    ):
+        with pytest.raises(ba.BipedError, match=message):
+            made(**more)

@@ -20,7 +20,7 @@ def plant(biped):
 
 def loop(kind, plant, controller, **more):
     more = {"timing": PERIOD, "torque_limit": 150.0} | more
-    return kind(plant, controller, plant.biped, **more)
+    return kind(plant, controller, model=plant.biped, **more)
 
 
 def both(plant, gait, controller, t_end=0.1, change=None, **more):

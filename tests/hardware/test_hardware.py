@@ -292,9 +292,7 @@ def test_an_observer_that_knows_the_delay_is_fed_the_mean_of_what_acts(known, sh
     old, new = np.array([10.0, -4.0]), np.array([2.0, 6.0])
     fed = []
     law = SimpleNamespace(
-        correct=lambda s, m: s,
-        output=lambda s, m: new,
-        predict=lambda s, m, u: fed.append(u) or s,
+        correct=lambda s, m: s, output=lambda s, m: new, predict=lambda s, m, u: fed.append(u) or s
     )
     loop = SimpleNamespace(law=law, calls=law, saturate=lambda u: u, bounded=lambda u: u)
     motors = TorqueLine(np.inf, 0.0, 0.3)

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.hardware.touchdown_by_foot import ByForce, ByKinematics
-from biped_adrc.hardware.touchdown_told import Told
+from biped_adrc.hardware.detectors import ByForce, ByKinematics, Told
 from biped_adrc.scenario.build import build
 from biped_adrc.study.run import run_trial
 

@@ -13,7 +13,7 @@ def test_held_after_touchdown_an_observer_of_low_order_leaves_a_quarter_of_npds_
     h, plant, found = gait.constraint, ba.MuJoCoPlant(biped, ba.SoftGround(friction=0.8)), []
     slow = ba.ADRCController(h, ba.GPIObserver.from_bandwidth(500.0))
     for controller in (ba.NPDController(h), Hold(slow, 0.015)):
-        loop = ba.SteppingLoop(plant, controller, biped, ba.SampledTime(1e-3), PUSH, 150.0)
+        loop = ba.SteppingLoop(plant, controller, PUSH, ba.SampledTime(1e-3), biped, 150.0)
         x0 = loop.initial_state(*gait.start(biped))
         run = loop.run(x0, ba.RunOptions(1.0, stop_after=("foot_strike", 2)))
         assert run.status is ba.Status.COMPLETED

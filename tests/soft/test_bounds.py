@@ -42,12 +42,12 @@ def all_finite(found):
 @pytest.mark.parametrize("made", LOOPS)
 def test_a_controller_that_explodes_ends_as_run_away(made, plant, gait):
     """By its torque: e^(1e3 t) is above 1000 times 150 N m from 12 ms on, unless a rate is too high before."""
-    free = run(made(plant, Explodes(), plant.biped, TICK, runaway_speed=math.inf), gait)
+    free = run(made(plant, Explodes(), None, TICK, plant.biped, runaway_speed=math.inf), gait)
     assert free.status is ba.Status.RAN_AWAY
     assert "above 1.5e+05 N m" in free.detail
     assert free.t_end == pytest.approx(12e-3)
     assert all_finite(free)
-    found = run(made(plant, Explodes(), plant.biped, TICK, runaway_speed=0.5), gait)
+    found = run(made(plant, Explodes(), None, TICK, plant.biped, runaway_speed=0.5), gait)
     assert found.status is ba.Status.RAN_AWAY
     assert "rad/s, above" in found.detail
     assert found.t_end < 12e-3
@@ -58,7 +58,7 @@ def test_a_controller_that_explodes_ends_as_run_away(made, plant, gait):
 @pytest.mark.parametrize("made", LOOPS)
 def test_the_bounds_are_the_loops(made, plant, gait):
     """Just below the peaks of a walk they end it, at the tick or the stride where it is beyond; above, not."""
-    parts = plant, ba.NPDController(gait.constraint), plant.biped, TICK
+    parts = plant, ba.NPDController(gait.constraint), None, TICK, plant.biped
     arc = run(made(*parts), gait).arcs[0]
     peak = np.max(np.abs(arc.read["u"]), axis=1) / 150.0
     fast = np.max(np.abs(arc.x[:, 5:10]) / plant.biped.speed_limits, axis=1)
@@ -113,7 +113,7 @@ def test_a_walk_that_the_engine_loses_can_be_read(
 
 def test_one_loop_walks_alike_in_many_threads(plant, gait):
     """Each has a work space of its own: in one that is shared two walks would end the process."""
-    loop = CompiledLoop(plant, ba.NPDController(gait.constraint), plant.biped, TICK)
+    loop = CompiledLoop(plant, ba.NPDController(gait.constraint), None, TICK, plant.biped)
     begin = loop.initial_state(*gait.start(plant.biped))
     with ThreadPoolExecutor(4) as pool:
         runs = list(pool.map(lambda _: loop.run(begin, ba.RunOptions(0.05)), range(8)))

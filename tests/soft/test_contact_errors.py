@@ -64,7 +64,7 @@ def test_nothing_pushed_is_no_number():
 def test_meters_of_recorded_nodes_are_those_of_readings_at_the_nodes(biped, gait):
     plant = ba.MuJoCoPlant(biped)
     npd, period = ba.NPDController(gait.constraint), ba.SampledTime(1e-3)
-    loop = SteppingLoop(plant, npd, biped, period, torque_limit=150.0)
+    loop = SteppingLoop(plant, npd, None, period, biped, torque_limit=150.0)
     x0 = loop.initial_state(*gait.start(biped))
     run = loop.run(x0, RunOptions(1.0, stop_after=("foot_strike", 1)))
     again = recorded_steps(with_readings(loop, run), 0.6, ground_axes(0.0))

@@ -31,7 +31,7 @@ def balance(biped, gait, h):
     """
     plant = ba.MuJoCoPlant(biped, h=h)
     npd, period = ba.NPDController(gait.constraint), ba.SampledTime(1e-3)
-    loop = ba.SteppingLoop(plant, npd, biped, period, PUSH, torque_limit=150.0)
+    loop = ba.SteppingLoop(plant, npd, PUSH, period, biped, torque_limit=150.0)
     x0 = loop.initial_state(*gait.start(biped))
     first = loop.run(x0, ba.RunOptions(0.6, stop_after=("foot_strike", 1)))
     end = first.events()[0]

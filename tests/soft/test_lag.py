@@ -38,7 +38,7 @@ class Holds(ba.Controller):
 @pytest.mark.parametrize("made", [SteppingLoop, CompiledLoop])
 @pytest.mark.parametrize("tau", [1e-5, 50e-3])
 def test_the_recorded_torque_is_the_closed_form(made, biped, gait, tau):
-    loop = made(ba.MuJoCoPlant(biped, lag=tau), Holds(), biped, TICK)
+    loop = made(ba.MuJoCoPlant(biped, lag=tau), Holds(), None, TICK, biped)
     run = loop.run(loop.initial_state(*gait.start(biped)), ba.RunOptions(0.02))
     arc = run.arcs[0]
     expected = Holds().output(None, None) * (1.0 - np.exp(-arc.t / tau))[:, np.newaxis]
@@ -108,7 +108,7 @@ def test_a_rate_limit_stays_and_what_does_not_fit_is_said(biped, gait):
     for wrong in (
         lambda: stepping_loop(walker, ba.MuJoCoPlant(biped, lag=1e-3)),
         lambda: ba.MuJoCoPlant(biped, lag=-1.0),
-        lambda: SteppingLoop(ba.MuJoCoPlant(biped), law, biped, TICK, motors=Motors(lag=TAU)),
+        lambda: SteppingLoop(ba.MuJoCoPlant(biped), law, None, TICK, biped, motors=Motors(lag=TAU)),
     ):
         with pytest.raises(InputError, match="lag"):
             wrong()

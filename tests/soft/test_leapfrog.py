@@ -57,7 +57,7 @@ def test_free_fall_is_exact(biped, gait):
 
 def walked(biped, gait, controller, plant, impacts, push=None):
     loop = ba.CompiledLoop(
-        plant, controller(gait.constraint), biped, ba.SampledTime(1e-3), push, 150.0
+        plant, controller(gait.constraint), push, ba.SampledTime(1e-3), biped, 150.0
     )
     x0 = loop.initial_state(*gait.start(biped))
     return loop.run(x0, ba.RunOptions(0.8 * impacts, stop_after=("foot_strike", impacts)))

@@ -24,7 +24,7 @@ FLAT = np.array([1.0, 0.0]), np.array([0.0, 1.0])
 
 def loop_on(plant, gait, **more):
     npd, period = ba.NPDController(gait.constraint), ba.SampledTime(1e-3)
-    return SteppingLoop(plant, npd, plant.biped, period, torque_limit=150.0, **more)
+    return SteppingLoop(plant, npd, timing=period, model=plant.biped, torque_limit=150.0, **more)
 
 
 def walked(loop, gait, impacts):
@@ -131,7 +131,7 @@ def standing(biped, time_constant, impedance=(0.9, 0.9)):
     )
     ground = ba.SoftGround(1.0, time_constant, impedance=impedance)
     plant = MuJoCoPlant(held, ground, h=0.1 * time_constant, ahead=9.0)
-    loop = SteppingLoop(plant, ba.Passive(), held, ba.SampledTime(4e-3))
+    loop = SteppingLoop(plant, ba.Passive(), None, ba.SampledTime(4e-3), held)
     q = ba.load_gait("published", biped).start(biped)[0]
     return loop, loop.run(loop.initial_state(q, np.zeros(5)), RunOptions(0.6))
 

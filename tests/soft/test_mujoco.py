@@ -108,7 +108,12 @@ def test_feet_and_hip_are_where_pinocchio_has_them(robot):
 
 def loop(plant, controller, **more):
     return SteppingLoop(
-        plant, controller, plant.biped, ba.SampledTime(1e-3), torque_limit=150.0, **more
+        plant,
+        controller,
+        timing=ba.SampledTime(1e-3),
+        model=plant.biped,
+        torque_limit=150.0,
+        **more,
     )
 
 

@@ -29,7 +29,12 @@ def made():
 def test_it_is_the_walk_of_a_loop_around_the_plant(made, biped, gait):
     plant = ba.MuJoCoPlant(biped)
     loop = ba.SteppingLoop(
-        plant, ba.NPDController(gait.constraint), biped, ba.SampledTime(1e-3), torque_limit=150.0
+        plant,
+        ba.NPDController(gait.constraint),
+        None,
+        ba.SampledTime(1e-3),
+        biped,
+        torque_limit=150.0,
     )
     run = loop.run(
         loop.initial_state(*gait.start(biped)), ba.RunOptions(4.0, stop_after=(FOOT_STRIKE, 2))

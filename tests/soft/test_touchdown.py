@@ -7,8 +7,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.touchdowns import touchdowns
-from biped_adrc.hardware.touchdown_by_foot import ByForce, ByKinematics
-from biped_adrc.hardware.touchdown_told import Told
+from biped_adrc.hardware.detectors import ByForce, ByKinematics, Told
 
 pytest.importorskip("mujoco")
 T = 1e-3
@@ -26,7 +25,7 @@ def low_order(constraint):
 def walked(plant, gait, touchdown, kind=ba.CompiledLoop, t_end=0.43, controller=low_order, **more):
     clock = ba.SampledTime(T, restart=False)
     given = {"torque_limit": 150.0, "touchdown": touchdown} | more
-    loop = kind(plant, controller(gait.constraint), plant.biped, clock, **given)
+    loop = kind(plant, controller(gait.constraint), None, clock, plant.biped, **given)
     return loop, loop.run(loop.initial_state(*gait.start(plant.biped)), ba.RunOptions(t_end))
 
 

@@ -38,11 +38,11 @@ from biped_adrc.errors import InputError, check_count, check_positive
 from biped_adrc.extras.mujoco.engine import INTEGRATORS, MuJoCoEngine, Own
 from biped_adrc.extras.mujoco.robot import PLANES, compiled, floating_mjcf, mujoco
 from biped_adrc.extras.mujoco.soft_ground import SoftGround
-from biped_adrc.hardware.motors import check_lag
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import StepDown, StepUp, check_slope, check_steps, drop_of, ground_axes
-from biped_adrc.parts import Checked
+from biped_adrc.parts import Checked, check_fields
+from biped_adrc.ranges import NonNegativeFloat
 from biped_adrc.shown import Shown
 from biped_adrc.timing import check_ends
 from biped_adrc.types import Array, Indices, MuJoCoData, MuJoCoModel, relabelled
@@ -80,7 +80,7 @@ class MuJoCoPlant(Checked, Shown):
     fall_height: float = 0.35
     max_step_time: float = 2.0
     integrator: str = "rk4"
-    lag: float = 0.0
+    lag: NonNegativeFloat = 0.0
     ground_steps: tuple[StepDown | StepUp, ...] = ()
     first_step: int = 1
     model: MuJoCoModel = field(init=False, repr=False, compare=False)
@@ -88,11 +88,11 @@ class MuJoCoPlant(Checked, Shown):
     """The engine's work space; what it holds is set anew at each call."""
 
     def __post_init__(self) -> None:
+        check_fields(self)
         for name in ("h", "touchdown_force", "ahead", "flight_height"):
             check_positive(getattr(self, name), f"{name} of the plant is {getattr(self, name)}")
         check_slope(self.slope)
         check_steps(self.ground_steps)
-        check_lag(self.lag)
         check_count(self.first_step, f"the plant begins in single support {self.first_step}")
         check_ends(self.max_step_time, self.fall_height, math.inf, math.inf)
         if self.biped.p == 0:
