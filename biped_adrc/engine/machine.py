@@ -25,7 +25,7 @@ import tempfile
 import threading
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from types import ModuleType
@@ -52,6 +52,8 @@ class LoadedCode:
     """By name."""
     owner: object
     """LLVM's engine."""
+    text: str = ""
+    """What they were made from, in LLVM's language."""
 
 
 class ModuleText(NamedTuple):
@@ -76,7 +78,7 @@ def load_or_compile(text: ModuleText, names: Sequence[str]) -> LoadedCode:
         if code is None:
             code = compiled(*text)
             keep(key, code)
-        return loaded(code, names)
+        return replace(loaded(code, names), text=text.text)
 
 
 def processor() -> str:

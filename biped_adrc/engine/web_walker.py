@@ -13,7 +13,6 @@ from typing import NamedTuple
 
 from biped_adrc.engine.compiled_signals import SignalNumbers, observe
 from biped_adrc.engine.compiled_walker import CompiledWalker, term_text
-from biped_adrc.engine.equations import Equations
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.kernels.record import PART, PLACES
 from biped_adrc.engine.kernels.run_plan import Functions, RunPlan
@@ -57,7 +56,7 @@ class _Laws(NamedTuple):
     texts: dict[str, str]
     """Functions of walkers in LLVM's language, by a name for them."""
     names: dict[int, str]
-    """That name by the address of one of the functions here."""
+    """That name by the address of one of the functions here; by minus that, of what reads its signals."""
     functions: list[str]
     """Names of those that are called by their number."""
 
@@ -82,12 +81,10 @@ def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker
         raise InputError("an offline page takes the steps of RK4; leave out the exponential method")
     signals = SignalNumbers(program.numbers, reference)
 
-    def text() -> str:
-        equations = Equations.of(program.make, program.numbers)
-        made = {name: getattr(equations, name)() for name in Equations.names(program.numbers)}
-        return module_text(made | {"observe": observe(program.make, signals)})
-
-    own = laws.of(program.address("flow"), text)
+    own = laws.of(program.address("flow"), lambda: program.machine.text)
+    seen = laws.of(
+        -program.address("flow"), lambda: module_text({"observe": observe(program.make, signals)})
+    )
     cells = one.plan.cells.copy()
     for name in Functions._fields:
         at = PLACES[name]
@@ -98,4 +95,4 @@ def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker
         push = laws.of(int(part[0]), partial(term_text, term, one.walker.plant.n))
         part[0] = laws.number(f"{push}.torque")
         part[2] = laws.number(f"{push}.resultant") if part[2] else 0
-    return WebWalker(replace(one.plan, cells=cells), laws.number(f"{own}.observe"))
+    return WebWalker(replace(one.plan, cells=cells), laws.number(f"{seen}.observe"))

@@ -14,6 +14,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Set
 from functools import cache
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -39,8 +40,19 @@ SYMBOLS, FUNCTION, DATA, SECTION, UNDEFINED, NAMED = 8, 0, 1, 3, 0x10, 0x40
 def web_module(laws: Mapping[str, str]) -> bytes:
     """The loops and these functions as WebAssembly; those of a walker are text for LLVM, by a name for them.
 
-    A page finds the functions of LOOPS by their names, and function `f` of the text `name` as `name.f`.
+    A page finds the functions of LOOPS by their names, and function `f` of the text `name` as `name.f`. The
+    module is kept on the disk.
     """
+    key = key_of("\0".join((TARGET, _loops(), _own_text(), *chain(*laws.items()))))
+    code = stored(key)
+    if code is None:
+        code = _linked(laws)
+        keep(key, code)
+    return code
+
+
+def _linked(laws: Mapping[str, str]) -> bytes:
+    """As `web_module`, made anew."""
     binding.initialize_all_targets()
     binding.initialize_all_asmprinters()
     machine = binding.Target.from_triple(TARGET).create_target_machine(opt=3)
@@ -77,12 +89,17 @@ def _defined(module: Any) -> list[Any]:
 @cache
 def _loops() -> str:
     """All units of the kernels in one text for LLVM, from the disk where it is there."""
-    key = key_of(f"{TARGET}\0{source()}\0{Path(__file__).read_text(encoding='utf-8')}")
+    key = key_of(f"{TARGET}\0{source()}\0{_own_text()}")
     kept = stored(key)
     text = kept.decode() if kept is not None else _written_loops()
     if kept is None:
         keep(key, text.encode())
     return text
+
+
+def _own_text() -> str:
+    """The text of this file, which decides what it makes."""
+    return Path(__file__).read_text(encoding="utf-8")
 
 
 def _written_loops() -> str:
