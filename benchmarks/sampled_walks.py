@@ -28,7 +28,7 @@ from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.types import Array
 
 FINER = 5
-ENVIRONMENT = "biped_adrc.gym:biped_adrc/Walk-v0"
+ENVIRONMENT = "biped_adrc.extras.gym:biped_adrc/Walk-v0"
 STRONGEST = 1e5  # [N m]
 SAMPLES, MANY = 2000, 64  # of a learner's walks, as one run; of them in a vector
 

@@ -47,6 +47,7 @@ from biped_adrc.extras.logs.robot_log import RobotLog as RobotLog
 from biped_adrc.extras.mujoco.mjcf import write_mjcf as write_mjcf
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant as MuJoCoPlant
 from biped_adrc.extras.mujoco.soft_ground import SoftGround as SoftGround
+from biped_adrc.extras.play.page import play as play
 from biped_adrc.gait.constraint import VirtualConstraint as VirtualConstraint
 from biped_adrc.gait.constraint import continued as continued
 from biped_adrc.gait.conventions import convention as convention
@@ -82,7 +83,6 @@ from biped_adrc.hybrid.simulator import simulate as simulate
 from biped_adrc.hybrid.status import Status as Status
 from biped_adrc.hybrid.trajectory import Trajectory as Trajectory
 from biped_adrc.linear import solve as solve
-from biped_adrc.live.page import play as play
 from biped_adrc.model.biped import Biped as Biped
 from biped_adrc.model.ground import StepDown as StepDown
 from biped_adrc.model.ground import StepUp as StepUp

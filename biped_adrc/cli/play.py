@@ -22,7 +22,7 @@ def play_command(
     out: Path | None = None,
 ) -> None:
     """Push a walk yourself, on a page with a guided tour; sampled at 1 kHz if not said otherwise."""
-    from biped_adrc.live.page import OTHERS, play
+    from biped_adrc.extras.play.page import OTHERS, play
 
     if out is not None:
         keep_inputs((output_path(out, (".html",)),), () if scenario is None else (scenario,))

@@ -13,7 +13,7 @@ import platform
 import threading
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -38,6 +38,8 @@ class LoadedCode:
     """By name."""
     owner: object
     """LLVM's engine."""
+    text: str = ""
+    """What they were made from, in LLVM's language."""
 
 
 class ModuleText(NamedTuple):
@@ -62,7 +64,7 @@ def load_or_compile(text: ModuleText, names: Sequence[str]) -> LoadedCode:
         if code is None:
             code = compiled(*text)
             keep(key, code)
-        return loaded(code, names)
+        return replace(loaded(code, names), text=text.text)
 
 
 def processor() -> str:

@@ -17,6 +17,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import replace
 from functools import partial
+from itertools import chain
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from llvmlite import binding
@@ -24,11 +26,11 @@ from llvmlite import binding
 from biped_adrc.engine.compiled_push import term_text
 from biped_adrc.engine.compiled_signals import SignalNumbers, observe
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.equations import Equations
 from biped_adrc.engine.ir import module_text
 from biped_adrc.engine.kernels.load import loops
 from biped_adrc.engine.kernels.record import PART, PLACES
 from biped_adrc.engine.kernels.run_plan import Functions, RunPlan
+from biped_adrc.engine.machine import keep, key_of, stored
 from biped_adrc.errors import InputError
 from biped_adrc.gait.reference import Reference
 
@@ -68,7 +70,7 @@ class _Laws(NamedTuple):
     texts: dict[str, str]
     """Functions of walkers in LLVM's language, by a name for them."""
     names: dict[int, str]
-    """That name by the address of one of the functions here."""
+    """That name by the address of one of the functions here; by minus that, of what reads its signals."""
     functions: list[str]
     """Names of those that are called by their number."""
 
@@ -93,12 +95,10 @@ def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker
         raise InputError("an offline page takes the steps of RK4; leave out the exponential method")
     signals = SignalNumbers(program.numbers, reference)
 
-    def text() -> str:
-        equations = Equations.of(program.make, program.numbers)
-        made = {name: getattr(equations, name)() for name in Equations.names(program.numbers)}
-        return module_text(made | {"observe": observe(program.make, signals)})
-
-    own = laws.of(program.address("flow"), text)
+    own = laws.of(program.address("flow"), lambda: program.machine.text)
+    seen = laws.of(
+        -program.address("flow"), lambda: module_text({"observe": observe(program.make, signals)})
+    )
     cells = one.plan.cells.copy()
     for name in Functions._fields:
         at = PLACES[name]
@@ -109,7 +109,7 @@ def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker
         push = laws.of(int(part[0]), partial(term_text, term, one.walker.plant.n))
         part[0] = laws.number(f"{push}.torque")
         part[2] = laws.number(f"{push}.resultant") if part[2] else 0
-    return WebWalker(replace(one.plan, cells=cells), laws.number(f"{own}.observe"))
+    return WebWalker(replace(one.plan, cells=cells), laws.number(f"{seen}.observe"))
 
 
 TARGET = "wasm32-unknown-unknown"
@@ -125,8 +125,20 @@ SYMBOLS, FUNCTION, DATA, SECTION, UNDEFINED, NAMED = 8, 0, 1, 3, 0x10, 0x40
 def web_module(laws: Mapping[str, str]) -> bytes:
     """The loops and these functions as WebAssembly; those of a walker are text for LLVM, by a name for them.
 
-    A page finds the functions of LOOPS by their names, and function `f` of the text `name` as `name.f`.
+    A page finds the functions of LOOPS by their names, and function `f` of the text `name` as `name.f`. The
+    module is kept on the disk.
     """
+    own = Path(__file__).read_text(encoding="utf-8")
+    key = key_of("\0".join((TARGET, loops(), own, *chain(*laws.items()))))
+    code = stored(key)
+    if code is None:
+        code = _linked(laws)
+        keep(key, code)
+    return code
+
+
+def _linked(laws: Mapping[str, str]) -> bytes:
+    """As `web_module`, made anew."""
     binding.initialize_all_targets()
     binding.initialize_all_asmprinters()
     machine = binding.Target.from_triple(TARGET).create_target_machine(opt=3)

@@ -89,6 +89,12 @@ class ModelErrors(Shown):
         by_pair = zip(pairs, drawn, strict=True)
         return cls(m, d, J, {joint: e for pair, e in by_pair for joint in pair})
 
+    @classmethod
+    def of_friction(cls, biped: Biped, error: float) -> ModelErrors:
+        """The same relative error of friction in all joints that have some. Raises ModelError for none."""
+        joints = [joint for pair in _rubbing(biped) for joint in pair]
+        return cls(friction=dict.fromkeys(joints or ["any"], error))
+
     def apply(self, biped: Biped) -> Biped:
         """`biped` with these errors. Raises ModelError for an unknown body or joint, or legs that
         become unequal.

@@ -24,6 +24,8 @@ from biped_adrc.scenario.records import Misfit, Record, field
 from biped_adrc.scenario.registry import find
 from biped_adrc.scenario.units import quantity
 
+HAND = "hand"
+"""Shape of a push that a page wrote down."""
 RANDOM = "random"
 """Joints of a push with factors that are drawn."""
 _NUMBER = r"[0-9.eE+-]+?\s*[^\s@:,=0-9-]*"
@@ -103,6 +105,8 @@ class Push(Record):
 
     def in_words(self) -> str:
         """The push as part of a sentence, such as "30 N m on q1, q2 from 0.1 to 0.3 s in single support 19"."""
+        if self.shape == HAND:
+            return f"a hand in single support {self.step}"
         if self.link is not None or self.force:
             what = f"{self.force:g} N on {self.link or 'the hip'}"
         elif self.joints == RANDOM and not isinstance(self.torque, dict):

@@ -160,6 +160,8 @@ class ErrorRecord(Record):
     """The same for friction."""
     trunk_load: float = field(0.0, gt=-1, le=10)
     """Relative error of the torso's mass, not drawn."""
+    friction: float = field(0.0, ge=-1, le=10)
+    """The same of joint friction."""
     impact_width: float = field(0.0, ge=0, lt=1)
     """Half-width of relative errors of rates after impact."""
 

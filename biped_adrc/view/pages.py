@@ -10,12 +10,13 @@ from __future__ import annotations
 
 import base64
 import json
+import zlib
 from collections.abc import Mapping, Sequence
-from functools import cache
+from functools import cache, partial
 from importlib.resources import files
 from pathlib import Path
 
-from jinja2 import Environment, PackageLoader
+from jinja2 import Environment, FileSystemLoader
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
@@ -25,6 +26,7 @@ from biped_adrc.resources import packaged
 from biped_adrc.types import PlainRecord
 from biped_adrc.view.style import render
 
+HERE = "biped_adrc.view"
 POLICY = (
     "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval'; style-src 'unsafe-inline'; "
     "img-src data: blob:; worker-src blob:"
@@ -54,29 +56,34 @@ def captions(page: str) -> Captions:
     return {name: (x["title"], " ".join(x["text"].split())) for name, x in found}
 
 
-def rendered(template: str, **values: object) -> str:
-    """The text of a page from its template and the values the template names.
+def rendered(template: str, package: str = HERE, **values: object) -> str:
+    """The text of a page from its template, in a package or here, and the values the template names.
 
     Every value is escaped as HTML, and shown as `plain` has it: floats with four significant
     digits.
     """
-    return _environment().get_template(f"{template}.html.j2").render(values)
+    return _environment(package).get_template(f"{template}.html.j2").render(values)
 
 
 @cache
-def _environment() -> Environment:
+def _environment(package: str) -> Environment:
     """Jinja's environment, made once: it compiles the templates."""
-    loader = PackageLoader("biped_adrc.view")
+    places = [str(files(package)), str(files(HERE) / "templates")]
     made = Environment(
-        loader=loader, autoescape=True, finalize=plain, trim_blocks=True, lstrip_blocks=True
+        loader=FileSystemLoader(places),
+        autoescape=True,
+        finalize=plain,
+        trim_blocks=True,
+        lstrip_blocks=True,
     )
-    made.globals |= {"policy": POLICY, "style": "report.css", "file": own_file}
+    made.globals |= {"policy": POLICY, "style": "report.css", "file": partial(own_file, package)}
     return made
 
 
-def own_file(name: str) -> Markup:
-    """The text of a style or script of this package, trusted and not escaped; for templates."""
-    return Markup(files("biped_adrc.view").joinpath(name).read_text(encoding="utf-8"))
+def own_file(package: str, name: str) -> Markup:
+    """The text of a style or script of a package, or from here, trusted and not escaped; for templates."""
+    there = (files(package) / name, files(HERE) / name)
+    return Markup(next(x for x in there if x.is_file()).read_text(encoding="utf-8"))
 
 
 def plain(value: object) -> str:
@@ -170,17 +177,23 @@ def player(settings: Mapping[str, object], title: str, legend: Sequence[tuple[st
     return with_viewer("player", settings, title=title, captions=legend, style="player.css")
 
 
-def with_viewer(template: str, settings: Mapping[str, object], **values: object) -> str:
+def with_viewer(
+    template: str, settings: Mapping[str, object], package: str = HERE, **values: object
+) -> str:
     """The text of a page that draws in Meshcat's viewer; its scripts read the settings as JSON.
 
-    settings: as `player` has them. values: those that the template names besides.
+    settings: as `player` has them. package: where the template is. values: those that it names besides.
+    `packed` is the same JSON, deflated, in base64.
     """
     viewer = files("meshcat").joinpath("viewer", "dist", "main.min.js").read_text(encoding="utf-8")
+    text = json.dumps(settings)
     return rendered(
         template,
+        package,
         s=settings,
         viewer=Markup(viewer),
-        data=Markup(json.dumps(settings).replace("<", "\\u003c")),
+        data=Markup(text.replace("<", "\\u003c")),
+        packed=base64.b64encode(zlib.compress(text.encode(), 9)).decode("ascii"),
         **values,
     )
 

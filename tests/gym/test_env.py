@@ -8,7 +8,7 @@ from gymnasium.utils.env_checker import check_env
 import biped_adrc as ba
 from biped_adrc.errors import InputError
 
-ID = "biped_adrc.gym:biped_adrc/Walk-v0"
+ID = "biped_adrc.extras.gym:biped_adrc/Walk-v0"
 SLOW = {"controller.observer.bandwidth": 160.0, "controller.observer.order": 1}
 
 
@@ -104,7 +104,7 @@ def test_an_addition_is_added(values):
 
 
 def test_observation_and_reward_are_those_of_the_walks_signals():
-    env = made(action="added", condition="push on joints", tracking=3.0, effort=2e-4, **SLOW)
+    env = made(action="added", condition="push on joints", tracking=3.0, effort=0.2, **SLOW)
     rows = walked(env, 5, 460)
     s = env.unwrapped.stage.task.scenario.replace(run={"seed": 5, "impacts": 3})
     signals = ba.walk_scenario(s).signals
@@ -119,14 +119,16 @@ def test_observation_and_reward_are_those_of_the_walks_signals():
         rate = signals.v[i, :4] - signals.dq_d[i]
         assert np.allclose(parts[3], rate, rtol=1e-9, atol=1e-9)
         e, u = signals.error[i], signals.u[i]
-        assert reward == pytest.approx(1.0 - 3.0 * e @ e - 2e-4 * u @ u, rel=1e-9)
+        expected = 1.0 + 3.0 / (1.0 + 100.0 * e @ e) - 0.2 * (u @ u) / (4 * 150.0**2)
+        assert reward == pytest.approx(expected, rel=1e-9)
 
 
 def test_a_fall_terminates_and_time_truncates():
     *_, infos = rows = walked(made(), 1, 2000)
     assert (rows[2][-1], rows[3][-1]) == (True, False)
     assert infos[-1]["status"] == "fell"
-    assert rows[1][-1] < rows[1][-2] - 0.9  # the last sample is not paid for being alive
+    assert rows[1][-1] == 0.0  # the last sample is not paid for being alive
+    assert min(rows[1]) >= 0.0
     for limit, value in (("seconds", 0.1), ("run.impacts", 1)):
         rows = walked(made(action="added", **{limit: value}, **SLOW), 1, 2000)
         assert (rows[2][-1], rows[3][-1]) == (False, True)
@@ -174,6 +176,7 @@ WRONG = (
     {"hardware.period": None},
     {"controller": "NPD"},
     {"seconds": 0.0},
+    {"effort": 2.0},
     {"scenario": ba.Scenario(), "condition": "delay"},
 )
 

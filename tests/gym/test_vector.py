@@ -7,7 +7,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 
 from biped_adrc.errors import InputError
 
-ID = "biped_adrc.gym:biped_adrc/Walk-v0"
+ID = "biped_adrc.extras.gym:biped_adrc/Walk-v0"
 
 
 def made(count, **values):

@@ -46,6 +46,14 @@ def test_the_load_of_the_trunk_is_a_share_of_its_mass() -> None:
     assert loaded.mass - biped.mass == pytest.approx(0.3 * torso, rel=1e-12)
 
 
+def test_an_error_of_friction_is_the_same_in_all_joints() -> None:
+    rubbing = ba.Biped.load("rabbit", friction=True)
+    halved, v = plant_of(Scenario(errors={"friction": -0.5}), rubbing), np.linspace(-1.0, 1.0, 5)
+    assert halved.friction_torque(v) == pytest.approx(0.5 * rubbing.friction_torque(v), rel=1e-12)
+    with pytest.raises(ba.BipedError, match="has no friction"):
+        plant_of(Scenario(errors={"friction": -0.5}), ba.Biped.load("rabbit"))
+
+
 def test_rabbit_s_hardware_is_what_was_published_for_it() -> None:
     s = Scenario(hardware="rabbit")
     h = s.hardware

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -21,12 +20,11 @@ import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.engine.webassembly import web_module
 from biped_adrc.errors import BipedError, InputError, OutputError
-from biped_adrc.live.page import FIRST, page, revised, tour
-from biped_adrc.live.walks import MOST, SPRING
-from biped_adrc.model.planar import jacobian, link_point, point, turned, wrench_torque
-from biped_adrc.scenario.build import RobotAndGait, build
-from biped_adrc.scenario.run import method_of
-from biped_adrc.types import Array
+from biped_adrc.extras.play.page import FIRST, page, revised, tour
+from biped_adrc.extras.play.walks import MOST, SPRING
+from biped_adrc.model.planar import jacobian, link_point, point, turned
+from biped_adrc.scenario.build import RobotAndGait
+from biped_adrc.scenario.file import read_scenario
 from biped_adrc.view.meshcat.frames import pose
 from biped_adrc.view.placement import WalkScene
 
@@ -70,7 +68,7 @@ def browser(started: Chrome, path: Path) -> Chrome:
 def opened(browser: Chrome, path: Path) -> None:
     """The page, once it shows a walk, at rest."""
     browser.get(path.as_uri())
-    until(browser, "return page.last !== null && known.length > 0")
+    until(browser, "return typeof page !== 'undefined' && page.last !== null && known.length > 0")
     keys(browser, " ")
     until(browser, "return paused")
 
@@ -91,99 +89,24 @@ def keys(browser: Chrome, *pressed: str) -> None:
 
 
 # -- the walks -----------------------------------------------------------------------------------------
-SAMPLES, EVERY = 2000, 50
 WALKED = """
-const [name, samples, every] = arguments, states = [], hands = [[], []], springs = [];
-play.begin(name, "NPD");
-play.move = (k) => {
-  const text = JSON.stringify(play.hand), mine = hands[k];
-  if (!mine.length || mine[mine.length - 1][1] !== text) mine.push([play.walking[k].t, text]);
-  Play.prototype.move.call(play, k);
-};
-for (let k = 0; k < samples; k += 1) {
+const springs = [];
+play.begin("NPD", "ADRC");
+for (let k = 0; k < 700; k += 1) {
   const [walk] = play.walking;
   const push = { torque: { q1: 30, q2: 30 }, force: [40, -10], link: "right_shin", at: [0.02, -0.1] };
-  if (k === 600) play.push(push);
-  if (k === 1200) play.pull({ link: "torso", at: [0, 0.3], anchor: [walk.foot[0] + 0.3, 1.4] });
-  if (k === 1700) play.let_go();
-  if (k === samples - 1) play.made = play.walking.map(() => []);
-  if (play.spring && walk.walks) {
+  if (k === 100) play.push(push);
+  if (k === 400) play.pull({ link: "torso", at: [0, 0.3], anchor: [walk.foot[0] + 0.3, 1.4] });
+  if (k === 600) play.let_go();
+  if (k === 699) play.made = play.walking.map(() => []);
+  if (play.spring) {
     const { place, hand } = play.pulled();
     springs.push([...walk.q, ...walk.v, ...walk.foot, ...play.spring.anchor, ...place, ...hand.force]);
   }
   play.sample();
-  const now = play.walking.map((w) => [w.t, w.step, ...w.foot, ...w.q, ...w.v]);
-  if (k % every === every - 1) states.push(now);
 }
-delete play.move;
-const told = hands.map((mine) => mine.map(([t, text]) => [t, JSON.parse(text)]));
-return { states, hands: told, springs, frame: JSON.parse(JSON.stringify(play.frame())) };
+return { t: play.leader.t, text: scenarioText(play), springs, frame: JSON.parse(JSON.stringify(play.frame())) };
 """
-
-
-@dataclass(frozen=True)
-class Rows(ba.Disturbance):
-    """zeta = tau + J(q)' F, from each of these times (K,) [s] on; rows: (tau, point or None, F)."""
-
-    times: Array
-    rows: tuple[Any, ...]
-
-    @classmethod
-    def of(cls, plant: ba.Biped, hands: list[Any]) -> Rows:
-        """What the page did: (t, hand or None)."""
-        still = (np.zeros(plant.n), None, np.zeros(2))
-        rows = tuple(
-            still
-            if hand is None
-            else (
-                np.array(hand["torque"]),
-                link_point(plant, hand["link"], tuple(hand["at"])),
-                np.array(hand["force"]),
-            )
-            for _, hand in hands
-        )
-        return cls(np.array([t for t, _ in hands]), rows)
-
-    def at(self, t: float) -> Any:
-        return self.rows[max(0, int(np.searchsorted(self.times, t, side="right")) - 1)]
-
-    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        tau, where, force = self.at(t)
-        return tau if where is None else tau + wrench_torque(where, q, np.append(force, 0.0))
-
-    def resultant(self, t: float, step: int, t_start: float) -> Array:
-        force: Array = self.at(t)[2]
-        return force
-
-    def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
-        return tuple(self.times.tolist())
-
-
-def scenario_of(name: str) -> ba.Scenario:
-    """Of a walk of the page: one of OTHERS, or of a station of the tour."""
-    values = OTHERS.get(name) or next(x["values"] for x in tour() if x["title"] == name)
-    return revised(FIRST, values)
-
-
-def walked(name: str, hands: list[Any]) -> ba.Walk:
-    """The same by the simulator, in Python on the compiled plant."""
-    s = scenario_of(name)
-    scene = RobotAndGait.of(s)
-    walker = build(s, scene)
-    walker = replace(walker, disturbance=Rows.of(walker.plant, hands))
-    return ba.walk(walker, scene.gait, 7, method_of(s, walker))
-
-
-def is_of(walk: ba.Walk, states: Array) -> None:
-    """States (K, 4 + 2 n) of the page, (t, step, foot, q, q'), are those of a walk."""
-    n, scene, end = walk.walker.plant.n, WalkScene.of(walk), walk.trajectory.t_end
-    for t, step, *numbers in states:
-        at = min(t, end)
-        assert t == pytest.approx(at, abs=1e-9)
-        arc = walk.trajectory.arcs[int(step) - 1]
-        there = arc(min(at, float(arc.t[-1])), "left")
-        foot = scene.foothold(int(step) - 1)
-        np.testing.assert_allclose(numbers, [*foot, *there[: 2 * n]], rtol=0.0, atol=1e-7)
 
 
 def is_drawn(walk: ba.Walk, t: float, found: dict[str, Any]) -> None:
@@ -204,27 +127,16 @@ def is_drawn(walk: ba.Walk, t: float, found: dict[str, Any]) -> None:
     assert row["friction"] == pytest.approx(abs(F_T) / F_N, rel=1e-6)
 
 
-@pytest.mark.parametrize("name", ["NPD", "ADRC", "encoders: the observer of Table I falls"])
-def test_walks_pushed_and_pulled_are_those_of_the_simulator(browser: Chrome, name: str) -> None:
-    """Positions and rates, with sin and pow of another library, and everything that is drawn and plotted."""
-    found = browser.execute_script(WALKED, name, SAMPLES, EVERY)
-    states = np.array(found["states"])
-    walks = [walked(who, found["hands"][k]) for k, who in enumerate((name, "NPD"))]
-    for k, walk in enumerate(walks):
-        is_of(walk, states[:, k])
-        shown = found["frame"]["walks"][k]
-        if shown["ending"]:
-            word, reason = walk.trajectory.status.name.lower(), walk.trajectory.status.value
-            assert shown["ending"].startswith(f"{word.replace('_', ' ')} at {states[-1, k, 0]:.2f}")
-            assert shown["ending"].endswith(reason.split(";")[0])
-        else:
-            is_drawn(walk, states[-1, k, 0], shown)
-    fallen = [bool(x["ending"]) for x in found["frame"]["walks"]]
-    assert fallen == [name.startswith("encoders"), False]
+def test_what_is_drawn_and_plotted_is_what_the_finished_walk_has(
+    browser: Chrome, tmp_path: Path
+) -> None:
+    found, file = browser.execute_script(WALKED), tmp_path / "by_hand.toml"
+    file.write_text(found["text"], encoding="utf-8")
+    is_drawn(ba.walk_scenario(read_scenario(file)), found["t"], found["frame"]["walks"][0])
 
 
 def test_the_spring_pulls_towards_the_hand_and_not_more_than_it_may(browser: Chrome) -> None:
-    found = browser.execute_script(WALKED, "NPD", SAMPLES, EVERY)
+    found = browser.execute_script(WALKED)
     plant = RobotAndGait.of(FIRST).biped
     n, k = plant.n, link_point(plant, "torso", (0.0, 0.3))
     largest = 0.0
@@ -243,47 +155,58 @@ def test_the_spring_pulls_towards_the_hand_and_not_more_than_it_may(browser: Chr
     assert largest <= MOST["force"] * (1.0 + 1e-9)
 
 
-TORQUES = {"pushes": "q1,q5=25@1:0.1-0.2"}
-PULSE = {
-    "pushes.0.shape": "pulse",
-    "pushes.0.link": "right_shin",
-    "pushes.0.force": 40.0,
-    "pushes.0.direction": math.pi,
-}
-PULSE |= {"pushes.0.onset": 0.1, "pushes.0.duration": 0.1, "pushes.0.step": 1}
-PUSHED = """
-const [hand, ends] = arguments;
-play.begin("NPD", null);
-const go_to = (t) => { while (play.leader.t < t - 1e-9) play.sample(); };
-go_to(0.1);
-play.push(hand);
-const states = ends.map((t) => { go_to(t); return [play.leader.t, ...play.leader.q, ...play.leader.v]; });
-play.back();
-const began = play.leader.t;
-go_to(ends.at(-1));
-return { states, began, still: [...play.leader.q] };
+TUNED = """
+const [sliders] = arguments;
+for (const [slider, value] of Object.entries(sliders)) play.tune({ slider, value, walks: ["ADRC"] });
+play.begin("ADRC", null);
+while (play.leader.t < 0.6) play.sample();
+const found = [scenarioText(play), play.leader.t, play.leader.step, [...play.leader.q, ...play.leader.v]];
+for (const slider of Object.keys(sliders)) play.tune({ slider, value: undefined, walks: ["ADRC"] });
+return found;
 """
 
 
-@pytest.mark.parametrize(
-    ("as_scenario", "by_hand"),
-    [
-        (TORQUES, {"torque": {"q1": 25.0, "q5": 25.0}}),
-        (PULSE, {"force": [-40.0, 0.0], "link": "right_shin"}),
-    ],
-    ids=["torque", "force"],
-)
-def test_it_pushes_as_the_scenario_of_the_same_push_and_goes_back(
-    browser: Chrome, as_scenario: dict[str, Any], by_hand: dict[str, Any]
+@pytest.mark.parametrize("delay", [0.0, 4e-4, 1.3e-3])
+def test_sliders_set_the_values_of_the_scenario(
+    browser: Chrome, tmp_path: Path, delay: float
 ) -> None:
-    walk = ba.walk_scenario(
-        scenario_of("NPD").replace({"run.impacts": 1, **as_scenario})
-    ).trajectory
-    found = browser.execute_script(PUSHED, by_hand | {"seconds": 0.1}, [0.15, 0.22])
-    for t, *state in found["states"]:
-        assert state == pytest.approx(walk(t)[:10], abs=1e-7)
-    assert found["began"] == 0.0
-    assert np.max(np.abs(np.array(found["states"][-1][1:6]) - found["still"])) > 1e-3
+    file, values = tmp_path / "tuned.toml", {"controller.K_p": 3000.0, "hardware.delay": delay}
+    values |= {"controller.observer.bandwidth": 300.0, "hardware.torque_limit": 120.0}
+    values |= {"hardware.friction": 0.5, "ground.slope": 0.01}
+    text, t, step, state = browser.execute_script(TUNED, values)
+    file.write_text(text, encoding="utf-8")
+    s = read_scenario(file)
+    assert (s.controller.observer.bandwidth, s.controller.observer.order) == (300.0, 7)
+    assert (s.hardware.delay, s.errors.friction) == (delay, -0.5)
+    arc = ba.walk_scenario(s).trajectory.arcs[step - 1]
+    np.testing.assert_allclose(state, arc(t, "left")[:10], rtol=0.0, atol=1e-8)
+
+
+def test_back_up_again_and_the_timeline(browser: Chrome) -> None:
+    fallen = """
+play.push({ force: [-300, 0], seconds: 1 });
+while (play.walking[0].walks) play.sample();
+"""
+    browser.execute_script(fallen)
+    until(
+        browser, "return !element('up').hidden && element('message').textContent.includes('walk ')"
+    )
+    browser.find_element(By.ID, "up").click()
+    until(browser, "return page.last.walks[0].ending === '' && !paused")
+    keys(browser, " ")
+    until(browser, "return paused && page.last.hand === null && element('message').hidden")
+    moved = """
+const line = element("timeline"), was = page.last.t;
+line.value = arguments[0]; line.dispatchEvent(new Event("input"));
+return was;
+"""
+    was = browser.execute_script(moved, 3)
+    until(
+        browser, "return Math.abs(page.last.t - 0.03) < 1e-9 && Number(element('timeline').max) > 3"
+    )
+    keys(browser, Keys.ARROW_RIGHT)
+    until(browser, "return Math.abs(page.last.t - 0.031) < 1e-9 && element('timeline').max === '3'")
+    assert was > 0.03
 
 
 # -- mouse, finger, keys -------------------------------------------------------------------------------
@@ -306,10 +229,8 @@ def torso(browser: Chrome) -> tuple[int, int]:
 def test_the_page_by_mouse_and_keys(browser: Chrome) -> None:
     mouse = ActionChains(browser)
     mouse.w3c_actions.pointer_action.move_to_location(*torso(browser))
-    mouse.double_click().perform()
+    mouse.click_and_hold().move_by_offset(60, -20).perform()
     until(browser, "return selected && selected.link === 'torso'")
-    mouse = ActionChains(browser).key_down(Keys.CONTROL).click_and_hold().key_up(Keys.CONTROL)
-    mouse.move_by_offset(60, -20).perform()
     hand = until(browser, "return page.last.hand")
     assert 1.0 < math.hypot(*hand["force"]) < 300.0 + 1e-9
     before = browser.execute_script("return page.last.t")
@@ -332,7 +253,6 @@ def test_a_finger_pulls(browser: Chrome) -> None:
         points = [dict(zip("xy", place, strict=True))] if place else []
         browser.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
 
-    browser.find_element(By.ID, "pull").click()
     keys(browser, "v")
     until(browser, "return view === 'perspective'")
     x, y = torso(browser)
@@ -357,6 +277,16 @@ def test_what_walks_is_chosen_and_what_is_refused_is_said(browser: Chrome) -> No
         browser.execute_script("element('shove').value = arguments[0]; shove(1)", number)
         assert said in browser.execute_script(refused)
     assert browser.execute_script(refused) == ""
+    browser.execute_script(
+        "const field = document.querySelector('#sliders input[type=number]');"
+        "field.value = arguments[0]; field.dispatchEvent(new Event('change'))",
+        "-5",
+    )
+    assert "K_p [1/s²] is -5, expected 30 to 30000" in browser.execute_script(refused)
+    mixed = "play.sample(); play.tune({ slider: 'ground.slope', value: 0.01, walks: known }); "
+    browser.execute_script(mixed + "play.sample(); save()")
+    assert "a slider was moved while it walked" in browser.execute_script(refused)
+    browser.execute_script("play.tune({ slider: 'ground.slope', value: undefined, walks: known })")
     browser.execute_script("send({ do: 'push', torque: { q1: 900 } })")
     assert "900 N m" in browser.execute_script(refused)
 
@@ -431,15 +361,23 @@ const all = [...document.body.querySelectorAll("*")].filter((x) => x.getBounding
 return all.map((x) => x.outerHTML.slice(0, 200));
 """
 
+LOWER = """
+const all = [...document.querySelectorAll("button, input, select, canvas")];
+const low = (x) => x.offsetParent && !x.closest(".dg") && x.getBoundingClientRect().bottom > innerHeight + 1;
+return all.filter(low).map((x) => x.outerHTML.slice(0, 200));
+"""
+
 
 def test_nothing_is_wider_than_the_window_and_every_field_has_a_name(browser: Chrome) -> None:
     assert browser.execute_script(NAMELESS) == []
     try:
-        for width in (360, 1920):
-            size = {"width": width, "height": 800, "deviceScaleFactor": 1, "mobile": False}
+        for width, height in ((390, 800), (1000, 700), (1400, 900)):
+            size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
             browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
             until(browser, "return innerWidth === arguments[0]", width)
             assert browser.execute_script(WIDER) == []
+            if width > 800:
+                assert browser.execute_script(LOWER) == []
     finally:
         browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
@@ -508,7 +446,7 @@ def test_another_controller_comes_without_the_observer_of_the_one_before() -> No
 def test_the_command_writes_a_page_or_opens_one(monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[Any] = []
     shown: list[str] = []
-    monkeypatch.setattr("biped_adrc.live.page.play", lambda *given: asked.append(given))
+    monkeypatch.setattr("biped_adrc.extras.play.page.play", lambda *given: asked.append(given))
     monkeypatch.setattr("webbrowser.open", lambda url: shown.append(url))
     words = ["play", "--ghost", "NPID", "--set", "controller.K_p=900"]
     for more in (["-o", "own.html"], []):
@@ -525,7 +463,7 @@ def test_the_command_writes_a_page_or_opens_one(monkeypatch: pytest.MonkeyPatch)
 def test_the_name_is_looked_at_before_anything_is_made(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.delattr("biped_adrc.live.page.page")
+    monkeypatch.delattr("biped_adrc.extras.play.page.page")
     (tmp_path / "folder.html").mkdir()
     for name in ("own.txt", "folder.html"):
         with pytest.raises((InputError, OutputError), match=name):

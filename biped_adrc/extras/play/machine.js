@@ -1,6 +1,6 @@
 // A walk moved on by WebAssembly: one sample after the other, and what is seen at its end.
 const { numbers } = scene, at = numbers.places;
-const unpacked = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
+const unpacked = (text) => bytes(text).buffer;
 const STACK = 1 << 18; // [bytes] of constants and stack, before the vectors of the walks
 const SEEN = Math.max(...Object.values(numbers.signals).map(([, end]) => end)); // numbers of all signals
 
@@ -12,25 +12,26 @@ function nextafter(x, y) {
   bits[0] += (x < y) === (x > 0) ? 1n : -1n;
   return number[0];
 }
-const machine = { memory: null, calls: null, free: STACK, table: null };
+const machine = { memory: null, calls: null, free: STACK };
 async function startMachine() {
   const module = await WebAssembly.compile(unpacked(numbers.code));
-  const room = ({ cells }) => cells.length + 8 * SEEN;
-  const size = Object.values(numbers.walks).reduce((sum, told) => sum + room(told), STACK);
+  const all = Object.values(numbers.walks).flatMap(({ variants }) => variants);
+  const size = all.reduce((sum, { cells }) => sum + cells.length + 8 * SEEN, STACK);
   machine.memory = new WebAssembly.Memory({ initial: Math.ceil(size / 65536) });
-  machine.table = new WebAssembly.Table({ initial: numbers.functions.length + 1, element: "anyfunc" });
+  const table = new WebAssembly.Table({ initial: numbers.functions.length + 1, element: "anyfunc" });
   const env = {
-    __linear_memory: machine.memory, __indirect_function_table: machine.table,
+    __linear_memory: machine.memory, __indirect_function_table: table,
     __stack_pointer: new WebAssembly.Global({ value: "i32", mutable: true }, STACK),
     nextafter, exp2: (x) => 2 ** x,
   };
   for (const { name } of WebAssembly.Module.imports(module)) if (!(name in env)) env[name] = Math[name];
   machine.calls = (await WebAssembly.instantiate(module, { env })).exports;
-  numbers.functions.forEach((name, k) => machine.table.set(k + 1, machine.calls[name]));
+  numbers.functions.forEach((name, k) => table.set(k + 1, machine.calls[name]));
+  for (const [name, walk] of Object.entries(numbers.walks)) kinds[name] = walk.variants.map((one) => new Kind(one));
 }
 // a vector in the module's memory
-function vector(Kind, given) {
-  const found = new Kind(machine.memory.buffer, machine.free, typeof given === "number" ? given : given.length);
+function vector(Cells, given) {
+  const found = new Cells(machine.memory.buffer, machine.free, typeof given === "number" ? given : given.length);
   if (typeof given !== "number") found.set(given);
   machine.free += 8 * found.length;
   return found;
@@ -40,8 +41,8 @@ const dot = (a, b) => a.reduce((sum, x, k) => sum + x * b[k], 0);
 // the closed form of a point (x, z) [m] of a link
 function linkPoint(link, [x, z]) {
   const { re, im, turn } = numbers.links.of[link];
-  const at = ([zero, alongX, alongZ]) => zero.map((d, k) => d + x * alongX[k] + z * alongZ[k]);
-  return { re: at(re), im: at(im), turn };
+  const there = ([zero, alongX, alongZ]) => zero.map((d, k) => d + x * alongX[k] + z * alongZ[k]);
+  return { re: there(re), im: there(im), turn };
 }
 // its place from the stance foot [m], and the rows of its Jacobian
 function placed({ re, im }, q) {
@@ -53,15 +54,15 @@ function placed({ re, im }, q) {
   };
 }
 
-// the block of each kind of walk in the module's memory, used by one walk at a time: `Walk` keeps what changes
+// the block of one structure of a walk in the module's memory, used by one walk at a time: `Walk` keeps what changes
 class Kind {
-  constructor(name) {
-    const told = numbers.walks[name];
-    Object.assign(this, told, { name });
+  constructor(told) {
+    Object.assign(this, told, { tuned: null });
     this.cells = vector(BigInt64Array, new BigInt64Array(unpacked(told.cells)));
     this.address = this.cells.byteOffset;
     told.pointers.forEach((k) => { this.cells[k] += BigInt(this.address); });
     this.numbers = new Float64Array(this.cells.buffer, this.address, this.cells.length);
+    this.given = this.numbers.slice();
     this.values = this.row("values", 3);
     this.x = this.row("x0", this.nx);
     this.seen = vector(Float64Array, SEEN);
@@ -72,13 +73,26 @@ class Kind {
     return this.numbers.subarray(first, first + size);
   }
   state() {
-    const [t, step, t_arc] = [at.t, at.step, at.t_arc].map((k) => this.numbers[k]);
-    return { t, step, t_arc, head: this.cells.slice(at.t, at.nodes), values: this.values.slice(), x: this.x.slice() };
+    const [t, step, t_start, t_arc] = [at.t, at.step, at.t_start, at.t_arc].map((k) => this.numbers[k]);
+    return { t, step, t_start, t_arc, head: this.cells.slice(at.t, at.nodes), values: this.values.slice(), x: this.x.slice() };
   }
   set({ head, values, x }) {
     this.cells.set(head, at.t);
     this.values.set(values);
     this.x.set(x);
+  }
+  // the numbers that go with the values of the sliders: of a table, or a + b s^power, or a + b tan s for 0
+  tune(tuned) {
+    if (tuned === this.tuned) return;
+    this.tuned = tuned;
+    for (const [name, [table, cells]] of Object.entries(this.sliders)) {
+      const s = tuned[name], k = table.indexOf(s);
+      for (const [cell, form] of cells) {
+        const [a, b, power] = form;
+        if (s === undefined) this.numbers[cell] = this.given[cell];
+        else this.numbers[cell] = table.length ? form[k] : a + b * (power ? s ** power : Math.tan(s));
+      }
+    }
   }
   hold(hand) {
     const { torque, force, re, im, turn } = this.hand;
@@ -90,18 +104,26 @@ class Kind {
   }
 }
 const kinds = {};
+const NOTHING = Object.freeze({}), tuned = {}; // values of sliders by name of a walk, another object for each change
+const tunedOf = (name) => tuned[name] || NOTHING;
+// the structure of a walk for its delay: one for each whole number of samples, and those of a whole delay
+function kindOf(name) {
+  const delay = tunedOf(name)["hardware.delay"];
+  const fits = ({ delays: [low, high] }) => (low === high ? delay === low : low < delay && delay < high);
+  return kinds[name].find((kind) => (delay === undefined ? kind.asGiven : fits(kind)));
+}
 
 // where a walk is; another one of each is made, so that an earlier one can be gone back to
 class Walk {
-  constructor(name, s, foot) {
-    Object.assign(this, { name, s, foot, status: 0, rows: [] });
+  constructor(before, s) {
+    Object.assign(this, before, { s, status: 0, rows: [] });
   }
   static begun(name) {
-    const walk = new Walk(name, kinds[name].first, [0, 0]);
-    walk.look(walk.kind);
+    const kind = kindOf(name), walk = new Walk({ name, kind, foot: [0, 0], tuned: tunedOf(name), mixed: false, hand: null }, kind.first);
+    kind.tune(walk.tuned);
+    walk.look();
     return walk;
   }
-  get kind() { return kinds[this.name]; }
   get t() { return this.s.t; }
   get step() { return this.s.step; }
   get x() { return this.s.x; }
@@ -113,6 +135,8 @@ class Walk {
     return this.walks ? "" : word + " at " + this.t.toFixed(2) + " s: " + reason;
   }
   get exchanged() { return numbers.exchanged[(this.step + 1) % 2]; }
+  get slope() { return this.tuned["ground.slope"] === undefined ? this.kind.slope : this.kind.ownSlope + this.tuned["ground.slope"]; }
+  get limits() { return { ...this.kind.limits, torque: this.tuned["hardware.torque_limit"] || this.kind.limits.torque }; }
 
   // the first sample instant after now [s], by the expression that the engines have
   until() {
@@ -123,15 +147,16 @@ class Walk {
   }
   // one sample on under a hand, or to the impact within it, with what is seen at its end
   sampled(hand) {
-    const { kind } = this, { go_on, land } = machine.calls;
+    const { kind } = this, { go_on, land } = machine.calls, values = tunedOf(this.name);
+    kind.tune(values);
     kind.hold(hand);
     kind.set(this.s);
     kind.numbers[at.t_end] = this.until();
     kind.cells[at.every] = 0n;
     let code = Number(go_on(kind.address));
-    const after = new Walk(this.name, kind.state(), this.foot);
-    after.hand = hand;
-    after.look(kind);
+    const after = new Walk(this, kind.state());
+    Object.assign(after, { hand, tuned: values, mixed: this.mixed || values !== this.tuned });
+    after.look();
     after.rows = [row(after)];
     if (code === numbers.struck) {
       code = Number(land(kind.address));
@@ -140,10 +165,10 @@ class Walk {
     after.status = code;
     return after;
   }
-  look(kind) {
-    kind.set(this.s);
-    machine.calls.look(kind.address, BigInt(kind.observe), kind.seen.byteOffset);
-    this.seen = kind.seen.slice();
+  look() {
+    this.kind.set(this.s);
+    machine.calls.look(this.kind.address, BigInt(this.kind.observe), this.kind.seen.byteOffset);
+    this.seen = this.kind.seen.slice();
     this.points = [...signal(this, "hip"), ...signal(this, "swing_foot")];
   }
   // in x+ on the other foot; the hip stays where it is
@@ -163,7 +188,7 @@ function groundOf(walk) {
   return [force[0] - hand[0], force[1] - hand[1]];
 }
 function pressing(walk) {
-  const [x, z] = groundOf(walk), c = Math.cos(walk.kind.slope), s = Math.sin(walk.kind.slope);
+  const [x, z] = groundOf(walk), c = Math.cos(walk.slope), s = Math.sin(walk.slope);
   return [x * c - z * s, x * s + z * c];
 }
 function row(walk) {

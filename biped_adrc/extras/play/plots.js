@@ -1,6 +1,8 @@
 // Four plots of the last seconds, each on a canvas of its own.
-const SECONDS = 4; // [s] of the walk; slower than half of its pace fewer, so that time is drawn larger
-const shown = () => SECONDS * Math.min(1, 2 * rate);
+const KEPT_SECONDS = 60, SPANS = [0.2, 0.5, 1, 2, 4, 8, 16, 30]; // [s] kept and shown, by the wheel
+let span = 4, hovered = null; // [s]; where the pointer is, as a share of the width
+// slower than half of its pace fewer, so that time is drawn larger
+const shown = () => span * Math.min(1, 2 * rate);
 const COLOURS = { walk: "#0072b2", other: "#d55e00", ghost: "#666666", limit: "#000000" };
 const past = { walk: [], ghost: [] }; // rows of signals of either, in order of time
 let joint = 0;
@@ -8,11 +10,11 @@ let joint = 0;
 const of = (name) => (signals) => signals[name][joint];
 const PLOTS = [
   {
-    canvas: "plot-error", unit: " mrad", scale: 1e3, least: 1,
+    canvas: "plot-error", unit: " mrad", scale: 1e3, least: 1, most: () => 500,
     lines: [["walk", of("error"), "walk"], ["ghost", of("error"), "ghost"]],
   },
   {
-    canvas: "plot-xi", unit: " rad/s²", scale: 1, least: 10,
+    canvas: "plot-xi", unit: " rad/s²", scale: 1, least: 10, most: () => 5000,
     lines: [["walk", of("xi"), "walk"], ["walk", of("xi_estimate"), "other"]],
   },
   {
@@ -26,17 +28,27 @@ const PLOTS = [
   },
 ];
 
+// what was after an instant that is gone back to goes with the first row that is new
 function remember(message) {
   for (const [k, rows] of Object.values(past).entries()) {
-    while (rows.length && rows[rows.length - 1].t > message.t) rows.pop();
-    const last = rows.length ? rows[rows.length - 1].t : -Infinity;
-    rows.push(...(message.walks[k] ? message.walks[k].rows : []).filter(({ t }) => t > last));
-    while (rows.length && rows[0].t < message.t - SECONDS) rows.shift();
+    const added = message.walks[k] ? message.walks[k].rows : [];
+    while (added.length && rows.length && rows.at(-1).t >= added[0].t) rows.pop();
+    if (!message.walks[k]) rows.length = 0;
+    rows.push(...added);
+    while (rows.length && rows[0].t < message.t - KEPT_SECONDS) rows.shift();
+  }
+}
+
+const visible = { walk: [], ghost: [] }; // of the rows those that are shown
+function show(end) {
+  for (const [whose, rows] of Object.entries(past)) {
+    const first = rows.findLastIndex(({ t }) => t < end - shown()) + 1, last = rows.findLastIndex(({ t }) => t <= end) + 1;
+    visible[whose] = rows.slice(first, last);
   }
 }
 
 // values of one line: pairs (t, y), y null where there is none
-const valuesOf = (plot, [whose, value]) => past[whose].map((row) => {
+const valuesOf = (plot, [whose, value]) => visible[whose].map((row) => {
   const y = value(row);
   return [row.t, y === null ? null : plot.scale * y];
 });
@@ -55,15 +67,22 @@ function draw(plot) {
   const pen = canvas.getContext("2d");
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   pen.clearRect(0, 0, w, h);
-  const lines = plot.lines.map((line) => valuesOf(plot, line));
+  const end = page.last.t, lines = plot.lines.map((line) => valuesOf(plot, line));
   const sizes = lines.flat().map(([, y]) => Math.abs(y || 0)).filter(Number.isFinite);
-  const limits = plot.limits ? plot.limits() : [], least = Math.max(plot.least, plot.most ? limits.at(-1) : 0);
+  const limits = plot.limits ? plot.limits() : [], least = Math.max(plot.least, limits.length ? limits.at(-1) : 0);
   const top = Math.min(ceiling(sizes.reduce((a, b) => Math.max(a, b), least)), plot.most ? plot.most() : Infinity);
-  const low = plot.canvas === "plot-ground" ? 0 : -top, end = page.last ? page.last.t : 0;
-  const at = (t, y) => [w * (1 - (end - t) / shown()), 4 + (h - 8) * (top - Math.min(y, 9 * top)) / (top - low)];
+  const low = plot.canvas === "plot-ground" ? 0 : -top;
+  const at = (t, y) => [w * (1 - (end - t) / shown()), 4 + (h - 8) * (top - Math.max(-9 * top, Math.min(y, 9 * top))) / (top - low)];
   axes(pen, limits, w, top, low, at);
   lines.forEach((line, k) => stroke(pen, line, plot.lines[k][2], at));
-  element(plot.canvas + "-scale").textContent = (low < 0 ? ", ±" : ", to ") + top + plot.unit;
+  const scale = (low < 0 ? ", ±" : ", to ") + top + plot.unit;
+  element(plot.canvas + "-scale").textContent = hovered === null ? scale : readings(lines, end - (1 - hovered) * shown()) + plot.unit;
+  if (hovered !== null) pen.strokeRect(hovered * w, 0, 0, h);
+}
+// values of the lines at t [s], under the pointer
+function readings(lines, t) {
+  const found = lines.map((line) => line.find(([s, y]) => s >= t && y !== null)).filter(Boolean);
+  return " at " + t.toFixed(3) + " s: " + found.map(([, y]) => Number(y.toPrecision(3))).join(", ");
 }
 
 function axes(pen, limits, w, top, low, at) {
@@ -96,11 +115,25 @@ function stroke(pen, line, colour, at) {
 }
 let asked = false; // whether the browser has been asked for the next picture
 function drawPlots() {
-  if (asked) return;
+  if (asked || page.last === null) return;
   asked = true;
   requestAnimationFrame(() => {
     asked = false;
     element("shown").textContent = ", last " + Number(shown().toPrecision(2)) + " s";
+    show(page.last.t);
     PLOTS.forEach(draw);
   });
 }
+element("plots").addEventListener("pointermove", (event) => {
+  const box = event.target.getBoundingClientRect();
+  hovered = event.target.tagName === "CANVAS" ? (event.clientX - box.left) / box.width : null;
+  drawPlots();
+});
+element("plots").addEventListener("pointerleave", () => { hovered = null; drawPlots(); });
+element("plots").addEventListener("wheel", (event) => {
+  if (event.target.tagName !== "CANVAS") return;
+  event.preventDefault();
+  const k = SPANS.indexOf(span) + Math.sign(event.deltaY);
+  span = SPANS[Math.min(Math.max(k, 0), SPANS.length - 1)];
+  drawPlots();
+}, { passive: false });

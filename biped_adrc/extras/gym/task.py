@@ -1,8 +1,10 @@
 """What a learner is to do: a scenario, what its action is, when a walk is over, and the reward.
 
-    reward of a sample = alive (while it walks) - tracking |e|^2 - effort |u|^2
+    reward of a sample = alive + tracking / (1 + |e|^2 / e_1^2) - effort |u|^2 / u_1^2
 
-with the true error e = q_b - h(Theta) [rad] and the torque u [N m] that acts, both at the end of the sample.
+with the true error e = q_b - h(Theta) [rad] and the torque u [N m] that acts, both at the end of the sample,
+e_1 = 0.1 rad, and u_1^2 the square of all motors at their limit. The sample in which the walk falls pays 0. No
+sample costs anything, as effort is at most alive: who walks on has more than who falls, who tracks well most.
 """
 
 from __future__ import annotations
@@ -10,6 +12,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+
+import numpy as np
 
 from biped_adrc.errors import InputError
 from biped_adrc.model.robots.limits import KnownLimits
@@ -21,7 +25,7 @@ from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.shown import Shown
 from biped_adrc.types import Array
 
-_TABLES = packaged("biped_adrc.gym", "conditions.toml")
+_TABLES = packaged("biped_adrc.extras.gym", "conditions.toml")
 BASE: dict[str, object] = flat(_TABLES["base"])
 """Values that all conditions share."""
 CONDITIONS: dict[str, dict[str, object]] = {
@@ -34,6 +38,8 @@ OF_RIGID = "errors.impact_width"
 TORQUES, ADDED = "torques", "added"
 """What an action is: all of the torque, or an addition to that of the scenario's controller."""
 ACTIONS = (TORQUES, ADDED)
+NEAR = 0.1
+"""e_1 of the reward [rad]."""
 FALLEN_FROM = 1e-9
 """Of the time limit [s]: a sample that ends so little before it is the last."""
 
@@ -54,10 +60,10 @@ class LearnerTask(Shown):
     """Longest walk [s]."""
     alive: float = 1.0
     """Reward of a sample that does not end the walk [1]."""
-    tracking: float = 10.0
-    """Weight of |e|^2 [1/rad^2]."""
-    effort: float = 1e-5
-    """Weight of |u|^2 [1/(N m)^2]."""
+    tracking: float = 1.0
+    """Reward of one without any error [1]."""
+    effort: float = 0.1
+    """What one with all motors at their limit costs [1], at most `alive`."""
 
     def __post_init__(self) -> None:
         check_part(self.scenario, "what is to be learnt", Scenario)
@@ -67,6 +73,10 @@ class LearnerTask(Shown):
             x = getattr(self, name)
             if not (isinstance(x, int | float) and math.isfinite(x) and x >= 0.0):
                 raise InputError(f"{name} is {x!r}, expected a finite number, 0 or more")
+        if self.effort > self.alive:
+            raise InputError(
+                f"effort = {self.effort} is above alive = {self.alive}: to fall would pay"
+            )
         if not self.seconds > 0.0:
             raise InputError(f"seconds is {self.seconds}, expected a positive time")
         mine = flat({"controller": self.scenario.controller.record()})
@@ -111,9 +121,11 @@ class LearnerTask(Shown):
         limit = self.scenario.hardware.torque_limit
         return known if limit is None else known._replace(torque=min(limit, known.torque))
 
-    def rewards(self, squares: Array, goes_on: Array) -> Array:
-        """Of N walks (N,), from |e|^2 [rad^2] and |u|^2 [N^2 m^2] (N, 2) and whether each goes on (N,)."""
-        paid: Array = (
-            self.alive * goes_on - self.tracking * squares[:, 0] - self.effort * squares[:, 1]
-        )
-        return paid
+    def rewards(self, squares: Array, goes_on: Array, most: float) -> Array:
+        """Of N walks (N,), from |e|^2 [rad^2] and |u|^2 [N^2 m^2] (N, 2) and whether each goes on (N,).
+
+        most: u_1^2 [N^2 m^2].
+        """
+        e, u = squares[:, 0] / NEAR**2, squares[:, 1] / most
+        paid: Array = self.alive + self.tracking / (1.0 + e) - self.effort * u
+        return np.where(goes_on, paid, 0.0)

@@ -1,6 +1,7 @@
-// The mouse or a finger on the robot: a double click selects a link, a drag with Ctrl pulls it by a spring.
+// The mouse or a finger: a drag that begins on the robot pulls it by a spring, another one turns the camera.
 const PULLS = 1000 / 75; // [ms] between two messages of a pull
 const ray = new MeshCat.THREE.Raycaster();
+const AROUND = [[0, 0], [8, 0], [-8, 0], [0, 8], [0, -8], [6, 6], [-6, 6], [6, -6], [-6, -6]]; // [px] that a pointer may miss by
 const pane = element("meshcat-pane");
 const parts = new Map(scene.links.map(([path, link]) => [node(path), link]));
 let selected = null, pull = null;
@@ -11,16 +12,19 @@ function aim({ clientX, clientY }) {
   ray.setFromCamera({ x: 2 * x - 1, y: 1 - 2 * y }, viewer.camera);
 }
 
-// the link under the pointer, and the point of it (x, z) [m] in its frame; null for none
-function pick(event) {
-  aim(event);
+// the link under the pointer or just beside it, and the point of it (x, z) [m] in its frame; null for none
+function pick({ clientX, clientY }) {
   viewer.scene.updateMatrixWorld(true);
-  const [hit] = ray.intersectObjects([...parts.keys()], true);
-  if (!hit) return null;
-  let part = hit.object;
-  while (!parts.has(part)) part = part.parent;
-  const at = part.parent.worldToLocal(hit.point.clone());
-  return { link: parts.get(part), at: [at.x, at.z] };
+  for (const [dx, dy] of AROUND) {
+    aim({ clientX: clientX + dx, clientY: clientY + dy });
+    const [hit] = ray.intersectObjects([...parts.keys()], true);
+    if (!hit) continue;
+    let part = hit.object;
+    while (!parts.has(part)) part = part.parent;
+    const at = part.parent.worldToLocal(hit.point.clone());
+    return { link: parts.get(part), at: [at.x, at.z] };
+  }
+  return null;
 }
 
 // where the pointer is in the plane of the walk (x, z) [m]
@@ -48,7 +52,6 @@ function select(found) {
       if (material && material.emissive) material.emissive.setHex(found && found.link === link ? 0x662200 : 0);
     });
   }
-  element("selected").textContent = found ? found.link + " is selected" : "";
   viewer.set_dirty();
 }
 
@@ -71,12 +74,13 @@ function release() {
   send({ do: "let_go" });
 }
 
-const pulls = (event) => event.ctrlKey || event.metaKey || element("pull").getAttribute("aria-pressed") === "true";
-pane.addEventListener("dblclick", (event) => select(pick(event)));
 pane.addEventListener("pointerdown", (event) => {
-  if (!pulls(event) || ![0, 2].includes(event.button)) return;
-  const found = selected || pick(event), at = pointed(event);
-  if (!found || at === null) return;
+  if (![0, 2].includes(event.button)) return;
+  const found = pick(event), at = pointed(event);
+  if (!found || at === null) {
+    select(null);
+    return;
+  }
   event.stopImmediatePropagation(); // the camera stays
   event.preventDefault();
   select(found);

@@ -1,4 +1,4 @@
-"""Walks as environments for learners: `gymnasium.make("biped_adrc.gym:biped_adrc/Walk-v0")`.
+"""Walks as environments for learners: `gymnasium.make("biped_adrc.extras.gym:biped_adrc/Walk-v0")`.
 
 Importing this registers the environment. Raises InputError without Gymnasium, of the extra `[gym]`.
 """
@@ -17,6 +17,6 @@ ID = "biped_adrc/Walk-v0"
 
 gymnasium.register(
     ID,
-    entry_point="biped_adrc.gym.env:WalkEnv",
-    vector_entry_point="biped_adrc.gym.vector:WalkVectorEnv",
+    entry_point="biped_adrc.extras.gym.env:WalkEnv",
+    vector_entry_point="biped_adrc.extras.gym.vector:WalkVectorEnv",
 )

@@ -1,6 +1,6 @@
 """The robot from the side as an array of pixels, and a window that shows it.
 
-The lines are those of `view.from_the_side`, drawn with Pillow, which takes a millisecond or two where a figure
+The lines are those of `viz.from_the_side`, drawn with Pillow, which takes a millisecond or two where a figure
 takes thirty. The window is matplotlib's; where there is no screen its backend has none, and nothing is shown.
 """
 
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
-from biped_adrc.gym.stage import Stage
+from biped_adrc.extras.gym.stage import Stage
 from biped_adrc.model.biped import Biped
 from biped_adrc.types import Array
 from biped_adrc.view.from_the_side.moving_parts import COLOURS

@@ -1,6 +1,6 @@
 """Many walks as a vector environment: one call of machine code for all of them.
 
-    envs = gymnasium.make_vec("biped_adrc.gym:biped_adrc/Walk-v0", num_envs=64)
+    envs = gymnasium.make_vec("biped_adrc.extras.gym:biped_adrc/Walk-v0", num_envs=64)
 
 Each walk is that of `env.WalkEnv`, bit for bit. A walk that has ended begins anew at the next step
 (`AutoresetMode.NEXT_STEP`): its action of that step is not looked at, and its reward is 0.
@@ -17,10 +17,10 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from biped_adrc.errors import InputError, check_count
-from biped_adrc.gym.env import check_options, checked_mode, spaces_of
-from biped_adrc.gym.picture import Drawn
-from biped_adrc.gym.stage import Flags, Stage
-from biped_adrc.gym.task import TORQUES, LearnerTask
+from biped_adrc.extras.gym.env import check_options, checked_mode, spaces_of
+from biped_adrc.extras.gym.picture import Drawn
+from biped_adrc.extras.gym.stage import Flags, Stage
+from biped_adrc.extras.gym.task import TORQUES, LearnerTask
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 from biped_adrc.scenario.stepper import finite_numbers
 from biped_adrc.types import Array

@@ -1,6 +1,6 @@
-"""A walk as an environment of Gymnasium: `gymnasium.make("biped_adrc.gym:biped_adrc/Walk-v0")`.
+"""A walk as an environment of Gymnasium: `gymnasium.make("biped_adrc.extras.gym:biped_adrc/Walk-v0")`.
 
-    env = gymnasium.make("biped_adrc.gym:biped_adrc/Walk-v0", condition="push on joints")
+    env = gymnasium.make("biped_adrc.extras.gym:biped_adrc/Walk-v0", condition="push on joints")
     observation, info = env.reset(seed=1)
     observation, reward, terminated, truncated, info = env.step(action)
 
@@ -17,9 +17,9 @@ import numpy as np
 from gymnasium.spaces import Box
 
 from biped_adrc.errors import InputError
-from biped_adrc.gym.picture import Drawn, Window
-from biped_adrc.gym.stage import Stage
-from biped_adrc.gym.task import TORQUES, LearnerTask
+from biped_adrc.extras.gym.picture import Drawn, Window
+from biped_adrc.extras.gym.stage import Stage
+from biped_adrc.extras.gym.task import TORQUES, LearnerTask
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 from biped_adrc.scenario.stepper import finite_numbers
 from biped_adrc.types import Array

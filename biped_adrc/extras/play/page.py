@@ -2,7 +2,7 @@
 
     ba.play("walk.html", ba.Scenario("ADRC", hardware="ideal"))
 
-The page has methods and loops as WebAssembly (`engine.webassembly`); its scripts (view/play) do samples, pushes
+The page has methods and loops as WebAssembly (`engine.webassembly`); its scripts do samples, pushes
 and springs, steps back, and a ghost. It walks what it was made with, on the rigid plant: the scenario, OTHERS,
 and the stations of the tour. A walk that is chosen begins anew from the start.
 
@@ -20,10 +20,10 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.errors import InputError
+from biped_adrc.extras.play.walks import MOST, PageWalk, numbers, variants
 from biped_adrc.files import output_path, write_text
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.live.walks import MOST, PageWalk, numbers
 from biped_adrc.parts import check_part
 from biped_adrc.resources import packaged
 from biped_adrc.scenario.dotted import merged, nested
@@ -48,6 +48,9 @@ OTHERS: Mapping[str, Mapping[str, object]] = {
     },
 }
 """Walks to choose from on a page: values by which they differ from its scenario, by name."""
+SAMPLES = 2
+"""How late [samples] the torque of a walk may come on a page."""
+HERE = "biped_adrc.extras.play"
 AROUND = 4.0
 """How far [m] the ground reaches before and behind the robot."""
 PRINTS = 12
@@ -80,23 +83,27 @@ def play(
     return path
 
 
-def page(scenario: Scenario, others: Mapping[str, Mapping[str, object]]) -> str:
-    """The text of the page. Raises InputError."""
+def page(
+    scenario: Scenario, others: Mapping[str, Mapping[str, object]], samples: int = SAMPLES
+) -> str:
+    """The text of the page; samples: up to how many of them its delays go. Raises InputError."""
     scenarios = {name: revised(scenario, x) for name, x in others.items()}
     own = (name for name, x in scenarios.items() if x == scenario)
     first = next(own, f"{scenario.controller.name}, as given")
     scenarios[first] = scenario
+    chosen = set(scenarios)
     stations = guided(scenario, scenarios)
-    walks = {first: PageWalk.of(first, scenario)}
-    walks = {name: walks.get(name) or PageWalk.of(name, s) for name, s in scenarios.items()}
-    scene = laid_out(walks[first])
-    given = settings(walks[first], scene) | {
+    walks = {first: variants(first, scenario, samples)}
+    for name, s in scenarios.items():
+        walks[name] = walks.get(name) or variants(name, s, samples if name in chosen else 0)
+    scene = laid_out(walks[first][0])
+    given = settings(walks[first][0], scene) | {
         "tour": stations,
         "numbers": numbers(walks) | {"first": first, "ghost": next(iter(others), None)},
     }
     title = f"{scenario.robot.name}, live"
     legend = captions({"walk": scene})[1:]
-    return with_viewer("play", given, title=title, captions=legend, style="play/play.css")
+    return with_viewer("play", given, HERE, title=title, captions=legend, style="play.css")
 
 
 def revised(s: Scenario, values: Mapping[str, object]) -> Scenario:
@@ -113,7 +120,7 @@ def revised(s: Scenario, values: Mapping[str, object]) -> Scenario:
 
 def tour() -> list[dict[str, Any]]:
     """The stations of tour.toml, each with all values that it sets; there "none" stands for no value."""
-    table = packaged("biped_adrc.live", "tour.toml")
+    table = packaged(HERE, "tour.toml")
     return [x | {"values": merged(table["base"], x["values"])} for x in table["station"]]
 
 

@@ -1,4 +1,4 @@
-"""The walks of a page, compiled with a hand, in the numbers that view/play/machine.js reads.
+"""The walks of a page, compiled with a hand, in the numbers that viz/play/machine.js reads.
 
 The hand is two parts of the disturbance, a torque on the coordinates and a force on a link. The page writes
 their numbers into the block of the run (`engine.kernels.record`) before each sample.
@@ -12,6 +12,7 @@ from __future__ import annotations
 import base64
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Self, cast
 
 import numpy as np
@@ -24,15 +25,18 @@ from biped_adrc.disturbances.link import OnLink
 from biped_adrc.disturbances.waves import TorqueStep
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.record import PLACES, Ints
-from biped_adrc.engine.kernels.run_plan import STATUS
+from biped_adrc.engine.kernels.run_plan import STATUS, Functions
 from biped_adrc.engine.symbols import NotCompiled, paths
 from biped_adrc.engine.webassembly import WebWalker, web_walkers
 from biped_adrc.errors import InputError
+from biped_adrc.extras.play.sliders import Form, Slider, fitted, numbers_at, sliders
+from biped_adrc.hardware.motors import whole_and_part
 from biped_adrc.hybrid.constants import STRUCK
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import link_point, point, turned
 from biped_adrc.model.robots.symmetry import twins
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, limits, start
+from biped_adrc.scenario.file import scenario_lines
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.timing import SampledTime
@@ -47,18 +51,19 @@ SPRING = {"stiffness": 1500.0, "damping": 40.0}
 
 A force that is held for a period T acts T / 2 late, which takes k T / 2 from the damping: 2 % at 1 kHz.
 """
+DELAY, FRICTION = "hardware.delay", "hardware.friction"
 SAME = 1e-9
 """Largest distance [m] between two points that are taken for one."""
 
 
 @dataclass(frozen=True)
 class PageWalk:
-    """A walk of a page, as it begins at 0 s."""
+    """One structure of a walk of a page, as it begins at 0 s."""
 
     scenario: Scenario
     scene: RobotAndGait
     walker: Walker
-    """Without the hand."""
+    """Without the hand; with joint friction, if the robot's record has some."""
     made: CompiledWalker
     """With the hand, which is its whole disturbance."""
     x: Array
@@ -76,7 +81,10 @@ class PageWalk:
             )
         scene = RobotAndGait.of(s)
         scene.walked  # noqa: B018  # a robot without motors is refused
-        walker = build(s, scene)
+        rubbed = s.replace({"hardware.friction": True, "errors.friction": 0.0})
+        if any(map(np.any, scene.biped.friction_coefficients)):
+            scene = RobotAndGait.of(rubbed)
+        walker = build(rubbed if scene.biped.friction else s, scene)
         if not isinstance(walker.timing, SampledTime):
             raise InputError(
                 f"the walk '{name}' is controlled at every instant, and that of a page at sample instants; "
@@ -87,10 +95,8 @@ class PageWalk:
                 f"the walk '{name}' has a push or ground steps of its own; leave them out"
             )
         x = walker.initial_state(*start(s, scene), Mode(s.run.first_step))
-        size, method = walker.controller_size(x), method_of(s, walker)
         try:
-            reference = scene.walked.constraint
-            made = CompiledWalker.of(with_hand(walker), method, size, 0.0, reference)
+            made = compiled(s, scene, walker, x)
         except NotCompiled as reason:
             raise InputError(
                 f"the walk '{name}' does not run in machine code as a whole: {reason}"
@@ -102,6 +108,92 @@ class PageWalk:
         """Its first single support."""
         return Mode(self.scenario.run.first_step)
 
+    @property
+    def timing(self) -> SampledTime:
+        """Its clock."""
+        return cast(SampledTime, self.walker.timing)
+
+    @cached_property
+    def names(self) -> dict[str, int]:
+        """Places in the block of the walker's numbers, by their names."""
+        first = self.made.plan.places["K"]
+        return {name: first + k for k, name in enumerate(paths(self.made.program.numbers))}
+
+    @cached_property
+    def numbers(self) -> Array:
+        """Of the block as it begins."""
+        return self._block(self.made)
+
+    def at(self, s: Scenario) -> Array:
+        """Numbers of the block of another scenario. Raises InputError, also for another structure."""
+        walker = build(s.replace({FRICTION: self.walker.plant.friction}), self.scene)
+        made = compiled(s, self.scene, walker, self.x)
+        if made.program.key != self.made.program.key:
+            raise InputError("another structure")
+        return self._block(made)
+
+    def _block(self, made: CompiledWalker) -> Array:
+        found = made.plan.start(self.x, 0.0, *self.mode, 0.0).block.view(np.float64).copy()
+        for name in Functions._fields:
+            found[PLACES[name]] = 0.0  # addresses
+        return np.nan_to_num(found)  # whole numbers that are no floats
+
+    def sliders(self) -> dict[str, tuple[Slider, dict[str, Form]]]:
+        """Its sliders by name, but that of the delay, with the numbers that they move by name."""
+        order = getattr(getattr(self.walker.controller, "observer", None), "m", None)
+        named = {k: name for name, k in self.names.items()}
+        found = {
+            name: (one, {named[k]: form for k, form in forms.items()})
+            for name, (one, forms) in sliders(self.scenario, order, self.numbers, self.at).items()
+            if forms.keys() <= named.keys()
+        }
+        rubbing = {
+            name: (0.0, float(self.numbers[k]), 1)
+            for name, k in self.names.items()
+            if name.startswith("friction[") and self.numbers[k] != 0.0
+        }
+        if rubbing:
+            s = self.scenario
+            share = 1.0 + s.errors.friction if s.hardware.friction else 0.0
+            one = Slider(FRICTION, 0.0, 3.0, False, "×", 1.0, share, True)
+            found[FRICTION] = one, cast(dict[str, Form], rubbing)
+        return found
+
+    def delay(self) -> dict[int, Form]:
+        """The numbers of the block that the delay moves, between whole samples."""
+        low, high = self.delays
+        if low == high:
+            return {}
+        inside = Slider(DELAY, low + 0.1 * (high - low), high - 0.1 * (high - low), False)
+        return fitted(inside, self.numbers, numbers_at(inside, self.scenario, self.at))
+
+    @property
+    def delays(self) -> tuple[float, float]:
+        """Delays [s] of this structure: between whole samples, or this one alone."""
+        period, delay = self.timing.period, self.timing.delay
+        whole, part = whole_and_part(delay, period)
+        return (whole * period, (whole + 1) * period) if part > 0.0 else (delay, delay)
+
+
+def compiled(s: Scenario, scene: RobotAndGait, walker: Walker, x: Array) -> CompiledWalker:
+    """The walker with a hand. Raises NotCompiled."""
+    size, method = walker.controller_size(x), method_of(s, walker)
+    return CompiledWalker.of(with_hand(walker), method, size, 0.0, scene.walked.constraint)
+
+
+def variants(name: str, s: Scenario, samples: int) -> list[PageWalk]:
+    """A walk as it is given, then its structures with other delays, up to so many samples."""
+    found = [PageWalk.of(name, s)]
+    period = found[0].timing.period
+    for delay in (0.0, *((k + 0.5) * period for k in range(samples))) if samples else ():
+        try:
+            one = PageWalk.of(name, s.replace({DELAY: delay}))
+        except InputError:
+            continue  # of a part that takes no delay
+        if one.delays not in [x.delays for x in found]:
+            found.append(one)
+    return found
+
 
 def with_hand(walker: Walker) -> Walker:
     """The walker with a torque and a force as its disturbance, both zero."""
@@ -109,25 +201,29 @@ def with_hand(walker: Walker) -> Walker:
     return replace(walker, disturbance=Sum() + TorqueStep(np.zeros(walker.plant.n)) + force)
 
 
-def numbers(walks: Mapping[str, PageWalk]) -> dict[str, Any]:
+def numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
     """What machine.js reads of the walks; vectors in base64. Raises InputError.
 
-    walks       by name: the block as it begins, its pointers, and where the hand is in it
+    walks       by name: its scenario as lines, its sliders, and its variants, which are blocks as they begin
     code        the module, with the names of the functions in the order of their numbers
     links       A; by name re, im (3, n) [m] at the link's (0, 0) and their slopes along x and z, and turn
     joints      what each drawn joint is: a coordinate, or -1, -2 for x and z of the trunk
     exchanged   whether the legs are drawn with exchanged names, in odd and even single supports; R
     places, status, signals: numbers of the kernels, by name, and struck
     """
-    first = next(iter(walks.values()))
-    web = web_walkers([walk.made for walk in walks.values()], first.scene.walked.constraint)
-    found = map(walk_numbers, walks.values(), web.walkers)
+    structures = [one for found in walks.values() for one in found]
+    first = structures[0]
+    web = web_walkers([one.made for one in structures], first.scene.walked.constraint)
+    blocks = dict(zip(map(id, structures), web.walkers, strict=True))
     plant = first.walker.plant
     feet = plant.description.stance_foot, plant.description.swing_foot
     return {
         "code": packed(web.code),
         "functions": web.functions,
-        "walks": dict(zip(walks, found, strict=True)),
+        "walks": {
+            name: walk_numbers(found, [blocks[id(one)] for one in found])
+            for name, found in walks.items()
+        },
         "n": plant.n,
         "links": link_numbers(plant, [link for _, link in visual_links(plant.tree)]),
         "twins": twins(plant.tree, feet),
@@ -148,23 +244,54 @@ def packed(data: bytes | Ints) -> str:
     return base64.b64encode(data if isinstance(data, bytes) else data.tobytes()).decode("ascii")
 
 
-def walk_numbers(walk: PageWalk, web: WebWalker) -> dict[str, Any]:
-    """Of one walk: its block, clock, limits of ground and motors, places of the hand."""
-    timing, s = cast(SampledTime, walk.walker.timing), walk.scenario
-    known, limit = limits(s).of(walk.walker.plant.description), s.hardware.torque_limit
+def walk_numbers(walk: list[PageWalk], blocks: list[WebWalker]) -> dict[str, Any]:
+    """Of one walk: its scenario, its sliders, and its structures."""
+    first, found = walk[0], walk[0].sliders()
+    shown = [one._asdict() for one, _ in found.values()]
+    if len(walk) > 1:
+        high, delay = max(one.delays[1] for one in walk), first.timing.delay
+        shown.append(Slider(DELAY, 0.0, high, False, "ms", 1e3, delay, True)._asdict())
     return {
-        "cells": packed(web.plan.start(walk.x, 0.0, *walk.mode, 0.0).block),
+        "lines": scenario_lines(first.scenario),
+        "firstStep": first.mode.step,
+        "sliders": shown,
+        "variants": [
+            structure_numbers(one, web, found) | {"asGiven": one is first}
+            for one, web in zip(walk, blocks, strict=True)
+        ],
+    }
+
+
+def structure_numbers(
+    walk: PageWalk, web: WebWalker, found: Mapping[str, tuple[Slider, dict[str, Form]]]
+) -> dict[str, Any]:
+    """Of one structure: its block, clock, limits of ground and motors, and places of the hand and sliders."""
+    s, block = walk.scenario, web.plan.start(walk.x, 0.0, *walk.mode, 0.0).block
+    if FRICTION in found:
+        slider, forms = found[FRICTION]
+        for name in forms:
+            block.view(np.float64)[walk.names[name]] *= cast(float, slider.value)
+    known, limit = limits(s).of(walk.walker.plant.description), s.hardware.torque_limit
+    moved = {
+        name: (one.table, [(walk.names[at], form) for at, form in forms.items()])
+        for name, (one, forms) in found.items()
+    }
+    return {
+        "cells": packed(block),
         "pointers": web.plan.pointers.tolist(),
         "nx": web.plan.nx,
         "observe": web.observe,
-        "period": timing.period,
-        "restart": timing.restart,
+        "period": walk.timing.period,
+        "restart": walk.timing.restart,
+        "delays": walk.delays,
         "slope": walk.walker.slope,
+        "ownSlope": walk.walker.slope - s.ground.slope,
         "limits": {
             "friction": known.friction,
             "torque": known.torque if limit is None else limit,
         },
         "hand": hand_places(walk.made),
+        "sliders": moved | {DELAY: ((), [*walk.delay().items()])},
     }
 
 

@@ -22,9 +22,10 @@ function describe(message) {
   element("limits").className = now < breach.until ? "bad" : "good";
   const ends = [["walk", walk], ["ghost", ghost]].filter(([, w]) => w && w.ending);
   tell(ends.map(([name, w]) => name + " " + w.ending).join(". "));
+  element("up").hidden = !walk.ending;
 }
 function tell(words) {
-  if (element("message").textContent !== words) element("message").textContent = words;
+  if (element("ended").textContent !== words) element("ended").textContent = words;
   element("message").hidden = words === "";
 }
 
@@ -32,12 +33,15 @@ function showFrame(frame) {
   ({ rate, paused } = frame);
   scene.limits = frame.limits;
   element("play").textContent = paused ? "go" : "pause";
+  [, element("timeline").max] = frame.timeline; // before the value, which it bounds
+  [element("timeline").value] = frame.timeline;
+  page.last = frame;
   drawWalks(frame);
   remember(frame);
   drawPlots();
   describe(frame);
   keepPulling();
-  page.last = frame;
+  page.frames += 1;
 }
 // what keys, fields and the mouse ask of the walks, such as { do: "push", torque: { q1: 30 } }
 function send({ do: word, ...given }) {
@@ -47,33 +51,36 @@ function send({ do: word, ...given }) {
   } catch (error) {
     complain(error.message);
   }
+  play.news = true;
 }
+// at rest nothing is drawn, but what was said of a breach goes
 function turn(now) {
   play.advance(now);
-  const text = JSON.stringify(play.frame());
-  if (text !== page.text) showFrame(JSON.parse(text)); // at rest nothing is drawn
-  page.text = text;
+  if (play.news || now < breach.until + STAYS) showFrame(play.frame());
   requestAnimationFrame(turn);
 }
-const page = { last: null, text: "" };
+const page = { last: null, frames: 0 };
 let play = null;
 startMachine().then(() => {
-  names.forEach((name) => { kinds[name] = new Kind(name); });
   play = new Play(numbers.first, numbers.ghost);
   turn(performance.now());
 }).catch((error) => tell("This page cannot walk here: " + error.message));
 
 const KEYS = {
-  " ": toggle, ArrowRight: ACTIONS.step, Backspace: ACTIONS.reset, b: ACTIONS.back,
+  " ": toggle, ArrowRight: ACTIONS.step, Backspace: ACTIONS.reset, b: ACTIONS.back, u: ACTIONS.up, s: save,
   "-": ACTIONS.slower, "+": ACTIONS.faster, "=": ACTIONS.faster, v: ACTIONS.view,
   "?": ACTIONS.help, t: tour, n: () => { if (station >= 0) goTo(station + 1); }, p: pushOnce,
   f: ACTIONS["shove-on"], r: ACTIONS["shove-back"], Escape: () => { release(); select(null); decline(); },
 };
+// of a field and of a slider only the keys that are its own
+function takes({ tagName, type }, key) {
+  if (tagName === "INPUT" && type === "number") return key !== "Escape";
+  if (tagName === "INPUT" || tagName === "SELECT") return key.startsWith("Arrow") || (tagName === "SELECT" && key === " ");
+  return tagName === "BUTTON" && key === " ";
+}
 document.addEventListener("keydown", (event) => {
-  const { tagName } = event.target, writes = ["INPUT", "SELECT", "TEXTAREA"].includes(tagName);
-  const presses = tagName === "BUTTON" && event.key === " ";
-  const other = (event.ctrlKey || event.metaKey) && !pull; // a shortcut of the browser's
-  if (other || event.altKey || writes || presses || !(event.key in KEYS)) return;
+  const other = event.ctrlKey || event.metaKey || event.altKey; // a shortcut of the browser's
+  if (other || takes(event.target, event.key) || !(event.key in KEYS)) return;
   if (element("keys").open && event.key !== "?") return;
   event.preventDefault();
   KEYS[event.key]();

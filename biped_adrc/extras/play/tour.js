@@ -7,6 +7,7 @@ function leaveTour() {
   station = -1;
   element("tour").hidden = true;
   act({ do: "reset", walk: before });
+  send({ do: "go_at", rate: 1 });
 }
 function goTo(k) {
   if (k < 0 || k >= scene.tour.length) { leaveTour(); return; }
@@ -18,7 +19,9 @@ function goTo(k) {
   element("tour").hidden = false;
   element("tour-title").textContent = k + 1 + " of " + scene.tour.length + ": " + s.title;
   element("tour-text").textContent = s.text;
-  element("tour-page").textContent = "Read on in the documentation: " + s.page;
+  const inside = location.pathname.includes("/_static/"), address = s.page + (inside ? ".html" : ".md");
+  element("tour-page").textContent = "docs/" + address;
+  if (inside) element("tour-page").href = "../" + address;
   element("tour-next").textContent = k + 1 < scene.tour.length ? "next (n)" : "end (n)";
   element("tour-title").focus();
   act({ do: "let_go" });

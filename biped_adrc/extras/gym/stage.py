@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.engine.kernels.run_plan import STATUS
-from biped_adrc.gym.needs import Needs
-from biped_adrc.gym.task import ADDED, FALLEN_FROM, LearnerTask
-from biped_adrc.gym.view import learner_view
+from biped_adrc.extras.gym.needs import Needs
+from biped_adrc.extras.gym.task import ADDED, FALLEN_FROM, LearnerTask
+from biped_adrc.extras.gym.view import learner_view
 from biped_adrc.scenario.build import RobotAndGait, build, limits
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.stepper import Stepper
@@ -104,7 +104,8 @@ class Stage:
     def rewards(self) -> Array:
         """(N,) of the sample that has just been made."""
         squares = self.seen[:, self.first + 2 : self.first + 4]
-        return self.task.rewards(squares, self.stepper.codes == 0)
+        most = self.plant.p * self.limits.torque**2
+        return self.task.rewards(squares, self.stepper.codes == 0, most)
 
     def ended(self) -> tuple[Flags, Flags]:
         """Whether each walk has fallen, or was lost (N,), and whether its time or its impacts are over (N,)."""

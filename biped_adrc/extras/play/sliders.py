@@ -1,0 +1,173 @@
+"""Sliders of a page: how the numbers of a block go with one value of the scenario.
+
+    number = b s^k,  a + b s,  a + b tan s
+
+for every number that changes with the value s. a, b and k come from three values of s, of which the middle one
+only checks. Where the numbers go otherwise, such as the gains of an observer in sampled time with its
+bandwidth, a table has them at round values of s. A slider whose numbers another one moves too is left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.errors import BipedError
+from biped_adrc.scenario.controllers import CONTEXT, GAINS
+from biped_adrc.scenario.registry import find, takes
+from biped_adrc.scenario.scenario import Scenario, field_of
+from biped_adrc.types import Array
+
+Form = tuple[float, float, int] | list[float]
+"""(a, b, k) of a number, k = 0 for the tangent; or its values at those of a table."""
+ROUND = np.array(
+    (*range(10, 20), *range(20, 30, 2), 25, *range(30, 42, 2), 42, 45, 48, *range(50, 100, 5))
+)
+"""First two digits of the values in tables."""
+POWERS = (*range(1, 15), -1, -2)
+EXACT = 1e-12
+"""Largest relative error of a form."""
+ELSEWHERE = (*CONTEXT, *GAINS, "bandwidth", "order", "poles", "solve_theta", "reset")
+"""Parameters of controllers that are no sliders of their own."""
+
+
+class Slider(NamedTuple):
+    """One value of a scenario on a page."""
+
+    name: str
+    """Dotted name."""
+    low: float
+    high: float
+    log: bool
+    """Whether equal ways are equal ratios."""
+    unit: str = ""
+    scale: float = 1.0
+    """Shown number over the value in SI units."""
+    value: float | None = None
+    """At which the walk begins; None for numbers that no value gives, such as poles of a table."""
+    shared: bool = False
+    """Whether the ghost moves along: of robot and ground."""
+
+    also: Mapping[str, object] = {}
+    """Other values of the scenario that go with it, such as the order with the bandwidth."""
+
+    table: tuple[float, ...] = ()
+    """All values that it takes; any between low and high where empty."""
+
+    @property
+    def tried(self) -> tuple[float, float, float]:
+        """Both ends and a value between them."""
+        middle = np.sqrt(self.low * self.high) if self.log else 0.4 * self.low + 0.6 * self.high
+        return self.low, float(middle), self.high
+
+    def tabulated(self) -> Slider:
+        """The slider of round values alone."""
+        decades = 10.0 ** np.arange(-9, 9)
+        known = np.unique((np.outer(decades, ROUND)).ravel().round(12))
+        even = np.linspace(self.low, self.high, 41).round(6)
+        values = known[(known >= self.low) & (known <= self.high)] if self.log else even
+        return self._replace(table=tuple(values.tolist()))
+
+
+OBSERVER = "controller.observer."
+USUAL = (
+    Slider("controller.K_p", 30.0, 30000.0, True),
+    Slider("controller.K_d", 3.0, 3000.0, True),
+    Slider("controller.observer.bandwidth", 30.0, 3000.0, True),
+    Slider("hardware.torque_limit", 10.0, 500.0, True, shared=True),
+    Slider("ground.slope", -0.12, 0.12, False, shared=True),
+)
+
+
+def offered(s: Scenario, order: int | None) -> Iterator[Slider]:
+    """Sliders that a scenario may have: the usual ones, and the numbers of its controller's constructor.
+
+    order: m of its observer, which a bandwidth leaves as it is.
+    """
+    also: dict[str, object] = {} if order is None else {OBSERVER + "order": order}
+    also |= {OBSERVER + "poles": "none"} if s.controller.observer.poles else {}
+    for one in USUAL:
+        yield one._replace(also=also if one.name.startswith(OBSERVER) else {})
+    for name, parameter in takes(find("controller", s.controller.name).load()).items():
+        x = s.controller.own.get(name, parameter.default)
+        if isinstance(x, float) and np.isfinite(x) and name not in ELSEWHERE:
+            ends = (
+                (0.1 * x, 10.0 * x) if x > 0.0 else (-1.0, 1.0) if x == 0.0 else (10.0 * x, 0.1 * x)
+            )
+            yield Slider(f"controller.{name}", *ends, x > 0.0)
+
+
+def sliders(
+    s: Scenario, order: int | None, base: Array, numbers: Callable[[Scenario], Array]
+) -> dict[str, tuple[Slider, dict[int, Form]]]:
+    """The sliders that a walk has, by name, with the forms of the numbers that they move, by place.
+
+    order: m of its observer. base: numbers of the walk. numbers(s): those of another scenario, which raises
+    BipedError where it has none, or another structure.
+    """
+    found, moved = dict[str, tuple[Slider, dict[int, Form]]](), set[int]()
+    for one in offered(s, order):
+        try:
+            forms = fitted(one, base, numbers_at(one, s, numbers))
+            if not forms:
+                one = one.tabulated()
+                rows = numbers_at(one, s, numbers, one.table)
+                forms = {k: rows[:, k].tolist() for k in changing(base, rows)}
+        except BipedError:
+            continue
+        if forms and moved.isdisjoint(forms):
+            moved |= forms.keys()
+            found[one.name] = at_base(one, base, forms), forms
+    return found
+
+
+def numbers_at(
+    one: Slider, s: Scenario, numbers: Callable[[Scenario], Array], values: Sequence[float] = ()
+) -> Array:
+    """Rows of the numbers at values of a slider, at those of `tried` without any. Raises BipedError."""
+    return np.array([numbers(s.replace({one.name: x, **one.also})) for x in values or one.tried])
+
+
+def changing(base: Array, rows: Array) -> list[int]:
+    """Places of the numbers that change over the rows; none where the base has others besides."""
+    change = np.any(rows != rows[0], axis=0)
+    return [] if np.any(base[~change] != rows[0, ~change]) else np.flatnonzero(change).tolist()
+
+
+def fitted(one: Slider, base: Array, rows: Array) -> dict[int, Form]:
+    """Forms of the numbers that change over the rows (3, N); none where one goes otherwise."""
+    s = np.array(one.tried)
+    found = {k: next(closed(s, rows[:, k]), None) for k in changing(base, rows)}
+    return {k: form for k, form in found.items() if form} if all(found.values()) else {}
+
+
+def closed(s: Array, y: Array) -> Iterator[tuple[float, float, int]]:
+    """(a, b, k) of the forms that fit three values y (3,) at s (3,)."""
+    with np.errstate(all="ignore"):
+        for k in POWERS if np.all(s > 0.0) else ():
+            if np.all(np.abs(y / (y[2] / s[2] ** k * s**k) - 1.0) < EXACT):
+                yield 0.0, float(y[2] / s[2] ** k), k
+        for k, f in ((1, s), (0, np.tan(s))):
+            b = (y[2] - y[0]) / (f[2] - f[0])
+            a = y[0] - b * f[0]
+            if abs(a + b * f[1] - y[1]) <= EXACT * np.max(np.abs(y)):
+                yield float(a), float(b), k
+
+
+def at_base(one: Slider, base: Array, forms: dict[int, Form]) -> Slider:
+    """The slider with the value of the walk as it begins, in its unit."""
+    unit = field_of(one.name).unit.replace("^2", "²")
+    one = one._replace(unit="" if unit == "1" else unit)
+    place, form = next(iter(forms.items()))
+    if isinstance(form, list):
+        rows = np.array([*forms.values()]).T
+        same = [x for x, row in zip(one.table, rows, strict=True) if np.all(row == base[[*forms]])]
+        return one._replace(value=same[0] if same else None)
+    a, b, k = form
+    y = (base[place] - a) / b
+    x = float(np.arctan(y) if k == 0 else y ** (1.0 / k))
+    if not np.isfinite(x):
+        return one
+    return one._replace(low=min(one.low, x), high=max(one.high, x), value=float(f"{x:.12g}"))

@@ -1,0 +1,62 @@
+"""A hand that a page wrote down: rows that are held, in both engines, and what is said of wrong rows."""
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.disturbances.by_hand import PIECES, by_hand
+from biped_adrc.errors import InputError
+
+
+def test_rows_are_held_from_their_times_on_in_one_single_support(biped):
+    random = np.random.default_rng(3)
+    times = np.cumsum(random.uniform(0.001, 0.01, 2 * PIECES + 3))
+    torques, forces = random.normal(size=(len(times), 5)), random.normal(size=(len(times), 2))
+    q, v = random.normal(size=(2, 5))
+    hand = by_hand(biped, 2, times, torques, "torso", (0.0, 0.3), forces)
+    for k, t in enumerate(times):
+        for inside in (t, t + 5e-4):
+            found = hand.zeta(1.0 + inside, 2, 1.0, q, v)
+            force = ba.OnLink(biped, "torso", ba.TorqueStep(np.append(forces[k], 0.0)), (0.0, 0.3))
+            assert found == pytest.approx(torques[k] + force.zeta(0.0, 1, 0.0, q, v), abs=1e-12)
+            assert hand.net_force(1.0 + inside, 2, 1.0) == pytest.approx(forces[k], abs=1e-12)
+    assert not np.any(hand.zeta(1.0 + times[0] - 1e-9, 2, 1.0, q, v))
+    assert not np.any(hand.zeta(1.1, 3, 1.0, q, v))
+    assert {s for _, s in hand.switches} == {*times}
+
+
+def test_both_engines_walk_under_it():
+    push = {"shape": "hand", "step": 1, "times": [0.1, 0.101, 0.2], "on": "torso"}
+    push |= {"point": [0.0, 0.3], "forces": [[20.0, 0.0], [-30.0, 10.0], [0.0, 0.0]]}
+    push |= {"torques": [[5.0, 0.0, 0.0, 0.0, 0.0], [0.0] * 5, [0.0, 0.0, 9.0, 0.0, 0.0]]}
+    s = ba.Scenario("NPD", hardware="ideal", pushes=[push], run={"impacts": 1})
+    one, other = (
+        ba.walk_scenario(s.replace({"run.engine": engine})) for engine in ("compiled", "pinocchio")
+    )
+    assert one.trajectory.settings["engine"] == "compiled"
+    end = [walk.trajectory.arcs[0].x[-1] for walk in (one, other)]
+    assert end[0] == pytest.approx(end[1], abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("rows", "said"),
+    [
+        ({"times": []}, "times of the hand"),
+        ({"times": [0.2, 0.1]}, "increase from 0"),
+        (
+            {"times": [0.1], "torques": [[1.0, 2.0]]},
+            r"shape \(1, 2\), expected finite numbers \(1, 5\)",
+        ),
+        ({"times": [0.1], "on": "torso", "forces": [[1.0, np.inf]]}, "finite numbers"),
+        ({"times": [0.1], "on": "tail", "forces": [[1.0, 0.0]]}, "tail"),
+    ],
+)
+def test_rows_that_are_none(biped, rows, said):
+    with pytest.raises(ba.BipedError, match=said):
+        by_hand(biped, 1, **rows)
+
+
+def test_a_value_that_it_does_not_take():
+    push = {"shape": "hand", "step": 1, "times": [0.1], "torque": 30.0}
+    with pytest.raises(InputError, match="takes no torque"):
+        ba.walk_scenario(ba.Scenario("NPD", hardware="ideal", pushes=[push]))

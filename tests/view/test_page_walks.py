@@ -1,0 +1,92 @@
+"""Walks of a page under a hand, saved as files, walked again: every controller, every effect of hardware."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from selenium.webdriver import Chrome
+
+import biped_adrc as ba
+from biped_adrc.extras.play.page import FIRST, page, revised
+from biped_adrc.scenario.file import read_scenario
+from biped_adrc.scenario.registry import REGISTRY
+
+from .browser import chromium, console
+
+SLOW = {"controller.name": "ADRC", "controller.observer": {"bandwidth": 160.0, "order": 1}}
+ENCODERS = {"hardware.encoders": {"counts": 8192.0, "velocity": "differences"}}
+WALKS: dict[str, dict[str, Any]] = {
+    "PD": {"controller": {"name": "PD", "K_p": 900.0, "K_d": 60.0}, "hardware.lag": 2e-3},
+    "NPD": {"controller": "NPD", "hardware.rate_limit": 3e4, "errors.mass_width": 0.05},
+    "NPID": {"controller": "NPID", "hardware.friction": True},
+    "super twisting": {"controller": "super twisting", "hardware.encoders.noise": 1e-5},
+    "ADRC": {"controller": "ADRC", "ground.slope": 0.01},
+    "ADRC output": {"controller": "ADRC output", "controller.observer": SLOW["controller.observer"]}
+    | {"hardware.delay": 4e-4, "hardware.delay_known": True},
+    "LESO": {"controller": "LESO", "hardware.touchdown": {"name": "told", "late": 2e-3}},
+    "ADRC assisted": {"controller": "ADRC assisted", "hardware.touchdown": "force"},
+    "DOB": {"controller": "DOB", "hardware.touchdown": "kinematics"},
+    "stride PI": {"controller": {"name": "stride PI", "inner": "NPD"}, "hardware.delay": 2e-3},
+    "reference reset": {"controller": {"name": "reference reset", "inner": "NPD"}}
+    | {"hardware.sensor": {"name": "pitch sensor", "bias": 1e-3}},
+    "encoders, prediction": {**SLOW, **ENCODERS, "controller.prediction": 1e-3}
+    | {"hardware.delay": 1e-3, "hardware.encoders.filter_time": 2e-3},
+    "gyro, hold": {**SLOW, "hardware.encoders": {"counts": 8192.0, "velocity": "gyro"}}
+    | {"controller.contact": {"name": "hold", "window": 5e-3}},
+    "RABBIT, feedforward": {**SLOW, "hardware": "rabbit", "controller.feedforward": 0.9}
+    | {"controller.contact": "impact invariant"},
+}
+"""Each registered controller that is traced, with an effect of hardware."""
+NOT_TRACED = {"CLF-QP", "output NPD", "finite time", "delayed", "passive"}
+"""A QP, two that decide by numbers, a delay in continuous time, and a robot without motors."""
+HAND = """
+const [name, seconds] = arguments, states = [];
+play.pause(); play.begin(name, "NPD");
+for (let k = 0; play.walking[0].walks && play.leader.t < seconds; k += 1) {
+  const [walk] = play.walking;
+  const push = { torque: { q1: 5, q2: 5 }, force: [10, -5], link: "right_shin", at: [0, -0.1] };
+  if (k === 150) play.push({ ...push, seconds: 0.1 });
+  if (k === 700) play.pull({ link: "torso", at: [0, 0.3], anchor: [walk.foot[0] + 0.1, 1.2] });
+  if (k === 730) play.let_go();
+  play.sample();
+  const [now] = play.walking;
+  if (k % 25 === 0) states.push([now.t, now.step, ...now.q, ...now.v]);
+}
+return { text: scenarioText(play), states, ending: play.walking[0].ending };
+"""
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chrome]:
+    path = tmp_path_factory.mktemp("page") / "all.html"
+    path.write_text(page(FIRST, WALKS, samples=0), encoding="utf-8")
+    with chromium() as started:
+        started.get(path.as_uri())
+        started.implicitly_wait(60)
+        started.find_element("css selector", "#sliders input")
+        yield started
+
+
+def test_every_controller_that_is_traced_is_here() -> None:
+    walked = {revised(FIRST, x).controller.name for x in WALKS.values()}
+    assert walked | NOT_TRACED == {*REGISTRY["controller"]}
+
+
+@pytest.mark.parametrize("name", WALKS)
+def test_what_a_hand_did_is_walked_again(browser: Chrome, tmp_path: Path, name: str) -> None:
+    found = browser.execute_script(HAND, name, 2.0)
+    path = tmp_path / "by_hand.toml"
+    path.write_text(found["text"], encoding="utf-8")
+    run = ba.walk_scenario(read_scenario(path)).trajectory
+    assert len(found["states"]) > 15
+    for t, step, *x in found["states"]:
+        arc = run.arcs[int(step) - 1]
+        there = arc(min(t, float(arc.t[-1])), "left")[: len(x)]
+        np.testing.assert_allclose(x, there, rtol=0.0, atol=1e-8, err_msg=f"at {t} s")
+    if found["ending"]:
+        assert found["ending"].startswith(run.status.name.lower().replace("_", " "))
+    assert console(browser) == []
