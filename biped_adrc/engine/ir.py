@@ -2,7 +2,7 @@
 
 CasADi lists the instructions of an expression in order, common subexpressions taken out; each
 becomes a line or two. Nothing is re-ordered by value, so every language computes the same numbers.
-A language is a table of patterns by operation (here and in `engine.c_text`) and a `Writer` that
+A language is a table of patterns by operation (here and in `extras.export.c_text`) and a `Writer` that
 says how values get their names, and how numbers are read and stored.
 
     pattern     one text, or several lines in a row

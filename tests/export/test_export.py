@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.engine.c_text import in_double
 from biped_adrc.engine.mechanics import RobotStructure
 from biped_adrc.errors import InputError, OutputError
 from biped_adrc.extras.export import loaded as loading
+from biped_adrc.extras.export.c_text import in_double
 from biped_adrc.extras.export.computer import Computer
 from biped_adrc.extras.export.export import export_c
 from biped_adrc.extras.export.loaded import NOT_MEASURED, OK, Loaded, compiled

@@ -18,10 +18,10 @@ from typer.testing import CliRunner
 
 import biped_adrc as ba
 from biped_adrc.cli import app
-from biped_adrc.engine.webassembly import web_module
 from biped_adrc.errors import BipedError, InputError, OutputError
 from biped_adrc.extras.play.page import FIRST, page, revised, tour
 from biped_adrc.extras.play.walks import MOST, SPRING
+from biped_adrc.extras.play.webassembly import web_module
 from biped_adrc.model.planar import jacobian, link_point, point, turned
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.file import read_scenario

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from biped_adrc.engine.c_text import CFunction, Entry
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.ir import straight_line
+from biped_adrc.extras.export.c_text import CFunction, Entry
 from biped_adrc.extras.export.computer import Computer
 from biped_adrc.extras.export.functions import HEAD, init, step, touchdown
 

@@ -2,7 +2,7 @@
 
     ba.play("walk.html", ba.Scenario("ADRC", hardware="ideal"))
 
-The page has methods and loops as WebAssembly (`engine.webassembly`); its scripts do samples, pushes
+The page has methods and loops as WebAssembly (`extras.play.webassembly`); its scripts do samples, pushes
 and springs, steps back, and a ghost. It walks what it was made with, on the rigid plant: the scenario, OTHERS,
 and the stations of the tour. A walk that is chosen begins anew from the start.
 

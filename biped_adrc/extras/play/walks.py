@@ -27,9 +27,9 @@ from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.record import PLACES, Ints
 from biped_adrc.engine.kernels.run_plan import STATUS, Functions
 from biped_adrc.engine.symbols import NotCompiled, paths
-from biped_adrc.engine.webassembly import WebWalker, web_walkers
 from biped_adrc.errors import InputError
 from biped_adrc.extras.play.sliders import Form, Slider, fitted, numbers_at, sliders
+from biped_adrc.extras.play.webassembly import WebWalker, web_walkers
 from biped_adrc.hardware.motors import whole_and_part
 from biped_adrc.hybrid.constants import STRUCK
 from biped_adrc.model.biped import Biped
