@@ -61,7 +61,7 @@ def contents(folder: Path) -> dict[Path, bytes]:
         ("gait import keep.json -o link.json", ["link.json", "keep.json"]),
         ("animate run.html -o run.html", ["run.html"]),
         ("gait show keep.json --plot keep.json", ["keep.json", ".png or .svg"]),
-        ("robot new own/floating.urdf -o own", ["own/floating.urdf", "exists already"]),
+        ("robot new own/floating.urdf -o own", ["own/floating.urdf", "exist already"]),
     ],
 )
 def test_nothing_that_is_read_is_overwritten(line, names, folder, monkeypatch):

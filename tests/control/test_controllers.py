@@ -30,6 +30,14 @@ def error_dynamics(walker, gait, q, v):
     return dde + 50.0 * de + 5000.0 * e, dde
 
 
+@pytest.mark.parametrize("law", [ba.NPDController, ba.ADRCController])
+def test_the_error_is_linear_off_the_orbit_too(biped, gait, law):
+    """The loop through Theta'' solved: e'' + K_d e' + K_p e = 0, under ADRC with its exact first estimates."""
+    walker = ba.Walker(biped, law(gait.constraint))
+    rest, dde = error_dynamics(walker, gait, *off_orbit(gait, biped))
+    assert np.max(np.abs(rest)) < 1e-8 * np.max(np.abs(dde))
+
+
 def test_as_printed_the_feedforward_of_theta_is_missing(biped, gait):
     walker = ba.Walker(biped, ba.NPDController(gait.constraint, solve_theta=False))
     q, v = gait.start(biped)

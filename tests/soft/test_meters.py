@@ -180,7 +180,6 @@ def test_readings_of_another_walk_are_refused(walk, biped, gait):
         lambda: soft_steps(other, run),
         lambda: readings(loop, run.arcs[1], 0.7 * loop.plant.h),
         lambda: readings(loop, run.arcs[1], 0.0),
-        lambda: readings(loop, replace(run.arcs[0], read={})),
     ):
         with pytest.raises(InputError):
             wrong()

@@ -180,7 +180,7 @@ HOLD = {"controller.contact.name": "hold", "hardware.period": None}
     ("tables", "message"),
     [
         ({"base": {"robot.name": "rabit"}}, "study 'typo', at base: .*rabit"),
-        ({"grid": {"controller.name": ["ADRC", "ADCR"]}}, "at controller.name = ADCR: .*ADCR"),
+        ({"grid": {"controller.name": ["ADRC", "ADCR"]}}, "controller.name: .*ADCR"),
         ({"base": {"start.q9": 0.1}}, "q9"),
         ({"cases": {"a": {}, "b": HOLD}}, "at case = b: .*period"),
     ],
