@@ -2,7 +2,7 @@
 
 The files are joined into one text of Python, without their imports of each other, since `hybrid.march` stands
 in it around other operations than in Python. Read them as one module; in the editor and for type checks they
-are ordinary ones. Where LLVM's text is on disk, numba is not imported. `extras.play.webassembly` has the same text.
+are ordinary ones. Where LLVM's text is on disk, numba is not imported. A page has the same text.
 """
 
 from __future__ import annotations
