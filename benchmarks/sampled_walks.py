@@ -20,11 +20,15 @@ from report import Run, Table, arguments, rounds
 from walks import TICK, Setting, load, ready, setting
 
 import biped_adrc as ba
+from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.control.base import Measurement
 from biped_adrc.engine.batch import BatchWalk
+from biped_adrc.engine.compiled_loop import CompiledLoop
+from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
+from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.types import Array
 
 FINER = 5
@@ -117,19 +121,19 @@ def on_soft_ground(table: Table, quick: bool) -> None:
     found, impacts = setting(), 2 if quick else 6
     biped, gait = ba.Biped.load("rabbit"), found.gait
     names = {
-        "MuJoCo with contact, RK4 0.2 ms": (ba.CompiledLoop, "rk4"),
-        "MuJoCo with contact, leapfrog 0.2 ms": (ba.CompiledLoop, "leapfrog"),
-        "MuJoCo with contact, RK4 0.2 ms, loop in Python": (ba.SteppingLoop, "rk4"),
+        "MuJoCo with contact, RK4 0.2 ms": (CompiledLoop, "rk4"),
+        "MuJoCo with contact, leapfrog 0.2 ms": (CompiledLoop, "leapfrog"),
+        "MuJoCo with contact, RK4 0.2 ms, loop in Python": (SteppingLoop, "rk4"),
     }
     if not find_spec("mujoco"):
         table.missing("MuJoCo with contact")
         return
     runs = {}
     for name, (kind, integrator) in names.items():
-        plant = ba.MuJoCoPlant(biped, integrator=integrator)
+        plant = MuJoCoPlant(biped, integrator=integrator)
         law = ba.ADRCController(gait.constraint)
         loop = kind(plant, law, None, ba.SampledTime(TICK), biped, 150.0)
-        options = ba.RunOptions(0.8 * impacts, stop_after=(FOOT_STRIKE, impacts))
+        options = RunOptions(0.8 * impacts, stop_after=(FOOT_STRIKE, impacts))
         runs[name] = partial(loop.run, loop.initial_state(*gait.start(biped)), options)
     walks = {name: run() for name, run in runs.items()}
     seconds = rounds(runs, 1 if quick else 5)

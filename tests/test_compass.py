@@ -14,7 +14,7 @@ from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.npid import NPIDController
 from biped_adrc.control.super_twisting import SuperTwistingController
 from biped_adrc.extras.export.computer import Computer
-from biped_adrc.extras.export.loaded import OK
+from biped_adrc.extras.export.loaded import OK, ExportedController
 from biped_adrc.extras.export.source import source_of
 from biped_adrc.extras.logs.log_file import exchanged
 from biped_adrc.hardware.sample_hold import read
@@ -179,7 +179,7 @@ def test_the_exported_controller_walks_over_impacts(compass, designed):
     """And the torque that it holds where nothing is measured stays the same on the legs."""
     late = {"timing": LATE, "motors": ba.Motors(rate_limit=2e4)}
     around = walker(compass, adrc(designed.gait.constraint), **late)
-    by_c = ba.ExportedController(source_of(Computer(around)))
+    by_c = ExportedController(source_of(Computer(around)))
     ends = [
         ba.walk(x, designed.gait, 3, STEP, engine="pinocchio").trajectory
         for x in (around, replace(around, controller=by_c))

@@ -10,7 +10,8 @@ import biped_adrc as ba
 from biped_adrc.analysis.certificate import depths, supports
 from biped_adrc.analysis.feasibility import first_violation, outcome_of
 from biped_adrc.analysis.ground_force import Nodes, mean_forces
-from biped_adrc.model.ground import ground_axes
+from biped_adrc.gait.constraint import continued
+from biped_adrc.model.ground import StepUp, ground_axes
 from biped_adrc.model.robots.limits import KnownLimits
 
 KNOWN = KnownLimits(0.6, 150.0, 5e-3)
@@ -125,7 +126,7 @@ def test_scuffing_counts_away_from_the_ends_below_the_lower_foothold(walker):
     assert list(s.infeasible()) == ["scuffing"]
     down = replace(walker, ground_steps=(ba.StepDown(1, 0.005),))
     assert judged(down, t, F_N, height=middle).scuffing == 0.0
-    up = replace(walker, ground_steps=(ba.StepUp(1, 0.005),))
+    up = replace(walker, ground_steps=(StepUp(1, 0.005),))
     assert judged(up, t, F_N, height=middle).scuffing == pytest.approx(2e-3)
     late = np.where(t > 0.39, -1e-3, 0.02)
     assert judged(walker, t, F_N, height=late, finished=False).scuffing > 0.0
@@ -330,8 +331,8 @@ def test_steps_shorter_than_the_window_are_judged_as_a_whole(walker, biped, gait
 
 def test_a_foot_that_comes_from_lower_ground_does_not_scuff(biped, gait):
     """After a step up the old foothold lies below both of the next single support."""
-    law = ba.NPDController(ba.continued(gait.constraint))
-    up = ba.Walker(biped, law, ground_steps=(ba.StepUp(1, 0.01),))
+    law = ba.NPDController(continued(gait.constraint))
+    up = ba.Walker(biped, law, ground_steps=(StepUp(1, 0.01),))
     walk = ba.walk(up, gait, 2)
     assert [c.scuffing for c in walk.certificates] == [0.0, 0.0]
     s = walk.signals.of_step(2)

@@ -12,6 +12,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.errors import InputError
 from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.hybrid.integrators import Stiff
 from biped_adrc.observers.base import Estimate
 from biped_adrc.types import Array
 
@@ -363,6 +364,6 @@ def test_a_method_that_gives_something_else(engine, what, method, bad, biped, ga
         parts = {"controller": npd, what: spoilt(usual, method, bad)}
     ticks = what == "sensors" or method in ("correct", "predict")
     parts["timing"] = TIMINGS["ticks" if ticks else "continuous"]
-    mode = ba.Stiff(1e-2) if method == "jump" else ba.RK4(1e-3)
+    mode = Stiff(1e-2) if method == "jump" else ba.RK4(1e-3)
     sentence = said(ba.Walker(biped, **parts), gait, engine=engine, method=mode)
     assert re.search(rf"Spoilt\)?\.{method} .*returned .*expected", sentence)

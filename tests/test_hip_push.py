@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.control.stride import StrideGains
 from validation.forced_steps import forced_walk, stopping_force
 from validation.hip_push import (
     STANCE_KNEE,
@@ -137,7 +138,7 @@ def test_the_static_gain_is_what_a_held_correction_does(bare, gait):
     response = ba.stride_response(gait, bare, STANCE_KNEE)
     beta = 1e-3
     law = stride()
-    gains = ba.StrideGains(0.0, -1.0, limit=beta)  # one step with e > 0 takes beta to its bound
+    gains = StrideGains(0.0, -1.0, limit=beta)  # one step with e > 0 takes beta to its bound
     held = ba.StridePI(law.inner, 5.0, law.step_length, STANCE_KNEE, gains)
     step = forced_walk(gait, bare, 0.0, 60, held)[-1]
     assert step.beta == -beta

@@ -17,6 +17,7 @@ import biped_adrc as ba
 import biped_adrc.view.meshcat.objects
 from biped_adrc.extras.export.export import export_c
 from biped_adrc.extras.mujoco.mjcf import mjcf
+from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.files import c_comment, toml_key, toml_value
 from biped_adrc.model.robot_import.import_robot import to_toml
 from biped_adrc.model.robots.urdf import to_xml
@@ -115,7 +116,7 @@ def test_in_the_description_of_an_fmu_they_are_text(exported, hostile):
 
 
 def test_in_mjcf_and_urdf_they_are_attributes(hostile):
-    root = ET.fromstring(mjcf(ba.MuJoCoPlant(hostile.biped)))
+    root = ET.fromstring(mjcf(MuJoCoPlant(hostile.biped)))
     assert "planted" not in {element.tag for element in root.iter()}
     assert hostile.joint in {joint.get("name") for joint in root.iter("joint")}
     tree = hostile.biped.tree

@@ -11,6 +11,8 @@ from hypothesis import strategies as st
 
 import biped_adrc as ba
 from biped_adrc.analysis.feasibility import OUTCOMES
+from biped_adrc.extras.logs.log_file import write_log
+from biped_adrc.extras.logs.log_of_walk import logged
 from biped_adrc.study.study import read_study
 
 FIXED = settings(deadline=None, derandomize=True, database=None)
@@ -70,7 +72,7 @@ def files(tmp_path_factory, biped, gait):
         "run": walk.save(folder / "run.npz"),
         "gait": folder / "gait.json",
         "study": folder / "study.toml",
-        "log": ba.write_log(ba.logged(walk), folder / "log.csv", biped),
+        "log": write_log(logged(walk), folder / "log.csv", biped),
     }
     gait.save(paths["gait"])
     paths["study"].write_text(STUDY)

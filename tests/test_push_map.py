@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-import biped_adrc as ba
+from biped_adrc.gait.constraint import continued
 from biped_adrc.paper.push_map import (
     Fate,
     PushCell,
@@ -51,7 +51,7 @@ def test_a_fall_of_the_polynomial_is_none_of_the_robot():
 
 
 def test_a_continued_constraint_is_the_same_inside(biped, gait):
-    inside = ba.continued(gait.constraint)
+    inside = continued(gait.constraint)
     for theta in np.linspace(gait.constraint.theta_minus, gait.constraint.theta_plus, 7):
         for one, other in zip(inside.h(theta), gait.constraint.h(theta), strict=True):
             np.testing.assert_allclose(one, other, rtol=0, atol=1e-12)

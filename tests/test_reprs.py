@@ -7,6 +7,7 @@ import dataclasses
 import numpy as np
 
 import biped_adrc as ba
+from biped_adrc.scenario.cycle import find_cycle
 from biped_adrc.shown import LONGEST
 
 LINE = 120
@@ -31,7 +32,7 @@ def test_parts_and_walks_fit_a_line(biped, gait):
         m.terms,
     ]
     results = [walk, walk.trajectory, walk.signals, walk.certificates[0], walk.feasibility]
-    studied = [ba.Scenario("NPD"), ba.find_cycle("compass"), ba.Limits()]
+    studied = [ba.Scenario("NPD"), find_cycle("compass"), ba.Limits()]
     for thing in (*parts, *results, *studied):
         assert "\n" not in repr(thing), type(thing)
         assert len(repr(thing)) <= LINE, repr(thing)

@@ -21,6 +21,7 @@ from biped_adrc.analysis.variational import (
 )
 from biped_adrc.gait.curves import Polynomial as PolynomialCurve
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.gait.zero_orbits import ZeroOrbits
 from biped_adrc.paper.poincare import return_map_samples
 from biped_adrc.scenario.cycle import find_cycle, gait_cycle
 from biped_adrc.scenario.run import known_cycle
@@ -157,7 +158,7 @@ def test_samples_of_the_return_map_are_those_of_the_zero_dynamics(
     biped: ba.Biped, gait: ba.Gait
 ) -> None:
     """With its rates f times those of the gait a walker has f^2 zeta*, and rates go with sqrt(zeta)."""
-    orbits = ba.ZeroOrbits.of(ZeroDynamics.of(biped, gait.constraint))
+    orbits = ZeroOrbits.of(ZeroDynamics.of(biped, gait.constraint))
     f = np.array([0.95, 1.05])
     rate = biped.phase @ gait.v_minus
     zeta = np.array([orbits.rho(k**2 * orbits.zeta_star) for k in f])

@@ -12,7 +12,9 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import Advanced, Contact, PlantState
+from biped_adrc.engine.compiled_loop import CompiledLoop
 from biped_adrc.errors import InputError, RaisedError
+from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.hybrid import storage
@@ -142,7 +144,7 @@ def test_the_plant_may_end_the_run():
 
 def test_what_acted_is_recorded_and_stored(tmp_path):
     push = ba.TorqueSine((3.0,), frequency=2.0)
-    reference = ba.TimeReference(lambda t: (np.full(1, 0.5), np.zeros(1), np.zeros(1)))
+    reference = TimeReference(lambda t: (np.full(1, 0.5), np.zeros(1), np.zeros(1)))
     adrc = ba.ADRCController(reference, ba.GPIObserver.from_bandwidth(60.0), ba.Gains(80.0, 15.0))
     walked = run(loop(adrc, disturbance=push, torque_limit=60.0), t_end=1.5)
     (arc,) = walked.arcs
@@ -333,7 +335,7 @@ def test_every_so_many_nodes_are_kept():
 @pytest.mark.parametrize("timing", [TICK, replace(TICK, delay=2e-3)])
 def test_a_plant_and_a_model_of_ones_own_are_the_same_in_a_compiled_loop(timing):
     system = loop(timing=timing)
-    compiled = ba.CompiledLoop(Ball(), Told(), None, timing, Model())
+    compiled = CompiledLoop(Ball(), Told(), None, timing, Model())
     python, found = (run(s, t_end=2.0, stop_after=("wall", 3)) for s in (system, compiled))
     assert "the model is a Model" in found.settings["why"]
     assert found.status is python.status

@@ -268,7 +268,7 @@ class CycleStability(Shown):
 def cycle_stability(cycle: Cycle) -> CycleStability:
     """Fixed point of a cycle and its multipliers by every method.
 
-        found = ba.cycle_stability(ba.find_cycle("rabbit", controller="NPD"))
+        found = ba.cycle_stability(find_cycle("rabbit", controller="NPD"))
 
     The methods are independent of each other, the variational equation along the step and central differences
     of the return map. That they agree is the test of each.

@@ -31,7 +31,7 @@ CHOICE = -1
 """Code of an operation that CasADi has not: b where a is not 0, else c."""
 Patterns = Mapping[int, str | tuple[str, ...]]
 """Lines by operation; those of a tuple stand one after the other."""
-FUNCTIONS = {
+FUNCTIONS: dict[int, str] = {
     getattr(ca, f"OP_{name.upper()}"): name
     for name in ["sin", "cos", "tan", "exp", "log", "sinh", "cosh", "tanh", "asin", "acos", "atan"]
 } | {ca.OP_POW: "pow", ca.OP_CONSTPOW: "pow"}

@@ -22,7 +22,7 @@ I and V_zero are Legendre series through the values at the Gauss nodes of `ZeroD
 evaluated, differentiated and searched for zeros anywhere in the step. `zero_domain` adds what
 ground and motors allow; `analysis.zero_report` prints both.
 
-    orbits = ba.ZeroOrbits.of(ba.ZeroDynamics.of(biped, gait.constraint))
+    orbits = ZeroOrbits.of(ba.ZeroDynamics.of(biped, gait.constraint))
     star = orbits.zeta_star              247.4 kg^2 m^4/s^2 for the published gait of RABBIT
     orbits.speed(star), orbits.delta**2  0.750 m/s, and the multiplier 0.694
     orbits.iterate(0.6 * star, 5)        how a slower walk comes back to it, step by step

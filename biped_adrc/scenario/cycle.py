@@ -80,8 +80,8 @@ def find_cycle(
 ) -> Cycle:
     """The cycle of a robot by name: of a gait under a controller (by default NPD), passive without motors.
 
-        walking = ba.find_cycle("rabbit", gait="published", controller="ADRC", observer_states=False)
-        passive = ba.find_cycle("compass", slope=0.05)
+        walking = find_cycle("rabbit", gait="published", controller="ADRC", observer_states=False)
+        passive = find_cycle("compass", slope=0.05)
 
     observer_states: whether the controller's states belong to the state of the return map. slope: [rad], of
     another ground. Raises InputError for a controller that does not fit the

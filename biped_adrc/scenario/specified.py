@@ -1,6 +1,6 @@
 """The specification of a scenario: columns of a candidate that need no walk.
 
-    ba.specified(ba.Scenario({"name": "LESO", "observer": {"bandwidth": 160.0, "order": 2}}, hardware="rabbit"))
+    specified(ba.Scenario({"name": "LESO", "observer": {"bandwidth": 160.0, "order": 2}}, hardware="rabbit"))
 
 gives `stable`, `growth` [1/s], `delay_margin` [s], `disk_margin`, `ripple` [N m] by name, each a number. An
 unstable loop has margins 0 and an infinite ripple. What the scenario does to the walk, such as pushes,

@@ -19,6 +19,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.control.momentum_dob import MomentumDOBController
+from biped_adrc.control.output_npd import OutputNPDController
 from biped_adrc.disturbances.base import Windowed
 from biped_adrc.engine.compiled_push import term_code
 from biped_adrc.engine.equations import SymbolicFunction
@@ -27,8 +28,9 @@ from biped_adrc.engine.machine import ModuleText, load_or_compile
 from biped_adrc.engine.program import Program
 from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
 from biped_adrc.engine.tracer import Tracer, run
+from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.curves import Curve
-from biped_adrc.gait.outputs import Outputs
+from biped_adrc.gait.outputs import LinearOutputs, Outputs
 from biped_adrc.gait.reference import check_point
 from biped_adrc.hardware.motors import Line, Motors, TorqueLine, whole_and_part
 from biped_adrc.hardware.sensing import Sensor
@@ -60,7 +62,7 @@ def written(text, name="given.csv"):
 
 
 def outputs(h):
-    return ba.LinearOutputs(np.eye(4, 5), h)
+    return LinearOutputs(np.eye(4, 5), h)
 
 
 # -- what is asked of a thing --------------------------------------------------------------------
@@ -198,7 +200,7 @@ def _(curve: Curve):
             assert np.max(np.abs(after - before)) <= 1e-6 * scale
     c = gait().constraint
     h = ba.VirtualConstraint(curve, c.phase, c.theta_plus, c.theta_minus)
-    for constraint in (h, ba.continued(h)):
+    for constraint in (h, continued(h)):
         point_is_consistent(constraint)
 
 
@@ -222,7 +224,7 @@ def _(outputs: Outputs):
         agree(called, outputs, m.t, m.q, m.v)
         ddy = o.J @ a + o.drift
         assert np.max(np.abs(slopes[1] - ddy)) <= 1e-5 * (1.0 + np.max(np.abs(ddy)))
-    conforms(ba.OutputNPDController(outputs))
+    conforms(OutputNPDController(outputs))
 
 
 @conforms.register

@@ -18,17 +18,18 @@ from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.passive import Passive
 from biped_adrc.control.pd_gravity import JointGains
-from biped_adrc.control.stride import TORSO_LEAN
+from biped_adrc.control.stride import TORSO_LEAN, StrideGains
 from biped_adrc.disturbances.added_force import AddedForce
 from biped_adrc.errors import InputError
 from biped_adrc.gait.bspline import BSpline
-from biped_adrc.gait.constraint import CorrectedConstraint
+from biped_adrc.gait.constraint import CorrectedConstraint, continued
 from biped_adrc.gait.curves import Curve
-from biped_adrc.gait.outputs import FunctionOutputs, Outputs
+from biped_adrc.gait.outputs import FunctionOutputs, LinearOutputs, Outputs
+from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hardware.motors import IDEAL, Motors
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Touchdown
-from biped_adrc.hybrid.integrators import OneStepMethod
+from biped_adrc.hybrid.integrators import OneStepMethod, Stiff
 from biped_adrc.model.planar import link_point
 from biped_adrc.observers.momentum import MomentumObserver
 from biped_adrc.scenario.registry import find, names
@@ -61,7 +62,7 @@ ROWS = {
         "output NPD": lambda make, h: [make(outputs(h))],
         "finite time": lambda make, h: [make(outputs(h), 0.9, 0.02)],
         "stride PI": lambda make, h: [
-            ba.StridePI(ba.NPDController(h), 0.7, 0.3, TORSO_LEAN, ba.StrideGains(-1.0, -0.4))
+            ba.StridePI(ba.NPDController(h), 0.7, 0.3, TORSO_LEAN, StrideGains(-1.0, -0.4))
         ],
         "reference reset": lambda make, h: [make(ba.ADRCController(h))],
         "delayed": lambda make, h: [make(ba.ADRCController(h, SLOW), 2e-3)],
@@ -124,15 +125,15 @@ ROWS = {
 UNNAMED = {
     "virtual constraint": lambda h: [
         h,
-        ba.continued(h),
+        continued(h),
         with_curve(h, BSpline(h.curve.coefficients)),
     ],
     "corrected constraint": lambda h: [
         CorrectedConstraint(h, leaning),
-        CorrectedConstraint(CorrectedConstraint(ba.continued(h), leaning), leaning),
+        CorrectedConstraint(CorrectedConstraint(continued(h), leaning), leaning),
     ],
-    "time": lambda h: [ba.TimeReference(swung)],
-    "linear outputs": lambda h: [outputs(h), ba.LinearOutputs(ABSOLUTE, h)],
+    "time": lambda h: [TimeReference(swung)],
+    "linear outputs": lambda h: [outputs(h), LinearOutputs(ABSOLUTE, h)],
     "outputs of a function": lambda h: [FunctionOutputs(bent)],
     "added torque": lambda h: [
         AddedTorque(Passive(), np.array([3.0, -2.0, 1.0, 0.5])),
@@ -143,7 +144,7 @@ UNNAMED = {
     ],
     "RK4": lambda h: [ba.RK4(2e-3)],
     "adaptive": lambda h: [ba.Adaptive(1e-9, 1e-9)],
-    "stiff": lambda h: [ba.Stiff(1e-8, 1e-8)],
+    "stiff": lambda h: [Stiff(1e-8, 1e-8)],
     "exponential": lambda h: [ba.Exponential(1e-3)],
     "motors": lambda h: [Motors(), Motors(2e4, 1e-3)],
 }

@@ -16,6 +16,7 @@ from biped_adrc.disturbances.recorded import RecordedTorque
 from biped_adrc.disturbances.waves import TorqueNoise
 from biped_adrc.engine.compiled_push import term_code
 from biped_adrc.errors import InputError
+from biped_adrc.gait.constraint import continued
 from biped_adrc.model.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.model.pinned import frame_index
 from biped_adrc.scenario.build import RobotAndGait, disturbances
@@ -244,7 +245,7 @@ def test_noise_repeats_by_its_seed_only():
 )
 @pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
 def test_the_foot_strikes_the_ground_where_it_is(bare, published, ground, engine):
-    law = ba.ReferenceReset(ba.NPDController(ba.continued(published.constraint)))
+    law = ba.ReferenceReset(ba.NPDController(continued(published.constraint)))
     walker = ba.Walker(bare, law, ground_steps=ground)
     walk = ba.walk(walker, published, 5, ba.RK4(2e-3), engine=engine)
     assert walk.trajectory.status.ok

@@ -18,6 +18,7 @@ from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.pd_gravity import PDGravityController
 from biped_adrc.control.super_twisting import SuperTwistingController
 from biped_adrc.errors import InputError
+from biped_adrc.gait.reference import TimeReference
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.observers.high_gain import HighGainObserver
 from biped_adrc.timing import SampledTime
@@ -90,7 +91,7 @@ def test_a_balanced_posture_is_held(biped, gait):
 
 def at_rest(q):
     zero = np.zeros(4)
-    return ba.TimeReference(lambda t: (q[:4], zero, zero))
+    return TimeReference(lambda t: (q[:4], zero, zero))
 
 
 # -- ADRC in output form -----------------------------------------------------------------------

@@ -15,6 +15,7 @@ from biped_adrc.control.stride import TORSO_LEAN, StrideGains, StridePI, bump
 from biped_adrc.disturbances.hip_force import HipForce
 from biped_adrc.errors import GaitError, InputError
 from biped_adrc.gait.bspline import BSpline
+from biped_adrc.gait.reference import TimeReference
 
 RK4 = ba.RK4(2e-3)
 LAWS = {"NPD": ba.NPDController, "ADRC": ba.ADRCController}
@@ -174,7 +175,7 @@ def test_a_force_that_stops_the_walk_does_not_with_the_stride_controlled(bare, p
 def test_what_cannot_be_corrected_is_refused(bare, published):
     h, gains = published.constraint, StrideGains(-1.0, -0.4)
     inner = ba.NPDController(h)
-    in_time = ba.TimeReference(lambda t: (np.zeros(4), np.zeros(4), np.zeros(4)))
+    in_time = TimeReference(lambda t: (np.zeros(4), np.zeros(4), np.zeros(4)))
     local = replace(published, constraint=replace(h, curve=BSpline(h.curve.coefficients)))
     for make in (
         lambda: ReferenceReset(ba.Passive()),

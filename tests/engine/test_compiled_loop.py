@@ -8,6 +8,10 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.engine.compiled_loop import CompiledLoop
+from biped_adrc.extras.mujoco.plant import MuJoCoPlant
+from biped_adrc.hybrid.simulator import RunOptions
 
 PUSH = ba.TorquePulse([30.0, 0.0, 10.0, 0.0, 5.0], start=0.0303, stop=0.0507)
 PERIOD = ba.SampledTime(1e-3)
@@ -15,7 +19,7 @@ PERIOD = ba.SampledTime(1e-3)
 
 @pytest.fixture(scope="module")
 def plant(biped):
-    return ba.MuJoCoPlant(biped, integrator="leapfrog")
+    return MuJoCoPlant(biped, integrator="leapfrog")
 
 
 def loop(kind, plant, controller, **more):
@@ -26,11 +30,11 @@ def loop(kind, plant, controller, **more):
 def both(plant, gait, controller, t_end=0.1, change=None, **more):
     """The walk in Python and the same one compiled, from the gait's start or a change of it."""
     runs = []
-    for kind in (ba.SteppingLoop, ba.CompiledLoop):
+    for kind in (SteppingLoop, CompiledLoop):
         system = loop(kind, plant, controller, **more)
         x0 = system.initial_state(*gait.start(plant.biped))
         x0 = x0 if change is None else change(x0)
-        runs.append(system.run(x0, ba.RunOptions(t_end)))
+        runs.append(system.run(x0, RunOptions(t_end)))
     return runs
 
 

@@ -11,6 +11,7 @@ from biped_adrc.analysis.signals import signals, signals_of
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.engine.compiled_signals import compiled_readings
 from biped_adrc.engine.run import simulate_by
+from biped_adrc.gait.reference import TimeReference
 
 simulate = partial(simulate_by, "compiled")
 
@@ -88,7 +89,7 @@ def test_what_has_no_compiled_form_is_left_to_python(biped, gait):
     """A reference that branches on the time."""
     walker = ba.Walker(biped, controllers(gait)["NPD"])
     run = walked(walker, gait, impacts=1)
-    flat = ba.TimeReference(lambda t: (np.zeros(4) if t < 9.0 else np.ones(4),) * 3)
+    flat = TimeReference(lambda t: (np.zeros(4) if t < 9.0 else np.ones(4),) * 3)
     assert see(walker, run, flat) is None
     assert np.array_equal(signals(walker, run, flat).error, signals(walker, run, flat).q[:, :4])
 

@@ -19,6 +19,7 @@ from biped_adrc.engine.run import simulate_by
 from biped_adrc.errors import InputError, NotFiniteError, SingularError
 from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid import simulator
+from biped_adrc.hybrid.integrators import Stiff
 from biped_adrc.linear import solve
 from biped_adrc.types import Array
 
@@ -363,7 +364,7 @@ def test_tick_by_tick_with_other_methods_pushes_and_ground(biped, gait, ticked):
     in_part(*runs(walker, gait, ba.Adaptive(1e-9, 1e-9), impacts=1), TICKS, why)
 
 
-@pytest.mark.parametrize("method", [ba.RK4(2e-3), ba.Stiff(1e-6, 1e-6)], ids=["RK4", "stiff"])
+@pytest.mark.parametrize("method", [ba.RK4(2e-3), Stiff(1e-6, 1e-6)], ids=["RK4", "stiff"])
 def test_in_continuous_time(biped, gait, python, method):
     walker = ba.Walker(biped, Stateless(python), torque_limit=90.0)
     if isinstance(method, ba.RK4):

@@ -7,7 +7,7 @@ import numpy as np
 
 import biped_adrc as ba
 from biped_adrc.extras.export.computer import Computer
-from biped_adrc.extras.export.loaded import Loaded
+from biped_adrc.extras.export.loaded import ExportedController, Loaded
 from biped_adrc.extras.export.source import source_of
 from biped_adrc.scenario.build import build
 
@@ -74,7 +74,7 @@ SCENARIOS = {
 def recorded(name):
     """The exported controller of a scenario in memory, and its calls in the scenario's walk."""
     scenario = SCENARIOS[name]
-    controller = ba.ExportedController(source_of(Computer(build(scenario))))
+    controller = ExportedController(source_of(Computer(build(scenario))))
     vars(controller)["loaded"] = recorder = Recorder(controller.source)
     ba.walk_scenario(scenario, controller=controller)
     return recorder, list(recorder.calls.values())

@@ -23,6 +23,7 @@ import biped_adrc as ba
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.errors import InputError
 from biped_adrc.extras.export.computer import Computer
+from biped_adrc.extras.export.loaded import ExportedController
 from biped_adrc.extras.export.source import source_of
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.observers.momentum import MomentumChain
@@ -116,7 +117,7 @@ def walked(walker, so_long):
 
 def difference(walker, source, so_long=0.03):
     """Largest difference of the walks by the C and by Python, as a share of each quantity's largest value."""
-    by_c = walked(replace(walker, controller=ba.ExportedController(source)), so_long)
+    by_c = walked(replace(walker, controller=ExportedController(source)), so_long)
     by_python = walked(walker, so_long)
     assert by_c.shape == by_python.shape
     most = np.max(np.abs(by_python), axis=0)

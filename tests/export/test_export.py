@@ -18,7 +18,7 @@ from biped_adrc.extras.export import loaded as loading
 from biped_adrc.extras.export.c_text import in_double
 from biped_adrc.extras.export.computer import Computer
 from biped_adrc.extras.export.export import export_c
-from biped_adrc.extras.export.loaded import NOT_MEASURED, OK, Loaded, compiled
+from biped_adrc.extras.export.loaded import NOT_MEASURED, OK, ExportedController, Loaded, compiled
 from biped_adrc.extras.export.noticed import Noticed
 from biped_adrc.extras.export.source import source_of
 from biped_adrc.hardware.sensing import Sensor
@@ -67,7 +67,7 @@ def test_no_difference_is_taken_over_a_sample_that_is_not_measured():
 
 def test_a_walk_that_runs_away_ends_as_that_of_python():
     scenario = ba.Scenario("NPD", hardware={"period": 1e-3, "delay": 2e-2}, run={"impacts": 1})
-    controller = ba.ExportedController(source_of(Computer(build(scenario))))
+    controller = ExportedController(source_of(Computer(build(scenario))))
     here = ba.walk_scenario(scenario).trajectory
     there = ba.walk_scenario(scenario, controller=controller).trajectory
     assert here.status is Status.RAN_AWAY
@@ -78,7 +78,7 @@ def test_a_walk_that_runs_away_ends_as_that_of_python():
 def test_every_flag_ends_a_walk_with_the_status_of_its_name(flag):
     name = {NOT_MEASURED: "NOT_FINITE", 2: "NOT_FINITE", 3: "SINGULAR", 4: "RAN_AWAY"}[flag]
 
-    class Failing(ba.ExportedController):
+    class Failing(ExportedController):
         def correct(self, s, m):
             return super()._kept(flag if m.t > 2.5e-3 else OK, self._state(s), self.output(s, m))
 

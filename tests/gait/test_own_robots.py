@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 
 import biped_adrc as ba
 from biped_adrc.cli import app
+from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.exchange.samples import Samples
 from biped_adrc.resources import data_folder
 
@@ -86,7 +87,7 @@ def test_what_is_wrong_with_an_own_gait_is_said_with_its_own_joints(turned, gait
     own = turned_gait(gait, biped)
     c, a = own.constraint, own.constraint.curve.coefficients.copy()
     a[3, 0] += 0.1
-    record = ba.GaitRecord("own", a, c.theta_plus, c.theta_minus)
+    record = GaitRecord("own", a, c.theta_plus, c.theta_minus)
     with pytest.raises(ba.BipedError, match="right_knee"):
         ba.import_gait(record, biped)
     for wrong in ({"convention": "paper"}, {"coefficients": a[:3]}):

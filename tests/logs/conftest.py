@@ -7,6 +7,7 @@ from functools import cache
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.extras.logs.log_of_walk import logged
 
 PULSE = "q1,q2=20@2:0.1-0.3"
 """20 N m on both hips, in the second single support."""
@@ -28,4 +29,4 @@ def walked():
 @pytest.fixture(scope="session")
 def log(walked):
     """Of a walk with exact angles and rates, at 1 kHz."""
-    return ba.logged(walked(hardware="ideal"))
+    return logged(walked(hardware="ideal"))

@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.errors import InputError
+from biped_adrc.extras.logs.log_file import write_log
 
 ARRAYS = ("t", "step", "q", "u", "v", "measured")
 
@@ -18,7 +19,7 @@ ARRAYS = ("t", "step", "q", "u", "v", "measured")
 @pytest.fixture
 def lines(log, biped, tmp_path):
     """The lines of a file around its first touchdown, a list of texts each."""
-    text = ba.write_log(log, tmp_path / "whole.csv", biped).read_text(encoding="utf-8")
+    text = write_log(log, tmp_path / "whole.csv", biped).read_text(encoding="utf-8")
     head, *rows = [line.split(",") for line in text.splitlines()]
     first = int(np.flatnonzero(log.step == 2)[0])
     return [head, *rows[first - 12 : first + 12]]
@@ -42,11 +43,11 @@ def column(lines, name):
 
 
 def test_a_log_comes_back_to_the_last_bit(log, biped, tmp_path):
-    back = ba.read_log(ba.write_log(log, tmp_path / "log", biped), biped)
+    back = ba.read_log(write_log(log, tmp_path / "log", biped), biped)
     assert all(np.array_equal(getattr(back, x), getattr(log, x)) for x in ARRAYS)
     assert back.remarks == ()
     some = replace(log, measured=[1.0, 1.0, 0.0, 0.0, 1.0])
-    back = ba.read_log(ba.write_log(some, tmp_path / "some.csv", biped), biped)
+    back = ba.read_log(write_log(some, tmp_path / "some.csv", biped), biped)
     assert back.measured.tolist() == some.measured.tolist()
     assert np.array_equal(back.v[:, 4], log.v[:, 4])
 

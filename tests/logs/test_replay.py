@@ -10,6 +10,7 @@ from scipy.signal import cont2discrete, dlsim
 
 import biped_adrc as ba
 from biped_adrc.errors import InputError
+from biped_adrc.extras.logs.log_of_walk import logged
 
 LESO = {"controller.name": "LESO", "controller.observer.bandwidth": 160.0}
 RABBIT = {"hardware.profile": "rabbit", "hardware.encoders.filter_time": 5e-3}
@@ -19,7 +20,7 @@ ROUND_OFF = 1e-9
 
 def asked(walk, log=None):
     """The replay of a walk by its own scenario."""
-    return ba.replay(ba.logged(walk) if log is None else log, walk.scenario).signals
+    return ba.replay(logged(walk) if log is None else log, walk.scenario).signals
 
 
 @pytest.mark.parametrize(
@@ -56,7 +57,7 @@ def test_a_known_delay_of_one_period_moves_the_torques_by_one_row(walked):
 
 def test_rates_that_the_log_has_not_are_those_of_the_encoders(walked):
     walk = walked(**LESO, **RABBIT)
-    log = ba.logged(walk)
+    log = logged(walk)
     x, y = asked(walk), asked(walk, replace(log, v=None, measured=None))
     later = x.step > 1
     assert np.max(np.abs(x.torque - y.torque)[later]) < ROUND_OFF
@@ -89,7 +90,7 @@ def missed(walk, controller, order, bandwidth, unit):
     """
     period = walk.scenario.hardware.period
     x = ba.replay(
-        ba.logged(walk), ba.Scenario({"name": controller, "observer": {"bandwidth": bandwidth}})
+        logged(walk), ba.Scenario({"name": controller, "observer": {"bandwidth": bandwidth}})
     ).signals
     found, true = x.zeta_estimate, pulse(x)
     if unit == "rad/s^2":
@@ -127,12 +128,12 @@ def test_in_mujoco_the_pulse_is_found_beside_the_contact(walked):
         walked(**{"hardware.period": 1e-3, "run.impacts": 2, "ground.plant": x})
         for x in ("mujoco", "rigid")
     )
-    found = ba.replay(ba.logged(soft), ba.Scenario("DOB"))
+    found = ba.replay(logged(soft), ba.Scenario("DOB"))
     x = found.signals
     rows = (x.step == 2) & (x.t_step > 0.15) & (x.t_step < 0.3)
     assert np.allclose(np.mean(x.zeta_estimate[rows], axis=0), [20.0, 20.0, 0.0, 0.0], atol=1.0)
     assert found.rows[1].contact > 100.0  # the rigid model knows no force of contact
-    assert ba.replay(ba.logged(rigid), ba.Scenario("DOB")).rows[1].contact < 1.0
+    assert ba.replay(logged(rigid), ba.Scenario("DOB")).rows[1].contact < 1.0
 
 
 def test_the_parts_of_the_estimate_make_the_whole(log):

@@ -13,7 +13,9 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.engine.compiled_loop import CompiledLoop
 from biped_adrc.errors import InputError
 from biped_adrc.extras.mujoco.engine import MuJoCoEngine
+from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.hybrid.integrators import StepFailed
+from biped_adrc.hybrid.simulator import RunOptions
 
 LOOPS = [SteppingLoop, CompiledLoop]
 TICK = ba.SampledTime(1e-3)
@@ -28,11 +30,11 @@ class Explodes(ba.Controller):
 
 @pytest.fixture(scope="module")
 def plant(biped):
-    return ba.MuJoCoPlant(biped)
+    return MuJoCoPlant(biped)
 
 
 def run(loop, gait):
-    return loop.run(loop.initial_state(*gait.start(loop.model)), ba.RunOptions(0.05))
+    return loop.run(loop.initial_state(*gait.start(loop.model)), RunOptions(0.05))
 
 
 def all_finite(found):
@@ -116,6 +118,6 @@ def test_one_loop_walks_alike_in_many_threads(plant, gait):
     loop = CompiledLoop(plant, ba.NPDController(gait.constraint), None, TICK, plant.biped)
     begin = loop.initial_state(*gait.start(plant.biped))
     with ThreadPoolExecutor(4) as pool:
-        runs = list(pool.map(lambda _: loop.run(begin, ba.RunOptions(0.05)), range(8)))
-    alone = loop.run(begin, ba.RunOptions(0.05))
+        runs = list(pool.map(lambda _: loop.run(begin, RunOptions(0.05)), range(8)))
+    alone = loop.run(begin, RunOptions(0.05))
     assert all(np.array_equal(run.final_state, alone.final_state) for run in runs)

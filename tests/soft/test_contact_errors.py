@@ -12,6 +12,7 @@ from biped_adrc.analysis.contact_errors import contact_errors
 from biped_adrc.analysis.soft_steps import recorded_steps, soft_steps
 from biped_adrc.closed_loop.feet import with_readings
 from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.model.ground import ground_axes
 
@@ -62,7 +63,7 @@ def test_nothing_pushed_is_no_number():
 
 
 def test_meters_of_recorded_nodes_are_those_of_readings_at_the_nodes(biped, gait):
-    plant = ba.MuJoCoPlant(biped)
+    plant = MuJoCoPlant(biped)
     npd, period = ba.NPDController(gait.constraint), ba.SampledTime(1e-3)
     loop = SteppingLoop(plant, npd, None, period, biped, torque_limit=150.0)
     x0 = loop.initial_state(*gait.start(biped))

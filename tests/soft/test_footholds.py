@@ -9,10 +9,13 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.analysis.soft_steps import soft_steps
 from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
-from biped_adrc.model.ground import ground_axes
+from biped_adrc.extras.mujoco.soft_ground import SoftGround
+from biped_adrc.hybrid.simulator import RunOptions
+from biped_adrc.model.ground import StepUp, ground_axes
 
 TICK = ba.SampledTime(1e-3)
 SOFT = {"ground.plant": "mujoco", "hardware.period": 1e-3, "hardware.torque_limit": 150.0}
@@ -26,7 +29,7 @@ def walker_on(biped, gait, *steps):
 def walked(walker, gait, impacts=3):
     loop = stepping_loop(walker, MuJoCoPlant(walker.plant))
     x0 = loop.initial_state(*gait.start(walker.plant))
-    return loop, loop.run(x0, ba.RunOptions(4.0, stop_after=("foot_strike", impacts)))
+    return loop, loop.run(x0, RunOptions(4.0, stop_after=("foot_strike", impacts)))
 
 
 def first(arc, k):
@@ -40,7 +43,7 @@ def level(biped, gait):
     return walked(walker_on(biped, gait), gait)
 
 
-@pytest.mark.parametrize("step", [ba.StepDown(2, 5e-3), ba.StepUp(2, 5e-3)], ids=["down", "up"])
+@pytest.mark.parametrize("step", [ba.StepDown(2, 5e-3), StepUp(2, 5e-3)], ids=["down", "up"])
 def test_the_foot_comes_down_on_the_step_as_on_the_rigid_plant(biped, gait, level, step):
     walker = walker_on(biped, gait, step)
     loop, run = walked(walker, gait)
@@ -58,13 +61,13 @@ def test_the_foot_comes_down_on_the_step_as_on_the_rigid_plant(biped, gait, leve
     assert found == pytest.approx(longer, abs=1.5e-3)
     assert biped.swing_foot(run.arcs[2].x[-1, :5])[1] == pytest.approx(0.0, abs=4e-4)
     after = replace(run, arcs=tuple(replace(arc, **first(arc, 40)) for arc in run.arcs[2:]))
-    (landing,) = ba.soft_steps(loop, after)
+    (landing,) = soft_steps(loop, after)
     assert 0.2e-3 < landing.depth < 0.45e-3  # 0.41 mm on level ground
 
 
 def test_a_plane_that_moves_gives_no_kick(biped, gait, level):
     """Until the foot is at the ground the motion is that on level ground, bit for bit."""
-    for step in (ba.StepDown(2, 5e-3), ba.StepUp(2, 5e-3)):
+    for step in (ba.StepDown(2, 5e-3), StepUp(2, 5e-3)):
         _, run = walked(walker_on(biped, gait, step), gait, 2)
         ours, theirs = run.arcs[1], level[1].arcs[1]
         low = [biped.swing_foot(x[:5])[1] < 5.5e-3 for x in theirs.x]
@@ -80,14 +83,14 @@ def test_a_plane_that_moves_gives_no_kick(biped, gait, level):
 
 def test_a_step_up_that_is_not_cleared_is_not_there(biped, gait, level):
     """The foot strikes the level behind it, where it would without the step."""
-    _, run = walked(walker_on(biped, gait, ba.StepUp(1, 0.2)), gait, 1)
+    _, run = walked(walker_on(biped, gait, StepUp(1, 0.2)), gait, 1)
     np.testing.assert_array_equal(run.arcs[0].x[:, :10], level[1].arcs[0].x[:, :10])
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.1])
 def test_each_foot_touches_its_own_level_along_the_vertical(biped, gait, slope):
     """Also where the engine was elsewhere before, and in another process."""
-    ground = ba.SoftGround(foot_radius=5e-3)
+    ground = SoftGround(foot_radius=5e-3)
     plant = MuJoCoPlant(biped, ground, slope, ground_steps=(ba.StepDown(1, 0.01),))
     q, out = gait.start(biped)[0], ground_axes(slope)[1]
     q = q - [0.0, 0.0, 0.0, 0.6, 0.0]  # the swing foot in the air

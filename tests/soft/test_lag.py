@@ -13,9 +13,11 @@ from biped_adrc.engine.compiled_loop import CompiledLoop
 from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.errors import InputError
 from biped_adrc.extras.mujoco.mjcf import mjcf
+from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
+from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.hardware.motors import Motors
-from biped_adrc.hybrid.simulator import simulate
+from biped_adrc.hybrid.simulator import RunOptions, simulate
 
 TICK = ba.SampledTime(1e-3)
 TAU = 5e-3
@@ -38,8 +40,8 @@ class Holds(ba.Controller):
 @pytest.mark.parametrize("made", [SteppingLoop, CompiledLoop])
 @pytest.mark.parametrize("tau", [1e-5, 50e-3])
 def test_the_recorded_torque_is_the_closed_form(made, biped, gait, tau):
-    loop = made(ba.MuJoCoPlant(biped, lag=tau), Holds(), None, TICK, biped)
-    run = loop.run(loop.initial_state(*gait.start(biped)), ba.RunOptions(0.02))
+    loop = made(MuJoCoPlant(biped, lag=tau), Holds(), None, TICK, biped)
+    run = loop.run(loop.initial_state(*gait.start(biped)), RunOptions(0.02))
     arc = run.arcs[0]
     expected = Holds().output(None, None) * (1.0 - np.exp(-arc.t / tau))[:, np.newaxis]
     np.testing.assert_allclose(arc.read["u"], expected, rtol=1e-12, atol=1e-12)
@@ -49,8 +51,8 @@ U = np.array([40.0, -30.0, 20.0, -10.0])
 
 
 def test_the_angles_are_of_second_order_in_the_engines_step(biped, gait):
-    soft = ba.SoftGround(time_constant=5e-3)
-    plants = [ba.MuJoCoPlant(biped, soft, h=1e-3 / k, lag=1e-3) for k in (2, 4, 64)]
+    soft = SoftGround(time_constant=5e-3)
+    plants = [MuJoCoPlant(biped, soft, h=1e-3 / k, lag=1e-3) for k in (2, 4, 64)]
     rows = []
     for plant in plants:
         row = np.concatenate(plant.start(0.0, *gait.start(biped))[1:])
@@ -68,13 +70,13 @@ def test_it_moves_as_the_rigid_plant_with_this_lag(biped, gait):
     walkers = [
         ba.Walker(biped, law, timing=TICK, motors=motors) for motors in (None, Motors(lag=TAU))
     ]
-    ground = ba.SoftGround(friction=2.0, time_constant=2e-3)
+    ground = SoftGround(friction=2.0, time_constant=2e-3)
     moved = []
     for walker in walkers:
         x0 = walker.initial_state(*start)
         rigid = simulate(walker, x0, Mode(), ba.RK4(1e-4), t_end=0.06)
-        loop = stepping_loop(walker, ba.MuJoCoPlant(biped, ground))
-        soft = loop.run(loop.initial_state(*start), ba.RunOptions(0.06))
+        loop = stepping_loop(walker, MuJoCoPlant(biped, ground))
+        soft = loop.run(loop.initial_state(*start), RunOptions(0.06))
         moved.append((rigid.final_state[:5], soft.final_state[:5]))
     (rigid, soft), (rigid_lag, soft_lag) = moved
     by_lag = rigid_lag - rigid
@@ -102,13 +104,13 @@ def test_a_walk_of_a_scenario_has_u_m_as_on_the_rigid_plant():
 def test_a_rate_limit_stays_and_what_does_not_fit_is_said(biped, gait):
     law = ba.NPDController(gait.constraint)
     walker = ba.Walker(biped, law, timing=TICK, motors=Motors(1e4, TAU))
-    loop = stepping_loop(walker, ba.MuJoCoPlant(biped))
+    loop = stepping_loop(walker, MuJoCoPlant(biped))
     assert loop.motors == Motors(1e4)
     assert loop.plant.lag == TAU
     for wrong in (
-        lambda: stepping_loop(walker, ba.MuJoCoPlant(biped, lag=1e-3)),
-        lambda: ba.MuJoCoPlant(biped, lag=-1.0),
-        lambda: SteppingLoop(ba.MuJoCoPlant(biped), law, None, TICK, biped, motors=Motors(lag=TAU)),
+        lambda: stepping_loop(walker, MuJoCoPlant(biped, lag=1e-3)),
+        lambda: MuJoCoPlant(biped, lag=-1.0),
+        lambda: SteppingLoop(MuJoCoPlant(biped), law, None, TICK, biped, motors=Motors(lag=TAU)),
     ):
         with pytest.raises(InputError, match="lag"):
             wrong()
@@ -116,7 +118,7 @@ def test_a_rate_limit_stays_and_what_does_not_fit_is_said(biped, gait):
 
 def test_the_ground_carries_what_motors_with_lag_press(biped, gait):
     """Forces at a touchdown and in the readings are those under u_m, not under u."""
-    plant, ideal = ba.MuJoCoPlant(biped, lag=TAU), ba.MuJoCoPlant(biped)
+    plant, ideal = MuJoCoPlant(biped, lag=TAU), MuJoCoPlant(biped)
     state, u = plant.start(0.0, *gait.start(biped)), 5.0 * U
     row, _ = plant.stride(0.0, np.concatenate(state[1:]), u, None, 2e-3)
     found = plant.forces()
@@ -131,7 +133,7 @@ def test_the_ground_carries_what_motors_with_lag_press(biped, gait):
 def test_its_file_has_the_lag(biped):
     """MuJoCo's own integration of u_m, by RK4, against the closed form."""
     mj = mujoco()
-    model = mj.MjModel.from_xml_string(mjcf(ba.MuJoCoPlant(biped, lag=TAU)))
+    model = mj.MjModel.from_xml_string(mjcf(MuJoCoPlant(biped, lag=TAU)))
     data = mj.MjData(model)
     data.ctrl[:] = U
     mj.mj_step(model, data, 50)

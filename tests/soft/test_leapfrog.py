@@ -7,8 +7,11 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import biped_adrc as ba
+from biped_adrc.engine.compiled_loop import CompiledLoop
 from biped_adrc.extras.mujoco.engine import leapfrog
+from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
+from biped_adrc.hybrid.simulator import RunOptions
 
 LENGTH, GRAVITY = 0.7, 9.81
 
@@ -46,7 +49,7 @@ def test_a_pendulum_is_of_second_order_and_of_first_without_the_shifts():
 
 def test_free_fall_is_exact(biped, gait):
     """z = z_0 - g t^2 / 2; without the shifts it would be off by g h t / 2."""
-    plant, q = ba.MuJoCoPlant(biped, h=1e-4, integrator="leapfrog"), gait.start(biped)[0]
+    plant, q = MuJoCoPlant(biped, h=1e-4, integrator="leapfrog"), gait.start(biped)[0]
     row = np.concatenate(plant.start(0.0, q, np.zeros(5))[1:])
     row[12] += 9.0
     fallen = plant.engine.moved(0.0, row, np.zeros(4), None, 0.05)
@@ -56,15 +59,15 @@ def test_free_fall_is_exact(biped, gait):
 
 
 def walked(biped, gait, controller, plant, impacts, push=None):
-    loop = ba.CompiledLoop(
+    loop = CompiledLoop(
         plant, controller(gait.constraint), push, ba.SampledTime(1e-3), biped, 150.0
     )
     x0 = loop.initial_state(*gait.start(biped))
-    return loop.run(x0, ba.RunOptions(0.8 * impacts, stop_after=("foot_strike", impacts)))
+    return loop.run(x0, RunOptions(0.8 * impacts, stop_after=("foot_strike", impacts)))
 
 
 def test_table_1_walks_on_it_and_not_on_eulers_method(biped, gait):
-    plant = ba.MuJoCoPlant(biped, integrator="leapfrog")
+    plant = MuJoCoPlant(biped, integrator="leapfrog")
     run = walked(biped, gait, ba.ADRCController, plant, 5)
     assert run.status is ba.Status.COMPLETED
     periods = np.diff([event.t for event in run.events("foot_strike")])
@@ -77,11 +80,11 @@ def test_through_a_touchdown(biped, gait):
     """From the same state 8 ms before to 12 ms after it, against a 16th of the step: places of the foot within
     0.3 mm and its depth within 10 %, where RK4 has 0.06 mm and 3 %.
     """
-    first = walked(biped, gait, ba.NPDController, ba.MuJoCoPlant(biped), 1).arcs[0]
+    first = walked(biped, gait, ba.NPDController, MuJoCoPlant(biped), 1).arcs[0]
     x = first.x[np.searchsorted(first.t, first.t[-1] - 8.5e-3)]
 
     def feet(h, integrator):
-        engine, row, found = ba.MuJoCoPlant(biped, h=h, integrator=integrator).engine, x[:15], []
+        engine, row, found = MuJoCoPlant(biped, h=h, integrator=integrator).engine, x[:15], []
         for k in range(20):
             row = engine.moved(k * 1e-3, row, x[-4:], None, (k + 1) * 1e-3)
             found.append(engine.points()[1])

@@ -15,6 +15,7 @@ from biped_adrc.closed_loop.stepping_plant import Load, PlantState
 from biped_adrc.errors import InputError
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
+from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.storage import load, save
 
@@ -76,7 +77,7 @@ def test_the_point_that_touches_moves_as_the_places_say(walk):
 
 
 def test_a_large_foot_rolls_and_the_point_that_touches_rests(biped, gait):
-    plant = MuJoCoPlant(biped, ba.SoftGround(friction=1.0, foot_radius=0.05))
+    plant = MuJoCoPlant(biped, SoftGround(friction=1.0, foot_radius=0.05))
     q, v = gait.start(biped)
     state = plant.start(0.0, q, v)
     pinned = plant.footing(state, np.zeros(4), STILL)
@@ -110,9 +111,9 @@ def test_a_block_that_slides_to_rest():
 
 def test_less_friction_slips_and_flies(biped, gait):
     """At 0.2 where 1.0 does not; single support, double support and flight are the whole step."""
-    rough = loop_on(MuJoCoPlant(biped, ba.SoftGround(1.0)), gait)
+    rough = loop_on(MuJoCoPlant(biped, SoftGround(1.0)), gait)
     holds = soft_steps(rough, walked(rough, gait, 1))
-    smooth = loop_on(MuJoCoPlant(biped, ba.SoftGround(0.2)), gait)
+    smooth = loop_on(MuJoCoPlant(biped, SoftGround(0.2)), gait)
     slips = soft_steps(smooth, run := walked(smooth, gait, 1))
     assert sum(holds[0].slip) == 0.0
     assert slips[0].slip[0] > 3e-4
@@ -129,7 +130,7 @@ def standing(biped, time_constant, impedance=(0.9, 0.9)):
     held = replace(
         biped, description=replace(d, static=dict.fromkeys(d.actuated, 1e4)), friction=True
     )
-    ground = ba.SoftGround(1.0, time_constant, impedance=impedance)
+    ground = SoftGround(1.0, time_constant, impedance=impedance)
     plant = MuJoCoPlant(held, ground, h=0.1 * time_constant, ahead=9.0)
     loop = SteppingLoop(plant, ba.Passive(), None, ba.SampledTime(4e-3), held)
     q = ba.load_gait("published", biped).start(biped)[0]
@@ -175,7 +176,7 @@ def test_a_run_carries_its_readings_through_a_file(walk, tmp_path):
 
 def test_readings_of_another_walk_are_refused(walk, biped, gait):
     loop, run = walk
-    other = replace(loop, plant=MuJoCoPlant(biped, ba.SoftGround(friction=0.3)))
+    other = replace(loop, plant=MuJoCoPlant(biped, SoftGround(friction=0.3)))
     for wrong in (
         lambda: soft_steps(other, run),
         lambda: readings(loop, run.arcs[1], 0.7 * loop.plant.h),

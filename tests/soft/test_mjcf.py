@@ -12,8 +12,9 @@ from biped_adrc.errors import InputError, OutputError
 from biped_adrc.extras.mujoco.mjcf import mjcf, write_mjcf
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
+from biped_adrc.extras.mujoco.soft_ground import SoftGround
 
-GROUND = ba.SoftGround(0.55 + 1e-9, 3e-3 / 7, 0.9 + 1e-9, (0.9 + 1e-9, 0.95), 7.0, 1e-3 / 3)
+GROUND = SoftGround(0.55 + 1e-9, 3e-3 / 7, 0.9 + 1e-9, (0.9 + 1e-9, 0.95), 7.0, 1e-3 / 3)
 """Numbers of more than six digits."""
 
 

@@ -7,9 +7,13 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.recorded_signals import accelerations
+from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.errors import InputError
+from biped_adrc.extras.mujoco.plant import MuJoCoPlant
+from biped_adrc.extras.mujoco.soft_ground import SoftGround
+from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.scenario.run import halved
 
@@ -27,8 +31,8 @@ def made():
 
 
 def test_it_is_the_walk_of_a_loop_around_the_plant(made, biped, gait):
-    plant = ba.MuJoCoPlant(biped)
-    loop = ba.SteppingLoop(
+    plant = MuJoCoPlant(biped)
+    loop = SteppingLoop(
         plant,
         ba.NPDController(gait.constraint),
         None,
@@ -37,7 +41,7 @@ def test_it_is_the_walk_of_a_loop_around_the_plant(made, biped, gait):
         torque_limit=150.0,
     )
     run = loop.run(
-        loop.initial_state(*gait.start(biped)), ba.RunOptions(4.0, stop_after=(FOOT_STRIKE, 2))
+        loop.initial_state(*gait.start(biped)), RunOptions(4.0, stop_after=(FOOT_STRIKE, 2))
     )
     plain = ba.walk_scenario(ba.Scenario("NPD", run={"engine": "pinocchio"}, **SOFT))
     assert plain.trajectory.settings["engine"] == "pinocchio"
@@ -56,7 +60,7 @@ def test_ba_walk_takes_the_plant_by_name_or_itself(made, biped, gait):
     )
     walk = ba.walk(walker, gait, impacts=2, plant="mujoco")
     assert np.array_equal(walk.trajectory.final_state, made.trajectory.final_state)
-    stiffer = ba.MuJoCoPlant(biped, ba.SoftGround(friction=1.0))
+    stiffer = MuJoCoPlant(biped, SoftGround(friction=1.0))
     walk = ba.walk(walker, gait, impacts=1, plant=stiffer)
     assert walk.trajectory.settings["plant"]["ground"]["friction"] == 1.0
 
@@ -109,7 +113,7 @@ def test_what_does_not_fit_is_refused(values):
 
 
 def test_what_only_the_rigid_plant_has_is_named(biped, gait):
-    law, plant = ba.NPDController(gait.constraint), ba.MuJoCoPlant(biped)
+    law, plant = ba.NPDController(gait.constraint), MuJoCoPlant(biped)
     walker = Walker(biped, law, timing=ba.SampledTime(1e-3), impact_gain=(0.01,) * 5)
     with pytest.raises(InputError, match="impact"):
         stepping_loop(walker, plant)

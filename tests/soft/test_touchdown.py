@@ -7,7 +7,11 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.touchdowns import touchdowns
+from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.engine.compiled_loop import CompiledLoop
+from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.hardware.detectors import ByForce, ByKinematics, Told
+from biped_adrc.hybrid.simulator import RunOptions
 
 pytest.importorskip("mujoco")
 T = 1e-3
@@ -15,18 +19,18 @@ T = 1e-3
 
 @pytest.fixture(scope="module")
 def plant(biped):
-    return ba.MuJoCoPlant(biped, integrator="leapfrog")
+    return MuJoCoPlant(biped, integrator="leapfrog")
 
 
 def low_order(constraint):
     return ba.ADRCController(constraint, observer=ba.GPIObserver.from_bandwidth(300.0, m=1))
 
 
-def walked(plant, gait, touchdown, kind=ba.CompiledLoop, t_end=0.43, controller=low_order, **more):
+def walked(plant, gait, touchdown, kind=CompiledLoop, t_end=0.43, controller=low_order, **more):
     clock = ba.SampledTime(T, restart=False)
     given = {"torque_limit": 150.0, "touchdown": touchdown} | more
     loop = kind(plant, controller(gait.constraint), None, clock, plant.biped, **given)
-    return loop, loop.run(loop.initial_state(*gait.start(plant.biped)), ba.RunOptions(t_end))
+    return loop, loop.run(loop.initial_state(*gait.start(plant.biped)), RunOptions(t_end))
 
 
 LEAVES = (
@@ -39,7 +43,7 @@ LEAVES = (
 @pytest.mark.parametrize("leaf", LEAVES, ids=lambda leaf: type(leaf).__name__)
 def test_compiled_as_in_python(plant, gait, leaf):
     (loop, compiled), (_, python) = (
-        walked(plant, gait, leaf, kind) for kind in (ba.CompiledLoop, ba.SteppingLoop)
+        walked(plant, gait, leaf, kind) for kind in (CompiledLoop, SteppingLoop)
     )
     assert compiled.settings["engine"] == "compiled"
     assert len(python.events("foot_strike")) == 1

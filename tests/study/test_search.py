@@ -13,6 +13,7 @@ import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.errors import InputError
 from biped_adrc.scenario.file import read_scenario
+from biped_adrc.scenario.specified import specified
 from biped_adrc.study import search as search_room
 from biped_adrc.study.measure import Limit, Objective
 from biped_adrc.study.parameters import scenario_of
@@ -170,7 +171,7 @@ def test_columns_without_a_walk_are_those_of_the_specification():
     names = ("stable", "delay_margin", "disk_margin", "ripple")
     values = {"controller.name": "NPD", "run.impacts": 2}
     values |= {"hardware.period": 1e-3, "hardware.delay": 1e-3}
-    told = ba.specified(scenario_of(values))
+    told = specified(scenario_of(values))
     assert numbers_without_walk(names, values) == {name: told[name] for name in names}
     late = numbers_without_walk(names, values | {"hardware.delay": 0.012})
     assert late == {"stable": 0.0, "delay_margin": 0.0, "disk_margin": 0.0, "ripple": None}
