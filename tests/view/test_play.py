@@ -196,6 +196,8 @@ while (play.walking[0].walks) play.sample();
     keys(browser, " ")
     until(browser, "return paused && page.last.hand === null && element('message').hidden")
     moved = """
+for (let k = 0; k < 100; k += 1) play.sample();
+showFrame(play.frame());
 const line = element("timeline"), was = page.last.t;
 line.value = arguments[0]; line.dispatchEvent(new Event("input"));
 return was;

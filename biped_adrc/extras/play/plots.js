@@ -64,7 +64,7 @@ function draw(plot) {
   const w = canvas.clientWidth, h = canvas.clientHeight;
   if (canvas.width !== Math.round(w * ratio)) canvas.width = Math.round(w * ratio);
   if (canvas.height !== Math.round(h * ratio)) canvas.height = Math.round(h * ratio);
-  const pen = canvas.getContext("2d");
+  const pen = canvas.getContext("2d", { willReadFrequently: true });
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   pen.clearRect(0, 0, w, h);
   const end = page.last.t, lines = plot.lines.map((line) => valuesOf(plot, line));
@@ -113,16 +113,18 @@ function stroke(pen, line, colour, at) {
   }
   pen.stroke();
 }
-let asked = false; // whether the browser has been asked for the next picture
+// no more often than an eye needs, so that the robot has the time
+const PLOTTED = 50; // [ms]
+let asked = false; // whether the next picture is on its way
 function drawPlots() {
   if (asked || page.last === null) return;
   asked = true;
-  requestAnimationFrame(() => {
+  setTimeout(() => {
     asked = false;
     element("shown").textContent = ", last " + Number(shown().toPrecision(2)) + " s";
     show(page.last.t);
     PLOTS.forEach(draw);
-  });
+  }, PLOTTED);
 }
 element("plots").addEventListener("pointermove", (event) => {
   const box = event.target.getBoundingClientRect();

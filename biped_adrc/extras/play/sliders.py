@@ -22,9 +22,7 @@ from biped_adrc.types import Array
 
 Form = tuple[float, float, int] | list[float]
 """(a, b, k) of a number, k = 0 for the tangent; or its values at those of a table."""
-ROUND = np.array(
-    (*range(10, 20), *range(20, 30, 2), 25, *range(30, 42, 2), 42, 45, 48, *range(50, 100, 5))
-)
+ROUND = np.array((10, 12, 14, 16, 18, 20, 22, 25, 28, 30, 35, 40, 45, 50, 55, 60, 70, 80, 90))
 """First two digits of the values in tables."""
 POWERS = (*range(1, 15), -1, -2)
 EXACT = 1e-12
