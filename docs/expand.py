@@ -38,8 +38,7 @@ def _table(_: str) -> str:
 
 def _names(rooms: str) -> str:
     below = rooms.split()
-    homes = {n: home.removeprefix("extras.") for n, home in biped_adrc._HOMES.items()}
-    found = [n for n, home in homes.items() if home.partition(".")[0] in below]
+    found = [n for n, home in biped_adrc._HOMES.items() if home.partition(".")[0] in below]
     lines = [f".. auto{_kind(name)}:: biped_adrc.{name}" for name in sorted(found)]
     return "```{eval-rst}\n" + "\n\n".join(lines) + "\n```\n"
 

@@ -57,7 +57,7 @@ PYTHON = {
     "a URDF as the robot": (lambda r: ba.Biped.load("x.urdf"), "biped_from_urdf"),
     "an output without return": (
         lambda r: r.walk(Silent()),
-        "Silent.output (test_mistakes.py:20) returned None",
+        "Silent.output (test_mistakes.py:21) returned None",
     ),
     "a period in words": (lambda r: ba.SampledTime("1ms"), "'1ms'"),
     "a number as the timing": (

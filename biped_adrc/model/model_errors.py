@@ -93,7 +93,7 @@ class ModelErrors(Shown):
     def of_friction(cls, biped: Biped, error: float) -> ModelErrors:
         """The same relative error of friction in all joints that have some. Raises ModelError for none."""
         joints = [joint for pair in _rubbing(biped) for joint in pair]
-        return cls(friction=dict.fromkeys(joints or ["any"], error))
+        return cls(friction=dict.fromkeys(joints or ["its joints"], error))
 
     def apply(self, biped: Biped) -> Biped:
         """`biped` with these errors. Raises ModelError for an unknown body or joint, or legs that

@@ -112,6 +112,17 @@ ROWS = {
             make(A, step=2, start=0.1, stop=0.3, bandwidth=10.0, seed=1, sines=4)
         ],
         "recorded": lambda make: [make(written("t,q1,q5\n0,1,2\n.1,3,-4\n.7,0,0"), robot(), 2)],
+        "hand": lambda make: [
+            make(
+                robot(),
+                2,
+                [0.1, 0.2],
+                [A, np.zeros(5)],
+                "torso",
+                (0.0, 0.3),
+                [[9.0, 1.0], [0.0, 0.0]],
+            )
+        ],
         "hip force": lambda make: [make(robot(), (-3.0, 1.0), steps=(2, 3))],
     },
     "curve": {
