@@ -169,7 +169,10 @@ PARTS_OF_CONTROL |= {"Around", "AcrossContact", "ContactWindow", "DoubleSupport"
 BASES = {
     ba.Controller: ("control", PARTS_OF_CONTROL),
     ba.Observer: ("observers", {"ChainObserver", "SampledChain", "InjectedChain", "MomentumChain"}),
-    ba.Disturbance: ("disturbances", {"Windowed", "WindowedTorque", "Lines", "AbsentDisturbance"}),
+    ba.Disturbance: (
+        "disturbances",
+        {"Windowed", "WindowedTorque", "Lines", "HeldRows", "AbsentDisturbance"},
+    ),
     ba.Reference: ("gait", set()),
     Outputs: ("gait", set()),
     OneStepMethod: ("hybrid", {"Solver", "_SciPy"}),
