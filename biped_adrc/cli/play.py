@@ -1,4 +1,4 @@
-"""`biped-adrc play`: a page on which a walk is pushed by hand (`live.page`)."""
+"""`biped-adrc play`: a page on which a walk is pushed by hand (`extras.play.page`)."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """The robot from the side as an array of pixels, and a window that shows it.
 
-The lines are those of `viz.from_the_side`, drawn with Pillow, which takes a millisecond or two where a figure
+The lines are those of `view.from_the_side`, drawn with Pillow, which takes a millisecond or two where a figure
 takes thirty. The window is matplotlib's; where there is no screen its backend has none, and nothing is shown.
 """
 

@@ -94,7 +94,7 @@ function sliderOf(name, one) {
   const value = () => (one.name in tunedOf(name) ? tunedOf(name)[one.name] : one.value);
   text.textContent = label;
   Object.assign(range, { type: "range", min: 0, max: one.table.length ? one.table.length - 1 : WAYS });
-  Object.assign(field, { type: "number", step: "any", placeholder: "as given" });
+  Object.assign(field, { type: "number", step: "any", placeholder: "own" });
   Object.assign(given, { textContent: "↺", title: "as given" });
   for (const part of [range, field, given]) part.setAttribute("aria-label", label + (part === given ? " as given" : ""));
   const show = () => {

@@ -1,4 +1,4 @@
-"""The walks of a page, compiled with a hand, in the numbers that viz/play/machine.js reads.
+"""The walks of a page, compiled with a hand, in the numbers that machine.js beside it reads.
 
 The hand is two parts of the disturbance, a torque on the coordinates and a force on a link. The page writes
 their numbers into the block of the run (`engine.kernels.record`) before each sample.

@@ -103,7 +103,7 @@ def scene_settings(
 ) -> dict[str, object]:
     """What scene.js and player.js are told: Meshcat's commands and, by walk, the paths of what moves.
 
-    scenes: the solid walk first. frames: the samples of each walk, for a page; that of `live`
+    scenes: the solid walk first. frames: the samples of each walk, for a page; that of `play`
     has none.
 
         walks       for each walk what `_add_walk` says, its name, its end [s] and how it ended
