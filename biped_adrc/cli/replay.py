@@ -1,6 +1,6 @@
 """`biped-adrc replay`: a robot's log through any controller and observer of the package.
 
-The scenario says which; `extras.logs.replay` does it. Its table is printed, signals and figure go to a folder.
+The scenario says which (`extras.logs.replay`). Its table is printed; signals, table and figure go to a folder.
 """
 
 from __future__ import annotations
