@@ -24,7 +24,6 @@ from enum import Enum
 
 import numpy as np
 from scipy.linalg import eig
-from scipy.optimize import linear_sum_assignment
 
 from biped_adrc.analysis.certificate import Certificate, certificates
 from biped_adrc.analysis.return_map import (
@@ -170,6 +169,9 @@ def _farthest(cost: Array) -> float:
     """
     if cost.shape[0] != cost.shape[1]:
         return float("inf")
+    # `simulate` reads this module, and SciPy's optimisers take long to load
+    from scipy.optimize import linear_sum_assignment
+
     return float(np.max(cost[linear_sum_assignment(cost)]))
 
 

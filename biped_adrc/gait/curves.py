@@ -21,7 +21,6 @@ from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import invpascal
 
 from biped_adrc.errors import GaitError
 from biped_adrc.part import derived
@@ -200,8 +199,9 @@ def bernstein_to_power(degree: int) -> Array:
 
     Its numbers grow with the degree, up to 2^M and more: in powers a curve of degree 20 has lost some digits.
     """
-    T = invpascal(degree + 1, kind="upper").astype(float)
-    return np.ascontiguousarray(T * np.array([comb(degree, j) for j in range(degree + 1)], float))
+    powers = range(degree + 1)
+    T = [[(-1) ** (j - k) * comb(degree, j) * comb(j, k) for j in powers] for k in powers]
+    return np.array(T, dtype=float)
 
 
 CURVES: dict[str, Any] = {

@@ -88,7 +88,7 @@ def save(
             if arc.event.x_plus is not None:
                 arrays[f"x_plus{i}"] = arc.event.x_plus
     buffer = io.BytesIO()
-    np.savez_compressed(buffer, **arrays)
+    np.savez(buffer, **arrays)
     write_bytes(path, buffer.getvalue())
     return path
 
