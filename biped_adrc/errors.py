@@ -19,7 +19,14 @@ from numbers import Integral
 
 
 class BipedError(Exception):
-    """Base of every error this package raises on purpose."""
+    """Base of every error this package raises on purpose.
+
+    >>> try:
+    ...     ba.Gains(K_p=-1.0)
+    ... except ba.BipedError as error:
+    ...     print(error)
+    gain K_p is -1.0, expected positive numbers, one per joint, at most 1e+15
+    """
 
     exit_code = 3
     """Exit code of the command that ends with this error; 3 for bad input."""

@@ -29,7 +29,11 @@ SAME_INSTANT = 1e-9
 
 @dataclass(frozen=True)
 class ContinuousTime:
-    """The controller acts at every instant: u(t) is a function of the state at t, without sampling or delay."""
+    """The controller acts at every instant: u(t) is a function of the state at t, without sampling or delay.
+
+    >>> ba.Walker(biped, ba.NPDController(gait.constraint), timing=ba.ContinuousTime()).sampled
+    False
+    """
 
 
 @dataclass(frozen=True)
@@ -49,6 +53,10 @@ class SampledTime:
 
     Raises InputError for a period that is not positive or longer than `LONGEST_PERIOD`, and for a
     delay that is negative or longer than `LONGEST_DELAY` periods.
+
+    >>> timing = ba.SampledTime(1e-3, delay=0.5e-3, delay_known=True)
+    >>> ba.Walker(biped, ba.NPDController(gait.constraint), timing=timing).sampled
+    True
     """
 
     period: float

@@ -1,7 +1,7 @@
 """The package's docstrings are plain text with indented equations: render them as that.
 
-Indented blocks become literal blocks, `names` become code, and nothing else is markup. An equation number
-between 1 and 28 in parentheses becomes a link to the page on the paper's equations.
+Indented blocks become literal blocks, `names` become code, examples stay, and nothing else is markup. An
+equation number between 1 and 28 in parentheses becomes a link to the page on the paper's equations.
 """
 
 import re
@@ -32,8 +32,12 @@ def plain(app, what, name, obj, options, lines):
         lines[:] = []  # a field without a text of its own
         return
     out: list[str] = []
-    literal = False
+    literal = example = False
     for line in lines:
+        example = line.startswith(">>> ") or (example and bool(line))
+        if example:
+            out.append(line)
+            continue
         indented = line.startswith("    ")
         if indented and not literal:
             out += ["", "::", ""]

@@ -108,6 +108,10 @@ def design_gait(
     q'-), each (n,) [rad, rad/s], which the orbit has to pass in place of speed and step. curve: its kind by
     name, one that lies between its ends. degree: of the curves. nodes: at which limits are kept. progress:
     called after each iteration of IPOPT. Raises GaitError naming what could not be met.
+
+    >>> design = ba.design_gait("rabbit", speed=0.7, limits=ba.StepLimits(torque=100.0))
+    >>> print(f"{design.speed:.3f} m/s, peak {design.certificate.peak_torque:.1f} N m")
+    0.700 m/s, peak 27.3 N m
     """
     check_part(robot, "robot", Biped, str, Path)
     biped = robot if isinstance(robot, Biped) else Biped.load(robot, preset)

@@ -67,6 +67,11 @@ class ReturnMap(Shown):
     """The map P in section coordinates s, for a walker and an integration method.
 
     Raises InputError for a walker with noise, whose state never returns.
+
+    >>> P = ba.ReturnMap(ba.Walker(biped, ba.NPDController(gait.constraint)), ba.RK4(1e-3))
+    >>> s = P.project(np.append(gait.q_minus, gait.v_minus))
+    >>> bool(np.all(np.abs(P(s) - s) < 1e-4))
+    True
     """
 
     walker: Walker

@@ -270,13 +270,16 @@ class CycleStability(Shown):
 def cycle_stability(cycle: Cycle) -> CycleStability:
     """Fixed point of a cycle and its multipliers by every method.
 
-        found = ba.cycle_stability(find_cycle("rabbit", controller="NPD"))
-
     The methods are independent of each other, the variational equation along the step and central differences
     of the return map. That they agree is the test of each.
 
     For a controller with states only central differences apply, since the variational equation is written for
     the mechanics alone. Raises SimulationError when no fixed point is found.
+
+    >>> from biped_adrc.scenario.cycle import find_cycle
+    >>> stability = ba.cycle_stability(find_cycle("compass"))
+    >>> stability.table.stable
+    True
     """
     check_part(cycle, "cycle", Cycle)
     P = cycle.P

@@ -122,6 +122,10 @@ def stride_response(
 
     direction: d (p,), dimensionless. Raises InputError for a direction of the wrong length,
     GaitError where the zero dynamics have no stable cycle.
+
+    >>> response = ba.stride_response(gait, biped)
+    >>> print(f"{response.static_gain:.2f} (m/s)/rad")
+    -0.70 (m/s)/rad
     """
     h, shift = gait.constraint, DIFFERENCE * np.array(direction, dtype=float)
     if len(shift) != biped.p:

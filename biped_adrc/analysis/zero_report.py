@@ -131,6 +131,10 @@ def zero_report(
 
     Raises GaitError when Theta is no phase, when no periodic orbit exists or it is not stable, and when the
     curve does not end on the ground.
+
+    >>> report = ba.zero_report(biped, gait.constraint)
+    >>> print(f"walks at up to {report.speeds[1]:.2f} m/s")
+    walks at up to 1.65 m/s
     """
     check_part(biped, "biped", Biped)
     limits = DomainLimits(biped.description.friction_coefficient) if limits is None else limits

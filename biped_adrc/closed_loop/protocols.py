@@ -17,7 +17,11 @@ from biped_adrc.types import Array, Indices
 
 
 class Mode(NamedTuple):
-    """The discrete state of a walk: single support `step` (from 1), which began at `start` [s]."""
+    """The discrete state of a walk: single support `step` (from 1), which began at `start` [s].
+
+    >>> ba.Mode(step=2, start=0.4)
+    Mode(step=2, start=0.4)
+    """
 
     step: int = 1
     start: float = 0.0

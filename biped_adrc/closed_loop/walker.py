@@ -49,6 +49,10 @@ class Walker(ClosedLoop[Biped]):
     - max_step_time [s]: a longer single support ends as stalled.
     - slope [rad]: of the ground, positive downhill. ground_steps: where it falls or rises by steps.
     - impact_gain (n,) [1]: v+ = (1 + gain) v+ of (7), an error of the impact model; empty for none.
+
+    >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=ba.SampledTime(1e-3))
+    >>> ba.walk(walker, gait, impacts=2).trajectory.status.name
+    'COMPLETED'
     """
 
     plant: Biped

@@ -29,6 +29,10 @@ class ADRCController(ObservingController):
     gains: K_p [1/s^2], K_d [1/s].
     solve_theta: solve the loop through Theta'' (default), or drop h' Theta'' as printed.
     reset: what happens to the observer at impact.
+
+    >>> controller = ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(400.0, m=2))
+    >>> ba.walk(ba.Walker(biped, controller), gait, impacts=1).impacts
+    1
     """
 
     reference: Reference

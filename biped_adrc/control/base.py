@@ -30,7 +30,13 @@ from biped_adrc.types import Array, Indices
 
 
 class Measurement(NamedTuple):
-    """What the controller is given, as its sensors see it; `terms` are the nominal model's, computed once."""
+    """What the controller is given, as its sensors see it; `terms` are the nominal model's, computed once.
+
+    >>> q, v = gait.q_minus, gait.v_minus
+    >>> m = ba.Measurement(t=0.0, step=1, t_step=0.0, q=q, v=v, terms=biped.reduction(q, v))
+    >>> m.q_b.shape
+    (4,)
+    """
 
     t: float
     """[s] from the start of the run."""
@@ -77,6 +83,16 @@ class Controller(Part):
 
     Frozen, with gains and parts as fields. A controller with `flow` works in continuous time, one with
     `correct` and `predict` in sampled time, and `sampled` turns the one into the other.
+
+    >>> @dataclass(frozen=True)
+    ... class PD(ba.Controller):
+    ...     reference: ba.Reference
+    ...
+    ...     def output(self, s, m):
+    ...         r = self.reference(m.t, m.q, m.v)
+    ...         return 2500.0 * (r.q_d - m.q_b) + 120.0 * (r.dq_d - m.v_b)
+    >>> ba.walk(ba.Walker(biped, PD(gait.constraint)), gait, impacts=1).impacts
+    1
     """
 
     needs_body: ClassVar[bool] = False

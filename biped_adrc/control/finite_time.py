@@ -46,6 +46,12 @@ class FiniteTimeController(Controller):
     eps > 0 [s] is the time scale in which outputs come to rest, alpha (0 < alpha < 1) [1] the exponent: the
     smaller, the more abruptly. Raises InputError outside these ranges; its torque raises SingularError where
     J D^-1 B (p, p) is singular, J = dy/dq.
+
+    >>> from biped_adrc.gait.outputs import LinearOutputs
+    >>> y = LinearOutputs(np.eye(4, 5), gait.constraint)  # q_b - h(Theta)
+    >>> controller = ba.FiniteTimeController(y, alpha=0.9, eps=0.1)
+    >>> ba.walk(ba.Walker(biped, controller), gait, impacts=1).impacts
+    1
     """
 
     outputs: Outputs

@@ -29,6 +29,10 @@ class ObservingController(Controller):
 
     reference: what is tracked. gains: K_p [1/s^2], K_d [1/s] on the estimates. reset: the observer's,
     at impact.
+
+    >>> controller = ba.ADRCController(gait.constraint)
+    >>> isinstance(controller, ba.ObservingController), controller.observer.m
+    (True, 7)
     """
 
     reference: Reference

@@ -16,7 +16,12 @@ from biped_adrc.types import Array
 
 @dataclass(frozen=True)
 class Passive(Controller):
-    """u = 0 (p,) [N m]."""
+    """u = 0 (p,) [N m].
+
+    >>> walk = ba.walk_scenario(ba.Scenario("passive", robot="compass", run={"impacts": 2}))
+    >>> walk.impacts
+    2
+    """
 
     def output(self, s: Array, m: Measurement) -> Array:
         return np.zeros(m.terms.kappa.shape[0])

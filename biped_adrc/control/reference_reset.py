@@ -69,6 +69,10 @@ class ReferenceReset(OuterLoop):
     share: of the phase range after which the reference is h again, in (0, 1]. Nothing is corrected when an
     impact leaves x < LEAST_REACH, or Theta running backwards: then the error is the inner controller's.
     Raises InputError.
+
+    >>> controller = ba.ReferenceReset(ba.NPDController(gait.constraint), share=0.4)
+    >>> ba.walk(ba.Walker(biped, controller), gait, impacts=1).impacts
+    1
     """
 
     share: ShareFloat = 0.5

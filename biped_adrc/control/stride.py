@@ -82,6 +82,12 @@ class StridePI(OuterLoop):
 
     speed: v* [m/s]. step_length: L [m]. direction: d (p,). Raises InputError for a speed or length that is not
     positive, and for a direction that has not p finite numbers.
+
+    >>> npd = ba.NPDController(gait.constraint)
+    >>> gains = ba.stride_response(gait, biped).gains()
+    >>> controller = ba.StridePI.on_gait(npd, gait, biped, gains, speed=0.82)
+    >>> ba.walk(ba.Walker(biped, controller), gait, impacts=3).impacts
+    3
     """
 
     speed: PositiveFloat

@@ -37,6 +37,10 @@ class Gains(Shown):
     """K_p [1/s^2] and K_d [1/s] of Table II, one number for all joints or one per joint (p,).
 
     Raises InputError for numbers that are not positive.
+
+    >>> gains = ba.Gains(K_p=2500.0, K_d=np.array([100.0, 100.0, 80.0, 80.0]))
+    >>> ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint, gains)), gait, impacts=2).impacts
+    2
     """
 
     K_p: Array | float = 5000.0
@@ -62,7 +66,11 @@ class Gains(Shown):
 
 
 TABLE_II = Gains(5000.0, 50.0)
-"""Table II of the paper."""
+"""Table II of the paper.
+
+>>> ba.TABLE_II.K_p, ba.TABLE_II.K_d
+(5000.0, 50.0)
+"""
 
 
 def tracking_torque(
@@ -92,7 +100,12 @@ def rate_error_change(r: ReferencePoint, a: Array) -> Array:
 
 
 def feedback(gains: Gains, r: ReferencePoint, x1: Array, x2: Array) -> Array:
-    """-K_d (x2 - q_d') - K_p (x1 - q_d) (p,) [rad/s^2]."""
+    """-K_d (x2 - q_d') - K_p (x1 - q_d) (p,) [rad/s^2].
+
+    >>> r = gait.constraint(0.0, gait.q_minus, gait.v_minus)
+    >>> ba.feedback(ba.Gains(100.0, 10.0), r, r.q_d + 0.01, r.dq_d)
+    array([-1., -1., -1., -1.])
+    """
     return -gains.K_d * (x2 - r.dq_d) - gains.K_p * (x1 - r.q_d)
 
 
@@ -100,6 +113,11 @@ def solved_acceleration(r: ReferencePoint, terms: Reduction, f: Array) -> Array:
     """a (p,) [rad/s^2] of the module's equation. Raises SingularError when its matrix is exactly singular.
 
     That is where a pivot of it is 0.0; near that a grows without bound and without an error.
+
+    >>> r = gait.constraint(0.0, gait.q_minus, gait.v_minus)
+    >>> terms = biped.reduction(gait.q_minus, gait.v_minus)
+    >>> ba.solved_acceleration(r, terms, np.zeros(4)).shape
+    (4,)
     """
     p = len(f)
     H_b, H_N = r.H[:, :p], r.H[:, p:]

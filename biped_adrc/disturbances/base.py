@@ -33,6 +33,15 @@ class Disturbance(Part):
 
     A class may also write `acts`, the times where it jumps in `switches`, and `resultant` for a force from
     outside.
+
+    >>> @dataclass(frozen=True)
+    ... class Damping(ba.Disturbance):
+    ...     d: float  # [N m s/rad]
+    ...
+    ...     def torque(self, t, step, t_start, q, v):
+    ...         return -self.d * v
+    >>> Damping(0.5).torque(0.0, 1, 0.0, gait.q_minus, np.ones(5))
+    array([-0.5, -0.5, -0.5, -0.5, -0.5])
     """
 
     @abstractmethod
@@ -204,7 +213,16 @@ class Windowed(Disturbance):
 
 @dataclass(frozen=True)
 class WindowedTorque(Windowed):
-    """amplitude * profile(time since onset) in its window: the shortest way to write a torque of one's own."""
+    """amplitude * profile(time since onset) in its window: the shortest way to write a torque of one's own.
+
+    >>> @dataclass(frozen=True)
+    ... class Decaying(ba.WindowedTorque):
+    ...     def profile(self, s):
+    ...         return np.exp(-s / 0.1)
+    >>> push = Decaying([-60.0, -60.0, 0.0, 0.0, 0.0], step=3, start=0.1)
+    >>> push.switching_times(3, 1.0)
+    (1.1,)
+    """
 
     @abstractmethod
     def profile(self, s: float) -> float:

@@ -30,6 +30,10 @@ class HipForce(Disturbance):
     steps: the first and the last single support (from 1) in which it acts; all of them without. It switches at
     impacts alone, so integrators have no times to stop at.
     Raises InputError for a force that is not two finite numbers, or steps that do not count up from 1.
+
+    >>> push = ba.HipForce(biped, (20.0, 0.0), steps=(4, 6))
+    >>> push.net_force(2.0, 4, 1.9)
+    array([20.,  0.])
     """
 
     biped: Biped

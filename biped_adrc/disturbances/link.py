@@ -34,6 +34,10 @@ class OnLink(Disturbance):
     with x to the right and z up. A link of the leg that the URDF draws as the stance leg is the
     stance leg's in every single support: the push changes legs at each impact, since coordinates do.
     Raises InputError for a wave that has not three amplitudes, ModelError for a link that the robot has not.
+
+    >>> push = ba.OnLink(biped, "torso", ba.TorquePulse([50.0, 0.0, 0.0], step=3, stop=0.1))
+    >>> push.net_force(1.0, 3, 0.95)
+    array([50.,  0.])
     """
 
     biped: Biped

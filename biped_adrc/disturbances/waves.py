@@ -51,6 +51,10 @@ class TorquePulse(Windowed):
 
     rise [s]: the torque grows from `start` to start + rise and falls from `stop` to stop + rise, in straight
     lines; 0 for vertical edges. Raises InputError for a rise that is negative or not finite.
+
+    >>> push = ba.TorquePulse([-60.0, -60.0, 0.0, 0.0, 0.0], step=10, start=0.1, stop=0.3)
+    >>> push.switching_times(10, 4.0)
+    (4.1, 4.3)
     """
 
     rise: NonNegativeFloat = field(default=0.0, kw_only=True)
@@ -93,6 +97,10 @@ class TorqueStep(Windowed):
     """amplitude (n,) [N m] from `start` [s] of single support `step` (or of the run) for good.
 
     Raises InputError for a stop that is not infinite.
+
+    >>> load = ba.TorqueStep([-10.0, -10.0, 0.0, 0.0, 0.0], step=5)
+    >>> load.zeta(3.0, 5, 2.9, np.zeros(5), np.zeros(5))
+    array([-10., -10.,   0.,   0.,   0.])
     """
 
     def __post_init__(self) -> None:
@@ -114,6 +122,10 @@ class TorqueSine(Windowed):
     """Amplitude (n,) [N m], frequency f [Hz], the window as in `Windowed`.
 
     Raises InputError for a frequency that is not positive.
+
+    >>> sine = ba.TorqueSine([5.0, 5.0, 0.0, 0.0, 0.0], frequency=2.0)
+    >>> sine.zeta(0.125, 1, 0.0, np.zeros(5), np.zeros(5))
+    array([5., 5., 0., 0., 0.])
     """
 
     frequency: PositiveFloat = 1.0
@@ -130,6 +142,10 @@ class TorqueNoise(Windowed):
     The same seed gives the same noise. sines: K, their number per coordinate; the more, the closer
     to a normal distribution, and the slower to evaluate.
     Raises InputError for a bandwidth or a number that is not positive, or a seed that is no whole number >= 0.
+
+    >>> noise = ba.TorqueNoise([2.0, 2.0, 2.0, 2.0, 0.0], bandwidth=20.0, seed=1)
+    >>> noise.zeta(0.3, 1, 0.0, np.zeros(5), np.zeros(5)).shape
+    (5,)
     """
 
     bandwidth: PositiveFloat = field(kw_only=True)

@@ -63,7 +63,13 @@ ROOM = 512
 
 @dataclass(frozen=True)
 class Case(Shown):
-    """One walk to be made, from q (n,) [rad], v (n,) [rad/s] at the start of single support `mode.step`."""
+    """One walk to be made, from q (n,) [rad], v (n,) [rad/s] at the start of single support `mode.step`.
+
+    >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint))
+    >>> case = ba.Case(walker, *gait.start(biped), ba.RK4(1e-3), impacts=3)
+    >>> case.impacts
+    3
+    """
 
     walker: Walker
     """Plant, controller and all the rest."""
@@ -144,6 +150,12 @@ def simulate_many(cases: Iterable[Case], threads: int | None = None) -> Iterator
 
     A fall, a NaN or a part in Python that raises ends its own run, with a status. Raises InputError
     for a case whose parts do not fit together.
+
+    >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint))
+    >>> q, v = gait.start(biped)
+    >>> cases = [ba.Case(walker, q, factor * v, ba.RK4(1e-3), impacts=2) for factor in (0.97, 1.03)]
+    >>> [walk.impacts for walk in ba.simulate_many(cases)]
+    [2, 2]
     """
     count = threads if threads is not None else os.cpu_count() or 1
     if count < 1:

@@ -46,6 +46,10 @@ class VirtualConstraint(Reference):
     """h over the phase Theta = c q from theta_plus to theta_minus [rad].
 
     Raises GaitError for a phase row that is not finite, a range without extent, or a fade that is not positive.
+
+    >>> q_d, slope, curvature = gait.constraint.h(gait.constraint.theta_plus)
+    >>> q_d.shape
+    (4,)
     """
 
     curve: Curve

@@ -48,10 +48,11 @@ class Gait(Shown):
     For a hybrid-invariant constraint it is the orbit of the zero dynamics; gait (b) of the paper is not
     hybrid-invariant, and stores the orbit of the closed loop.
 
-        gait = ba.load_gait("published", ba.Biped.load("rabbit"))
-        q_d, slope, curvature = gait.constraint.h(gait.constraint.theta_plus)
-
     No check is made when a gait is constructed; `check` compares it with a robot.
+
+    >>> gait = ba.load_gait("published", biped)
+    >>> round(gait.period, 3)
+    0.416
     """
 
     name: str
@@ -215,6 +216,9 @@ def load_gait(gait: str | Path, biped: Biped, other_robot: bool = False) -> Gait
 
     other_robot: accept a file that was made for another robot or preset. Raises GaitError that names the file,
     the key, what was found and what was expected.
+
+    >>> ba.load_gait("v0.5", biped).name
+    'v0.5'
     """
     check_part(gait, "gait", str, Path)
     check_part(biped, "biped", Biped)

@@ -21,6 +21,10 @@ class GaitLibrary(Shown):
 
     Gaits are not interpolated: a mean of two hybrid-invariant constraints is not hybrid-invariant in general,
     so a speed is served by the nearest gait.
+
+    >>> library = ba.GaitLibrary({v: ba.load_gait(f"v{v}", biped) for v in (0.5, 0.8)})
+    >>> library.nearest(0.6).name
+    'v0.5'
     """
 
     gaits: Mapping[float, Gait]

@@ -26,7 +26,12 @@ from biped_adrc.types import Array
 
 
 class ReferencePoint(NamedTuple):
-    """The reference at one instant; p joints, n coordinates."""
+    """The reference at one instant; p joints, n coordinates.
+
+    >>> r = gait.constraint(0.0, gait.q_minus, gait.v_minus)
+    >>> r.q_d.shape, r.H.shape
+    ((4,), (4, 5))
+    """
 
     q_d: Array
     """(p,) [rad]."""
@@ -42,7 +47,18 @@ class ReferencePoint(NamedTuple):
 
 
 class Reference(Part):
-    """Base class: q_d as a pure function of (t, q, q')."""
+    """Base class: q_d as a pure function of (t, q, q').
+
+    >>> @dataclass(frozen=True)
+    ... class Still(ba.Reference):
+    ...     pose: tuple[float, ...]  # [rad]
+    ...
+    ...     def __call__(self, t, q, v):
+    ...         q_d = np.array(self.pose)
+    ...         return ba.ReferencePoint(q_d, 0.0 * q_d, 0.0 * q_d, np.zeros((4, 5)))
+    >>> Still((0.1, 0.2, 0.3, 0.4))(0.0, gait.q_minus, gait.v_minus).dq_d
+    array([0., 0., 0., 0.])
+    """
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)

@@ -80,6 +80,10 @@ class ZeroDynamics(Shown):
     """The model along one constraint at K Gauss nodes, and what follows from it by quadrature.
 
     Make it by `of`.
+
+    >>> zero = ba.ZeroDynamics.of(biped, gait.constraint)
+    >>> zero.delta**2 < 1.0  # the cycle is stable
+    True
     """
 
     biped: Biped

@@ -135,6 +135,12 @@ class ByKinematics(Gated):
 
     Above zero it is early, by height / speed of the foot but for a tick; a step of the ground, which no angle
     shows, makes it late or early too.
+
+    >>> detector = ba.ByKinematics(height=0.002)
+    >>> timing = ba.SampledTime(1e-3, restart=False)
+    >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=timing, touchdown=detector)
+    >>> ba.walk(walker, gait, impacts=2).impacts
+    2
     """
 
     height: FiniteFloat = 0.0
@@ -155,6 +161,12 @@ class ByForce(Gated):
     for `debounce` seconds; noticed `delay` seconds later. A switch is one with its threshold and delay.
 
     Raises InputError unless 0 <= off <= on.
+
+    >>> detector = ba.ByForce(on=80.0, off=30.0, delay=2e-3)
+    >>> timing = ba.SampledTime(1e-3, restart=False)
+    >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=timing, touchdown=detector)
+    >>> ba.walk(walker, gait, impacts=2).impacts
+    2
     """
 
     on: FiniteFloat = 50.0

@@ -95,6 +95,12 @@ class Motors(Checked, Shown):
     """rate_limit [N m/s], None for none; lag: time constant tau [s] of the torque, 0 for none.
 
     The same for all motors. Raises InputError for a limit that is not positive and a lag below zero.
+
+    >>> motors = ba.Motors(rate_limit=20000.0, lag=0.002)
+    >>> timing = ba.SampledTime(1e-3)
+    >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=timing, motors=motors)
+    >>> ba.walk(walker, gait, impacts=2).impacts
+    2
     """
 
     rate_limit: PositiveFloat | None = None

@@ -45,6 +45,12 @@ class Sensors(Shown, Sensor):
     velocity: "differences" of the angles, "measured", or "gyro": differences, but for the pitch's own rate.
     filter_time [s]: time constant of the differences' low-pass, 0 for none.
     seed: of the noise. Raises InputError for what is negative or not finite.
+
+    >>> sensors = ba.Sensors(counts=10000, noise=1e-5, seed=1)
+    >>> timing = ba.SampledTime(1e-3)
+    >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=timing, sensors=sensors)
+    >>> ba.walk(walker, gait, impacts=2).impacts
+    2
     """
 
     counts: CountsFloat | None = None

@@ -64,7 +64,19 @@ class Look(NamedTuple):
 
 
 class Touchdown(Checked, ABC):
-    """Base of all leaves: frozen dataclasses that `notice` touchdowns; one with a memory has a `size` too."""
+    """Base of all leaves: frozen dataclasses that `notice` touchdowns; one with a memory has a `size` too.
+
+    >>> @dataclass(frozen=True)
+    ... class Low(ba.Touchdown):
+    ...     height: float  # [m]
+    ...
+    ...     def notice(self, d, look):
+    ...         return d, 1.0 * (look.t_step > 0.2) * (look.foot[1] < self.height)
+    >>> timing = ba.SampledTime(1e-3, restart=False)
+    >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=timing, touchdown=Low(0.001))
+    >>> ba.walk(walker, gait, impacts=2).impacts
+    2
+    """
 
     needs_force: ClassVar[bool] = False
     """Whether `Look.force` is needed."""

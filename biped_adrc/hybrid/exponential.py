@@ -60,6 +60,10 @@ class Exponential(OneStepMethod):
     """ETD-RK4 with fixed step h [s], in the coordinates of the system's `split`; for continuous time.
 
     Raises InputError, when a run begins, for a system without such coordinates.
+
+    >>> walker = ba.Walker(biped, ba.ADRCController(gait.constraint))
+    >>> ba.walk(walker, gait, impacts=1, method=ba.Exponential(5e-4)).impacts
+    1
     """
 
     h: float = 5e-4

@@ -58,7 +58,12 @@ class OneStepMethod(ABC):
 
 @dataclass(frozen=True)
 class RK4(OneStepMethod):
-    """The classical explicit Runge-Kutta method of order 4 with fixed step h [s]."""
+    """The classical explicit Runge-Kutta method of order 4 with fixed step h [s].
+
+    >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint))
+    >>> ba.walk(walker, gait, impacts=1, method=ba.RK4(5e-4)).impacts
+    1
+    """
 
     h: float = 1e-3
 
@@ -159,7 +164,13 @@ class _SciPy(Solver):
 
 @dataclass(frozen=True)
 class Adaptive(_SciPy):
-    """The explicit pair of Dormand and Prince of order 8(5, 3), with step control, as SciPy's DOP853."""
+    """The explicit pair of Dormand and Prince of order 8(5, 3), with step control, as SciPy's DOP853.
+
+    >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint))
+    >>> method = ba.Adaptive(rtol=1e-8, atol=1e-8)
+    >>> ba.walk(walker, gait, impacts=1, method=method, engine="pinocchio").impacts
+    1
+    """
 
     solver = "DOP853"
 

@@ -98,6 +98,11 @@ def simulate(
     options are those of `RunOptions`, of which t_end has to be given. Raises InputError for a start
     that is not finite or a duration that is not positive. Whatever happens during the run is in the
     trajectory's status.
+
+    >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint))
+    >>> x0 = walker.initial_state(*gait.start(biped))
+    >>> ba.simulate(walker, x0, ba.Mode(), ba.RK4(1e-3), t_end=0.1).status.name
+    'COMPLETED'
     """
     return run(system, x0, mode, method, RunOptions(**options))
 

@@ -10,7 +10,12 @@ from enum import Enum
 
 
 class Status(Enum):
-    """Why a run ended; the value of each is its message to the user. Only COMPLETED is success."""
+    """Why a run ended; the value of each is its message to the user. Only COMPLETED is success.
+
+    >>> walk = ba.walk_scenario(ba.Scenario("NPD", run={"impacts": 2}))
+    >>> walk.trajectory.status is ba.Status.COMPLETED
+    True
+    """
 
     COMPLETED = "the run reached the number of events or the time asked for"
     """All events or all the time asked for; the only status that is `ok`."""

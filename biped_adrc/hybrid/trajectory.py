@@ -148,7 +148,13 @@ def hermite(t0: float, t1: float, x0: Array, x1: Array, dx0: Array, dx1: Array, 
 
 @dataclass(frozen=True)
 class Trajectory(Shown):
-    """A whole run: arcs in order of time. Call it with t [s] for the state."""
+    """A whole run: arcs in order of time. Call it with t [s] for the state.
+
+    >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint))
+    >>> run = ba.walk(walker, gait, impacts=2).trajectory
+    >>> run(0.1).shape, len(run.events())
+    ((10,), 2)
+    """
 
     arcs: tuple[Arc, ...]
     """At least one."""

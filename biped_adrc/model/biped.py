@@ -49,6 +49,10 @@ class Biped(Shown):
     Methods take q (n,) [rad], v = q' (n,) [rad/s] and a = q'' (n,) [rad/s^2] in the order of
     `description.joints`, and raise InputError for another shape, NotFiniteError for NaN or
     infinity. Pinocchio's work data inside is overwritten by every call: use one Biped per thread.
+
+    >>> biped = ba.Biped.load("rabbit")
+    >>> biped.inertia(np.zeros(5)).shape, round(biped.mass, 1)
+    ((5, 5), 32.0)
     """
 
     description: RobotDescription

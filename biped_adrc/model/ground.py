@@ -59,6 +59,11 @@ class StepDown(GroundStep):
     """The ground on which single support `step` (from 1) ends lies `height` [m] below its stance foot.
 
     Raises InputError for a height that is not positive; a step up is a `StepUp`.
+
+    >>> ground = (ba.StepDown(step=2, height=0.01),)
+    >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint), ground_steps=ground)
+    >>> ba.walk(walker, gait, impacts=3).impacts
+    3
     """
 
 
@@ -95,6 +100,10 @@ def uneven_ground(seed: int, rms: float, steps: int) -> tuple[StepDown | StepUp,
 
     Raises InputError for a negative rms, and for a seed or a number of steps that is no whole
     number >= 0.
+
+    >>> ground = ba.uneven_ground(seed=1, rms=0.005, steps=20)
+    >>> [edge.step for edge in ground[:3]]
+    [1, 2, 3]
     """
     if not (math.isfinite(rms) and rms >= 0.0):
         raise InputError(f"the rms of uneven ground is {rms} m, expected a number >= 0")

@@ -42,6 +42,9 @@ class ResetPolicy(Enum):
     """What happens to the observer at impact, where the legs swap and velocities jump.
 
     An observer that is left alone there takes the jump for a disturbance, and its estimate peaks.
+
+    >>> ba.ADRCController(gait.constraint, reset=ba.ResetPolicy.MEASURED).reset.value
+    'measured'
     """
 
     NONE = "none"
@@ -80,6 +83,11 @@ class Observer(Part):
     """Base of all observers: a frozen dataclass with `flow`, or with `correct` and `predict`.
 
     Which of them it has says in which time base it works.
+
+    >>> observer = ba.GPIObserver.from_poles()
+    >>> z = observer.initial_state(np.zeros(4), np.ones(4), np.zeros(4))
+    >>> observer.estimate(z).velocity
+    array([1., 1., 1., 1.])
     """
 
     @abstractmethod

@@ -109,6 +109,10 @@ class ChainObserver(Observer):
     """m extended states; z is Z (LEAD + m, p) row by row. Leaves add their own flow, or correct and predict.
 
     scale [rad/s] is near the bandwidth, so that the scaled states have numbers of one size.
+
+    >>> observer = ba.GPIObserver.from_bandwidth(300.0, m=2)
+    >>> isinstance(observer, ba.ChainObserver), observer.order
+    (True, 4)
     """
 
     LEAD: ClassVar[int] = 2

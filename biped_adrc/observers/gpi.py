@@ -43,7 +43,11 @@ from biped_adrc.part import derived
 from biped_adrc.types import Array
 
 TABLE_I = tuple(-180.0 * 1.8**k for k in range(9))
-"""Table I [rad/s]; the paper rounds them ("-11.020" and "-19.836" use the dot for thousands)."""
+"""Table I [rad/s]; the paper rounds them ("-11.020" and "-19.836" use the dot for thousands).
+
+>>> [round(pole) for pole in ba.TABLE_I[:4]]
+[-180, -324, -583, -1050]
+"""
 
 
 @dataclass(frozen=True)
@@ -86,7 +90,11 @@ class InjectedChain(ChainObserver):
 
 @dataclass(frozen=True)
 class GPIObserver(InjectedChain):
-    """(17) with the same m + 2 poles for every joint. Make it with `from_poles` or `from_bandwidth`."""
+    """(17) with the same m + 2 poles for every joint. Make it with `from_poles` or `from_bandwidth`.
+
+    >>> ba.GPIObserver.from_bandwidth(300.0, m=1).gains
+    array([9.0e+02, 2.7e+05, 2.7e+07])
+    """
 
     poles: tuple[complex, ...] = ()
 

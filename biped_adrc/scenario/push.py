@@ -41,6 +41,10 @@ class Push(Record):
     """A torque on joints or a force on a link, of a shape in time; further values are those of the shape.
 
     Raises InputError for a shape that there is not and for a value out of its range.
+
+    >>> push = ba.Push(torque=-60.0, joints="q1,q2", step=2, onset=0.1)
+    >>> ba.walk_scenario(ba.Scenario("NPD", pushes=[push], run={"impacts": 2})).impacts
+    2
     """
 
     model_config = ConfigDict(extra="allow")

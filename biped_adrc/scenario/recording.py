@@ -59,6 +59,10 @@ if TYPE_CHECKING:
 class Walk(Shown):
     """A finished walk: the walker, the gait it was to follow, the trajectory, and the scenario that asked for
     it.
+
+    >>> walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, impacts=2)
+    >>> walk.impacts, walk.signals.u.shape[1]
+    (2, 4)
     """
 
     walker: Walker

@@ -84,13 +84,16 @@ def _stored(kind: str) -> Iterable[str]:
 def register(kind: str, name: str, thing: Callable[..., object], words: str = "") -> None:
     """Make a class or function of one's own known by a name, in this process.
 
-        ba.register("controller", "my law", MyController, "PD with my feedforward")
-        ba.walk_scenario(ba.Scenario({"name": "my law", "stiffness": 300.0}))
-
     kind: "controller", "contact", "observer", "sensor", "touchdown", "disturbance", "plant", "curve", "robot"
     or "gait". words: for a reader. Records of scenarios write it as `module:Class`, so that other processes
     find it. Raises InputError for an unknown kind, and for a name that is taken or reads as `module:Class`; a
     thing of another kind raises it where it is used.
+
+    >>> def soft_npd(reference):
+    ...     return ba.NPDController(reference, ba.Gains(2500.0, 35.0))
+    >>> ba.register("controller", "soft NPD", soft_npd)
+    >>> ba.walk_scenario(ba.Scenario("soft NPD", run={"impacts": 2})).impacts
+    2
     """
     if kind not in REGISTRY:
         raise InputError(f"there is no kind '{kind}' of things; choose one of {list(REGISTRY)}")

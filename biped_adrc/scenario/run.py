@@ -135,6 +135,10 @@ def walk_scenario(
     progress: called as the walk goes on. method, controller: in place of the scenario's; the walk with another
     controller, such as an exported one, keeps no scenario. A fall is a status of the trajectory, not an error.
     Raises InputError for values that do not fit together.
+
+    >>> walk = ba.walk_scenario(ba.Scenario("NPD", run={"impacts": 2}))
+    >>> walk.outcome.status
+    'COMPLETED'
     """
     check_part(s, "what is to walk", Scenario)
     check_part(controller, "the controller of the walk", Controller, NoneType)

@@ -242,6 +242,10 @@ class Scenario(Record):
     torques in N m, or text with a unit. `replace` changes some values and keeps the others.
 
     Raises InputError for an unknown name, a value out of its range, and one that cannot have an effect.
+
+    >>> scenario = ba.Scenario("ADRC", gait="v0.8", hardware={"period": "1 ms"})
+    >>> scenario.replace({"run.impacts": 10}).run.impacts
+    10
     """
 
     SHORT = "controller"

@@ -83,6 +83,12 @@ class Stepper:
     walker_of(scenario, robot and gait): the walker in place of `scenario.build`. within: limits by which the
     single supports of a scenario are judged when they end, for `over`. Raises InputError for continuous time, a
     scenario with `run.fine`, a robot without motors, and parts that do not fit together.
+
+    >>> stepper = ba.Stepper(ba.Scenario("NPD", hardware={"period": 1e-3}), count=2)
+    >>> stepper.reset(seed=1).t
+    array([0., 0.])
+    >>> stepper.step(np.zeros((2, 4))).t
+    array([0.001, 0.001])
     """
 
     def __init__(

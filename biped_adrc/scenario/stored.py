@@ -91,6 +91,10 @@ def load_walk(path: Path | str) -> Walk:
 
     Nothing of the user's is imported: signals, figures and pictures are those of the file, and a walk of an own
     controller is walked again with `walk_scenario(walk.scenario)`. Raises InputError.
+
+    >>> walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, impacts=2)
+    >>> ba.load_walk(walk.save(folder / "walk.npz")).impacts
+    2
     """
     trajectory = storage.load(path, lambda step, start: Mode(int(step), start))
     beside = storage.load_beside(path)

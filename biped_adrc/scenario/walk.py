@@ -166,6 +166,10 @@ def walk(
     the status INFEASIBLE, where it would leave these limits; without, `Walk.feasibility` alone judges by them.
     plant: in place of the rigid one, by name ("mujoco", soft ground) or itself, as MuJoCoPlant(biped, ground);
     then the walker acts at ticks, and there is no method. Raises InputError for parts that do not fit together.
+
+    >>> walk = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint)), gait, impacts=3)
+    >>> walk.trajectory.status.name, walk.feasibility.status.name
+    ('COMPLETED', 'COMPLETED')
     """
     check_part(walker, "what is to walk", Walker)
     check_part(gait, "the gait of the walk", Gait)

@@ -37,6 +37,11 @@ def export_c(
 
     Raises InputError for a scenario that cannot be exported, and OutputError for a folder that holds
     other files or cannot be written.
+
+    >>> scenario = ba.Scenario("NPD", hardware={"period": 1e-3})
+    >>> source = ba.export_c(scenario, folder / "c")
+    >>> (folder / "c" / "controller.c").exists()
+    True
     """
     check_part(scenario, "what is to be exported", Scenario, Walker)
     if isinstance(scenario, Walker):

@@ -44,6 +44,13 @@ def read_log(file: str | Path, biped: Biped) -> RobotLog:
 
     Raises InputError for a file that cannot be read, with the line or the column, what was found there and what
     was expected.
+
+    >>> from biped_adrc.extras.logs.log_file import write_log
+    >>> from biped_adrc.extras.logs.log_of_walk import logged
+    >>> walk = ba.walk_scenario(ba.Scenario("NPD", hardware="ideal", run={"impacts": 2}))
+    >>> file = write_log(logged(walk), folder / "log.csv", biped)
+    >>> ba.read_log(file, biped).q.shape[1]
+    5
     """
     with reading("log", file, InputError):
         with Path(file).open(newline="", encoding="utf-8-sig") as text:

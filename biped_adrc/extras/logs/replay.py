@@ -146,6 +146,12 @@ def replay(
     an uneven one, is resampled, which is among the remarks. window [s]: what counts as contact. filter_time
     [s]: of rates that the log does not have; the scenario's if None. Raises InputError for a log or a scenario
     that cannot be used.
+
+    >>> from biped_adrc.extras.logs.log_of_walk import logged
+    >>> walk = ba.walk_scenario(ba.Scenario("NPD", hardware="ideal", run={"impacts": 2}))
+    >>> replay = ba.replay(logged(walk), ba.Scenario({"name": "DOB", "observer": {"bandwidth": 200.0}}))
+    >>> replay.signals.zeta_estimate.shape[1]
+    4
     """
     check_part(log, "the log", RobotLog, Path, str)
     check_part(scenario, "what is to see the log", Scenario)

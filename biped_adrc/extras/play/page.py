@@ -69,6 +69,10 @@ def play(
     scenario: in sampled time on the rigid plant; FIRST if None. others: the walks to choose from, values of a
     scenario by a name for each; OTHERS if None. The first of them is the ghost.
     Raises InputError for what a page cannot walk, and OutputError.
+
+    >>> page = ba.play(folder / "walk.html", ba.Scenario("NPD", hardware="ideal"), others={})
+    >>> page.name
+    'walk.html'
     """
     scenario = FIRST if scenario is None else scenario
     check_part(scenario, "what is to walk on a page", Scenario)

@@ -44,9 +44,11 @@ class Objective(Enum):
 class StepLimits(Shown):
     """Limits of one step; None takes the robot's own from its record (`robot.toml`).
 
-        ba.design_gait("rabbit", 0.8, limits=StepLimits(friction=0.5, torque=100.0, clearance=0.03))
-
     Raises GaitError for a limit that is negative, zero where it divides, or a range without extent.
+
+    >>> limits = ba.StepLimits(friction=0.5, torque=100.0, clearance=0.03)
+    >>> limits.torque
+    100.0
     """
 
     friction: float | None = None

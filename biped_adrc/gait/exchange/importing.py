@@ -52,12 +52,15 @@ def import_gait(
     To `Samples` of a step over time (t, q, and perhaps v) curves of this degree are fitted; slope [rad]: of the
     ground that they are of.
 
-        gait = ba.import_gait("ames.mat", biped, convention="frost", names={"coefficients": "alpha"})
-
     The gait is named by the record ("imported" where it has no name) and can be walked and saved as any other.
 
     Raises GaitError that names the joint, what was found, what was expected and what to try; InputError for a
     file that cannot be read.
+
+    >>> ba.export_gait(gait, folder / "walk.mat", "frost")
+    >>> again = ba.import_gait(folder / "walk.mat", biped)
+    >>> round(again.period - gait.period, 12)
+    0.0
     """
     check_part(biped, "biped", Biped)
     check_part(gait, "gait", GaitRecord, Samples, str, Path)
@@ -153,6 +156,10 @@ def export_gait(
 
     biped: its robot, needed where that is not one of the package. `import_gait` gives it back. Raises
     InputError for another suffix, convention or robot, and OutputError.
+
+    >>> ba.export_gait(gait, folder / "gait.mat", "frost")
+    >>> ba.import_gait(folder / "gait.mat", biped).name
+    'v0.8'
     """
     check_part(gait, "gait", Gait)
     biped = Biped.load(gait.robot, gait.preset) if biped is None else biped

@@ -245,6 +245,9 @@ def biped_from_urdf(
     """The Biped of a URDF, once every check holds; see `Hints` for the options and `derive` for the rest.
 
     torque [N m], armature [kg m^2], tip [m]. Raises ModelError, with the laws that do not hold.
+
+    >>> ba.biped_from_urdf(biped.description.urdf).n
+    5
     """
     derived = derive(path, Hints(feet, actuated, hip, torque, armature=armature, tip=tip))
     if derived.broken:

@@ -49,6 +49,11 @@ class Limits(Shown):
 
     Raises InputError for a friction that is not above 0 and at most 1, or a torque or window that
     is not positive.
+
+    >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint))
+    >>> walk = ba.walk(walker, gait, impacts=2, within=ba.Limits(friction=0.6, torque=150.0))
+    >>> walk.trajectory.status.name
+    'COMPLETED'
     """
 
     friction: float | None = None
