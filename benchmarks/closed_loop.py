@@ -22,12 +22,12 @@ from report import Table, arguments, rounds
 from scipy.interpolate import CubicHermiteSpline
 
 import biped_adrc as ba
+from biped_adrc.core.errors import ModelError
+from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.run_plan import ArcNodes
-from biped_adrc.errors import ModelError
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
-from biped_adrc.types import Array
 
 DURATION, INSTANTS = 0.4, 20  # [s] of each restart
 BUDGET = 4.0  # [s] for the restarts of one solver

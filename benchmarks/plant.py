@@ -26,7 +26,7 @@ from report import Run, Table, arguments, repeated, rounds
 from scipy.integrate import solve_ivp
 
 import biped_adrc as ba
-from biped_adrc.types import Array
+from biped_adrc.core.types import Array
 
 DURATION = 1.0  # [s] of each restart
 PEERS = {

@@ -31,8 +31,8 @@ from typing import Any, Literal, NamedTuple
 from rich.console import Console
 from rich.table import Table as RichTable
 
-from biped_adrc.files import write_text
-from biped_adrc.versions import packages, versions
+from biped_adrc.core.files import write_text
+from biped_adrc.core.versions import packages, versions
 
 NOT_INSTALLED = "not installed: pip install '.[bench]'"
 COLUMNS = ("benchmark", "row", "ratio", "error", "note")

@@ -23,13 +23,13 @@ import biped_adrc as ba
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.control.base import Measurement
+from biped_adrc.core.types import Array
 from biped_adrc.engine.batch import BatchWalk
 from biped_adrc.engine.compiled_loop import CompiledLoop
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.simulator import RunOptions
-from biped_adrc.types import Array
 
 FINER = 5
 ENVIRONMENT = "biped_adrc.extras.gym:biped_adrc/Walk-v0"

@@ -24,12 +24,12 @@ from report import Run, Table, arguments, forked, rounds, spent
 
 import biped_adrc as ba
 from biped_adrc.engine.batch import Case, simulate_many
-from biped_adrc.study.build import case
-from biped_adrc.study.parameters import Record, scenario_of
-from biped_adrc.study.run import run_trials
-from biped_adrc.study.runner import LARGEST_CHUNK
-from biped_adrc.study.store import opened
-from biped_adrc.study.study import Study, read_study
+from biped_adrc.studies.build import case
+from biped_adrc.studies.parameters import Record, scenario_of
+from biped_adrc.studies.run import run_trials
+from biped_adrc.studies.runner import LARGEST_CHUNK
+from biped_adrc.studies.store import opened
+from biped_adrc.studies.study import Study, read_study
 
 PUSH: dict[str, Any] = {"pushes.0.joints": "random", "pushes.0.torque": 40.0}
 CASES: list[Case] = []

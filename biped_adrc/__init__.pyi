@@ -20,6 +20,11 @@ from biped_adrc.control.tracking import TABLE_II as TABLE_II
 from biped_adrc.control.tracking import Gains as Gains
 from biped_adrc.control.tracking import feedback as feedback
 from biped_adrc.control.tracking import solved_acceleration as solved_acceleration
+from biped_adrc.core.errors import BipedError as BipedError
+from biped_adrc.core.linear import solve as solve
+from biped_adrc.core.part import derived as derived
+from biped_adrc.core.timing import ContinuousTime as ContinuousTime
+from biped_adrc.core.timing import SampledTime as SampledTime
 from biped_adrc.disturbances.base import Disturbance as Disturbance
 from biped_adrc.disturbances.base import WindowedTorque as WindowedTorque
 from biped_adrc.disturbances.hip_force import HipForce as HipForce
@@ -30,7 +35,6 @@ from biped_adrc.disturbances.waves import TorqueSine as TorqueSine
 from biped_adrc.disturbances.waves import TorqueStep as TorqueStep
 from biped_adrc.engine.batch import Case as Case
 from biped_adrc.engine.batch import simulate_many as simulate_many
-from biped_adrc.errors import BipedError as BipedError
 from biped_adrc.extras.export.export import export_c as export_c
 from biped_adrc.extras.logs.log_file import read_log as read_log
 from biped_adrc.extras.logs.replay import replay as replay
@@ -56,7 +60,6 @@ from biped_adrc.hybrid.integrators import Adaptive as Adaptive
 from biped_adrc.hybrid.simulator import simulate as simulate
 from biped_adrc.hybrid.status import Status as Status
 from biped_adrc.hybrid.trajectory import Trajectory as Trajectory
-from biped_adrc.linear import solve as solve
 from biped_adrc.model.biped import Biped as Biped
 from biped_adrc.model.ground import StepDown as StepDown
 from biped_adrc.model.ground import uneven_ground as uneven_ground
@@ -68,7 +71,6 @@ from biped_adrc.observers.base import ResetPolicy as ResetPolicy
 from biped_adrc.observers.chain import ChainObserver as ChainObserver
 from biped_adrc.observers.gpi import TABLE_I as TABLE_I
 from biped_adrc.observers.gpi import GPIObserver as GPIObserver
-from biped_adrc.part import derived as derived
 from biped_adrc.scenario.push import Push as Push
 from biped_adrc.scenario.recording import Walk as Walk
 from biped_adrc.scenario.registry import register as register
@@ -77,8 +79,6 @@ from biped_adrc.scenario.scenario import Scenario as Scenario
 from biped_adrc.scenario.stepper import Stepper as Stepper
 from biped_adrc.scenario.stored import load_walk as load_walk
 from biped_adrc.scenario.walk import walk as walk
-from biped_adrc.study.carry import study as study
-from biped_adrc.timing import ContinuousTime as ContinuousTime
-from biped_adrc.timing import SampledTime as SampledTime
+from biped_adrc.studies.carry import study as study
 
 __version__: str

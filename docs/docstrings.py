@@ -6,7 +6,7 @@ equation number between 1 and 28 in parentheses becomes a link to the page on th
 
 import re
 
-import biped_adrc.types
+import biped_adrc.core.types
 
 _SPECIAL = re.compile(r"([\\*|@])|(?<=\w)(_)(?=\W|$)")
 _EQUATION = re.compile(r"\(([1-9]|1\d|2[0-8])\)")
@@ -19,8 +19,8 @@ def name_array_types():
         ("Array", "Real array in float64; shapes are stated in the docstrings."),
         ("ComplexArray", "Complex array, for eigenvalues and transfer functions."),
     ):
-        stand_in = type(name, (), {"__module__": "biped_adrc.types", "__doc__": text})
-        setattr(biped_adrc.types, name, stand_in)
+        stand_in = type(name, (), {"__module__": "biped_adrc.core.types", "__doc__": text})
+        setattr(biped_adrc.core.types, name, stand_in)
 
 
 def plain(app, what, name, obj, options, lines):

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from biped_adrc.analysis.zero_report import zero_report
-from biped_adrc.files import write_bytes
+from biped_adrc.core.files import write_bytes
 from biped_adrc.gait.gait import load_gait
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.run import walk_scenario

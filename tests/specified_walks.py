@@ -11,7 +11,7 @@ import biped_adrc as ba
 from biped_adrc.analysis.loops.frozen_gait import FrozenGait
 from biped_adrc.analysis.loops.specification import specification
 from biped_adrc.analysis.return_map import ReturnMap
-from biped_adrc.errors import BipedError
+from biped_adrc.core.errors import BipedError
 from biped_adrc.scenario.build import RobotAndGait, build
 
 SETTLING = 4

@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from biped_adrc import errors
-from biped_adrc.checks import at_least, at_most, below, between
+from biped_adrc.core import errors
+from biped_adrc.core.verdict import at_least, at_most, below, between
 
 
 @pytest.mark.parametrize(

@@ -13,6 +13,8 @@ from biped_adrc.analysis.gait_design import design_gait
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.npid import NPIDController
 from biped_adrc.control.super_twisting import SuperTwistingController
+from biped_adrc.core.files import data_folder
+from biped_adrc.core.types import relabelled
 from biped_adrc.extras.export.computer import Computer
 from biped_adrc.extras.export.loaded import OK, ExportedController
 from biped_adrc.extras.export.source import source_of
@@ -20,8 +22,6 @@ from biped_adrc.extras.logs.log_file import exchanged
 from biped_adrc.hardware.sample_hold import read
 from biped_adrc.model.robot_import.import_robot import Hints, derive
 from biped_adrc.observers.base import Estimate
-from biped_adrc.resources import data_folder
-from biped_adrc.types import relabelled
 
 RELABEL = ba.ResetPolicy.RELABEL
 STEP = ba.RK4(1e-3)

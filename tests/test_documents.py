@@ -29,7 +29,7 @@ from markdown_it import MarkdownIt
 import biped_adrc as ba
 from biped_adrc.cli import app, gait_app
 from biped_adrc.cli.robot import robot_app
-from biped_adrc.study.study import read_study
+from biped_adrc.studies.study import read_study
 
 from .preloaded import Preloaded
 

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.types import Array
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hybrid.integrators import Stiff
 from biped_adrc.observers.base import Estimate
-from biped_adrc.types import Array
 
 ENGINES = ("pinocchio", "compiled")
 TIMINGS = {"ticks": ba.SampledTime(1e-3), "continuous": ba.ContinuousTime()}

@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from biped_adrc.cli import app
-from biped_adrc.errors import BipedError
+from biped_adrc.core.errors import BipedError
 from biped_adrc.gait.gait import Gait
 
 LONG = "n" * 300

@@ -16,10 +16,9 @@ from typer.testing import CliRunner
 import biped_adrc as ba
 from biped_adrc.cli import app, main
 from biped_adrc.cli.terminal import Terminal, printable
-from biped_adrc.errors import InputError, OutputError
-from biped_adrc.files import output_path, write_text
+from biped_adrc.core.errors import InputError, OutputError
+from biped_adrc.core.files import data_folder, output_path, write_text
 from biped_adrc.hybrid.storage import load, save
-from biped_adrc.resources import data_folder
 
 WALK = ("simulate", "--engine", "compiled", "--controller", "NPD", "--impacts", "1")
 

@@ -13,7 +13,7 @@ import biped_adrc as ba
 from biped_adrc.analysis.feasibility import OUTCOMES
 from biped_adrc.extras.logs.log_file import write_log
 from biped_adrc.extras.logs.log_of_walk import logged
-from biped_adrc.study.study import read_study
+from biped_adrc.studies.study import read_study
 
 FIXED = settings(deadline=None, derandomize=True, database=None)
 STUDY = """

@@ -26,7 +26,7 @@ from biped_adrc.analysis.variational import (
     split_matrix,
     torque_derivative,
 )
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.derivatives import (
     acceleration_derivatives,

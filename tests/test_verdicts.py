@@ -12,12 +12,12 @@ from typer.testing import CliRunner
 
 from biped_adrc.cli.app import EXIT_CHECK_FAILED, app
 from biped_adrc.cli.reproduce import lines
+from biped_adrc.core.processes import Timed
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.paper import reproduction
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.table import checks
 from biped_adrc.paper.verdict import AtTwoSteps
-from biped_adrc.processes import Timed
 
 from .made_up_results import CERTIFICATE, cycle, head, outcome, results
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.gait.gait import gait_names
 from biped_adrc.model.robots.robot_toml import robot_names
 from validation import __main__ as command

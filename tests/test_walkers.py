@@ -12,7 +12,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.variational import periodic_orbit
-from biped_adrc.errors import SimulationError
+from biped_adrc.core.errors import SimulationError
 from biped_adrc.hybrid.trajectory import Trajectory
 
 METHOD = ba.Adaptive()

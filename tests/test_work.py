@@ -15,8 +15,8 @@ import biped_adrc as ba
 from biped_adrc.analysis.return_map import ReturnMap, after_impact
 from biped_adrc.analysis.variational import periodic_orbit
 from biped_adrc.closed_loop.walker import Mode, Walker
+from biped_adrc.core.types import Array
 from biped_adrc.hybrid.system import Guard, HybridSystem
-from biped_adrc.types import Array
 
 TIGHT = ba.Adaptive(1e-12, 1e-12)
 

@@ -14,8 +14,8 @@ import sys
 from pathlib import Path
 from time import perf_counter
 
-from biped_adrc.errors import BipedError
-from biped_adrc.files import write_text
+from biped_adrc.core.errors import BipedError
+from biped_adrc.core.files import write_text
 from validation.groups import Group, group_named, groups
 from validation.row import COLUMNS, Row
 

@@ -25,13 +25,13 @@ import numpy as np
 
 from biped_adrc.analysis.stride_gain import bumped
 from biped_adrc.control.stride import StridePI
-from biped_adrc.errors import GaitError, InputError
+from biped_adrc.core.errors import GaitError, InputError
+from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, gauss_nodes
 from biped_adrc.gait.zero_orbits import series
 from biped_adrc.model.biped import Biped
-from biped_adrc.types import Array
 
 NODES = 400
 """Number of Gauss nodes of T; a step that nearly comes to rest needs more of them than V_F does."""

@@ -17,11 +17,11 @@ from pathlib import Path
 
 import numpy as np
 
+from biped_adrc.core.types import Array
 from biped_adrc.gait.conventions import AngleMap, convention
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robot_import.import_robot import biped_from_urdf
 from biped_adrc.model.robots.robot_toml import BodyParameters, load_description
-from biped_adrc.types import Array
 from validation.row import Row, nothing
 
 PRESET = "identified-bare"

@@ -32,18 +32,18 @@ from biped_adrc.analysis.stability import (
 from biped_adrc.analysis.variational import periodic_orbit
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.control.npd import NPDController
-from biped_adrc.errors import SimulationError
+from biped_adrc.core.errors import SimulationError
+from biped_adrc.core.files import data_folder
+from biped_adrc.core.types import Array
 from biped_adrc.gait.design.request import StepLimits
 from biped_adrc.gait.gait import Gait, gait_names, load_gait
 from biped_adrc.gait.recipe import design_recipe_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
-from biped_adrc.resources import data_folder
 from biped_adrc.scenario.cycle import find_cycle, gait_cycle
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import walk
-from biped_adrc.types import Array
 from validation.passive import simplest
 from validation.published_gait import design_published_gait
 from validation.row import Row, at_most

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.paper.scenarios import CONTROLLERS
 from validation import frost_urdf, gaits, passive, rabbit, three_link
 from validation.row import PRESETS, Row

@@ -21,12 +21,12 @@ import numpy as np
 from biped_adrc.analysis.stability import Cycle
 from biped_adrc.analysis.variational import StepDerivative, periodic_orbit
 from biped_adrc.closed_loop.walker import Mode
+from biped_adrc.core.types import Array
 from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import Guard, HybridSystem
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.run import known_cycle
-from biped_adrc.types import Array
 from validation.row import Row, published
 
 CLOSED = "closed form"

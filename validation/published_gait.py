@@ -18,13 +18,13 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq, least_squares
 
+from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Bezier
 from biped_adrc.gait.gait import Gait, onto_section
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
-from biped_adrc.types import Array
 
 DEGREE = 6
 SLOWEST = 0.05

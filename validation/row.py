@@ -13,10 +13,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-from biped_adrc import checks
-from biped_adrc.checks import Check
-from biped_adrc.errors import InputError
-from biped_adrc.resources import packaged
+from biped_adrc.core import verdict
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import packaged
+from biped_adrc.core.verdict import Check
 
 PRESETS = ("identified", "identified-bare", "tac2003")
 """Of RABBIT."""
@@ -91,7 +91,7 @@ class Row:
         """The assertion; None for a row without a tolerance."""
         if self.tolerance is None:
             return None
-        return checks.at_most(self.quantity, "law", self.difference, self.tolerance)
+        return verdict.at_most(self.quantity, "law", self.difference, self.tolerance)
 
     @property
     def verdict(self) -> str:

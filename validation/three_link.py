@@ -25,7 +25,8 @@ from biped_adrc.control.base import Controller
 from biped_adrc.control.finite_time import FiniteTimeController
 from biped_adrc.control.output_npd import OutputNPDController
 from biped_adrc.control.tracking import Gains
-from biped_adrc.errors import SimulationError
+from biped_adrc.core.errors import SimulationError
+from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Polynomial as PolynomialCurve
 from biped_adrc.gait.outputs import LinearOutputs
@@ -33,7 +34,6 @@ from biped_adrc.hybrid.integrators import Adaptive, OneStepMethod
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import Guard, HybridSystem
 from biped_adrc.model.biped import Biped
-from biped_adrc.types import Array
 from validation.row import Row
 
 END = math.pi / 8

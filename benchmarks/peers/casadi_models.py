@@ -14,12 +14,12 @@ import numpy as np
 from peers.chains import Chain, H, Simulate
 
 from biped_adrc.control.adrc import ADRCController
+from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.derivatives import each, together
 from biped_adrc.model.planar import PlanarTree, inertia_and_bias
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.types import Array
 
 RTOL, ATOL = 1e-6, 1e-9  # relative, absolute
 

@@ -16,13 +16,13 @@ import pinocchio as pin
 
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.passive import Passive
+from biped_adrc.core.errors import ModelError
+from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_biped import CompiledBiped
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.errors import ModelError
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import StepDown
-from biped_adrc.types import Array
 
 SAME = 1e-8
 """Largest relative difference of a peer's q'' to the package's, dimensionless."""

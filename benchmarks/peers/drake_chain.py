@@ -14,10 +14,10 @@ from pydrake.multibody.parsing import Parser
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.analysis import ResetIntegratorFromFlags, Simulator
 
-from biped_adrc.errors import ModelError
+from biped_adrc.core.errors import ModelError
+from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.urdf import Inertial, Joint, Link, Tree, Vector, to_xml
-from biped_adrc.types import Array
 
 LONGEST = 0.1  # [s], of steps under error control
 

@@ -7,9 +7,9 @@ from collections.abc import Mapping
 import mujoco
 from peers.chains import Chain, Coordinates, H, Simulate
 
+from biped_adrc.core.types import Array
 from biped_adrc.extras.mujoco.robot import compiled, pinned_mjcf
 from biped_adrc.model.biped import Biped
-from biped_adrc.types import Array
 
 METHODS = {
     "RK4 1 ms": mujoco.mjtIntegrator.mjINT_RK4,

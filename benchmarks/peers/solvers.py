@@ -21,10 +21,10 @@ from numba import types
 from scipy.integrate import solve_ivp
 
 from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.core.errors import BipedError
+from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.call import call, floats_at
 from biped_adrc.engine.program import Program
-from biped_adrc.errors import BipedError
-from biped_adrc.types import Array
 
 RTOL, ATOL, MOST_STEPS = 1e-6, 1e-9, 100_000
 BDF, NORMAL = 2, 1

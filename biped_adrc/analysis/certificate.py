@@ -24,11 +24,11 @@ from biped_adrc.analysis.ground_force import Nodes, impulse_ratios, mean_forces,
 from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import ENDS, ROUND_OFF, SLIP, KnownLimits, Limits
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array
 
 IMPULSE = "impulse"
 """The reason that is counted apart: the impulse at impact alone leaves the friction cone."""

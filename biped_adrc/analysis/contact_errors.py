@@ -15,8 +15,8 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.timing import SAME_INSTANT
-from biped_adrc.types import Array
+from biped_adrc.core.timing import SAME_INSTANT
+from biped_adrc.core.types import Array
 
 SETTLING = 0.06
 """How long after a touchdown an error is the transient of contact [s]."""

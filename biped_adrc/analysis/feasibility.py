@@ -27,11 +27,11 @@ from biped_adrc.analysis.certificate import (
 from biped_adrc.analysis.ground_force import Nodes, impulse_ratios, mean_forces, ratios
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.robots.limits import ROUND_OFF, SLIP, KnownLimits, Limits
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array
 
 VERDICTS = {
     "infeasible": "not feasible",

@@ -15,10 +15,12 @@ import numpy as np
 from biped_adrc.analysis.certificate import IMPULSE, Certificate, certificates
 from biped_adrc.analysis.signals import signals
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
-from biped_adrc.columns import columns
 from biped_adrc.control.npd import NPDController
+from biped_adrc.core.checks import check_part
+from biped_adrc.core.errors import GaitError
+from biped_adrc.core.shown import Shown, columns
+from biped_adrc.core.types import Array
 from biped_adrc.engine.run import COMPILED, simulate_by
-from biped_adrc.errors import GaitError
 from biped_adrc.gait.design.ipopt import IpoptProgress
 from biped_adrc.gait.design.optimise import Optimum, optimise
 from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits
@@ -27,9 +29,6 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import Adaptive
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.limits import ENDS, WINDOW, KnownLimits
-from biped_adrc.parts import check_part
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array
 
 RETURNS = 1e-6
 """Largest distance of the walk from the gait's orbit after its steps [rad, rad/s]."""

@@ -18,8 +18,8 @@ import numpy as np
 
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.core.types import Array, Indices
 from biped_adrc.model.ground import ground_axes
-from biped_adrc.types import Array, Indices
 
 SHORTEST = 1e-9
 """A shorter single support [s] has no mean force."""

@@ -12,7 +12,7 @@ import math
 import numpy as np
 from scipy.linalg import solve_banded
 
-from biped_adrc.types import Array
+from biped_adrc.core.types import Array
 
 
 def integrate(t: Array, y: Array) -> float:

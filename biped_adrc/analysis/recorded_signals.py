@@ -13,10 +13,10 @@ import numpy as np
 from biped_adrc.closed_loop.feet import NAMES
 from biped_adrc.closed_loop.instant_signals import InstantSignals
 from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.core.timing import SAME_INSTANT
+from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.reduction import disturbance_parts, unknown_force
-from biped_adrc.timing import SAME_INSTANT
-from biped_adrc.types import Array
 
 FORCE, PLACE, SPEED = NAMES
 """What an arc has `read` of the feet, (K, 4) each."""

@@ -23,17 +23,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
+from biped_adrc.core.checks import check_fields
+from biped_adrc.core.errors import InputError, ModelError, SimulationError
+from biped_adrc.core.linear import solve
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.engine.run import COMPILED, PINOCCHIO, check_engine
-from biped_adrc.errors import InputError, ModelError, SimulationError
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import HybridSystem
 from biped_adrc.hybrid.trajectory import Event
-from biped_adrc.linear import solve
-from biped_adrc.parts import check_fields
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array, ComplexArray
 
 if TYPE_CHECKING:
     from biped_adrc.engine.batch import Strides

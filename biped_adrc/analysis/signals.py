@@ -18,10 +18,10 @@ from biped_adrc.closed_loop.instant_signals import InstantSignals, signals_at
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.outer_loop import OuterLoop, reference_in_force
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array, freeze
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array, freeze
 
 LONG = 2000
 """Number of nodes from which on compiling is faster than NumPy."""

@@ -21,12 +21,12 @@ from numpy.typing import NDArray
 
 from biped_adrc.closed_loop.feet import NAMES, Readings, readings
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import SLIP
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array
 
 AT_CONE = 0.99
 """Of mu F_N [1]: a tangential force from there on is at the cone; the solver does not come closer."""

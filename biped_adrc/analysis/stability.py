@@ -35,8 +35,10 @@ from biped_adrc.analysis.return_map import (
 from biped_adrc.analysis.signals import signals
 from biped_adrc.analysis.variational import StepDerivative, periodic_orbit
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
-from biped_adrc.columns import columns
-from biped_adrc.errors import InputError, SimulationError
+from biped_adrc.core.checks import check_part
+from biped_adrc.core.errors import InputError, SimulationError
+from biped_adrc.core.shown import Shown, columns
+from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
@@ -44,9 +46,6 @@ from biped_adrc.hybrid.constants import XRTOL, XTOL
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.limits import Limits
-from biped_adrc.parts import check_part
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array, ComplexArray
 
 
 class StabilityMethod(Enum):

@@ -29,14 +29,14 @@ import numpy as np
 
 from biped_adrc.control.base import Controller
 from biped_adrc.control.stride import TORSO_LEAN, StrideGains, StridePI
-from biped_adrc.errors import GaitError, InputError
+from biped_adrc.core.errors import GaitError, InputError
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Polynomial
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array, ComplexArray
 
 BUMP = 64.0 * np.array([0.0, 0.0, 0.0, 1.0, -3.0, 3.0, -1.0])
 """Coefficients (7,) of b(s) = 64 s^3 (1 - s)^3 in powers of s: zero with two derivatives at both ends,

@@ -14,11 +14,11 @@ import numpy as np
 
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array, freeze
 from biped_adrc.hardware.touchdown import belief_of
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array, freeze
 
 
 class TouchdownRates(NamedTuple):

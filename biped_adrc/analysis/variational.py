@@ -35,16 +35,16 @@ from biped_adrc.analysis.return_map import (
     sorted_eigenvalues,
 )
 from biped_adrc.closed_loop.walker import Instant, Mode, Walker
+from biped_adrc.core.errors import InputError, SimulationError
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.timing import SampledTime
+from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.engine.tick_derivative import tick_derivative
-from biped_adrc.errors import InputError, SimulationError
 from biped_adrc.hybrid.system import Guard, HybridSystem
 from biped_adrc.model.derivatives import (
     acceleration_derivatives,
     impact_derivatives,
 )
-from biped_adrc.shown import Shown
-from biped_adrc.timing import SampledTime
-from biped_adrc.types import Array, ComplexArray
 
 TorqueDerivative = Callable[[Instant], Array]
 """Instant of a walk -> du/dx (p, 2 n) [N m/rad, N m s/rad] of the applied torque."""

@@ -14,8 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from biped_adrc.analysis.stability import INVARIANCE, invariance_gap
-from biped_adrc.columns import columns
-from biped_adrc.errors import GaitError
+from biped_adrc.core.checks import check_part
+from biped_adrc.core.errors import GaitError
+from biped_adrc.core.shown import Shown, columns
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.gait import CLOSES
 from biped_adrc.gait.zero_domain import UNLIMITED, Bound, Domain, DomainLimits, domain
@@ -23,8 +24,6 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration
 from biped_adrc.gait.zero_orbits import ZeroOrbits, grid
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import ground_axes
-from biped_adrc.parts import check_part
-from biped_adrc.shown import Shown
 
 CLOSENESS = 1e-3
 """Distance from zeta*, relative to it, within which a walk counts as settled."""

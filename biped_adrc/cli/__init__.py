@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 
 from biped_adrc.cli.app import EXIT_INTERRUPTED, app, complain, gait_app
 from biped_adrc.cli.terminal import lasting, reason_lost
-from biped_adrc.errors import BipedError, OutputError
+from biped_adrc.core.errors import BipedError, OutputError
 
 if TYPE_CHECKING:
     from sys import UnraisableHookArgs

@@ -27,7 +27,7 @@ from rich.progress import (
 
 import biped_adrc
 from biped_adrc.cli.terminal import Terminal
-from biped_adrc.files import keep_inputs, output_path
+from biped_adrc.core.files import keep_inputs, output_path
 
 EXIT_CHECK_FAILED, EXIT_FELL, EXIT_INTERRUPTED = 1, 4, 130
 """Exit codes beside those of the errors: a check does not hold, the robot fell, Ctrl-C."""

@@ -16,13 +16,13 @@ from rich.table import Table
 
 from biped_adrc.cli.app import GAITS, console, gait_app, inputs, say_written, target
 from biped_adrc.cli.options import options, with_sets
-from biped_adrc.errors import GaitError, InputError
-from biped_adrc.files import check_folder
+from biped_adrc.core.errors import GaitError, InputError
+from biped_adrc.core.files import check_folder
 
 if TYPE_CHECKING:
+    from biped_adrc.core.types import Array
     from biped_adrc.gait.design.ipopt import IpoptProgress
     from biped_adrc.model.biped import Biped
-    from biped_adrc.types import Array
 
 
 MOST_SPEEDS = 1000

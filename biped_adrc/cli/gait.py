@@ -14,7 +14,7 @@ from rich.table import Table
 
 from biped_adrc.cli.app import FIGURES, GAITS, console, gait_app, inputs, say, say_written, target
 from biped_adrc.cli.options import options, pairs, with_sets
-from biped_adrc.files import keep_inputs, output_path
+from biped_adrc.core.files import keep_inputs, output_path
 
 if TYPE_CHECKING:
     from biped_adrc.gait.gait import Gait

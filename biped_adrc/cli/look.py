@@ -10,7 +10,7 @@ from pathlib import Path
 
 from biped_adrc.cli.app import FIGURES, app, say_written
 from biped_adrc.cli.options import options, with_sets
-from biped_adrc.files import keep_inputs, output_path
+from biped_adrc.core.files import keep_inputs, output_path
 
 
 @app.command()

@@ -13,8 +13,8 @@ from rich.table import Table
 
 from biped_adrc.cli.app import FIGURES, app, console, say, say_written
 from biped_adrc.cli.options import options, pairs, scenario_from
-from biped_adrc.files import output_path
-from biped_adrc.types import PlainRecord
+from biped_adrc.core.files import output_path
+from biped_adrc.core.types import PlainRecord
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.observer.report import ObserverReport

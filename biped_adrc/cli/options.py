@@ -18,12 +18,12 @@ from typing import Annotated, Any, TypeVar, get_type_hints
 import typer
 from pydantic import TypeAdapter, ValidationError
 
-from biped_adrc.errors import InputError
-from biped_adrc.resources import packaged
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import packaged
+from biped_adrc.core.types import PlainRecord
 from biped_adrc.scenario.dotted import unknown
 from biped_adrc.scenario.file import read_scenario
 from biped_adrc.scenario.scenario import Scenario, field_of
-from biped_adrc.types import PlainRecord
 
 TEXTS = packaged("biped_adrc.cli", "options.toml")
 """The content of options.toml."""

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from biped_adrc.cli.app import app, say, say_written
 from biped_adrc.cli.options import WALKS, options, scenario_from
-from biped_adrc.files import keep_inputs, output_path
-from biped_adrc.types import PlainRecord
+from biped_adrc.core.files import keep_inputs, output_path
+from biped_adrc.core.types import PlainRecord
 
 
 @app.command("play")

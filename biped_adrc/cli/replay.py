@@ -11,8 +11,8 @@ from rich.table import Table
 
 from biped_adrc.cli.app import app, console, inputs, say, say_written
 from biped_adrc.cli.options import WALKS, options, scenario_from
-from biped_adrc.files import check_folder, keep_inputs, output_path, write_text
-from biped_adrc.types import PlainRecord
+from biped_adrc.core.files import check_folder, keep_inputs, output_path, write_text
+from biped_adrc.core.types import PlainRecord
 
 
 @app.command("replay")

@@ -15,8 +15,8 @@ from rich.table import Table
 
 from biped_adrc.cli.app import EXIT_CHECK_FAILED, app, complain, console, inputs, say, say_written
 from biped_adrc.cli.options import options, scenario_from, with_sets
-from biped_adrc.errors import ModelError
-from biped_adrc.files import check_folder, keep_inputs, output_path
+from biped_adrc.core.errors import ModelError
+from biped_adrc.core.files import check_folder, keep_inputs, output_path
 
 if TYPE_CHECKING:
     from biped_adrc.model.biped import Biped

@@ -24,8 +24,8 @@ from biped_adrc.cli.app import EXIT_INTERRUPTED, app, console, say
 from biped_adrc.cli.options import options
 
 if TYPE_CHECKING:
-    from biped_adrc.study.results import Results
-    from biped_adrc.study.runner import Progress as Done
+    from biped_adrc.studies.results import Results
+    from biped_adrc.studies.runner import Progress as Done
 
 
 @app.command()
@@ -39,11 +39,11 @@ def study(
     dry_run: bool = False,
 ) -> None:
     """Walk a study: cases, conditions, grids, draws, or a search; killed, the same command goes on."""
-    from biped_adrc.study.study import read_study
+    from biped_adrc.studies.study import read_study
 
     found = read_study(study)
     if table is not None:
-        from biped_adrc.study.results import check_table
+        from biped_adrc.studies.results import check_table
 
         check_table(table)
     if dry_run:
@@ -51,8 +51,8 @@ def study(
         most = "at most " if found.search else ""
         say(f"{found.name}: {most}{found.count} walks, over {', '.join(found.axes) or 'no grid'}")
         return
-    from biped_adrc.study.carry import study as carry_out
-    from biped_adrc.study.page import write_page
+    from biped_adrc.studies.carry import study as carry_out
+    from biped_adrc.studies.page import write_page
 
     with _shown(found.name, out) as progress:
         done = carry_out(found, out, workers, cluster=cluster, progress=progress)
@@ -66,8 +66,8 @@ def study(
 
 def _print(done: Results) -> None:
     """Print the table, what a search chose, and why some walks could not be made."""
-    from biped_adrc.study.page import chosen, headings, texts
-    from biped_adrc.study.parameters import NO_WALK
+    from biped_adrc.studies.page import chosen, headings, texts
+    from biped_adrc.studies.parameters import NO_WALK
 
     shown = Table(*headings(done))
     for line in done.table():

@@ -18,9 +18,9 @@ from rich.table import Column, Table
 
 from biped_adrc.cli.app import EXIT_FELL, app, bar, console, inputs, say, say_written, target
 from biped_adrc.cli.options import WALKS, options, scenario_from
-from biped_adrc.errors import InputError, RaisedError
+from biped_adrc.core.errors import InputError, RaisedError
+from biped_adrc.core.types import PlainRecord
 from biped_adrc.hybrid.status import Status
-from biped_adrc.types import PlainRecord
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.certificate import Certificate

@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import RanAwayError
+from biped_adrc.core.errors import RanAwayError
+from biped_adrc.core.types import Array, read_only
 from biped_adrc.model.biped import Biped
-from biped_adrc.types import Array, read_only
 
 TURN = 2.0 * math.pi
 """Range of a joint to either side [rad]: a whole turn, more than cables and legs of a biped allow."""

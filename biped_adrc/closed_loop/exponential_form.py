@@ -23,8 +23,8 @@ import numpy as np
 
 from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.closed_loop.semantics import instant
+from biped_adrc.core.types import Array
 from biped_adrc.hybrid.system import Split
-from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)

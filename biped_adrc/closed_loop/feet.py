@@ -20,10 +20,10 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import Load, PlantState, motor_torque
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.core.errors import InputError, check_positive
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array, freeze
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array, freeze
 
 AGAIN = 1e-6
 """Largest difference of a state come to again, relative to the largest of its numbers."""

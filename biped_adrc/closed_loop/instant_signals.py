@@ -15,9 +15,9 @@ from biped_adrc.closed_loop.noticing import estimated
 from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.closed_loop.semantics import instant, parts, unknown
 from biped_adrc.control.base import Measurement
+from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.model.reduction import disturbance_parts
-from biped_adrc.types import Array
 
 
 class InstantSignals(NamedTuple):

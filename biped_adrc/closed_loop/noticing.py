@@ -17,10 +17,10 @@ import numpy as np
 
 from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.control.base import Measurement
+from biped_adrc.core.types import Array, relabelled
 from biped_adrc.hardware.motors import Line
 from biped_adrc.hardware.sample_hold import HeldParts, read
 from biped_adrc.hardware.touchdown import Belief, Look, belief_of, numbers_of
-from biped_adrc.types import Array, relabelled
 
 
 def noticed(

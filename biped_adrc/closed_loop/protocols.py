@@ -10,10 +10,10 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol
 
 from biped_adrc.control.base import Measurement
+from biped_adrc.core.types import Array, Indices
 from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import Estimate
-from biped_adrc.types import Array, Indices
 
 
 class Mode(NamedTuple):

@@ -26,6 +26,8 @@ import numpy as np
 from biped_adrc.closed_loop.noticing import labelled, noticed, unnoticed
 from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.control.base import Measurement
+from biped_adrc.core.linear import solve_positive
+from biped_adrc.core.types import Array, frozen
 from biped_adrc.hardware.motors import Line
 from biped_adrc.hardware.sample_hold import (
     Held,
@@ -36,9 +38,7 @@ from biped_adrc.hardware.sample_hold import (
     read,
     written,
 )
-from biped_adrc.linear import solve_positive
 from biped_adrc.model.reduction import Reduction, unknown_force
-from biped_adrc.types import Array, frozen
 
 
 class Instant(NamedTuple):

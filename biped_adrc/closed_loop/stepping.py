@@ -34,14 +34,14 @@ from biped_adrc.closed_loop.stepping_plant import (
 )
 from biped_adrc.closed_loop.stretches import Stretches
 from biped_adrc.closed_loop.system import ClosedLoop
-from biped_adrc.errors import InputError, NotFiniteError
+from biped_adrc.core.checks import handing_out, numbers
+from biped_adrc.core.errors import InputError, NotFiniteError
+from biped_adrc.core.timing import SampledTime
+from biped_adrc.core.types import Array, Indices, frozen
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.system import FoundEvent, Mover
 from biped_adrc.hybrid.trajectory import Event, Trajectory
-from biped_adrc.parts import handing_out, numbers
-from biped_adrc.timing import SampledTime
-from biped_adrc.types import Array, Indices, frozen
 
 
 @dataclass(frozen=True)

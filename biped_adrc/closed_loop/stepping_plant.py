@@ -15,10 +15,10 @@ from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.types import Array, Indices, frozen, read_only
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.ground import StepDown, StepUp
-from biped_adrc.types import Array, Indices, frozen, read_only
 
 ROUND_OFF = 1e-9
 """Largest difference [s] between a plant's own clock and the time that it was to reach."""

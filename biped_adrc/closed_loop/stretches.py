@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from biped_adrc.closed_loop.protocols import Mode
+from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Event, Record
-from biped_adrc.types import Array
 
 if TYPE_CHECKING:
     from biped_adrc.closed_loop.stepping import SteppingLoop

@@ -25,8 +25,11 @@ from biped_adrc.closed_loop.protocols import ControlLaw, Mode, Plant
 from biped_adrc.closed_loop.semantics import Instant
 from biped_adrc.control.base import Controller, Measurement, check_methods, nested
 from biped_adrc.control.tracking import Gains
+from biped_adrc.core.checks import PositiveFloat, check_fields, handing_out, returned
+from biped_adrc.core.errors import BipedError, InputError
+from biped_adrc.core.timing import ContinuousTime, SampledTime, check_ends, check_timing
+from biped_adrc.core.types import Array, Indices, frozen
 from biped_adrc.disturbances.base import Disturbance
-from biped_adrc.errors import BipedError, InputError
 from biped_adrc.gait.reference import Reference, check_point
 from biped_adrc.hardware import sample_hold as held
 from biped_adrc.hardware.motors import Motors
@@ -35,10 +38,6 @@ from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.hybrid.system import Clock, HybridSystem, Relaxing
 from biped_adrc.model.biped import Biped
-from biped_adrc.parts import check_fields, handing_out, returned
-from biped_adrc.ranges import PositiveFloat
-from biped_adrc.timing import ContinuousTime, SampledTime, check_ends, check_timing
-from biped_adrc.types import Array, Indices, frozen
 
 P = TypeVar("P", bound=Plant)
 

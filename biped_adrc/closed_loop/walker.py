@@ -22,13 +22,13 @@ from biped_adrc.closed_loop.exponential_form import ErrorForm, split_of
 from biped_adrc.closed_loop.protocols import Mode as Mode
 from biped_adrc.closed_loop.semantics import Instant as Instant
 from biped_adrc.closed_loop.system import ClosedLoop
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.timing import check_ends
+from biped_adrc.core.types import Array, Indices, read_only
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Guard, Split
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import StepDown, StepUp, check_slope, check_steps, drop_of
-from biped_adrc.timing import check_ends
-from biped_adrc.types import Array, Indices, read_only
 
 FOOT_STRIKE = "foot_strike"
 """Name of the event function whose zero is the impact."""

@@ -24,10 +24,10 @@ import numpy as np
 
 from biped_adrc.control.around import Around
 from biped_adrc.control.base import Measurement
-from biped_adrc.part import derived
-from biped_adrc.ranges import NonNegativeFloat
-from biped_adrc.timing import SAME_INSTANT
-from biped_adrc.types import Array
+from biped_adrc.core.checks import NonNegativeFloat
+from biped_adrc.core.part import derived
+from biped_adrc.core.timing import SAME_INSTANT
+from biped_adrc.core.types import Array
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 from biped_adrc.control.around import Around
 from biped_adrc.control.base import Measurement
-from biped_adrc.types import Array, freeze
+from biped_adrc.core.types import Array, freeze
 
 
 @dataclass(frozen=True)

@@ -16,10 +16,10 @@ from dataclasses import dataclass, field
 from biped_adrc.control.base import Measurement, measured
 from biped_adrc.control.observing import ObservingController
 from biped_adrc.control.tracking import TABLE_II, Gains, tracking_torque
+from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.observers.base import ErrorSystem, Estimate, Observer, ResetPolicy
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 from typing import Self
 
 from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.core.types import Array, Indices
 from biped_adrc.observers.base import Estimate
-from biped_adrc.types import Array, Indices
 
 
 @dataclass(frozen=True)

@@ -16,9 +16,9 @@ import numpy as np
 
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.base import Measurement, measured
+from biped_adrc.core.types import Array
 from biped_adrc.observers.base import ErrorSystem, Estimate, Observer
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)

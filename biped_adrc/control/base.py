@@ -10,7 +10,7 @@ At a sample instant `output` comes between `correct` and `predict`: the torque u
 instant, and the observer inside is told that torque and no other, so it does not wind up at a limit.
 
 A leaf is a frozen dataclass that writes these methods. Python calls them, and the engine turns them into
-machine code (`biped_adrc.part`).
+machine code (`biped_adrc.core.part`).
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from typing import ClassVar, NamedTuple, NoReturn
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.checks import line_of, returned, spoken
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.part import Part
+from biped_adrc.core.shown import one_line
+from biped_adrc.core.types import Array, Indices
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import ErrorSystem, Estimate
-from biped_adrc.part import Part
-from biped_adrc.parts import line_of, returned, spoken
-from biped_adrc.shown import one_line
-from biped_adrc.types import Array, Indices
 
 
 class Measurement(NamedTuple):

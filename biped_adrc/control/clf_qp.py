@@ -35,12 +35,12 @@ import numpy as np
 from biped_adrc.control.base import Controller, Measurement, measured
 from biped_adrc.control.output_adrc import output_matrix
 from biped_adrc.control.tracking import body_of
-from biped_adrc.errors import NotFiniteError
+from biped_adrc.core.checks import PositiveFloat
+from biped_adrc.core.errors import NotFiniteError
+from biped_adrc.core.linear import solve
+from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import Reference, ReferencePoint
-from biped_adrc.linear import solve
 from biped_adrc.model.reduction import identity
-from biped_adrc.ranges import PositiveFloat
-from biped_adrc.types import Array
 
 ROOT = math.sqrt(3.0)
 

@@ -29,12 +29,12 @@ import numpy as np
 
 from biped_adrc.control.around import Around
 from biped_adrc.control.base import Controller, Measurement
-from biped_adrc.errors import InputError
+from biped_adrc.core.checks import PositiveFloat
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.part import derived
+from biped_adrc.core.types import Array, Indices, relabelled
 from biped_adrc.observers.base import Estimate
 from biped_adrc.observers.chain import whole
-from biped_adrc.part import derived
-from biped_adrc.ranges import PositiveFloat
-from biped_adrc.types import Array, Indices, relabelled
 
 HIGHEST = 10
 """Largest order: beyond it coefficients cover more than ten decades and the line gets no better."""

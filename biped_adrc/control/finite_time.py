@@ -22,10 +22,10 @@ import numpy as np
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.output_npd import linearising_torque
-from biped_adrc.errors import InputError
+from biped_adrc.core.checks import PositiveFloat
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.types import Array
 from biped_adrc.gait.outputs import Outputs
-from biped_adrc.ranges import PositiveFloat
-from biped_adrc.types import Array
 
 
 def psi(x1: Array, x2: Array, alpha: float) -> Array:

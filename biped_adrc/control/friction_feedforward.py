@@ -25,13 +25,13 @@ import numpy as np
 
 from biped_adrc.control.around import Around
 from biped_adrc.control.base import Controller, Measurement
-from biped_adrc.errors import InputError
+from biped_adrc.core.checks import NonNegativeFloat
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.part import derived
+from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import Reference
 from biped_adrc.model.biped import STICTION_SPEED, Biped
 from biped_adrc.observers.base import Estimate
-from biped_adrc.part import derived
-from biped_adrc.ranges import NonNegativeFloat
-from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)

@@ -31,12 +31,12 @@ from biped_adrc.control.across_contact import ContactWindow
 from biped_adrc.control.base import Measurement, nested
 from biped_adrc.control.outer_loop import tracked_constraint
 from biped_adrc.control.tracking import body_of
-from biped_adrc.errors import InputError
-from biped_adrc.linear import solve_positive
+from biped_adrc.core.checks import check_part
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.linear import solve_positive
+from biped_adrc.core.part import derived
+from biped_adrc.core.types import Array
 from biped_adrc.model.reduction import BodyTerms
-from biped_adrc.part import derived
-from biped_adrc.parts import check_part
-from biped_adrc.types import Array
 
 
 def impulse_response(D: Array, body: BodyTerms, J: Array) -> Array:

@@ -27,12 +27,12 @@ import numpy as np
 from biped_adrc.control.base import Measurement, measured
 from biped_adrc.control.observing import ObservingController
 from biped_adrc.control.tracking import TABLE_II, Gains, body_of, tracking_torque
+from biped_adrc.core.linear import solve_positive
+from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import Reference, ReferencePoint
-from biped_adrc.linear import solve_positive
 from biped_adrc.model.reduction import Reduction
 from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
 from biped_adrc.observers.momentum import MomentumObserver
-from biped_adrc.types import Array
 
 
 def pushed(terms: Reduction, r: Array) -> Reduction:

@@ -16,8 +16,8 @@ from dataclasses import dataclass
 
 from biped_adrc.control.base import Controller, Measurement, measured
 from biped_adrc.control.tracking import TABLE_II, Gains, tracking_torque
+from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import Reference
-from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)

@@ -29,12 +29,11 @@ from scipy.linalg import expm
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.tracking import TABLE_II, Gains, solved_acceleration
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.core.checks import PositiveFloat, check_part
+from biped_adrc.core.errors import InputError, check_positive
+from biped_adrc.core.part import derived
+from biped_adrc.core.types import Array, Indices, relabelled
 from biped_adrc.gait.reference import Reference
-from biped_adrc.part import derived
-from biped_adrc.parts import check_part
-from biped_adrc.ranges import PositiveFloat
-from biped_adrc.types import Array, Indices, relabelled
 
 
 @dataclass(frozen=True)

@@ -18,10 +18,10 @@ from typing import Self
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.tracking import Gains, orthogonal_to
+from biped_adrc.core.checks import check_part
+from biped_adrc.core.types import Array, Indices
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
-from biped_adrc.parts import check_part
-from biped_adrc.types import Array, Indices
 
 
 class ObservingController(Controller):

@@ -21,11 +21,11 @@ import numpy as np
 
 from biped_adrc.control.around import Around
 from biped_adrc.control.base import Controller, Measurement
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.part import with_fields
+from biped_adrc.core.types import Array, Indices
 from biped_adrc.gait.constraint import CorrectedConstraint, Correction, VirtualConstraint
 from biped_adrc.observers.base import ErrorSystem, Estimate
-from biped_adrc.part import with_fields
-from biped_adrc.types import Array, Indices
 
 Constraint = VirtualConstraint | CorrectedConstraint
 

@@ -23,12 +23,12 @@ import numpy as np
 from biped_adrc.control.base import Measurement, measured
 from biped_adrc.control.observing import ObservingController
 from biped_adrc.control.tracking import TABLE_II, Gains, orthogonal_to, rate_error_change
+from biped_adrc.core.linear import solve
+from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import Reference, ReferencePoint
-from biped_adrc.linear import solve
 from biped_adrc.model.reduction import Reduction
 from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.types import Array
 
 
 def output_matrix(r: ReferencePoint, terms: Reduction) -> Array:

@@ -24,10 +24,10 @@ from scipy.linalg.lapack import dgecon, dgetrf, dgetrs
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.tracking import TABLE_II, Gains
-from biped_adrc.errors import InputError, SingularError
+from biped_adrc.core.errors import InputError, SingularError
+from biped_adrc.core.types import Array
 from biped_adrc.gait.outputs import OutputPoint, Outputs
 from biped_adrc.model.reduction import Reduction
-from biped_adrc.types import Array
 
 _SINGULAR = 1e-9
 """Reciprocal condition number; a Jacobian by differences has errors of 1e-11, which must not hide a singular

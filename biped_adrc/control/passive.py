@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from biped_adrc.control.base import Controller, Measurement
-from biped_adrc.types import Array
+from biped_adrc.core.types import Array
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,8 @@ from typing import ClassVar
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.tracking import Gains, body_of, feedback
+from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import Reference
-from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)

@@ -23,10 +23,10 @@ import numpy as np
 
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.outer_loop import Constraint, OuterLoop, tracked_constraint
+from biped_adrc.core.checks import Range
+from biped_adrc.core.part import derived
+from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import Correction
-from biped_adrc.part import derived
-from biped_adrc.ranges import Range
-from biped_adrc.types import Array
 
 LEAST_REACH = 0.2
 """Least x at impact: nearer to Theta_e, where c would have to fall abruptly, nothing is corrected."""

@@ -26,14 +26,13 @@ import numpy as np
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.outer_loop import Constraint, OuterLoop, tracked_constraint
-from biped_adrc.errors import InputError
+from biped_adrc.core.checks import Checked, FiniteFloat, PositiveFloat
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.part import derived
+from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import Correction
 from biped_adrc.gait.gait import Gait
 from biped_adrc.model.biped import Biped
-from biped_adrc.part import derived
-from biped_adrc.parts import Checked
-from biped_adrc.ranges import FiniteFloat, PositiveFloat
-from biped_adrc.types import Array
 
 TORSO_LEAN = (1.0, 1.0, 0.0, 0.0)
 """d for RABBIT's joints: both hips turn, so that the legs stay where they were and the torso leans forwards by

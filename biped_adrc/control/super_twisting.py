@@ -28,10 +28,10 @@ import numpy as np
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.tracking import solved_acceleration
+from biped_adrc.core.checks import PositiveFloat
+from biped_adrc.core.part import derived
+from biped_adrc.core.types import Array, Indices, relabelled
 from biped_adrc.gait.reference import Reference, ReferencePoint
-from biped_adrc.part import derived
-from biped_adrc.ranges import PositiveFloat
-from biped_adrc.types import Array, Indices, relabelled
 
 
 @dataclass(frozen=True)

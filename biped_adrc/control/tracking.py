@@ -19,14 +19,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from biped_adrc.control.base import Measurement
-from biped_adrc.errors import InputError
+from biped_adrc.core.checks import numbers
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.linear import solve, solve_positive
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array, frozen
 from biped_adrc.gait.reference import ReferencePoint
-from biped_adrc.linear import solve, solve_positive
 from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import Estimate
-from biped_adrc.parts import numbers
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array, frozen
 
 HIGHEST = 1e15
 """Of a gain [1/s^2], [1/s]: beyond it products of gains and poles have no place among the floats."""

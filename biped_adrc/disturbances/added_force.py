@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from biped_adrc.core.types import Array, freeze
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.model.planar import LinkPoint, jacobian, turned
-from biped_adrc.types import Array, freeze
 
 
 @dataclass(frozen=True)

@@ -21,11 +21,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.errors import InputError
-from biped_adrc.part import Part, derived, setup
-from biped_adrc.parts import check_part, numbers, returned
-from biped_adrc.ranges import PositiveInt
-from biped_adrc.types import Array
+from biped_adrc.core.checks import PositiveInt, check_part, numbers, returned
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.part import Part, derived, setup
+from biped_adrc.core.types import Array
 
 
 class Disturbance(Part):

@@ -17,12 +17,12 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
+from biped_adrc.core.checks import numbers
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance, Sum, Windowed
 from biped_adrc.disturbances.link import OnLink
-from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
-from biped_adrc.parts import numbers
-from biped_adrc.types import Array
 
 PIECES = 16
 """Rows in one term."""

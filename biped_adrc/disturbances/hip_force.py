@@ -15,12 +15,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.part import derived, setup
+from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance
-from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import LinkPoint, hip_point, wrench_torque
-from biped_adrc.part import derived, setup
-from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)

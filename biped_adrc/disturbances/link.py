@@ -15,12 +15,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.part import SETUP, derived, setup
+from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance, Windowed
-from biped_adrc.errors import InputError
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import LinkPoint, link_point, wrench_torque
-from biped_adrc.part import SETUP, derived, setup
-from biped_adrc.types import Array
 
 AT_REST = np.zeros(3), np.zeros(3)
 """What a wave is given for q and q', each (3,): it is a function of time."""

@@ -19,13 +19,12 @@ from pathlib import Path
 
 import numpy as np
 
+from biped_adrc.core.checks import PositiveInt, check_part, numbers
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import csv_rows, number_in, reading
+from biped_adrc.core.types import Array, read_only
 from biped_adrc.disturbances.base import Disturbance, Windowed
-from biped_adrc.errors import InputError
-from biped_adrc.files import csv_rows, number_in, reading
 from biped_adrc.model.biped import Biped
-from biped_adrc.parts import check_part, numbers
-from biped_adrc.ranges import PositiveInt
-from biped_adrc.types import Array, read_only
 
 PIECES = 16
 """Straight pieces in one term of a recording."""

@@ -38,11 +38,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from biped_adrc.core.checks import NonNegativeFloat, NonNegativeInt, PositiveFloat, PositiveInt
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.part import SETUP, derived
+from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Windowed
-from biped_adrc.errors import InputError
-from biped_adrc.part import SETUP, derived
-from biped_adrc.ranges import NonNegativeFloat, NonNegativeInt, PositiveFloat, PositiveInt
-from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)

@@ -23,14 +23,8 @@ import numpy as np
 from biped_adrc.closed_loop.instant_signals import step_reading
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.control.outer_loop import OuterLoop
-from biped_adrc.engine.compiled_signals import reading_code
-from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.kernels.run_plan import STATUS, table_height
-from biped_adrc.engine.run import COMPILED, COMPILED_PLANT, PINOCCHIO
-from biped_adrc.engine.simulate import on_compiled_plant, run_made
-from biped_adrc.engine.symbols import NotCompiled
-from biped_adrc.errors import (
+from biped_adrc.core.checks import check_fields
+from biped_adrc.core.errors import (
     BipedError,
     InputError,
     ModelError,
@@ -38,6 +32,15 @@ from biped_adrc.errors import (
     RaisedError,
     SingularError,
 )
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array
+from biped_adrc.engine.compiled_signals import reading_code
+from biped_adrc.engine.compiled_walker import CompiledWalker
+from biped_adrc.engine.kernels.load import kernels
+from biped_adrc.engine.kernels.run_plan import STATUS, table_height
+from biped_adrc.engine.run import COMPILED, COMPILED_PLANT, PINOCCHIO
+from biped_adrc.engine.simulate import on_compiled_plant, run_made
+from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.constants import FULL
@@ -45,9 +48,6 @@ from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.parts import check_fields
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array
 
 AHEAD = 4
 """Cases prepared beforehand for each thread, so that none of them waits for Python."""

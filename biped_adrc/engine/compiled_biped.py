@@ -30,6 +30,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from biped_adrc.core.part import content, with_content
+from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import SymbolicFunction, count
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.machine import LoadedCode
@@ -41,8 +43,6 @@ from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import PlantArrays
 from biped_adrc.model.reduction import BodyTerms, Reduction
-from biped_adrc.part import content, with_content
-from biped_adrc.types import Array
 
 Shape = tuple[int, ...]
 """Shape of an array."""

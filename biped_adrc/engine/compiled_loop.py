@@ -27,6 +27,8 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import Load
+from biped_adrc.core.errors import ModelError
+from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_biped import Call, CompiledBiped, compiled_references
 from biped_adrc.engine.compiled_push import CompiledPush, summed
 from biped_adrc.engine.equations import WalkerStructure
@@ -35,12 +37,10 @@ from biped_adrc.engine.mechanics import robot_of
 from biped_adrc.engine.program import controller_numbers, machine_of
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.engine.symbols import NotCompiled, floats
-from biped_adrc.errors import ModelError
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
-from biped_adrc.types import Array
 
 COMPILED_MODEL = "compiled model"
 """Name of the engine where the controller runs in Python on a compiled model."""

@@ -14,6 +14,7 @@ from operator import methodcaller
 import numpy as np
 
 from biped_adrc.closed_loop.protocols import Mode
+from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.compiled_biped import Call, pointer_call
 from biped_adrc.engine.equations import SymbolicFunction, count
@@ -24,7 +25,6 @@ from biped_adrc.engine.machine import LoadedCode, ModuleText
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
 from biped_adrc.engine.tracer import Tracer, run
-from biped_adrc.types import Array
 
 Terms = Sequence[tuple[LoadedCode, Array]]
 """Machine code and numbers of each term."""

@@ -19,6 +19,8 @@ import numpy as np
 from biped_adrc.closed_loop.instant_signals import InstantSignals, signals_at
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Measurement
+from biped_adrc.core.errors import ModelError
+from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_biped import parts_of, pointer_call
 from biped_adrc.engine.compiled_push import summed, terms_of
 from biped_adrc.engine.equations import (
@@ -35,10 +37,8 @@ from biped_adrc.engine.program import Program
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, Vector, floats
 from biped_adrc.engine.tracer import run
-from biped_adrc.errors import ModelError
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.types import Array
 
 
 class SignalNumbers(NamedTuple):

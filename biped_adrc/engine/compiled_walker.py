@@ -17,6 +17,8 @@ import numpy as np
 from biped_adrc.closed_loop.exponential_form import ErrorForm
 from biped_adrc.closed_loop.walker import LEAST_STEP, Walker
 from biped_adrc.control.passive import Passive
+from biped_adrc.core.timing import LONGEST_PERIOD, SampledTime
+from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_push import push_of
 from biped_adrc.engine.kernels.run_plan import Functions, RunPlan, plan
 from biped_adrc.engine.program import Program
@@ -25,8 +27,6 @@ from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import constants
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
-from biped_adrc.timing import LONGEST_PERIOD, SampledTime
-from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)

@@ -35,6 +35,7 @@ from biped_adrc.closed_loop import exponential_form, noticing, semantics
 from biped_adrc.closed_loop.exponential_form import ErrorForm
 from biped_adrc.closed_loop.protocols import ControlLaw, Mode
 from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.core.types import Array, Indices
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.mechanics import PlanarRobot, RobotStructure
 from biped_adrc.engine.symbols import Scalar, Vector, column, floats, maximum, minimum, where
@@ -42,7 +43,6 @@ from biped_adrc.engine.tracer import Located, Tracer, run
 from biped_adrc.hardware.sample_hold import HeldParts, HeldSizes
 from biped_adrc.model.planar import PlantArrays
 from biped_adrc.observers.base import Estimate
-from biped_adrc.types import Array, Indices
 
 T = TypeVar("T")
 

@@ -20,9 +20,9 @@ from typing import NamedTuple
 from llvmlite import binding
 from platformdirs import user_cache_path
 
-from biped_adrc.errors import OutputError
-from biped_adrc.files import write_bytes
-from biped_adrc.versions import packages
+from biped_adrc.core.errors import OutputError
+from biped_adrc.core.files import write_bytes
+from biped_adrc.core.versions import packages
 
 CHECK = 32
 """Bytes of the checksum before the object code."""

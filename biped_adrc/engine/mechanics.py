@@ -25,6 +25,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from biped_adrc.core.types import Array, Indices
 from biped_adrc.engine.symbols import solve_positive, tanh
 from biped_adrc.engine.tracer import Tracer
 from biped_adrc.model.biped import STICTION_SPEED, Biped
@@ -39,7 +40,6 @@ from biped_adrc.model.planar import (
     turned,
 )
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
-from biped_adrc.types import Array, Indices
 
 
 class RobotStructure(NamedTuple):

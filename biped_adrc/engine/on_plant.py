@@ -18,14 +18,14 @@ from biped_adrc.closed_loop.feet import OnFeet, with_readings
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import LaggingPlant, SteppingPlant, UnevenPlant, lag_of
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.timing import SampledTime
+from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_loop import CompiledLoop
 from biped_adrc.engine.run import COMPILED, PINOCCHIO
-from biped_adrc.errors import InputError
 from biped_adrc.hybrid.simulator import Progress, RunOptions
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 from biped_adrc.model.biped import Biped
-from biped_adrc.timing import SampledTime
-from biped_adrc.types import Array
 
 
 def stepping_loop(

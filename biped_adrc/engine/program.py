@@ -21,6 +21,7 @@ import numpy as np
 from biped_adrc.closed_loop.exponential_form import ErrorForm
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers, WalkerStructure
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.machine import LoadedCode
@@ -28,7 +29,6 @@ from biped_adrc.engine.mechanics import RobotData, RobotStructure, robot_of
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
 from biped_adrc.engine.tracer import located
-from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)

@@ -11,12 +11,12 @@ from dataclasses import replace
 from typing import Any
 
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
-from biped_adrc.errors import InputError, ModelError
+from biped_adrc.core.errors import InputError, ModelError
+from biped_adrc.core.types import Array
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.types import Array
 
 PINOCCHIO, COMPILED, COMPILED_PLANT = "pinocchio", "compiled", "compiled plant"
 """Names of the engines in settings and records; "compiled plant" is what ran where a part does not compile."""

@@ -25,6 +25,10 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.added_torque import AddedTorque
+from biped_adrc.core.checks import handing_out
+from biped_adrc.core.errors import RaisedError
+from biped_adrc.core.timing import SampledTime
+from biped_adrc.core.types import Array
 from biped_adrc.disturbances.added_force import AddedForce
 from biped_adrc.engine.compiled_loop import CompiledLoop
 from biped_adrc.engine.compiled_signals import Reading, reading_code
@@ -33,7 +37,6 @@ from biped_adrc.engine.equations import WalkerNumbers
 from biped_adrc.engine.kernels.run_plan import CompiledRun, table_height
 from biped_adrc.engine.simulate import Ticks, compiled_plant
 from biped_adrc.engine.symbols import NotCompiled, floats
-from biped_adrc.errors import RaisedError
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.on_arrays import next_tick
@@ -42,9 +45,6 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import HybridSystem
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.model.planar import link_point
-from biped_adrc.parts import handing_out
-from biped_adrc.timing import SampledTime
-from biped_adrc.types import Array
 
 At = tuple[ClosedLoop[Any], float, Array, Mode]
 """A loop, time [s], state (nx,) before the sample instant there, and single support."""

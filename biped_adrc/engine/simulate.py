@@ -19,6 +19,7 @@ from typing import cast
 import numpy as np
 
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
+from biped_adrc.core.types import Array, Indices
 from biped_adrc.engine.compiled_biped import CompiledBiped, compiled_references
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.run_plan import STATUS, CompiledRun
@@ -32,7 +33,6 @@ from biped_adrc.hybrid.simulator import FlownArc, RunOptions, run_arcs
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Clock, FoundEvent, HybridSystem, Mover
 from biped_adrc.hybrid.trajectory import Arc, Event, Record, Trajectory
-from biped_adrc.types import Array, Indices
 
 TERMINAL = {Status.FELL: "hip_too_low", Status.STALLED: "step_too_long"}
 """Names of the event functions that end a run, by status."""

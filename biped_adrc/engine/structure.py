@@ -15,9 +15,9 @@ from typing import Any
 
 import numpy as np
 
+from biped_adrc.core.checks import LIBRARIES, is_users
+from biped_adrc.core.part import content, is_part
 from biped_adrc.engine.symbols import HIDDEN, NotCompiled
-from biped_adrc.part import content, is_part
-from biped_adrc.parts import LIBRARIES, is_users
 
 
 def structure(tree: Any, exact: bool = False) -> Hashable:

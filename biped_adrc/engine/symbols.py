@@ -26,10 +26,10 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.part import Setup, content, is_part, with_content
+from biped_adrc.core.types import Array, frozen
 from biped_adrc.model.biped import Biped
-from biped_adrc.part import Setup, content, is_part, with_content
-from biped_adrc.types import Array, frozen
 
 T = TypeVar("T")
 

@@ -17,12 +17,12 @@ import numpy as np
 
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.core.errors import InputError, ModelError, NotFiniteError
+from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import Equations, WalkerNumbers, WalkerStructure
 from biped_adrc.engine.program import structure_of, structure_of_walker
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, floats
-from biped_adrc.errors import InputError, ModelError, NotFiniteError
-from biped_adrc.types import Array
 
 DIFFERENCE = 1e-6
 """Half width of the central differences [rad, rad/s, ..]."""

@@ -26,7 +26,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from biped_adrc import linear, parts
+from biped_adrc.core import checks, linear
+from biped_adrc.core.part import Part, content, derived, is_part, with_content
+from biped_adrc.core.types import frozen
 from biped_adrc.engine.structure import changes, is_library, note
 from biped_adrc.engine.symbols import (
     FUNCTIONS,
@@ -44,8 +46,6 @@ from biped_adrc.engine.symbols import (
     solve_positive,
     where,
 )
-from biped_adrc.part import Part, content, derived, is_part, with_content
-from biped_adrc.types import frozen
 
 
 class _Substitute:
@@ -66,7 +66,7 @@ def _filled(value: float) -> Callable[..., NDArray[np.object_]]:
 
 ENGINE = "biped_adrc.engine"
 """Its own functions and classes work on symbols as they are."""
-NO_METHODS = (ENGINE, "biped_adrc.parts", "biped_adrc.shown")
+NO_METHODS = (ENGINE, "biped_adrc.core.checks", "biped_adrc.core.shown")
 """Modules of classes that have no methods to be copied."""
 COPIED = "__on_symbols__"
 """Name of the tracer among the globals of its copies."""
@@ -139,9 +139,9 @@ class Tracer:
             (math, _Substitute(math, scalars)),
             (linear.solve, self.solver),
             (linear.solve_positive, solve_positive),
-            (parts.returned, lambda found, *_, **__: found),
-            (parts.point_returned, lambda found, *_: found),
-            (parts.check_part, lambda *_: None),
+            (checks.returned, lambda found, *_, **__: found),
+            (checks.point_returned, lambda found, *_: found),
+            (checks.check_part, lambda *_: None),
             (np.random, random),
             (np.random.default_rng, random),
             (stdlib_random, random),
@@ -301,9 +301,9 @@ def _place(error: Exception, f: Any) -> str:
     frames = traceback.extract_tb(error.__traceback__)
     codes = [frame.f_code for frame, _ in traceback.walk_tb(error.__traceback__)]
     pairs = list(zip(codes, frames, strict=True))
-    package = [x for x in pairs if x[1].filename.startswith(parts.PACKAGE)]
+    package = [x for x in pairs if x[1].filename.startswith(checks.PACKAGE)]
     methods = [x for x in package if "." in x[0].co_qualname and not x[1].filename.startswith(HERE)]
-    own = [x for x in pairs if parts.is_users(x[1].filename)] or methods or package
+    own = [x for x in pairs if checks.is_users(x[1].filename)] or methods or package
     if not own:
         return str(getattr(f, "__qualname__", f))
     code, frame = own[-1]

@@ -20,8 +20,8 @@ from functools import lru_cache
 
 import numpy as np
 
+from biped_adrc.core.types import Array
 from biped_adrc.gait.curves import ControlledCurve
-from biped_adrc.types import Array
 
 CUBIC = 3
 """Degree of each piece: the least one with two continuous derivatives."""

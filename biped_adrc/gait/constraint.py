@@ -30,12 +30,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from biped_adrc.errors import GaitError
+from biped_adrc.core.checks import check_part
+from biped_adrc.core.errors import GaitError
+from biped_adrc.core.part import derived
+from biped_adrc.core.types import Array, read_only
 from biped_adrc.gait.curves import Curve
 from biped_adrc.gait.reference import Reference, ReferencePoint
-from biped_adrc.part import derived
-from biped_adrc.parts import check_part
-from biped_adrc.types import Array, read_only
 
 FADE = 0.01
 """Share of the phase range over which the curvature of a continued constraint fades out past an end."""

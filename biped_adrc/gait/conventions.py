@@ -29,10 +29,10 @@ from functools import cached_property
 
 import numpy as np
 
-from biped_adrc.errors import GaitError, InputError
+from biped_adrc.core.errors import GaitError, InputError
+from biped_adrc.core.files import packaged
+from biped_adrc.core.types import Array, read_only
 from biped_adrc.model.biped import Biped
-from biped_adrc.resources import packaged
-from biped_adrc.types import Array, read_only
 
 _KNEES = (2, 3)  # places of the knees among the paper's coordinates
 _PHASE = (1.0, 0.0, 0.5, 0.0, 1.0)  # Theta = q5 + q1 + q3 / 2

@@ -22,11 +22,11 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from biped_adrc.errors import GaitError
-from biped_adrc.part import derived
-from biped_adrc.resources import packaged
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array, read_only
+from biped_adrc.core.errors import GaitError
+from biped_adrc.core.files import packaged
+from biped_adrc.core.part import derived
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array, read_only
 
 
 @dataclass(frozen=True)

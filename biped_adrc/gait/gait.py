@@ -22,17 +22,16 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.errors import GaitError
-from biped_adrc.files import CONTROL, output_path, reading, write_text
+from biped_adrc.core.checks import check_part
+from biped_adrc.core.errors import GaitError
+from biped_adrc.core.files import CONTROL, data_folder, output_path, reading, write_text
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array, freeze
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import curve_kind
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import ground_axes
-from biped_adrc.parts import check_part
-from biped_adrc.resources import data_folder
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array, freeze
 
 FORMAT = "biped_adrc gait 1"
 """First entry of a gait file; the number changes with the keys."""

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from biped_adrc.errors import GaitError, InputError
-from biped_adrc.files import read_json
+from biped_adrc.core.errors import GaitError, InputError
+from biped_adrc.core.files import read_json
+from biped_adrc.core.shown import Shown
 from biped_adrc.gait.gait import Gait, load_gait
 from biped_adrc.model.biped import Biped
-from biped_adrc.shown import Shown
 
 
 @dataclass(frozen=True)

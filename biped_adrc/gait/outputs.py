@@ -26,12 +26,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import GaitError
+from biped_adrc.core.checks import called_checked, returned
+from biped_adrc.core.errors import GaitError
+from biped_adrc.core.shown import Shown, one_line
+from biped_adrc.core.types import Array, read_only
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Curve
-from biped_adrc.parts import called_checked, returned
-from biped_adrc.shown import Shown, one_line
-from biped_adrc.types import Array, read_only
 
 _SLOPE = np.array([1.0, -8.0, 0.0, 8.0, -1.0]) / 12.0
 """Central difference of order 4 for f' over -2 h .. 2 h, times 1 / h; its error is h^4 f^(5) / 30."""

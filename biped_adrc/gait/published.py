@@ -17,12 +17,11 @@ import os
 import tomllib
 from dataclasses import dataclass
 
-from biped_adrc.errors import GaitError
-from biped_adrc.files import reading
+from biped_adrc.core.errors import GaitError
+from biped_adrc.core.files import data_folder, reading
+from biped_adrc.core.types import Array, read_only
 from biped_adrc.gait.gait import finite_vector
 from biped_adrc.model.biped import Biped
-from biped_adrc.resources import data_folder
-from biped_adrc.types import Array, read_only
 
 
 @dataclass(frozen=True)

@@ -22,14 +22,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.errors import GaitError
+from biped_adrc.core.errors import GaitError
+from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Polynomial
 from biped_adrc.gait.gait import Gait, onto_section
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
-from biped_adrc.types import Array
 
 HUMAN_STEP = 0.70
 """[m], step length of adults at comfortable speed, about 0.70 m for men and 0.64 m for women (Scientific

@@ -19,10 +19,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.part import Part
-from biped_adrc.parts import called_checked, point_returned
-from biped_adrc.shown import one_line
-from biped_adrc.types import Array
+from biped_adrc.core.checks import called_checked, point_returned
+from biped_adrc.core.part import Part
+from biped_adrc.core.shown import one_line
+from biped_adrc.core.types import Array
 
 
 class ReferencePoint(NamedTuple):

@@ -26,10 +26,10 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from biped_adrc.errors import check_positive
+from biped_adrc.core.errors import check_positive
+from biped_adrc.core.types import Array
 from biped_adrc.gait.zero_orbits import ZeroOrbits, grid, series
 from biped_adrc.model.ground import check_slope, ground_axes
-from biped_adrc.types import Array
 
 LIFT_OFF, FRICTION, TORQUE = "lift-off", "friction", "torque"
 PASSING = "V_max"

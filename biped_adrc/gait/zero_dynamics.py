@@ -25,13 +25,13 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.polynomial import legendre
 
-from biped_adrc.errors import GaitError
+from biped_adrc.core.checks import check_part
+from biped_adrc.core.errors import GaitError
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import ControlledCurve
 from biped_adrc.model.biped import Biped
-from biped_adrc.parts import check_part
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array
 
 NODES = 40
 """Gauss nodes over a step, enough for curves of degree 6 to be integrated to round-off."""

@@ -39,10 +39,10 @@ from numpy.polynomial import Legendre, legendre
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from biped_adrc.errors import GaitError
+from biped_adrc.core.errors import GaitError
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration, gauss_nodes
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array
 
 _GRID = 401
 """Phases among which signs and extremes are looked for; zeros between two of them are then solved for."""

@@ -22,14 +22,14 @@ from typing import Annotated
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.checks import FiniteFloat, NonNegativeFloat, NonNegativeInt, Range
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.part import derived, setup
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.timing import SAME_INSTANT
+from biped_adrc.core.types import Array
 from biped_adrc.hardware.sensors import seeded, uniforms
 from biped_adrc.hardware.touchdown import Look, Touchdown
-from biped_adrc.part import derived, setup
-from biped_adrc.ranges import FiniteFloat, NonNegativeFloat, NonNegativeInt, Range
-from biped_adrc.shown import Shown
-from biped_adrc.timing import SAME_INSTANT
-from biped_adrc.types import Array
 
 ProbabilityFloat = Annotated[float, Range("0 to 1", lambda x: 0.0 <= x <= 1.0)]
 

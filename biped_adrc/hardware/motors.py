@@ -21,10 +21,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.parts import Checked
-from biped_adrc.ranges import NonNegativeFloat, PositiveFloat
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array, Indices, relabelled
+from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array, Indices, relabelled
 
 WHOLE = 1e-9
 """A delay that differs from whole periods by less than this fraction is one of whole periods."""

@@ -18,10 +18,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from biped_adrc.core.checks import FiniteFloat, NonNegativeFloat, NonNegativeInt
+from biped_adrc.core.types import Array
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.sensors import Sensors, normals, seeded
-from biped_adrc.ranges import FiniteFloat, NonNegativeFloat, NonNegativeInt
-from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)

@@ -17,12 +17,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from biped_adrc.core.checks import returned
+from biped_adrc.core.timing import SampledTime
+from biped_adrc.core.types import Array, Indices, frozen
 from biped_adrc.hardware.motors import IDEAL, Line, Motors, TorqueLine, whole_and_part
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import HEAD, Belief, Touchdown, numbers_of
-from biped_adrc.parts import returned
-from biped_adrc.timing import SampledTime
-from biped_adrc.types import Array, Indices, frozen
 
 
 class HeldSizes(NamedTuple):

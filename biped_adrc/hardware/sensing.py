@@ -18,9 +18,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.errors import InputError
-from biped_adrc.parts import Checked, check_part
-from biped_adrc.types import Array
+from biped_adrc.core.checks import Checked, check_part
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.types import Array
 
 
 class Sensor(Checked):

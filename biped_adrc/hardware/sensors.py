@@ -27,11 +27,11 @@ from typing import Annotated
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.checks import NonNegativeFloat, NonNegativeInt, Range
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array, Indices
 from biped_adrc.hardware.sensing import Sensor
-from biped_adrc.ranges import NonNegativeFloat, NonNegativeInt, Range
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array, Indices
 
 CountsFloat = Annotated[float, Range("at least 1 count", lambda x: 1.0 <= x < math.inf)]
 

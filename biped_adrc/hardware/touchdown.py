@@ -24,8 +24,8 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from biped_adrc.parts import Checked
-from biped_adrc.types import Array
+from biped_adrc.core.checks import Checked
+from biped_adrc.core.types import Array
 
 HEAD = 3
 """Numbers in b before d."""

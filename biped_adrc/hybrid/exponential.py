@@ -30,10 +30,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.core.errors import InputError, check_positive
+from biped_adrc.core.types import Array, frozen
 from biped_adrc.hybrid.constants import MATRICES
 from biped_adrc.hybrid.integrators import OneStepMethod
-from biped_adrc.types import Array, frozen
 
 Phi = tuple[Array, Array, Array, Array]
 """phi_0 to phi_3, each (k, k)."""

@@ -15,13 +15,13 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import (
+from biped_adrc.core.errors import (
     NotFiniteError,
     RanAwayError,
     SingularError,
     check_positive,
 )
-from biped_adrc.types import Array
+from biped_adrc.core.types import Array
 
 Flow = Callable[[float, Array], Array]
 """f(t, x) -> x'."""

@@ -18,10 +18,10 @@ import math
 
 import numpy as np
 
+from biped_adrc.core.types import Array
 from biped_adrc.hybrid.constants import *
 from biped_adrc.hybrid.on_arrays import *
 from biped_adrc.hybrid.relaxation import relaxation
-from biped_adrc.types import Array
 
 weights = inner(relaxation)
 

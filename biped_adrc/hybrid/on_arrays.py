@@ -14,14 +14,14 @@ from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
-from biped_adrc.errors import NotFiniteError
+from biped_adrc.core.errors import NotFiniteError
+from biped_adrc.core.types import Array
 from biped_adrc.hybrid.constants import ETD, NOT_FINITE, RK4, SOLVER, STRUCK
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
 from biped_adrc.hybrid.integrators import RK4 as ClassicalRungeKutta
 from biped_adrc.hybrid.integrators import OneStepMethod, Solver, Step
 from biped_adrc.hybrid.system import Clock, FoundEvent, HybridSystem, Mode
 from biped_adrc.hybrid.trajectory import Event, Record
-from biped_adrc.types import Array
 
 _Function = TypeVar("_Function", bound=Callable[..., object])
 

@@ -16,7 +16,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import InputError, NotFiniteError, RanAwayError, SingularError, check_count
+from biped_adrc.core.checks import handing_out, sentence_of
+from biped_adrc.core.errors import (
+    InputError,
+    NotFiniteError,
+    RanAwayError,
+    SingularError,
+    check_count,
+)
+from biped_adrc.core.types import Array
 from biped_adrc.hybrid.constants import NOT_FINITE, STEP_FAILED
 from biped_adrc.hybrid.integrators import OneStepMethod, StepFailed
 from biped_adrc.hybrid.march import arm, travel
@@ -24,8 +32,6 @@ from biped_adrc.hybrid.on_arrays import Calendar, Run
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import HybridSystem, Mode, Outcome
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.parts import handing_out, sentence_of
-from biped_adrc.types import Array
 
 Progress = Callable[[float, int], None]
 """Called after every event with the time [s] and the number of events so far."""

@@ -22,8 +22,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from biped_adrc.errors import BipedError, InputError
-from biped_adrc.files import check_regular, output_path, write_bytes
+from biped_adrc.core.errors import BipedError, InputError
+from biped_adrc.core.files import check_regular, output_path, write_bytes
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 

@@ -17,10 +17,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Event, Record
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array
 
 Mode = Any
 """The discrete state, a value of the system's own; Any, since only the system itself looks inside."""

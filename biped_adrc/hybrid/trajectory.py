@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array, freeze, frozen
 from biped_adrc.hybrid.status import Status
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array, freeze, frozen
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -26,7 +26,10 @@ from types import NoneType
 import numpy as np
 import pinocchio as pin
 
-from biped_adrc.errors import ModelError
+from biped_adrc.core.checks import check_part
+from biped_adrc.core.errors import ModelError
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array, Indices, frozen, read_only
 from biped_adrc.model.contact import FloatingDynamics, Impact
 from biped_adrc.model.physical import check_numbers, check_planar
 from biped_adrc.model.pinned import PinnedDynamics, finite_angles, reroot
@@ -34,9 +37,6 @@ from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
 from biped_adrc.model.robots.robot_toml import RobotDescription, load_description
 from biped_adrc.model.robots.symmetry import absolute_angles, relabelling, unlike
 from biped_adrc.model.robots.urdf import Inertial, Tree
-from biped_adrc.parts import check_part
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array, Indices, frozen, read_only
 
 STICTION_SPEED = 0.05  # [rad/s], width of the smoothed sign of static friction
 """Width [rad/s] of the smoothed sign tanh(v / STICTION_SPEED) of static friction."""

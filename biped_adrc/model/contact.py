@@ -29,12 +29,12 @@ from typing import NamedTuple
 import numpy as np
 import pinocchio as pin
 
-from biped_adrc.errors import SingularError
+from biped_adrc.core.errors import SingularError
+from biped_adrc.core.shown import one_line
+from biped_adrc.core.types import Array
 from biped_adrc.model.pinned import XZ, build, frame_index, velocity_index
 from biped_adrc.model.robots.robot_toml import RobotDescription
 from biped_adrc.model.robots.urdf import Tree
-from biped_adrc.shown import one_line
-from biped_adrc.types import Array
 
 
 class Impact(NamedTuple):

@@ -23,10 +23,10 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from biped_adrc.linear import solve
+from biped_adrc.core.linear import solve
+from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import PlanarTree, inertia_and_bias, jacobian, point, turned
-from biped_adrc.types import Array
 
 Symbols = NDArray[np.object_]
 """A NumPy array whose entries are CasADi scalars, as the planar model takes it."""

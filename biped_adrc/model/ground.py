@@ -14,8 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.errors import InputError, check_count, check_positive, check_whole
-from biped_adrc.types import Array
+from biped_adrc.core.errors import InputError, check_count, check_positive, check_whole
+from biped_adrc.core.types import Array
 
 
 def ground_axes(slope: float) -> tuple[Array, Array]:

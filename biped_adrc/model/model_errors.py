@@ -18,10 +18,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from biped_adrc.errors import InputError, ModelError, check_whole
+from biped_adrc.core.errors import InputError, ModelError, check_whole
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array
 
 KINDS = ("mass", "com", "inertia", "friction")
 """Names of the fields of `ModelErrors`, in the order in which they are drawn."""

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from biped_adrc.errors import ModelError, SingularError
+from biped_adrc.core.errors import ModelError, SingularError
 from biped_adrc.model.robots.robot_toml import RobotDescription
 from biped_adrc.model.robots.symmetry import text_of
 from biped_adrc.model.robots.urdf import Tree, Vector

@@ -21,10 +21,10 @@ from dataclasses import replace
 import numpy as np
 import pinocchio as pin
 
-from biped_adrc.errors import InputError, ModelError, NotFiniteError
+from biped_adrc.core.errors import InputError, ModelError, NotFiniteError
+from biped_adrc.core.types import Array
 from biped_adrc.model.robots.robot_toml import RobotDescription
 from biped_adrc.model.robots.urdf import Joint, Link, Tree, Vector, to_xml
-from biped_adrc.types import Array
 
 XZ = [0, 2]
 """The plane of motion among Pinocchio's axes x, y, z."""

@@ -40,10 +40,10 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from biped_adrc.errors import ModelError
+from biped_adrc.core.errors import ModelError
+from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.pinned import frame_index
-from biped_adrc.types import Array, ComplexArray
 
 Numbers = TypeVar("Numbers", Array, NDArray[np.object_])
 """Arrays of numbers, or of symbols; a function that is given one kind returns the same kind."""

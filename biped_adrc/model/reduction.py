@@ -21,9 +21,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.linear import solve_positive
-from biped_adrc.shown import one_line
-from biped_adrc.types import Array
+from biped_adrc.core.linear import solve_positive
+from biped_adrc.core.shown import one_line
+from biped_adrc.core.types import Array
 
 
 class Reduction(NamedTuple):

@@ -18,10 +18,10 @@ from abc import abstractmethod
 from enum import Enum
 from typing import NamedTuple
 
-from biped_adrc.errors import InputError
-from biped_adrc.part import Part
-from biped_adrc.shown import one_line
-from biped_adrc.types import Array, Indices
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.part import Part
+from biped_adrc.core.shown import one_line
+from biped_adrc.core.types import Array, Indices
 
 
 class Estimate(NamedTuple):

@@ -26,10 +26,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.core.errors import InputError, check_positive
+from biped_adrc.core.part import derived
+from biped_adrc.core.types import Array, Indices, relabelled
 from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
-from biped_adrc.part import derived
-from biped_adrc.types import Array, Indices, relabelled
 
 MOST_POLES = 20
 """States per joint: with more, round-off places the poles, and machine code of a step takes minutes to make."""

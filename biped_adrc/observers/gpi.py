@@ -28,7 +28,9 @@ from typing import Self
 
 import numpy as np
 
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.core.errors import InputError, check_positive
+from biped_adrc.core.part import derived
+from biped_adrc.core.types import Array
 from biped_adrc.observers.base import ErrorSystem
 from biped_adrc.observers.chain import (
     ChainObserver,
@@ -39,8 +41,6 @@ from biped_adrc.observers.chain import (
     stable_poles,
     whole,
 )
-from biped_adrc.part import derived
-from biped_adrc.types import Array
 
 TABLE_I = tuple(-180.0 * 1.8**k for k in range(9))
 """Table I [rad/s]; the paper rounds them ("-11.020" and "-19.836" use the dot for thousands).

@@ -21,12 +21,12 @@ from math import comb
 
 import numpy as np
 
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.core.checks import numbers
+from biped_adrc.core.errors import InputError, check_positive
+from biped_adrc.core.part import derived
+from biped_adrc.core.types import Array
 from biped_adrc.observers.chain import whole
 from biped_adrc.observers.gpi import InjectedChain
-from biped_adrc.part import derived
-from biped_adrc.parts import numbers
-from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)

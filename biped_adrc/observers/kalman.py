@@ -26,11 +26,11 @@ from math import factorial
 import numpy as np
 from scipy.linalg import solve_discrete_are
 
-from biped_adrc.errors import check_positive
+from biped_adrc.core.errors import check_positive
+from biped_adrc.core.part import derived
+from biped_adrc.core.types import Array
 from biped_adrc.observers.chain import SampledChain, whole
 from biped_adrc.observers.gpi import InjectedChain
-from biped_adrc.part import derived
-from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)

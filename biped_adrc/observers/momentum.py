@@ -33,6 +33,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from biped_adrc.core.types import Array, Indices, relabelled
 from biped_adrc.observers.base import ResetPolicy
 from biped_adrc.observers.chain import (
     MOST_POLES,
@@ -43,7 +44,6 @@ from biped_adrc.observers.chain import (
     whole,
 )
 from biped_adrc.observers.gpi import InjectedChain, SampledGPIObserver
-from biped_adrc.types import Array, Indices, relabelled
 
 
 class MomentumChain(ChainObserver):

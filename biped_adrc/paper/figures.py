@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.scenario.recording import Walk
 
 if TYPE_CHECKING:

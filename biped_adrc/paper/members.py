@@ -20,6 +20,7 @@ from biped_adrc.analysis.certificate import IMPULSE
 from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.analysis.quadrature import largest
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
+from biped_adrc.core.types import Array
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.paper import scenarios
@@ -30,7 +31,6 @@ from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import Part, runs_in_parts
-from biped_adrc.types import Array
 
 
 class Track(NamedTuple):

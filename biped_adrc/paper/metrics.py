@@ -17,6 +17,7 @@ import numpy as np
 from biped_adrc.analysis.feasibility import COUNTED
 from biped_adrc.analysis.return_map import PeriodicOrbit
 from biped_adrc.control.tracking import TABLE_II
+from biped_adrc.core.types import Array
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.paper.members import MemberOutcome, limits_broken
 from biped_adrc.paper.poincare import PoincareResult
@@ -26,7 +27,6 @@ from biped_adrc.paper.runs import Start
 from biped_adrc.paper.scenarios import CONTROLLERS, KINDS, declared
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.types import Array
 
 Pair = tuple[Outcome, Outcome, float]
 """A walk under NPD and under ADRC, and the period of its gait [s]."""

@@ -24,6 +24,7 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.closed_loop.walker import Mode as StepMode
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.base import Measurement
+from biped_adrc.core.types import Array
 from biped_adrc.engine.run import COMPILED, simulate_by
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hybrid.exponential import Exponential
@@ -39,7 +40,6 @@ from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import walk_scenario
-from biped_adrc.types import Array
 
 MOMENTA = 4
 """Momenta are computed at one of this many random states, since they are slow to compute."""

@@ -10,13 +10,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from biped_adrc.files import write_bytes
+from biped_adrc.core.files import write_bytes
+from biped_adrc.core.processes import Task, run_tasks
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.model.biped import Biped
 from biped_adrc.paper.figures import push_window
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.scenarios import CONTROLLERS
-from biped_adrc.processes import Task, run_tasks
 from biped_adrc.view.from_the_side.robot_figure import robot_figure
 from biped_adrc.view.plots import figures
 from biped_adrc.view.plots.push_map import push_map_figure

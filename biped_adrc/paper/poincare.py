@@ -13,14 +13,14 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.analysis.return_map import PeriodicOrbit
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.paper.regression import Regression, regress_multipliers
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.cycle import gait_map
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)

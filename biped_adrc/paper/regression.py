@@ -14,9 +14,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.errors import InputError
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array
 
 RANK = 1e-8
 """Relative size below which a direction does not count for the rank."""

@@ -19,7 +19,9 @@ from pathlib import Path
 from typing import Any
 
 from biped_adrc.control.tracking import TABLE_II
-from biped_adrc.files import check_folder, check_place, plain, write_text
+from biped_adrc.core.files import check_folder, check_place, plain, write_text
+from biped_adrc.core.processes import TaskProgress, run_tasks
+from biped_adrc.core.versions import versions
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper.figures import push_window
 from biped_adrc.paper.pictures import draw_all
@@ -29,10 +31,8 @@ from biped_adrc.paper.scenarios import Plan
 from biped_adrc.paper.table import checks, rows
 from biped_adrc.paper.tables import tables
 from biped_adrc.paper.verdict import tally, texts
-from biped_adrc.processes import TaskProgress, run_tasks
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.stored import replay
-from biped_adrc.versions import versions
 from biped_adrc.view.meshcat.view import Look, animation_html
 from biped_adrc.view.pages import write_report
 

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from biped_adrc.core.types import Array
 from biped_adrc.paper.members import MemberOutcome
 from biped_adrc.paper.poincare import PoincareResult, regression_of
 from biped_adrc.paper.push_map import PushCell
@@ -17,7 +18,6 @@ from biped_adrc.paper.regression import Regression
 from biped_adrc.paper.runs import Headline, Order, Start
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
 from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,9 @@ from scipy.optimize import brentq
 
 from biped_adrc.analysis.observer.loop import ObserverLoop
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.errors import BipedError
+from biped_adrc.core.errors import BipedError
+from biped_adrc.core.processes import Task
+from biped_adrc.core.types import relabelled
 from biped_adrc.gait.gait import impact_smoothness
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.trajectory import Trajectory
@@ -33,13 +35,11 @@ from biped_adrc.paper.poincare import (
 from biped_adrc.paper.push_map import push_map
 from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Plan, with_values
 from biped_adrc.paper.verdict import AtTwoSteps
-from biped_adrc.processes import Task
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.scenario.run import execute, execute_twice, halved, walk_scenario
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.types import relabelled
 
 NODE_DISTANCE = 5e-4
 """Distance of the nodes that are kept of a walk with short steps [s]; nothing moves faster between pushes."""

@@ -15,10 +15,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import packaged
 from biped_adrc.engine.run import PINOCCHIO
-from biped_adrc.errors import InputError
 from biped_adrc.observers.gpi import TABLE_I
-from biped_adrc.resources import packaged
 from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.scenario import Scenario
 

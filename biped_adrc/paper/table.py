@@ -1,7 +1,7 @@
 """The one table: every claim of the paper, and every law and consistency that its reproduction is held against.
 
 `claims` are the statements of the paper from the abstract to its last section, each judged over all its
-scenarios; of `checks` every scenario is a check of its own, whose kinds (`checks.KINDS`) say what a broken one
+scenarios; of `checks` every scenario is a check of its own, whose kinds (`verdict.KINDS`) say what a broken one
 means:
 
     law           the program is wrong: physics or numerics
@@ -23,7 +23,7 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.checks import Check, at_least, at_most, below, between
+from biped_adrc.core.verdict import Check, at_least, at_most, below, between
 from biped_adrc.paper import metrics as m
 from biped_adrc.paper import values as v
 from biped_adrc.paper.convergence import AGREE, largest_gap, observed_order

@@ -10,6 +10,7 @@ import numpy as np
 from biped_adrc.analysis.certificate import IMPULSE
 from biped_adrc.analysis.feasibility import COUNTED
 from biped_adrc.control.tracking import TABLE_II
+from biped_adrc.core.types import Array
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper import metrics as m
@@ -18,7 +19,6 @@ from biped_adrc.paper.regression import regress_multipliers
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.scenarios import CONTROLLERS, declared
 from biped_adrc.paper.verdict import Extremes
-from biped_adrc.types import Array
 
 
 def of_headline(r: Results) -> dict[str, object]:

@@ -25,8 +25,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from biped_adrc.checks import Check, at_least, at_most
-from biped_adrc.resources import packaged
+from biped_adrc.core.files import packaged
+from biped_adrc.core.verdict import Check, at_least, at_most
 
 if TYPE_CHECKING:
     from biped_adrc.paper.results import Results

@@ -21,8 +21,10 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import SteppingPlant
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.passive import Passive
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.timing import ContinuousTime, SampledTime
+from biped_adrc.core.types import Array, frozen
 from biped_adrc.engine.on_plant import stepping_loop
-from biped_adrc.errors import InputError
 from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.gait import Gait, load_gait
 from biped_adrc.gait.published import PassiveCycle, passive_cycle
@@ -40,8 +42,6 @@ from biped_adrc.scenario.hardware import EncoderRecord, PartRecord
 from biped_adrc.scenario.records import all_taken, named_part
 from biped_adrc.scenario.registry import construct, find, own, takes
 from biped_adrc.scenario.scenario import Scenario, drawn
-from biped_adrc.timing import ContinuousTime, SampledTime
-from biped_adrc.types import Array, frozen
 
 _T = TypeVar("_T")
 RIGID = "rigid"

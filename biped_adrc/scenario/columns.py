@@ -15,10 +15,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.errors import optional
-from biped_adrc.files import output_path, replacing
+from biped_adrc.core.errors import optional
+from biped_adrc.core.files import output_path, replacing
+from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.types import Array
 
 if TYPE_CHECKING:
     import pandas

@@ -22,7 +22,7 @@ import numpy as np
 from biped_adrc.control.across_contact import AcrossContact
 from biped_adrc.control.base import Controller
 from biped_adrc.control.tracking import TABLE_II, Gains
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.outputs import LinearOutputs
 from biped_adrc.model.biped import Biped

@@ -16,7 +16,7 @@ from dataclasses import replace
 from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.analysis.stability import Cycle
 from biped_adrc.closed_loop.walker import Mode
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.run import known_cycle, method_of

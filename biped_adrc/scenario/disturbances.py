@@ -7,6 +7,7 @@ from typing import Any, cast
 
 import numpy as np
 
+from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance, Sum, Windowed
 from biped_adrc.disturbances.link import OnLink
 from biped_adrc.model.biped import Biped
@@ -14,7 +15,6 @@ from biped_adrc.scenario.push import RANDOM, Push
 from biped_adrc.scenario.records import Misfit, all_taken
 from biped_adrc.scenario.registry import construct, find, takes
 from biped_adrc.scenario.scenario import Scenario, drawn
-from biped_adrc.types import Array
 
 
 def disturbances(s: Scenario, biped: Biped, period: float, plant: Biped) -> Disturbance | None:

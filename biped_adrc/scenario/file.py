@@ -13,8 +13,8 @@ from __future__ import annotations
 import tomllib
 from pathlib import Path
 
-from biped_adrc.errors import InputError
-from biped_adrc.files import one_line, reading, toml_key, toml_value, write_text
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import one_line, reading, toml_key, toml_value, write_text
 from biped_adrc.scenario.dotted import flat
 from biped_adrc.scenario.scenario import Scenario
 

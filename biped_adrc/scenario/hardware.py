@@ -6,7 +6,7 @@ from typing import Any, Literal, Self
 
 from pydantic import ConfigDict, field_validator, model_validator
 
-from biped_adrc.resources import packaged
+from biped_adrc.core.files import packaged
 from biped_adrc.scenario.dotted import flat, merged
 from biped_adrc.scenario.records import Misfit, Record, field
 

@@ -18,9 +18,9 @@ from biped_adrc.analysis.certificate import Certificate
 from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
-from biped_adrc.errors import InputError
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array, freeze
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array, freeze
 
 if TYPE_CHECKING:
     from biped_adrc.scenario.recording import Walk

@@ -19,7 +19,7 @@ from typing import Any
 
 from pydantic import ConfigDict, model_validator
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.scenario.records import Misfit, Record, field
 from biped_adrc.scenario.registry import find
 from biped_adrc.scenario.units import quantity

@@ -37,6 +37,8 @@ from biped_adrc.analysis.signals import Signals, signals
 from biped_adrc.analysis.soft_steps import SoftStep, recorded_steps, slip_times
 from biped_adrc.analysis.touchdowns import Noticed, touchdowns
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import Reference, TimeReference
 from biped_adrc.hybrid.trajectory import Trajectory
@@ -45,8 +47,6 @@ from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.columns import columns_of, data_frame, write_csv
 from biped_adrc.scenario.edges import edge_remarks, step_remarks
 from biped_adrc.scenario.outcome import Outcome, outcome_of
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array
 
 if TYPE_CHECKING:
     import pandas

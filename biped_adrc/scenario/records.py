@@ -30,11 +30,11 @@ from pydantic import (
 )
 from pydantic.fields import FieldInfo
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.shown import LONGEST
 from biped_adrc.scenario.dotted import NAME, flat, merged, nested, unknown
 from biped_adrc.scenario.registry import construct, find, known_name, portable, spelled, takes
 from biped_adrc.scenario.units import in_si, quantity
-from biped_adrc.shown import LONGEST
 
 _T = TypeVar("_T")
 OF_FILES = ("robot", "gait")

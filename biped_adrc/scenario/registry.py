@@ -31,9 +31,9 @@ from inspect import Parameter, signature
 from types import MappingProxyType
 from typing import TypeVar
 
-from biped_adrc.errors import BipedError, InputError
-from biped_adrc.parts import check_part
-from biped_adrc.resources import data_folder, packaged
+from biped_adrc.core.checks import check_part
+from biped_adrc.core.errors import BipedError, InputError
+from biped_adrc.core.files import data_folder, packaged
 
 _OWN = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*(\.[^\W\d]\w*)*")
 """package.module:Class, or Class.Inner of a class inside a class."""

@@ -21,6 +21,8 @@ from biped_adrc.analysis.variational import periodic_orbit
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller
 from biped_adrc.control.passive import Passive
+from biped_adrc.core.checks import check_part
+from biped_adrc.core.types import Array
 from biped_adrc.engine.on_plant import walk_on
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.gait.published import passive_cycle
@@ -28,7 +30,6 @@ from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod, Stiff
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.model.biped import Biped
-from biped_adrc.parts import check_part
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_step, soft_loop, start
 from biped_adrc.scenario.outcome import Outcome
 from biped_adrc.scenario.recording import Walk, watched
@@ -41,7 +42,6 @@ from biped_adrc.scenario.walk import (
     refined,
     walk_in_parts,
 )
-from biped_adrc.types import Array
 
 METHODS: dict[str, Callable[..., OneStepMethod]] = {
     "rk4": RK4,

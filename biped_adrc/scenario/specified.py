@@ -13,7 +13,7 @@ from functools import lru_cache
 
 from biped_adrc.analysis.loops.frozen_gait import FrozenGait
 from biped_adrc.analysis.loops.specification import Specification, specification
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_of
 from biped_adrc.scenario.scenario import ErrorRecord, Scenario
 

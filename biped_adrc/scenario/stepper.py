@@ -30,6 +30,9 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.core.checks import check_part, numbers
+from biped_adrc.core.errors import InputError, check_count
+from biped_adrc.core.types import Array, frozen
 from biped_adrc.engine.compiled_signals import Reading
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import WALK, Ints
@@ -38,19 +41,16 @@ from biped_adrc.engine.on_plant import as_walked
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.engine.samples import CompiledWalk, PythonWalk, reading, with_inputs
 from biped_adrc.engine.symbols import NotCompiled
-from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.robots.limits import Limits
-from biped_adrc.parts import check_part, numbers
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop
 from biped_adrc.scenario.build import start as start_of
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import check_start, default_method
-from biped_adrc.types import Array, frozen
 
 _STATUS = np.array([*STATUS, None], dtype=object)
 """By code; the last one is for a walk that has not begun, code -1."""

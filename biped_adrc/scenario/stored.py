@@ -27,8 +27,10 @@ from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.feet import NAMES
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.types import Array
+from biped_adrc.core.versions import versions
 from biped_adrc.disturbances.base import Disturbance
-from biped_adrc.errors import InputError
 from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid import storage
 from biped_adrc.hybrid.trajectory import Trajectory
@@ -36,8 +38,6 @@ from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import Walk, watched
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walker_record import MissingPart, PartRecord, Reader, Writer
-from biped_adrc.types import Array
-from biped_adrc.versions import versions
 
 
 @dataclass(frozen=True)

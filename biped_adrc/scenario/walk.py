@@ -25,9 +25,11 @@ import numpy as np
 
 from biped_adrc.closed_loop.stepping_plant import SteppingPlant
 from biped_adrc.closed_loop.walker import Mode, Walker
+from biped_adrc.core.checks import check_part, handing_out, numbers
+from biped_adrc.core.errors import InputError, check_count
+from biped_adrc.core.types import Array
 from biped_adrc.engine.on_plant import stepping_loop, walk_on
 from biped_adrc.engine.run import COMPILED, simulate_by
-from biped_adrc.errors import InputError, check_count
 from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4, OneStepMethod
@@ -35,10 +37,8 @@ from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.limits import Limits
-from biped_adrc.parts import check_part, handing_out, numbers
 from biped_adrc.scenario.build import plant_around
 from biped_adrc.scenario.recording import Walk, watched
-from biped_adrc.types import Array
 
 if TYPE_CHECKING:
     from biped_adrc.scenario.scenario import Scenario

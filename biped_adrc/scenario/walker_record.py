@@ -28,7 +28,7 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.errors import BipedError, InputError
+from biped_adrc.core.errors import BipedError, InputError
 from biped_adrc.scenario.registry import takes
 
 _ROOMS = re.compile(

@@ -14,8 +14,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from biped_adrc.errors import InputError
-from biped_adrc.files import write_text
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import write_text
 from biped_adrc.view.from_the_side.moving_parts import Motion
 from biped_adrc.view.from_the_side.moving_picture import write_moving_picture
 from biped_adrc.view.from_the_side.stick_figures import write_strip

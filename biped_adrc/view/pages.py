@@ -20,10 +20,9 @@ from jinja2 import Environment, FileSystemLoader
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
-from biped_adrc.errors import InputError
-from biped_adrc.files import write_text
-from biped_adrc.resources import packaged
-from biped_adrc.types import PlainRecord
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import packaged, write_text
+from biped_adrc.core.types import PlainRecord
 from biped_adrc.view.style import render
 
 HERE = "biped_adrc.view"

@@ -34,13 +34,13 @@ from biped_adrc.analysis import soft_steps as meters
 from biped_adrc.analysis.recorded_signals import FORCE, PLACE, SPEED, footholds
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.symmetry import twins
 from biped_adrc.model.robots.urdf import Joint, Tree
-from biped_adrc.types import Array
 
 MOST_FRAMES = 200_000
 """Of a page or a moving picture: an hour at 50 in a second."""

@@ -11,7 +11,7 @@ from biped_adrc.control.impact_invariant import ImpactInvariant
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.pd_gravity import PDGravityController
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.scenario.build import build
 
 PERIOD, SWAP = 1e-3, np.array([1, 0, 3, 2])

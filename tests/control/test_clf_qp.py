@@ -6,7 +6,7 @@ from scipy.optimize import linprog, nnls
 
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.clf_qp import CLFQPController, affine, decrease, least_norm
-from biped_adrc.errors import NotFiniteError
+from biped_adrc.core.errors import NotFiniteError
 
 LIMIT = 150.0
 NO_STATE = np.zeros(0)

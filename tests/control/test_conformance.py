@@ -19,8 +19,8 @@ from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.passive import Passive
 from biped_adrc.control.pd_gravity import JointGains
 from biped_adrc.control.stride import TORSO_LEAN, StrideGains
+from biped_adrc.core.errors import InputError
 from biped_adrc.disturbances.added_force import AddedForce
-from biped_adrc.errors import InputError
 from biped_adrc.gait.bspline import BSpline
 from biped_adrc.gait.constraint import CorrectedConstraint, continued
 from biped_adrc.gait.curves import Curve

@@ -9,7 +9,7 @@ import biped_adrc as ba
 from biped_adrc.analysis.observer.loop import ObserverLoop
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.control.tracking import Gains
-from biped_adrc.errors import InputError, NotFiniteError
+from biped_adrc.core.errors import InputError, NotFiniteError
 from biped_adrc.paper.physical_laws import held_joint
 
 

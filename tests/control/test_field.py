@@ -17,11 +17,11 @@ from biped_adrc.control.npid import NPIDController
 from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.pd_gravity import PDGravityController
 from biped_adrc.control.super_twisting import SuperTwistingController
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.timing import SampledTime
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.observers.high_gain import HighGainObserver
-from biped_adrc.timing import SampledTime
 
 K_P, K_D = 5000.0, 50.0
 LIMIT = 150.0

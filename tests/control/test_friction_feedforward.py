@@ -8,7 +8,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.control.friction_feedforward import FrictionFeedforward, friction_feedforward
 from biped_adrc.control.momentum_dob import MomentumDOBController
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 
 T = 1e-3
 FAST = ba.GPIObserver.from_bandwidth(500.0)

@@ -9,11 +9,11 @@ import biped_adrc as ba
 from biped_adrc.control.delayed import Delayed
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_adrc import OutputADRCController
+from biped_adrc.core.part import derived
 from biped_adrc.engine.structure import structure
 from biped_adrc.gait.reference import Reference
 from biped_adrc.observers.base import Estimate
 from biped_adrc.observers.chain import ChainObserver
-from biped_adrc.part import derived
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ import pytest
 from scipy.linalg import expm, solve_continuous_are
 
 import biped_adrc as ba
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import HybridSystem

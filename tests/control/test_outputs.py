@@ -8,7 +8,7 @@ from scipy.linalg import expm
 
 import biped_adrc as ba
 from biped_adrc.control.output_npd import OutputNPDController
-from biped_adrc.errors import GaitError, InputError, NotFiniteError, SingularError
+from biped_adrc.core.errors import GaitError, InputError, NotFiniteError, SingularError
 from biped_adrc.gait.outputs import FunctionOutputs, LinearOutputs
 
 # stance shank, swing thigh, swing shank, torso: all from the vertical

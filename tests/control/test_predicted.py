@@ -11,7 +11,7 @@ from biped_adrc.control.base import Measurement
 from biped_adrc.control.friction_feedforward import FrictionFeedforward
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.predicted import Predicted
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.hardware.motors import whole_and_part
 from biped_adrc.model.reduction import reduce

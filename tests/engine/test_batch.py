@@ -12,9 +12,9 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
 from biped_adrc.control.base import Controller
+from biped_adrc.core.errors import InputError, NotFiniteError
 from biped_adrc.engine.batch import Case, simulate_many
 from biped_adrc.engine.run import simulate_by
-from biped_adrc.errors import InputError, NotFiniteError
 from biped_adrc.gait.published import passive_cycle
 
 simulate = partial(simulate_by, "compiled")

@@ -16,8 +16,8 @@ import numpy as np
 import pytest
 from numba import types
 
+from biped_adrc.core.errors import InputError
 from biped_adrc.engine.kernels.run_plan import STATUS, Functions, Push, plan
-from biped_adrc.errors import InputError
 from biped_adrc.hybrid.constants import ETD, RK4
 from biped_adrc.hybrid.exponential import phi_levels
 from biped_adrc.hybrid.status import Status

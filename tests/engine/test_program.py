@@ -9,12 +9,12 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.passive import Passive
+from biped_adrc.core.errors import ModelError
+from biped_adrc.core.timing import SampledTime
 from biped_adrc.engine.compiled_biped import CompiledBiped
 from biped_adrc.engine.program import Program
-from biped_adrc.errors import ModelError
 from biped_adrc.model.planar import PlanarTree
 from biped_adrc.model.robots.robot_toml import robot_names
-from biped_adrc.timing import SampledTime
 
 EXACT = 1e-11
 COUNT = 1000

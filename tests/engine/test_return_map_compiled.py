@@ -8,7 +8,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.closed_loop.walker import Mode
-from biped_adrc.errors import SimulationError
+from biped_adrc.core.errors import SimulationError
 from biped_adrc.gait.published import passive_cycle
 
 

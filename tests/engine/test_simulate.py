@@ -13,15 +13,15 @@ from scipy.linalg import expm
 import biped_adrc as ba
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
 from biped_adrc.control.base import Controller
+from biped_adrc.core.errors import InputError, NotFiniteError, SingularError
+from biped_adrc.core.linear import solve
+from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine import program
 from biped_adrc.engine.run import simulate_by
-from biped_adrc.errors import InputError, NotFiniteError, SingularError
 from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import Stiff
-from biped_adrc.linear import solve
-from biped_adrc.types import Array
 
 simulate = partial(simulate_by, "compiled")
 

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.core.errors import InputError
 from biped_adrc.engine.compiled_push import term_code
 from biped_adrc.engine.ir import in_memory
 from biped_adrc.engine.machine import ModuleText
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import floats
-from biped_adrc.errors import InputError
 from tests.control.conforms import call
 
 HEAD = """

@@ -21,7 +21,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.control.momentum_dob import MomentumDOBController
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.extras.export.computer import Computer
 from biped_adrc.extras.export.loaded import ExportedController
 from biped_adrc.extras.export.source import source_of

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.core.errors import InputError, OutputError
 from biped_adrc.engine.mechanics import RobotStructure
-from biped_adrc.errors import InputError, OutputError
 from biped_adrc.extras.export import loaded as loading
 from biped_adrc.extras.export.c_text import in_double
 from biped_adrc.extras.export.computer import Computer

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.gait.conventions import CONVENTIONS, convention
 
 RNG = np.random.default_rng(7)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from biped_adrc.analysis.gait_design import DesignedGait, design_gait
-from biped_adrc.errors import GaitError
+from biped_adrc.core.errors import GaitError
 from biped_adrc.gait.design.optimise import audit, optimise
 from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits
 from biped_adrc.gait.gait import load_gait, onto_section

@@ -7,7 +7,7 @@ import pytest
 from scipy.io import loadmat
 
 import biped_adrc as ba
-from biped_adrc.errors import GaitError, InputError
+from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.gait.conventions import CONVENTIONS, own_convention
 from biped_adrc.gait.curves import Bezier, Polynomial
 from biped_adrc.gait.exchange.files import RUN_UNITS, export_run, read_mat, read_record

@@ -8,7 +8,7 @@ import pytest
 from scipy import interpolate
 
 import biped_adrc as ba
-from biped_adrc.errors import GaitError, OutputError
+from biped_adrc.core.errors import GaitError, OutputError
 from biped_adrc.gait.bspline import BSpline, knots
 from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.curves import Bezier, Polynomial

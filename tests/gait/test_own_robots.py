@@ -13,9 +13,9 @@ from typer.testing import CliRunner
 
 import biped_adrc as ba
 from biped_adrc.cli import app
+from biped_adrc.core.files import data_folder
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.exchange.samples import Samples
-from biped_adrc.resources import data_folder
 
 
 def copy_of(robot, folder, *changes):

@@ -10,7 +10,7 @@ import pytest
 from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.npd import NPDController
-from biped_adrc.errors import GaitError
+from biped_adrc.core.errors import GaitError
 from biped_adrc.gait.gait import impact_smoothness, load_gait, onto_section
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.gait.recipe import (

@@ -14,7 +14,7 @@ import biped_adrc as ba
 from biped_adrc.analysis.certificate import certificates
 from biped_adrc.analysis.zero_report import zero_report
 from biped_adrc.cli import app
-from biped_adrc.errors import GaitError, InputError
+from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.gait.curves import Polynomial
 from biped_adrc.gait.zero_domain import DomainLimits, domain
 from biped_adrc.gait.zero_orbits import ZeroOrbits

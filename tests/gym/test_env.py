@@ -6,7 +6,7 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 import biped_adrc as ba
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 
 ID = "biped_adrc.extras.gym:biped_adrc/Walk-v0"
 SLOW = {"controller.observer.bandwidth": 160.0, "controller.observer.order": 1}

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from gymnasium.vector import AutoresetMode, VectorEnv
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 
 ID = "biped_adrc.extras.gym:biped_adrc/Walk-v0"
 

@@ -9,8 +9,8 @@ import biped_adrc as ba
 from biped_adrc.analysis.touchdowns import matched, touchdowns
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.protocols import Mode
+from biped_adrc.core.errors import InputError
 from biped_adrc.engine.simulate import run_compiled
-from biped_adrc.errors import InputError
 from biped_adrc.hardware.detectors import ByForce, ByKinematics, Told
 from biped_adrc.hardware.touchdown import Look, belief_of
 from biped_adrc.hybrid import simulator

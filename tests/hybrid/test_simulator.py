@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import pytest
 
-from biped_adrc.errors import InputError, NotFiniteError, RanAwayError, SingularError
+from biped_adrc.core.errors import InputError, NotFiniteError, RanAwayError, SingularError
 from biped_adrc.hybrid.integrators import RK4, Adaptive, Stiff
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.status import Status

@@ -5,7 +5,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.observers.gpi import TABLE_I

@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 
 import biped_adrc as ba
 from biped_adrc.cli import app
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.extras.logs.log_file import write_log
 
 ARRAYS = ("t", "step", "q", "u", "v", "measured")

@@ -9,7 +9,7 @@ import pytest
 from scipy.signal import cont2discrete, dlsim
 
 import biped_adrc as ba
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.extras.logs.log_of_walk import logged
 
 LESO = {"controller.name": "LESO", "controller.observer.bandwidth": 160.0}

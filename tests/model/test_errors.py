@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.errors import InputError, ModelError
+from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.model.model_errors import ModelErrors, impact_error
 from biped_adrc.model.robot_import.import_checks import checks
 

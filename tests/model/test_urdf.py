@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.errors import InputError, ModelError, NotFiniteError
+from biped_adrc.core.errors import InputError, ModelError, NotFiniteError
+from biped_adrc.core.files import data_folder
 from biped_adrc.model.pinned import frame_index, reroot
 from biped_adrc.model.robots import symmetry
 from biped_adrc.model.robots.robot_toml import robot_names
 from biped_adrc.model.robots.urdf_reader import read
 from biped_adrc.model.robots.urdf_xml import parse
-from biped_adrc.resources import data_folder
 
 FLOATING = data_folder("urdf") / "rabbit" / "floating.urdf"
 TORSO_MASS = '<mass value="12.0"/>'

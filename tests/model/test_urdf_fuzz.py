@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.core.files import data_folder
 from biped_adrc.model.robots.robot_toml import load_description
-from biped_adrc.resources import data_folder
 
 NUMBERS = ("xyz", "rpy", "value", "lower", "upper", "effort", "ixx", "ixy", "ixz", "iyy", "izz")
 BAD = ("nan", "inf", "-1e400", "1e300", "1e-300", "0", "-1", "1.5kg", "", "1 2", "\u0661", "2**3")

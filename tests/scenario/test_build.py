@@ -15,7 +15,7 @@ from biped_adrc.scenario.file import read_scenario
 from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario, drawn, field_of, names, scenario_of
 from biped_adrc.scenario.units import unit_of
-from biped_adrc.study.run import run_trial
+from biped_adrc.studies.run import run_trial
 
 
 def drawn_start(seed: int, **values: object) -> np.ndarray:

@@ -7,7 +7,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.closed_loop.instant_signals import signals_at
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 
 NPD = ba.Scenario("NPD", hardware={"period": 1e-3}, run={"impacts": 2})
 TOUCHDOWN = NPD.replace(

@@ -16,9 +16,9 @@ from typer.testing import CliRunner
 import biped_adrc as ba
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.cli import app
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import data_folder
 from biped_adrc.hybrid.storage import load, load_beside, save
-from biped_adrc.resources import data_folder
 from biped_adrc.scenario.walker_record import Reader, Writer
 
 FAST = {"run.engine": "compiled", "run.impacts": 1}

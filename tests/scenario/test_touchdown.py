@@ -10,7 +10,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.hardware.detectors import ByForce, ByKinematics, Told
 from biped_adrc.scenario.build import build
-from biped_adrc.study.run import run_trial
+from biped_adrc.studies.run import run_trial
 
 USUAL = {"controller.name": "NPD", "hardware.period": 1e-3, "run.impacts": 2}
 

@@ -8,7 +8,7 @@ from typer.testing import CliRunner
 
 import biped_adrc as ba
 from biped_adrc.cli import app
-from biped_adrc.errors import InputError, OutputError
+from biped_adrc.core.errors import InputError, OutputError
 from biped_adrc.extras.mujoco.mjcf import mjcf, write_mjcf
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco

@@ -9,8 +9,8 @@ import biped_adrc as ba
 from biped_adrc.analysis.recorded_signals import accelerations
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
+from biped_adrc.core.errors import InputError
 from biped_adrc.engine.on_plant import stepping_loop
-from biped_adrc.errors import InputError
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.hybrid.simulator import RunOptions

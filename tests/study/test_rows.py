@@ -16,10 +16,10 @@ from typer.testing import CliRunner
 
 import biped_adrc as ba
 from biped_adrc.cli import app
-from biped_adrc.errors import InputError, SimulationError
-from biped_adrc.resources import data_folder
-from biped_adrc.study import runner
-from biped_adrc.study.store import RESULTS
+from biped_adrc.core.errors import InputError, SimulationError
+from biped_adrc.core.files import data_folder
+from biped_adrc.studies import runner
+from biped_adrc.studies.store import RESULTS
 
 FOLDER = Path(plants.__file__).parent
 

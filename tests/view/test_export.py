@@ -13,7 +13,7 @@ from PIL import Image
 from typer.testing import CliRunner
 
 from biped_adrc.cli import app
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.model.biped import Biped

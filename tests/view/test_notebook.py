@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import pytest
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.view.meshcat.view import animation_html
 

@@ -18,7 +18,7 @@ from typer.testing import CliRunner
 
 import biped_adrc as ba
 from biped_adrc.cli import app
-from biped_adrc.errors import BipedError, InputError, OutputError
+from biped_adrc.core.errors import BipedError, InputError, OutputError
 from biped_adrc.extras.play.page import FIRST, page, revised, tour
 from biped_adrc.extras.play.walks import MOST, SPRING
 from biped_adrc.extras.play.webassembly import web_module

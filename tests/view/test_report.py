@@ -7,7 +7,7 @@ import re
 
 import pytest
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.model.biped import Biped
 from biped_adrc.view.from_the_side.robot_figure import robot_figure
 from biped_adrc.view.pages import report_html, write_report

@@ -10,7 +10,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.control.reference_reset import ReferenceReset
-from biped_adrc.errors import InputError, SimulationError
+from biped_adrc.core.errors import InputError, SimulationError
 from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.published import passive_cycle
 from biped_adrc.model.ground import StepDown

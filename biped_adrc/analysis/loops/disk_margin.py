@@ -19,7 +19,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.optimize import minimize
 
-from biped_adrc.types import Array, ComplexArray
+from biped_adrc.core.types import Array, ComplexArray
 
 BALANCED = 10
 """Sweeps of Osborne's iteration over all frequencies at once, which says for which of them mu is computed."""

@@ -17,13 +17,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.errors import check_positive
+from biped_adrc.core.errors import check_positive
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array, read_only
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.derivatives import acceleration_derivatives
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array, read_only
 
 PHASES = (0.15, 0.4, 0.65, 0.9)
 """Shares of the step's time at which a loop is looked at [1]; the first is after the impact's transient."""

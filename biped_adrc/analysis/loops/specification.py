@@ -33,10 +33,10 @@ from biped_adrc.analysis.loops.frozen_gait import FrozenGait
 from biped_adrc.analysis.loops.tick_matrices import TickMatrices, linear_twin, tick_matrices
 from biped_adrc.analysis.loops.walker_loop import WalkerLoops
 from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.timing import SampledTime
+from biped_adrc.core.types import Array
 from biped_adrc.gait.gait import Gait
-from biped_adrc.shown import Shown
-from biped_adrc.timing import SampledTime
-from biped_adrc.types import Array
 
 OWN = 2.0
 """A mode with |s| below so many times sqrt(g / l) is the gait's own [1]."""

@@ -20,11 +20,11 @@ import numpy as np
 
 from biped_adrc.analysis.loops.frozen_gait import FrozenPoint
 from biped_adrc.closed_loop.walker import Mode, Walker
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.timing import SampledTime
+from biped_adrc.core.types import Array
 from biped_adrc.engine.tick_derivative import tick_derivative
-from biped_adrc.errors import InputError
 from biped_adrc.hardware.sample_hold import HeldSizes
-from biped_adrc.timing import SampledTime
-from biped_adrc.types import Array
 
 TICKS_BEFORE = 2
 """Ticks before the one that is differentiated: after them every sensor has a difference of its angles."""

@@ -24,8 +24,8 @@ from scipy.optimize import brentq
 
 from biped_adrc.analysis.loops.tick_matrices import TickMatrices
 from biped_adrc.analysis.observer.sampled import covariance
+from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.hardware.motors import whole_and_part
-from biped_adrc.types import Array, ComplexArray
 
 TINY = 1e-12
 """Eigenvalues below it are gone within a period."""

@@ -28,6 +28,8 @@ from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.adrc import ADRCController
 from biped_adrc.control.delayed import Delayed
 from biped_adrc.control.tracking import TABLE_II, Gains
+from biped_adrc.core.timing import SampledTime
+from biped_adrc.core.types import Array
 from biped_adrc.engine.run import COMPILED, simulate_by
 from biped_adrc.gait.gait import Gait
 from biped_adrc.hardware.sensors import Sensors
@@ -36,8 +38,6 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.timing import SampledTime
-from biped_adrc.types import Array
 
 IMPACTS = 6
 """Impacts of each walk of a check."""

@@ -25,12 +25,12 @@ from numpy.typing import NDArray
 from scipy.linalg import expm
 
 from biped_adrc.control.tracking import TABLE_II, Gains
+from biped_adrc.core.types import Array, relabelled
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.observers.base import ResetPolicy
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.types import Array, relabelled
 
 DEGREE = 20
 """Degree of the polynomial in time that approximates xi along the orbit."""

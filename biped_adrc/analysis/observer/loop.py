@@ -35,8 +35,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from biped_adrc.control.tracking import TABLE_II, Gains
+from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.types import Array, ComplexArray
 
 GRID = 2000
 """Number of frequencies of a response, between which crossovers are searched too."""

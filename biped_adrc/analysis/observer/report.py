@@ -30,16 +30,16 @@ from biped_adrc.analysis.observer.choice import (
 from biped_adrc.analysis.observer.impact import ImpactStates, impact_peak, orbit_impact
 from biped_adrc.analysis.observer.loop import GRID
 from biped_adrc.analysis.observer.sampled import largest_delay, largest_period
-from biped_adrc.columns import columns
 from biped_adrc.control.tracking import TABLE_II, Gains
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.shown import columns
+from biped_adrc.core.timing import SampledTime
+from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.observers.base import Observer, ResetPolicy
 from biped_adrc.observers.gpi import GPIObserver
-from biped_adrc.timing import SampledTime
-from biped_adrc.types import Array, ComplexArray
 
 COUNTS = 8192.0
 """Counts of RABBIT's encoders per revolution."""

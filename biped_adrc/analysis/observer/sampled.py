@@ -28,11 +28,11 @@ import numpy as np
 
 from biped_adrc.analysis.observer.loop import first_gains
 from biped_adrc.control.tracking import TABLE_II, Gains
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.timing import SampledTime
+from biped_adrc.core.types import Array
 from biped_adrc.hardware.motors import whole_and_part
 from biped_adrc.observers.gpi import GPIObserver, SampledGPIObserver
-from biped_adrc.timing import SampledTime
-from biped_adrc.types import Array
 
 SHORTEST, LONGEST = 1e-6, 0.1
 """[s]: periods among which the largest stable one is looked for."""

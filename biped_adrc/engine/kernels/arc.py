@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import math
 
+from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.call import *
 from biped_adrc.engine.kernels.operations import *
 from biped_adrc.engine.kernels.record import FOOT_STRIKE, WALK, Ints, Run
 from biped_adrc.hybrid.constants import *
 from biped_adrc.hybrid.march import arm, travel
-from biped_adrc.types import Array
 
 MOST_ARCS = 100
 """In one sample (EVENT_LIMIT)."""

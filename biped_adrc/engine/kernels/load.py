@@ -20,8 +20,8 @@ from typing import Any, NamedTuple
 
 from llvmlite import binding
 
+from biped_adrc.core.errors import ModelError
 from biped_adrc.engine.machine import ModuleText, keep, key_of, load_or_compile, stored
-from biped_adrc.errors import ModelError
 
 _HERE = "biped_adrc.engine.kernels"
 FILES = (

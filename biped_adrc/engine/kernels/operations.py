@@ -13,10 +13,10 @@ import math
 
 import numpy as np
 
+from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.call import call, floats_at, inner, shift, unit
 from biped_adrc.engine.kernels.record import FOOT_STRIKE, FOOT_X, HIP_TOO_LOW, PART, Run
 from biped_adrc.hybrid.constants import *
-from biped_adrc.types import Array
 
 
 # -- vectors ---------------------------------------------------------------------------------------

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from biped_adrc.types import Array
+from biped_adrc.core.types import Array
 
 Ints = NDArray[np.int64]
 FOOT_STRIKE, HIP_TOO_LOW, FOOT_X = 0, 1, 3

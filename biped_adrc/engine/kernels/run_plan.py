@@ -17,6 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.types import Array, frozen
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import (
     FOOT_STRIKE,
@@ -28,10 +30,8 @@ from biped_adrc.engine.kernels.record import (
     TABLES,
     Ints,
 )
-from biped_adrc.errors import InputError
 from biped_adrc.hybrid.constants import FULL, STRUCK
 from biped_adrc.hybrid.status import Status
-from biped_adrc.types import Array, frozen
 
 STATUS: tuple[Status, ...] = tuple(Status)[:STRUCK]
 """The status for each code of `hybrid.constants`; STRUCK and FULL have none."""

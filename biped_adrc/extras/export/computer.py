@@ -16,18 +16,18 @@ import numpy as np
 
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.core.errors import InputError, ModelError
+from biped_adrc.core.timing import SampledTime
+from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import WalkerNumbers
 from biped_adrc.engine.mechanics import RobotData, robot_of
 from biped_adrc.engine.program import controller_numbers
 from biped_adrc.engine.tick_derivative import tick_derivative
-from biped_adrc.errors import InputError, ModelError
 from biped_adrc.extras.export.noticed import Noticed
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.sensors import Sensors
-from biped_adrc.timing import SampledTime
-from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)

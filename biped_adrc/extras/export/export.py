@@ -12,12 +12,12 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.errors import OutputError
+from biped_adrc.core.checks import check_part
+from biped_adrc.core.errors import OutputError
+from biped_adrc.core.files import write_bytes
 from biped_adrc.extras.export.computer import Computer
 from biped_adrc.extras.export.fmu import fmu_of
 from biped_adrc.extras.export.source import Source, source_of
-from biped_adrc.files import write_bytes
-from biped_adrc.parts import check_part
 from biped_adrc.scenario.build import build
 from biped_adrc.scenario.file import scenario_lines
 from biped_adrc.scenario.scenario import Scenario

@@ -17,6 +17,8 @@ import numpy as np
 
 from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.protocols import Mode
+from biped_adrc.core.timing import SAME_INSTANT
+from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import (
     Equations,
     SymbolicFunction,
@@ -28,8 +30,6 @@ from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.extras.export.computer import Computer
 from biped_adrc.hardware.motors import Line
 from biped_adrc.hardware.sample_hold import read
-from biped_adrc.timing import SAME_INSTANT
-from biped_adrc.types import Array
 
 HEAD = 4
 """Inputs before q: t, time of the sample instant before, number and start of the single support."""

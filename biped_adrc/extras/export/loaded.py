@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.control.base import Controller, Measurement
-from biped_adrc.errors import (
+from biped_adrc.core.errors import (
     BipedError,
     InputError,
     NotFiniteError,
@@ -30,8 +30,8 @@ from biped_adrc.errors import (
     RanAwayError,
     SingularError,
 )
+from biped_adrc.core.types import Array, Indices, relabelled
 from biped_adrc.extras.export.source import Source
-from biped_adrc.types import Array, Indices, relabelled
 
 FLAGS: tuple[str, ...] = ("-std=c99", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic")
 """How an exported controller is compiled."""

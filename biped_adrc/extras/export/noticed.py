@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.types import Array
 from biped_adrc.engine.mechanics import RobotStructure
-from biped_adrc.errors import InputError
 from biped_adrc.hardware.sensing import Sensor
-from biped_adrc.types import Array
 
 
 @dataclass(frozen=True)

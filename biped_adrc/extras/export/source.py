@@ -14,14 +14,14 @@ from pathlib import Path
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
+from biped_adrc.core.checks import spoken
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import c_comment, one_line
+from biped_adrc.core.versions import packages
 from biped_adrc.engine.symbols import NotCompiled, floats, paths
-from biped_adrc.errors import InputError
 from biped_adrc.extras.export.c_text import Written, c_text, decimal, used_numbers
 from biped_adrc.extras.export.computer import Computer
 from biped_adrc.extras.export.layout import Field, Functions, functions
-from biped_adrc.files import c_comment, one_line
-from biped_adrc.parts import spoken
-from biped_adrc.versions import packages
 
 REALS = {"float64": "double", "float32": "float"}
 """Type of numbers in C, by its name in NumPy."""

@@ -3,7 +3,7 @@
 Importing this registers the environment. Raises InputError without Gymnasium, of the extra `[gym]`.
 """
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 
 try:
     import gymnasium

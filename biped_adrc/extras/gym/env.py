@@ -16,13 +16,13 @@ import gymnasium
 import numpy as np
 from gymnasium.spaces import Box
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.types import Array
 from biped_adrc.extras.gym.picture import Drawn, Window
 from biped_adrc.extras.gym.stage import Stage
 from biped_adrc.extras.gym.task import TORQUES, LearnerTask
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 from biped_adrc.scenario.stepper import finite_numbers
-from biped_adrc.types import Array
 
 RENDER_MODES = ("human", "rgb_array")
 

@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
+from biped_adrc.core.types import Array
 from biped_adrc.extras.gym.stage import Stage
 from biped_adrc.model.biped import Biped
-from biped_adrc.types import Array
 from biped_adrc.view.from_the_side.moving_parts import COLOURS
 from biped_adrc.view.from_the_side.side_view import bones, placed_lines, roles_of
 from biped_adrc.view.placement import TILE, joint_values, link_placements

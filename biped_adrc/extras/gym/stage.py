@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.passive import Passive
+from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.extras.gym.needs import Needs
 from biped_adrc.extras.gym.task import ADDED, FALLEN_FROM, LearnerTask
@@ -21,7 +22,6 @@ from biped_adrc.extras.gym.view import learner_view
 from biped_adrc.scenario.build import RobotAndGait, build, limits
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.stepper import Stepper
-from biped_adrc.types import Array
 
 TURNS = 4.0 * np.pi
 """Largest angle of an observation [rad], two turns."""

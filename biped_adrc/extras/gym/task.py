@@ -15,15 +15,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.checks import check_part
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import packaged
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array
 from biped_adrc.model.robots.limits import KnownLimits
-from biped_adrc.parts import check_part
-from biped_adrc.resources import packaged
 from biped_adrc.scenario.build import RIGID, RobotAndGait, limits
 from biped_adrc.scenario.dotted import flat, merged, nested
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array
 
 _TABLES = packaged("biped_adrc.extras.gym", "conditions.toml")
 BASE: dict[str, object] = flat(_TABLES["base"])

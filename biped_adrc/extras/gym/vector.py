@@ -16,14 +16,14 @@ from gymnasium.utils import seeding
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
-from biped_adrc.errors import InputError, check_count
+from biped_adrc.core.errors import InputError, check_count
+from biped_adrc.core.types import Array
 from biped_adrc.extras.gym.env import check_options, checked_mode, spaces_of
 from biped_adrc.extras.gym.picture import Drawn
 from biped_adrc.extras.gym.stage import Flags, Stage
 from biped_adrc.extras.gym.task import TORQUES, LearnerTask
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 from biped_adrc.scenario.stepper import finite_numbers
-from biped_adrc.types import Array
 
 
 class WalkVectorEnv(VectorEnv[Array, Array, Any]):

@@ -18,9 +18,9 @@ from biped_adrc.closed_loop.noticing import labelled, noticed
 from biped_adrc.closed_loop.protocols import Loop, Mode
 from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.control.base import Measurement
+from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.hardware.sample_hold import motor_torque, read
-from biped_adrc.types import Array
 
 
 class LearnerView(NamedTuple):

@@ -20,14 +20,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import number_in, reading
+from biped_adrc.core.types import Array, relabelled
 from biped_adrc.extras.logs.plausible import check_plausible
 from biped_adrc.extras.logs.robot_log import RobotLog, check_rows
-from biped_adrc.files import number_in, reading
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.columns import write_csv
 from biped_adrc.scenario.units import unit_of
-from biped_adrc.types import Array, relabelled
 
 UNITS = {"t": "s", "q": "rad", "v": "rad/s", "u": "N m"}
 """Unit of each signal in the package."""

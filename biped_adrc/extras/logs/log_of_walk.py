@@ -10,14 +10,14 @@ import numpy as np
 from biped_adrc.closed_loop.noticing import turned
 from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.timing import SAME_INSTANT, SampledTime
+from biped_adrc.core.types import Array, relabelled
 from biped_adrc.extras.logs.robot_log import RobotLog
 from biped_adrc.hardware.sample_hold import motor_torque, read
 from biped_adrc.hardware.touchdown import belief_of
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.scenario.recording import Walk
-from biped_adrc.timing import SAME_INSTANT, SampledTime
-from biped_adrc.types import Array, relabelled
 
 LoggedRow = tuple[float, float, Array, Array, Array]
 """t [s], number of the single support, q (n,) [rad], u (p,) [N m], v (n,) [rad/s]."""

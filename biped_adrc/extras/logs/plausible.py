@@ -11,9 +11,9 @@ import math
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
-from biped_adrc.types import Array
 
 MOST_ANGLE = 4.0 * math.pi
 """[rad]: a joint that turned twice is one in degrees."""

@@ -19,17 +19,16 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from biped_adrc.columns import columns
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.core.checks import check_part
+from biped_adrc.core.errors import InputError, check_positive
+from biped_adrc.core.shown import Shown, columns
+from biped_adrc.core.types import Array
 from biped_adrc.extras.logs.log_file import read_log
 from biped_adrc.extras.logs.replay_signals import ReplaySignals, replayed
 from biped_adrc.extras.logs.robot_log import RobotLog
-from biped_adrc.parts import check_part
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.columns import write_csv
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -11,8 +11,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from biped_adrc.core.types import Array
 from biped_adrc.extras.logs.replay_signals import ReplaySignals
-from biped_adrc.types import Array
 from biped_adrc.view.plots.over_time import NO_OBSERVER, legend
 from biped_adrc.view.style import DASHES, GREY, PALETTE, label, new_figure, style
 

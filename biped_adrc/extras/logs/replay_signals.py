@@ -24,10 +24,10 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Measurement
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array, freeze
 from biped_adrc.extras.logs.robot_log import RobotLog
 from biped_adrc.hardware.sensors import Sensors
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array, freeze
 
 
 @dataclass(frozen=True)

@@ -17,11 +17,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from biped_adrc.errors import InputError
-from biped_adrc.parts import numbers
-from biped_adrc.shown import Shown
-from biped_adrc.timing import LONGEST_PERIOD
-from biped_adrc.types import Array, Indices, read_only
+from biped_adrc.core.checks import numbers
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.timing import LONGEST_PERIOD
+from biped_adrc.core.types import Array, Indices, read_only
 
 GAP = 0.5
 """Share of the period by which two rows may come too early or too late; beyond it a row is missing."""

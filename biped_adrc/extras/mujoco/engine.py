@@ -27,10 +27,10 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.closed_loop.stepping_plant import Load
+from biped_adrc.core.types import Array, Indices, MuJoCoData, MuJoCoModel
 from biped_adrc.extras.mujoco.robot import PLANES, mujoco
 from biped_adrc.hybrid.integrators import StepFailed
 from biped_adrc.model.biped import Biped
-from biped_adrc.types import Array, Indices, MuJoCoData, MuJoCoModel
 
 INTEGRATORS = {"rk4": "mjINT_RK4", "leapfrog": "mjINT_EULER"}
 """MuJoCo's method behind each name."""

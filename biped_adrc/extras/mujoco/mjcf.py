@@ -14,14 +14,14 @@ from pathlib import Path
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.checks import check_part
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import output_path, write_text, xml_comment
+from biped_adrc.core.versions import packages
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import NO_CONTACT, floating_mjcf, text
-from biped_adrc.files import output_path, write_text, xml_comment
 from biped_adrc.gait.gait import Gait
 from biped_adrc.model.robots.urdf import Visual
-from biped_adrc.parts import check_part
-from biped_adrc.versions import packages
 
 
 def write_mjcf(plant: MuJoCoPlant, path: Path | str, gait: Gait | None = None) -> Path:

@@ -34,18 +34,17 @@ import numpy as np
 from biped_adrc.closed_loop.feet import Feet
 from biped_adrc.closed_loop.stepping_plant import Advanced, Contact, Load, PlantState, state_of
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
-from biped_adrc.errors import InputError, check_count, check_positive
+from biped_adrc.core.checks import Checked, NonNegativeFloat, check_fields
+from biped_adrc.core.errors import InputError, check_count, check_positive
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.timing import check_ends
+from biped_adrc.core.types import Array, Indices, MuJoCoData, MuJoCoModel, relabelled
 from biped_adrc.extras.mujoco.engine import INTEGRATORS, MuJoCoEngine, Own
 from biped_adrc.extras.mujoco.robot import PLANES, compiled, floating_mjcf, mujoco
 from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import StepDown, StepUp, check_slope, check_steps, drop_of, ground_axes
-from biped_adrc.parts import Checked, check_fields
-from biped_adrc.ranges import NonNegativeFloat
-from biped_adrc.shown import Shown
-from biped_adrc.timing import check_ends
-from biped_adrc.types import Array, Indices, MuJoCoData, MuJoCoModel, relabelled
 
 TOUCHING = 1e-6
 """How deep the stance foot is in the ground at the start [m]: no last bit decides whether it touches."""

@@ -19,9 +19,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from biped_adrc.errors import InputError, check_positive
-from biped_adrc.parts import Checked, numbers
-from biped_adrc.shown import Shown
+from biped_adrc.core.checks import Checked, numbers
+from biped_adrc.core.errors import InputError, check_positive
+from biped_adrc.core.shown import Shown
 
 
 @dataclass(frozen=True)

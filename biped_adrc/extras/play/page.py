@@ -19,13 +19,12 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.checks import check_part
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import output_path, packaged, write_text
 from biped_adrc.extras.play.walks import MOST, PageWalk, numbers, variants
-from biped_adrc.files import output_path, write_text
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-from biped_adrc.parts import check_part
-from biped_adrc.resources import packaged
 from biped_adrc.scenario.dotted import merged, nested
 from biped_adrc.scenario.scenario import ObserverRecord, Scenario
 from biped_adrc.view.meshcat import objects as draw

@@ -14,11 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import BipedError
+from biped_adrc.core.errors import BipedError
+from biped_adrc.core.types import Array
 from biped_adrc.scenario.controllers import CONTEXT, GAINS
 from biped_adrc.scenario.registry import find, takes
 from biped_adrc.scenario.scenario import Scenario, field_of
-from biped_adrc.types import Array
 
 Form = tuple[float, float, int] | list[float]
 """(a, b, k) of a number, k = 0 for the tangent; or its values at those of a table."""

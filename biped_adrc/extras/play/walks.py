@@ -20,6 +20,9 @@ import numpy as np
 from biped_adrc.closed_loop.instant_signals import signals_at
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.timing import SampledTime
+from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Sum
 from biped_adrc.disturbances.link import OnLink
 from biped_adrc.disturbances.waves import TorqueStep
@@ -27,7 +30,6 @@ from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.record import PLACES, Ints
 from biped_adrc.engine.kernels.run_plan import STATUS, Functions
 from biped_adrc.engine.symbols import NotCompiled, paths
-from biped_adrc.errors import InputError
 from biped_adrc.extras.play.sliders import Form, Slider, fitted, numbers_at, sliders
 from biped_adrc.extras.play.webassembly import WebWalker, web_walkers
 from biped_adrc.hardware.motors import whole_and_part
@@ -39,8 +41,6 @@ from biped_adrc.scenario.build import RIGID, RobotAndGait, build, limits, start
 from biped_adrc.scenario.file import scenario_lines
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.timing import SampledTime
-from biped_adrc.types import Array
 from biped_adrc.view.meshcat.objects import visual_links
 from biped_adrc.view.placement import exchanged, joint_values
 

@@ -23,6 +23,7 @@ from typing import Any, NamedTuple
 
 from llvmlite import binding
 
+from biped_adrc.core.errors import InputError
 from biped_adrc.engine.compiled_push import term_text
 from biped_adrc.engine.compiled_signals import SignalNumbers, observe
 from biped_adrc.engine.compiled_walker import CompiledWalker
@@ -31,7 +32,6 @@ from biped_adrc.engine.kernels.load import loops
 from biped_adrc.engine.kernels.record import PART, PLACES
 from biped_adrc.engine.kernels.run_plan import Functions, RunPlan
 from biped_adrc.engine.machine import keep, key_of, stored
-from biped_adrc.errors import InputError
 from biped_adrc.gait.reference import Reference
 
 

@@ -17,9 +17,9 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from biped_adrc.errors import GaitError
+from biped_adrc.core.errors import GaitError
+from biped_adrc.core.types import Array
 from biped_adrc.gait.design.nlp import Bounded, NonlinearProgram
-from biped_adrc.types import Array
 
 IpoptProgress = Callable[[int, float, float], None]
 """Called after each iteration with its number, the objective, and the largest violation of a constraint."""

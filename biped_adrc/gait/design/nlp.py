@@ -26,11 +26,11 @@ from typing import NamedTuple
 import casadi as ca
 import numpy as np
 
+from biped_adrc.core.types import Array
 from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
 from biped_adrc.gait.design.start import LONGEST
 from biped_adrc.gait.design.step import SymbolicStep, Unknowns
 from biped_adrc.model.biped import Biped
-from biped_adrc.types import Array
 
 SHORTEST = 0.05
 """Shortest step that is looked for, as a share of the leg length."""

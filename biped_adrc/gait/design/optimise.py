@@ -22,7 +22,8 @@ from time import perf_counter
 import casadi as ca
 import numpy as np
 
-from biped_adrc.errors import GaitError
+from biped_adrc.core.errors import GaitError
+from biped_adrc.core.types import Array
 from biped_adrc.gait.design.ipopt import ASKED, Bounds, IpoptProgress, IpoptResult, relaxed, solve
 from biped_adrc.gait.design.nlp import transcribe
 from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
@@ -31,7 +32,6 @@ from biped_adrc.gait.design.step import Unknowns, at_gait, flat
 from biped_adrc.gait.gait import Gait, onto_section
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, ZeroDynamicsOrbit, invariant_constraint
 from biped_adrc.model.biped import Biped
-from biped_adrc.types import Array
 
 NODES = 120
 """Gauss nodes of the audit, five times those at which the programme keeps its limits by default."""

@@ -13,11 +13,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
 
-from biped_adrc.errors import GaitError
+from biped_adrc.core.checks import check_fields
+from biped_adrc.core.errors import GaitError
+from biped_adrc.core.shown import Shown
 from biped_adrc.gait.curves import ControlledCurve, curve_kind
 from biped_adrc.model.biped import Biped
-from biped_adrc.parts import check_fields
-from biped_adrc.shown import Shown
 
 MOST_NODES = 100
 """Largest number of nodes that may be asked for; twice as many are tried where limits are missed between

@@ -19,7 +19,8 @@ from collections.abc import Mapping
 import numpy as np
 from scipy.optimize import least_squares
 
-from biped_adrc.errors import GaitError
+from biped_adrc.core.errors import GaitError
+from biped_adrc.core.types import Array
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits
 from biped_adrc.gait.design.step import Unknowns, at_gait
 from biped_adrc.gait.gait import onto_section
@@ -27,7 +28,6 @@ from biped_adrc.gait.zero_dynamics import invariant_constraint
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.planar import PlanarTree, point, turned
-from biped_adrc.types import Array
 
 LONGEST = 1.2
 """Longest step that is looked for, as a share of the leg length."""

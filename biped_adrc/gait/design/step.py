@@ -20,6 +20,7 @@ from typing import Any, Generic, NamedTuple, TypeVar
 import casadi as ca
 import numpy as np
 
+from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import ControlledCurve
 from biped_adrc.gait.design.request import GaitRequest, RobotLimits
@@ -35,7 +36,6 @@ from biped_adrc.model.planar import (
     point,
     turned,
 )
-from biped_adrc.types import Array
 
 T = TypeVar("T", bound=Any)
 

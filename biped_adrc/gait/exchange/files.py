@@ -32,13 +32,13 @@ from typing import Any
 import numpy as np
 from scipy.io import loadmat, savemat
 
-from biped_adrc.errors import GaitError, InputError
-from biped_adrc.files import output_path, plain, read_json, reading, write_bytes, write_text
+from biped_adrc.core.errors import GaitError, InputError
+from biped_adrc.core.files import output_path, plain, read_json, reading, write_bytes, write_text
+from biped_adrc.core.types import Array
 from biped_adrc.gait.conventions import OWN
 from biped_adrc.gait.exchange.record import GaitRecord
 from biped_adrc.gait.exchange.samples import Samples, read_csv
 from biped_adrc.gait.gait import FORMAT as STORED
-from biped_adrc.types import Array
 
 
 def write_mat(path: Path | str, entries: Mapping[str, object], units: Mapping[str, str]) -> None:

@@ -22,15 +22,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import GaitError
+from biped_adrc.core.errors import GaitError
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array, read_only
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.conventions import OWN, Convention, layout_of
 from biped_adrc.gait.curves import Curve, curve_kind
 from biped_adrc.gait.gait import CLOSES, Gait
 from biped_adrc.gait.outputs import all_coordinates
 from biped_adrc.model.biped import Biped
-from biped_adrc.shown import Shown
-from biped_adrc.types import Array, read_only
 
 LARGEST = 4.0 * math.pi
 """[rad]: angles above this are taken for degrees."""

@@ -19,8 +19,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.errors import GaitError, InputError
-from biped_adrc.files import number_in, reading
+from biped_adrc.core.checks import numbers
+from biped_adrc.core.errors import GaitError, InputError
+from biped_adrc.core.files import number_in, reading
+from biped_adrc.core.shown import one_line
+from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.conventions import OWN, Convention
 from biped_adrc.gait.curves import Bezier
@@ -28,9 +31,6 @@ from biped_adrc.gait.exchange.record import LARGEST, whole_turns
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, invariant_constraint
 from biped_adrc.model.biped import Biped
-from biped_adrc.parts import numbers
-from biped_adrc.shown import one_line
-from biped_adrc.types import Array
 
 FITS = 5e-3
 """[rad]: largest distance of a sample from the curve in a fit that is good."""

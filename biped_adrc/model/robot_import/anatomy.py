@@ -24,11 +24,11 @@ from itertools import pairwise, zip_longest
 
 import numpy as np
 
-from biped_adrc.errors import ModelError
+from biped_adrc.core.errors import ModelError
+from biped_adrc.core.types import Array
 from biped_adrc.model.robot_import.planar_base import PlanarBase
 from biped_adrc.model.robots.symmetry import absolute_angles
 from biped_adrc.model.robots.urdf import Joint, Tree
-from biped_adrc.types import Array
 
 _FOOT_NAMES = re.compile(r"foot|feet|toe|sole", re.IGNORECASE)
 """Words in the name of a link that make it a foot."""

@@ -20,11 +20,11 @@ from collections.abc import Iterator
 import numpy as np
 import pinocchio as pin
 
-from biped_adrc.checks import Check, at_most
+from biped_adrc.core.types import Array
+from biped_adrc.core.verdict import Check, at_most
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.contact import LinkMotion
 from biped_adrc.model.pinned import XZ, frame_index
-from biped_adrc.types import Array
 
 STATES, SEED = 20, 0
 LIMIT = 1e-9

@@ -40,9 +40,9 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.checks import Check
-from biped_adrc.errors import ModelError, OutputError
-from biped_adrc.files import toml_key, toml_value, write_text
+from biped_adrc.core.errors import ModelError, OutputError
+from biped_adrc.core.files import toml_key, toml_value, write_text
+from biped_adrc.core.verdict import Check
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robot_import.anatomy import Anatomy, anatomy
 from biped_adrc.model.robot_import.import_checks import checks

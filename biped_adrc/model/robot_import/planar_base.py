@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from biped_adrc.errors import ModelError
+from biped_adrc.core.errors import ModelError
 from biped_adrc.model.pinned import PIN_JOINT
 from biped_adrc.model.robots.symmetry import text_of
 from biped_adrc.model.robots.urdf import Joint, Link, Tree

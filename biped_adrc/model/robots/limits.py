@@ -14,9 +14,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.core.errors import InputError, check_positive
+from biped_adrc.core.shown import Shown
 from biped_adrc.model.robots.robot_toml import RobotDescription
-from biped_adrc.shown import Shown
 
 WINDOW = 5e-3
 """Time over which the force of the ground is averaged [s]."""

@@ -34,13 +34,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from biped_adrc.errors import ModelError, check_positive
-from biped_adrc.files import reading
+from biped_adrc.core.checks import check_part
+from biped_adrc.core.errors import ModelError, check_positive
+from biped_adrc.core.files import data_folder, reading
+from biped_adrc.core.shown import Shown
 from biped_adrc.model.robots.urdf import Inertial, Tree
 from biped_adrc.model.robots.urdf_reader import read
-from biped_adrc.parts import check_part
-from biped_adrc.resources import data_folder
-from biped_adrc.shown import Shown
 
 
 @dataclass(frozen=True)

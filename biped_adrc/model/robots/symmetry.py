@@ -15,9 +15,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from biped_adrc.errors import ModelError
+from biped_adrc.core.errors import ModelError
+from biped_adrc.core.types import Array
 from biped_adrc.model.robots.urdf import Inertial, Tree
-from biped_adrc.types import Array
 
 _EXACT = 1e-9  # largest residual of A R = P A, dimensionless
 

@@ -15,8 +15,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from biped_adrc.errors import ModelError
-from biped_adrc.shown import Shown
+from biped_adrc.core.errors import ModelError
+from biped_adrc.core.shown import Shown
 
 Vector = tuple[float, float, float]
 """(x, y, z) [m], or a direction."""

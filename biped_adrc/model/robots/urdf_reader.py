@@ -27,7 +27,8 @@ from pathlib import Path
 import numpy as np
 import pinocchio as pin
 
-from biped_adrc.errors import ModelError
+from biped_adrc.core.errors import ModelError
+from biped_adrc.core.types import Array
 from biped_adrc.model.robots.urdf import (
     FREE,
     GEOMETRY_SIZES,
@@ -43,7 +44,6 @@ from biped_adrc.model.robots.urdf import (
     check_inertial,
 )
 from biped_adrc.model.robots.urdf_xml import parse
-from biped_adrc.types import Array
 
 LARGEST = 1e100
 """Bound on every number in a URDF, in any unit; products of larger ones overflow."""

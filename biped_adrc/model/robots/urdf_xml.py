@@ -5,8 +5,8 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
-from biped_adrc.errors import ModelError
-from biped_adrc.files import reading
+from biped_adrc.core.errors import ModelError
+from biped_adrc.core.files import reading
 
 DEEPEST, MOST_LINKS = 50, 200
 """Of elements inside one another, and links of a robot."""

@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 from PIL import Image, ImageColor
 
-from biped_adrc.types import Array
+from biped_adrc.core.types import Array
 from biped_adrc.view.from_the_side import moving_parts as draw
 from biped_adrc.view.from_the_side.side_by_side import LINES
 from biped_adrc.view.style import REACTION, TORQUE

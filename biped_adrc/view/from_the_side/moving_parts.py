@@ -17,8 +17,8 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PolyCollection
 
-from biped_adrc.errors import InputError
-from biped_adrc.types import Array
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.types import Array
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.placement import TILE, loads
 from biped_adrc.view.style import METRES_PER_NEWTON_METRE, REACTION, STANCE, SWING, TORQUE, TRUNK

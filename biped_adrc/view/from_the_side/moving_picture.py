@@ -16,9 +16,9 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from biped_adrc.errors import InputError
-from biped_adrc.files import write_bytes
-from biped_adrc.types import Array
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import write_bytes
+from biped_adrc.core.types import Array
 from biped_adrc.view.from_the_side import moving_parts as draw
 from biped_adrc.view.from_the_side.gif import encoded
 from biped_adrc.view.from_the_side.side_by_side import frames_apart

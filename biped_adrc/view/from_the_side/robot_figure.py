@@ -15,10 +15,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.urdf import Visual
-from biped_adrc.types import Array
 from biped_adrc.view.placement import joint_values, link_placements
 from biped_adrc.view.style import GREY, PALETTE, label, literal, new_figure, style
 

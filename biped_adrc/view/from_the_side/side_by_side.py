@@ -16,8 +16,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from biped_adrc.errors import InputError
-from biped_adrc.types import Array
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.types import Array
 from biped_adrc.view.from_the_side import moving_parts as draw
 from biped_adrc.view.from_the_side.side_view import SideView, Tracked
 from biped_adrc.view.placement import Recorded, WalkScene, ending, is_wheel

@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.placement import Recorded, WalkScene, ending
 from biped_adrc.view.style import (

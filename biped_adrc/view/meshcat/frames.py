@@ -14,8 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, hermite
-from biped_adrc.types import Array
 from biped_adrc.view.placement import (
     WalkScene,
     check_frames,

@@ -26,9 +26,9 @@ import umsgpack  # type: ignore[import-untyped]
 from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 
+from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.urdf import Joint, Tree, Visual
-from biped_adrc.types import Array
 from biped_adrc.view.placement import TILE, WalkScene, joint_transform, legs, spokes, turn
 
 with warnings.catch_warnings():

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.core.errors import InputError, check_positive
 from biped_adrc.model.biped import Biped
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.meshcat import objects as draw

@@ -16,7 +16,7 @@ from matplotlib.gridspec import GridSpec, SubplotSpec
 from numpy.typing import ArrayLike
 
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.types import Array
+from biped_adrc.core.types import Array
 from biped_adrc.view import plots
 from biped_adrc.view.plots.over_time import Window
 from biped_adrc.view.style import new_figure, style

@@ -14,9 +14,9 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.errors import InputError, check_positive
+from biped_adrc.core.errors import InputError, check_positive
+from biped_adrc.core.types import Array
 from biped_adrc.model.ground import ground_axes
-from biped_adrc.types import Array
 from biped_adrc.view.style import DASHES, GREY, PALETTE, PUSH, label
 
 Window = tuple[float, float]

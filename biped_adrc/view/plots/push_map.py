@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Polygon
 
 from biped_adrc.analysis.feasibility import COUNTED
-from biped_adrc.types import PlainRecord
+from biped_adrc.core.types import PlainRecord
 from biped_adrc.view.style import label, named_cells, new_figure, style
 
 FATES: dict[str, tuple[str, str, str]] = {

@@ -13,7 +13,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike
 
-from biped_adrc.types import Array
+from biped_adrc.core.types import Array
 from biped_adrc.view.style import GREY, PALETTE, label
 
 MARKERS = "ox^s"

@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from biped_adrc.types import Array
+from biped_adrc.core.types import Array
 from biped_adrc.view.style import GREY, PALETTE, label, literal, named_cells, new_figure, style
 
 MARKERS = ("o", "s", "D", "^", "v", "P", "X", "*")

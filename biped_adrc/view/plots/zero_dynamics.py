@@ -19,9 +19,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from biped_adrc.analysis.zero_report import ZeroDynamicsReport
+from biped_adrc.core.types import Array
 from biped_adrc.gait.zero_domain import PASSING
 from biped_adrc.gait.zero_orbits import ZeroOrbits, grid
-from biped_adrc.types import Array
 from biped_adrc.view.plots.stability import stairs
 from biped_adrc.view.style import DASHES, GREY, PALETTE, label, new_figure, style
 

@@ -15,15 +15,15 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from biped_adrc.analysis.statistics import Interval, Paired, median, paired, share
-from biped_adrc.errors import optional
-from biped_adrc.files import output_path, replacing
-from biped_adrc.shown import Shown
-from biped_adrc.study.measure import is_counted, is_made
-from biped_adrc.study.parameters import NO_WALK
-from biped_adrc.study.run import COLUMNS
-from biped_adrc.study.search import Candidate
-from biped_adrc.study.store import Result, opened
-from biped_adrc.study.study import CASE, CONDITION, Study, measure_of
+from biped_adrc.core.errors import optional
+from biped_adrc.core.files import output_path, replacing
+from biped_adrc.core.shown import Shown
+from biped_adrc.studies.measure import is_counted, is_made
+from biped_adrc.studies.parameters import NO_WALK
+from biped_adrc.studies.run import COLUMNS
+from biped_adrc.studies.search import Candidate
+from biped_adrc.studies.store import Result, opened
+from biped_adrc.studies.study import CASE, CONDITION, Study, measure_of
 
 SET, CANDIDATE, SETTING = "set", "candidate", "setting"
 """Names under which the set of walks, the candidate and which of the two settings of a test stand."""

@@ -20,9 +20,9 @@ from dataclasses import field, fields, is_dataclass
 from functools import cached_property, lru_cache
 from typing import Any, TypeVar
 
-from biped_adrc.parts import Checked
-from biped_adrc.shown import Shown
-from biped_adrc.types import frozen
+from biped_adrc.core.checks import Checked
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import frozen
 
 T = TypeVar("T")
 

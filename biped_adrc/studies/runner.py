@@ -16,15 +16,15 @@ from contextlib import ExitStack
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from biped_adrc.errors import InputError, SimulationError, optional
-from biped_adrc.processes import cores, processes, stop
-from biped_adrc.study.parameters import CRASHED, RAISED, Record
-from biped_adrc.study.store import Store
-from biped_adrc.study.study import Point
-from biped_adrc.types import DaskClient
-from biped_adrc.versions import differences, numerical_versions
+from biped_adrc.core.errors import InputError, SimulationError, optional
+from biped_adrc.core.processes import cores, processes, stop
+from biped_adrc.core.types import DaskClient
+from biped_adrc.core.versions import differences, numerical_versions
+from biped_adrc.studies.parameters import CRASHED, RAISED, Record
+from biped_adrc.studies.store import Store
+from biped_adrc.studies.study import Point
 
-PRELOADED = ("biped_adrc.study.run",)
+PRELOADED = ("biped_adrc.studies.run",)
 """Modules that worker processes share."""
 LOOK_UP = 256
 """Points that are made and looked up in the store at once."""

@@ -11,8 +11,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from biped_adrc.errors import InputError
-from biped_adrc.parts import check_fields
+from biped_adrc.core.checks import check_fields
+from biped_adrc.core.errors import InputError
 
 LONGEST_PERIOD = 0.1
 """Largest sampling period accepted [s].

@@ -21,20 +21,20 @@ from biped_adrc.analysis.certificate import REASONS, supports
 from biped_adrc.analysis.feasibility import Feasibility, outcome_of
 from biped_adrc.analysis.ground_force import Nodes
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
+from biped_adrc.core.errors import BipedError
+from biped_adrc.core.files import packaged
 from biped_adrc.engine.batch import BatchWalk, Case, run_case
-from biped_adrc.errors import BipedError
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.robots.limits import Limits
-from biped_adrc.resources import packaged
 from biped_adrc.scenario.build import RIGID, limits
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.study.build import case, scene_of
-from biped_adrc.study.counted import WalkRow, counted, counted_in
-from biped_adrc.study.parameters import NO_WALK, RAISED, REFUSED, Record, scenario_of
+from biped_adrc.studies.build import case, scene_of
+from biped_adrc.studies.counted import WalkRow, counted, counted_in
+from biped_adrc.studies.parameters import NO_WALK, RAISED, REFUSED, Record, scenario_of
 
-COLUMNS: Mapping[str, str] = packaged("biped_adrc.study", "columns.toml")
+COLUMNS: Mapping[str, str] = packaged("biped_adrc.studies", "columns.toml")
 """The columns of a row and what each means, with units."""
 WORDS = ("status", "detail", "outcome", "engine")
 """Columns that hold text."""

@@ -18,9 +18,9 @@ import warnings
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from biped_adrc.errors import optional
-from biped_adrc.study.parameters import Values
-from biped_adrc.study.search import Candidate, Search, Variable, Walks, judged, ranked
+from biped_adrc.core.errors import optional
+from biped_adrc.studies.parameters import Values
+from biped_adrc.studies.search import Candidate, Search, Variable, Walks, judged, ranked
 
 FIRST_PART = 0.4
 """The share of the budget that TPE has."""

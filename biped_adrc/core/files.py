@@ -20,9 +20,12 @@ import os
 import re
 import stat
 import tempfile
+import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import fields, is_dataclass
+from functools import cache
+from importlib.resources import files
 from json import JSONDecodeError
 from pathlib import Path
 from tomllib import TOMLDecodeError
@@ -30,7 +33,7 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.errors import BipedError, InputError, OutputError
+from biped_adrc.core.errors import BipedError, InputError, OutputError
 
 _KIND = re.compile(r"\.[A-Za-z]\w*")
 """The end of a name that says what is in a file; '.1' of 'push_0.1' does not."""
@@ -300,3 +303,29 @@ def replacing(path: Path) -> Iterator[Path]:
     finally:
         if temporary is not None:
             temporary.unlink(missing_ok=True)
+
+
+_PACKAGE = Path(__file__).resolve().parents[1]
+
+
+def data_folder(kind: str) -> Path:
+    """The folder of this kind of data, "urdf" or "gaits".
+
+    Raises FileNotFoundError when neither the wheel nor the checkout has it.
+    """
+    for candidate in (_PACKAGE / "_data" / kind, _PACKAGE.parent / kind):
+        if candidate.is_dir():
+            return candidate
+    raise FileNotFoundError(
+        f"the data folder '{kind}' is neither in the installed package nor beside it; "
+        "reinstall with 'pip install .'"
+    )
+
+
+@cache
+def packaged(package: str, name: str) -> dict[str, Any]:
+    """The content of the TOML file `name` in the folder of `package`, such as "biped_adrc.view"; read once.
+
+    The dict is shared by all callers and must not be changed.
+    """
+    return tomllib.loads(files(package).joinpath(name).read_text("utf-8"))

@@ -12,11 +12,11 @@ from collections.abc import Iterable
 from functools import lru_cache
 
 from biped_adrc.analysis.loops.specification import Specification
-from biped_adrc.errors import BipedError
+from biped_adrc.core.errors import BipedError
 from biped_adrc.scenario.scenario import GroundRecord
 from biped_adrc.scenario.specified import specification_of
-from biped_adrc.study.build import scene_of
-from biped_adrc.study.parameters import Values, scenario_of
+from biped_adrc.studies.build import scene_of
+from biped_adrc.studies.parameters import Values, scenario_of
 
 WITHOUT_WALK = ("stable", "delay_margin", "disk_margin", "ripple")
 """Such columns: numbers of a `Specification`."""

@@ -29,16 +29,16 @@ from typing import Any, NamedTuple
 
 from pydantic import Field, ValidationError, model_validator
 
-from biped_adrc.errors import BipedError, InputError
-from biped_adrc.files import reading
+from biped_adrc.core.errors import BipedError, InputError
+from biped_adrc.core.files import reading
+from biped_adrc.core.versions import numerical_versions, packages
 from biped_adrc.scenario.dotted import unknown
 from biped_adrc.scenario.file import read_scenario
-from biped_adrc.study.build import case, versions_of
-from biped_adrc.study.measure import Column, Limit, Measure, Objective
-from biped_adrc.study.parameters import SEED, Record, scenario_of
-from biped_adrc.study.search import Search, Variable, WalkSets
-from biped_adrc.study.space import Draw, Grid, Part, Seeds, Sets, Values, problem
-from biped_adrc.versions import numerical_versions, packages
+from biped_adrc.studies.build import case, versions_of
+from biped_adrc.studies.measure import Column, Limit, Measure, Objective
+from biped_adrc.studies.parameters import SEED, Record, scenario_of
+from biped_adrc.studies.search import Search, Variable, WalkSets
+from biped_adrc.studies.space import Draw, Grid, Part, Seeds, Sets, Values, problem
 
 MOST_POINTS = 10_000_000
 """Most walks of a study; more is taken for a mistake in the file."""

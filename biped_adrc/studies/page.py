@@ -12,12 +12,12 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from biped_adrc.analysis.statistics import Interval
-from biped_adrc.files import write_text
+from biped_adrc.core.files import write_text
 from biped_adrc.scenario.scenario import field_of
-from biped_adrc.study.measure import OF_ALL, is_counted
-from biped_adrc.study.results import Group, Line, Results
-from biped_adrc.study.run import COLUMNS
-from biped_adrc.study.study import measure_of
+from biped_adrc.studies.measure import OF_ALL, is_counted
+from biped_adrc.studies.results import Group, Line, Results
+from biped_adrc.studies.run import COLUMNS
+from biped_adrc.studies.study import measure_of
 from biped_adrc.view.pages import data_uri, plain, rendered
 from biped_adrc.view.plots.study import cells_figure, dots_figure, map_figure, path_figure
 from biped_adrc.view.style import render

@@ -68,7 +68,7 @@ def numerical_versions() -> Mapping[str, str]:
     Two runs with equal values of this mapping, on any machine of the same architecture, are
     comparable. Computed once for each process.
     """
-    source = source_hash(Path(__file__).parent)[:12]
+    source = source_hash(Path(__file__).parents[1])[:12]
     found = {"python": platform.python_version(), "machine": platform.machine(), SOURCE: source}
     return found | packages(NUMERICAL)
 

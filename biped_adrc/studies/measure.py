@@ -13,11 +13,11 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 
+from biped_adrc.core.types import Array
 from biped_adrc.scenario.dotted import unknown
-from biped_adrc.study.run import COLUMNS, WORDS
-from biped_adrc.study.space import Part
-from biped_adrc.study.without_walk import WITHOUT_WALK
-from biped_adrc.types import Array
+from biped_adrc.studies.run import COLUMNS, WORDS
+from biped_adrc.studies.space import Part
+from biped_adrc.studies.without_walk import WITHOUT_WALK
 
 OF_ALL = ("survived", "feasible", "but_impact", "impacts", "feasible_impacts", "distance")
 """Columns that every walk has, however it ended."""

@@ -17,9 +17,9 @@ from biped_adrc.analysis.certificate import IMPULSE, REASONS
 from biped_adrc.analysis.contact_errors import contact_errors
 from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.analysis.ground_force import Nodes
+from biped_adrc.core.types import Array
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.recording import Walk
-from biped_adrc.types import Array
 
 WalkRow = dict[str, float | int | str | None]
 """Results by column name."""

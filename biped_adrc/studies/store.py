@@ -17,10 +17,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from biped_adrc.errors import InputError, OutputError
-from biped_adrc.files import check_folder, check_place
-from biped_adrc.study.study import Point, Study
-from biped_adrc.versions import differences
+from biped_adrc.core.errors import InputError, OutputError
+from biped_adrc.core.files import check_folder, check_place
+from biped_adrc.core.versions import differences
+from biped_adrc.studies.study import Point, Study
 
 APPLICATION = 0x62614453
 """SQLite's application_id, by which a results file is told from other databases."""

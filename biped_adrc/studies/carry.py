@@ -18,16 +18,16 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 from biped_adrc.scenario.file import write_scenario
-from biped_adrc.study.parameters import SEED, Values, scenario_of
-from biped_adrc.study.proposals import optuna_library, searched
-from biped_adrc.study.results import BEFORE, CANDIDATE, CHOSEN, SET, SETTING, Choice, Results
-from biped_adrc.study.run import run_trials
-from biped_adrc.study.runner import Crew, Function, Progress, Runner
-from biped_adrc.study.search import Candidate, Search, Walks, judged, ranked
-from biped_adrc.study.store import opened
-from biped_adrc.study.study import CASE, CONDITION, Point, Study, chosen_file, read_study
+from biped_adrc.studies.parameters import SEED, Values, scenario_of
+from biped_adrc.studies.proposals import optuna_library, searched
+from biped_adrc.studies.results import BEFORE, CANDIDATE, CHOSEN, SET, SETTING, Choice, Results
+from biped_adrc.studies.run import run_trials
+from biped_adrc.studies.runner import Crew, Function, Progress, Runner
+from biped_adrc.studies.search import Candidate, Search, Walks, judged, ranked
+from biped_adrc.studies.store import opened
+from biped_adrc.studies.study import CASE, CONDITION, Point, Study, chosen_file, read_study
 
 Asked = Sequence[tuple[int, Values, Mapping[str, Any]]]
 """Candidates to be walked: number, values, and what locates their walks besides."""

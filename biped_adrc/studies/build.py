@@ -13,14 +13,14 @@ from functools import lru_cache
 from pathlib import Path
 
 from biped_adrc.closed_loop.walker import Mode
+from biped_adrc.core.errors import InputError
 from biped_adrc.engine.batch import Case
 from biped_adrc.engine.run import COMPILED
-from biped_adrc.errors import InputError
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, soft_loop, start
 from biped_adrc.scenario.registry import find, is_own, source_hash
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario, field_of
-from biped_adrc.study.parameters import PLANT, SUFFIXES
+from biped_adrc.studies.parameters import PLANT, SUFFIXES
 
 
 def versions_of(values: Iterable[tuple[str, object]]) -> dict[str, str]:

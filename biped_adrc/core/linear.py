@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg.lapack import dgesv
 
-from biped_adrc.errors import SingularError
-from biped_adrc.types import Array
+from biped_adrc.core.errors import SingularError
+from biped_adrc.core.types import Array
 
 
 def solve(A: Array, B: Array, what: str) -> Array:

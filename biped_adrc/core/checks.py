@@ -1,7 +1,7 @@
 """What a part of a walker is expected to be, and the sentence for a user who gives another thing.
 
 A dataclass calls `check_fields` and has each field held against its own annotation, its range included
-(`ranges`); a function calls `check_part` for one argument. Both raise InputError.
+(`Range`); a function calls `check_part` for one argument. Both raise InputError.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import sysconfig
 import traceback
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import fields, is_dataclass
 from functools import lru_cache, wraps
@@ -17,13 +17,33 @@ from inspect import unwrap
 from numbers import Integral, Real
 from pathlib import Path
 from types import NoneType, UnionType
-from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, NamedTuple, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from biped_adrc.errors import BipedError, InputError, NotFiniteError, RaisedError
-from biped_adrc.ranges import Range
-from biped_adrc.types import Array
+from biped_adrc.core.errors import BipedError, InputError, NotFiniteError, RaisedError
+from biped_adrc.core.types import Array
+
+
+class Range(NamedTuple):
+    """The numbers that `holds` accepts, and what a message calls them."""
+
+    words: str
+    holds: Callable[[Any], bool]
+
+
+def _whole(x: Any, least: int) -> bool:
+    return isinstance(x, Integral) and not isinstance(x, bool) and int(x) >= least
+
+
+FiniteFloat = Annotated[float, Range("a finite number", math.isfinite)]
+PositiveFloat = Annotated[float, Range("a positive number", lambda x: 0.0 < x < math.inf)]
+NonNegativeFloat = Annotated[
+    float, Range("zero or a positive number", lambda x: 0.0 <= x < math.inf)
+]
+PositiveInt = Annotated[int, Range("a whole number, at least 1", lambda x: _whole(x, 1))]
+NonNegativeInt = Annotated[int, Range("a whole number >= 0", lambda x: _whole(x, 0))]
+
 
 SUCH_AS = {
     "Mapping": "{'torso': 1.2}",
@@ -243,7 +263,7 @@ def sentence_of(error: Exception) -> str:
 
 LIBRARIES = tuple(sysconfig.get_paths()[kind] for kind in ("stdlib", "purelib", "platlib"))
 """Folders of Python and of installed packages."""
-PACKAGE = str(Path(__file__).parent)
+PACKAGE = str(Path(__file__).parents[1])
 
 
 def is_users(file: str) -> bool:

@@ -18,7 +18,7 @@ from multiprocessing import forkserver, resource_tracker
 from threading import Thread
 from typing import Generic, NamedTuple, TypeVar
 
-from biped_adrc.errors import InputError
+from biped_adrc.core.errors import InputError
 
 T = TypeVar("T")
 """What a task returns."""
