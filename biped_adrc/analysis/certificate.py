@@ -115,10 +115,10 @@ class Certificate(Support):
 
         but: names in `REASONS` that do not count.
         """
-        found = [text for name, text in self.infeasible().items() if name not in but]
+        result = [text for name, text in self.infeasible().items() if name not in but]
         if not self.old_foot_velocity > 0:
-            found.append("the old stance foot does not lift off")
-        return tuple(found)
+            result.append("the old stance foot does not lift off")
+        return tuple(result)
 
 
 def ratio_text(ratio: float) -> str:
@@ -219,10 +219,10 @@ def certificates(
         k = (k or Limits()).of(walker.plant.description)
     arcs = [arc for arc in trajectory.arcs if ended_in_impact(arc)]
     after = after_last_impact(walker, trajectory)
-    found = supports(walker, Nodes.of(signals), k, len(arcs), after)
+    result = supports(walker, Nodes.of(signals), k, len(arcs), after)
     return tuple(
         _certificate(walker, signals.of_step(arc.mode.step), arc, s)
-        for arc, s in zip(arcs, found, strict=False)
+        for arc, s in zip(arcs, result, strict=False)
     )
 
 
@@ -253,5 +253,5 @@ def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Cert
 def inner(t: Array) -> NDArray[np.bool_]:
     """Whether a node is away from both ends of a step by the share ENDS (K,), for its times t (K,) [s]."""
     since, last = t - t[0], t[-1] - t[0]
-    found: NDArray[np.bool_] = (since > ENDS * last) & (since < (1.0 - ENDS) * last)
-    return found
+    result: NDArray[np.bool_] = (since > ENDS * last) & (since < (1.0 - ENDS) * last)
+    return result

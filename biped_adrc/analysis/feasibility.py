@@ -111,11 +111,11 @@ class Feasibility(Shown):
     @cached_property
     def reasons(self) -> dict[str, str]:
         """Why it is not feasible: for each name in `REASONS` the first text, with the number of its step."""
-        found: dict[str, str] = {}
+        result: dict[str, str] = {}
         for s in self.supports:
             for name, text in s.infeasible().items():
-                found.setdefault(name, f"step {s.step}: {text}")
-        return found
+                result.setdefault(name, f"step {s.step}: {text}")
+        return result
 
     @property
     def outcome(self) -> str:
@@ -183,12 +183,12 @@ def first_violation(
         "scuffing": (n.t, of, depths(walker, n, impacts), 0.0),
         IMPULSE: (n.t[last], np.arange(len(last)), impulses, cone),
     }
-    found = []
+    result = []
     for name, (t, where, x, limit) in series.items():
         holds = x > limit if name == "normal_force" else x <= limit
         for i in np.flatnonzero(~holds)[:1]:
-            found.append(Violation(float(t[i]), int(where[i]), violation(name, x[i], k)))
-    return min(found, default=None, key=lambda one: one.t)
+            result.append(Violation(float(t[i]), int(where[i]), violation(name, x[i], k)))
+    return min(result, default=None, key=lambda one: one.t)
 
 
 def until_infeasible(
@@ -211,16 +211,16 @@ def until_infeasible(
     first = first_violation(walker, Nodes.of(signals), k, impacts, after)
     text = f"a foot slips by more than {1e3 * SLIP:g} mm"
     slips = [Violation(t, i, text) for i, t in enumerate(slipped or ()) if t < math.inf]
-    found = min((*slips, *([first] if first else ())), default=None, key=lambda one: one.t)
-    if found is None:
+    result = min((*slips, *([first] if first else ())), default=None, key=lambda one: one.t)
+    if result is None:
         return trajectory
-    arc = arcs[found.support]
-    kept = int(np.searchsorted(arc.t, found.t, side="right"))
+    arc = arcs[result.support]
+    kept = int(np.searchsorted(arc.t, result.t, side="right"))
     cut = replace(arc, t=arc.t[:kept], x=arc.x[:kept], dx=arc.dx[:kept], event=None)
-    detail = f"single support {arc.mode.step}, {found.t:.4f} s: {found.what}"
+    detail = f"single support {arc.mode.step}, {result.t:.4f} s: {result.what}"
     return replace(
         trajectory,
-        arcs=(*arcs[: found.support], cut),
+        arcs=(*arcs[: result.support], cut),
         status=Status.INFEASIBLE,
         detail=detail,
     )

@@ -115,17 +115,17 @@ def impulse_ratios(walker: Walker, n: Nodes, impacts: int, after: Array | None) 
     after (2,) [N s]: momentum after the last impact, where the walk ends with it.
     """
     first, last, _ = n.supports
-    found = np.zeros(len(first))
+    result = np.zeros(len(first))
     plus = n.momentum[first[1:]]
     if after is not None:
         plus = np.vstack((plus, after))
     impulse = plus[:impacts] - n.momentum[last[:impacts]]
-    found[:impacts] = ratios(impulse @ np.array(ground_axes(walker.slope)).T, np.inf)
-    return found
+    result[:impacts] = ratios(impulse @ np.array(ground_axes(walker.slope)).T, np.inf)
+    return result
 
 
 def ratios(F: Array, without: float) -> Array:
     """|F_T| / F_N of the rows of F (M, 2), `without` where F_N is not positive; NaN stays."""
     pushes = F[:, 1] > 0.0
-    found = np.abs(F[:, 0]) / np.where(pushes, F[:, 1], 1.0)
-    return np.where(pushes | np.isnan(F[:, 1]), found, without)
+    result = np.abs(F[:, 0]) / np.where(pushes, F[:, 1], 1.0)
+    return np.where(pushes | np.isnan(F[:, 1]), result, without)

@@ -67,12 +67,12 @@ def largest(t: Array, y: Array, dy: Array) -> float:
     a, b, c = 3.0 * (d0 + d1 - 2.0 * rise), 2.0 * (3.0 * rise - 2.0 * d0 - d1), d0
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         root = -0.5 * (b + np.copysign(np.sqrt(b * b - 4.0 * a * c), b))
-        found = [np.abs(y).max(initial=0.0)]
+        result = [np.abs(y).max(initial=0.0)]
         for s in (root / a, c / root):
             inside = np.where((s > 0.0) & (s < 1.0), s, 0.0)
-            found.append(
+            result.append(
                 np.abs(y[:-1] + inside * (d0 + inside * (0.5 * b + inside * a / 3.0))).max(
                     initial=0.0
                 )
             )
-    return float(max(found))
+    return float(max(result))

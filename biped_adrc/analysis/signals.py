@@ -124,9 +124,9 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
     if (compiled or many) and not isinstance(walker.law, OuterLoop):
         from biped_adrc.engine.compiled_signals import compiled_readings
 
-        found = compiled_readings(walker, trajectory, reference)
-        if found is not None:
-            return signals_of(walker, trajectory, found)
+        result = compiled_readings(walker, trajectory, reference)
+        if result is not None:
+            return signals_of(walker, trajectory, result)
     return signals_of(walker, trajectory, readings(walker, trajectory, reference))
 
 

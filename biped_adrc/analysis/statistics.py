@@ -26,14 +26,14 @@ class Interval(NamedTuple):
 
 def share(successes: int, count: int) -> Interval:
     """Share of `successes` among `count` walks, at least one, with Wilson's interval."""
-    found = stats.binomtest(successes, count).proportion_ci(CONFIDENCE, method="wilson")
-    return Interval(successes / count, float(found.low), float(found.high))
+    result = stats.binomtest(successes, count).proportion_ci(CONFIDENCE, method="wilson")
+    return Interval(successes / count, float(result.low), float(result.high))
 
 
 def median(values: Sequence[float]) -> Interval:
     """Median of numbers, at least one, which may be infinite, with the interval of its order statistics."""
-    found = stats.quantile_test(values, q=0.0, p=0.5).confidence_interval(CONFIDENCE)
-    return Interval(float(np.median(values)), float(found.low), float(found.high))
+    result = stats.quantile_test(values, q=0.0, p=0.5).confidence_interval(CONFIDENCE)
+    return Interval(float(np.median(values)), float(result.low), float(result.high))
 
 
 class Paired(NamedTuple):

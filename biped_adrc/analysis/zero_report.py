@@ -161,9 +161,9 @@ def _because(bound: Bound) -> str:
 
 
 def _show(limits: DomainLimits) -> str:
-    found = ["F_N > 0"]
+    result = ["F_N > 0"]
     if limits.friction is not None:
-        found.append(f"friction {limits.friction:g}")
+        result.append(f"friction {limits.friction:g}")
     if limits.torque is not None:
-        found.append(f"torque {limits.torque:g} N m")
-    return ", ".join(found)
+        result.append(f"torque {limits.torque:g} N m")
+    return ", ".join(result)

@@ -76,10 +76,10 @@ def gait_design(
         return
     through = None if c.through is None else _state(c.through, biped.n)
     with console.status("building the programme") as shown:
-        found = design_gait(biped, speed, step, through=through, progress=_progress(shown), **how)
-    console.print(found.text(), highlight=False)
-    path = out or Path(found.gait.file_name)
-    found.gait.save(path)
+        result = design_gait(biped, speed, step, through=through, progress=_progress(shown), **how)
+    console.print(result.text(), highlight=False)
+    path = out or Path(result.gait.file_name)
+    result.gait.save(path)
     say_written(path)
 
 
@@ -93,20 +93,20 @@ def _library(biped: Biped, speeds: str, how: dict[str, Any], out: Path) -> None:
     for speed in _speeds(speeds):
         with console.status(f"{speed:g} m/s") as shown:
             try:
-                found = design_gait(biped, speed, progress=_progress(shown), **how)
+                result = design_gait(biped, speed, progress=_progress(shown), **how)
             except GaitError as error:
                 missed.append(f"{speed:g} m/s: {error}")
                 continue
-        found.gait.save(out / found.gait.file_name)
-        c = found.certificate
+        result.gait.save(out / result.gait.file_name)
+        c = result.certificate
         table.add_row(
-            f"{found.speed:.3f}",
+            f"{result.speed:.3f}",
             f"{c.step_length:.3f}",
             f"{c.peak_torque:.1f}",
             f"{c.friction:.2f}",
-            f"{found.multiplier:.3f}",
+            f"{result.multiplier:.3f}",
             f"{c.cost_of_transport:.3f}",
-            f"{found.seconds:.1f}",
+            f"{result.seconds:.1f}",
         )
     if table.row_count:
         console.print(table)

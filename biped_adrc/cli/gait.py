@@ -39,11 +39,11 @@ def gait_show(
     if gait is None:
         _list(biped)
         return
-    found = load_gait(gait, biped)
-    for key, value in found.provenance.items():
+    result = load_gait(gait, biped)
+    for key, value in result.provenance.items():
         say(f"{key}: {value}")
-    console.print(f"period {found.period:.6f} s, slope {found.slope:g} rad", highlight=False)
-    _print_zero(biped, found, plot, sets)
+    console.print(f"period {result.period:.6f} s, slope {result.slope:g} rad", highlight=False)
+    _print_zero(biped, result, plot, sets)
 
 
 def _list(biped: Biped) -> None:
@@ -52,9 +52,9 @@ def _list(biped: Biped) -> None:
 
     table = Table("gait", "speed [m/s]", "step [m]", "period [s]", "slope [rad]")
     for name in gait_names(biped.description.name, biped.preset):
-        found = load_gait(name, biped)
-        length = float(biped.swing_foot(found.q_minus)[0])
-        numbers = (length / found.period, length, found.period, found.slope)
+        result = load_gait(name, biped)
+        length = float(biped.swing_foot(result.q_minus)[0])
+        numbers = (length / result.period, length, result.period, result.slope)
         table.add_row(name, *(f"{x:.4g}" for x in numbers))
     console.print(table)
 

@@ -137,17 +137,17 @@ def pairs(
     form: str = "NAME=VALUE, such as 'hardware.delay=2 ms'",
 ) -> dict[str, str]:
     """Texts by name of an option NAME=VALUE. Raises InputError for another form, or a name that comes twice."""
-    found: dict[str, str] = {}
+    result: dict[str, str] = {}
     for text in sets or ():
         name, equals, x = (word.strip() for word in text.partition("="))
         if not (name and equals and x):
             raise InputError(f"{option} is '{text}', expected {form}")
-        if name in found:
+        if name in result:
             raise InputError(
                 f"'{name}' is given twice, as {option} {text} too; leave one of them out"
             )
-        found[name] = x
-    return found
+        result[name] = x
+    return result
 
 
 def _own(text: str) -> object:

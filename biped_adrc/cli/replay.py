@@ -31,17 +31,17 @@ def replay_command(
 
     s = scenario_from(given, sets, scenario)
     paths = _paths(out, (log, *inputs(s.robot.name, s.gait.name)))
-    found = replay(log, s, window)
+    result = replay(log, s, window)
     if paths is not None:
         table, text, figure = paths
-        found.to_csv(table)
-        write_text(text, f"{found.text()}\n")
-        write_figure(figure, found.plot())
+        result.to_csv(table)
+        write_text(text, f"{result.text()}\n")
+        write_figure(figure, result.plot())
     shown = Table(*HEADER)
-    for row in found.rows:
+    for row in result.rows:
         shown.add_row(*cells(row))
     console.print(shown)
-    for remark in found.remarks:
+    for remark in result.remarks:
         say(f"note: {remark}")
     for path in paths or ():
         say_written(path)

@@ -41,21 +41,23 @@ def study(
     """Walk a study: cases, conditions, grids, draws, or a search; killed, the same command goes on."""
     from biped_adrc.studies.study import read_study
 
-    found = read_study(study)
+    result = read_study(study)
     if table is not None:
         from biped_adrc.studies.results import check_table
 
         check_table(table)
     if dry_run:
-        found.rehearse()
-        most = "at most " if found.search else ""
-        say(f"{found.name}: {most}{found.count} walks, over {', '.join(found.axes) or 'no grid'}")
+        result.rehearse()
+        most = "at most " if result.search else ""
+        say(
+            f"{result.name}: {most}{result.count} walks, over {', '.join(result.axes) or 'no grid'}"
+        )
         return
     from biped_adrc.studies.carry import study as carry_out
     from biped_adrc.studies.page import write_page
 
-    with _shown(found.name, out) as progress:
-        done = carry_out(found, out, workers, cluster=cluster, progress=progress)
+    with _shown(result.name, out) as progress:
+        done = carry_out(result, out, workers, cluster=cluster, progress=progress)
     _print(done)
     written = [write_page(done)]
     if table is not None:

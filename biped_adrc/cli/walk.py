@@ -204,14 +204,14 @@ def poincare(
     s = scenario_from(given, sets, scenario, usual="NPD")
     cycle = cycle_of(s, observer_states)
     with console.status("Newton on the return map"):
-        found = cycle_stability(cycle)
-    walker, o = cycle.P.walker, found.orbit
+        result = cycle_stability(cycle)
+    walker, o = cycle.P.walker, result.orbit
     law = type(walker.controller).__name__.removesuffix("Controller")
     lines = (
         f"{s.robot.name}, {walker.plant.preset}, {law}, slope {walker.slope:g} rad, {cycle.P.method.label}",
         "x- = " + " ".join(f"{value:.6f}" for value in o.x_minus[: 2 * walker.plant.n]),
         _nominal(nominal_step(cycle, o, limits(s))),
         f"residual {o.residual:.1e}; |lambda| by every method:",
-        found.table.text(),
+        result.table.text(),
     )
     say("\n".join(lines))

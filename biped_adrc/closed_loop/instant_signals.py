@@ -73,8 +73,8 @@ def signals_at(
     """
     i = instant(loop, t, x, mode)
     m, plant, terms, p = i.measurement, loop.plant, i.measurement.terms, loop.plant.p
-    r, found = reference(i.s, m), estimated(loop, i.s, parts(loop, x)[3], m, mode)
-    xi_estimate = np.full(p, np.nan) if found is None else found
+    r, result = reference(i.s, m), estimated(loop, i.s, parts(loop, x)[3], m, mode)
+    xi_estimate = np.full(p, np.nan) if result is None else result
     matched, unmatched = disturbance_parts(terms, unknown(loop, terms, i.a, i.u, i.zeta))
     return InstantSignals(
         a=i.a,

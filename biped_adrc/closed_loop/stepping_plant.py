@@ -201,12 +201,14 @@ def advanced(
     Raises InputError for what breaks the contract.
     """
     who, sizes = f"{type(plant).__name__}.advance", (len(state.q), len(state.own))
-    found = plant.advance(frozen(state), frozen(u), outside, until)
-    if not (isinstance(found, Advanced) and type(found.contacts) is tuple and found.nodes):
-        raise InputError(f"{who} gives {found!r:.60}, expected an Advanced(state, contacts, nodes)")
-    nodes = [_state(f"{who}: nodes[{k}]", node, *sizes) for k, node in enumerate(found.nodes)]
-    after = _state(f"{who}: state", found.state, *sizes)
-    if not found.contacts and not abs(after.t - until) <= ROUND_OFF:
+    result = plant.advance(frozen(state), frozen(u), outside, until)
+    if not (isinstance(result, Advanced) and type(result.contacts) is tuple and result.nodes):
+        raise InputError(
+            f"{who} gives {result!r:.60}, expected an Advanced(state, contacts, nodes)"
+        )
+    nodes = [_state(f"{who}: nodes[{k}]", node, *sizes) for k, node in enumerate(result.nodes)]
+    after = _state(f"{who}: state", result.state, *sizes)
+    if not result.contacts and not abs(after.t - until) <= ROUND_OFF:
         raise InputError(f"{who} came to {after.t} s without a contact, expected {until} s")
     if not state.t < after.t <= until + ROUND_OFF:
         raise InputError(
@@ -220,7 +222,7 @@ def advanced(
         )
     end = until if abs(after.t - until) <= ROUND_OFF else after.t
     passed = *(node for node in nodes[:-1] if node.t < end), nodes[-1]._replace(t=end)
-    return Advanced(after._replace(t=end), found.contacts, passed)
+    return Advanced(after._replace(t=end), result.contacts, passed)
 
 
 def _state(what: str, found: Any, n: int, own: int | None) -> PlantState:

@@ -78,5 +78,5 @@ class Stretches(Record):
         kept[ends] = True
         zeta = np.array(self.zeta) if self.zeta else self.loop.zetas(t, rows, mode)
         read = {"u": self.loop.motor_torque(x), "zeta": zeta[at], "xi_estimate": xi}
-        read = {name: found[kept] for name, found in read.items()}
+        read = {name: result[kept] for name, result in read.items()}
         return Arc(mode, t[at][kept], x[kept], dx[kept], event, read)

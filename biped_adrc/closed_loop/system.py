@@ -117,8 +117,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
             method = getattr(law, name)
 
             def after(s: Array, m: Measurement, *more: Array) -> Array:
-                found = method(s, m, *more)
-                return s if found is s else frozen(returned(found, s.shape, law, name, finite))
+                result = method(s, m, *more)
+                return s if result is s else frozen(returned(result, s.shape, law, name, finite))
 
             return after
 

@@ -195,8 +195,8 @@ def check_methods(controller: Controller, s: Array, m: Measurement, sampled: boo
     calls = {"correct": (m,), "predict": (m, u)} if sampled else {"flow": (m, u)}
     first = {"output": u}
     for name, given in calls.items():
-        found = getattr(controller, name)(s, *given)
-        first[name] = returned(found, s.shape, controller, name, finite=False)
+        result = getattr(controller, name)(s, *given)
+        first[name] = returned(result, s.shape, controller, name, finite=False)
     calls, other = {"output": (m,), **calls}, m._replace(v=m.v + 1e-3)
     for name, given in calls.items():
         getattr(controller, name)(s, other, *given[1:])  # which a memory takes in

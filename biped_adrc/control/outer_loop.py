@@ -122,9 +122,9 @@ def tracked_constraint(controller: Controller, why: str = OF_A_LOOP) -> VirtualC
     if isinstance(h, CorrectedConstraint):
         return h.constraint
     if not isinstance(h, VirtualConstraint):
-        found = "no reference" if h is None else f"a reference of type {type(h).__name__}"
+        result = "no reference" if h is None else f"a reference of type {type(h).__name__}"
         raise InputError(
-            f"{why}, but {type(controller).__name__} has {found}; expected a field `reference` that holds a "
+            f"{why}, but {type(controller).__name__} has {result}; expected a field `reference` that holds a "
             "VirtualConstraint, as in NPDController(gait.constraint)"
         )
     return h

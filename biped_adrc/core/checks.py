@@ -278,8 +278,10 @@ def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...], Range | None], ...
         hints = get_type_hints(cls, include_extras=True)
     except (NameError, TypeError, AttributeError, SyntaxError):
         return ()
-    found = ((f.name, *_members(hints[f.name])) for f in (fields(cls) if is_dataclass(cls) else ()))
-    return tuple(each for each in found if each[1] and all(map(_looked_at, each[1])))
+    result = (
+        (f.name, *_members(hints[f.name])) for f in (fields(cls) if is_dataclass(cls) else ())
+    )
+    return tuple(each for each in result if each[1] and all(map(_looked_at, each[1])))
 
 
 def _members(hint: Any) -> tuple[tuple[Any, ...], Range | None]:

@@ -87,11 +87,11 @@ def _values(cls: Any) -> tuple[tuple[str, Callable[[Any], Any]], ...]:
 
     Floats where the annotation says so, even for whole numbers.
     """
-    found: list[tuple[str, Callable[[Any], Any]]] = []
+    result: list[tuple[str, Callable[[Any], Any]]] = []
     for f in fields(cls):
         value = _as_floats if "float" in str(f.type).lower() else _itself
-        found.append((f.name, _hidden if f.metadata.get("setup") else value))
-    return (*found, *((name, _itself) for name in derived_names(cls)))
+        result.append((f.name, _hidden if f.metadata.get("setup") else value))
+    return (*result, *((name, _itself) for name in derived_names(cls)))
 
 
 def _hidden(x: Any) -> Setup:

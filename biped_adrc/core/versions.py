@@ -39,13 +39,13 @@ def packages(names: Iterable[str]) -> dict[str, str]:
 
     That of this package is its `__version__`.
     """
-    found = {}
+    result = {}
     for name in names:
         try:
-            found[name] = __version__ if name == "biped-adrc" else version(name)
+            result[name] = __version__ if name == "biped-adrc" else version(name)
         except PackageNotFoundError:
-            found[name] = "none"
-    return found
+            result[name] = "none"
+    return result
 
 
 def differences(found: Mapping[str, str], expected: Mapping[str, str]) -> str:
@@ -57,8 +57,8 @@ def differences(found: Mapping[str, str], expected: Mapping[str, str]) -> str:
 
 def versions() -> dict[str, str]:
     """Versions for the reader of a report: Python, platform, and the packages `SHOWN`."""
-    found = {"python": platform.python_version(), "platform": platform.platform()}
-    return found | packages(SHOWN)
+    result = {"python": platform.python_version(), "platform": platform.platform()}
+    return result | packages(SHOWN)
 
 
 @lru_cache(maxsize=1)
@@ -69,8 +69,8 @@ def numerical_versions() -> Mapping[str, str]:
     comparable. Computed once for each process.
     """
     source = source_hash(Path(__file__).parents[1])[:12]
-    found = {"python": platform.python_version(), "machine": platform.machine(), SOURCE: source}
-    return found | packages(NUMERICAL)
+    result = {"python": platform.python_version(), "machine": platform.machine(), SOURCE: source}
+    return result | packages(NUMERICAL)
 
 
 def source_hash(root: Path) -> str:

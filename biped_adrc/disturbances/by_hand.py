@@ -65,11 +65,11 @@ def by_hand(
     t = numbers(times, "the times of the hand")
     if t.ndim != 1 or not len(t) or t[0] < 0.0 or np.any(np.diff(t) <= 0.0):
         raise InputError(f"the times of the hand are {t}, expected numbers that increase from 0")
-    found = list[Disturbance](_terms("torques", torques, t, step, biped.n))
+    result = list[Disturbance](_terms("torques", torques, t, step, biped.n))
     if on is not None:
         pieces = _terms("forces", forces, t, step, 2, moment=1)
-        found += [OnLink(biped, on, piece, (point[0], point[1])) for piece in pieces]
-    return Sum(tuple(found))
+        result += [OnLink(biped, on, piece, (point[0], point[1])) for piece in pieces]
+    return Sum(tuple(result))
 
 
 def _terms(

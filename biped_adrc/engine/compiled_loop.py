@@ -123,11 +123,11 @@ class LoopInCode(SteppingLoop):
         """
         if self.compiled_push is None:
             return super().push(t, row, mode)
-        found = self.compiled_push(t, row, mode)
-        size = found.dot(found)
+        result = self.compiled_push(t, row, mode)
+        size = result.dot(result)
         if not math.isfinite(size):
             return super().push(t, row, mode)
-        return Load(found[:-2], found[-2:]) if size > 0.0 else None
+        return Load(result[:-2], result[-2:]) if size > 0.0 else None
 
     @cached_property
     def pushed_in_python(self) -> bool:

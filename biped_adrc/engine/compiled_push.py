@@ -75,12 +75,12 @@ class CompiledPush:
 
     def __call__(self, t: float, row: Array, mode: Mode) -> Array:
         """zeta and force (n + 2,) at t [s] for a row (q, q', ..) of a plant."""
-        inp, found = self.inp, np.zeros(self.n + 2)
+        inp, result = self.inp, np.zeros(self.n + 2)
         inp[0], inp[1], inp[2] = t, mode.step, mode.start
         inp[3:] = row[: 2 * self.n]
         for at, call in self.calls:
-            found[at] += call.evaluate()
-        return found
+            result[at] += call.evaluate()
+        return result
 
 
 GUARDED = """

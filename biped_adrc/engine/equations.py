@@ -57,13 +57,13 @@ def on_symbols(trace: Tracer, controller: Controller, p: int, size: int) -> Cont
 
     def checked(name: str, expected: int) -> Callable[..., Array]:
         def called(*arguments: object) -> Array:
-            found = run(trace, getattr(twin, name), *arguments)
-            if np.shape(found) != (expected,):
+            result = run(trace, getattr(twin, name), *arguments)
+            if np.shape(result) != (expected,):
                 raise Located(
-                    f"{type(controller).__name__}.{name} gives an array of shape {np.shape(found)}, "
+                    f"{type(controller).__name__}.{name} gives an array of shape {np.shape(result)}, "
                     f"expected ({expected},)"
                 )
-            return found
+            return result
 
         return called
 
@@ -312,8 +312,8 @@ class Equations:
         x = at.does(semantics.tick)
         q, v, s, tail = semantics.parts(at.loop, x)
         m = at.loop.measure(at.t, q, v, at.mode)
-        found = at.trace(noticing.estimated)(at.loop, s, tail, m, at.mode)
-        xi = np.zeros(self.make.robot.p) if found is None else found
+        result = at.trace(noticing.estimated)(at.loop, s, tail, m, at.mode)
+        xi = np.zeros(self.make.robot.p) if result is None else result
         return self.made(at.inp, x, xi, at.lost)
 
     def impact(self) -> SymbolicFunction:

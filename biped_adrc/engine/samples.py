@@ -115,9 +115,9 @@ class CompiledWalk:
         """The table; where the walk goes on, only columns of the single support in which it is stay there."""
         run, table, count = self.run, self.table, int(self.run["columns"])
         last = int(np.searchsorted(table[1, :count], run["step"])) if on else count
-        found = table[:, :count].copy()
-        table[:, : count - last], run["columns"] = found[:, last:], count - last
-        return found
+        result = table[:, :count].copy()
+        table[:, : count - last], run["columns"] = result[:, last:], count - last
+        return result
 
     @property
     def addresses(self) -> list[int]:
@@ -258,5 +258,5 @@ def joined(arcs: Sequence[Arc]) -> Arc:
 
 def reading(walk: CompiledWalk | PythonWalk, view: Reading, curve: Reference) -> Array:
     """What view(loop, t, x, mode, reference) says where a walk is, in one row, by Python."""
-    found = view(*walk.at, lambda s, m: curve(m.t, m.q, m.v))
-    return np.concatenate([np.ravel(part) for part in found])
+    result = view(*walk.at, lambda s, m: curve(m.t, m.q, m.v))
+    return np.concatenate([np.ravel(part) for part in result])

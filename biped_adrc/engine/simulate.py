@@ -166,12 +166,12 @@ def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:
         return run.detail
     options = RunOptions(run.t_end + ONWARD, run.t_end, store_every=STORE)
     try:
-        found = simulator.run(walker, run.final_state, run.arcs[-1].mode, method, options)
+        result = simulator.run(walker, run.final_state, run.arcs[-1].mode, method, options)
     except Exception as error:  # what a method raises in Python, such as a division by zero
         return f"{run.detail}: {type(error).__name__}: {error}"
-    if found.status is not run.status or not found.detail:
+    if result.status is not run.status or not result.detail:
         return run.detail
-    return found.detail if run.detail in found.detail else f"{run.detail}: {found.detail}"
+    return result.detail if run.detail in result.detail else f"{run.detail}: {result.detail}"
 
 
 def on_compiled_plant(

@@ -57,10 +57,10 @@ _REACHED: ContextVar[list[Unchanged] | None] = ContextVar("reached", default=Non
 @contextmanager
 def reaching() -> Iterator[list[Unchanged]]:
     """What is traced within the block notes here what it reaches outside of this package and of libraries."""
-    found: list[Unchanged] = []
-    token = _REACHED.set(found)
+    result: list[Unchanged] = []
+    token = _REACHED.set(result)
     try:
-        yield found
+        yield result
     finally:
         _REACHED.reset(token)
 

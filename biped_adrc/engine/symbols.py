@@ -330,16 +330,16 @@ class Vector:
 
     def like(self, tree: T) -> T:
         """A tree of parts, tuples and arrays with its floats as symbols; ints stay what they are."""
-        found: Any = tree
+        result: Any = tree
         if isinstance(tree, tuple | list):
-            found = rebuilt(tree, [self.like(x) for x in tree])
+            result = rebuilt(tree, [self.like(x) for x in tree])
         elif isinstance(tree, np.ndarray):
-            found = self.take(*tree.shape) if tree.dtype.kind == "f" else tree
+            result = self.take(*tree.shape) if tree.dtype.kind == "f" else tree
         elif is_part(tree) and not isinstance(tree, HIDDEN):
-            found = with_content(tree, {name: self.like(x) for name, x in content(tree).items()})
+            result = with_content(tree, {name: self.like(x) for name, x in content(tree).items()})
         elif isinstance(tree, float | np.floating):
-            found = self.take()
-        return found
+            result = self.take()
+        return result
 
 
 def floats(tree: object) -> list[float]:

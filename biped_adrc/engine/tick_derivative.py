@@ -62,8 +62,8 @@ class _Evaluated:
         self.buffer, self.evaluate = function.buffer()
         for i, given in enumerate((self.K, self.inp)):
             self.buffer.set_arg(i, given.data)  # type: ignore[call-arg]
-        for i, found in enumerate((self.after, self.columns)):
-            self.buffer.set_res(i, found.data)  # type: ignore[call-arg]
+        for i, result in enumerate((self.after, self.columns)):
+            self.buffer.set_res(i, result.data)  # type: ignore[call-arg]
 
     def __call__(self, t: float, x: Array, mode: Mode) -> tuple[Array, Array]:
         self.inp[: 3 + len(x)] = t, mode.step, mode.start, *x

@@ -72,10 +72,10 @@ def basis(degree: int) -> Array:
 
 def _raised(t: Array, N: Array, k: int, d: int) -> Array:
     """N_k,d (4,), in powers of s, from those of degree d - 1, N (., 4); t are the knots."""
-    found = np.zeros(CUBIC + 1)
+    result = np.zeros(CUBIC + 1)
     for i, sign, at in ((k, 1.0, t[k]), (k + 1, -1.0, t[k + d + 1])):
         width = t[i + d] - t[i]
         if width > 0.0:
-            found[1:] += sign / width * N[i, :-1]
-            found -= sign * at / width * N[i]
-    return found
+            result[1:] += sign / width * N[i, :-1]
+            result -= sign * at / width * N[i]
+    return result

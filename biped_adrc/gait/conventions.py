@@ -125,7 +125,7 @@ def layout_of(name: str, biped: Biped) -> Convention:
     """The convention of this name for a robot; "own": its coordinates as they are. Raises GaitError."""
     if name == OWN:
         return own_convention(biped)
-    found = convention(name, knees=biped.n == 5)
+    result = convention(name, knees=biped.n == 5)
     if not of_the_paper(biped):
         d = biped.description
         raise GaitError(
@@ -133,7 +133,7 @@ def layout_of(name: str, biped: Biped) -> Convention:
             f"not laid out as convention '{name}' has them; take convention 'own', the coordinates of its "
             "record"
         )
-    return found
+    return result
 
 
 def convention(name: str, knees: bool = True) -> Convention:

@@ -221,9 +221,9 @@ def curve_kind(name: str) -> type[Curve]:
             f"curve is '{name}', expected one of {sorted(CURVES)}; a class of one's own gets a name with "
             "biped_adrc.register('curve', NAME, CLASS) first, since files are read without importing anything"
         )
-    found = CURVES[name]
-    if isinstance(found, str):
-        module, _, cls = found.partition(":")
-        found = getattr(import_module(module), cls)
-    kind: type[Curve] = found
+    result = CURVES[name]
+    if isinstance(result, str):
+        module, _, cls = result.partition(":")
+        result = getattr(import_module(module), cls)
+    kind: type[Curve] = result
     return kind

@@ -205,8 +205,8 @@ def gait_names(robot: str, preset: str) -> tuple[str, ...]:
     """
     end = f"-{preset}.json"
     folder = data_folder("gaits") / robot
-    found = (f.name.removesuffix(end) for f in folder.glob(f"*{end}"))
-    known = {name.removesuffix("-identified") for name in found}
+    result = (f.name.removesuffix(end) for f in folder.glob(f"*{end}"))
+    known = {name.removesuffix("-identified") for name in result}
     return tuple(sorted(name for name in known if (folder / f"{name}{end}").is_file()))
 
 
@@ -233,8 +233,8 @@ def load_gait(gait: str | Path, biped: Biped, other_robot: bool = False) -> Gait
                 "of a .json file"
             )
     with reading("gait file", path, GaitError):
-        found = _from_record(json.loads(path.read_text(encoding="utf-8"))).check(biped)
-        return found if other_robot else found.check_robot(biped)
+        result = _from_record(json.loads(path.read_text(encoding="utf-8"))).check(biped)
+        return result if other_robot else result.check_robot(biped)
 
 
 def _from_record(record: Mapping[str, Any]) -> Gait:

@@ -118,19 +118,19 @@ def _margins(orbits: ZeroOrbits, limits: DomainLimits) -> list[Margin]:
     """
     zero = orbits.zero
     rest, moving = ([zero.dynamics(k, rate) for k in range(len(zero.theta))] for rate in (0.0, 1.0))
-    u_0, u_1 = (np.array([found[1] for found in rows]) for rows in (rest, moving))
-    F_0, F_1 = (np.array([found[2] for found in rows]) for rows in (rest, moving))
+    u_0, u_1 = (np.array([result[1] for result in rows]) for rows in (rest, moving))
+    F_0, F_1 = (np.array([result[2] for result in rows]) for rows in (rest, moving))
     along, across = ground_axes(limits.slope)
     rows = [(LIFT_OFF, across)]
     if limits.friction is not None:
         rows += [(FRICTION, limits.friction * across + sign * along) for sign in (-1.0, 1.0)]
-    found = [Margin(cause, F_0 @ row, (F_1 - F_0) @ row) for cause, row in rows]
+    result = [Margin(cause, F_0 @ row, (F_1 - F_0) @ row) for cause, row in rows]
     if limits.torque is not None:
         for j in range(zero.biped.p):
             for sign in (-1.0, 1.0):
                 still = limits.torque + sign * u_0[:, j]
-                found.append(Margin(TORQUE, still, sign * (u_1 - u_0)[:, j]))
-    return found
+                result.append(Margin(TORQUE, still, sign * (u_1 - u_0)[:, j]))
+    return result
 
 
 def _end(orbits: ZeroOrbits, margin: Margin, sign: float) -> Bound:
@@ -145,11 +145,11 @@ def _end(orbits: ZeroOrbits, margin: Margin, sign: float) -> Bound:
         return np.where(B > 0, crossing, np.where((B == 0) & (A <= 0), math.inf, -math.inf))
 
     theta = grid(orbits.zero)
-    found = reach(theta)
-    k = int(np.argmax(found))
+    result = reach(theta)
+    k = int(np.argmax(result))
     near = slice(max(k - 1, 0), k + 2)
-    where, most = float(theta[k]), float(found[k])
-    if np.all(np.isfinite(found[near])):
+    where, most = float(theta[k]), float(result[k])
+    if np.all(np.isfinite(result[near])):
         ends = sorted((theta[near][0], theta[near][-1]))
         best = minimize_scalar(
             lambda x: -float(reach(x)), bounds=ends, method="bounded", options={"xatol": 1e-12}

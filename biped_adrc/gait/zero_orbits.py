@@ -178,10 +178,10 @@ class ZeroOrbits(Shown):
 
     def iterate(self, zeta: float, steps: int) -> Array:
         """zeta, rho(zeta), rho(rho(zeta)), ... (steps + 1,) [kg^2 m^4/s^2]. Raises GaitError as rho."""
-        found = [zeta]
+        result = [zeta]
         for _ in range(steps):
-            found.append(self.rho(found[-1]))
-        return np.array(found)
+            result.append(self.rho(result[-1]))
+        return np.array(result)
 
     def steps_to(self, zeta: float, closeness: float) -> int:
         """Number of steps until |zeta_k - zeta*| <= closeness * zeta*, from |zeta_k - zeta*| ~ delta^(2 k).

@@ -199,7 +199,7 @@ def flow_arc(
     fired: the event that ended the arc before. began [s]: where the arc did, for what goes on from the middle
     of one. An arc that fails before its first node keeps its start.
     """
-    record, found = system.record(options.store_every), None
+    record, result = system.record(options.store_every), None
     status, detail = Status.COMPLETED, ""
     calendar = Calendar(system, mode, t if began is None else began, options.t0, options.t_end)
     move = system.mover(fired)
@@ -211,10 +211,10 @@ def flow_arc(
     try:
         if run is not None:
             _check(travel(run), run.t)
-            found = run.event
-        while move is not None and t < options.t_end and found is None:
+            result = run.event
+        while move is not None and t < options.t_end and result is None:
             x = calendar.due(t, x)
-            t, x, found = move(t, x, mode, calendar.next_break(t), record)
+            t, x, result = move(t, x, mode, calendar.next_break(t), record)
     except tuple(FAILURES.values()) as error:
         status = next(s for s, kind in FAILURES.items() if isinstance(error, kind))
         detail = str(error)
@@ -225,9 +225,9 @@ def flow_arc(
         status = Status.RAISED
     if not record.t:
         record.add(t, x, np.zeros_like(x))
-    if found is None:
+    if result is None:
         return FlownArc(record.arc(mode, None), status, detail)
-    return FlownArc(record.arc(mode, found.event), found.status, "", found.outcome)
+    return FlownArc(record.arc(mode, result.event), result.status, "", result.outcome)
 
 
 def _check(code: int, t: float) -> None:

@@ -118,13 +118,13 @@ def load(path: Path | str, mode: Callable[..., object] = lambda *numbers: number
 
 def _zipped(path: Path) -> bytes:
     """The bytes of a .npz. Raises InputError for another kind of file, ValueError for a damaged one."""
-    found = path.read_bytes()
-    if found.startswith(b"PK"):
-        with zipfile.ZipFile(io.BytesIO(found)) as zipped:
+    result = path.read_bytes()
+    if result.startswith(b"PK"):
+        with zipfile.ZipFile(io.BytesIO(result)) as zipped:
             size = sum(entry.file_size for entry in zipped.infolist())
         if size > MOST_BYTES:
             raise InputError(f"unpacked it has {size} bytes, expected at most {MOST_BYTES}")
-        return found
+        return result
     run = path.with_suffix(".npz")
     if path != run:
         instead = f"take '{run}'" if run.is_file() else "give one that 'simulate -o' has written"
@@ -164,14 +164,14 @@ def _arc(
     mode: Callable[..., object],
 ) -> Arc:
     """Arc i of the arrays in a file, with its event as noted in the JSON."""
-    found = None
+    result = None
     if event is not None:
         plus = data.get(f"x_plus{i}")
-        found = Event(event["guard"], float(event["t"]), data[f"x_minus{i}"], plus)
+        result = Event(event["guard"], float(event["t"]), data[f"x_minus{i}"], plus)
     numbers = np.atleast_1d(data[f"mode{i}"]).tolist()
     mark = f"read{i}_"
     read = {name.removeprefix(mark): data[name] for name in data if name.startswith(mark)}
-    return Arc(mode(*numbers), data[f"t{i}"], data[f"x{i}"], data[f"dx{i}"], found, read)
+    return Arc(mode(*numbers), data[f"t{i}"], data[f"x{i}"], data[f"dx{i}"], result, read)
 
 
 def _check(arcs: Sequence[Arc]) -> None:

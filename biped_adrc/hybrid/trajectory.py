@@ -209,8 +209,8 @@ class Trajectory(Shown):
 
     def events(self, guard: str | None = None) -> tuple[Event, ...]:
         """All events in order, or those of one guard."""
-        found = (arc.event for arc in self.arcs if arc.event is not None)
-        return tuple(e for e in found if guard is None or e.guard == guard)
+        result = (arc.event for arc in self.arcs if arc.event is not None)
+        return tuple(e for e in result if guard is None or e.guard == guard)
 
     def before(self, guard: str) -> Array:
         """x- (events, nx) at every event of `guard`: the points on the section of a return map."""

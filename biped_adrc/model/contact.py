@@ -204,14 +204,14 @@ class LinkMotion:
 
     def old_leg(self) -> list[int]:
         """Pinocchio's numbers of the joints of the leg that was the support, from its knee up to its hip."""
-        model, found = self.floating.model, []
+        model, result = self.floating.model, []
         j = int(model.frames[self.floating.stance].parentJoint)
         top = int(model.frames[self.floating.swing].parentJoint)
         shared = set(model.supports[top])
         while j not in shared:
-            found.append(j)
+            result.append(j)
             j = int(model.parents[j])
-        return found
+        return result
 
     def outboard(self, joint: int) -> float:
         """L [kg m^2/s] about a joint of everything it carries, with the angular momentum of its rotor.

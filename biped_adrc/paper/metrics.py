@@ -90,8 +90,8 @@ error = partial(_adrc_over_npd, lambda o, _: o.peak_error)
 
 def worst(name: str, sign: float, o: Outcome) -> float:
     """The largest (or with sign -1 the least) value of all steps; without a step it keeps no limit."""
-    found = [sign * getattr(s, name) for s in o.certificates]
-    return sign * float(np.max(found or [math.inf]))
+    result = [sign * getattr(s, name) for s in o.certificates]
+    return sign * float(np.max(result or [math.inf]))
 
 
 def last(name: str, o: Outcome) -> float:
@@ -134,8 +134,8 @@ def speed_error(found: PoincareResult | str) -> AtTwoSteps:
 
 def walked(controller: str, name: str, o: MemberOutcome) -> AtTwoSteps:
     """A number of a member under one controller."""
-    found: AtTwoSteps = getattr(o.walked[controller], name)
-    return found
+    result: AtTwoSteps = getattr(o.walked[controller], name)
+    return result
 
 
 def deviation(o: MemberOutcome) -> AtTwoSteps:
@@ -237,11 +237,11 @@ def on_recipe(r: Results) -> dict[str, MemberOutcome]:
 
 def heavier(r: Results) -> dict[str, Pair]:
     """A plant heavier than the model, in all presets."""
-    found = {}
+    result = {}
     for preset, kind in itertools.product(r.plan.presets, KINDS):
         name = f"heavier, {kind}" + ("" if preset == r.plan.preset else f", {preset}")
-        found[f"{preset}, heavier {kind}"] = (*r.pair(name), r.jumps[preset]["period"])
-    return found
+        result[f"{preset}, heavier {kind}"] = (*r.pair(name), r.jumps[preset]["period"])
+    return result
 
 
 def torso(r: Results, most: float = math.inf) -> dict[str, Pair]:
@@ -300,21 +300,21 @@ def below_least(r: Results) -> dict[str, Start]:
     """Starts below the least speed."""
     return {
         f"{preset}, {s.factor * s.least:.3f} of the gait's speed": s
-        for preset, found in r.starts.items()
-        for s in found
+        for preset, result in r.starts.items()
+        for s in result
         if s.factor < 1.0
     }
 
 
 def gains(r: Results) -> dict[str, tuple[float, float]]:
     """Gains of Table I and of one extended state."""
-    found: dict[str, tuple[float, float]] = {}
+    result: dict[str, tuple[float, float]] = {}
     for orders in r.orders.values():
         for name in ("equal bandwidth", "equal delay margin"):
             a, b = orders["Table I"], orders[name]
-            found[f"gain of (17) at {name}"] = (a.largest_gain, b.largest_gain)
-            found[f"gain from measurement at {name}"] = (a.noise_gain, b.noise_gain)
-    return found
+            result[f"gain of (17) at {name}"] = (a.largest_gain, b.largest_gain)
+            result[f"gain from measurement at {name}"] = (a.noise_gain, b.noise_gain)
+    return result
 
 
 def held_joint(r: Results) -> dict[str, AtTwoSteps]:

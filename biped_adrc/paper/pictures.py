@@ -30,13 +30,13 @@ def draw_all(r: Results, out: Path, workers: int | None = None) -> dict[str, str
     """Write every figure to `out` as .png and .svg; returns the SVG text by name, for the report."""
     named = pictures(r)
     drawn = run_tasks(list(named.values()), workers)
-    found = {}
+    result = {}
     for name, picture in zip(named, drawn, strict=True):
         png, svg = picture.value
         write_bytes(out / f"{name}.png", png)
         write_bytes(out / f"{name}.svg", svg)
-        found[name] = svg.decode("utf-8")
-    return found
+        result[name] = svg.decode("utf-8")
+    return result
 
 
 def pictures(r: Results) -> dict[str, Task[tuple[bytes, bytes]]]:

@@ -64,8 +64,8 @@ class PoincareResult(Shown):
 def poincare_twice(run: Scenario) -> PoincareResult:
     """As `poincare` at the step of the scenario (by default 1 ms), and once more at half of it."""
     h = run.run.h or 1e-3
-    found = poincare(run.replace(run={"h": h}))
-    return replace(found, half=poincare(run.replace(run={"h": 0.5 * h})))
+    result = poincare(run.replace(run={"h": h}))
+    return replace(result, half=poincare(run.replace(run={"h": 0.5 * h})))
 
 
 def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:

@@ -57,8 +57,8 @@ class Fate:
     @classmethod
     def _at(cls, o: Outcome) -> Fate:
         f = o.feasibility
-        found = (f.mean_normal_force, f.mean_friction, f.impulse_ratio)
-        normal, friction, impulse = (x if math.isfinite(x) else None for x in found)
+        result = (f.mean_normal_force, f.mean_friction, f.impulse_ratio)
+        normal, friction, impulse = (x if math.isfinite(x) else None for x in result)
         return cls(f.outcome, o.status, normal, friction, impulse, tuple(f.reasons))
 
     @property
@@ -111,9 +111,9 @@ def push_map(pushes: Sequence[MapPush]) -> list[PushCell]:
 
 def counts(cells: Sequence[PushCell]) -> dict[str, dict[str, dict[str, int]]]:
     """How many walks are what, by setting, controller and word: the table of the map."""
-    found: dict[str, dict[str, dict[str, int]]] = {}
+    result: dict[str, dict[str, dict[str, int]]] = {}
     for cell in cells:
-        here = found.setdefault(cell.setting, {c: dict.fromkeys(WORDS, 0) for c in CONTROLLERS})
+        here = result.setdefault(cell.setting, {c: dict.fromkeys(WORDS, 0) for c in CONTROLLERS})
         here["NPD"][cell.npd.word] += 1
         here["ADRC"][cell.adrc.word] += 1
-    return found
+    return result

@@ -60,8 +60,8 @@ def regress_multipliers(x_minus: Array, x_star: Array) -> Regression:
         raise InputError(f"found samples of shape {x_minus.shape}, expected (k, n) with k >= 3")
     chi = x_minus - x_star
     before, after = chi[:-1], chi[1:]
-    found, _, _, singular = np.linalg.lstsq(before, after, rcond=None)
-    solution = np.asarray(found, dtype=np.float64)
+    result, _, _, singular = np.linalg.lstsq(before, after, rcond=None)
+    solution = np.asarray(result, dtype=np.float64)
     magnitudes = np.sort(np.abs(np.linalg.eigvals(solution.T)))[::-1]
     rank = int(np.sum(singular > RANK * singular[0]))
     smallest = float(singular[-1]) if len(singular) == x_minus.shape[1] else 0.0

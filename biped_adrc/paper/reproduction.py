@@ -76,12 +76,12 @@ def reproduce(
 def judgement(r: Results) -> dict[str, Any]:
     """Claims, checks, tables and numbers of a reproduction, in plain values."""
     plan, of_claims = r.plan, rows(r)
-    found = checks(r, of_claims)
+    result = checks(r, of_claims)
     made = {
         "preset": plan.preset,
         "left_out": list(plan.left_out),
-        "holds": all(check.holds for check in found),
-        "checks": found,
+        "holds": all(check.holds for check in result),
+        "checks": result,
         "tally": tally(of_claims),
         "claims_preface": texts()["preface"],
         "claims_words": texts()["words"],
@@ -91,7 +91,7 @@ def judgement(r: Results) -> dict[str, Any]:
         "settings": _settings(plan),
         "tables": tables(r),
         "members": [o for part in r.members.values() for o in part],
-        "multipliers": {name: found.record() for name, found in r.multipliers.items()},
+        "multipliers": {name: result.record() for name, result in r.multipliers.items()},
         "push_map": [cell.row() for cell in r.cells],
     }
     summary: dict[str, Any] = plain(made)

@@ -79,7 +79,7 @@ class Results:
     @property
     def figures(self) -> dict[str, float]:
         """Figures of the numerical methods, by name with unit."""
-        return {name: x for found in self.numerics.values() for name, x in found.items()}
+        return {name: x for result in self.numerics.values() for name, x in result.items()}
 
     def pair(self, name: str) -> tuple[Outcome, Outcome]:
         """A walk under NPD and under ADRC, of the headline where the name is "push"."""

@@ -128,11 +128,11 @@ def starts(preset: str) -> list[Start]:
 
     No controller of the joints helps a start below it, which matters for the promise of global stability.
     """
-    least, found = least_speed(preset), []
+    least, result = least_speed(preset), []
     for k in scenarios.declared()["basin"]["factors"]:
         runs = {c: scenarios.starting(c, preset, k * least) for c in CONTROLLERS}
-        found.append(Start(least, k, {c: execute_twice(run) for c, run in runs.items()}))
-    return found
+        result.append(Start(least, k, {c: execute_twice(run) for c, run in runs.items()}))
+    return result
 
 
 def least_speed(preset: str) -> float:
@@ -166,8 +166,8 @@ def jumps(preset: str) -> dict[str, float]:
     after = biped.reduction(*gait.start(biped))
     xi, edge = after.xi - relabelled(before.xi, biped.swap), after.kappa @ np.full(biped.p, 30.0)
     rates = {name: impact_smoothness(of.walked, biped) for name, of in scenes.items()}
-    found = {"xi_at_impact": xi, "xi_at_an_edge": edge, **rates}
-    return {name: float(np.max(np.abs(x))) for name, x in found.items()} | {"period": gait.period}
+    result = {"xi_at_impact": xi, "xi_at_an_edge": edge, **rates}
+    return {name: float(np.max(np.abs(x))) for name, x in result.items()} | {"period": gait.period}
 
 
 class Order(NamedTuple):
@@ -203,8 +203,8 @@ def bandwidth_with(margin: float, m: int) -> float:
     """The position of m + 2 equal poles [rad/s] whose delay margin is `margin` [s], by roots in log w."""
 
     def excess(log_w: float) -> float:
-        found = ObserverLoop(GPIObserver.from_bandwidth(np.exp(log_w), m)).delay_margin().delay
-        return float(np.log(found / margin))
+        result = ObserverLoop(GPIObserver.from_bandwidth(np.exp(log_w), m)).delay_margin().delay
+        return float(np.log(result / margin))
 
     return float(np.exp(brentq(excess, np.log(10.0), np.log(1e6))))
 
@@ -227,10 +227,10 @@ def _order(preset: str, observer: GPIObserver) -> Order:
 # -- tasks -----------------------------------------------------------------------------------------
 def tasks(plan: Plan) -> dict[str, Task[object]]:
     """Everything to compute, by "kind/name", the longest first so that no core waits at the end."""
-    found: dict[str, Task[object]] = {}
+    result: dict[str, Task[object]] = {}
 
     def add(kind: str, name: str, function: Any, *arguments: object) -> None:
-        found[f"{kind}/{name}"] = Task(f"{kind} {name}", function, arguments)
+        result[f"{kind}/{name}"] = Task(f"{kind} {name}", function, arguments)
 
     for preset in plan.presets:
         add("members", preset, member_outcomes, scenarios.members(preset))
@@ -255,4 +255,4 @@ def tasks(plan: Plan) -> dict[str, Task[object]]:
         add("multipliers", name, poincare_twice, run)
     add("orders", plan.presets[0], orders, plan.presets[0])
     add("returns", "map", return_map_samples, scenarios.multiplier_runs(plan)["NPD"])
-    return found
+    return result

@@ -238,13 +238,13 @@ def cycle_runs(plan: Plan) -> dict[str, tuple[Scenario, bool]]:
 
     Gait (b) with them, at 1 ms; gait (a) without them, with Theta'' solved for and as printed.
     """
-    found = {}
+    result = {}
     for preset, c in itertools.product(plan.presets, CONTROLLERS):
-        found[f"gait (b), {preset}, {c}"] = (scenario(c, preset, gait="recipe"), True)
+        result[f"gait (b), {preset}, {c}"] = (scenario(c, preset, gait="recipe"), True)
         for theta in declared()["factors"]["theta"]:
             run = scenario(c, preset, solve_theta=theta == "solved")
-            found[f"gait (a), {preset}, {c}, Theta'' {theta}"] = (run, False)
-    return found
+            result[f"gait (a), {preset}, {c}, Theta'' {theta}"] = (run, False)
+    return result
 
 
 def multiplier_runs(plan: Plan) -> dict[str, Scenario]:
@@ -321,12 +321,12 @@ class Member:
 def members(preset: str | None = None) -> tuple[Member, ...]:
     """The combinations that the file declares, of all presets or one, always in the same order."""
     factors, fraction = declared()["factors"], declared()["fraction"]
-    found = []
+    result = []
     for i, j, k, m in itertools.product(*map(range, (3, 3, 2, 2))):
         at = _levels(fraction["three_levels"], i, j, 3) | _levels(fraction["two_levels"], k, m, 2)
         chosen = {name: factors[name][level] for name, level in at.items()}
-        found.append(Member(**(chosen | {"joints": tuple(chosen["joints"])})))
-    return tuple(m for m in found if preset in (None, m.preset))
+        result.append(Member(**(chosen | {"joints": tuple(chosen["joints"])})))
+    return tuple(m for m in result if preset in (None, m.preset))
 
 
 def _levels(rule: dict[str, list[int]], i: int, j: int, count: int) -> dict[str, int]:

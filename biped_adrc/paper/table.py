@@ -60,13 +60,13 @@ def claims() -> Iterator[Claim]:
             continue
         rooms = {"scenarios": m, "metric": m, "variant": m, "values": v}
         keys = {**said, "metric": said.get("measure", "number_of")}
-        found: dict[str, Any] = {
+        result: dict[str, Any] = {
             key: _function(room, keys[key]) for key, room in rooms.items() if key in keys
         }
         if "round_off" in said:
-            found["round_off"] = _number(said["round_off"])
+            result["round_off"] = _number(said["round_off"])
         bound = limit(said.get("limit", "<= 0"))
-        yield Claim(name, said["where"], said["claim"], limit=bound, **found)
+        yield Claim(name, said["where"], said["claim"], limit=bound, **result)
 
 
 def rows(r: Results) -> list[Row]:
@@ -100,8 +100,8 @@ def _of_designed(r: Results) -> Iterator[Check]:
         ("peak torque [N m]", partial(m.worst, "peak_torque", 1.0), "<= 150"),
         ("least normal force [N]", partial(m.worst, "least_normal_force", -1.0), ">= 0"),
     ):
-        found = {name: metric(o) for name, o in r.on_gait("a").items()}
-        yield from _checks("consistency", statement, bound, found)
+        result = {name: metric(o) for name, o in r.on_gait("a").items()}
+        yield from _checks("consistency", statement, bound, result)
 
 
 def _of_results(r: Results) -> Iterator[Check]:

@@ -86,18 +86,18 @@ def _multipliers(r: Results) -> Table:
     """Multipliers by method: central differences, delta^2 of the zero dynamics, the regression
     (27), the paper.
     """
-    found: dict[str, tuple[list[float], str]] = {}
+    result: dict[str, tuple[list[float], str]] = {}
     for name, x in r.multipliers.items():
         z, of = np.abs(x.orbit.multipliers), name.replace(" measured", ", reset 'measured'")
         remembers = "the observer's xi^ and its derivatives live on through the impact"
         remark = remembers if name.endswith("measured") else ""
-        found[f"central differences, {of}, {len(z)} coordinates"] = z[:10].tolist(), remark
-    found["delta^2 of the zero dynamics"] = [r.multipliers["NPD"].delta_squared], ""
+        result[f"central differences, {of}, {len(z)} coordinates"] = z[:10].tolist(), remark
+    result["delta^2 of the zero dynamics"] = [r.multipliers["NPD"].delta_squared], ""
     for c, test in r.regressions.items():
-        found[f"regression (27) on the pushed walk, {c}"] = test.magnitudes.tolist(), test.warning
-    found["printed in the paper"] = list(PUBLISHED_MULTIPLIERS), "from a regression: no target"
+        result[f"regression (27) on the pushed walk, {c}"] = test.magnitudes.tolist(), test.warning
+    result["printed in the paper"] = list(PUBLISHED_MULTIPLIERS), "from a regression: no target"
     return table(
-        {"method": said, "magnitudes": z, "remark": remark} for said, (z, remark) in found.items()
+        {"method": said, "magnitudes": z, "remark": remark} for said, (z, remark) in result.items()
     )
 
 
@@ -109,11 +109,11 @@ def _recipe(r: Results) -> Table:
     for name, x in r.cycles.items():
         if not name.startswith("gait (b)"):
             continue
-        found = None if isinstance(x, str) else x.orbit
-        row: dict[str, object] = {"gait": name, "stable": found and found.stable}
-        row["largest multipliers"] = found and np.abs(found.multipliers[:3]).tolist()
+        result = None if isinstance(x, str) else x.orbit
+        row: dict[str, object] = {"gait": name, "stable": result and result.stable}
+        row["largest multipliers"] = result and np.abs(result.multipliers[:3]).tolist()
         row["rate jump at impact [rad/s]"] = r.jumps[name.split(", ")[1]]["recipe"]
-        row["x- minus x*"] = found and (found.x_minus[: len(X_STAR)] - X_STAR).tolist()
+        row["x- minus x*"] = result and (result.x_minus[: len(X_STAR)] - X_STAR).tolist()
         rows.append(row | {"remark": x if isinstance(x, str) else ""})
     return table(rows)
 
@@ -122,6 +122,6 @@ def _map(cells: list[PushCell]) -> Table:
     """How many pushes of the map ended how, by preset, torque limit and controller."""
     return table(
         {"preset, torque limit": name, "controller": c, **words}
-        for name, found in counts(cells).items()
-        for c, words in found.items()
+        for name, result in counts(cells).items()
+        for c, words in result.items()
     )

@@ -129,13 +129,13 @@ def of_cycles(r: Results) -> dict[str, object]:
 
 def of_speed(r: Results) -> dict[str, object]:
     """Theta' of gait (b), and what a stricter limit would have changed."""
-    found = {
+    result = {
         name.split(", ")[1]: m.phase_rate(x.orbit.x_minus)
         for name, x in m.npd_cycles(r).items()
         if not isinstance(x, str)
     }
-    apart = {p: 100.0 * (rate / m.PRINTED_SPEED - 1.0) for p, rate in found.items()}
-    shown = (f"{rate:.4f} ({apart[p]:+.1f} %) {p}" for p, rate in found.items())
+    apart = {p: 100.0 * (rate / m.PRINTED_SPEED - 1.0) for p, rate in result.items()}
+    shown = (f"{rate:.4f} ({apart[p]:+.1f} %) {p}" for p, rate in result.items())
     far = max(map(abs, apart.values()), default=math.nan)
     return {"speed": m.PRINTED_SPEED, "rates": ", ".join(shown), "farthest": far}
 
@@ -156,7 +156,7 @@ def of_needs(r: Results) -> dict[str, object]:
 
 def of_starts(r: Results) -> dict[str, object]:
     """Which starts walk on."""
-    every = [s for found in r.starts.values() for s in found]
+    every = [s for result in r.starts.values() for s in result]
     above = [s for s in every if s.factor > 1.0]
     on = [s for s in above if all(o.walked for o in s.outcomes.values())]
     return {
@@ -176,11 +176,11 @@ def noise_spectrum() -> Array:
     """
     k, n = declared()["noise"], len(X_STAR)
     random = np.random.default_rng(k["seed"])
-    found = [
+    result = [
         regress_multipliers(random.normal(size=(k["impacts"], n)), np.zeros(n)).magnitudes
         for _ in range(k["draws"])
     ]
-    return np.median(found, axis=0)
+    return np.median(result, axis=0)
 
 
 def of_printed(r: Results) -> dict[str, object]:

@@ -114,8 +114,10 @@ class Claim:
         return tuple(self._case(name, x) for name, x in self.scenarios(r).items())
 
     def _case(self, name: str, x: Any) -> Case:
-        found = self.metric(x)
-        figure = found if isinstance(found, AtTwoSteps) else AtTwoSteps(float(found), float(found))
+        result = self.metric(x)
+        figure = (
+            result if isinstance(result, AtTwoSteps) else AtTwoSteps(float(result), float(result))
+        )
         used, half = (self.limit("", CLAIM, value).holds for value in figure)
         doubtful = used != half or not figure.converged(self.round_off)
         return Case(name, figure, half, doubtful, self.variant(name, x))
@@ -224,8 +226,8 @@ def claim_checks(rows: Sequence[Row]) -> list[Check]:
 
 def tally(rows: Iterable[Row]) -> str:
     """How many claims have which word, in the order of the words."""
-    found = Counter(row.word for row in rows)
-    return ", ".join(f"{word} {found[word]}" for word in texts()["words"])
+    result = Counter(row.word for row in rows)
+    return ", ".join(f"{word} {result[word]}" for word in texts()["words"])
 
 
 class Extremes(tuple[float, ...]):

@@ -87,11 +87,11 @@ class RobotAndGait:
         if biped.p == 0:
             return cls(biped, cycle=passive_cycle(biped))
         name = s.gait.name
-        found = own("gait", name)
+        result = own("gait", name)
         gait = (
             load_gait(name, biped, True)
-            if found is None
-            else construct(f"gait '{name}'", found, {"biped": biped}, Gait).check(biped)
+            if result is None
+            else construct(f"gait '{name}'", result, {"biped": biped}, Gait).check(biped)
         )
         gait = gait if s.gait.other_robot else gait.check_robot(biped)
         if s.gait.continued:

@@ -47,10 +47,10 @@ def columns_of(s: Signals, trajectory: Trajectory) -> dict[str, Any]:
 
 def _events(trajectory: Trajectory) -> list[str]:
     """Of each node, the event that ends its arc there; empty elsewhere."""
-    found = list[str]()
+    result = list[str]()
     for arc in trajectory.arcs:
-        found += [""] * (len(arc.t) - 1) + ["" if arc.event is None else arc.event.guard]
-    return found
+        result += [""] * (len(arc.t) - 1) + ["" if arc.event is None else arc.event.guard]
+    return result
 
 
 def write_csv(columns: Mapping[str, Any], path: Path | str) -> Path:

@@ -33,7 +33,7 @@ def edge_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
     An edge within `NEAR` of an impact is named on both sides of it. One at s = 0 of a single support is not: it
     is how "from the impact on" is written.
     """
-    found = list[str]()
+    result = list[str]()
     for part in () if walker.disturbance is None else summands(walker.disturbance):
         edges = _edges(part)
         said = [x for step, times in edges.items() for x in _remarks(step, times, trajectory)]
@@ -41,8 +41,8 @@ def edge_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
             names = [_name(step, times) for step, times in edges.items()]
             name = names[0] if names else f"the push {type(part).__name__}"
             said = [f"{name} did not act: it was zero at every instant of the walk"]
-        found += said
-    return tuple(dict.fromkeys(found))
+        result += said
+    return tuple(dict.fromkeys(result))
 
 
 def _acted(part: Disturbance, trajectory: Trajectory, n: int) -> bool:

@@ -129,10 +129,10 @@ class Push(Record):
 
     def _groups(self) -> list[tuple[float, list[str]]]:
         """Torques [N m], each with the joints that have it, in their order."""
-        found: dict[float, list[str]] = {}
+        result: dict[float, list[str]] = {}
         for joint, torque in self.factors.items():
-            found.setdefault(torque, []).append(joint)
-        return list(found.items())
+            result.setdefault(torque, []).append(joint)
+        return list(result.items())
 
 
 def parse_push(text: str) -> Push:

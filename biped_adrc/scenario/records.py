@@ -149,16 +149,16 @@ class Record(BaseModel):
             values = {cls.SHORT: values}
         if not isinstance(values, Mapping):
             return values
-        found = {cls.SHORT if name == NAME else str(name): x for name, x in values.items()}
-        for name in found.keys() - cls.model_fields.keys():
-            if isinstance(found[name], Mapping | Record):
+        result = {cls.SHORT if name == NAME else str(name): x for name, x in values.items()}
+        for name in result.keys() - cls.model_fields.keys():
+            if isinstance(result[name], Mapping | Record):
                 raise Misfit(name, unknown(name, names_of(cls)), known=False)
             what = cls.own_value(name)
             try:
-                found[name] = read(what, plain(found[name]))
+                result[name] = read(what, plain(result[name]))
             except ValueError as error:
                 raise Misfit(name, str(error)) from None
-        return cls.filled(found)
+        return cls.filled(result)
 
     @classmethod
     def filled(cls, values: dict[str, Any]) -> dict[str, Any]:
@@ -188,16 +188,16 @@ class Record(BaseModel):
         What was registered in this process is written as module:Class, by which any other process finds it.
         """
         usual = type(self).model_construct() if usual is None else usual
-        found = {}
+        result = {}
         for name, info in type(self).model_fields.items():
             x, before = getattr(self, name), getattr(usual, name)
             if isinstance(x, Record) and isinstance(before, Record):
                 x, before = x.record(before), {}
             if x != before:
                 kind = extra(info)["kind"]
-                found[name] = portable(kind, x) if kind and x is not None else listed(x)
+                result[name] = portable(kind, x) if kind and x is not None else listed(x)
         others = usual.own
-        return found | {name: listed(x) for name, x in self.own.items() if others.get(name) != x}
+        return result | {name: listed(x) for name, x in self.own.items() if others.get(name) != x}
 
     def dotted(self) -> dict[str, Any]:
         """`record` by dotted names, such as {"controller.observer.bandwidth": 300.0}."""
@@ -241,8 +241,8 @@ def listed(x: Any) -> Any:
 
 def extra(info: FieldInfo) -> dict[str, str]:
     """Unit and kind of a field."""
-    found: Any = info.json_schema_extra
-    return found or {"unit": "1", "kind": ""}
+    result: Any = info.json_schema_extra
+    return result or {"unit": "1", "kind": ""}
 
 
 def read(what: Described, x: Any) -> Any:
@@ -256,8 +256,8 @@ def read(what: Described, x: Any) -> Any:
         if what.kind:
             return spelled(what.kind, x) if what.kind in OF_FILES else known_name(what.kind, x)
         if not types:
-            found = in_si(x)
-            return x if found is None else found
+            result = in_si(x)
+            return x if result is None else result
         if number:
             x = quantity(x, what.unit)
         elif bool in types and x in ("true", "false"):
@@ -306,15 +306,15 @@ def record_in(cls: type[Record], name: str) -> type[Record] | None:
 
 def names_of(cls: type[Record], before: str = "") -> list[str]:
     """Dotted names of all values; of a list of records those of its first, and of itself none inside."""
-    found = []
+    result = []
     for name, info in cls.model_fields.items():
         inner = record_in(cls, name)
         if inner is None or inner is cls:
-            found.append(before + name)
+            result.append(before + name)
         else:
             place = "0." if get_origin(info.annotation) is tuple else ""
-            found += names_of(inner, f"{before}{name}.{place}")
-    return found
+            result += names_of(inner, f"{before}{name}.{place}")
+    return result
 
 
 def described_in(cls: type[Record], name: str) -> Described:
@@ -345,19 +345,19 @@ def described_in(cls: type[Record], name: str) -> Described:
 
 def misfit(error: ValidationError, cls: type[Record]) -> Misfit:
     """The first thing that is wrong, as an error with the dotted name of the value."""
-    found = error.errors()[0]
-    parts = map(str, found["loc"])
+    result = error.errors()[0]
+    parts = map(str, result["loc"])
     place = ".".join(part for part in parts if part not in _LABELS and "[" not in part)
-    inner = found.get("ctx", {}).get("error")
+    inner = result.get("ctx", {}).get("error")
     if isinstance(inner, Misfit):
         place = ".".join(part for part in (place, inner.place) if part)
         if inner.known:
             return Misfit(place, inner.text)
-    if found["type"] == "extra_forbidden" or isinstance(inner, Misfit):
+    if result["type"] == "extra_forbidden" or isinstance(inner, Misfit):
         return Misfit(place, unknown(place, names_of(cls)), known=False)
-    text = found["msg"].removeprefix("Value error, ")
+    text = result["msg"].removeprefix("Value error, ")
     if text.startswith("Input should"):
-        text = f"found {found['input']!r}, {text.replace('Input should', 'should')}"
+        text = f"found {result['input']!r}, {text.replace('Input should', 'should')}"
     return Misfit(place, text)
 
 

@@ -183,17 +183,17 @@ def _imported(home: str) -> Callable[..., object]:
     if not home.startswith("biped_adrc.") and here not in sys.path and "" not in sys.path:
         sys.path.append(here)
     try:
-        found = import_module(module)
+        result = import_module(module)
     except (Exception, SystemExit) as error:  # whatever a module of the user's may raise
         raise InputError(
             f"'{home}': importing '{module}' failed with {type(error).__name__}: {error}; expected "
             f"package.module:Class, in '{here}' or installed, here and where workers run"
         ) from error
-    thing: object = found
+    thing: object = result
     for part in name.split("."):
         thing = getattr(thing, part, None)
     if not callable(thing):
-        there = [key for key, x in vars(found).items() if isinstance(x, type)]
+        there = [key for key, x in vars(result).items() if isinstance(x, type)]
         near = get_close_matches(name, there, 1) or there
         raise InputError(f"'{home}': module '{module}' has no class '{name}'; it has {near}")
     return thing
@@ -213,8 +213,8 @@ def takes(make: Callable[..., object]) -> Mapping[str, Parameter]:
 @lru_cache(maxsize=1024)
 def _takes(make: Callable[..., object]) -> Mapping[str, Parameter]:
     """As `takes`; kept, since each walk of a study asks for the same."""
-    found = signature(make).parameters
-    return MappingProxyType({name: p for name, p in found.items() if p.kind not in _VARIADIC})
+    result = signature(make).parameters
+    return MappingProxyType({name: p for name, p in result.items() if p.kind not in _VARIADIC})
 
 
 def lacking(make: Callable[..., object], values: Container[str]) -> list[str]:

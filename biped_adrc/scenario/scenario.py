@@ -315,11 +315,11 @@ def value_of(name: str, x: object) -> Any:
     """
     what = field_of(name)
     try:
-        found = read(what, plain(x))
-        what.check(found)
+        result = read(what, plain(x))
+        what.check(result)
     except ValueError as error:
         raise Misfit(name, str(error)) from None
-    return found
+    return result
 
 
 def names() -> list[str]:

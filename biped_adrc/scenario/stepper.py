@@ -241,7 +241,7 @@ class Stepper:
 
         before: codes (N,) of the walks before this sample.
         """
-        found, within = list[tuple[int, Support]](), cast(Limits, self.within)
+        result, within = list[tuple[int, Support]](), cast(Limits, self.within)
         for i, walk in enumerate(self.walks):
             impacts, ended = int(self._impacts[i]), self.codes[i] != 0
             if isinstance(walk, CompiledWalk) and before[i] == 0 and (impacts > 0 or ended):
@@ -250,8 +250,8 @@ class Stepper:
                 n = Nodes.of_table(walk.over(impacts > 0 and not ended), plant.p)
                 after = plant.momentum(q, v) if len(n.supports.first) == impacts else None
                 judged = supports(walker, n, within.of(plant.description), impacts, after)
-                found += [(i, s) for s in judged[: None if ended else impacts]]
-        return found
+                result += [(i, s) for s in judged[: None if ended else impacts]]
+        return result
 
     def _needed(self, i: int, loop: ClosedLoop[Any], arc: Arc) -> Support:
         """The same of a single support of walk i, one arc of all its nodes."""
@@ -283,19 +283,19 @@ class Stepper:
             first = next(walk for walk in self.walks if walk is not None)
             size = len(reading(first, view, self.curve))
             laws = np.zeros(len(self.walks), dtype=np.int64)
-            found = np.zeros((len(laws), size))
-            self._laws[view] = laws, found, (size, laws.ctypes.data, found.ctypes.data)
-        laws, found, at = self._laws[view]
+            result = np.zeros((len(laws), size))
+            self._laws[view] = laws, result, (size, laws.ctypes.data, result.ctypes.data)
+        laws, result, at = self._laws[view]
         for i in () if view in self._complete else np.flatnonzero(laws == 0).tolist():
             walk = self.walks[i]
             if isinstance(walk, CompiledWalk):
                 laws[i] = walk.law(view, self.curve)
             elif walk is not None:
-                found[i] = reading(walk, view, self.curve)
+                result[i] = reading(walk, view, self.curve)
         if not self.in_python:
             self._complete.add(view)
         self._kernels.looks(*self._walks, *at)
-        return found.copy()
+        return result.copy()
 
 
 def finite_numbers(what: str, values: ArrayLike, shape: tuple[int, ...]) -> Array:

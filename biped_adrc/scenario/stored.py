@@ -104,9 +104,9 @@ def load_walk(path: Path | str) -> Walk:
                 "it does not say which robot, gait and controller it is of; runs written by Walk.save, "
                 "'biped-adrc simulate' and 'reproduce' do"
             )
-        found = _stored(trajectory, beside)
-        _check(found)
-    return found
+        result = _stored(trajectory, beside)
+        _check(result)
+    return result
 
 
 def _stored(trajectory: Trajectory, beside: Mapping[str, Array]) -> Walk:

@@ -61,12 +61,12 @@ def quantity(text: str, unit: str) -> float:
         raise ValueError(f"found '{text}', expected a number [{unit}] or a number and its unit")
     number, given = float(match[1]), match[2]
     if given:
-        found, expected = unit_of(given), unit_of(unit)
-        if found.powers != expected.powers:
+        result, expected = unit_of(given), unit_of(unit)
+        if result.powers != expected.powers:
             raise ValueError(
                 f"found '{text}': '{given}' is another dimension, expected a unit such as '{unit}'"
             )
-        number = _scaled(number, found.factor / expected.factor)
+        number = _scaled(number, result.factor / expected.factor)
     if not math.isfinite(number):
         raise ValueError(f"found '{text}', too large, expected a finite number [{unit}]")
     return number

@@ -169,7 +169,7 @@ class Reader:
 def _class(home: str) -> Any:
     """A class of this package by module:Class. Raises InputError where this version does not have it."""
     module, _, name = home.partition(":")
-    found = getattr(import_module(module), name, None) if is_ours(home) else None
-    if not isinstance(found, type) or found.__module__ != module:
+    result = getattr(import_module(module), name, None) if is_ours(home) else None
+    if not isinstance(result, type) or result.__module__ != module:
         raise InputError(f"there is no class '{home}' in this version of the package")
-    return found
+    return result

@@ -28,17 +28,17 @@ def versions_of(values: Iterable[tuple[str, object]]) -> dict[str, str]:
 
     Raises InputError for a class that cannot be imported or a plant that there is not.
     """
-    found: dict[str, str] = {}
+    result: dict[str, str] = {}
     for name, x in values:
         for path in files_of(name, x):
-            found[f"file {path}"] = _hash(path)
+            result[f"file {path}"] = _hash(path)
         kind = field_of(name).kind
         if kind and is_own(str(x)):
-            found[f"source {x}"] = source_hash(find(kind, str(x)).load())
+            result[f"source {x}"] = source_hash(find(kind, str(x)).load())
         if name == PLANT:
             version = getattr(find(kind, str(x)).load(), "engine_version", None)
-            found |= {} if version is None else {f"engine of {x}": str(version())}
-    return dict(sorted(found.items()))
+            result |= {} if version is None else {f"engine of {x}": str(version())}
+    return dict(sorted(result.items()))
 
 
 def _hash(path: Path) -> str:
@@ -88,8 +88,8 @@ def case(s: Scenario) -> Case:
         f"run.engine is '{s.run.engine}', expected '{COMPILED}'": s.run.engine != COMPILED,
     }
     if any(wrong.values()):
-        found = "; ".join(text for text, is_so in wrong.items() if is_so)
-        raise InputError(f"a study walks in sampled time, with one step, compiled: {found}")
+        result = "; ".join(text for text, is_so in wrong.items() if is_so)
+        raise InputError(f"a study walks in sampled time, with one step, compiled: {result}")
     scene = scene_of(s)
     q, v = start(s, scene)
     walker = build(s, scene)

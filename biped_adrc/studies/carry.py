@@ -83,9 +83,9 @@ def study(
             runner.run(asked.points())
             return Results(asked, folder)
         walker = _Searched(asked, asked.search, runner)
-        found = {name: walker.choice(name) for name in asked.cases or ("",)}
-        choices = {name: x for name, x in found.items() if isinstance(x, Choice)}
-        failures = tuple(x for x in found.values() if isinstance(x, str))
+        result = {name: walker.choice(name) for name in asked.cases or ("",)}
+        choices = {name: x for name, x in result.items() if isinstance(x, Choice)}
+        failures = tuple(x for x in result.values() if isinstance(x, str))
         if not choices:
             raise InputError("\n".join(failures))
         walker.test(choices)
@@ -116,17 +116,17 @@ class _Searched:
         def walk(kind: str, asked: Sequence[Candidate]) -> list[Walks]:
             return self.walk(kind, [(c.number, c.values, _named(case)) for c in asked])
 
-        found = searched(search, base, partial(walk, "search"), told)
-        failure = self.failure(found, case, "search")
+        result = searched(search, base, partial(walk, "search"), told)
+        failure = self.failure(result, case, "search")
         if not failure:
-            few = _few(search, found)
+            few = _few(search, result)
             again = [
                 judged(search, base, c.number, c.chosen, walks)
                 for c, walks in zip(few, walk("choice", few), strict=True)
             ]
             failure = self.failure(again, case, "choice")
         if not failure:
-            return Choice(tuple(found), tuple(ranked(search, again)))
+            return Choice(tuple(result), tuple(ranked(search, again)))
         self.runner.tell(failure)
         return failure
 
@@ -163,11 +163,11 @@ class _Searched:
         count = len(conditions) * len(walks.seeds)
         self.place += count * len(asked)
         self.runner.run(points(), self.place - first)
-        found = [
+        result = [
             (str(at.get(CONDITION, "")), row)
             for at, row in self.runner.store.results(first, self.place - first)
         ]
-        return [found[i : i + count] for i in range(0, len(found), count)]
+        return [result[i : i + count] for i in range(0, len(result), count)]
 
     def failure(self, found: Sequence[Candidate], case: str, kind: str) -> str:
         """Where none keeps all limits: what excluded how many, and the nearest one; else empty."""

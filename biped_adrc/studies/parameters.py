@@ -45,7 +45,7 @@ def read(name: str, x: Any) -> Any:
 
     Raises InputError for an unknown name or a value out of range.
     """
-    field, found = field_of(name), scenarios.value_of(name, x)
-    if field.kind and isinstance(found, str):
-        return portable(field.kind, found)
-    return float(found) if type(found) is int and float in field.types else found
+    field, result = field_of(name), scenarios.value_of(name, x)
+    if field.kind and isinstance(result, str):
+        return portable(field.kind, result)
+    return float(result) if type(result) is int and float in field.types else result

@@ -53,9 +53,9 @@ def searched(
     told: called with the best candidate after each generation. Raises InputError where none may be walked.
     """
     proposals = _Proposals(optuna_library(), search, base)
-    found: list[Candidate] = []
+    result: list[Candidate] = []
     numbers = itertools.count()
-    while (left := search.budget - sum(c.walked for c in found)) > 0:
+    while (left := search.budget - sum(c.walked for c in result)) > 0:
         asked: list[Candidate] = []
         new: list[Candidate] = []
         for number in itertools.islice(numbers, ASKED * search.generation):
@@ -72,10 +72,10 @@ def searched(
         for c, walks in zip(asked, walk(asked), strict=True):
             new.append(judged(search, base, c.number, c.chosen, walks))
             proposals.tell(new[-1])
-        found += sorted(new, key=lambda c: c.number)
-        told(ranked(search, found)[0])
-        proposals.refine(found)
-    return found
+        result += sorted(new, key=lambda c: c.number)
+        told(ranked(search, result)[0])
+        proposals.refine(result)
+    return result
 
 
 class _Proposals:

@@ -107,14 +107,14 @@ class Results(Shown):
     @cached_property
     def groups(self) -> list[Group]:
         """The walks by case and condition, those of a search on its test set; the first case comes first."""
-        measure, found = measure_of(self.study), dict[tuple[str, str], list[Result]]()
+        measure, results = measure_of(self.study), dict[tuple[str, str], list[Result]]()
         for result in self.results():
             if result.at.get(SET, "test") == "test" and result.row["status"] not in NO_WALK:
                 where = _name(result.at), str(result.at.get(CONDITION, ""))
-                found.setdefault(where, []).append(result)
+                results.setdefault(where, []).append(result)
         return [
             Group(*where, tuple(rows), tuple(measure.number(x.row) for x in rows))
-            for where, rows in found.items()
+            for where, rows in results.items()
         ]
 
     def table(self) -> list[Line]:

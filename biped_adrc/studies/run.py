@@ -79,10 +79,10 @@ def measured(s: Scenario, made: Case, walked: BatchWalk, walk: Walk | None = Non
     with _PREPARING:
         if walk is None and walked.trajectory is not None:
             walk = Walk(made.walker, scene_of(s).walked, walked.trajectory, s)
-        found = _by_table(made, walked, limits(s)) if walk is None else counted_in(walk, limits(s))
+        result = _by_table(made, walked, limits(s)) if walk is None else counted_in(walk, limits(s))
     weighed = made.walker.plant.weight * float(row.get("distance") or 0.0)
-    cost = float(found["work"] or 0.0) / weighed if weighed > 0.0 else None
-    return row | found | {"cost_of_transport": cost}
+    cost = float(result["work"] or 0.0) / weighed if weighed > 0.0 else None
+    return row | result | {"cost_of_transport": cost}
 
 
 def _by_table(made: Case, walked: BatchWalk, limits: Limits) -> WalkRow:
@@ -94,8 +94,8 @@ def _by_table(made: Case, walked: BatchWalk, limits: Limits) -> WalkRow:
     if walked.status is Status.COMPLETED:
         x = walked.final_state
         after = plant.momentum(x[: plant.n], x[plant.n : 2 * plant.n])
-    found = supports(walker, n, k, walked.impacts, after)
-    return counted(n, Feasibility(walked.status, found, k, walked.impacts))
+    result = supports(walker, n, k, walked.impacts, after)
+    return counted(n, Feasibility(walked.status, result, k, walked.impacts))
 
 
 def ends_of(made: Walk) -> BatchWalk:

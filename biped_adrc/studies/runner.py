@@ -142,8 +142,8 @@ def dask(address: str) -> Executor:
                 f"biped-adrc ({type(error).__name__}: {error}); expected an address such as tcp://host:8786, "
                 f"which 'dask scheduler' prints, and 'dask worker {address}' where biped-adrc is installed"
             ) from error
-        for worker, found in there.items():
-            if text := differences(found, numerical_versions()):
+        for worker, result in there.items():
+            if text := differences(result, numerical_versions()):
                 raise InputError(
                     f"worker {worker} of the scheduler at {address} would give other numbers: {text}"
                 )

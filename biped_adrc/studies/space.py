@@ -46,17 +46,17 @@ def table(given: object) -> dict[str, Any]:
 
 def each(given: object, read_one: Callable[[str, Any], Any]) -> dict[str, Any]:
     """`read_one(name, value)` for each entry of a table. Raises ValueError with all entries that it refuses."""
-    found, wrong = {}, []
+    result, wrong = {}, []
     for name, x in flat(table(given), whole=("from", "to", "choices")).items():
         try:
-            found[name] = read_one(name, x)
+            result[name] = read_one(name, x)
         except ValidationError as error:
             wrong += [f"{name}: {problem(one)}" for one in error.errors()]
         except ValueError as error:
             wrong.append(f"{name}: {error.text if isinstance(error, Misfit) else error}")
     if wrong:
         raise ValueError("; ".join(wrong))
-    return found
+    return result
 
 
 class Range(Part):
@@ -98,8 +98,8 @@ class Levels(Range):
     def levels(self) -> list[float]:
         """`count` values from low to high, with both ends exactly."""
         spaced = np.geomspace if self.scale == "log" else np.linspace
-        found = spaced(self.low, self.high, self.count).tolist()
-        return [self.low, *found[1:-1], self.high][: self.count]
+        result = spaced(self.low, self.high, self.count).tolist()
+        return [self.low, *result[1:-1], self.high][: self.count]
 
 
 R = TypeVar("R", bound=Range)
@@ -115,12 +115,12 @@ def read_range(name: str, given: object, kind: type[R] = Range) -> R:  # type: i
 
 def read_list(name: str, given: object, least: int = 1) -> tuple[Any, ...]:
     """At least so many different values of one field. Raises ValueError."""
-    found = tuple(read(name, x) for x in given) if isinstance(given, list | tuple) else ()
-    if len({repr(x) for x in found}) < max(least, len(found)):
+    result = tuple(read(name, x) for x in given) if isinstance(given, list | tuple) else ()
+    if len({repr(x) for x in result}) < max(least, len(result)):
         raise ValueError(
             f"found {given!r}, expected a list of different values or {{from, to, ..}}"
         )
-    return found
+    return result
 
 
 def _levels(name: str, given: object) -> tuple[Any, ...]:

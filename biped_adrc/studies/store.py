@@ -80,8 +80,8 @@ class Store:
         """By status how many walks ended so, and what the first of them says."""
         text = "SELECT status, count(*), row, min(place) FROM walks GROUP BY status ORDER BY 2 DESC"
         with _errors(self.path):
-            found = self.db.execute(text).fetchall()
-        return {str(s): (n, str(json.loads(row).get("detail") or "")) for s, n, row, _ in found}
+            result = self.db.execute(text).fetchall()
+        return {str(s): (n, str(json.loads(row).get("detail") or "")) for s, n, row, _ in result}
 
 
 @contextmanager

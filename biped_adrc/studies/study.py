@@ -159,8 +159,8 @@ class Study(Part):
 
         Raises InputError for a class that cannot be imported.
         """
-        found = dict(numerical_versions()) | versions_of(self._values())
-        return {**found, **(packages(["optuna", "cmaes"]) if self.search else {})}
+        result = dict(numerical_versions()) | versions_of(self._values())
+        return {**result, **(packages(["optuna", "cmaes"]) if self.search else {})}
 
     def _values(self) -> Iterator[tuple[str, object]]:
         """Names and values that any walk uses, apart from numbers of ranges."""

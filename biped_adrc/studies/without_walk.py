@@ -42,7 +42,7 @@ def numbers_without_walk(columns: Iterable[str], values: Values) -> dict[str, fl
     asked = [name for name in columns if name in WITHOUT_WALK]
     text = json.dumps(values, sort_keys=True)
     try:
-        found = {name: float(getattr(_specification(text), name)) for name in asked}
+        result = {name: float(getattr(_specification(text), name)) for name in asked}
     except BipedError:
         return dict.fromkeys(asked)
-    return {name: x if math.isfinite(x) else None for name, x in found.items()}
+    return {name: x if math.isfinite(x) else None for name, x in result.items()}

@@ -51,8 +51,8 @@ Captions = dict[str, tuple[str, str]]
 @cache
 def captions(page: str) -> Captions:
     """The headings and captions of the figures of a page ("report"), from captions.toml."""
-    found = packaged("biped_adrc.view", "captions.toml")[page].items()
-    return {name: (x["title"], " ".join(x["text"].split())) for name, x in found}
+    result = packaged("biped_adrc.view", "captions.toml")[page].items()
+    return {name: (x["title"], " ".join(x["text"].split())) for name, x in result}
 
 
 def rendered(template: str, package: str = HERE, **values: object) -> str:

@@ -76,7 +76,7 @@ def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
     assert isinstance(twin.timing, SampledTime)
     assert twin.held is not None
     n, T, sizes, mode = twin.plant.n, twin.timing.period, twin.held.sizes, Mode()
-    found, ticked = [], None
+    result, ticked = [], None
     for point in points:
         x, J = (
             twin.initial_state(point.q - TICKS_BEFORE * T * point.v, point.v, mode),
@@ -87,8 +87,8 @@ def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
             x[:n], x[n : 2 * n] = point.q - before * T * point.v, point.v
             x, J = ticked(point.t - before * T, x, mode)
         u, z = J[_newest(sizes, len(x))], _released(sizes, J)[2 * n :]
-        found.append((z[:, 2 * n :], z[:, : 2 * n], u[:, 2 * n :], u[:, : 2 * n]))
-    return _acting(TickMatrices(*(np.array(x) for x in zip(*found, strict=True))))
+        result.append((z[:, 2 * n :], z[:, : 2 * n], u[:, 2 * n :], u[:, : 2 * n]))
+    return _acting(TickMatrices(*(np.array(x) for x in zip(*result, strict=True))))
 
 
 def _acting(tick: TickMatrices) -> TickMatrices:

@@ -198,11 +198,11 @@ class WalkerLoops:
         grid = np.geomspace(self.slow, nyquist, FREQUENCIES)
         grid = grid.reshape(*(1 for _ in own.shape[:-1]), -1)
         controller, robot = self._responses()
-        found = []
+        result = []
         for angles in (grid * self.period, own * self.period):
             K, P = controller.at(angles).swapaxes(-2, -1), robot(angles)
-            found.append(np.linalg.inv(np.eye(K.shape[-2]) - K @ P))
-        return np.concatenate(found, axis=-3)
+            result.append(np.linalg.inv(np.eye(K.shape[-2]) - K @ P))
+        return np.concatenate(result, axis=-3)
 
     def _responses(self) -> tuple[Response, Callable[[Array], ComplexArray]]:
         """Of the controller from (q, q') to its torques, transposed, and of the robot from these to (q, q')."""
@@ -279,6 +279,6 @@ class Response(NamedTuple):
             rest = (self.T[..., i : i + 1, i + 1 :] @ later).reshape(*axes, F, m)
             pivot = (z - self.T[..., i, i, np.newaxis])[..., np.newaxis]
             X[..., i, :, :] = (self.B[..., i, np.newaxis, :] + rest) / pivot
-        found = self.C @ X.reshape(*axes, s, F * m)
-        found = found.reshape(*axes, -1, F, m).swapaxes(-3, -2)
-        return np.asarray(found + self.D[..., np.newaxis, :, :])
+        result = self.C @ X.reshape(*axes, s, F * m)
+        result = result.reshape(*axes, -1, F, m).swapaxes(-3, -2)
+        return np.asarray(result + self.D[..., np.newaxis, :, :])

@@ -79,14 +79,14 @@ class Written:
 
 def used_numbers(functions: Sequence[CFunction]) -> list[int]:
     """Places in K that any of these functions reads, in order."""
-    found: set[int] = set()
+    result: set[int] = set()
     for each in functions:
         f = straight_line(each.function)
         for i in range(f.n_instructions()):
             a = f.instruction_input(i)
             if f.instruction_id(i) == ca.OP_INPUT and a[0] == 0:
-                found.add(a[1])
-    return sorted(found)
+                result.add(a[1])
+    return sorted(result)
 
 
 def c_text(each: CFunction, numbers: Sequence[int]) -> Written:
@@ -127,13 +127,13 @@ def in_double(f: ca.Function, angles: Sequence[bool]) -> set[int]:
         if code == ca.OP_SUB and LINEAR in of and UNKNOWN not in of:
             wanted.append(i)
         made[f.instruction_output(i)[0]] = i
-    found: set[int] = set()
+    result: set[int] = set()
     while wanted:
         i = wanted.pop()
-        if i not in found:
-            found.add(i)
+        if i not in result:
+            result.add(i)
             wanted.extend(sources[i])
-    return {i for i in found if sources[i]}
+    return {i for i in result if sources[i]}
 
 
 CONSTANT, LINEAR, KNOWN, UNKNOWN = range(4)

@@ -70,12 +70,12 @@ class Computer:
         Raises InputError for a sensor with another part on the computer.
         """
         sensor = self.walker.sensors
-        found = None if sensor is None else sensor.on_computer(None)
-        if found is not None and not isinstance(found, Sensors):
+        result = None if sensor is None else sensor.on_computer(None)
+        if result is not None and not isinstance(result, Sensors):
             raise InputError(
-                f"on the computer the sensors are {type(found).__name__}, expected Sensors or None"
+                f"on the computer the sensors are {type(result).__name__}, expected Sensors or None"
             )
-        return found
+        return result
 
     @cached_property
     def sensors(self) -> Sensor | None:

@@ -64,8 +64,8 @@ def write_folder(folder: Path, source: Source) -> None:
     files = {name: text.encode() for name, text in source.files.items()}
     built = ("main", f"{source.prefix}.fmu")
     try:
-        found = sorted(folder.iterdir()) if folder.exists() else []
-        others = [x.name for x in found if x.name not in built and not _same(x, files)]
+        result = sorted(folder.iterdir()) if folder.exists() else []
+        others = [x.name for x in result if x.name not in built and not _same(x, files)]
     except NotADirectoryError:
         raise OutputError(f"'{folder}' is a file, expected the name of a folder") from None
     except OSError as error:

@@ -98,10 +98,10 @@ def _live(step: SymbolicFunction, touchdown: SymbolicFunction, n: int, total: in
         read = _read(step._replace(out=step.out[[*kept, *outputs]]))
         if kept:
             read |= _read(touchdown._replace(out=touchdown.out[kept]))
-        found = {i - HEAD - 2 * n for i in read if i >= HEAD + 2 * n}
-        if found <= live:
+        result = {i - HEAD - 2 * n for i in read if i >= HEAD + 2 * n}
+        if result <= live:
             return live
-        live |= found
+        live |= result
 
 
 def _read(function: SymbolicFunction) -> set[int]:

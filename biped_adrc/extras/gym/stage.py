@@ -96,10 +96,10 @@ class Stage:
     def observations(self) -> Array:
         """(N, first + 1), within the bounds."""
         seen = self.seen
-        found = np.empty((len(seen), self.first + 1))
-        found[:, :-1] = seen[:, : self.first]
-        found[:, -1] = np.vecdot(seen[:, : self.plant.n], self.phase)
-        return np.minimum(np.maximum(found, -self.highest, out=found), self.highest, out=found)
+        result = np.empty((len(seen), self.first + 1))
+        result[:, :-1] = seen[:, : self.first]
+        result[:, -1] = np.vecdot(seen[:, : self.plant.n], self.phase)
+        return np.minimum(np.maximum(result, -self.highest, out=result), self.highest, out=result)
 
     def rewards(self) -> Array:
         """(N,) of the sample that has just been made."""

@@ -112,8 +112,8 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
 
     def _infos(self) -> dict[str, Any]:
         """Arrays (N,), each with its mask of those that have it: all."""
-        found, there = self.stage.infos(), np.ones(self.num_envs, dtype=bool)
-        return found | {f"_{name}": there.copy() for name in found}
+        result, there = self.stage.infos(), np.ones(self.num_envs, dtype=bool)
+        return result | {f"_{name}": there.copy() for name in result}
 
     def render(self) -> tuple[Any, ...] | None:
         """A picture (height, width, 3), uint8, of each walk; None without a render_mode."""

@@ -120,19 +120,19 @@ def _numbered(biped: Biped) -> list[str]:
 
 def _wanted(head: list[str], biped: Biped) -> dict[str, tuple[int, float]]:
     """Of each column of the log: where it is in the file, and the factor to the package's unit."""
-    known, found = ["t", CONTACT, STEP, *_numbered(biped)], dict[str, tuple[int, float]]()
+    known, result = ["t", CONTACT, STEP, *_numbered(biped)], dict[str, tuple[int, float]]()
     for at, text in enumerate(head):
         match = _COLUMN.fullmatch(text)
         if match is None or match[1] not in known:
             continue
         name, unit = match[1], match[2]
-        if name in found:
+        if name in result:
             raise InputError(
                 f"two of its columns are called '{name}', in {head}; leave one of them out"
             )
-        found[name] = at, 1.0 if name in (CONTACT, STEP) else _factor(text, name, unit)
-    missing = [x for x in known if x[0] in "tqu" and x not in found]
-    if missing or (CONTACT in found) == (STEP in found):
+        result[name] = at, 1.0 if name in (CONTACT, STEP) else _factor(text, name, unit)
+    missing = [x for x in known if x[0] in "tqu" and x not in result]
+    if missing or (CONTACT in result) == (STEP in result):
         asked = [
             *(f"{x} [{UNITS[x[0]]}]" for x in missing),
             *([] if missing else [f"one of {CONTACT}, {STEP}"]),
@@ -140,7 +140,7 @@ def _wanted(head: list[str], biped: Biped) -> dict[str, tuple[int, float]]:
         raise InputError(
             f"its columns are {head}, expected {', '.join(asked)} too; rates v1 .. may be left out"
         )
-    return found
+    return result
 
 
 def _factor(column: str, name: str, unit: str | None) -> float:

@@ -161,21 +161,21 @@ def replay(
         raise InputError(
             f"robot '{scenario.robot.name}' has no motors and no controller, expected one with motors"
         )
-    found = log if isinstance(log, RobotLog) else read_log(log, scene.biped)
-    has, wants = (found.q.shape[1], found.u.shape[1]), (scene.biped.n, scene.biped.p)
+    result = log if isinstance(log, RobotLog) else read_log(log, scene.biped)
+    has, wants = (result.q.shape[1], result.u.shape[1]), (scene.biped.n, scene.biped.p)
     if has != wants:
         raise InputError(
             f"the log has {has[0]} angles and {has[1]} torques, expected {wants[0]} and {wants[1]} of robot "
             f"'{scenario.robot.name}'"
         )
-    period = scenario.hardware.period or found.period
-    if not found.even(period):
-        found = found.resampled(period)
+    period = scenario.hardware.period or result.period
+    if not result.even(period):
+        result = result.resampled(period)
     scenario = scenario.replace(hardware={"period": period})
     walker = build(scenario, scene)
     with np.errstate(over="ignore", invalid="ignore"):  # what overflows is refused
-        signals = replayed(walker, found, filter_time, window)
-    return Replay(scenario, found, signals, window)
+        signals = replayed(walker, result, filter_time, window)
+    return Replay(scenario, result, signals, window)
 
 
 def _row(x: ReplaySignals, rows: NDArray[np.bool_]) -> ReplayRow:

@@ -96,8 +96,8 @@ def replayed(walker: Walker, log: RobotLog, filter_time: float, window: float) -
         expected = calls.estimate(s, m)
         s = calls.correct(s, m)
         u = walker.saturate(calls.output(s, m))
-        found, terms = calls.estimate(s, m), m.terms
-        xi = np.full(len(terms.xi), np.nan) if found is None else found.disturbance
+        result, terms = calls.estimate(s, m), m.terms
+        xi = np.full(len(terms.xi), np.nan) if result is None else result.disturbance
         beyond = terms.kappa_inverse @ (xi - terms.xi)
         residual = m.q_b - expected.position if expected is not None else np.full(len(xi), np.nan)
         rows.append((m.t_step, m.v, u, residual, xi, terms.xi, beyond))

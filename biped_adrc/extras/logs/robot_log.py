@@ -169,9 +169,9 @@ def _check_times(t: Array, step: Array, names: list[str]) -> None:
     """Raise InputError for times (K,) [s] that do not grow, are in another unit, or have a gap."""
     ways, same = np.diff(t), np.diff(step) == 0.0
     for k in np.flatnonzero(ways <= 0.0)[:1]:
-        found = "the same time as" if ways[k] == 0.0 else f"{-ways[k]:g} s before"
+        result = "the same time as" if ways[k] == 0.0 else f"{-ways[k]:g} s before"
         raise InputError(
-            f"{names[k + 1]} of the log has t = {t[k + 1]:.9g} s, {found} the row before, expected times that "
+            f"{names[k + 1]} of the log has t = {t[k + 1]:.9g} s, {result} the row before, expected times that "
             "grow; leave doubled rows out"
         )
     if np.count_nonzero(same) < 2:

@@ -83,8 +83,8 @@ def _comment(plant: MuJoCoPlant) -> str:
     """Robot, parameters, ground, versions and licence, one a line."""
     biped = plant.biped
     preset = biped.description.preset(biped.preset)
-    found = packages(("biped-adrc", "mujoco-core", "mujoco"))
-    made = ", ".join(f"{name} {version}" for name, version in found.items() if version != "none")
+    result = packages(("biped-adrc", "mujoco-core", "mujoco"))
+    made = ", ".join(f"{name} {version}" for name, version in result.items() if version != "none")
     ground = ", ".join(f"{name} {x}" for name, x in vars(plant.ground).items())
     surface, deep = plant.stiffness
     lines = (

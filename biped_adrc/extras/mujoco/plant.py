@@ -161,8 +161,8 @@ class MuJoCoPlant(Checked, Shown):
         work space would end the process.
         """
         engines: dict[int, MuJoCoEngine] = vars(self).setdefault("_engines", {})
-        if (found := engines.get(get_ident())) is not None:
-            return found
+        if (result := engines.get(get_ident())) is not None:
+            return result
         with _MAKING:
             model, data = self.model, self.data
             if engines:  # the first is around `model` and `data`, others around copies
@@ -238,10 +238,10 @@ class MuJoCoPlant(Checked, Shown):
         engine = self.engine
         after = engine.moved(t, row, u, load, until)
         own, points = after[2 * self.n :], engine.points()
-        found = self.contacts(until, own, points)
-        if self.ground_steps and not found:
+        result = self.contacts(until, own, points)
+        if self.ground_steps and not result:
             self.look_ahead(own, points)
-        return after, found
+        return after, result
 
     def look_ahead(self, own: Array, points: list[list[float]]) -> None:
         """Put the swing foot's plane at the next foothold, in `own`, where the foot is ahead and above that."""
@@ -306,15 +306,15 @@ class MuJoCoPlant(Checked, Shown):
         """Forces of the ground (x, z) (2, 2) [N] on the two feet in the state that MuJoCo is in, in the order
         of the robot's record.
         """
-        mj, found, wrench = mujoco(), np.zeros((2, 2)), np.zeros(6)
+        mj, result, wrench = mujoco(), np.zeros((2, 2)), np.zeros(6)
         model, data = self.engine.model, self.engine.data
         mj.mj_forward(model, data)  # those of the last step are of a state before
         for k in range(data.ncon):
             mj.mj_contactForce(model, data, k, wrench)
             contact = data.contact[k]
             force = contact.frame.reshape(3, 3).T @ wrench[:3]
-            found[self.feet.index(contact.geom2)] += force[[0, 2]]
-        return found
+            result[self.feet.index(contact.geom2)] += force[[0, 2]]
+        return result
 
     @cached_property
     def feet(self) -> list[int]:

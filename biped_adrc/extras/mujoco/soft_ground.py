@@ -44,12 +44,12 @@ class SoftGround(Checked, Shown):
     def __post_init__(self) -> None:
         for name in ("friction", "time_constant", "damping_ratio", "impratio", "foot_radius"):
             check_positive(getattr(self, name), f"{name} of the ground is {getattr(self, name)}")
-        found = numbers(self.impedance, "the impedance of the ground")
-        if found.shape != (2,) or not 0.0 < found[0] <= found[1] < 1.0:
+        result = numbers(self.impedance, "the impedance of the ground")
+        if result.shape != (2,) or not 0.0 < result[0] <= result[1] < 1.0:
             raise InputError(
                 f"the impedance of the ground is {self.impedance}, expected 0 < first <= second < 1"
             )
-        object.__setattr__(self, "impedance", tuple(found.tolist()))  # a list could be changed
+        object.__setattr__(self, "impedance", tuple(result.tolist()))  # a list could be changed
 
     def stiffness(self, mass: float) -> tuple[float, float]:
         """F / r [N/m] under a foot that rests: at the surface, and where d(r) = d, from 1 mm on.

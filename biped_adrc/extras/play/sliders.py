@@ -105,7 +105,7 @@ def sliders(
     order: m of its observer. base: numbers of the walk. numbers(s): those of another scenario, which raises
     BipedError where it has none, or another structure.
     """
-    found, moved = dict[str, tuple[Slider, dict[int, Form]]](), set[int]()
+    result, moved = dict[str, tuple[Slider, dict[int, Form]]](), set[int]()
     for one in offered(s, order):
         try:
             forms = fitted(one, base, numbers_at(one, s, numbers))
@@ -117,8 +117,8 @@ def sliders(
             continue
         if forms and moved.isdisjoint(forms):
             moved |= forms.keys()
-            found[one.name] = at_base(one, base, forms), forms
-    return found
+            result[one.name] = at_base(one, base, forms), forms
+    return result
 
 
 def numbers_at(
@@ -137,8 +137,8 @@ def changing(base: Array, rows: Array) -> list[int]:
 def fitted(one: Slider, base: Array, rows: Array) -> dict[int, Form]:
     """Forms of the numbers that change over the rows (3, N); none where one goes otherwise."""
     s = np.array(one.tried)
-    found = {k: next(closed(s, rows[:, k]), None) for k in changing(base, rows)}
-    return {k: form for k, form in found.items() if form} if all(found.values()) else {}
+    result = {k: next(closed(s, rows[:, k]), None) for k in changing(base, rows)}
+    return {k: form for k, form in result.items() if form} if all(result.values()) else {}
 
 
 def closed(s: Array, y: Array) -> Iterator[tuple[float, float, int]]:

@@ -133,16 +133,16 @@ class PageWalk:
         return self._block(made)
 
     def _block(self, made: CompiledWalker) -> Array:
-        found = made.plan.start(self.x, 0.0, *self.mode, 0.0).block.view(np.float64).copy()
+        result = made.plan.start(self.x, 0.0, *self.mode, 0.0).block.view(np.float64).copy()
         for name in Functions._fields:
-            found[PLACES[name]] = 0.0  # addresses
-        return np.nan_to_num(found)  # whole numbers that are no floats
+            result[PLACES[name]] = 0.0  # addresses
+        return np.nan_to_num(result)  # whole numbers that are no floats
 
     def sliders(self) -> dict[str, tuple[Slider, dict[str, Form]]]:
         """Its sliders by name, but that of the delay, with the numbers that they move by name."""
         order = getattr(getattr(self.walker.controller, "observer", None), "m", None)
         named = {k: name for name, k in self.names.items()}
-        found = {
+        result = {
             name: (one, {named[k]: form for k, form in forms.items()})
             for name, (one, forms) in sliders(self.scenario, order, self.numbers, self.at).items()
             if forms.keys() <= named.keys()
@@ -156,8 +156,8 @@ class PageWalk:
             s = self.scenario
             share = 1.0 + s.errors.friction if s.hardware.friction else 0.0
             one = Slider(FRICTION, 0.0, 3.0, False, "×", 1.0, share, True)
-            found[FRICTION] = one, cast(dict[str, Form], rubbing)
-        return found
+            result[FRICTION] = one, cast(dict[str, Form], rubbing)
+        return result
 
     def delay(self) -> dict[int, Form]:
         """The numbers of the block that the delay moves, between whole samples."""
@@ -183,16 +183,16 @@ def compiled(s: Scenario, scene: RobotAndGait, walker: Walker, x: Array) -> Comp
 
 def variants(name: str, s: Scenario, samples: int) -> list[PageWalk]:
     """A walk as it is given, then its structures with other delays, up to so many samples."""
-    found = [PageWalk.of(name, s)]
-    period = found[0].timing.period
+    result = [PageWalk.of(name, s)]
+    period = result[0].timing.period
     for delay in (0.0, *((k + 0.5) * period for k in range(samples))) if samples else ():
         try:
             one = PageWalk.of(name, s.replace({DELAY: delay}))
         except InputError:
             continue  # of a part that takes no delay
-        if one.delays not in [x.delays for x in found]:
-            found.append(one)
-    return found
+        if one.delays not in [x.delays for x in result]:
+            result.append(one)
+    return result
 
 
 def with_hand(walker: Walker) -> Walker:
@@ -211,7 +211,7 @@ def numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
     exchanged   whether the legs are drawn with exchanged names, in odd and even single supports; R
     places, status, signals: numbers of the kernels, by name, and struck
     """
-    structures = [one for found in walks.values() for one in found]
+    structures = [one for result in walks.values() for one in result]
     first = structures[0]
     web = web_walkers([one.made for one in structures], first.scene.walked.constraint)
     blocks = dict(zip(map(id, structures), web.walkers, strict=True))
@@ -221,8 +221,8 @@ def numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
         "code": packed(web.code),
         "functions": web.functions,
         "walks": {
-            name: walk_numbers(found, [blocks[id(one)] for one in found])
-            for name, found in walks.items()
+            name: walk_numbers(result, [blocks[id(one)] for one in result])
+            for name, result in walks.items()
         },
         "n": plant.n,
         "links": link_numbers(plant, [link for _, link in visual_links(plant.tree)]),
@@ -246,8 +246,8 @@ def packed(data: bytes | Ints) -> str:
 
 def walk_numbers(walk: list[PageWalk], blocks: list[WebWalker]) -> dict[str, Any]:
     """Of one walk: its scenario, its sliders, and its structures."""
-    first, found = walk[0], walk[0].sliders()
-    shown = [one._asdict() for one, _ in found.values()]
+    first, result = walk[0], walk[0].sliders()
+    shown = [one._asdict() for one, _ in result.values()]
     if len(walk) > 1:
         high, delay = max(one.delays[1] for one in walk), first.timing.delay
         shown.append(Slider(DELAY, 0.0, high, False, "ms", 1e3, delay, True)._asdict())
@@ -256,7 +256,7 @@ def walk_numbers(walk: list[PageWalk], blocks: list[WebWalker]) -> dict[str, Any
         "firstStep": first.mode.step,
         "sliders": shown,
         "variants": [
-            structure_numbers(one, web, found) | {"asGiven": one is first}
+            structure_numbers(one, web, result) | {"asGiven": one is first}
             for one, web in zip(walk, blocks, strict=True)
         ],
     }
@@ -313,17 +313,17 @@ def hand_places(made: CompiledWalker) -> dict[str, Any]:
 
 def link_numbers(plant: Biped, links: list[str]) -> dict[str, Any]:
     """A, and the closed form of the points of each link."""
-    found: dict[str, Any] = {}
+    result: dict[str, Any] = {}
     for link in dict.fromkeys(links):
         corner, *others = (
             link_point(plant, link, at) for at in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
         )
-        found[link] = {
+        result[link] = {
             name: [getattr(corner, name).tolist()]
             + [(getattr(other, name) - getattr(corner, name)).tolist() for other in others]
             for name in ("re", "im")
         } | {"turn": corner.turn.tolist()}
-    return {"A": link_point(plant, links[0]).A.tolist(), "of": found}
+    return {"A": link_point(plant, links[0]).A.tolist(), "of": result}
 
 
 def trunk_of(plant: Biped) -> str:
@@ -350,6 +350,6 @@ def joint_places(plant: Biped) -> list[int]:
 def signal_places(walk: PageWalk) -> dict[str, tuple[int, int]]:
     """Where each signal begins and ends in what `observe` says."""
     h = walk.scene.walked.constraint
-    found = signals_at(walk.walker, 0.0, walk.x, walk.mode, lambda s, m: h(m.t, m.q, m.v))
-    ends = np.cumsum([np.size(part) for part in found]).tolist()
-    return dict(zip(found._fields, zip([0, *ends[:-1]], ends, strict=True), strict=True))
+    result = signals_at(walk.walker, 0.0, walk.x, walk.mode, lambda s, m: h(m.t, m.q, m.v))
+    ends = np.cumsum([np.size(part) for part in result]).tolist()
+    return dict(zip(result._fields, zip([0, *ends[:-1]], ends, strict=True), strict=True))

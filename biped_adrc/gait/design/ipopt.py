@@ -91,7 +91,7 @@ def solve(
     here = threading.current_thread() is threading.main_thread()
     before = signal.signal(signal.SIGINT, watch.interrupt) if here else None
     try:
-        found = solver(x0=x0, lbx=bounds[0], ubx=bounds[1], lbg=low, ubg=high)
+        result = solver(x0=x0, lbx=bounds[0], ubx=bounds[1], lbg=low, ubg=high)
     finally:
         if here:
             signal.signal(signal.SIGINT, before)
@@ -99,7 +99,7 @@ def solve(
         raise KeyboardInterrupt
     stats = solver.stats()
     return IpoptResult(
-        np.array(found["x"]).ravel(), str(stats["return_status"]), int(stats["iter_count"])
+        np.array(result["x"]).ravel(), str(stats["return_status"]), int(stats["iter_count"])
     )
 
 
@@ -179,12 +179,12 @@ def relaxed(
     )
     low, high = bounds
     ends = np.append(low, np.zeros(count)), np.append(high, np.full(count, np.inf))
-    found = solve(softened, np.concatenate((x0, np.ones(count))), ends, None, "monotone")
-    missed = {k: s for k, s in zip(names, found.x[-count:], strict=True) if s > MISSED}
-    if missed or not found.solved:
+    result = solve(softened, np.concatenate((x0, np.ones(count))), ends, None, "monotone")
+    missed = {k: s for k, s in zip(names, result.x[-count:], strict=True) if s > MISSED}
+    if missed or not result.solved:
         reason = f"; these would have to give: {'; '.join(programme.in_words(missed))}"
         unknown = f" ({status}), and no limits that would have to; ask for a slower or shorter step, or less"
         raise GaitError(
-            f"no gait with {asked} keeps the limits{reason if found.solved else unknown}"
+            f"no gait with {asked} keeps the limits{reason if result.solved else unknown}"
         )
-    return found.x[:-count]
+    return result.x[:-count]

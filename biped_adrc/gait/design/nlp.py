@@ -70,12 +70,12 @@ class NonlinearProgram:
     def missed(self, x: Array) -> dict[str, float]:
         """By how much x (nx,) violates the rows of each name, dimensionless or [rad]; 0 where it keeps them."""
         values = ca.Function("rows", [self.x], [row.value for row in self.rows]).call([x])
-        found = dict[str, float]()
+        result = dict[str, float]()
         for row, value in zip(self.rows, values, strict=True):
             v = np.array(value).ravel()
             gaps = np.maximum(row.low - v, v - row.high)
-            found[row.name] = float(np.max(gaps, initial=found.get(row.name, 0.0)))
-        return found
+            result[row.name] = float(np.max(gaps, initial=result.get(row.name, 0.0)))
+        return result
 
     def in_words(self, missed: Mapping[str, float]) -> list[str]:
         """A sentence for each limit, from its name and by how much it is missed, the largest first."""

@@ -73,8 +73,8 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
         limits.clearance is None
     ):  # the foot may scuff, and is kept up in the second half at the nodes alone
         allowed["foot clearance"] = np.inf
-    found = programme.missed(flat(x))
-    missed = {k: gap for k, gap in found.items() if not gap <= allowed.get(k, EXACT)}
+    result = programme.missed(flat(x))
+    missed = {k: gap for k, gap in result.items() if not gap <= allowed.get(k, EXACT)}
     return programme.in_words(missed)
 
 
@@ -146,9 +146,9 @@ def _staged(
     direction = float(np.sign(guess.theta[1] - guess.theta[0]))
     for stage in stages:
         last = stage is stages[-1]
-        found, x = _solve(biped, stage, limits, direction, guess, progress, last)
-        iterations += found.iterations
-        if found.solved:
+        result, x = _solve(biped, stage, limits, direction, guess, progress, last)
+        iterations += result.iterations
+        if result.solved:
             guess = x
     return x, iterations
 
@@ -170,20 +170,20 @@ def _solve(
     programme, unknowns = transcribe(biped, request, limits, direction)
     x0, bounds, iterations = flat(guess), _bounds(unknowns, guess, request, limits), 0
     for strategy in ("adaptive", "monotone"):
-        found = solve(programme, x0, bounds, progress, strategy)
-        iterations += found.iterations
-        if found.solved:
+        result = solve(programme, x0, bounds, progress, strategy)
+        iterations += result.iterations
+        if result.solved:
             break
-    if not found.solved and diagnose:
-        point = relaxed(programme, request.in_words(), x0, bounds, found.status)
-        found = solve(programme, point, bounds, progress)
-        iterations += found.iterations
-        if not found.solved:
+    if not result.solved and diagnose:
+        point = relaxed(programme, request.in_words(), x0, bounds, result.status)
+        result = solve(programme, point, bounds, progress)
+        iterations += result.iterations
+        if not result.solved:
             raise GaitError(
-                f"no gait with {request.in_words()} was found: IPOPT stopped with {found.status}, though its "
+                f"no gait with {request.in_words()} was found: IPOPT stopped with {result.status}, though its "
                 "limits can be met; try another degree or number of nodes"
             )
-    return replace(found, iterations=iterations), unknowns.split(found.x)
+    return replace(result, iterations=iterations), unknowns.split(result.x)
 
 
 def _bounds(

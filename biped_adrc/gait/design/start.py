@@ -90,8 +90,8 @@ def apart(
             (10.0 * (foot - target), [3.0 * (hip[0] - 0.5 * step)], 0.1 * (q - near))
         )
 
-    found: Array = least_squares(miss, near, bounds=bounds).x
-    return found
+    result: Array = least_squares(miss, near, bounds=bounds).x
+    return result
 
 
 def _given_state(biped: Biped, state: Array, slope: float) -> tuple[Array, Array]:

@@ -59,8 +59,8 @@ def read_mat(path: Path | str) -> dict[str, Any]:
     """
     path = Path(path)
     with reading("MATLAB file", path, InputError):
-        found = loadmat(io.BytesIO(path.read_bytes()), simplify_cells=True)
-    return {name: _text(value) for name, value in found.items() if not name.startswith("__")}
+        result = loadmat(io.BytesIO(path.read_bytes()), simplify_cells=True)
+    return {name: _text(value) for name, value in result.items() if not name.startswith("__")}
 
 
 def _text(value: object) -> object:
@@ -127,10 +127,10 @@ def read_record(
         raise InputError(
             f"gait file '{path}' ends in '{path.suffix}', expected .json, .mat or .csv"
         )
-    found = read_mat(path) if suffix == ".mat" else read_json(path, "gait file")
+    result = read_mat(path) if suffix == ".mat" else read_json(path, "gait file")
     with reading("gait file", path, GaitError):
-        entries = _flat(found)
-        cut_off = found.get("format") == FORMAT and "units" not in found
+        entries = _flat(result)
+        cut_off = result.get("format") == FORMAT and "units" not in result
         absent = ["units, so it is cut off"] if cut_off else []
         absent += [theirs for theirs in (names or {}).values() if theirs not in entries]
         entries |= {ours: entries.get(theirs) for ours, theirs in (names or {}).items()}
@@ -138,13 +138,13 @@ def read_record(
         absent += [key for key in _REQUIRED if not samples and key not in entries]
         if absent:
             raise GaitError(
-                f"the entries {absent} are missing; the file has {sorted(_flat(found))}. Say what they are "
+                f"the entries {absent} are missing; the file has {sorted(_flat(result))}. Say what they are "
                 'called there with names={"coefficients": "..."}, or --name coefficients=...'
             )
         if samples:
             return Samples(entries["t"], entries["q"], entries.get("v"))
         own = entries.get("convention")
-        said = own or convention or (OWN if found.get("format") == STORED else usual)
+        said = own or convention or (OWN if result.get("format") == STORED else usual)
         if said is None or (own and convention not in (None, own)):
             raise GaitError(
                 f"the file says convention '{own}', and '{convention}' is given; expected one of the two to be "

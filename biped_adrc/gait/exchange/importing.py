@@ -73,14 +73,14 @@ def import_gait(
         title = "samples" if source == "arrays" else Path(source).stem
         return gait_of_samples(gait, biped, layout, degree, slope, title, source)
     try:
-        found = _gait_of(gait, biped, source)
+        result = _gait_of(gait, biped, source)
     except GaitError as error:
         others = [name for name in closing_conventions(gait, biped) if name != gait.convention]
         hint = f'; it would close in {others}, try convention="{others[0]}"' if others else ""
         raise GaitError(f"{error}{hint}") from error
     if slopes:
-        check_slopes(found, biped)
-    return found
+        check_slopes(result, biped)
+    return result
 
 
 def closing_conventions(record: GaitRecord, biped: Biped) -> tuple[str, ...]:

@@ -300,10 +300,10 @@ def _motors(
     """
     names = tuple(joint.name for joint in moving)
     if hints.actuated is None:
-        found = tuple(name for name in names if reading.effort.get(name) != 0.0)
-        free = ", ".join(f"'{name}'" for name in names if name not in found)
-        motors = ", ".join(f"q{i + 1} = '{name}'" for i, name in enumerate(found)) or "none"
-        return found, (f"motors: {motors}" + (f"; {free} free (effort 0)" if free else ""),)
+        result = tuple(name for name in names if reading.effort.get(name) != 0.0)
+        free = ", ".join(f"'{name}'" for name in names if name not in result)
+        motors = ", ".join(f"q{i + 1} = '{name}'" for i, name in enumerate(result)) or "none"
+        return result, (f"motors: {motors}" + (f"; {free} free (effort 0)" if free else ""),)
     if len(set(hints.actuated) & set(names)) < len(hints.actuated):
         raise ModelError(
             f"URDF '{reading.tree.source}': motors {list(hints.actuated)}, expected each at most once and "
@@ -336,20 +336,20 @@ def _torque(
 
 def _remarks(reading: UrdfContents, hints: Hints) -> tuple[str, ...]:
     """Sentences on what the URDF leaves open and which defaults were taken."""
-    found = []
+    result = []
     if hints.friction_coefficient is None:
-        found.append(f"dry friction of the feet: {FRICTION}, as of RABBIT; a URDF does not say")
+        result.append(f"dry friction of the feet: {FRICTION}, as of RABBIT; a URDF does not say")
     if hints.armature == 0.0:
-        found.append("rotor inertia: none; a URDF does not say")
+        result.append("rotor inertia: none; a URDF does not say")
     if any(reading.viscous.values()) or any(reading.static.values()):
-        found.append("joint friction: read from <dynamics>, off unless asked for")
+        result.append("joint friction: read from <dynamics>, off unless asked for")
     if reading.flat:
-        found.append(
+        result.append(
             f"moments about x and z of {list(reading.flat)}: those of slender links; the URDF has none, and "
             "planar motion needs none"
         )
     if reading.undrawn:
-        found.append(
+        result.append(
             f"shapes of {list(reading.undrawn)} are meshes or stand oblique, and are not drawn"
         )
-    return tuple(found)
+    return tuple(result)

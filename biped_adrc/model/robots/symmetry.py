@@ -74,9 +74,9 @@ def relabelling(tree: Tree, joints: tuple[str, ...], feet: tuple[str, str]) -> A
 
 def pairs(tree: Tree, feet: tuple[str, str]) -> tuple[tuple[str, str], ...]:
     """Links of the stance leg with their twins in the swing leg, from the feet upwards."""
-    found = twins(tree, feet)
+    result = twins(tree, feet)
     stance = [joint.child for joint in tree.path_to_root(feet[0])]
-    return tuple((link, found[link]) for link in stance if link in found)
+    return tuple((link, result[link]) for link in stance if link in result)
 
 
 def unlike(tree: Tree, feet: tuple[str, str]) -> list[tuple[str, str]]:

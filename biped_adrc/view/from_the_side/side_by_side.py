@@ -101,9 +101,9 @@ class _Panel:
             width = 0.92 * self.axes.bbox.width
             self.text.set_text(draw.wrapped(self.ending.replace(": ", ":\n"), width))
             return
-        found = self.largest(self.start, t)
-        unit, factor = angle_unit(np.array([found]))
-        size = f"{factor * found:.3g} {unit}" if found >= 1e-9 else "below 1 nrad"
+        result = self.largest(self.start, t)
+        unit, factor = angle_unit(np.array([result]))
+        size = f"{factor * result:.3g} {unit}" if result >= 1e-9 else "below 1 nrad"
         self.text.set_text(f"largest error so far {size}")
 
     def largest(self, start: float, t: float) -> float:

@@ -49,25 +49,25 @@ def bones(biped: Biped) -> list[Bone]:
     for every spoke.
     """
     leg = dict.fromkeys(legs(biped)[0], "stance") | dict.fromkeys(legs(biped)[1], "swing")
-    found = [
+    result = [
         Bone(name, ends, leg.get(name, ""))
         for name, link in biped.tree.links.items()
         for visual in link.visuals
         if (ends := _axis(visual)) is not None
     ]
-    if not found:
-        found = [
+    if not result:
+        result = [
             Bone(j.parent, np.array([[0.0, 0.0, 0.0], j.origin]), leg.get(j.child, ""))
             for j in biped.tree.joints
             if any(j.origin)
         ]
-    return [replace(bone, ends=bone.ends @ R.T) for R in spokes(biped) for bone in found]
+    return [replace(bone, ends=bone.ends @ R.T) for R in spokes(biped) for bone in result]
 
 
 def placed_lines(lines: list[Bone], placements: dict[str, Array]) -> list[Array]:
     """x and z [m] of both ends (2, 2) of every line, with the placement (4, 4) of each link by name."""
-    found = ((bone, placements[bone.link]) for bone in lines)
-    return [(bone.ends @ M[:3, :3].T + M[:3, 3])[:, [0, 2]] for bone, M in found]
+    result = ((bone, placements[bone.link]) for bone in lines)
+    return [(bone.ends @ M[:3, :3].T + M[:3, 3])[:, [0, 2]] for bone, M in result]
 
 
 def roles_of(lines: list[Bone], biped: Biped, step: int) -> list[str]:

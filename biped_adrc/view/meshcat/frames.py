@@ -109,10 +109,10 @@ def _nodes(scene: WalkScene, arc: Arc, fps: float) -> Array:
     q, v = _states(arc, nodes, scene.biped.n)
     for _ in range(HALVINGS):
         middles = 0.5 * (nodes[:-1] + nodes[1:])
-        found, _ = _states(arc, middles, scene.biped.n)
+        result, _ = _states(arc, middles, scene.biped.n)
         ends = zip(nodes, nodes[1:], q, q[1:], v, v[1:], middles, strict=False)
-        guess = np.array([hermite(*row) for row in ends]).reshape(found.shape)
-        rough = np.max(np.abs(guess - found), axis=1, initial=0.0) > TOLERANCE
+        guess = np.array([hermite(*row) for row in ends]).reshape(result.shape)
+        rough = np.max(np.abs(guess - result), axis=1, initial=0.0) > TOLERANCE
         if not rough.any():
             break
         nodes = np.sort(np.append(nodes, middles[rough]))

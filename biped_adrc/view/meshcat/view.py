@@ -229,13 +229,13 @@ def _add_ring(robot: draw.SceneNode, biped: Biped, name: str, opacity: float) ->
 
 def node_names(names: Iterable[str]) -> dict[str, str]:
     """Each name as it may stand in a path of the scene (letters, digits, underscores); no two alike."""
-    found: dict[str, str] = {}
+    result: dict[str, str] = {}
     for name in names:
         plain = "".join(c if c.isalnum() else "_" for c in name) or "walk"
-        while plain in found.values():
+        while plain in result.values():
             plain += "_"
-        found[name] = plain
-    return found
+        result[name] = plain
+    return result
 
 
 def captions(scenes: Mapping[str, WalkScene]) -> list[tuple[str, str]]:

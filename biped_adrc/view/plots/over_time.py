@@ -77,10 +77,12 @@ def joint_name(s: Signals, i: int) -> str:
 def chosen(s: Signals, joints: Sequence[int] | None) -> tuple[int, ...]:
     """Indices of actuated joints from 0, all if None. Raises InputError for one that does not exist."""
     p = s.q_d.shape[1]
-    found = tuple(range(p)) if joints is None else tuple(joints)
-    if not found or not all(0 <= i < p for i in found):
-        raise InputError(f"joints {list(found)} were asked for, expected indices from 0 to {p - 1}")
-    return found
+    result = tuple(range(p)) if joints is None else tuple(joints)
+    if not result or not all(0 <= i < p for i in result):
+        raise InputError(
+            f"joints {list(result)} were asked for, expected indices from 0 to {p - 1}"
+        )
+    return result
 
 
 def angles(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
