@@ -142,11 +142,11 @@ class ReturnMap(Shown):
         compiled = self._compiled(len(starts[0][0]))
         if compiled is None:
             return [self.project(self.next_impact(self.walker, *x).x_minus) for x in starts]
-        made = compiled(starts)
-        for walked in made:
+        images = compiled(starts)
+        for walked in images:
             if not walked.status.ok:
                 raise _no_return(walked.status, walked.detail)
-        return [self.project(walked.x_minus[-1]) for walked in made]
+        return [self.project(walked.x_minus[-1]) for walked in images]
 
     @cached_property
     def ran(self) -> str:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 @app.command("observer")
 @options("observer", "gait", "preset", "robot", "period", "poles", "bandwidth", "order")
 def observer_command(
-    given: PlainRecord, sets: list[str] | None = None, out: Path | None = None
+    values: PlainRecord, sets: list[str] | None = None, out: Path | None = None
 ) -> None:
     """Say what an observer asks of encoders, clock and motors, and which one a robot allows.
 
@@ -37,8 +37,8 @@ def observer_command(
 
     path = None if out is None else output_path(out, FIGURES)
     if not {"hardware", "hardware.profile"} & pairs(sets).keys():
-        given = {"hardware.profile": "rabbit", **given}
-    s = scenario_from(given, sets)
+        values = {"hardware.profile": "rabbit", **values}
+    s = scenario_from(values, sets)
     c, h, scene = s.controller, s.hardware, RobotAndGait.of(s)
     gains = replace(TABLE_II, **{k: x for k in ("K_p", "K_d") if (x := getattr(c, k)) is not None})
     report = observer_report(

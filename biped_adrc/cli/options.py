@@ -52,23 +52,24 @@ def options(place: str, *names: str, **usual: str) -> Callable[[Command], Comman
     """Decorator: the options and arguments of a command, for typer.
 
     place: of their texts in options.toml, such as "gait.design". names: of SHORT, values of a scenario, which
-    the command gets in `given`, as texts by dotted name. usual: by name, the default that the help shows.
+    the command gets in `values`, as texts by dotted name. usual: by name, the default that the help shows.
     """
-    said = TEXTS["every"] | reduce(lambda table, part: table[part], place.split("."), TEXTS)
+    words = TEXTS["every"] | reduce(lambda table, part: table[part], place.split("."), TEXTS)
 
     def decorate(command: Command) -> Command:
         @wraps(command)
-        def run(**values: Any) -> None:
-            texts = {SHORT[name]: values.pop(name) for name in names}
-            given = {"given": {name: x for name, x in texts.items() if x is not None}}
-            command(**(given if names else {}), **values)
+        def run(**arguments: Any) -> None:
+            texts = {SHORT[name]: arguments.pop(name) for name in names}
+            if names:
+                arguments["values"] = {name: x for name, x in texts.items() if x is not None}
+            command(**arguments)
 
         parameters = [_option(name, usual.get(name)) for name in names]
         for p in signature(command, eval_str=True).parameters.values():
-            text = [_shown(said[p.name])] if p.name in said else []
+            text = [_shown(words[p.name])] if p.name in words else []
             kind = Annotated[p.annotation, *text] if text else p.annotation
             own = p.replace(annotation=kind, kind=Parameter.KEYWORD_ONLY)
-            parameters += [own] if p.name != "given" else []
+            parameters += [own] if p.name != "values" else []
         run.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
         run.__annotations__ = {}
         return run
@@ -97,7 +98,7 @@ def _option(name: str, usual: str | None) -> Parameter:
 
 
 def scenario_from(
-    given: PlainRecord,
+    values: PlainRecord,
     sets: list[str] | None,
     file: Path | None = None,
     push: list[str] | None = None,
@@ -108,7 +109,7 @@ def scenario_from(
     usual: the controller where none of them names one; a robot without motors has "passive". Raises InputError
     for a text or a file that cannot be read, and for a value that is given twice.
     """
-    values = {**given, **({"pushes": list(push)} if push else {})}
+    values = {**values, **({"pushes": list(push)} if push else {})}
     for name, x in pairs(sets).items():
         if name in values:
             raise InputError(f"'{name}' is given twice, as --set {name} too; leave one of them out")

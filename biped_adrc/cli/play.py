@@ -15,7 +15,7 @@ from biped_adrc.core.types import PlainRecord
 @app.command("play")
 @options("play", *WALKS)
 def play_command(
-    given: PlainRecord,
+    values: PlainRecord,
     scenario: Path | None = None,
     sets: list[str] | None = None,
     ghost: str | None = None,
@@ -26,7 +26,7 @@ def play_command(
 
     if out is not None:
         keep_inputs((output_path(out, (".html",)),), () if scenario is None else (scenario,))
-    s = scenario_from(given, sets, scenario)
+    s = scenario_from(values, sets, scenario)
     if s.hardware.period is None:
         s = s.replace({"hardware.period": 1e-3})
     ghost = ghost or ("ADRC" if s.controller.name == "NPD" else "NPD")

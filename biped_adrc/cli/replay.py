@@ -18,7 +18,7 @@ from biped_adrc.core.types import PlainRecord
 @app.command("replay")
 @options("replay", *WALKS)
 def replay_command(
-    given: PlainRecord,
+    values: PlainRecord,
     log: Path,
     sets: list[str] | None = None,
     scenario: Path | None = None,
@@ -29,7 +29,7 @@ def replay_command(
     from biped_adrc.extras.logs.replay import HEADER, cells, replay
     from biped_adrc.view.style import write_figure
 
-    s = scenario_from(given, sets, scenario)
+    s = scenario_from(values, sets, scenario)
     paths = _paths(out, (log, *inputs(s.robot.name, s.gait.name)))
     result = replay(log, s, window)
     if paths is not None:

@@ -39,7 +39,7 @@ WHY = {
 @app.command()
 @options("simulate", *WALKS, "impacts", "period", "torque_limit", "plant", "engine")
 def simulate(
-    given: PlainRecord,
+    values: PlainRecord,
     push: list[str] | None = None,
     sets: list[str] | None = None,
     scenario: Path | None = None,
@@ -50,7 +50,7 @@ def simulate(
     """Walk, and print what each step needed of the ground and of the motors."""
     from biped_adrc.scenario.build import limits
 
-    s = scenario_from(given, sets, scenario, push)
+    s = scenario_from(values, sets, scenario, push)
     read = inputs(s.robot.name, s.gait.name)
     out, log = target(out, (".npz", ".mat", ".csv"), read), target(log, (".csv",), read)
     if log is not None and s.hardware.period is None:
@@ -191,7 +191,7 @@ def _nominal(c: Certificate) -> str:
 @app.command()
 @options("poincare", *WALKS, controller="NPD, or passive")
 def poincare(
-    given: PlainRecord,
+    values: PlainRecord,
     sets: list[str] | None = None,
     scenario: Path | None = None,
     observer_states: bool = True,
@@ -201,7 +201,7 @@ def poincare(
     from biped_adrc.scenario.build import limits
     from biped_adrc.scenario.cycle import cycle_of
 
-    s = scenario_from(given, sets, scenario, usual="NPD")
+    s = scenario_from(values, sets, scenario, usual="NPD")
     cycle = cycle_of(s, observer_states)
     with console.status("Newton on the return map"):
         result = cycle_stability(cycle)

@@ -148,8 +148,8 @@ class ClosedLoop(HybridSystem, Generic[P]):
         time, n, p = self.timing, self.plant.n, self.plant.p
         if not isinstance(time, SampledTime):
             return None
-        given = (self.sensors, self.motors, self.own, self.touchdown)
-        return held.held_parameters(n, p, time, *given)
+        hardware = (self.sensors, self.motors, self.own, self.touchdown)
+        return held.held_parameters(n, p, time, *hardware)
 
     def __getstate__(self) -> dict[str, object]:
         """Without what is made again where it is needed."""

@@ -194,13 +194,13 @@ def check_methods(controller: Controller, s: Array, m: Measurement, sampled: boo
         return
     calls = {"correct": (m,), "predict": (m, u)} if sampled else {"flow": (m, u)}
     first = {"output": u}
-    for name, given in calls.items():
-        result = getattr(controller, name)(s, *given)
+    for name, method in calls.items():
+        result = getattr(controller, name)(s, *method)
         first[name] = returned(result, s.shape, controller, name, finite=False)
     calls, other = {"output": (m,), **calls}, m._replace(v=m.v + 1e-3)
-    for name, given in calls.items():
-        getattr(controller, name)(s, other, *given[1:])  # which a memory takes in
-        if not np.array_equal(first[name], getattr(controller, name)(s, *given), equal_nan=True):
+    for name, method in calls.items():
+        getattr(controller, name)(s, other, *method[1:])  # which a memory takes in
+        if not np.array_equal(first[name], getattr(controller, name)(s, *method), equal_nan=True):
             raise InputError(
                 f"{spoken(controller)}.{name}{line_of(controller, name)} gave another result when asked again "
                 "at the same instant; expected no memory in the object: return a state from initial_state, and "

@@ -106,9 +106,9 @@ def affine(r: ReferencePoint, m: Measurement) -> Affine:
     rest = r.drift + r.H[:, p:] @ terms.a_N
     columns = np.empty((p, p + 1))
     columns[:, :p], columns[:, p] = identity(p), rest
-    made = solve(output_matrix(r, terms), columns, "L of y'' = L u + xi_y")
-    torque = terms.kappa_inverse @ made
-    force = (body.F_a[:, :p] + body.F_a[:, p:] @ terms.A_N) @ made
+    solution = solve(output_matrix(r, terms), columns, "L of y'' = L u + xi_y")
+    torque = terms.kappa_inverse @ solution
+    force = (body.F_a[:, :p] + body.F_a[:, p:] @ terms.A_N) @ solution
     u_0 = torque[:, p] - terms.kappa_inverse @ terms.xi
     F_1 = force[:, p] + body.F_a[:, p:] @ terms.a_N + body.F_0
     return Affine(torque[:, :p], u_0, force[:, :p], F_1)

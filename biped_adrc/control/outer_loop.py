@@ -102,9 +102,9 @@ class OuterLoop(Around):
     def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
         z, w = self.parts(s)
         z = self.inner.jump(z, after, swap)
-        made = np.concatenate((z, self.own_jump(w, reference_in_force(self.inner, z), after)))
-        end, core = core_size(self, s), innermost(self, made)
-        return np.concatenate((core.jump(s[:end], after, swap), made[end:]))
+        state = np.concatenate((z, self.own_jump(w, reference_in_force(self.inner, z), after)))
+        end, core = core_size(self, s), innermost(self, state)
+        return np.concatenate((core.jump(s[:end], after, swap), state[end:]))
 
     def error_system(self) -> ErrorSystem | None:
         return self.inner.error_system()

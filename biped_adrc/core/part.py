@@ -110,10 +110,10 @@ def _as_floats(x: Any) -> Any:
 
 def with_content(part: T, values: Mapping[str, Any], cls: type | None = None) -> T:
     """An object of the class of a part, or of `cls`, with this content, to which no check is applied."""
-    made: Any = object.__new__(type(part) if cls is None else cls)
+    new: Any = object.__new__(type(part) if cls is None else cls)
     for name, value in values.items():
-        object.__setattr__(made, name, value)
-    return made
+        object.__setattr__(new, name, value)
+    return new
 
 
 def with_fields(part: T, **values: Any) -> T:
@@ -121,9 +121,9 @@ def with_fields(part: T, **values: Any) -> T:
 
     For methods that both engines run: `dataclasses.replace` would check symbols as numbers.
     """
-    made: Any = object.__new__(type(part))
-    vars(made).update(vars(part) | values)
-    return made
+    new: Any = object.__new__(type(part))
+    vars(new).update(vars(part) | values)
+    return new
 
 
 @lru_cache(maxsize=512)

@@ -83,11 +83,11 @@ def _terms(
         raise InputError(
             f"the {what} of the hand have shape {y.shape}, expected finite numbers ({len(t)}, {size})"
         )
-    y, made = np.pad(y, ((0, 0), (0, moment))), list[HeldRows]()
+    y, windows = np.pad(y, ((0, 0), (0, moment))), list[HeldRows]()
     for first, last in pairwise([*range(0, len(t), PIECES), len(t)]):
         at, jumps = np.full(PIECES, np.inf), np.zeros((size + moment, PIECES))
         at[: last - first] = t[first:last]
         jumps[:, 1 : last - first] = np.diff(y[first:last], axis=0).T
         stop = float(t[last]) if last < len(t) else np.inf
-        made.append(HeldRows(y[first], step, float(t[first]), stop, times=at, jumps=jumps))
-    return made
+        windows.append(HeldRows(y[first], step, float(t[first]), stop, times=at, jumps=jumps))
+    return windows

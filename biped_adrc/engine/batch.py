@@ -245,20 +245,20 @@ def _strides(
     """
     nx, height = len(x), table_height(compiled.walker.plant.p)
     run = compiled.plan.start(x, mode.start, mode.step, mode.start, t_end)
-    strikes, made = np.zeros((impacts, 1 + 2 * nx)), 0
+    strikes, count = np.zeros((impacts, 1 + 2 * nx)), 0
     table = np.empty((height, ROOM * impacts if read else 0))
     while True:
         run.set_table(read, table)
-        code, more = run.stride(impacts - made, strikes[made:])
-        made += more
+        code, more = run.stride(impacts - count, strikes[count:])
+        count += more
         if code != FULL:
             break
         table = np.hstack((table, np.empty_like(table)))
     return BatchWalk(
         STATUS[code],
         "",
-        strikes[:made, 0].copy(),
-        strikes[:made, 1 : 1 + nx].copy(),
+        strikes[:count, 0].copy(),
+        strikes[:count, 1 : 1 + nx].copy(),
         run.x.copy(),
         run["t"],
         COMPILED,
@@ -270,8 +270,10 @@ def _strides(
 def _in_python(case: Case, x: Array, reason: BipedError) -> BatchWalk:
     """The walk on the compiled plant, or on Pinocchio's where there is none; reason: why it is not compiled."""
     run = on_compiled_plant if isinstance(reason, NotCompiled) else simulator.run
-    made = run(case.walker, x, case.mode, case.method, case.options)
-    return _left_by(case, made, COMPILED_PLANT if isinstance(reason, NotCompiled) else PINOCCHIO)
+    trajectory = run(case.walker, x, case.mode, case.method, case.options)
+    return _left_by(
+        case, trajectory, COMPILED_PLANT if isinstance(reason, NotCompiled) else PINOCCHIO
+    )
 
 
 def _left_by(case: Case, run: Trajectory, engine: str) -> BatchWalk:

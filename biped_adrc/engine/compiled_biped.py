@@ -57,10 +57,10 @@ def pointer_call(machine: LoadedCode, name: str, K: Array, inp: Array, out: Arra
     By addresses: one ctypes call per row, no array is made.
     """
     function = _C(machine.addresses[name])
-    at, given, result = K.ctypes.data, inp.ctypes.data, out.ctypes.data
+    at, inputs, result = K.ctypes.data, inp.ctypes.data, out.ctypes.data
     for _ in range(len(inp)):
-        function(at, given, result)
-        given, result = given + inp.strides[0], result + out.strides[0]
+        function(at, inputs, result)
+        inputs, result = inputs + inp.strides[0], result + out.strides[0]
 
 
 def parts_of(rows: Array, shapes: Iterable[Shape]) -> Iterator[Array]:
@@ -86,10 +86,10 @@ class Call:
         self._function(*self._at)
         return self.out
 
-    def __call__(self, *given: Array) -> Array:
+    def __call__(self, *arguments: Array) -> Array:
         """The outputs (outputs,) of what is in `inp`, or of these inputs joined; a copy, read-only."""
-        if given:
-            np.concatenate(given, out=self.inp)
+        if arguments:
+            np.concatenate(arguments, out=self.inp)
         out = self.evaluate().copy()
         out.setflags(write=False)  # once, for all the views that are handed out
         return out
@@ -174,9 +174,9 @@ def plant_functions(
     K = Vector("K", count(example))
     robot = PlanarRobot.of(structure, K.like(example))
 
-    def function(law: Callable[..., Iterable[ArrayLike]], given: int) -> SymbolicFunction:
-        inp = Vector("inp", given * robot.n)
-        parts = law(*(inp.take(robot.n) for _ in range(given)))
+    def function(law: Callable[..., Iterable[ArrayLike]], number: int) -> SymbolicFunction:
+        inp = Vector("inp", number * robot.n)
+        parts = law(*(inp.take(robot.n) for _ in range(number)))
         return SymbolicFunction(K.symbol, inp.symbol, column(*parts))
 
     return {
@@ -197,9 +197,9 @@ def compiled_references(part: object, n: int) -> Any:
         return _in_code(part, n)
     if not is_dataclass(part) or isinstance(part, type | Biped):
         return part
-    given = {f.name: getattr(part, f.name) for f in fields(part) if f.init}
-    made = {name: compiled_references(value, n) for name, value in given.items()}
-    changed = {name: value for name, value in made.items() if value is not given[name]}
+    values = {f.name: getattr(part, f.name) for f in fields(part) if f.init}
+    parts = {name: compiled_references(value, n) for name, value in values.items()}
+    changed = {name: value for name, value in parts.items() if value is not values[name]}
     return replace(part, **changed) if changed else part
 
 

@@ -160,11 +160,11 @@ class CompiledLoop(SteppingLoop):
 
     def compiled(self, size: int) -> LoopInCode:
         """The loop for a controller with `size` states, made once in each thread, for its work space."""
-        made: dict[tuple[int, int], LoopInCode] = vars(self).setdefault("_made", {})
+        loops: dict[tuple[int, int], LoopInCode] = vars(self).setdefault("_made", {})
         key = size, get_ident()
-        if key not in made:
-            made[key] = self._made_for(size)
-        return made[key]
+        if key not in loops:
+            loops[key] = self._made_for(size)
+        return loops[key]
 
     def _made_for(self, size: int) -> LoopInCode:
         """As `compiled`."""

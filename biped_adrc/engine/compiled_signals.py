@@ -68,7 +68,7 @@ def observe(
     def tracked(s: Array, m: Measurement) -> ReferencePoint:
         return run(at.trace, call, watched.h, m.t, m.q, m.v)
 
-    return equations.made(at.inp, *at.does(read, tracked))
+    return equations.function(at.inp, *at.does(read, tracked))
 
 
 def compiled_readings(

@@ -287,21 +287,21 @@ class Equations:
             inp, trace, self.loop(trace, inp.take(n), inp.take(OUTSIDE)), t, x, mode
         )
 
-    def made(self, inp: Vector, *parts: ArrayLike | Scalar) -> SymbolicFunction:
+    def function(self, inp: Vector, *parts: ArrayLike | Scalar) -> SymbolicFunction:
         """The function of these inputs, its parts one after the other."""
         return SymbolicFunction(self.K, inp.symbol, column(*parts))
 
     def flow(self) -> SymbolicFunction:
         """x' (nx,) between events, and the least pivot."""
         at = self.at()
-        return self.made(at.inp, at.does(semantics.flow), at.lost)
+        return self.function(at.inp, at.does(semantics.flow), at.lost)
 
     def tick(self) -> SymbolicFunction:
         """x (nx,) after a sample instant, the least pivot, and q'' (n,) [rad/s^2] under the new torque."""
         at, n = self.at(), self.make.robot.n
         x = at.does(semantics.tick)
         a = at._replace(x=x).does(semantics.flow)[n : 2 * n]
-        return self.made(at.inp, x, at.lost, a)
+        return self.function(at.inp, x, at.lost, a)
 
     def sample(self) -> SymbolicFunction:
         """Of a plant that moves by itself: x (nx,) after a sample instant, the observer's estimate of xi
@@ -314,7 +314,7 @@ class Equations:
         m = at.loop.measure(at.t, q, v, at.mode)
         result = at.trace(noticing.estimated)(at.loop, s, tail, m, at.mode)
         xi = np.zeros(self.make.robot.p) if result is None else result
-        return self.made(at.inp, x, xi, at.lost)
+        return self.function(at.inp, x, xi, at.lost)
 
     def impact(self) -> SymbolicFunction:
         """x+ (nx,) after impact, relabelling and the controller's jump; `step` is the single
@@ -323,7 +323,7 @@ class Equations:
         inp, trace = Vector("inp", 2 + self.make.nx), Tracer()
         t, step, x = inp.take(), inp.take(), inp.take(self.make.nx)
         x = trace(semantics.struck)(self.loop(trace), t, x, Mode(step, t))
-        return self.made(inp, x, trace.solver.least)
+        return self.function(inp, x, trace.solver.least)
 
     def events(self) -> SymbolicFunction:
         """The three event functions: clearance [m], hip margin [m], time left [s]; then x of the
@@ -335,7 +335,7 @@ class Equations:
         foot = plant.swing_foot(q)
         clearance = semantics.clearance(K.tan_slope, drop, foot)
         hip = semantics.hip_margin(K.lowest_hip, plant.hip(q))
-        return self.made(inp, clearance, hip, semantics.time_left(K.longest, start, t), foot[0])
+        return self.function(inp, clearance, hip, semantics.time_left(K.longest, start, t), foot[0])
 
     def _split(self, trace: Tracer) -> ErrorForm:
         """The coordinates of the exponential method on symbols."""
@@ -353,13 +353,13 @@ class Equations:
     def to(self) -> SymbolicFunction:
         """y = (w, E) of x (nx,)."""
         inp = Vector("inp", self.make.nx)
-        return self.made(inp, *self._split(Tracer()).to(inp.take(self.make.nx)))
+        return self.function(inp, *self._split(Tracer()).to(inp.take(self.make.nx)))
 
     def back(self) -> SymbolicFunction:
         """x (nx,) of y = (w, E)."""
         inp = Vector("inp", self.make.nx)
         w, E = self._coordinates(inp.take(self.make.nx))
-        return self.made(inp, self._split(Tracer()).back(w, E))
+        return self.function(inp, self._split(Tracer()).back(w, E))
 
     def remainder(self) -> SymbolicFunction:
         """N_w, row 1 of N_E, and the least pivot, at y = (w, E) in place of x."""
@@ -367,4 +367,4 @@ class Equations:
         w, E = self._coordinates(at.x)
         form = self._split(at.trace)
         N = at.trace(exponential_form.remainder)(at.loop, form, at.t, w, E, at.mode)
-        return self.made(at.inp, *N, at.lost)
+        return self.function(at.inp, *N, at.lost)

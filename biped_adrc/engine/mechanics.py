@@ -203,14 +203,14 @@ def once_each(make: Callable[[Biped], _T]) -> Callable[[Biped], _T]:
 
     By identity, since comparing two robots would cost more than reading one.
     """
-    made: dict[int, tuple[Biped, _T]] = {}
+    memory: dict[int, tuple[Biped, _T]] = {}
 
     def found(biped: Biped) -> _T:
-        if id(biped) not in made or made[id(biped)][0] is not biped:
-            while len(made) >= REMEMBERED:
-                made.pop(next(iter(made)))
-            made[id(biped)] = biped, make(biped)
-        return made[id(biped)][1]
+        if id(biped) not in memory or memory[id(biped)][0] is not biped:
+            while len(memory) >= REMEMBERED:
+                memory.pop(next(iter(memory)))
+            memory[id(biped)] = biped, make(biped)
+        return memory[id(biped)][1]
 
     return found
 

@@ -145,8 +145,8 @@ def machine_of(
 
     def traced(name: str) -> SymbolicFunction:
         with located(name):
-            made: SymbolicFunction = getattr(Equations.of(make, numbers), name)()
-            return made
+            function: SymbolicFunction = getattr(Equations.of(make, numbers), name)()
+            return function
 
     key = *names, structure_of_walker(make), structure(numbers)
     return generated(key, {name: partial(traced, name) for name in names}), key

@@ -48,13 +48,13 @@ def simulate_by(
     """
     check_engine(engine)
     stop_after = None if impacts is None else (FOOT_STRIKE, impacts)
-    given, why = RunOptions(stop_after=stop_after, **options), {}
+    run_options, why = RunOptions(stop_after=stop_after, **options), {}
     if engine == COMPILED:
         from biped_adrc.engine.simulate import run_compiled
 
         try:
-            return run_compiled(walker, x0, mode, method, given)
+            return run_compiled(walker, x0, mode, method, run_options)
         except ModelError as error:
             why = {"why": f"{error}; Pinocchio was used instead"}
-    run = simulator.run(walker, x0, mode, method, given)
+    run = simulator.run(walker, x0, mode, method, run_options)
     return replace(run, settings={**run.settings, "engine": PINOCCHIO, **why})

@@ -66,17 +66,17 @@ def torque_place(numbers: WalkerNumbers) -> int:
     return len(floats((numbers.plant, numbers.model, inner)))
 
 
-def force_place(made: CompiledWalker) -> int:
+def force_place(compiled: CompiledWalker) -> int:
     """Cell of a run at which the force from outside is: it is the last term of the disturbance."""
-    assert made.walker.disturbance is not None
-    return made.plan.term(len(made.walker.disturbance.terms) - 1)
+    assert compiled.walker.disturbance is not None
+    return compiled.plan.term(len(compiled.walker.disturbance.terms) - 1)
 
 
 @dataclass(frozen=True)
 class CompiledWalk:
     """One walk in memory."""
 
-    made: CompiledWalker
+    compiled: CompiledWalker
     run: CompiledRun
     """Where it is; moved by the kernel `samples`."""
     look: int
@@ -98,13 +98,13 @@ class CompiledWalk:
 
         Raises NotCompiled for a part without machine code.
         """
-        made = CompiledWalker.of(walker, method, walker.controller_size(x), mode.start, curve)
+        compiled = CompiledWalker.of(walker, method, walker.controller_size(x), mode.start, curve)
         look, room = 0, 0
         if judged and curve is not None:
-            code = reading_code("judged", step_reading, made.program, curve)
-            look, room = code.addresses["judged"], columns(walker, made.plan.number("h"))
-        run = made.plan.start(x, mode.start, *mode, mode.start)
-        return cls(made, run, look, np.empty((table_height(walker.plant.p), room)))._kept()
+            code = reading_code("judged", step_reading, compiled.program, curve)
+            look, room = code.addresses["judged"], columns(walker, compiled.plan.number("h"))
+        run = compiled.plan.start(x, mode.start, *mode, mode.start)
+        return cls(compiled, run, look, np.empty((table_height(walker.plant.p), room)))._kept()
 
     def _kept(self) -> Self:
         """Itself, its run with the table."""
@@ -122,14 +122,14 @@ class CompiledWalk:
     @property
     def addresses(self) -> list[int]:
         """In the order of `kernels.record.WALK`."""
-        torque, at = torque_place(self.made.program.numbers), self.run.address
-        return [at, at + 8 * (self.run.place("K") + torque), at + 8 * force_place(self.made)]
+        torque, at = torque_place(self.compiled.program.numbers), self.run.address
+        return [at, at + 8 * (self.run.place("K") + torque), at + 8 * force_place(self.compiled)]
 
     @property
     def at(self) -> At:
         """Where it is."""
         run = self.run
-        return self.made.walker, run["t"], run.x, Mode(int(run["step"]), run["t_start"])
+        return self.compiled.walker, run["t"], run.x, Mode(int(run["step"]), run["t_start"])
 
     def copy(self) -> Self:
         """The same walk in memory of its own."""
@@ -139,7 +139,7 @@ class CompiledWalk:
 
     def law(self, view: Reading, curve: Reference) -> int:
         """Address of machine code for what `view` says."""
-        return reading_code("read", view, self.made.program, curve).addresses["read"]
+        return reading_code("read", view, self.compiled.program, curve).addresses["read"]
 
 
 def columns(walker: Walker, h: float) -> int:
@@ -193,12 +193,12 @@ class PythonWalk:
                 system = Ticks(loop, held, len(x))
         elif isinstance(loop, CompiledLoop):
             size = loop.controller_size(x)
-            system = made = loop.compiled(size)
-            if made.code is not None:
-                at = torque_place(made.code.numbers)
-                places.append((made.code.sample.K[at : at + p], slice(p)))
-            if made.compiled_push is not None:
-                places.append((made.compiled_push.terms[-1][1][:2], slice(p, None)))
+            system = compiled = loop.compiled(size)
+            if compiled.code is not None:
+                at = torque_place(compiled.code.numbers)
+                places.append((compiled.code.sample.K[at : at + p], slice(p)))
+            if compiled.compiled_push is not None:
+                places.append((compiled.compiled_push.terms[-1][1][:2], slice(p, None)))
         return cls(loop, system, method, tuple(places), Now(mode.start, x, mode, mode.start))
 
     @property

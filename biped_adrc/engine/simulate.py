@@ -128,23 +128,23 @@ def run_compiled(
     """
     options.check(np.asarray(x0))
     try:
-        made = CompiledWalker.of(walker, method, walker.controller_size(x0), options.t0)
+        compiled = CompiledWalker.of(walker, method, walker.controller_size(x0), options.t0)
     except NotCompiled as reason:
         run = on_compiled_plant(walker, x0, mode, method, options)
         text = f"{reason}; it runs in Python on the compiled plant"
         why = {"engine": COMPILED_PLANT, "why": text}
         return replace(run, settings={**run.settings, **why})
-    run = run_made(made, x0, mode, method, options)
+    run = run_made(compiled, x0, mode, method, options)
     return replace(
         run, detail=detail_of(walker, method, run), settings={**run.settings, "engine": COMPILED}
     )
 
 
 def run_made(
-    made: CompiledWalker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
+    compiled: CompiledWalker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
 ) -> Trajectory:
     """The run of a walker that is compiled already, from x0 (nx,), in any thread."""
-    plan, every = made.plan, options.store_every
+    plan, every = compiled.plan, options.store_every
     period, longest = plan.number("period"), 1.0
     ticks = longest / period if period > 0.0 else 0.0
     # of a single support of 1 s, two nodes at each sample instant; with too few the arc is made again

@@ -60,8 +60,8 @@ class _Evaluated:
         self.K, self.inp = K, np.zeros(function.size1_in(1))
         self.after, self.columns = np.zeros(nx), np.zeros((nx, nx))
         self.buffer, self.evaluate = function.buffer()
-        for i, given in enumerate((self.K, self.inp)):
-            self.buffer.set_arg(i, given.data)  # type: ignore[call-arg]
+        for i, array in enumerate((self.K, self.inp)):
+            self.buffer.set_arg(i, array.data)  # type: ignore[call-arg]
         for i, result in enumerate((self.after, self.columns)):
             self.buffer.set_res(i, result.data)  # type: ignore[call-arg]
 

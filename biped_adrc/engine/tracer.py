@@ -233,16 +233,16 @@ class Tracer:
             twins = [
                 twin for twin, base in zip(bases, cls.__bases__, strict=True) if twin is not base
             ]
-            made = types.new_class(cls.__name__, (*twins, cls))
-            made.__module__, made.__qualname__ = cls.__module__, cls.__qualname__
-            self._twins[cls] = self._twins[made] = made
+            subclass = types.new_class(cls.__name__, (*twins, cls))
+            subclass.__module__, subclass.__qualname__ = cls.__module__, cls.__qualname__
+            self._twins[cls] = self._twins[subclass] = subclass
             own = changes(cls.__module__, getattr(home, "__file__", None))
             for name, value in vars(cls).items():
                 if name == "__call__" or not name.startswith(("__", "_abc_")):
                     if own:
                         note(vars(cls), name)
-                    setattr(made, name, self._member(value))
-            abc.update_abstractmethods(made)
+                    setattr(subclass, name, self._member(value))
+            abc.update_abstractmethods(subclass)
         return self._twins[cls]
 
     def _member(self, value: Any) -> Any:

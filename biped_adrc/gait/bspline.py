@@ -59,15 +59,15 @@ def basis(degree: int) -> Array:
     Cached by the degree, since the knots depend on nothing else.
     """
     t = knots(degree)
-    made = np.zeros((degree - CUBIC + 1, degree + 1, CUBIC + 1))
-    for j in range(len(made)):
+    table = np.zeros((degree - CUBIC + 1, degree + 1, CUBIC + 1))
+    for j in range(len(table)):
         N = np.zeros((len(t) - 1, CUBIC + 1))
         N[CUBIC + j, 0] = 1.0
         for d in range(1, CUBIC + 1):
             N = np.array([_raised(t, N, k, d) for k in range(len(N) - 1)])
-        made[j] = N
-    made.setflags(write=False)
-    return made
+        table[j] = N
+    table.setflags(write=False)
+    return table
 
 
 def _raised(t: Array, N: Array, k: int, d: int) -> Array:

@@ -104,11 +104,11 @@ class ModelErrors(Shown):
         become unequal.
         """
         factors = {k: {x: 1.0 + e for x, e in getattr(self, k).items()} for k in KINDS[:3]}
-        made = replace(biped, tree=biped.scaled(factors))
+        wrong = replace(biped, tree=biped.scaled(factors))
         if self.friction:
-            made = self._rubbed(made)
-        made.check()
-        return made
+            wrong = self._rubbed(wrong)
+        wrong.check()
+        return wrong
 
     def _rubbed(self, biped: Biped) -> Biped:
         """The biped with its viscous and static friction multiplied; twin joints must have the same error."""

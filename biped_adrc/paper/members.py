@@ -159,10 +159,10 @@ def _at(
     run = member.run(controller, **values)
     walks = pieces(run, member.start == "zero", share)
     one, other = track(walks[0]), undisturbed(usual, controller, share)
-    made = sum(len(walk.trajectory.events(FOOT_STRIKE)) for walk in walks) == run.run.impacts
+    complete = sum(len(walk.trajectory.events(FOOT_STRIKE)) for walk in walks) == run.run.impacts
     why = {k: x for walk in reversed(walks) for k, x in walk.feasibility.reasons.items()}
     broken = longest = math.inf
-    if made:
+    if complete:
         broken = max(limits_broken(walk.feasibility) for walk in walks)
         longest = max(arc.t[-1] - arc.t[0] for walk in walks for arc in walk.trajectory.arcs)
     gap = abs(one.rate - other.rate)

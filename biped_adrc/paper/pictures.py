@@ -51,7 +51,7 @@ def pictures(r: Results) -> dict[str, Task[tuple[bytes, bytes]]]:
     magnitudes = {c: r.multipliers[c].orbit.multipliers for c in CONTROLLERS if c in r.multipliers}
     mu = Biped.load("rabbit", r.plan.preset).description.friction_coefficient
     pushed = "ADRC under the push"
-    made: dict[str, tuple[object, ...]] = {
+    inputs: dict[str, tuple[object, ...]] = {
         "figure1": (draw_robot, r.plan.preset),
         "figure4": (figures.tracking_figure, npd, "NPD under the push", window),
         "figure5": (figures.tracking_figure, adrc, pushed, window),
@@ -65,8 +65,8 @@ def pictures(r: Results) -> dict[str, Task[tuple[bytes, bytes]]]:
     }
     for preset in r.plan.presets if r.plan.full else ():
         rows = [cell.row() for cell in cells if cell.push.preset == preset]
-        made[f"push_map_{preset}"] = (push_map_figure, rows)
-    return {name: Task(name, rendered, arguments) for name, arguments in made.items()}
+        inputs[f"push_map_{preset}"] = (push_map_figure, rows)
+    return {name: Task(name, rendered, arguments) for name, arguments in inputs.items()}
 
 
 def draw_robot(preset: str) -> Figure:

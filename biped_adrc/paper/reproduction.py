@@ -77,7 +77,7 @@ def judgement(r: Results) -> dict[str, Any]:
     """Claims, checks, tables and numbers of a reproduction, in plain values."""
     plan, of_claims = r.plan, rows(r)
     result = checks(r, of_claims)
-    made = {
+    parts = {
         "preset": plan.preset,
         "left_out": list(plan.left_out),
         "holds": all(check.holds for check in result),
@@ -94,7 +94,7 @@ def judgement(r: Results) -> dict[str, Any]:
         "multipliers": {name: result.record() for name, result in r.multipliers.items()},
         "push_map": [cell.row() for cell in r.cells],
     }
-    summary: dict[str, Any] = plain(made)
+    summary: dict[str, Any] = plain(parts)
     return summary
 
 

@@ -113,12 +113,12 @@ def _of_results(r: Results) -> Iterator[Check]:
     heavy = tuple(f"heavier, {kind}" for kind in KINDS)
     pairs = {name: r.pair(name) for name in ("push", "sine", "1 kHz", *heavy, "torso")}
     errors = {name: adrc.peak_error / npd.peak_error for name, (npd, adrc) in pairs.items()}
-    made = {
+    shares = {
         f"{c}, {name}": m.share_made(o)
         for name, pair in pairs.items()
         for c, o in zip(CONTROLLERS, pair, strict=True)
     }
-    yield from check("share of the impacts made", ">= 1", made)
+    yield from check("share of the impacts made", ">= 1", shares)
     ratio = "peak error of ADRC over NPD's"
     yield from check(ratio, "<= 0.01", {name: errors[name] for name in ("push", "sine")})
     yield from check(ratio, "< 1", {name: errors[name] for name in heavy})

@@ -77,12 +77,12 @@ class RobotAndGait:
         Raises InputError for a robot or a gait that there is not, GaitError for a gait that does not fit.
         """
         robot, friction = s.robot, s.hardware.friction
-        made = own("robot", robot.name)
+        user_class = own("robot", robot.name)
         values = {"preset": robot.preset, "friction": friction}
         biped = (
             Biped.load(robot.name, robot.preset, friction)
-            if made is None
-            else construct(f"robot '{robot.name}'", made, values, Biped)
+            if user_class is None
+            else construct(f"robot '{robot.name}'", user_class, values, Biped)
         )
         if biped.p == 0:
             return cls(biped, cycle=passive_cycle(biped))
@@ -270,7 +270,7 @@ def plant_step(s: Scenario) -> float:
     return min(LONGEST_PLANT_STEP, RESOLVED * s.ground.time_constant)
 
 
-def plant_around(name: str, walker: Walker, given: Mapping[str, object]) -> SteppingPlant:
+def plant_around(name: str, walker: Walker, options: Mapping[str, object]) -> SteppingPlant:
     """A plant of the registry for a walker's robot on its slope. given: more values by name.
 
     Raises InputError for one that there is not, or that cannot be made.
@@ -281,7 +281,7 @@ def plant_around(name: str, walker: Walker, given: Mapping[str, object]) -> Step
         "max_step_time": walker.max_step_time,
         "fall_height": walker.fall_height,
     }
-    return named_part("plant", name, {**given, **values}, {}, SteppingPlant, "ground")  # type: ignore[type-abstract]
+    return named_part("plant", name, {**options, **values}, {}, SteppingPlant, "ground")  # type: ignore[type-abstract]
 
 
 def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
@@ -297,8 +297,8 @@ def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
 
     make = find("plant", g.plant).load()
     all_taken("ground", g.own, {*takes(make), *takes(SoftGround)})
-    given = g.own | {name: getattr(g, name) for name in OF_GROUND}
-    ground = construct(f"the ground of plant '{g.plant}'", SoftGround, given, SoftGround)
+    options = g.own | {name: getattr(g, name) for name in OF_GROUND}
+    ground = construct(f"the ground of plant '{g.plant}'", SoftGround, options, SoftGround)
     plant = plant_around(g.plant, walker, g.own | {"ground": ground, "h": plant_step(s)})
     return stepping_loop(walker, plant, s.run.engine, s.run.first_step)
 

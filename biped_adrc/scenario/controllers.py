@@ -66,31 +66,31 @@ def _made(place: str, c: ControllerRecord, known: Values) -> Controller:
     accepted = takes(make)
     if "inner" in accepted:
         inner = _made(f"{place}.inner", c.inner or ControllerRecord(), known)
-        made = construct(what, make, {**known, **c.own, "inner": inner}, Controller, place)
+        law = construct(what, make, {**known, **c.own, "inner": inner}, Controller, place)
         _all_taken(place, c, accepted, accepted)
-        return made  # around the policies: its state does not begin anew at a touchdown
+        return law  # around the policies: its state does not begin anew at a touchdown
     if c.inner is not None:
         raise Misfit(f"{place}.inner", f"{what} is no outer loop, and takes none")
     values, used = _values(what, make, c, entry.defaults)
-    made = construct(what, make, {**known, **values}, Controller, place)
-    if type(made).output is Controller.output:
+    law = construct(what, make, {**known, **values}, Controller, place)
+    if type(law).output is Controller.output:
         raise InputError(f"{what} has no method output(s, m); write it")
     _all_taken(place, c, used, accepted)
-    return _around(place, c, made, known)
+    return _around(place, c, law, known)
 
 
-def _around(place: str, c: ControllerRecord, made: Controller, known: Values) -> Controller:
+def _around(place: str, c: ControllerRecord, law: Controller, known: Values) -> Controller:
     """A controller with the policy across contact around it, and what has a number in the registry."""
     contact = c.contact
     if contact.name is not None:
         own = contact.own | ({} if contact.window is None else {"window": contact.window})
-        inside = {**known, "inner": made}
-        made = named_part("contact", contact.name, inside, own, AcrossContact, f"{place}.contact")
+        inside = {**known, "inner": law}
+        law = named_part("contact", contact.name, inside, own, AcrossContact, f"{place}.contact")
     for name in REGISTRY["around"]:
         if number := getattr(c, name):
-            inside = {**known, "inner": made, name: number}
-            made = named_part("around", name, inside, {}, Controller, place)
-    return made
+            inside = {**known, "inner": law, name: number}
+            law = named_part("around", name, inside, {}, Controller, place)
+    return law
 
 
 def _values(
@@ -102,12 +102,12 @@ def _values(
     entry, where the record has none; but not with poles, which already say what bandwidth and order would.
     """
     accepted, o = takes(make), c.observer
-    given = {"poles": o.poles, "bandwidth": o.bandwidth, "order": o.order}
+    settings = {"poles": o.poles, "bandwidth": o.bandwidth, "order": o.order}
     if o.poles is None:
-        given |= {name: x for name, x in defaults.items() if given[name] is None}
-    given = {name: x for name, x in given.items() if x is not None}
+        settings |= {name: x for name, x in defaults.items() if settings[name] is None}
+    settings = {name: x for name, x in settings.items() if x is not None}
     gains = {name: x for name in GAINS if (x := getattr(c, name)) is not None}
-    values = {**c.own, **given, **gains, "solve_theta": c.solve_theta}
+    values = {**c.own, **settings, **gains, "solve_theta": c.solve_theta}
     values["reset"] = ResetPolicy.named(o.reset)
     used = {*accepted, *(f"observer.{name}" for name in accepted)}
     if "gains" in accepted and gains:
@@ -115,14 +115,14 @@ def _values(
         values["gains"] = replace(usual if isinstance(usual, Gains) else TABLE_II, **gains)
         used |= set(gains)
     if "observer" in accepted:
-        observer, taken = _observer(what, make, o, given)
+        observer, taken = _observer(what, make, o, settings)
         values |= {"observer": observer} if observer else {}
         used |= {f"observer.{name}" for name in taken}
     return values, used
 
 
 def _observer(
-    what: str, make: Callable[..., object], o: ObserverRecord, given: Values
+    what: str, make: Callable[..., object], o: ObserverRecord, settings: Values
 ) -> tuple[Observer | None, set[str]]:
     """The observer for a controller, and the names it took; None where the controller's default holds.
 
@@ -132,14 +132,14 @@ def _observer(
     usual = _default(make)
     kind = type(usual) if o.name is None else find("observer", o.name).load()
     ways = [*(getattr(kind, name) for name in _ways(kind)), kind]
-    offered = {**given, **o.own} | ({"m": given["order"]} if "order" in given else {})
+    offered = {**settings, **o.own} | ({"m": settings["order"]} if "order" in settings else {})
     if o.name is None and not any(set(offered) & set(takes(way)) for way in ways):
         return (usual if "observer" in lacking(make, ()) else None), set()
     fitting = [way for way in ways if not lacking(way, offered)] or ways[:1]
     best = max(fitting, key=lambda way: len(set(offered) & set(takes(way))))
     taken = {"name", *takes(best)} | ({"order"} if "m" in takes(best) else set())
-    made = construct(f"the observer of {what}", best, offered, Observer, "controller.observer")  # type: ignore[type-abstract]
-    return made, taken
+    law = construct(f"the observer of {what}", best, offered, Observer, "controller.observer")  # type: ignore[type-abstract]
+    return law, taken
 
 
 def _ways(kind: object) -> list[str]:

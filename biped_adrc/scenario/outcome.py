@@ -71,25 +71,25 @@ class Outcome(Shown):
         return self.status == "COMPLETED"
 
 
-def outcome_of(made: Walk) -> Outcome:
+def outcome_of(walk: Walk) -> Outcome:
     """The outcome of a scenario's walk.
 
     The mean of squared errors is over time, by quadrature between nodes. Raises InputError for a walk that is
     not of a scenario.
     """
-    if made.scenario is None:
+    if walk.scenario is None:
         raise InputError(
             "this walk was made of a walker, and an outcome is a scenario's; take its trajectory, signals and "
             "feasibility, or walk with biped_adrc.walk_scenario"
         )
-    trajectory, s = made.trajectory, made.signals
+    trajectory, s = walk.trajectory, walk.signals
     events = trajectory.events(FOOT_STRIKE)
     times = np.array([0.0, *(event.t for event in events)])
     squares = np.sum(s.error**2, axis=1) / max(s.error.shape[1], 1)
     duration = s.t[-1] - s.t[0]
     mean = integrate(s.t, squares) / duration if duration > 0 else float(squares[0])
     return Outcome(
-        made.scenario,
+        walk.scenario,
         trajectory.status.name,
         f"{trajectory.status.value} {trajectory.detail}".strip(),
         len(events),
@@ -98,9 +98,9 @@ def outcome_of(made: Walk) -> Outcome:
         s.peak_error,
         float(np.sqrt(max(mean, 0.0))),
         float(np.max(np.abs(s.u), initial=0.0)),
-        made.certificates,
-        made.feasibility,
+        walk.certificates,
+        walk.feasibility,
         str(trajectory.settings["method"]),
         str(trajectory.settings.get("engine", "unknown")),
-        slip=max((x for step in made.soft_steps for x in step.slip), default=None),
+        slip=max((x for step in walk.soft_steps for x in step.slip), default=None),
     )

@@ -95,11 +95,11 @@ class Push(Record):
         """Torque [N m] by joint, empty for random joints."""
         if isinstance(self.torque, dict):
             return dict(self.torque)
-        made: dict[str, float] = {}
+        torques: dict[str, float] = {}
         for word in () if self.joints == RANDOM else self.joints.split(","):
             joint, sign = word.strip().lstrip("+-"), -1.0 if word.strip()[0:1] == "-" else 1.0
-            made[joint] = made.get(joint, 0.0) + sign * self.torque
-        return made
+            torques[joint] = torques.get(joint, 0.0) + sign * self.torque
+        return torques
 
     def stop(self, onset: float) -> float:
         """The end of its window [s]: the sum as decimal numbers, so that 0.1 and 0.2 make 0.3."""

@@ -79,8 +79,10 @@ class Walk(Shown):
 
     def __repr__(self) -> str:
         run, impacts = self.trajectory, self.impacts
-        made = f"{impacts} impact{'' if impacts == 1 else 's'} in {run.t_end - run.t_start:.4g} s"
-        return f"Walk({self.note}: {made}, {run.status.name})"
+        impacts_text = (
+            f"{impacts} impact{'' if impacts == 1 else 's'} in {run.t_end - run.t_start:.4g} s"
+        )
+        return f"Walk({self.note}: {impacts_text}, {run.status.name})"
 
     @property
     def reference(self) -> Reference:

@@ -289,8 +289,8 @@ class Scenario(Record):
                 walked = f"the walk has the single supports {first} to {last}"
                 raise Misfit(f"pushes.{i}.step", f"is {push.step}, and {walked}: it cannot act")
         law = self.controller
-        for name, given in (("contact", law.contact.name), ("prediction", law.prediction)):
-            if given and self.hardware.period is None:
+        for name, value in (("contact", law.contact.name), ("prediction", law.prediction)):
+            if value and self.hardware.period is None:
                 raise Misfit(f"controller.{name}", "needs sampled time; give hardware.period too")
         if self.hardware.delay_known and law.prediction > 0.0:
             raise Misfit("hardware.delay_known", "counts the delay twice beside a prediction")

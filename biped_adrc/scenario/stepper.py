@@ -245,7 +245,7 @@ class Stepper:
         for i, walk in enumerate(self.walks):
             impacts, ended = int(self._impacts[i]), self.codes[i] != 0
             if isinstance(walk, CompiledWalk) and before[i] == 0 and (impacts > 0 or ended):
-                walker, plant = walk.made.walker, walk.made.walker.plant
+                walker, plant = walk.compiled.walker, walk.compiled.walker.plant
                 q, v = np.split(walk.run.x[: 2 * plant.n], 2)
                 n = Nodes.of_table(walk.over(impacts > 0 and not ended), plant.p)
                 after = plant.momentum(q, v) if len(n.supports.first) == impacts else None

@@ -59,12 +59,12 @@ def quantity(text: str, unit: str) -> float:
     match = _QUANTITY.fullmatch(text)
     if match is None:
         raise ValueError(f"found '{text}', expected a number [{unit}] or a number and its unit")
-    number, given = float(match[1]), match[2]
-    if given:
-        result, expected = unit_of(given), unit_of(unit)
+    number, own_unit = float(match[1]), match[2]
+    if own_unit:
+        result, expected = unit_of(own_unit), unit_of(unit)
         if result.powers != expected.powers:
             raise ValueError(
-                f"found '{text}': '{given}' is another dimension, expected a unit such as '{unit}'"
+                f"found '{text}': '{own_unit}' is another dimension, expected a unit such as '{unit}'"
             )
         number = _scaled(number, result.factor / expected.factor)
     if not math.isfinite(number):

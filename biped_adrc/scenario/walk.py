@@ -181,11 +181,11 @@ def walk(
         moved = plant_around(plant, walker, {}) if isinstance(plant, str) else plant
         loop = stepping_loop(walker, moved, engine, first_step)
         run = walk_on(loop, walker, begin, Mode(first_step), impacts, progress)
-        made = watched(walker, gait, run)
+        result = watched(walker, gait, run)
     else:
-        given = None if method is None else (Part(impacts, method),)
-        parts = given or default_parts(walker, impacts, first_step, engine)
-        made = walk_in_parts(
+        own_part = None if method is None else (Part(impacts, method),)
+        parts = own_part or default_parts(walker, impacts, first_step, engine)
+        result = walk_in_parts(
             walker,
             gait,
             parts,
@@ -194,7 +194,7 @@ def walk(
             progress=progress,
             engine=engine,
         )
-    return made if within is None else made.until_infeasible(within)
+    return result if within is None else result.until_infeasible(within)
 
 
 def walk_in_parts(

@@ -63,12 +63,12 @@ def counted_in(walk: Walk, limits: Limits) -> WalkRow:
     }
 
 
-def _on_the_ground(made: Walk) -> WalkRow:
+def _on_the_ground(walk: Walk) -> WalkRow:
     """The errors that touchdowns and pushes leave, and what the feet did, of the step in which it was largest.
 
     The latter is missing on a plant that does not say it.
     """
-    row, steps = contact_errors(made.signals)._asdict(), made.soft_steps
+    row, steps = contact_errors(walk.signals)._asdict(), walk.soft_steps
     if not steps:
         return row
     return row | {

@@ -54,8 +54,8 @@ def run_trial(record: Record) -> WalkRow:
     try:
         s = scenario_of(record)
         with _PREPARING:
-            made = case(s)
-            run = run_case(made) if s.ground.plant == RIGID else None
+            task = case(s)
+            run = run_case(task) if s.ground.plant == RIGID else None
         if run is None:
             walk = walk_scenario(s)
             run = partial(ends_of, walk)
@@ -64,30 +64,30 @@ def run_trial(record: Record) -> WalkRow:
     except Exception as error:  # whatever a controller in Python may raise
         detail = f"{type(error).__name__}: {error}"
         return _row({"status": RAISED, "detail": detail, "impacts": 0})
-    return _row(measured(s, made, run(), walk))
+    return _row(measured(s, task, run(), walk))
 
 
-def measured(s: Scenario, made: Case, walked: BatchWalk, walk: Walk | None = None) -> WalkRow:
+def measured(s: Scenario, task: Case, walked: BatchWalk, walk: Walk | None = None) -> WalkRow:
     """The row of a walk that has been carried out.
 
     s: its scenario; made: the walker and its start; walked: trajectory, impacts and status; walk: with all its
     nodes, on another plant. The cost of transport, work / (weight x distance), is None without forward motion.
     """
-    row = ended(s, made, walked)
+    row = ended(s, task, walked)
     if walk is None and walked.trajectory is None and walked.table is None:
         return row
     with _PREPARING:
         if walk is None and walked.trajectory is not None:
-            walk = Walk(made.walker, scene_of(s).walked, walked.trajectory, s)
-        result = _by_table(made, walked, limits(s)) if walk is None else counted_in(walk, limits(s))
-    weighed = made.walker.plant.weight * float(row.get("distance") or 0.0)
+            walk = Walk(task.walker, scene_of(s).walked, walked.trajectory, s)
+        result = _by_table(task, walked, limits(s)) if walk is None else counted_in(walk, limits(s))
+    weighed = task.walker.plant.weight * float(row.get("distance") or 0.0)
     cost = float(result["work"] or 0.0) / weighed if weighed > 0.0 else None
     return row | result | {"cost_of_transport": cost}
 
 
-def _by_table(made: Case, walked: BatchWalk, limits: Limits) -> WalkRow:
+def _by_table(task: Case, walked: BatchWalk, limits: Limits) -> WalkRow:
     """What is counted in a compiled walk."""
-    walker, plant = made.walker, made.walker.plant
+    walker, plant = task.walker, task.walker.plant
     assert walked.table is not None
     n, k = Nodes.of_table(walked.table, plant.p), limits.of(plant.description)
     after = None
@@ -98,16 +98,16 @@ def _by_table(made: Case, walked: BatchWalk, limits: Limits) -> WalkRow:
     return counted(n, Feasibility(walked.status, result, k, walked.impacts))
 
 
-def ends_of(made: Walk) -> BatchWalk:
+def ends_of(task: Walk) -> BatchWalk:
     """Status, impacts and end of a walk that was recorded."""
-    run = made.trajectory
+    run = task.trajectory
     times = np.array([event.t for event in run.events(FOOT_STRIKE)])
     end, engine = run.final_state, str(run.settings["engine"])
     before = run.before(FOOT_STRIKE)
     return BatchWalk(run.status, run.detail, times, before, end, run.t_end, engine)
 
 
-def ended(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
+def ended(s: Scenario, task: Case, walked: BatchWalk) -> WalkRow:
     """How a walk ended, and how fast it was."""
     status = walked.status.name
     row: WalkRow = {
@@ -121,11 +121,11 @@ def ended(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
     if status not in NO_WALK:
         row |= {"outcome": outcome_of(walked.status, REASONS), "feasible": 0, "but_impact": 0}
     with _PREPARING:
-        row |= _pace(s, made, walked)
+        row |= _pace(s, task, walked)
     return row
 
 
-def _pace(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
+def _pace(s: Scenario, task: Case, walked: BatchWalk) -> WalkRow:
     """Distance [m], mean speed and speed of the last two steps [m/s], relative change of speed against the
     gait's.
 
@@ -133,7 +133,7 @@ def _pace(s: Scenario, made: Case, walked: BatchWalk) -> WalkRow:
     """
     if walked.impacts == 0:
         return {"distance": 0.0}
-    plant, gait = made.walker.plant, scene_of(s).walked
+    plant, gait = task.walker.plant, scene_of(s).walked
     steps = [float(plant.swing_foot(x[: plant.n])[0]) for x in walked.x_minus]
     speed = sum(steps) / float(walked.times[-1] - walked.t_start)
     change = speed / (float(scene_of(s).biped.swing_foot(gait.q_minus)[0]) / gait.period) - 1.0

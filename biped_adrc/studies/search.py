@@ -73,9 +73,9 @@ class Variable(Part):
         )
 
 
-def _variable(name: str, given: Any) -> Variable:
+def _variable(name: str, value: Any) -> Variable:
     """One variable of a file. Raises ValueError."""
-    keys = table(given)
+    keys = table(value)
     beside = keys.pop("when", {})
     when = each(beside, lambda n, x: read_list(n, x if isinstance(x, list | tuple) else [x]))
     if "choices" in keys:
@@ -104,11 +104,11 @@ class Search(Part):
 
     @model_validator(mode="before")
     @classmethod
-    def _read(cls, given: Any) -> Any:
+    def _read(cls, value: Any) -> Any:
         """Variables are read with their units."""
-        if isinstance(given, Mapping) and "variables" in given:
-            return {**given, "variables": each(given["variables"], _variable)}
-        return given
+        if isinstance(value, Mapping) and "variables" in value:
+            return {**value, "variables": each(value["variables"], _variable)}
+        return value
 
     @property
     def measures(self) -> tuple[Measure, ...]:
@@ -134,13 +134,15 @@ class Search(Part):
 
     def values(self, base: Values, chosen: Values) -> dict[str, Any]:
         """The values of a candidate's scenario: the base, and what was chosen that has an effect."""
-        made = {**base, **chosen}
+        candidate = {**base, **chosen}
         while idle := [
-            n for n, v in self.variables.items() if n in chosen and n in made and not v.acts(made)
+            n
+            for n, v in self.variables.items()
+            if n in chosen and n in candidate and not v.acts(candidate)
         ]:
             for name in idle:  # and in the next round those that depend on one of them
-                del made[name]
-        return made
+                del candidate[name]
+        return candidate
 
     def some(self, values: Values) -> Iterator[dict[str, Any]]:
         """Candidates that stand for all: the middle of all variables, and each choice with the others there.
@@ -152,8 +154,8 @@ class Search(Part):
         for name, v in {"": Variable(choices=("",)), **acting}.items():
             for x in v.choices:
                 chosen = middle | ({name: x} if name else {})
-                made = self.values(values, chosen)
-                yield {n: made[n] for n in chosen if n in made}
+                candidate = self.values(values, chosen)
+                yield {n: candidate[n] for n in chosen if n in candidate}
 
 
 class Candidate(NamedTuple):

@@ -37,17 +37,17 @@ def problem(error: Any) -> str:
     return ": ".join([*filter(None, [".".join(map(str, error["loc"]))]), text])
 
 
-def table(given: object) -> dict[str, Any]:
+def table(value: object) -> dict[str, Any]:
     """A table of a file. Raises ValueError for what is none."""
-    if not isinstance(given, Mapping):
-        raise ValueError(f"found {given!r}, expected a table")
-    return dict(given)
+    if not isinstance(value, Mapping):
+        raise ValueError(f"found {value!r}, expected a table")
+    return dict(value)
 
 
-def each(given: object, read_one: Callable[[str, Any], Any]) -> dict[str, Any]:
+def each(value: object, read_one: Callable[[str, Any], Any]) -> dict[str, Any]:
     """`read_one(name, value)` for each entry of a table. Raises ValueError with all entries that it refuses."""
     result, wrong = {}, []
-    for name, x in flat(table(given), whole=("from", "to", "choices")).items():
+    for name, x in flat(table(value), whole=("from", "to", "choices")).items():
         try:
             result[name] = read_one(name, x)
         except ValidationError as error:
@@ -105,53 +105,53 @@ class Levels(Range):
 R = TypeVar("R", bound=Range)
 
 
-def read_range(name: str, given: object, kind: type[R] = Range) -> R:  # type: ignore[assignment]
+def read_range(name: str, value: object, kind: type[R] = Range) -> R:  # type: ignore[assignment]
     """The range {from, to, scale} of a number, read with its unit. Raises ValueError."""
-    types, keys = field_of(name).types, table(given)
+    types, keys = field_of(name).types, table(value)
     whole = int in types and float not in types
     ends = {key: read(name, keys[key]) for key in ("from", "to") if key in keys}
     return kind.model_validate({"whole": whole, **keys, **ends})
 
 
-def read_list(name: str, given: object, least: int = 1) -> tuple[Any, ...]:
+def read_list(name: str, value: object, least: int = 1) -> tuple[Any, ...]:
     """At least so many different values of one field. Raises ValueError."""
-    result = tuple(read(name, x) for x in given) if isinstance(given, list | tuple) else ()
+    result = tuple(read(name, x) for x in value) if isinstance(value, list | tuple) else ()
     if len({repr(x) for x in result}) < max(least, len(result)):
         raise ValueError(
-            f"found {given!r}, expected a list of different values or {{from, to, ..}}"
+            f"found {value!r}, expected a list of different values or {{from, to, ..}}"
         )
     return result
 
 
-def _levels(name: str, given: object) -> tuple[Any, ...]:
+def _levels(name: str, value: object) -> tuple[Any, ...]:
     """The levels of one field of the grid, from a list or {from, to, count}. Raises ValueError."""
-    if isinstance(given, Mapping):
-        given = read_range(name, given, Levels).levels()
-    return read_list(name, given)
+    if isinstance(value, Mapping):
+        value = read_range(name, value, Levels).levels()
+    return read_list(name, value)
 
 
-def _seeds(given: object) -> object:
+def _seeds(value: object) -> object:
     """The seeds 0 .. n-1 of a number n, those of {from, count}, or of a list of different ones."""
-    keys = given if isinstance(given, Mapping) else {"from": 0, "count": given}
+    keys = value if isinstance(value, Mapping) else {"from": 0, "count": value}
     if set(keys) == {"from", "count"}:
         first, count = keys["from"], keys["count"]
         if type(first) is type(count) is int and 1 <= count <= MOST:
             return tuple(range(first, first + count))
-    if not isinstance(given, list | tuple) or len(set(map(repr, given))) < len(given):
-        raise ValueError(f"found {given!r}, expected how many, {{from, count}}, or a list")
-    return tuple(given)
+    if not isinstance(value, list | tuple) or len(set(map(repr, value))) < len(value):
+        raise ValueError(f"found {value!r}, expected how many, {{from, count}}, or a list")
+    return tuple(value)
 
 
-Values = Annotated[dict[str, Any], BeforeValidator(lambda given: each(given, read))]
+Values = Annotated[dict[str, Any], BeforeValidator(lambda value: each(value, read))]
 """Values of a scenario by name, read with their units."""
 Sets = dict[str, Values]
 """Values by name of the case or condition."""
-Grid = Annotated[dict[str, tuple[Any, ...]], BeforeValidator(lambda given: each(given, _levels))]
+Grid = Annotated[dict[str, tuple[Any, ...]], BeforeValidator(lambda value: each(value, _levels))]
 """Levels by name."""
 Seed = Annotated[int, Field(ge=0, le=MOST_SEED, strict=True)]
 Seeds = Annotated[tuple[Seed, ...], BeforeValidator(_seeds)]
 """Different seeds."""
-Ranges = Annotated[dict[str, Range], BeforeValidator(lambda given: each(given, read_range))]
+Ranges = Annotated[dict[str, Range], BeforeValidator(lambda value: each(value, read_range))]
 """Ranges by name."""
 
 
@@ -166,12 +166,12 @@ class Draw(Part):
 
     @model_validator(mode="before")
     @classmethod
-    def _gathered(cls, given: Any) -> Any:
+    def _gathered(cls, value: Any) -> Any:
         """Ranges stand beside the other keys in a file."""
-        if not isinstance(given, Mapping) or "ranges" in given:
-            return given
-        own = {name: x for name, x in given.items() if name in ("kind", "count", "seed")}
-        return own | {"ranges": {name: x for name, x in given.items() if name not in own}}
+        if not isinstance(value, Mapping) or "ranges" in value:
+            return value
+        own = {name: x for name, x in value.items() if name in ("kind", "count", "seed")}
+        return own | {"ranges": {name: x for name, x in value.items() if name not in own}}
 
     def samples(self) -> list[dict[str, Any]]:
         """The samples in their order, each a value by name; the same at every call, on any machine."""

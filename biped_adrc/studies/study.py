@@ -229,17 +229,17 @@ class Study(Part):
             yield dict(zip(axes, combined, strict=True)) | samples[0]
 
 
-def read_study(given: Path | str | Mapping[str, Any]) -> Study:
+def read_study(source: Path | str | Mapping[str, Any]) -> Study:
     """The study of a TOML file, or of its tables. Raises InputError with everything that is wrong in it.
 
     What a file names, modules of the user's and a scenario, may stand beside it.
     """
-    where, tables, here = "the study", given, Path()
-    if not isinstance(given, Mapping):
-        where = f"study file '{given}'"
-        with reading("study file", given, InputError):
-            tables = tomllib.loads(Path(given).read_text(encoding="utf-8-sig"))
-        here = Path(given).absolute().parent
+    where, tables, here = "the study", source, Path()
+    if not isinstance(source, Mapping):
+        where = f"study file '{source}'"
+        with reading("study file", source, InputError):
+            tables = tomllib.loads(Path(source).read_text(encoding="utf-8-sig"))
+        here = Path(source).absolute().parent
         sys.path += [str(here)] if str(here) not in sys.path else []
     tables = dict(tables)  # type: ignore[arg-type]
     below = {}

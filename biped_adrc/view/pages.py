@@ -68,15 +68,19 @@ def rendered(template: str, package: str = HERE, **values: object) -> str:
 def _environment(package: str) -> Environment:
     """Jinja's environment, made once: it compiles the templates."""
     places = [str(files(package)), str(files(HERE) / "templates")]
-    made = Environment(
+    environment = Environment(
         loader=FileSystemLoader(places),
         autoescape=True,
         finalize=plain,
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    made.globals |= {"policy": POLICY, "style": "report.css", "file": partial(own_file, package)}
-    return made
+    environment.globals |= {
+        "policy": POLICY,
+        "style": "report.css",
+        "file": partial(own_file, package),
+    }
+    return environment
 
 
 def own_file(package: str, name: str) -> Markup:

@@ -52,8 +52,8 @@ _TYPES = {
 
 def intrinsic(function: Callable[..., Generated]) -> Callable[..., Any]:
     """numba's decorator for a function that is written in LLVM's instructions."""
-    made: Any = extending.intrinsic
-    return made(function)
+    decorator: Any = extending.intrinsic
+    return decorator(function)
 
 
 def inner(function: _Function) -> _Function:

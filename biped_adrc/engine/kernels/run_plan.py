@@ -218,20 +218,20 @@ def plan(
 
     Raises InputError for a period too short.
     """
-    given = {"moving": fields["nx"], "guards": 3, **functions._asdict(), **fields}
-    if 0.0 < given.get("period", 0.0) < LEAST_PERIOD:
+    values = {"moving": fields["nx"], "guards": 3, **functions._asdict(), **fields}
+    if 0.0 < values.get("period", 0.0) < LEAST_PERIOD:
         raise InputError(
-            f"the sampling period is {given['period']} s, expected at least {LEAST_PERIOD:g} s"
+            f"the sampling period is {values['period']} s, expected at least {LEAST_PERIOD:g} s"
         )
-    n, nx, p, k = (int(given.get(name, 0)) for name in ("n", "nx", "p", "k"))
-    slow, none, parts = int(given.get("n_slow", 0)), np.zeros(0), push.parts.copy()
+    n, nx, p, k = (int(values.get(name, 0)) for name in ("n", "nx", "p", "k"))
+    slow, none, parts = int(values.get("n_slow", 0)), np.zeros(0), push.parts.copy()
     vectors = {"fastest": np.full(n, np.inf), "push": push.K, "switches": push.switches, **tables}
-    given |= {"ny": slow + k * p, "nN": slow + p, "levels": len(vectors.get("phi", none))}
-    given |= {"n_drops": len(vectors.get("drops", none)), "n_switches": len(push.switches)}
-    given |= {"n_parts": len(parts), "pulled": int(np.any(parts[:, 2]))}
+    values |= {"ny": slow + k * p, "nN": slow + p, "levels": len(vectors.get("phi", none))}
+    values |= {"n_drops": len(vectors.get("drops", none)), "n_switches": len(push.switches)}
+    values |= {"n_parts": len(parts), "pulled": int(np.any(parts[:, 2]))}
     floats = (vectors.get(name, none) for name in TABLES[:-1])
     blocks = [np.ascontiguousarray(x, dtype=float).ravel().view(np.int64) for x in floats]
-    width = 3 + max(nx, given["ny"]) + max(n, 2) + OUTSIDE
+    width = 3 + max(nx, values["ny"]) + max(n, 2) + OUTSIDE
     lengths = [*map(len, blocks), parts.size, *(width for _ in ROWS)]
     starts = np.cumsum([len(KINDS), *lengths])
     places = dict(zip((*TABLES, *ROWS), starts[:-1].tolist(), strict=True))
@@ -239,7 +239,7 @@ def plan(
     cells = np.zeros(starts[-1], dtype=np.int64)
     filled = np.concatenate([*blocks, parts.ravel()])
     cells[len(KINDS) : len(KINDS) + len(filled)] = filled
-    for name, value in given.items():
+    for name, value in values.items():
         cells.view(np.float64 if KINDS[name] == "float" else np.int64)[PLACES[name]] = value
     for name, start in places.items():
         cells[PLACES[name]] = 8 * start

@@ -51,8 +51,8 @@ def export_c(
     source, folder = source_of(Computer(walker), prefix, real, lines), Path(folder)
     write_folder(folder, source)
     if fmu:
-        made = fmu_of(source)
-        write_bytes(folder / made.name, made.data)
+        archive = fmu_of(source)
+        write_bytes(folder / archive.name, archive.data)
     return source
 
 

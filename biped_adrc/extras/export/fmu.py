@@ -111,15 +111,15 @@ def ports(source: Source) -> list[Port]:
 def _texts(source: Source, guid: str) -> dict[str, str]:
     """The files of an FMU but its binary, by their path inside."""
     P = source.prefix
-    given = {**source.words, "guid": guid, "ports": ports(source)}
+    values = {**source.words, "guid": guid, "ports": ports(source)}
     return {
-        "modelDescription.xml": rendered("modelDescription.xml", given),
-        "documentation/index.html": rendered("index.html", given),
+        "modelDescription.xml": rendered("modelDescription.xml", values),
+        "documentation/index.html": rendered("index.html", values),
         "documentation/licenses/license.txt": source.files["LICENSE"],
         f"sources/{P}.c": source.files[f"{P}.c"],
         f"sources/{P}.h": source.files[f"{P}.h"],
-        f"sources/{P}_fmi2.h": rendered("fmi2.h", given),
-        f"sources/{P}_fmu.c": rendered("fmu.c", given),
+        f"sources/{P}_fmi2.h": rendered("fmi2.h", values),
+        f"sources/{P}_fmu.c": rendered("fmu.c", values),
     }
 
 

@@ -36,7 +36,7 @@ HEAD = 4
 
 
 @dataclass(frozen=True)
-class Given:
+class Inputs:
     """The inputs of a function on symbols, and the loop that they are given to."""
 
     computer: Computer
@@ -70,41 +70,41 @@ class Given:
 
 def init(computer: Computer) -> SymbolicFunction:
     """x_c at the start of a single support at (t, q, v); no torque is on its way."""
-    given, k = Given(computer, 0), computer.held
-    q, v = given.parts[:2]
-    at = given.at
+    inputs, k = Inputs(computer, 0), computer.held
+    q, v = inputs.parts[:2]
+    at = inputs.at
     m = at.loop.measure(at.t, q, v, at.mode)
-    controller = at.trace.on_symbols(given.equations.numbers.controller)
+    controller = at.trace.on_symbols(inputs.equations.numbers.controller)
     s = run(at.trace, controller.initial_state, m)
     held = at.loop.held
     w = np.zeros(0) if held is None or held.sensors is None else held.sensors.start(q, v)
-    return given.function(s, w, np.zeros(k.sizes.total - k.sizes.sensors))
+    return inputs.function(s, w, np.zeros(k.sizes.total - k.sizes.sensors))
 
 
 def step(computer: Computer, size: int) -> SymbolicFunction:
     """x_c, u (p,) [N m] and lost at a sample instant, for a controller with `size` numbers in s."""
-    given, k = Given(computer, size), computer.held
+    inputs, k = Inputs(computer, size), computer.held
     n = k.sizes.n
-    at = given.at._replace(x=_released(given))
+    at = inputs.at._replace(x=_released(inputs))
     x = at.does(semantics.tick)
     line = read(k.sizes, semantics.parts(at.loop, x)[3]).line
-    return given.function(x[2 * n :], sent_last(line), at.lost)
+    return inputs.function(x[2 * n :], sent_last(line), at.lost)
 
 
 def touchdown(computer: Computer, size: int) -> SymbolicFunction:
     """x_c after a touchdown; the inputs of the mode are the single support that begins."""
-    given = Given(computer, size)
-    at, (q, v) = given.at, given.parts[:2]
+    inputs = Inputs(computer, size)
+    at, (q, v) = inputs.at, inputs.parts[:2]
     x = at.trace(semantics.landed)(at.loop, at.t, at.x, q, v, at.mode)
-    return given.function(x[2 * len(q) :])
+    return inputs.function(x[2 * len(q) :])
 
 
-def _released(given: Given) -> Array:
+def _released(inputs: Inputs) -> Array:
     """x in which a torque that waited for a fraction of the period acts once that time is over."""
-    k, at = given.computer.held, given.at
+    k, at = inputs.computer.held, inputs.at
     if k.sizes.waiting == 0:
         return at.x
-    p, after = k.sizes.p, k.motors.fraction * given.computer.timing.period - SAME_INSTANT
+    p, after = k.sizes.p, k.motors.fraction * inputs.computer.timing.period - SAME_INSTANT
     over = at.t - Scalar(at.inp.symbol[1]) >= after
     u = [where(over, new, old) for new, old in zip(at.x[-2 * p : -p], at.x[-p:], strict=True)]
     return np.concatenate((at.x[:-p], np.array(u, dtype=object)))

@@ -66,10 +66,10 @@ def functions(computer: Computer) -> Functions:
     left = {name for field in kept for name in field}
     states = [f"next->{name}" if name in left else "" for field in every for name in field]
     results = [*(f"u[{i}]" for i in range(sizes.p)), "*lost"]
-    made = [_named(f, every, n, states + results[: f.out.shape[0] - total]) for f in traced]
-    read = _read(made[1].function) | _read(made[2].function)
+    functions = [_named(f, every, n, states + results[: f.out.shape[0] - total]) for f in traced]
+    read = _read(functions[1].function) | _read(functions[2].function)
     rates = tuple(i for i in range(n) if HEAD + n + i in read)
-    return Functions(tuple(kept), made[0], made[1], made[2], rates)
+    return Functions(tuple(kept), functions[0], functions[1], functions[2], rates)
 
 
 def fields_of(computer: Computer, size: int) -> tuple[Field, ...]:

@@ -75,8 +75,8 @@ def compiled(
             folder = Path(name)
             for file, text in files.items():
                 (folder / file).write_text(text, encoding="utf-8")
-            given = [*FLAGS, *flags, "-o", "out", *names, "-lm"]
-            done = subprocess.run([program, *given], cwd=folder, capture_output=True, text=True)
+            arguments = [*FLAGS, *flags, "-o", "out", *names, "-lm"]
+            done = subprocess.run([program, *arguments], cwd=folder, capture_output=True, text=True)
             if done.returncode != 0:
                 said = f"{Path(program).name} does not compile {names[0]}: {done.stderr[:400]}"
                 raise InputError(said)
@@ -177,11 +177,11 @@ class ExportedController(Controller):
         return Loaded(self.source)
 
     def initial_state(self, m: Measurement) -> Array:
-        return self._kept(*self.loaded.init(self._given(m)), np.zeros(self.source.p))
+        return self._kept(*self.loaded.init(self._inputs(m)), np.zeros(self.source.p))
 
     def correct(self, s: Array, m: Measurement) -> Array:
         x = self._state(s)
-        flag, u = self.loaded.step(x, self._given(m))
+        flag, u = self.loaded.step(x, self._inputs(m))
         return self._kept(flag, x, u)
 
     def output(self, s: Array, m: Measurement) -> Array:
@@ -189,7 +189,7 @@ class ExportedController(Controller):
 
     def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
         x = self._state(s)
-        flag = self.loaded.touchdown(x, self._given(after))
+        flag = self.loaded.touchdown(x, self._inputs(after))
         return self._kept(flag, x, relabelled(self.output(s, after), swap))
 
     def continuous(self) -> Controller:
@@ -197,7 +197,7 @@ class ExportedController(Controller):
             "an exported controller acts at sample instants; give timing=SampledTime(period)"
         )
 
-    def _given(self, m: Measurement) -> Record:
+    def _inputs(self, m: Measurement) -> Record:
         return self.loaded.measured(m.t, m.q, m.v)
 
     def _state(self, s: Array) -> Record:

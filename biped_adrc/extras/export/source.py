@@ -86,20 +86,20 @@ def source_of(
     if real not in REALS:
         raise InputError(f"the type of numbers is {real!r}, expected one of {list(REALS)}")
     try:
-        made, k = functions(computer), computer.held.sizes
+        functions_, k = functions(computer), computer.held.sizes
     except NotCompiled as error:
         raise InputError(f"there is no C of {spoken(computer.walker.law)}: {error}") from error
-    used = used_numbers(made.all)
+    used = used_numbers(functions_.all)
     values, names = list(floats(computer.numbers)), list(paths(computer.numbers))
     bad = [names[i] for i in used if values[i] != values[i]]
     if bad:
         raise InputError(f"the parameter {bad[0]} of the scenario is NaN, expected a number")
     written = {
         name: c_text(f, used)
-        for name, f in zip(("init", "step", "touchdown"), made.all, strict=True)
+        for name, f in zip(("init", "step", "touchdown"), functions_.all, strict=True)
     }
     given = {
-        **_of_robot(computer, made),
+        **_of_robot(computer, functions_),
         "prefix": prefix,
         "P": prefix.upper(),
         "real": REALS[real],
@@ -118,10 +118,10 @@ def source_of(
         "LICENSE": "LICENSE",
     }
     files = {name: rendered(template, given) for template, name in texts.items()}
-    return Source(prefix, real, files, made.fields, written, len(used), k.n, k.p, given)
+    return Source(prefix, real, files, functions_.fields, written, len(used), k.n, k.p, given)
 
 
-def _of_robot(computer: Computer, made: Functions) -> dict[str, object]:
+def _of_robot(computer: Computer, functions_: Functions) -> dict[str, object]:
     """What the templates say of robot and controller."""
     walker, k = computer.walker, computer.held.sizes
     joints = walker.plant.description.joints
@@ -131,7 +131,7 @@ def _of_robot(computer: Computer, made: Functions) -> dict[str, object]:
         limits.append(f"at most {walker.torque_limit:g} N m")
     if k.rate > 0:
         limits.append(f"changes of at most {computer.held.motors.change:g} N m in a period")
-    read = [f"m->v[{i}]" for i in made.rates]
+    read = [f"m->v[{i}]" for i in functions_.rates]
     return {
         "title": f"Controller of the robot {walker.plant.description.name}, {type(walker.controller).__name__}",
         "about": _about(computer),
@@ -144,8 +144,8 @@ def _of_robot(computer: Computer, made: Functions) -> dict[str, object]:
         "p": k.p,
         "period": decimal(computer.timing.period),
         "exchanged": [f"{'-' * (j >= k.p)}u[{j % k.p}]" for j in walker.swap.tolist()],
-        "rates_read": made.rates,
-        "rates": _rates(made.rates, k.n),
+        "rates_read": functions_.rates,
+        "rates": _rates(functions_.rates, k.n),
         "rates_finite": " && ".join(f"{x} - {x} == 0" for x in read) or "1",
         "limits": "".join(f", {x}" for x in limits),
         "clock": (
@@ -153,7 +153,7 @@ def _of_robot(computer: Computer, made: Functions) -> dict[str, object]:
             if computer.timing.restart
             else "at the next sample instant"
         ),
-        "fields": made.fields,
+        "fields": functions_.fields,
         "line": ON_THE_LINE,
         "versions": packages(("biped-adrc", "casadi", "pin", "numpy")),
     }

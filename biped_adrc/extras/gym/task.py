@@ -101,9 +101,9 @@ class LearnerTask(Shown):
         """
         if scenario is not None and condition is not None:
             raise InputError("a scenario and a condition were given, expected one of them")
-        given = nested(values)
+        record = nested(values)
         if scenario is None:
-            ground = given.get("ground", RIGID)
+            ground = record.get("ground", RIGID)
             plant = ground if isinstance(ground, str) else ground.get("plant", RIGID)
             there = [name for name, x in CONDITIONS.items() if plant == RIGID or OF_RIGID not in x]
             name = condition or "nothing"
@@ -111,9 +111,9 @@ class LearnerTask(Shown):
                 raise InputError(
                     f"there is no condition {name!r} on plant '{plant}', expected one of {there}"
                 )
-            given = merged(nested({**BASE, **CONDITIONS[name]}), given)
-            return cls(Scenario(**given), *how)  # type: ignore[arg-type]
-        return cls(scenario.replace(given), *how)  # type: ignore[arg-type]
+            record = merged(nested({**BASE, **CONDITIONS[name]}), record)
+            return cls(Scenario(**record), *how)  # type: ignore[arg-type]
+        return cls(scenario.replace(record), *how)  # type: ignore[arg-type]
 
     def limits(self, scene: RobotAndGait) -> KnownLimits:
         """Of ground and motors; the torque limit is the scenario's where it has one."""

@@ -79,8 +79,8 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         seeds = [None] * N if seeds is None else list(seeds)
         if len(seeds) != N:
             raise InputError(f"reset has {len(seeds)} seeds, expected {N}, one for each walk")
-        for i, given in enumerate(seeds):
-            self._begin(i, given)
+        for i, seed_of in enumerate(seeds):
+            self._begin(i, seed_of)
         self.over[:] = False
         return self.stage.observations(), self._infos()
 

@@ -151,14 +151,14 @@ def _factor(column: str, name: str, unit: str | None) -> float:
             f"column '{column}' has no unit, expected one in brackets, as '{name} [{expected}]'"
         )
     try:
-        given, usual = unit_of(unit.strip()), unit_of(expected)
+        unit_here, usual = unit_of(unit.strip()), unit_of(expected)
     except ValueError as error:
         raise InputError(
             f"column '{column}': {error}; expected a unit such as '{expected}'"
         ) from None
-    if given.powers != usual.powers:
+    if unit_here.powers != usual.powers:
         raise InputError(f"column '{column}' is in '{unit}', expected a unit such as '{expected}'")
-    return given.factor / usual.factor
+    return unit_here.factor / usual.factor
 
 
 def _said(head: list[str], wanted: dict[str, tuple[int, float]]) -> tuple[str, ...]:

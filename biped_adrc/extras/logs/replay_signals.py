@@ -106,8 +106,8 @@ def replayed(walker: Walker, log: RobotLog, filter_time: float, window: float) -
         np.array(x) for x in zip(*rows, strict=True)
     )
     late = (log.step > log.step[0]) & (t_step < window)
-    given = log.t, log.step, t_step, log.q, v, log.u
-    return ReplaySignals(*given, torque, residual, xi, nominal, beyond, late.astype(float))
+    inputs = log.t, log.step, t_step, log.q, v, log.u
+    return ReplaySignals(*inputs, torque, residual, xi, nominal, beyond, late.astype(float))
 
 
 def measurements(

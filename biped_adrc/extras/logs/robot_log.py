@@ -122,9 +122,9 @@ class RobotLog(Shown):
         impulse = np.cumsum(u * np.diff(edges)[:, np.newaxis], axis=0)
         impulse = np.vstack((np.zeros_like(u[:1]), impulse))
         end = np.minimum(at + period, edges[-1])
-        given = _between(end, edges, impulse) - _between(at, edges, impulse)
+        mean = _between(end, edges, impulse) - _between(at, edges, impulse)
         q, v = (_between(at, t, x) for x in line)
-        return at, np.full(len(at), self.step[rows[0]]), q, given / (end - at)[:, np.newaxis], v
+        return at, np.full(len(at), self.step[rows[0]]), q, mean / (end - at)[:, np.newaxis], v
 
 
 def _between(at: Array, t: Array, x: Array) -> Array:

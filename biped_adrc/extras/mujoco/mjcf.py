@@ -84,7 +84,9 @@ def _comment(plant: MuJoCoPlant) -> str:
     biped = plant.biped
     preset = biped.description.preset(biped.preset)
     result = packages(("biped-adrc", "mujoco-core", "mujoco"))
-    made = ", ".join(f"{name} {version}" for name, version in result.items() if version != "none")
+    versions = ", ".join(
+        f"{name} {version}" for name, version in result.items() if version != "none"
+    )
     ground = ", ".join(f"{name} {x}" for name, x in vars(plant.ground).items())
     surface, deep = plant.stiffness
     lines = (
@@ -92,6 +94,6 @@ def _comment(plant: MuJoCoPlant) -> str:
         f"joint friction: {'of the record' if biped.friction else 'none'}",
         f"ground: {ground}, slope {plant.slope:g} rad",
         f"under a foot at rest: {surface:.3g} N/m at the surface, {deep:.3g} N/m from 1 mm on",
-        f"written by {made}; BSD-3-Clause, without any warranty",
+        f"written by {versions}; BSD-3-Clause, without any warranty",
     )
     return "\n".join(map(xml_comment, lines))

@@ -64,7 +64,7 @@ class PageWalk:
     scene: RobotAndGait
     walker: Walker
     """Without the hand; with joint friction, if the robot's record has some."""
-    made: CompiledWalker
+    code: CompiledWalker
     """With the hand, which is its whole disturbance."""
     x: Array
     """State (nx,)."""
@@ -96,12 +96,12 @@ class PageWalk:
             )
         x = walker.initial_state(*start(s, scene), Mode(s.run.first_step))
         try:
-            made = compiled(s, scene, walker, x)
+            code = compiled(s, scene, walker, x)
         except NotCompiled as reason:
             raise InputError(
                 f"the walk '{name}' does not run in machine code as a whole: {reason}"
             ) from reason
-        return cls(s, scene, walker, made, x)
+        return cls(s, scene, walker, code, x)
 
     @property
     def mode(self) -> Mode:
@@ -116,24 +116,24 @@ class PageWalk:
     @cached_property
     def names(self) -> dict[str, int]:
         """Places in the block of the walker's numbers, by their names."""
-        first = self.made.plan.places["K"]
-        return {name: first + k for k, name in enumerate(paths(self.made.program.numbers))}
+        first = self.code.plan.places["K"]
+        return {name: first + k for k, name in enumerate(paths(self.code.program.numbers))}
 
     @cached_property
     def numbers(self) -> Array:
         """Of the block as it begins."""
-        return self._block(self.made)
+        return self._block(self.code)
 
     def at(self, s: Scenario) -> Array:
         """Numbers of the block of another scenario. Raises InputError, also for another structure."""
         walker = build(s.replace({FRICTION: self.walker.plant.friction}), self.scene)
-        made = compiled(s, self.scene, walker, self.x)
-        if made.program.key != self.made.program.key:
+        code = compiled(s, self.scene, walker, self.x)
+        if code.program.key != self.code.program.key:
             raise InputError("another structure")
-        return self._block(made)
+        return self._block(code)
 
-    def _block(self, made: CompiledWalker) -> Array:
-        result = made.plan.start(self.x, 0.0, *self.mode, 0.0).block.view(np.float64).copy()
+    def _block(self, code: CompiledWalker) -> Array:
+        result = code.plan.start(self.x, 0.0, *self.mode, 0.0).block.view(np.float64).copy()
         for name in Functions._fields:
             result[PLACES[name]] = 0.0  # addresses
         return np.nan_to_num(result)  # whole numbers that are no floats
@@ -213,7 +213,7 @@ def numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
     """
     structures = [one for result in walks.values() for one in result]
     first = structures[0]
-    web = web_walkers([one.made for one in structures], first.scene.walked.constraint)
+    web = web_walkers([one.code for one in structures], first.scene.walked.constraint)
     blocks = dict(zip(map(id, structures), web.walkers, strict=True))
     plant = first.walker.plant
     feet = plant.description.stance_foot, plant.description.swing_foot
@@ -290,18 +290,18 @@ def structure_numbers(
             "friction": known.friction,
             "torque": known.torque if limit is None else limit,
         },
-        "hand": hand_places(walk.made),
+        "hand": hand_places(walk.code),
         "sliders": moved | {DELAY: ((), [*walk.delay().items()])},
     }
 
 
-def hand_places(made: CompiledWalker) -> dict[str, Any]:
+def hand_places(code: CompiledWalker) -> dict[str, Any]:
     """Cells where torque (n,) and force (2,) of the hand are, and re, im and turn of its point begin."""
-    n, hand = made.walker.plant.n, made.walker.disturbance
+    n, hand = code.walker.plant.n, code.walker.disturbance
     assert hand is not None
 
     def places(term: int, name: str, size: int) -> list[int]:
-        first = made.plan.term(term) + list(paths(hand.terms[term])).index(f"{name}[0]")
+        first = code.plan.term(term) + list(paths(hand.terms[term])).index(f"{name}[0]")
         return list(range(first, first + size))
 
     return {

@@ -60,8 +60,8 @@ def web_walkers(walkers: Sequence[CompiledWalker], reference: Reference) -> WebW
     Raises InputError for the exponential method, whose product with matrices has another form.
     """
     laws = _Laws({}, {}, [])
-    made = [_walker(one, reference, laws) for one in walkers]
-    return WebWalkers(web_module(laws.texts), tuple(laws.functions), tuple(made))
+    modules = [_walker(one, reference, laws) for one in walkers]
+    return WebWalkers(web_module(laws.texts), tuple(laws.functions), tuple(modules))
 
 
 class _Laws(NamedTuple):
@@ -145,11 +145,11 @@ def _linked(laws: Mapping[str, str]) -> bytes:
     module = _parsed(loops(), machine)
     called = {*LOOPS}
     for name, text in laws.items():
-        made = _parsed(text, machine)
-        for function in _defined(made):
+        modules = _parsed(text, machine)
+        for function in _defined(modules):
             function.name = f"{name}.{function.name}"
             called.add(function.name)
-        module.link_in(made)
+        module.link_in(modules)
     for function in _defined(module):
         if function.name not in called:
             function.linkage = "internal"

@@ -306,8 +306,8 @@ def _joint(
             f"{where}: type '{kind}', expected one of {['continuous', *JOINT_TYPES]}, without <mimic>; coupled "
             "joints are not supported, and a robot that floats needs no joint, its planar base is added"
         )
-    given = None if kind == "fixed" else element.find("axis")
-    axis = np.array(_numbers(given, "xyz", "1 0 0", 3, f"{where} <axis>"))
+    axis_element = None if kind == "fixed" else element.find("axis")
+    axis = np.array(_numbers(axis_element, "xyz", "1 0 0", 3, f"{where} <axis>"))
     if abs(math.hypot(*axis) - 1.0) > _ALMOST_ONE:
         raise ModelError(f"{where}: axis {axis} has length {math.hypot(*axis):g}, expected 1")
     if kind != "fixed":
