@@ -114,10 +114,10 @@ def design_gait(
     """
     check_part(robot, "robot", Biped, str, Path)
     biped = robot if isinstance(robot, Biped) else Biped.load(robot, preset)
-    passed = None if through is None else tuple(float(x) for x in np.concatenate(through))
+    point = None if through is None else tuple(float(x) for x in np.concatenate(through))
     limits = limits or StepLimits()
     request = GaitRequest(
-        speed, step, slope, Objective(objective), degree, nodes, limits, passed, curve
+        speed, step, slope, Objective(objective), degree, nodes, limits, point, curve
     )
     return certify(biped, request, optimise(biped, request, progress))
 

@@ -222,10 +222,10 @@ def after_impact(walker: Walker, t: float, x: Array, mode: Mode) -> tuple[Array,
 
     Raises SimulationError where the swing foot is behind the stance foot.
     """
-    struck = walker.strike(t, x, mode)
-    if struck is None:
+    after = walker.strike(t, x, mode)
+    if after is None:
         raise SimulationError("the swing foot is behind the stance foot: not an impact")
-    return struck
+    return after
 
 
 def newton_step(J: Array, gap: Array) -> Array:

@@ -304,5 +304,5 @@ def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = Non
     if not run.status.ok:
         raise SimulationError(f"the step of the cycle ended before: {run.status.name}")
     none = np.zeros(walker.plant.p)
-    seen = signals(walker, run, TimeReference(lambda t: (none, none, none)))
-    return certificates(walker, run, seen, limits)[0]
+    along = signals(walker, run, TimeReference(lambda t: (none, none, none)))
+    return certificates(walker, run, along, limits)[0]

@@ -74,24 +74,24 @@ def touchdowns(loop: ClosedLoop[Any], run: Trajectory) -> Noticed:
     return matched(np.array([event.t for event in run.events(FOOT_STRIKE)]), notices(loop, run))
 
 
-def matched(struck: Array, found: Array) -> Noticed:
+def matched(impacts: Array, found: Array) -> Noticed:
     """Touchdowns at `struck` [s] and notices at `found` [s], both increasing, as the module says."""
-    late, false = np.full(len(struck), np.nan), []
-    events = [(t, 0, i) for i, t in enumerate(struck)] + [(t, 1, i) for i, t in enumerate(found)]
+    late, false = np.full(len(impacts), np.nan), []
+    events = [(t, 0, i) for i, t in enumerate(impacts)] + [(t, 1, i) for i, t in enumerate(found)]
     waits: tuple[int, int] | None = None
     for t, kind, i in sorted(events):
         if waits is None:
             waits = kind, i
         elif waits[0] != kind:
             at = i if kind == 0 else waits[1]
-            late[at] = (found[waits[1]] if kind == 0 else t) - struck[at]
+            late[at] = (found[waits[1]] if kind == 0 else t) - impacts[at]
             waits = None
         else:
             false += [found[waits[1]], t] if kind else []
             waits = None
     if waits is not None and waits[0] == 1:
         false.append(found[waits[1]])
-    return Noticed(struck, late, np.array(false), waits is not None and waits[0] == 0)
+    return Noticed(impacts, late, np.array(false), waits is not None and waits[0] == 0)
 
 
 def notices(loop: ClosedLoop[Any], run: Trajectory) -> Array:

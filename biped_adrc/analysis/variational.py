@@ -148,14 +148,14 @@ def _on_x(guard: Guard) -> Guard:
     """An event of the walker as an event of y = (x, Phi), whose reset is none."""
     reset = guard.reset
 
-    def struck(t: float, y: Array) -> tuple[Array, Mode] | None:
+    def impact(t: float, y: Array) -> tuple[Array, Mode] | None:
         after = None if reset is None else reset(t, split_matrix(y)[0])
         return None if after is None else (y, after[1])
 
     def witness(t: float, y: Array) -> float:
         return guard.witness(t, split_matrix(y)[0])
 
-    return replace(guard, witness=witness, reset=None if reset is None else struck)
+    return replace(guard, witness=witness, reset=None if reset is None else impact)
 
 
 # -- one step --------------------------------------------------------------------------------------

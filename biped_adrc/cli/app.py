@@ -48,8 +48,8 @@ gait_app = typer.Typer(
 app.add_typer(gait_app, name="gait")
 
 
-def _say_version(asked: bool) -> None:
-    if asked:
+def _say_version(flag: bool) -> None:
+    if flag:
         typer.echo(f"biped-adrc {biped_adrc.__version__}")
         raise typer.Exit
 

@@ -57,11 +57,11 @@ def lines(summary: dict[str, Any], out: Path) -> list[str]:
     """What the command prints, one thing a line."""
     checks = summary["checks"]
     broken = [check for check in checks if not check["holds"]]
-    said = [f"does not hold: {x['name']}: {x['value']} {x['limit']}" for x in broken[:SHOWN]]
+    sentences = [f"does not hold: {x['name']}: {x['value']} {x['limit']}" for x in broken[:SHOWN]]
     left_out = summary["left_out"]
     return [
         f"{len(checks) - len(broken)} of {len(checks)} checks hold",
-        *said,
+        *sentences,
         f"Claims of the paper: {summary['tally']}",
         *summary["findings"],
         *([f"Left out: {'; '.join(left_out)}"] if left_out else []),

@@ -62,8 +62,8 @@ def _print_values() -> None:
     for what in map(field_of, names()):
         unit = "" if what.unit == "1" else f" [{what.unit}]"
         default = "" if what.default in (None, {}) else f"{what.default}"
-        told = ", ".join(x for x in (default, what.range_text) if x)
-        say(f"  {what.name}{unit}{f' ({told})' if told else ''}: {what.text}")
+        words = ", ".join(x for x in (default, what.range_text) if x)
+        say(f"  {what.name}{unit}{f' ({words})' if words else ''}: {what.text}")
     say(
         "A controller, observer, contact, sensor, touchdown, push or plant takes its own parameters the same "
         "way, such as controller.K_i=90000 of NPID."
@@ -155,7 +155,7 @@ def _names(text: str | None) -> tuple[str, ...] | None:
 def _explain(derived: Derived) -> None:
     """Print the robot, what was guessed about it, and whether each law holds."""
     _describe(derived.biped)
-    for sentence in derived.said:
+    for sentence in derived.guesses:
         say(f"guessed  {sentence}")
     for check in derived.checks:
         say(f"{'holds' if check.holds else 'BROKEN':<8} {check}")

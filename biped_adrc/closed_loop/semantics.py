@@ -177,7 +177,7 @@ def on_stance_foot(
     return loop.plant.ground_reaction(q, v, a)[1] - resultant[1], 0.0
 
 
-def asked(loop: Loop, s: Array, m: Measurement) -> tuple[Array, Array]:
+def command(loop: Loop, s: Array, m: Measurement) -> tuple[Array, Array]:
     """The controller's state corrected by a measurement, and the torque (p,) [N m] that it asks for."""
     s = loop.calls.correct(s, m)
     return s, loop.bounded(loop.saturate(loop.calls.output(s, m)))
@@ -190,7 +190,7 @@ def decided(loop: Loop, k: HeldParts, s: Array, m: Measurement, line: Line) -> t
     Order: correct, output, saturation, rate limit, queue, predict. With a known computation delay
     the observer's input is the torque that acts in the coming period, otherwise the one just asked for.
     """
-    s, u = asked(loop, s, m)
+    s, u = command(loop, s, m)
     if k.sizes.rate > 0:
         u = k.motors.limit(line, u)
     line = k.motors.send(line, u)
@@ -217,7 +217,7 @@ def unknown(loop: Loop, terms: Reduction, a: Array, u: Array, zeta: Array) -> Ar
     return zeta if loop.exact else unknown_force(terms, a, u)
 
 
-def struck(loop: Loop, t: float, x: Array, after: Mode) -> Array:
+def strike(loop: Loop, t: float, x: Array, after: Mode) -> Array:
     """x+ after impact, relabelling and the controller's jump, for x- at t [s].
 
     `after` is the single support that begins. The impact map of the plant may be wrong by
@@ -226,10 +226,12 @@ def struck(loop: Loop, t: float, x: Array, after: Mode) -> Array:
     q, v = parts(loop, x)[:2]
     impact = loop.plant.impact(q, v)
     v_plus = impact.v * (1.0 + loop.gain) if len(loop.gain) > 0 else impact.v
-    return landed(loop, t, x, impact.q, v_plus, after)
+    return after_contact(loop, t, x, impact.q, v_plus, after)
 
 
-def landed(loop: Loop, t: float, x: Array, q_plus: Array, v_plus: Array, after: Mode) -> Array:
+def after_contact(
+    loop: Loop, t: float, x: Array, q_plus: Array, v_plus: Array, after: Mode
+) -> Array:
     """x+ (nx,) after an impact at x- that left the plant at q_plus (n,) [rad], v_plus (n,) [rad/s].
 
     Shared by plants with an impact map and by those that compute their own contacts. Controller
@@ -239,7 +241,7 @@ def landed(loop: Loop, t: float, x: Array, q_plus: Array, v_plus: Array, after: 
     then those of the other foot.
     """
     (q, v, s, tail), k = parts(loop, x), loop.held
-    seen = q_plus, v_plus
+    reading = q_plus, v_plus
     if k is not None:
         h, expected = read(k.sizes, tail), v_plus
         if k.sensors is not None and k.touchdown is None:
@@ -248,9 +250,9 @@ def landed(loop: Loop, t: float, x: Array, q_plus: Array, v_plus: Array, after: 
         if k.touchdown is not None:
             h = h._replace(b=unnoticed(k, h.b, t))
             return np.concatenate((q_plus, v_plus, s, written(h)))
-        seen = k.reading(h.w, q_plus, v_plus)
+        reading = k.reading(h.w, q_plus, v_plus)
         tail = written(h)
-    s = loop.calls.jump(s, loop.measure(t, *seen, after), loop.swap)
+    s = loop.calls.jump(s, loop.measure(t, *reading, after), loop.swap)
     return np.concatenate((q_plus, v_plus, s, tail))
 
 

@@ -19,7 +19,7 @@ import numpy as np
 
 from biped_adrc.closed_loop.noticing import estimated
 from biped_adrc.closed_loop.protocols import Mode
-from biped_adrc.closed_loop.semantics import landed, parts, torque_held
+from biped_adrc.closed_loop.semantics import after_contact, parts, torque_held
 from biped_adrc.closed_loop.stepping_plant import (
     Contact,
     Load,
@@ -260,7 +260,7 @@ class SteppingLoop(ClosedLoop[Any]):
                 f"{name} at t = {t:.6g} s: its impulse or the state after it is not finite"
             )
         after = Mode(mode.step + 1, t)
-        x_plus = self.with_plant(landed(self, t, x, state.q, state.v, after), state)
+        x_plus = self.with_plant(after_contact(self, t, x, state.q, state.v, after), state)
         return FoundEvent(Event(name, t, x, x_plus), (x_plus, after))
 
 

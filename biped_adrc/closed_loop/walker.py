@@ -117,14 +117,14 @@ class Walker(ClosedLoop[Biped]):
         """
         if self.plant.swing_foot(x[: self.plant.n])[0] <= LEAST_STEP:
             return None
-        return self.struck(t, x, mode)
+        return self.impact(t, x, mode)
 
-    def struck(self, t: float, x: Array, mode: Mode) -> tuple[Array, Mode]:
+    def impact(self, t: float, x: Array, mode: Mode) -> tuple[Array, Mode]:
         """x+ (nx,) after impact and relabelling at t [s], wherever the swing foot is, and the mode
         that begins.
         """
         after = Mode(mode.step + 1, t)
-        return semantics.struck(self, t, x, after), after
+        return semantics.strike(self, t, x, after), after
 
     def drop(self, step: int) -> float:
         """How far the steps of the ground in single support `step` lower the ground where it ends [m]."""

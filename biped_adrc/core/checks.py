@@ -151,11 +151,11 @@ def returned(
         found = _numbers_returned(found, shape, part, method, field)
     if finite and not all(map(math.isfinite, found.ravel().tolist())):
         shown = " ".join(str(found).split())
-        raise NotFiniteError(f"{_said(part, method, field)} {shown}")
+        raise NotFiniteError(f"{_sentence(part, method, field)} {shown}")
     return found
 
 
-def _said(part: object, method: str, field: bool) -> str:
+def _sentence(part: object, method: str, field: bool) -> str:
     """How a sentence about what a class gave begins: X.output (own.py:12) returned, X gives q_d =."""
     name = spoken(part)
     return (
@@ -180,15 +180,15 @@ def _numbers_returned(
         array = np.asarray(found)
     except ValueError:  # rows of different lengths
         array = np.empty(0, dtype=object)
-    said = _said(part, method, field)
+    sentence = _sentence(part, method, field)
     expected = "a row of real numbers" if shape is None else f"{shape}, real numbers"
     if array.dtype.kind not in "fiu":
         forgot = "; is a return statement missing?" if found is None and not field else ""
         shown = f"{found.dtype} numbers" if isinstance(found, np.ndarray) else _shown(found)
-        raise InputError(f"{said} {shown}, expected {expected}{forgot}")
+        raise InputError(f"{sentence} {shown}, expected {expected}{forgot}")
     if array.ndim != 1 if shape is None else array.shape != shape:
-        said = said.removesuffix(" =") if field else f"{said} an array"
-        raise InputError(f"{said} of shape {array.shape}, expected {expected}")
+        sentence = sentence.removesuffix(" =") if field else f"{sentence} an array"
+        raise InputError(f"{sentence} of shape {array.shape}, expected {expected}")
     return array.astype(float)
 
 

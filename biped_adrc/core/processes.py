@@ -93,19 +93,19 @@ def run_tasks(
     workers: processes (one per core if None); with 1 the tasks run in this process, which helps a debugger. An
     error in one task, or Ctrl-C, terminates all workers and is raised.
     """
-    told = progress or (lambda *_: None)
+    report = progress or (lambda *_: None)
     if (workers or cores()) == 1:
         results = []
         for done, task in enumerate(tasks, 1):
             results.append(_timed(task))
-            told(done, len(tasks), task.name)
+            report(done, len(tasks), task.name)
         return results
     executor = processes(workers)
     try:
         futures = {executor.submit(_timed, task): task.name for task in tasks}
         for done, future in enumerate(as_completed(futures), 1):
             future.result()
-            told(done, len(tasks), futures[future])
+            report(done, len(tasks), futures[future])
         return [future.result() for future in futures]
     finally:
         stop(executor)

@@ -40,7 +40,7 @@ def one_line(thing: Any) -> str:
     Fields at their defaults, and empty mappings, are left out.
     """
     name = type(thing).__name__
-    told = ", ".join(f"{key}={short(x)}" for key, x in _told(thing))
+    told = ", ".join(f"{key}={short(x)}" for key, x in _fields_of(thing))
     room = LONGEST - len(name) - 2
     return f"{name}({told if len(told) <= room else told[: room - 3] + '...'})"
 
@@ -64,17 +64,21 @@ def short(x: Any) -> str:
     return f"{type(x).__name__}(...)"
 
 
-def _told(thing: Any) -> list[tuple[str, Any]]:
+def _fields_of(thing: Any) -> list[tuple[str, Any]]:
     """Names and values of fields, without those at their defaults."""
     if not is_dataclass(thing):
         names = getattr(thing, "_fields", ())
         usual = getattr(thing, "_field_defaults", {})
         return [(key, getattr(thing, key)) for key in names if not _same(thing, key, usual)]
-    seen = [f for f in fields(thing) if f.repr and f.init]
+    shown_fields = [f for f in fields(thing) if f.repr and f.init]
     kind = type(thing)
-    usual = {f.name: getattr(kind, f.name, f.default) for f in seen if f.default is not MISSING}
-    usual |= {f.name: f.default_factory() for f in seen if f.default_factory is not MISSING}
-    return [(f.name, getattr(thing, f.name)) for f in seen if not _same(thing, f.name, usual)]
+    usual = {
+        f.name: getattr(kind, f.name, f.default) for f in shown_fields if f.default is not MISSING
+    }
+    usual |= {f.name: f.default_factory() for f in shown_fields if f.default_factory is not MISSING}
+    return [
+        (f.name, getattr(thing, f.name)) for f in shown_fields if not _same(thing, f.name, usual)
+    ]
 
 
 def _same(thing: Any, key: str, usual: Mapping[str, Any]) -> bool:

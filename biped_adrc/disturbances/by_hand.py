@@ -39,8 +39,8 @@ class HeldRows(Windowed):
     jumps: Array = field(kw_only=True)
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        passed = 1.0 * (t >= t_start + self.times)
-        return self.amplitude + self.jumps @ passed
+        past = 1.0 * (t >= t_start + self.times)
+        return self.amplitude + self.jumps @ past
 
     @property
     def switches(self) -> tuple[tuple[int, float], ...]:

@@ -61,12 +61,12 @@ def observe(
     make: structure of the walker. The expressions are those of `read`.
     """
     K = Vector("K", count(example))
-    watched = K.like(example)
-    equations = Equations(make, K.symbol, watched.walker)
+    numbers = K.like(example)
+    equations = Equations(make, K.symbol, numbers.walker)
     at = equations.at()
 
     def tracked(s: Array, m: Measurement) -> ReferencePoint:
-        return run(at.trace, call, watched.h, m.t, m.q, m.v)
+        return run(at.trace, call, numbers.h, m.t, m.q, m.v)
 
     return equations.function(at.inp, *at.does(read, tracked))
 
@@ -84,10 +84,10 @@ def compiled_readings(
     try:
         program = Program.of(walker, walker.controller_size(nx))
         code = reading_code("observe", signals_at, program, reference)
-        watched = SignalNumbers(program.numbers, reference)
+        numbers = SignalNumbers(program.numbers, reference)
     except (NotCompiled, ModelError):
         return None
-    K = np.array([*floats(watched), 0.0])
+    K = np.array([*floats(numbers), 0.0])
     first = trajectory.arcs[0]
     example = signals_at(
         walker, first.t[0], first.x[0], first.mode, lambda s, m: reference(m.t, m.q, m.v)
@@ -118,6 +118,6 @@ def reading_code(name: str, read: Reading, program: Program, curve: Reference) -
     Under the walker's structure, that of the curve, and `read` itself. Raises NotCompiled for a curve without a
     compiled form.
     """
-    watched = SignalNumbers(program.numbers, curve)
+    numbers = SignalNumbers(program.numbers, curve)
     key = name, read, program.key, structure(curve)
-    return generated(key, {name: lambda: observe(program.make, watched, read)})
+    return generated(key, {name: lambda: observe(program.make, numbers, read)})

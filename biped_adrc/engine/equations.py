@@ -322,7 +322,7 @@ class Equations:
         """
         inp, trace = Vector("inp", 2 + self.make.nx), Tracer()
         t, step, x = inp.take(), inp.take(), inp.take(self.make.nx)
-        x = trace(semantics.struck)(self.loop(trace), t, x, Mode(step, t))
+        x = trace(semantics.strike)(self.loop(trace), t, x, Mode(step, t))
         return self.function(inp, x, trace.solver.least)
 
     def events(self) -> SymbolicFunction:

@@ -103,7 +103,7 @@ def _ended(walker: Walker, code: int, t: float, x: Array, mode: Mode) -> FoundEv
     if code == COMPLETED:
         return None
     if code == STRUCK:
-        outcome = walker.struck(t, x, mode)
+        outcome = walker.impact(t, x, mode)
         return FoundEvent(Event(FOOT_STRIKE, t, x, outcome[0]), outcome)
     status = STATUS[code]
     if status in simulator.FAILURES:

@@ -33,13 +33,13 @@ def check_planar(tree: Tree, d: RobotDescription) -> None:
 
     Raises ModelError that names the joint, its axis and the expected one.
     """
-    wanted: list[tuple[str, str, Vector]] = [
+    checked_values: list[tuple[str, str, Vector]] = [
         (d.base[0], "prismatic", (1.0, 0.0, 0.0)),
         (d.base[1], "prismatic", (0.0, 0.0, 1.0)),
         *((name, "revolute", (0.0, 1.0, 0.0)) for name in d.joints),
     ]
     joints = {joint.name: joint for joint in tree.joints}
-    for name, kind, axis in wanted:
+    for name, kind, axis in checked_values:
         joint = joints.get(name)
         along = 0.0 if joint is None else float(np.dot(joint.axis, axis))
         off = 1.0 - (abs(along) if kind == "revolute" else along)

@@ -27,7 +27,7 @@ from biped_adrc.paper import scenarios
 from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Member, with_values
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait, build
-from biped_adrc.scenario.recording import Walk, watched
+from biped_adrc.scenario.recording import Walk, recorded_walk
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import Part, runs_in_parts
@@ -56,21 +56,21 @@ class Track(NamedTuple):
         `usual` has no push and is smooth: cubic Hermite interpolants between its nodes. NaN without a common
         time.
         """
-        seen = (self.t >= onset) & (self.t <= usual.t[-1])
+        counted = (self.t >= onset) & (self.t <= usual.t[-1])
         t, first = np.unique(usual.t, return_index=True)
-        if not np.any(seen) or not np.all(np.isfinite(usual.error)):
+        if not np.any(counted) or not np.all(np.isfinite(usual.error)):
             return float("nan")
         there = CubicHermiteSpline(t, usual.error[first], usual.derror[first])
-        at = self.t[seen]
-        return largest(at, self.error[seen] - there(at), self.derror[seen] - there(at, 1))
+        at = self.t[counted]
+        return largest(at, self.error[counted] - there(at), self.derror[counted] - there(at, 1))
 
 
 def track(walk: Walk) -> Track:
     """The first single support of a walk."""
     arc = walk.trajectory.arcs[0]
     s = walk.signals.of_step(arc.mode.step)
-    struck = arc.event is not None and arc.event.guard == FOOT_STRIKE
-    p, rate = s.error.shape[1], float(s.dtheta[-1]) if struck else float("nan")
+    ended = arc.event is not None and arc.event.guard == FOOT_STRIKE
+    p, rate = s.error.shape[1], float(s.dtheta[-1]) if ended else float("nan")
     return Track(s.t - s.t[0], s.error, s.v[:, :p] - s.dq_d, rate)
 
 
@@ -97,7 +97,7 @@ def pieces(run: Scenario, zero: bool, share: float) -> list[Walk]:
     later = Exponential(share * COARSE) if adrc else RK4(share * COARSE)
     parts = [Part(1, method_of(with_values(run, h=share * h), walker)), Part(impacts - 1, later)]
     runs = runs_in_parts(walker, x, mode, parts[: 1 + (impacts > 1)])
-    return [watched(walker, gait, moved) for moved in runs]
+    return [recorded_walk(walker, gait, moved) for moved in runs]
 
 
 @lru_cache(maxsize=64)

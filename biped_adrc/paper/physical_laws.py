@@ -68,8 +68,8 @@ def model_laws(preset: str, samples: int = 500, seed: int = 1) -> dict[str, floa
         if k % MOMENTA == 0:
             change = impact_momenta(b, q, v, hit) / (b.mass * np.linalg.norm(v))
             kept = np.maximum(kept, change)
-        lost = b.kinetic_energy(q, v) - b.kinetic_energy(hit.q, hit.v)
-        growth = float(np.maximum(growth, -lost / b.kinetic_energy(q, v)))
+        loss = b.kinetic_energy(q, v) - b.kinetic_energy(hit.q, hit.v)
+        growth = float(np.maximum(growth, -loss / b.kinetic_energy(q, v)))
     values = (agree, *(float(x) for x in kept), growth)
     return dict(zip(MODEL_LAWS, values, strict=True))
 

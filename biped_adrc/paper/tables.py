@@ -97,7 +97,8 @@ def _multipliers(r: Results) -> Table:
         result[f"regression (27) on the pushed walk, {c}"] = test.magnitudes.tolist(), test.warning
     result["printed in the paper"] = list(PUBLISHED_MULTIPLIERS), "from a regression: no target"
     return table(
-        {"method": said, "magnitudes": z, "remark": remark} for said, (z, remark) in result.items()
+        {"method": method, "magnitudes": z, "remark": remark}
+        for method, (z, remark) in result.items()
     )
 
 

@@ -171,13 +171,13 @@ def word_of(cases: Sequence[Case]) -> str:
 
 def row_of(claim: Claim, r: Results) -> Row:
     """The row of a claim of the paper; of one without scenarios, with the word that claims.toml has for it."""
-    said, cases = texts()[claim.name], claim.cases(r)
-    word = said.get("word") or word_of(cases)
-    limit = claim.limit("", CLAIM, math.nan).limit if "metric" in said else ""
+    words, cases = texts()[claim.name], claim.cases(r)
+    word = words.get("word") or word_of(cases)
+    limit = claim.limit("", CLAIM, math.nan).limit if "metric" in words else ""
     figures = Extremes.of(case.figure for case in cases)
     values = {"limit": limit, "found": figures, **claim.values(r)}
     number, reason, finding = (
-        str(said.get(key, "")).format(**values) for key in ("number", "reason", "finding")
+        str(words.get(key, "")).format(**values) for key in ("number", "reason", "finding")
     )
     held = [case.holds and not case.marginal for case in cases]
     return Row(
@@ -185,11 +185,11 @@ def row_of(claim: Claim, r: Results) -> Row:
         claim.where,
         word,
         number,
-        f"{said['metric']} {limit}" if limit else "",
+        f"{words['metric']} {limit}" if limit else "",
         share_text(cases, word == DEPENDS),
         reason,
         finding,
-        sum(held) / max(len(held), 1) if said.get("asserted") else None,
+        sum(held) / max(len(held), 1) if words.get("asserted") else None,
         sum(case.marginal for case in cases),
     )
 

@@ -138,14 +138,14 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
     plant = plant_of(s, biped)
     width, hardware = s.errors.impact_width, s.hardware
     gain = impact_error(drawn(s, "impact"), width, biped.n if width else 0)
-    told = hardware.touchdown.name is None
+    ideal = hardware.touchdown.name is None
     return Walker(
         plant,
         controller(s, gait, biped),
         disturbances(s, biped, gait.period, plant),
         ContinuousTime()
         if hardware.period is None
-        else SampledTime(hardware.period, told, hardware.delay, hardware.delay_known),
+        else SampledTime(hardware.period, ideal, hardware.delay, hardware.delay_known),
         model=None if plant is biped else biped,
         torque_limit=hardware.torque_limit,
         max_step_time=s.run.max_step_time,

@@ -36,12 +36,12 @@ def edge_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
     result = list[str]()
     for part in () if walker.disturbance is None else summands(walker.disturbance):
         edges = _edges(part)
-        said = [x for step, times in edges.items() for x in _remarks(step, times, trajectory)]
-        if not said and not _acted(part, trajectory, walker.plant.n):
+        remarks = [x for step, times in edges.items() for x in _remarks(step, times, trajectory)]
+        if not remarks and not _acted(part, trajectory, walker.plant.n):
             names = [_name(step, times) for step, times in edges.items()]
             name = names[0] if names else f"the push {type(part).__name__}"
-            said = [f"{name} did not act: it was zero at every instant of the walk"]
-        result += said
+            remarks = [f"{name} did not act: it was zero at every instant of the walk"]
+        result += remarks
     return tuple(dict.fromkeys(result))
 
 

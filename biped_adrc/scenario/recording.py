@@ -74,7 +74,7 @@ class Walk(Shown):
     """None for a walker made in Python."""
     recorded: Signals | None = None
     """Signals from the file of a stored walk."""
-    said: tuple[str, ...] = ()
+    stored_remarks: tuple[str, ...] = ()
     """Remarks that came with it, as from a file."""
 
     def __repr__(self) -> str:
@@ -201,9 +201,13 @@ class Walk(Shown):
         edge.
         """
         if self.recorded is not None:
-            return self.said
+            return self.stored_remarks
         walker, trajectory = self.walker, self.trajectory
-        return (*self.said, *edge_remarks(walker, trajectory), *step_remarks(walker, trajectory))
+        return (
+            *self.stored_remarks,
+            *edge_remarks(walker, trajectory),
+            *step_remarks(walker, trajectory),
+        )
 
     @property
     def controller_name(self) -> str:
@@ -283,7 +287,7 @@ class Walk(Shown):
         return inline(summary, animation_html({self.controller_name: self}), [self.plot()])
 
 
-def watched(
+def recorded_walk(
     walker: Walker, gait: Gait | None, trajectory: Trajectory, scenario: Scenario | None = None
 ) -> Walk:
     """The walk of a trajectory, which is given this as its viewer: a trajectory alone can then draw itself."""

@@ -100,8 +100,8 @@ def register(kind: str, name: str, thing: Callable[..., object], words: str = ""
     check_part(name, f"the name of a {kind}", str)
     if not callable(thing):
         raise InputError(f"'{name}' is registered as {thing!r}, expected a class or a function")
-    taken = {_plain(known) for known in names(kind)}
-    if _plain(name) in taken or is_own(name) or not name.strip():
+    names_ = {_plain(known) for known in names(kind)}
+    if _plain(name) in names_ or is_own(name) or not name.strip():
         raise InputError(
             f"the {kind} '{name}' cannot be registered: that name is taken or reads as module:Class; there are "
             f"{list(names(kind))}, choose another name"
@@ -219,8 +219,8 @@ def _takes(make: Callable[..., object]) -> Mapping[str, Parameter]:
 
 def lacking(make: Callable[..., object], values: Container[str]) -> list[str]:
     """Names of parameters without a default that are not among the values."""
-    wanted = (p for p in takes(make).values() if p.default is Parameter.empty)
-    return [p.name for p in wanted if p.name not in values]
+    parameters = (p for p in takes(make).values() if p.default is Parameter.empty)
+    return [p.name for p in parameters if p.name not in values]
 
 
 def construct(

@@ -35,7 +35,7 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid import storage
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.scenario.build import RobotAndGait, build
-from biped_adrc.scenario.recording import Walk, watched
+from biped_adrc.scenario.recording import Walk, recorded_walk
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walker_record import MissingPart, PartRecord, Reader, Writer
 
@@ -114,10 +114,10 @@ def _stored(trajectory: Trajectory, beside: Mapping[str, Array]) -> Walk:
     record = json.loads(str(beside["walker"]))
     reader = Reader(record["parts"])
     walker = _walker(reader, record["parts"][record["walker"]])
-    seen = {k.removeprefix("signal."): x for k, x in beside.items() if k.startswith("signal.")}
-    made = watched(walker, reader.made(record["gait"]), trajectory, _scenario(trajectory))
-    said = tuple(map(str, trajectory.settings.get("remarks", ())))
-    return replace(made, recorded=Signals(**seen), said=said)
+    columns = {k.removeprefix("signal."): x for k, x in beside.items() if k.startswith("signal.")}
+    made = recorded_walk(walker, reader.made(record["gait"]), trajectory, _scenario(trajectory))
+    remarks = tuple(map(str, trajectory.settings.get("remarks", ())))
+    return replace(made, recorded=Signals(**columns), stored_remarks=remarks)
 
 
 def _check(walk: Walk) -> None:
@@ -165,7 +165,7 @@ def _scenario(trajectory: Trajectory) -> Scenario | None:
 def replay(s: Scenario, trajectory: Trajectory) -> Walk:
     """The walk of a trajectory that another process simulated: its walker is built again from the scenario."""
     scene = RobotAndGait.of(s)
-    return watched(build(s, scene), scene.gait, trajectory, s)
+    return recorded_walk(build(s, scene), scene.gait, trajectory, s)
 
 
 def load_walks(paths: Sequence[Path]) -> dict[str, Walk]:

@@ -29,7 +29,7 @@ from biped_adrc.studies.search import Candidate, Search, Walks, judged, ranked
 from biped_adrc.studies.store import opened
 from biped_adrc.studies.study import CASE, CONDITION, Point, Study, chosen_file, read_study
 
-Asked = Sequence[tuple[int, Values, Mapping[str, Any]]]
+Candidates = Sequence[tuple[int, Values, Mapping[str, Any]]]
 """Candidates to be walked: number, values, and what locates their walks besides."""
 
 
@@ -64,35 +64,35 @@ def study(
     >>> [row["peak_error"] < 0.1 for row in results.rows()]
     [True, True]
     """
-    asked = study if isinstance(study, Study) else read_study(study)
-    if asked.search is not None:
+    study_ = study if isinstance(study, Study) else read_study(study)
+    if study_.search is not None:
         optuna_library()
     if function is None:
-        asked.rehearse()
+        study_.rehearse()
         function = run_trials
-    files = [x for x in asked.versions if x.startswith("file ")]
+    files = [x for x in study_.versions if x.startswith("file ")]
     if cluster is not None and files:
         raise InputError(
-            f"study '{asked.name}' names files that workers elsewhere may not have: {files}; run it on this "
+            f"study '{study_.name}' names files that workers elsewhere may not have: {files}; run it on this "
             "machine"
         )
     folder = Path(out)
-    with opened(folder, asked) as store, Crew(workers, cluster) as crew:
-        runner = Runner(function, store, crew, asked.count, progress)
-        if asked.search is None:
-            runner.run(asked.points())
-            return Results(asked, folder)
-        walker = _Searched(asked, asked.search, runner)
-        result = {name: walker.choice(name) for name in asked.cases or ("",)}
+    with opened(folder, study_) as store, Crew(workers, cluster) as crew:
+        runner = Runner(function, store, crew, study_.count, progress)
+        if study_.search is None:
+            runner.run(study_.points())
+            return Results(study_, folder)
+        walker = _Searched(study_, study_.search, runner)
+        result = {name: walker.choice(name) for name in study_.cases or ("",)}
         choices = {name: x for name, x in result.items() if isinstance(x, Choice)}
         failures = tuple(x for x in result.values() if isinstance(x, str))
         if not choices:
             raise InputError("\n".join(failures))
         walker.test(choices)
     for name, x in choices.items():
-        comment = f"Chosen by the study '{asked.name}', candidate {x.selected[0].number}."
+        comment = f"Chosen by the study '{study_.name}', candidate {x.selected[0].number}."
         write_scenario(folder / chosen_file(name), scenario_of(x.values), comment)
-    return Results(asked, folder, choices, failures)
+    return Results(study_, folder, choices, failures)
 
 
 class _Searched:
@@ -106,17 +106,17 @@ class _Searched:
         search, base = self.search, self.study.values_of(case)
         best: list[int] = []
 
-        def told(c: Candidate) -> None:
+        def report(c: Candidate) -> None:
             if best[-1:] != [c.number]:
                 best.append(c.number)
                 missed = "" if c.feasible else f", missing limits by {100 * sum(c.missed):.3g} %"
                 words = f"{search.objective.words} {c.objective:.4g}{missed}"
                 self.runner.tell(f"{case or self.study.name}: candidate {c.number}, {words}")
 
-        def walk(kind: str, asked: Sequence[Candidate]) -> list[Walks]:
-            return self.walk(kind, [(c.number, c.values, _named(case)) for c in asked])
+        def walk(kind: str, study_: Sequence[Candidate]) -> list[Walks]:
+            return self.walk(kind, [(c.number, c.values, _named(case)) for c in study_])
 
-        result = searched(search, base, partial(walk, "search"), told)
+        result = searched(search, base, partial(walk, "search"), report)
         failure = self.failure(result, case, "search")
         if not failure:
             few = _few(search, result)
@@ -147,21 +147,21 @@ class _Searched:
         self.runner.total = self.runner.done
         self.runner.tell()
 
-    def walk(self, kind: str, asked: Asked) -> list[Walks]:
+    def walk(self, kind: str, study_: Candidates) -> list[Walks]:
         """The walks of each candidate on a set."""
         walks = getattr(self.search.walks, kind)
         conditions = self.study.conditions_of(walks)
         first, places = self.place, itertools.count(self.place)
 
         def points() -> Iterator[Point]:
-            for (number, values, named), c in itertools.product(asked, conditions):
+            for (number, values, named), c in itertools.product(study_, conditions):
                 there = {**values, **self.study.conditions.get(c, {})}
                 for seed in walks.seeds:
                     at = {SET: kind, **named, CANDIDATE: number, **({CONDITION: c} if c else {})}
                     yield Point(next(places), {**at, SEED: seed}, {**there, SEED: seed})
 
         count = len(conditions) * len(walks.seeds)
-        self.place += count * len(asked)
+        self.place += count * len(study_)
         self.runner.run(points(), self.place - first)
         result = [
             (str(at.get(CONDITION, "")), row)

@@ -129,8 +129,8 @@ def _map(found: Results, numbers: Sequence[Sequence[float]], title: str, log: bo
     levels = {name: len({repr(x.at[name]) for g in groups for x in g.rows}) for name in study.axes}
     axes = sorted(levels, key=lambda name: -levels[name])
     panels: dict[str, tuple[list[Any], list[Any], list[float]]] = {}
-    for g, told in zip(groups, numbers, strict=True):
-        for x, number in zip(g.rows, told, strict=True):
+    for g, shown_numbers in zip(groups, numbers, strict=True):
+        for x, number in zip(g.rows, shown_numbers, strict=True):
             where = _panel(g, x.at, axes)
             xs, ys, values = panels.setdefault(where, ([], [], []))
             xs.append(x.at[axes[0]])

@@ -46,7 +46,7 @@ def optuna_library() -> Any:
 
 
 def searched(
-    search: Search, base: Values, walk: Walk, told: Callable[[Candidate], None]
+    search: Search, base: Values, walk: Walk, report: Callable[[Candidate], None]
 ) -> list[Candidate]:
     """All candidates of a case by number; number 0 is the case itself, with the values `base`.
 
@@ -56,7 +56,7 @@ def searched(
     result: list[Candidate] = []
     numbers = itertools.count()
     while (left := search.budget - sum(c.walked for c in result)) > 0:
-        asked: list[Candidate] = []
+        batch: list[Candidate] = []
         new: list[Candidate] = []
         for number in itertools.islice(numbers, ASKED * search.generation):
             c = judged(search, base, number, proposals.ask(number) if number else {})
@@ -64,16 +64,16 @@ def searched(
                 new.append(c)
                 proposals.tell(c)
                 continue
-            asked.append(c)
-            if len(asked) == min(left, search.generation):
+            batch.append(c)
+            if len(batch) == min(left, search.generation):
                 break
-        if not asked:
+        if not batch:
             break
-        for c, walks in zip(asked, walk(asked), strict=True):
+        for c, walks in zip(batch, walk(batch), strict=True):
             new.append(judged(search, base, c.number, c.chosen, walks))
             proposals.tell(new[-1])
         result += sorted(new, key=lambda c: c.number)
-        told(ranked(search, result)[0])
+        report(ranked(search, result)[0])
         proposals.refine(result)
     return result
 

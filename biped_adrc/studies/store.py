@@ -112,12 +112,12 @@ def _wrong(db: sqlite3.Connection, study: Study, versions: dict[str, str]) -> st
     """Write the tables into an empty file; what is wrong with a file of something else, or empty."""
     (mark,) = db.execute("PRAGMA application_id").fetchone()
     if not mark and not db.execute("SELECT 1 FROM sqlite_master").fetchone():
-        told = study.name, study.hash, study.model_dump_json(), json.dumps(versions)
+        record = study.name, study.hash, study.model_dump_json(), json.dumps(versions)
         with db:
             db.execute("BEGIN IMMEDIATE")
             for statement in SCHEMA.split(";")[:-1]:
                 db.execute(statement)
-            db.execute("INSERT INTO study VALUES (?, ?, ?, ?)", told)
+            db.execute("INSERT INTO study VALUES (?, ?, ?, ?)", record)
             db.execute(f"PRAGMA application_id = {APPLICATION}")
         return ""
     if mark != APPLICATION:

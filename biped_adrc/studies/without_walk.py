@@ -39,10 +39,10 @@ def numbers_without_walk(columns: Iterable[str], values: Values) -> dict[str, fl
 
     None where there is no finite number, or where the values do not fit together.
     """
-    asked = [name for name in columns if name in WITHOUT_WALK]
+    computed = [name for name in columns if name in WITHOUT_WALK]
     text = json.dumps(values, sort_keys=True)
     try:
-        result = {name: float(getattr(_specification(text), name)) for name in asked}
+        result = {name: float(getattr(_specification(text), name)) for name in computed}
     except BipedError:
-        return dict.fromkeys(asked)
+        return dict.fromkeys(computed)
     return {name: x if math.isfinite(x) else None for name, x in result.items()}

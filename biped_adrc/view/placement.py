@@ -75,8 +75,8 @@ class Surface:
         """z [m] of the ground at x [m]; exactly at an edge the level behind it, or the level before it
         if `before`.
         """
-        passed = self.edges < x if before else self.edges <= x
-        return -math.tan(self.slope) * x - float(np.sum(self.drops[passed]))
+        behind = self.edges < x if before else self.edges <= x
+        return -math.tan(self.slope) * x - float(np.sum(self.drops[behind]))
 
     def line(self, low: float, high: float) -> Array:
         """Corners (K, 2), x and z [m], of the ground from x = low to high [m]; each edge gives two."""
@@ -322,8 +322,8 @@ def contact_changes(scene: WalkScene, arc: Arc) -> Array:
     """Times (K,) [s] from which on the other foot touches soft ground or does not, or one slips or does not."""
     if FORCE not in arc.read:
         return np.zeros(0)
-    seen = np.column_stack((slipping(scene, arc), np.any(arc.read[FORCE][:, 2:], axis=1)))
-    times: Array = arc.t[1:][np.any(seen[1:] != seen[:-1], axis=1)]
+    contact = np.column_stack((slipping(scene, arc), np.any(arc.read[FORCE][:, 2:], axis=1)))
+    times: Array = arc.t[1:][np.any(contact[1:] != contact[:-1], axis=1)]
     return times
 
 

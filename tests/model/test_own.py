@@ -178,7 +178,7 @@ def test_a_file_as_frost_writes_it(urdf):
     derived, full = derive(urdf(text), hints), biped_from_urdf(urdf(rabbit(), "full.urdf"))
     assert derived.broken == ()
     assert derived.biped.description.swing_foot == "left_shin_tip"
-    assert any("slender" in sentence for sentence in derived.said)
+    assert any("slender" in sentence for sentence in derived.guesses)
     for q, v in states(5, 5):
         close(derived.biped.inertia(q), full.inertia(q))
         close(derived.biped.bias(q, v), full.bias(q, v))
@@ -195,7 +195,7 @@ def test_guesses_are_said_and_laws_hold(urdf):
     assert d.joints == ("q1_right", "q1_left", "q2_right", "q2_left", "base_pitch")
     assert d.peak_torque == 150.0
     assert derived.broken == ()
-    said = "\n".join(derived.said)
+    said = "\n".join(derived.guesses)
     for part in ("base_x", "right_toe", "150 N m", "balls"):
         assert part in said
     assert derived.biped.mass == pytest.approx(32.0)

@@ -211,8 +211,8 @@ class WalkerLoops:
         Phi, G_1, G_2 = robot_step(self.A, self.B, self.period, f, self.lag)
         m, p = Y.shape[-1], G_2.shape[-1]
         G = np.concatenate((G_2, G_1), axis=-1) if f > 0.0 else G_2
-        seen = np.broadcast_to(np.eye(m, Phi.shape[-1]), (*G.shape[:-2], m, Phi.shape[-1]))
-        robot = Response.of(Phi, G, seen, np.zeros((m, G.shape[-1])))
+        eye = np.broadcast_to(np.eye(m, Phi.shape[-1]), (*G.shape[:-2], m, Phi.shape[-1]))
+        robot = Response.of(Phi, G, eye, np.zeros((m, G.shape[-1])))
 
         def moved(angles: Array) -> ComplexArray:
             late = np.exp(-1j * angles)[..., np.newaxis, np.newaxis]

@@ -158,8 +158,8 @@ def check_encoders(
         sensors=Sensors(counts=counts, velocity="measured"),
     )
     run = _walk(walker, *gait.start(biped), impacts, RK4(min(5e-4, 0.25 * period)))
-    seen = "exact angles" if counts is None else f"{counts:g} counts"
-    words = f"{1.0 / period:.0f} Hz, {seen}, delay {1e6 * delay:.4g} us"
+    encoders = "exact angles" if counts is None else f"{counts:g} counts"
+    words = f"{1.0 / period:.0f} Hz, {encoders}, delay {1e6 * delay:.4g} us"
     return CheckedWalk(words, run.status, step_errors(gait, run))
 
 

@@ -111,7 +111,7 @@ def in_double(f: ca.Function, angles: Sequence[bool]) -> set[int]:
     made: dict[int, int] = {}
     sources: dict[int, list[int]] = {}
     degree: dict[int, int] = {}
-    wanted: list[int] = []
+    open_names: list[int] = []
     for i in range(f.n_instructions()):
         code, a = f.instruction_id(i), f.instruction_input(i)
         if code == ca.OP_OUTPUT:
@@ -125,14 +125,14 @@ def in_double(f: ca.Function, angles: Sequence[bool]) -> set[int]:
         else:
             degree[i] = _degree(code, of)
         if code == ca.OP_SUB and LINEAR in of and UNKNOWN not in of:
-            wanted.append(i)
+            open_names.append(i)
         made[f.instruction_output(i)[0]] = i
     result: set[int] = set()
-    while wanted:
-        i = wanted.pop()
+    while open_names:
+        i = open_names.pop()
         if i not in result:
             result.add(i)
-            wanted.extend(sources[i])
+            open_names.extend(sources[i])
     return {i for i in result if sources[i]}
 
 
@@ -169,12 +169,12 @@ class _Writer(Writer):
     def written(self, f: ca.Function) -> list[str]:
         """The lines, without those of values that no output needs."""
         super().written(f)
-        self.needed, wanted = set(), list(self.stored)
-        while wanted:
-            name = wanted.pop()
+        self.needed, open_names = set(), list(self.stored)
+        while open_names:
+            name = open_names.pop()
             if name in self.made and name not in self.needed:
                 self.needed.add(name)
-                wanted.extend(self.made[name][1])
+                open_names.extend(self.made[name][1])
         kept = [line for name, (line, _) in self.made.items() if name in self.needed]
         return [*kept, *self.stores]
 

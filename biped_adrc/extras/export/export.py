@@ -69,8 +69,8 @@ def write_folder(folder: Path, source: Source) -> None:
     except NotADirectoryError:
         raise OutputError(f"'{folder}' is a file, expected the name of a folder") from None
     except OSError as error:
-        said = f"cannot write to '{folder}': {error.strerror}; choose another name"
-        raise OutputError(said) from error
+        sentence = f"cannot write to '{folder}': {error.strerror}; choose another name"
+        raise OutputError(sentence) from error
     if others:
         raise OutputError(
             f"folder '{folder}' holds '{others[0]}', other than it would be written; choose a new or an "

@@ -95,7 +95,7 @@ def touchdown(computer: Computer, size: int) -> SymbolicFunction:
     """x_c after a touchdown; the inputs of the mode are the single support that begins."""
     inputs = Inputs(computer, size)
     at, (q, v) = inputs.at, inputs.parts[:2]
-    x = at.trace(semantics.landed)(at.loop, at.t, at.x, q, v, at.mode)
+    x = at.trace(semantics.after_contact)(at.loop, at.t, at.x, q, v, at.mode)
     return inputs.function(x[2 * len(q) :])
 
 

@@ -127,5 +127,5 @@ def _named(
         *(Entry(f"m->v[{i}]") for i in range(n)),
         *(Entry(f"x->{name}", field.double) for field in fields for name in field),
     ]
-    taken = function._replace(out=function.out[kept])
-    return CFunction(taken, inputs, [outputs[i] for i in kept])
+    part = function._replace(out=function.out[kept])
+    return CFunction(part, inputs, [outputs[i] for i in kept])

@@ -78,8 +78,8 @@ def compiled(
             arguments = [*FLAGS, *flags, "-o", "out", *names, "-lm"]
             done = subprocess.run([program, *arguments], cwd=folder, capture_output=True, text=True)
             if done.returncode != 0:
-                said = f"{Path(program).name} does not compile {names[0]}: {done.stderr[:400]}"
-                raise InputError(said)
+                message = f"{Path(program).name} does not compile {names[0]}: {done.stderr[:400]}"
+                raise InputError(message)
             yield folder / "out", done.stderr
     except OSError as error:
         raise OutputError(
@@ -92,8 +92,8 @@ def tried(source: Source) -> str:
     """What a C compiler says of a source, in a sentence; that there is none, where there is none."""
     if (program := compiler()) is None:
         return f"not compiled: {NO_COMPILER}"
-    with compiled(source.files, ["main.c", f"{source.prefix}.c"]) as (_, said):
-        return f"compiled by {Path(program).name}: {said or 'no warnings'}"
+    with compiled(source.files, ["main.c", f"{source.prefix}.c"]) as (_, message):
+        return f"compiled by {Path(program).name}: {message or 'no warnings'}"
 
 
 @dataclass(frozen=True)

@@ -29,8 +29,8 @@ RENDER_MODES = ("human", "rgb_array")
 
 def spaces_of(stage: Stage) -> tuple[Box, Box]:
     """Of one observation and of one action."""
-    seen = Box(-stage.highest, stage.highest, dtype=np.float64)
-    return seen, Box(-1.0, 1.0, (stage.plant.p,), np.float64)
+    observations = Box(-stage.highest, stage.highest, dtype=np.float64)
+    return observations, Box(-1.0, 1.0, (stage.plant.p,), np.float64)
 
 
 def check_options(options: dict[str, Any] | None) -> None:

@@ -83,11 +83,11 @@ class Drawn:
     @property
     def t(self) -> float:
         """Time of the walk [s]."""
-        return float(self.stage.seen[self.i, self.stage.first])
+        return float(self.stage.view[self.i, self.stage.first])
 
     def follow(self, begins: bool) -> None:
         """Keep (x, z) [m] of the stance foot: after a touchdown the foot before is the swing foot."""
-        row = self.stage.seen[self.i]
+        row = self.stage.view[self.i]
         q, step = row[: self.stage.plant.n], int(row[self.stage.first + 1])
         if begins:
             self.foot = np.zeros(2)
@@ -97,7 +97,7 @@ class Drawn:
 
     def picture(self) -> NDArray[np.uint8]:
         """(height, width, 3)."""
-        q = self.stage.seen[self.i, : self.stage.plant.n]
+        q = self.stage.view[self.i, : self.stage.plant.n]
         return self.scene.drawn(q, self.step, self.foot, self.t)
 
 

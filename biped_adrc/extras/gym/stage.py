@@ -87,7 +87,7 @@ class Stage:
 
     # -- where they are ----------------------------------------------------------------------------
     @property
-    def seen(self) -> Array:
+    def view(self) -> Array:
         """The numbers of `view.LearnerView` of each walk, N rows, read once after each sample."""
         if not self._seen.size:
             self._seen = self.stepper.read(learner_view)
@@ -95,29 +95,29 @@ class Stage:
 
     def observations(self) -> Array:
         """(N, first + 1), within the bounds."""
-        seen = self.seen
-        result = np.empty((len(seen), self.first + 1))
-        result[:, :-1] = seen[:, : self.first]
-        result[:, -1] = np.vecdot(seen[:, : self.plant.n], self.phase)
+        view = self.view
+        result = np.empty((len(view), self.first + 1))
+        result[:, :-1] = view[:, : self.first]
+        result[:, -1] = np.vecdot(view[:, : self.plant.n], self.phase)
         return np.minimum(np.maximum(result, -self.highest, out=result), self.highest, out=result)
 
     def rewards(self) -> Array:
         """(N,) of the sample that has just been made."""
-        squares = self.seen[:, self.first + 2 : self.first + 4]
+        squares = self.view[:, self.first + 2 : self.first + 4]
         most = self.plant.p * self.limits.torque**2
         return self.task.rewards(squares, self.stepper.codes == 0, most)
 
     def ended(self) -> tuple[Flags, Flags]:
         """Whether each walk has fallen, or was lost (N,), and whether its time or its impacts are over (N,)."""
-        run, seen = self.task.scenario.run, self.seen
+        run, view = self.task.scenario.run, self.view
         fallen = self.stepper.codes != 0
-        late = seen[:, self.first] >= self.task.seconds - FALLEN_FROM
-        late |= seen[:, self.first + 1] >= run.first_step + run.impacts
+        late = view[:, self.first] >= self.task.seconds - FALLEN_FROM
+        late |= view[:, self.first + 1] >= run.first_step + run.impacts
         return fallen, late & ~fallen
 
     def infos(self) -> dict[str, Any]:
         """What is known beside the observation, (N,) each; `needs.Needs` has the second four."""
-        at, rows = self.seen[:, self.first :], self.needs.rows
+        at, rows = self.view[:, self.first :], self.needs.rows
         return {
             "t": at[:, 0].copy(),
             "step": at[:, 1].astype(np.int64),

@@ -58,17 +58,17 @@ def learner_view(
     h = read(k.sizes, tail)
     true = loop.measure(t, q, v, mode)
     if k.touchdown is not None:
-        seen, _, _, b = noticed(loop, t, s, tail, q, v, mode)
+        state, _, _, b = noticed(loop, t, s, tail, q, v, mode)
         line = labelled(loop, b, h.line)
     else:
         q_seen, v_seen = k.reading(k.sense(h.w, q, v), q, v)
-        seen, line = true._replace(q=q_seen, v=v_seen), h.line
-    r, e, u = reference(s, seen), q[:p] - reference(s, true).q_d, motor_torque(h.line)
+        state, line = true._replace(q=q_seen, v=v_seen), h.line
+    r, e, u = reference(s, state), q[:p] - reference(s, true).q_d, motor_torque(h.line)
     return LearnerView(
-        q=seen.q,
-        v=seen.v,
-        e=seen.q[:p] - r.q_d,
-        de=seen.v[:p] - r.dq_d,
+        q=state.q,
+        v=state.v,
+        e=state.q[:p] - r.q_d,
+        de=state.v[:p] - r.dq_d,
         u=motor_torque(line),
         at=np.array([t, mode.step]),
         squares=np.array([e @ e, u @ u]),

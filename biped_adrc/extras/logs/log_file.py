@@ -166,12 +166,12 @@ def _said(head: list[str], wanted: dict[str, tuple[int, float]]) -> tuple[str, .
     used = {at for at, _ in wanted.values()}
     scaled = [head[at] for at, factor in wanted.values() if factor != 1.0]
     rest = [text for at, text in enumerate(head) if at not in used]
-    said = [f"converted to the package's units: {', '.join(scaled)}"] if scaled else []
-    return (*said, *([f"columns left alone: {', '.join(rest)}"] if rest else []))
+    remarks = [f"converted to the package's units: {', '.join(scaled)}"] if scaled else []
+    return (*remarks, *([f"columns left alone: {', '.join(rest)}"] if rest else []))
 
 
 def _log(
-    table: dict[str, Array], biped: Biped, names: list[str], said: tuple[str, ...]
+    table: dict[str, Array], biped: Biped, names: list[str], remarks: tuple[str, ...]
 ) -> RobotLog:
     """The log of the columns by name, (K,) each; names: what each row is called."""
     rows = len(names)
@@ -195,4 +195,4 @@ def _log(
     if CONTACT in table:
         q, v, u = exchanged(table[CONTACT], q, v, u, biped)
         log = table["t"], step, q, u, v
-    return RobotLog(*log, measured.astype(float), said)
+    return RobotLog(*log, measured.astype(float), remarks)

@@ -88,11 +88,11 @@ def replayed(walker: Walker, log: RobotLog, filter_time: float, window: float) -
     """
     law, calls, rows = walker.law, walker.calls, []
     s = np.zeros(0)
-    for k, (m, struck) in enumerate(measurements(walker, log, filter_time)):
+    for k, (m, after) in enumerate(measurements(walker, log, filter_time)):
         if k == 0:
             s = law.initial_state(m)
-        elif struck is not None:
-            s = calls.jump(s, struck, walker.swap)
+        elif after is not None:
+            s = calls.jump(s, after, walker.swap)
         expected = calls.estimate(s, m)
         s = calls.correct(s, m)
         u = walker.saturate(calls.output(s, m))
@@ -121,11 +121,11 @@ def measurements(
     start = np.where(log.has_rate, v[0], (q[1] - q[0]) / (log.t[1] - log.t[0]))
     w, mode = sensors.start(q[0], start), Mode(int(log.step[0]), float(log.t[0]))
     for i, t in enumerate(log.t.tolist()):
-        struck = None
+        after = None
         if log.step[i] != mode.step:
             mode = Mode(int(log.step[i]), t)
             expected = walker.nominal.impact(*sensors.reading(w, q[i], v[i])).v
             w = sensors.impact(w, q[i], v[i], expected)
-            struck = walker.measure(t, *sensors.reading(w, q[i], v[i]), mode)
+            after = walker.measure(t, *sensors.reading(w, q[i], v[i]), mode)
         w = sensors.sense(w, q[i], v[i])
-        yield walker.measure(t, *sensors.reading(w, q[i], v[i]), mode), struck
+        yield walker.measure(t, *sensors.reading(w, q[i], v[i]), mode), after

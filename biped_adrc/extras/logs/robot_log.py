@@ -111,8 +111,8 @@ class RobotLog(Shown):
         supports = np.split(np.arange(len(self.t)), begins)
         parts = zip(*(self._support(rows, period) for rows in supports), strict=True)
         t, step, q, u, v = (np.concatenate(x) for x in parts)
-        said = f"resampled from {self.period:.6g} s to {period:.6g} s: straight lines for q, means of held u"
-        return replace(self, t=t, step=step, q=q, u=u, v=v, remarks=(*self.remarks, said))
+        remark = f"resampled from {self.period:.6g} s to {period:.6g} s: straight lines for q, means of held u"
+        return replace(self, t=t, step=step, q=q, u=u, v=v, remarks=(*self.remarks, remark))
 
     def _support(self, rows: Indices, period: float) -> tuple[Array, ...]:
         """t, step, q, u, v of one single support, these rows (K,), on the even clock."""

@@ -146,7 +146,7 @@ class _Watch(ca.Callback):
 
 
 def relaxed(
-    programme: NonlinearProgram, asked: str, x0: Array, bounds: Bounds, status: str
+    programme: NonlinearProgram, request: str, x0: Array, bounds: Bounds, status: str
 ) -> Array:
     """A decision vector (nx,) that keeps all limits, found by the relaxation with slacks from x0 (nx,).
 
@@ -185,6 +185,6 @@ def relaxed(
         reason = f"; these would have to give: {'; '.join(programme.in_words(missed))}"
         unknown = f" ({status}), and no limits that would have to; ask for a slower or shorter step, or less"
         raise GaitError(
-            f"no gait with {asked} keeps the limits{reason if result.solved else unknown}"
+            f"no gait with {request} keeps the limits{reason if result.solved else unknown}"
         )
     return result.x[:-count]

@@ -150,10 +150,13 @@ class GaitRequest(Shown):
 
     def __post_init__(self) -> None:
         check_fields(self)
-        wanted = [x for x in (self.speed, self.step) if x is not None]
+        targets = [x for x in (self.speed, self.step) if x is not None]
         for fits, expected in (
-            (bool(wanted) != bool(self.through), "a speed, a step length or both, or a state"),
-            (all(0.0 < x < math.inf for x in wanted), "a positive speed [m/s] and step length [m]"),
+            (bool(targets) != bool(self.through), "a speed, a step length or both, or a state"),
+            (
+                all(0.0 < x < math.inf for x in targets),
+                "a positive speed [m/s] and step length [m]",
+            ),
             (all(map(math.isfinite, self.through or ())), "finite numbers"),
             (abs(self.slope) < 0.5, "a slope below 0.5 rad either way"),
             (issubclass(self.kind, ControlledCurve), "a curve with ends, such as bezier"),

@@ -144,8 +144,8 @@ def read_record(
         if samples:
             return Samples(entries["t"], entries["q"], entries.get("v"))
         own = entries.get("convention")
-        said = own or convention or (OWN if result.get("format") == STORED else usual)
-        if said is None or (own and convention not in (None, own)):
+        convention_ = own or convention or (OWN if result.get("format") == STORED else usual)
+        if convention_ is None or (own and convention not in (None, own)):
             raise GaitError(
                 f"the file says convention '{own}', and '{convention}' is given; expected one of the two to be "
                 "a name: add an entry 'convention', or give convention=..."
@@ -157,7 +157,9 @@ def read_record(
         provenance = record.get("provenance", {})
         if isinstance(provenance, str):
             provenance = json.loads(provenance)
-        return GaitRecord(**{**record, "convention": str(said), "provenance": dict(provenance)})
+        return GaitRecord(
+            **{**record, "convention": str(convention_), "provenance": dict(provenance)}
+        )
 
 
 def _flat(found: Mapping[str, Any], above: str = "") -> dict[str, Any]:

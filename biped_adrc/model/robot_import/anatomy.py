@@ -12,7 +12,7 @@ isosceles triangle), for others its first-order part about the straight leg; a v
 needs a constant row c.
 
 `import_robot.derive` calls `anatomy` after the base is known. What the URDF does not say is guessed
-only when there is one answer, and every guess is a sentence in `said`.
+only when there is one answer, and every guess is a sentence in `remarks`.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class Anatomy:
     """Revolute joints without the pitch, in the order q1, q2, ..."""
     phase: tuple[float, ...]
     """Row c (n,) of Theta = c q, dimensionless; the last entry belongs to the pitch."""
-    said: tuple[str, ...]
+    remarks: tuple[str, ...]
     """What was guessed, in sentences."""
 
 

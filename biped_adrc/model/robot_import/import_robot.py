@@ -2,7 +2,7 @@
 
     derived = derive("walker.urdf")
     derived.biped    the Biped, with the masses of the URDF as its preset "urdf"
-    derived.said     what was guessed, in sentences
+    derived.guesses     what was guessed, in sentences
     derived.checks   the laws it was checked against, with their numbers
 
 The URDF describes a planar biped with point feet: revolute joints about y, equal legs, each with a
@@ -183,8 +183,8 @@ def _bodies(tree: Tree, feet: tuple[str, str]) -> dict[str, list[str]]:
             continue
         group = [link, twins[link]] if link in twins else [link]
         name = _SIDES.sub("", link).strip("_-") if link in twins else link
-        taken = not name or name in bodies or (name in heavy and name not in group)
-        bodies[link if taken else name] = group
+        occupied = not name or name in bodies or (name in heavy and name not in group)
+        bodies[link if occupied else name] = group
     return bodies
 
 
@@ -207,7 +207,7 @@ class Derived:
     """A biped derived from a URDF, with what was guessed and checked on the way."""
 
     biped: Biped
-    said: tuple[str, ...]
+    guesses: tuple[str, ...]
     """What was found and guessed, in sentences."""
     checks: tuple[Check, ...]
     """The laws of `import_checks` with their numbers."""
@@ -265,16 +265,16 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
     reading, feet = _with_tips(path, hints)
     body = on_planar_base(reading.tree)
     parts = anatomy(body, feet, hints.hip)
-    tree, said_shapes = drawable(body.tree, parts.feet)
-    actuated, said_motors = _motors(reading, parts.moving, hints)
-    torque, said_torque = _torque(reading, actuated, hints)
+    tree, of_shapes = drawable(body.tree, parts.feet)
+    actuated, of_motors = _motors(reading, parts.moving, hints)
+    torque, of_torque = _torque(reading, actuated, hints)
     record = record_of(reading, body, parts, actuated, torque, hints)
     description = description_of(record, Path(path))
     biped = Biped(description, tree, PRESET, hints.armature)
     biped.check()
-    said = (*body.said, *parts.said, *said_motors, *said_torque, *said_shapes)
-    said += _remarks(reading, hints)
-    return Derived(biped, said, checks(biped), record)
+    guesses = (*body.remarks, *parts.remarks, *of_motors, *of_torque, *of_shapes)
+    guesses += _remarks(reading, hints)
+    return Derived(biped, guesses, checks(biped), record)
 
 
 def _with_tips(path: Path | str, hints: Hints) -> tuple[UrdfContents, tuple[str, ...] | None]:

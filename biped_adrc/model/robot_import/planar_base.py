@@ -33,7 +33,7 @@ class PlanarBase:
     """Name of the revolute joint about y that carries the trunk."""
     trunk: str
     """Link that the base carries."""
-    said: tuple[str, ...]
+    remarks: tuple[str, ...]
     """What was found or added, in sentences."""
 
 
@@ -90,8 +90,10 @@ def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
         replace(j, axis=(abs(j.axis[0]), 0.0, abs(j.axis[2]))) if j in slides else j
         for j in tree.joints
     )
-    said = f"base: '{x}' and '{z}' slide, '{pitch.name}' is the pitch of the trunk '{pitch.child}'"
-    return PlanarBase(replace(tree, joints=forward), (x, z), pitch.name, pitch.child, (said,))
+    remark = (
+        f"base: '{x}' and '{z}' slide, '{pitch.name}' is the pitch of the trunk '{pitch.child}'"
+    )
+    return PlanarBase(replace(tree, joints=forward), (x, z), pitch.name, pitch.child, (remark,))
 
 
 def _added(tree: Tree) -> PlanarBase:
@@ -107,12 +109,12 @@ def _added(tree: Tree) -> PlanarBase:
         Joint(pitch, "revolute", lift, root, zero, axis),
     )
     links = {name: Link(name, None, ()) for name in (world, cart, lift)} | dict(tree.links)
-    said = (
+    remark = (
         f"base: the URDF has none; '{x}', '{z}' and the pitch '{pitch}' (axis {axis[_Y]:+g} y, as "
         f"the first joint) were put above its root '{root}', the trunk"
     )
     tree = replace(tree, links=links, joints=joints + tree.joints)
-    return PlanarBase(tree, (x, z), pitch, root, (said,))
+    return PlanarBase(tree, (x, z), pitch, root, (remark,))
 
 
 def _free(tree: Tree, name: str) -> str:

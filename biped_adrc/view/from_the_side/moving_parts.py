@@ -196,8 +196,8 @@ class Forces:
         self.reaction.set_verts(arrows)
         size = float(np.hypot(*acting.ground_reaction))
         amount = f"{size:.3g} N" if math.isfinite(size) else "no finite force"
-        said = "slips" if acting.slips else ""
-        self.text.set_text(said if np.array_equal(drawn, force) else f"{amount}, arrow cut")
+        word = "slips" if acting.slips else ""
+        self.text.set_text(word if np.array_equal(drawn, force) else f"{amount}, arrow cut")
         right = start[0] > np.mean(limits[0])  # so that the words stay in the picture
         x = start[0] + (-0.05 if right else 0.05)
         self.text.set_horizontalalignment("right" if right else "left")

@@ -124,8 +124,8 @@ class _Errors:
         low, high = float(times[0]), float(times[-1])
         signals = [panel.signals for panel in panels]
         largest = [np.max(np.abs(s.error), axis=1) for s in signals]
-        seen = [(s.t >= low) & (s.t <= high) for s in signals]
-        tops = np.concatenate([e[rows] for e, rows in zip(largest, seen, strict=True)])
+        inside = [(s.t >= low) & (s.t <= high) for s in signals]
+        tops = np.concatenate([e[rows] for e, rows in zip(largest, inside, strict=True)])
         unit, factor = angle_unit(tops)
         for s in signals[:1]:
             pushed = np.any(s.zeta != 0.0, axis=1)

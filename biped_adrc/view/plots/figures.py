@@ -73,8 +73,8 @@ def _titled(title: str, s: Signals, push: Window | None) -> str:
     joints: dict[str, list[str]] = {}
     for i in np.flatnonzero(peaks):
         joints.setdefault(f"{peaks[i]:.3g} N m", []).append(f"$q_{i + 1}$")
-    said = "; ".join(f"{torque} on {', '.join(names)}" for torque, names in joints.items())
-    return f"{title}: {said}" if said else title
+    words = "; ".join(f"{torque} on {', '.join(names)}" for torque, names in joints.items())
+    return f"{title}: {words}" if words else title
 
 
 def _row(figure: Figure, spec: GridSpec, row: int, count: int) -> list[Axes]:
