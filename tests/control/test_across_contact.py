@@ -77,7 +77,7 @@ def test_held_the_observer_begins_anew_at_each_tick_of_the_window(h, seen):
 
 
 # -- what no impulse changes -------------------------------------------------------------------------
-def impact(m, F, landed):
+def struck(m, F, landed):
     """The rates (n,) after an impulse F (2,) of the ground on the swing foot, or on the stance foot, the
     other one free: D_e (q_e+' - q_e-') = E' F of (2), solved whole."""
     body, D = m.body, m.terms.D
