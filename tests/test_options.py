@@ -168,7 +168,7 @@ COMMANDS = {
     "gait import": Command("gait import own.mat", "gait.exchange.importing:import_gait", IMPORT),
     "gait show": Command("gait show published", "analysis.zero_report:zero_report", ZERO),
     "observer": Command("observer", "analysis.observer.report:observer_report", OBSERVER),
-    "study": Command("study own.toml -o folder", "study.carry:study", STUDY),
+    "study": Command("study own.toml -o folder", "studies.carry:study", STUDY),
 }
 ROWS = [(name, option) for name, command in COMMANDS.items() for option in command.rows]
 

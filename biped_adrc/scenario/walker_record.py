@@ -32,7 +32,7 @@ from biped_adrc.core.errors import BipedError, InputError
 from biped_adrc.scenario.registry import takes
 
 _ROOMS = re.compile(
-    r"biped_adrc\.((control|observers|disturbances|gait|hardware|model(\.robots)?)\.[a-z_]+|timing|closed_loop\.walker)"
+    r"biped_adrc\.((control|observers|disturbances|gait|hardware|model(\.robots)?)\.[a-z_]+|core\.timing|closed_loop\.walker)"
 )
 """Modules whose classes are made when a record is read."""
 

@@ -12,7 +12,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
 from biped_adrc.control.base import Controller
-from biped_adrc.core.errors import InputError, NotFiniteError
+from biped_adrc.core.errors import InputError, NotFiniteError, SimulationError, SingularError
 from biped_adrc.engine.batch import Case, simulate_many
 from biped_adrc.engine.run import simulate_by
 from biped_adrc.gait.published import passive_cycle
@@ -157,9 +157,9 @@ def test_what_each_run_leaves(mixed):
 def test_a_controller_that_raises_ends_its_own_run(plain, npd, at_once):
     ends = {
         NotFiniteError: ba.Status.NOT_FINITE,
-        ba.errors.SingularError: ba.Status.SINGULAR,
+        SingularError: ba.Status.SINGULAR,
         ZeroDivisionError: ba.Status.RAISED,
-        ba.errors.SimulationError: ba.Status.RAISED,
+        SimulationError: ba.Status.RAISED,
     }
     cases = [plain]
     for error in ends:

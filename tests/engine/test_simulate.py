@@ -13,7 +13,7 @@ from scipy.linalg import expm
 import biped_adrc as ba
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
 from biped_adrc.control.base import Controller
-from biped_adrc.core.errors import InputError, NotFiniteError, SingularError
+from biped_adrc.core.errors import InputError, ModelError, NotFiniteError, SingularError
 from biped_adrc.core.linear import solve
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance
@@ -283,7 +283,7 @@ def test_a_method_that_does_not_fit_is_refused_as_in_python(biped, gait):
 
 def test_a_robot_that_is_no_planar_tree_is_simulated_with_pinocchio(biped, gait, monkeypatch):
     def refuse(biped):
-        raise ba.errors.ModelError("no planar tree")
+        raise ModelError("no planar tree")
 
     monkeypatch.setattr(program, "robot_of", refuse)
     walker = ba.Walker(biped, npd(gait))
