@@ -18,7 +18,7 @@ reproduce: .venv/.core
 # as many processes as cores: threads of linear algebra would only wait for each other
 test: export OPENBLAS_NUM_THREADS ?= 1
 test: .venv/.test
-	$(BIN)/python -m pytest -rs --numprocesses auto --dist loadgroup --no-loadscope-reorder
+	$(BIN)/python -m pytest -rs --numprocesses auto --no-loadscope-reorder
 
 # tests, lint, types, import rules, pages, wheel, and reproduction and benchmarks in short
 check: .venv/.dev

@@ -8,6 +8,7 @@ import signal
 import subprocess
 
 import pytest
+from xdist.scheduler import LoadScopeScheduling
 
 import biped_adrc as ba
 
@@ -88,16 +89,25 @@ WAIT = ("view", "study")
 """Folders whose tests wait, for browsers and processes: first, as other work goes on beside the suite then."""
 
 
+ALONE = ("test_every_block_runs", "test_every_example_runs")
+"""Tests of documents and examples, which are long: any worker runs one of them."""
+
+
+class ByFile(LoadScopeScheduling):
+    """A file is run by one worker, which makes its fixtures once."""
+
+    def _split_scope(self, nodeid):
+        file, _, name = nodeid.partition("::")
+        return nodeid if name.startswith(ALONE) else file
+
+
+def pytest_xdist_make_scheduler(config, log):
+    return ByFile(config, log)
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """A file is run by one worker, which makes its fixtures once; documents and examples by any.
-
-    What waits comes first and documents, which are long, second: no worker is left alone with one of them.
-    """
-    alone = ("test_every_block_runs", "test_every_example_runs")
-    for item in items:
-        group = item.nodeid if item.name.startswith(alone) else str(item.path)
-        item.add_marker(pytest.mark.xdist_group(group))
+    """What waits comes first and documents second: no worker is left alone with one of them."""
     items.sort(
-        key=lambda item: (item.path.parent.name not in WAIT, not item.name.startswith(alone))
+        key=lambda item: (item.path.parent.name not in WAIT, not item.name.startswith(ALONE))
     )
