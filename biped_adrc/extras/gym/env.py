@@ -28,7 +28,7 @@ RENDER_MODES = ("human", "rgb_array")
 
 
 def spaces_of(stage: Stage) -> tuple[Box, Box]:
-    """Of one observation and of one action."""
+    """Gymnasium's spaces of one observation and of one action."""
     observations = Box(-stage.highest, stage.highest, dtype=np.float64)
     return observations, Box(-1.0, 1.0, (stage.plant.p,), np.float64)
 

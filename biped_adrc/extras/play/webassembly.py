@@ -138,7 +138,7 @@ def web_module(laws: Mapping[str, str]) -> bytes:
 
 
 def _linked(laws: Mapping[str, str]) -> bytes:
-    """As `web_module`, made anew."""
+    """Link the laws, by name, and the loops into one module of WebAssembly."""
     binding.initialize_all_targets()
     binding.initialize_all_asmprinters()
     machine = binding.Target.from_triple(TARGET).create_target_machine(opt=3)
