@@ -129,7 +129,8 @@ def _callback(program: Program) -> Any:
 class CVODEInC:
     """CVODE on one walker's flow; call it with (x, times) for the states."""
 
-    def __init__(self, program: Program) -> None:
+    def __init__(self, program: Program, rtol: float = RTOL) -> None:
+        self.tolerances = c_double(rtol), c_double(1e-3 * rtol)
         self.libraries = _libraries()
         for name in POINTERS:
             self._function(name).restype = c_void_p
@@ -160,7 +161,7 @@ class CVODEInC:
         self.memory = memory = c_void_p(self._call("CVodeCreate", BDF, self.context))
         rhs = ctypes.cast(self.rhs.ctypes, c_void_p)
         self._checked("CVodeInit", memory, rhs, c_double(0.0), self.y)
-        self._checked("CVodeSStolerances", memory, c_double(RTOL), c_double(ATOL))
+        self._checked("CVodeSStolerances", memory, *self.tolerances)
         self._checked("CVodeSetUserData", memory, c_void_p(self.work.ctypes.data))
         A = c_void_p(self._call("SUNDenseMatrix", c_int(nx), c_int(nx), self.context))
         solver = c_void_p(self._call("SUNLinSol_Dense", self.y, A, self.context))

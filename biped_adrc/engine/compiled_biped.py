@@ -20,9 +20,10 @@ from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields, is_dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
+from itertools import accumulate
 from operator import call
 from types import new_class
 from typing import Any
@@ -63,13 +64,18 @@ def pointer_call(machine: LoadedCode, name: str, K: Array, inp: Array, out: Arra
         inputs, result = inputs + inp.strides[0], result + out.strides[0]
 
 
-def parts_of(rows: Array, shapes: Iterable[Shape]) -> Iterator[Array]:
+def parts_of(rows: Array, shapes: tuple[Shape, ...]) -> list[Array]:
     """Arrays of these shapes that lie one after the other in `rows` (size,) or (N, size); views, no copies."""
-    at = 0
-    for shape in shapes:
-        part = rows[..., at : at + math.prod(shape)]
-        yield part.reshape(*rows.shape[:-1], *shape)
-        at += math.prod(shape)
+    first = rows.shape[:-1]
+    pairs = zip(shapes, places_of(shapes), strict=True)
+    return [rows[..., at].reshape(first + shape) for shape, at in pairs]
+
+
+@lru_cache(maxsize=1024)
+def places_of(shapes: tuple[Shape, ...]) -> tuple[slice, ...]:
+    """Where numbers of arrays of these shapes lie one after the other."""
+    ends = tuple(accumulate(map(math.prod, shapes)))
+    return tuple(map(slice, (0, *ends), ends))
 
 
 class Call:
@@ -219,7 +225,7 @@ def _point(reference: Reference, n: int) -> Callable[[float, Array, Array], Refe
     K, inp = Vector("K", count(reference)), Vector("inp", 1 + 2 * n)
     at = inp.take(), inp.take(n), inp.take(n)
     symbols = run(Tracer(), call, K.like(reference), *at)
-    shapes = [np.shape(part) for part in symbols]
+    shapes = tuple(np.shape(part) for part in symbols)
     function = SymbolicFunction(K.symbol, inp.symbol, column(*symbols))
     code = generated(("point", n, structure(reference)), {"point": lambda: function})
     numbers = np.array([*floats(reference), 0.0])

@@ -92,7 +92,7 @@ def compiled_readings(
     example = signals_at(
         walker, first.t[0], first.x[0], first.mode, lambda s, m: reference(m.t, m.q, m.v)
     )
-    shapes = [np.shape(part) for part in example]
+    shapes = tuple(np.shape(part) for part in example)
     inp = np.vstack([_inputs(walker, arc) for arc in trajectory.arcs])
     out = np.empty((len(inp), sum(map(prod, shapes))))
     pointer_call(code, "observe", K, inp, out)

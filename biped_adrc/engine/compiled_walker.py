@@ -4,24 +4,23 @@ Three things come together here: the program of the walker (`engine.program`: fl
 ..), the matrices of the method (`hybrid.exponential`), and the terms of the
 disturbance, which are compiled by themselves so that another disturbance does not recompile the
 walker. The result is a `RunPlan`, which the loops take. What cannot be compiled raises `NotCompiled` with the
-reason; `engine.simulate` then runs in Python on the compiled plant.
+reason; `engine.simulate` then has its sample instants in Python (`engine.python_ticks`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from biped_adrc.closed_loop.exponential_form import ErrorForm
 from biped_adrc.closed_loop.walker import LEAST_STEP, Walker
-from biped_adrc.control.passive import Passive
-from biped_adrc.core.timing import LONGEST_PERIOD, SampledTime
+from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_push import push_of
-from biped_adrc.engine.kernels.run_plan import Functions, RunPlan, plan
+from biped_adrc.engine.kernels.run_plan import CompiledRun, Functions, RunPlan, plan
 from biped_adrc.engine.program import Program
+from biped_adrc.engine.python_ticks import PythonTicks
 from biped_adrc.engine.symbols import NotCompiled, floats
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import constants
@@ -34,11 +33,14 @@ class CompiledWalker:
     """A walker that the compiled loops can run."""
 
     walker: Walker
-    """As it was given, or the held plant alone."""
+    """Plant, controller and all the rest."""
     program: Program
     """Keeps the code in memory and holds the parameters."""
     plan: RunPlan
     """Sizes, addresses and settings of the run, as vectors."""
+
+    ticks: PythonTicks | None = None
+    """What carries out sample instants and impacts in Python; None where machine code does."""
 
     @classmethod
     def of(
@@ -48,57 +50,18 @@ class CompiledWalker:
         size: int,
         t_first: float = 0.0,
         reference: Reference | None = None,
+        in_python: bool = False,
     ) -> CompiledWalker:
         """For a controller with `size` states and a run that begins at t_first [s].
 
         reference: for functions that read signals (`compiled_signals`); its numbers stand behind the walker's.
+        in_python: sample instants and impacts by the walker's own methods, in sampled time.
         Compiles the walker's functions where they are not in memory or on disk, and makes the plan.
         Raises NotCompiled where a part or the method cannot be compiled, InputError for a
         method without the coordinates that it needs.
         """
-        time, clock = walker.timing, dict[str, float]()
-        if isinstance(time, SampledTime):
-            assert walker.held is not None
-            part = walker.held.motors.fraction * time.period if walker.held.sizes.waiting else 0.0
-            clock = {
-                "period": time.period,
-                "restart": time.restart,
-                "t_first": t_first,
-                "part": part,
-            }
-        return cls._by(walker, method, size, clock, reference)
-
-    @classmethod
-    def held(cls, walker: Walker, method: OneStepMethod) -> CompiledWalker:
-        """The plant alone under a torque that is held; x = (q, q', u), with lagging motors (q, q', u_m, u).
-
-        For controllers that run in Python (`engine.simulate`). A period longer than any run takes the
-        place of the clock. Raises as `of`.
-        """
-        bare = replace(
-            walker,
-            controller=Passive(),
-            timing=SampledTime(LONGEST_PERIOD),
-            sensors=None,
-            touchdown=None,
-            motors=None if walker.motors is None else replace(walker.motors, rate_limit=None),
-        )
-        return cls._by(bare, method, 0, {})
-
-    @classmethod
-    def _by(
-        cls,
-        walker: Walker,
-        method: OneStepMethod,
-        size: int,
-        clock: Mapping[str, float],
-        reference: Reference | None = None,
-    ) -> CompiledWalker:
-        """With fields of the clock. Of a held state only q and v flow, so the steps may skip the rest; with
-        lagging motors all of it does.
-        """
         split, fields, tables = _method(walker, method)
-        program = Program.of(walker, size, split)
+        program = Program.of(walker, size, split, in_python)
         n, p, nx, bounds = walker.plant.n, walker.plant.p, program.make.nx, walker.bounds
         relaxing = walker.relaxing()
         k = 0 if split is None else len(split.A)
@@ -110,7 +73,7 @@ class CompiledWalker:
         if len(bounds.fastest):
             tables["fastest"] = bounds.fastest
         fields |= {
-            **clock,
+            **_clock(walker, t_first),
             "n": n,
             "nx": nx,
             "p": p,
@@ -123,8 +86,25 @@ class CompiledWalker:
         if relaxing is not None:
             fields |= {"lags": nx + relaxing.at.start, "lag_speed": relaxing.speed}
         functions = Functions(*(program.address(name) for name in Functions._fields))
+        ticks = PythonTicks(walker, nx, functions.flow) if in_python else None
+        if ticks is not None:
+            functions = functions._replace(**ticks.addresses)
         run = plan(functions, push_of(walker.disturbance, n), tables, fields)
-        return cls(walker, program, run)
+        return cls(walker, program, run, ticks)
+
+    def raised(self, run: CompiledRun) -> BaseException | None:
+        """What Python has raised in a run, and forgets here."""
+        return None if self.ticks is None else self.ticks.errors.pop(run.inputs, None)
+
+
+def _clock(walker: Walker, t_first: float) -> dict[str, float]:
+    """Fields of the sample instants of a run that begins at t_first [s]; none in continuous time."""
+    time = walker.timing
+    if not isinstance(time, SampledTime):
+        return {}
+    assert walker.held is not None
+    part = walker.held.motors.fraction * time.period if walker.held.sizes.waiting else 0.0
+    return {"period": time.period, "restart": time.restart, "t_first": t_first, "part": part}
 
 
 def _method(

@@ -21,6 +21,7 @@ import numpy as np
 from biped_adrc.closed_loop.exponential_form import ErrorForm
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.control.passive import Passive
 from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers, WalkerStructure
 from biped_adrc.engine.ir import generated
@@ -47,22 +48,28 @@ class Program:
     """What decides the code."""
 
     @classmethod
-    def of(cls, walker: Walker, size: int, split: ErrorForm | None = None) -> Program:
+    def of(
+        cls, walker: Walker, size: int, split: ErrorForm | None = None, plant_alone: bool = False
+    ) -> Program:
         """The program of a walker whose controller has `size` states; split: coordinates of the
-        exponential method.
+        exponential method. plant_alone: flow and event functions in sampled time, which call no other part.
 
         Takes the controller in its time base, the data of plant and model, and puts all
         floats into K in the order of `WalkerNumbers`. Raises NotCompiled for a part that
         cannot be traced, or ModelError for a robot that is no planar tree.
         """
         make, numbers = structure_of(walker, size, split)
+        names = Equations.names(numbers)
+        if plant_alone:
+            held = walker.held._replace(sensors=None, touchdown=None) if walker.held else ()
+            numbers, names = numbers._replace(controller=Passive(), held=held), ["flow", "events"]
         K = np.array([*floats(numbers), 0.0])
         if np.any(np.isnan(K)):
             raise NotCompiled(
                 f"a parameter of {type(walker.controller).__name__} or its walker is NaN, of which generated "
                 "code would make 0 where it is multiplied by 0"
             )
-        code, key = machine_of(make, numbers, Equations.names(numbers))
+        code, key = machine_of(make, numbers, names)
         return cls(make, code, K, numbers, key)
 
     def address(self, name: str) -> int:

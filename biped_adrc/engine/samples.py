@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, Self, cast
 
@@ -35,8 +34,8 @@ from biped_adrc.engine.compiled_signals import Reading, reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.equations import WalkerNumbers
 from biped_adrc.engine.kernels.run_plan import CompiledRun, table_height
-from biped_adrc.engine.simulate import Ticks, compiled_plant
-from biped_adrc.engine.symbols import NotCompiled, floats
+from biped_adrc.engine.simulate import compiled_plant
+from biped_adrc.engine.symbols import floats
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.on_arrays import next_tick
@@ -185,12 +184,6 @@ class PythonWalk:
         p, system, places = loop.plant.p, cast(HybridSystem, loop), [(outside, slice(None))]
         if isinstance(loop, Walker):
             system = loop = compiled_plant(loop)
-            with suppress(NotCompiled):
-                held = CompiledWalker.held(loop, method)
-                at, cells = force_place(held), held.plan.cells.copy()
-                held = replace(held, plan=replace(held.plan, cells=cells))
-                places.append((cells.view(np.float64)[at : at + 2], slice(p, None)))
-                system = Ticks(loop, held, len(x))
         elif isinstance(loop, CompiledLoop):
             size = loop.controller_size(x)
             system = compiled = loop.compiled(size)

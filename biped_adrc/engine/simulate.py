@@ -4,113 +4,34 @@ Three ways, the fastest that fits is taken:
 
 - all compiled: controller, observer, disturbance and method of integration can be compiled; an arc
   is one call of a kernel;
-- compiled plant, sampled time: the walker's own sample instants run in Python, and the plant, (q, q', u) with
-  the torque held, or (q, q', u_m, u) where the motors lag, moves in between by one call of machine code each;
+- compiled plant, sampled time: the same kernel, which calls Python at sample instants and impacts
+  (`engine.python_ticks`);
 - compiled plant otherwise: the Python loop of `hybrid.simulator` on compiled dynamics.
 """
 
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import cast
+from dataclasses import replace
 
 import numpy as np
 
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
-from biped_adrc.core.types import Array, Indices
+from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_biped import CompiledBiped, compiled_references
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.run_plan import STATUS, CompiledRun
 from biped_adrc.engine.run import COMPILED, COMPILED_PLANT
 from biped_adrc.engine.symbols import NotCompiled
-from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.constants import COMPLETED, STRUCK
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import FlownArc, RunOptions, run_arcs
 from biped_adrc.hybrid.status import Status
-from biped_adrc.hybrid.system import Clock, FoundEvent, HybridSystem, Mover
-from biped_adrc.hybrid.trajectory import Arc, Event, Record, Trajectory
+from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 
 TERMINAL = {Status.FELL: "hip_too_low", Status.STALLED: "step_too_long"}
 """Names of the event functions that end a run, by status."""
-
-
-@dataclass(frozen=True)
-class Ticks(HybridSystem):
-    """The walker's sample instants, on the plant under a held torque."""
-
-    walker: Walker
-    """With compiled dynamics."""
-    plant: CompiledWalker
-    """As `CompiledWalker.held`."""
-    nx: int
-    """Numbers in a state of the walker."""
-
-    @cached_property
-    def flowing(self) -> Indices:
-        """Places of the plant's state in the walker's: of q, q', with lag u_m, and u."""
-        sizes = cast(HeldParts, self.walker.held).sizes
-        motors = self.nx - sizes.p * (sizes.waiting + 2)
-        lagging = range(motors, motors + sizes.p) if sizes.lag else ()
-        return np.array([*range(2 * sizes.n), *lagging, *range(self.nx - sizes.p, self.nx)])
-
-    def clocks(self) -> tuple[Clock, ...]:
-        return self.walker.clocks()
-
-    def mover(self, fired: str | None) -> Mover:
-        return HeldMotion(self, fired)
-
-
-class HeldMotion:
-    """Moves `Ticks` from one sample instant to the next, over one arc.
-
-    run: the plant's, made at the first call and carried on, so that an event function keeps its value across a
-    sample instant, where the plant's q does not jump.
-    """
-
-    def __init__(self, system: Ticks, fired: str | None):
-        self.system, self.fired = system, fired
-        self.run: CompiledRun | None = None
-
-    def __call__(
-        self, t: float, x: Array, mode: Mode, until: float, record: Record
-    ) -> tuple[float, Array, FoundEvent | None]:
-        """From (t, x) to `until` [s] or the first event, as `hybrid.system.Mover`."""
-        plan, at, run = self.system.plant.plan, self.system.flowing, self.run
-        if run is None:
-            fired = self.fired is not None
-            run = self.run = plan.start(x[at], t, mode.step, mode.start, until, fired)
-        run.x[:], run["t_end"] = x[at], until
-        nodes = run.arc(record.every, room=16)
-        rows, slopes = np.zeros((2, len(nodes.t), len(x)))
-        rows[:] = x
-        rows[:, at], slopes[:, at] = nodes.x, nodes.dx
-        record.add(nodes.t.copy(), rows, slopes)
-        t, x = run["t"], x.copy()
-        x[at] = run.x
-        return t, x, _ended(self.system.walker, nodes.code, t, x, mode)
-
-
-def _ended(walker: Walker, code: int, t: float, x: Array, mode: Mode) -> FoundEvent | None:
-    """The event behind a code of the loops at t [s], x (nx,); None for COMPLETED.
-
-    An impact is carried out here, by the walker itself. Raises one of `simulator.FAILURES` where
-    the plant's motion was lost, or what the controller's jump raises.
-    """
-    if code == COMPLETED:
-        return None
-    if code == STRUCK:
-        outcome = walker.impact(t, x, mode)
-        return FoundEvent(Event(FOOT_STRIKE, t, x, outcome[0]), outcome)
-    status = STATUS[code]
-    if status in simulator.FAILURES:
-        raise simulator.FAILURES[status](
-            f"the plant's motion ends after t = {t:.6g} s: {status.name}"
-        )
-    return FoundEvent(Event(TERMINAL[status], t, x, None), None, status)
 
 
 ONWARD, STORE = 0.005, 1_000_000
@@ -152,9 +73,23 @@ def run_made(
 
     def fly(t: float, x: Array, mode: Mode, fired: str | None) -> FlownArc:
         run = plan.start(x, t, mode.step, mode.start, options.t_end, fired is not None)
-        return flown(run, mode, every, room)
+        arc = flown(run, mode, every, room)
+        error = compiled.raised(run)
+        return arc if error is None else _ended_by(error, arc.arc)
 
     return run_arcs(fly, x0, mode, method.label, options)
+
+
+def _ended_by(error: BaseException, arc: Arc) -> FlownArc:
+    """The arc that ends with what Python raised at a sample instant or an impact; raises it where a mistake is
+    seen at once, at the first sample instant.
+    """
+    if not isinstance(error, Exception):
+        raise error
+    status, detail = simulator.status_of(error)
+    if status is Status.RAISED and len(arc.t) == 1:
+        raise error
+    return FlownArc(arc, status, detail)
 
 
 def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:
@@ -177,12 +112,19 @@ def detail_of(walker: Walker, method: OneStepMethod, run: Trajectory) -> str:
 def on_compiled_plant(
     walker: Walker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
 ) -> Trajectory:
-    """A run in Python from x0 (nx,) with compiled dynamics and references. Raises as `run_compiled`."""
-    walker, system = compiled_plant(walker), None
+    """A run from x0 (nx,) with compiled dynamics and references, and sample instants in Python.
+
+    All is in Python in continuous time, and for a disturbance or a method without a compiled form. Raises as
+    `run_compiled`.
+    """
+    walker, compiled = compiled_plant(walker), None
     if walker.sampled:
-        with suppress(NotCompiled):  # a disturbance or a method without a compiled form
-            system = Ticks(walker, CompiledWalker.held(walker, method), len(x0))
-    return simulator.run(system or walker, x0, mode, method, options)
+        size = walker.controller_size(x0)
+        with suppress(NotCompiled):
+            compiled = CompiledWalker.of(walker, method, size, options.t0, in_python=True)
+    if compiled is None:
+        return simulator.run(walker, x0, mode, method, options)
+    return run_made(compiled, x0, mode, method, options)
 
 
 def compiled_plant(walker: Walker) -> Walker:

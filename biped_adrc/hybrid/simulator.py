@@ -184,6 +184,17 @@ FAILURES: Mapping[Status, type[Exception]] = {
 """The errors that end a run with a status in place of being raised."""
 
 
+def status_of(error: Exception) -> tuple[Status, str]:
+    """How a run ends in which a part raises this, and the sentence. Raises the error where no part did."""
+    for status, kind in FAILURES.items():
+        if isinstance(error, kind):
+            return status, str(error)
+    detail = str(error) if isinstance(error, InputError) else sentence_of(error)
+    if not detail:
+        raise error
+    return Status.RAISED, detail
+
+
 def flow_arc(
     system: HybridSystem,
     method: OneStepMethod | None,
@@ -215,14 +226,10 @@ def flow_arc(
         while move is not None and t < options.t_end and result is None:
             x = calendar.due(t, x)
             t, x, result = move(t, x, mode, calendar.next_break(t), record)
-    except tuple(FAILURES.values()) as error:
-        status = next(s for s, kind in FAILURES.items() if isinstance(error, kind))
-        detail = str(error)
     except Exception as error:
-        detail = str(error) if isinstance(error, InputError) else sentence_of(error)
-        if not (detail and record.t):
+        status, detail = status_of(error)
+        if status is Status.RAISED and not record.t:
             raise
-        status = Status.RAISED
     if not record.t:
         record.add(t, x, np.zeros_like(x))
     if result is None:

@@ -116,6 +116,11 @@ class CompiledRun:
         block[self.pointers] -= self.address
         return block
 
+    @property
+    def inputs(self) -> int:
+        """Address of the inputs of its functions."""
+        return int(self.cells[PLACES["inp"]])
+
     def place(self, name: str) -> int:
         """Cell of the first number of a vector."""
         return (int(self.cells[PLACES[name]]) - self.address) // 8
