@@ -34,6 +34,7 @@ from biped_adrc.engine.compiled_signals import Reading, reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.equations import WalkerNumbers
 from biped_adrc.engine.kernels.run_plan import CompiledRun, table_height
+from biped_adrc.engine.mechanics import once_each
 from biped_adrc.engine.simulate import compiled_plant
 from biped_adrc.engine.symbols import floats
 from biped_adrc.gait.reference import Reference
@@ -43,7 +44,8 @@ from biped_adrc.hybrid.simulator import RunOptions, finite, flow_arc
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import HybridSystem
 from biped_adrc.hybrid.trajectory import Arc
-from biped_adrc.model.planar import link_point
+from biped_adrc.model.biped import Biped
+from biped_adrc.model.planar import LinkPoint, link_point
 
 At = tuple[ClosedLoop[Any], float, Array, Mode]
 """A loop, time [s], state (nx,) before the sample instant there, and single support."""
@@ -53,10 +55,16 @@ def with_inputs(walker: Walker) -> tuple[Walker, Array]:
     """The walker under a torque and a force from outside, and the array (p + 2,) where Python reads both."""
     plant, p = walker.plant, walker.plant.p
     outside = np.zeros(p + 2)
-    force = AddedForce(outside[p:], link_point(plant, plant.description.trunk))
+    force = AddedForce(outside[p:], _trunk(plant))
     push = force if walker.disturbance is None else walker.disturbance + force
     law = AddedTorque(walker.controller, outside[:p])
     return replace(walker, controller=law, disturbance=push), outside
+
+
+@once_each
+def _trunk(biped: Biped) -> LinkPoint:
+    """Origin of the trunk's frame."""
+    return link_point(biped, biped.description.trunk)
 
 
 def torque_place(numbers: WalkerNumbers) -> int:

@@ -14,7 +14,7 @@ Records of parts of the user's own are open: they keep other names in `own`, and
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from functools import lru_cache
+from functools import cache, lru_cache
 from types import NoneType, UnionType
 from typing import Any, ClassVar, Literal, NamedTuple, Self, TypeVar, Union, get_args, get_origin
 
@@ -187,7 +187,7 @@ class Record(BaseModel):
 
         What was registered in this process is written as module:Class, by which any other process finds it.
         """
-        usual = type(self).model_construct() if usual is None else usual
+        usual = usual_of(type(self)) if usual is None else usual
         result = {}
         for name, info in type(self).model_fields.items():
             x, before = getattr(self, name), getattr(usual, name)
@@ -219,6 +219,12 @@ class Record(BaseModel):
 
     def __hash__(self) -> int:
         return hash(repr(sorted(self.dotted().items())))
+
+
+@cache
+def usual_of(cls: type[Record]) -> Record:
+    """The record of defaults."""
+    return cls.model_construct()
 
 
 def plain(x: Any) -> Any:
