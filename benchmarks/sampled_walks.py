@@ -25,7 +25,7 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.control.base import Measurement
 from biped_adrc.core.types import Array
 from biped_adrc.engine.batch import BatchWalk
-from biped_adrc.engine.compiled_loop import CompiledLoop
+from biped_adrc.engine.on_plant import CompiledLoop
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4

@@ -13,7 +13,7 @@ import biped_adrc as ba
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import Advanced, Contact, PlantState
 from biped_adrc.core.errors import InputError, RaisedError
-from biped_adrc.engine.compiled_loop import CompiledLoop
+from biped_adrc.engine.on_plant import CompiledLoop
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sensors import Sensors

@@ -29,12 +29,12 @@ from biped_adrc.core.errors import RaisedError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.added_force import AddedForce
-from biped_adrc.engine.compiled_loop import CompiledLoop
 from biped_adrc.engine.compiled_signals import Reading, reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.equations import WalkerNumbers
 from biped_adrc.engine.kernels.run_plan import CompiledRun, table_height
 from biped_adrc.engine.mechanics import once_each
+from biped_adrc.engine.on_plant import CompiledLoop
 from biped_adrc.engine.simulate import compiled_plant
 from biped_adrc.engine.symbols import floats
 from biped_adrc.gait.reference import Reference

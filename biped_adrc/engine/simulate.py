@@ -5,7 +5,7 @@ Three ways, the fastest that fits is taken:
 - all compiled: controller, observer, disturbance and method of integration can be compiled; an arc
   is one call of a kernel;
 - compiled plant, sampled time: the same kernel, which calls Python at sample instants and impacts
-  (`engine.python_ticks`);
+  (`engine.compiled_walker`);
 - compiled plant otherwise: the Python loop of `hybrid.simulator` on compiled dynamics.
 """
 

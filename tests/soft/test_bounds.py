@@ -11,7 +11,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.core.errors import InputError
-from biped_adrc.engine.compiled_loop import CompiledLoop
+from biped_adrc.engine.on_plant import CompiledLoop
 from biped_adrc.extras.mujoco.engine import MuJoCoEngine
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.hybrid.integrators import StepFailed

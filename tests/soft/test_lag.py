@@ -10,8 +10,7 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import Load, PlantState
 from biped_adrc.core.errors import InputError
-from biped_adrc.engine.compiled_loop import CompiledLoop
-from biped_adrc.engine.on_plant import stepping_loop
+from biped_adrc.engine.on_plant import CompiledLoop, stepping_loop
 from biped_adrc.extras.mujoco.mjcf import mjcf
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import biped_adrc as ba
-from biped_adrc.engine.compiled_loop import CompiledLoop
+from biped_adrc.engine.on_plant import CompiledLoop
 from biped_adrc.extras.mujoco.engine import leapfrog
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco

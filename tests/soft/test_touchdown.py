@@ -8,7 +8,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.touchdowns import touchdowns
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.engine.compiled_loop import CompiledLoop
+from biped_adrc.engine.on_plant import CompiledLoop
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.hardware.detectors import ByForce, ByKinematics, Told
 from biped_adrc.hybrid.simulator import RunOptions
