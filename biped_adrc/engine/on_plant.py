@@ -11,9 +11,9 @@ A `CompiledLoop` has its sample instants in machine code, one call each,
     sample (t, step, t_start, x) -> x, xi^, least pivot
 
 whose measurement, model, controller, limits and queue of torques are those of `closed_loop.semantics`, traced
-as for a walker (`engine.equations`). A controller that cannot be compiled still gets the model's terms and its
-references from machine code. The settings of the trajectory say what ran: "compiled", or "compiled model", where
-the controller runs in Python, with the reason as "why".
+as for a walker (`engine.equations`). A controller that cannot be compiled still gets the terms of its model and
+its references from machine code. The settings of the trajectory say what ran: "compiled", or "compiled model",
+where the controller runs in Python, with the reason as "why".
 """
 
 from __future__ import annotations
