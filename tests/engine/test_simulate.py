@@ -439,6 +439,13 @@ def test_an_exception_of_the_controller_s_own_ends_the_run_with_its_place(gait, 
         assert run.detail.endswith("raised KeyError: 'the jump'")
 
 
+def test_an_interrupt_within_a_sample_instant_is_raised(gait, ticked):
+    npd = ba.NPDController(gait.constraint)
+    walker = replace(ticked, controller=Jumping(npd, raises=KeyboardInterrupt))
+    with pytest.raises(KeyboardInterrupt):
+        ba.walk(walker, gait, 2)
+
+
 # -- methods that cannot be compiled ---------------------------------------------------------------
 class Branching(Stateless):
     def output(self, s, m):
