@@ -7,19 +7,20 @@ it.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rich.table import Table
 
-from biped_adrc.cli.app import GAITS, console, gait_app, inputs, say_written, target
+from biped_adrc.cli.app import GAITS, command, console, gait_app, inputs, say_written, target
 from biped_adrc.cli.options import options, with_sets
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.core.files import check_folder
 
 if TYPE_CHECKING:
     from biped_adrc.core.types import Array
+    from biped_adrc.gait.gait import Gait
     from biped_adrc.model.biped import Biped
 
 
@@ -77,7 +78,7 @@ def gait_design(
         result = design_gait(biped, speed, step, through=through, **how)
     console.print(result.text(), highlight=False)
     path = out or Path(result.gait.file_name)
-    result.gait.save(path)
+    _save(result.gait, path)
     say_written(path)
 
 
@@ -95,7 +96,7 @@ def _library(biped: Biped, speeds: str, how: dict[str, Any], out: Path) -> None:
             except GaitError as error:
                 missed.append(f"{speed:g} m/s: {error}")
                 continue
-        result.gait.save(out / result.gait.file_name)
+        _save(result.gait, out / result.gait.file_name)
         c = result.certificate
         table.add_row(
             f"{result.speed:.3f}",
@@ -111,6 +112,11 @@ def _library(biped: Biped, speeds: str, how: dict[str, Any], out: Path) -> None:
         console.print(f"written to {out}")
     if missed:
         raise GaitError("; ".join(missed))
+
+
+def _save(gait: Gait, path: Path) -> None:
+    """Write the gait, with this command line in its provenance."""
+    replace(gait, provenance={**gait.provenance, "command": command()}).save(path)
 
 
 def _state(values: tuple[float, ...], n: int) -> tuple[Array, Array]:

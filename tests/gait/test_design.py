@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from biped_adrc.analysis.gait_design import DesignedGait, design_gait
-from biped_adrc.core.errors import GaitError
+from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.gait.design.optimise import audit, optimise
 from biped_adrc.gait.design.request import GaitRequest, StepLimits
 from biped_adrc.gait.gait import load_gait, onto_section
@@ -162,7 +162,7 @@ def test_what_stands_in_the_way_is_named() -> None:
     ],
 )
 def test_requests_without_a_gait(asked: dict, word: str) -> None:
-    with pytest.raises(GaitError, match=word):
+    with pytest.raises(InputError, match=word):
         design_gait(**asked)
 
 

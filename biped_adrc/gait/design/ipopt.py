@@ -8,7 +8,7 @@ names a limit that cannot be kept, and an end without slack is a feasible point 
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
@@ -59,7 +59,7 @@ def solve(
     low = np.concatenate([np.full(row.value.numel(), row.low) for row in rows])
     high = np.concatenate([np.full(row.value.numel(), row.high) for row in rows])
     problem = {"x": programme.x, "f": programme.objective, "g": g}
-    options = {
+    options: dict[str, Any] = {
         "print_time": False,
         "show_eval_warnings": False,
         "ipopt.print_level": 0,

@@ -229,11 +229,11 @@ def exact_gait(
     limits = vars(request.limits.of(biped))
     provenance = {
         "method": "direct optimisation on the zero dynamics, hybrid-invariant curves, IPOPT",
+        "curves": f"{request.curve}, degree {request.degree}, limits kept at {request.nodes} nodes",
         "asked": request.in_words(),
         "minimised": request.objective.value,
         "limits": ", ".join(f"{k} {v}" for k, v in limits.items()),
         "speed [m/s]": f"{step / gait.period:.6f}",
         "step length [m]": f"{step:.6f}",
-        "command": request.command(biped),
     }
     return replace(gait, provenance=provenance), zero.cycle
