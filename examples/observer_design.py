@@ -4,8 +4,8 @@ Run: python examples/observer_design.py
 """
 
 import biped_adrc as ba
-from biped_adrc.analysis.observer.check import DelayCase, check_encoders
 from biped_adrc.analysis.observer.report import observer_report
+from biped_adrc.control.delayed import Delayed
 
 PERIOD, COUNTS = 1.5e-3, 8192  # [s], per revolution: RABBIT's
 
@@ -20,15 +20,16 @@ observers = [
 for observer in observers:
     report = observer_report(observer, period=PERIOD, counts=COUNTS, robot=biped, gait=gait)
     print(report.verdict)
-    walked = check_encoders(biped, gait, observer, period=PERIOD, counts=COUNTS)
-    print(f"  a walk with these encoders: {walked.status.name}")
+    law = ba.ADRCController(gait.constraint, observer)
+    encoders, clock = ba.Sensors(counts=COUNTS, velocity="measured"), ba.SampledTime(PERIOD)
+    walk = ba.walk(ba.Walker(biped, law, timing=clock, sensors=encoders, torque_limit=150.0), gait)
+    print(f"  a walk with these encoders: {walk.trajectory.status.name}")
 
-    case = DelayCase(biped, gait, observer)
-    print(f"  delay margin {1e6 * case.margin:.4g} us; a torque so much late:")
+    margin = report.loop.delay_margin().delay
+    print(f"  delay margin {1e6 * margin:.4g} us; a torque so much late:")
     for share in (0.95, 1.05):
-        late = case.walked(share * case.margin)
-        tracks = "tracks" if late.tracks else "diverges"
-        print(f"    {share:.2f} of it {tracks}, largest error {late.errors.max():.2g} rad")
+        walk = ba.walk(ba.Walker(biped, Delayed(law, share * margin)), gait)
+        print(f"    {share:.2f} of it {walk.trajectory.status.name}")
 
 print("largest bandwidths that RABBIT allows:")
 for r in report.recommended:

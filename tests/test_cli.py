@@ -91,7 +91,7 @@ def test_a_gait_is_designed_of_the_curve_that_is_named(tmp_path):
     assert done.exit_code == 0
     gait = ba.load_gait(out, ba.Biped.load("rabbit"))
     assert isinstance(gait.constraint.curve, BSpline)
-    assert "--set curve=bspline" in gait.provenance["command"]
+    assert gait.provenance["curves"].startswith("bspline, degree 6")
 
 
 INTERRUPTED = """

@@ -20,7 +20,7 @@ from biped_adrc.analysis.loops.frozen_gait import FrozenGait
 from biped_adrc.analysis.loops.tick_matrices import (
     linear_twin,
 )
-from biped_adrc.analysis.loops.walker_loop import FREQUENCIES, Response, robot_step
+from biped_adrc.analysis.loops.walker_loop import FREQUENCIES, response, robot_step
 from biped_adrc.engine.tick_derivative import _differenced, tick_derivative
 from biped_adrc.hardware.pitch_sensor import PitchSensor
 from biped_adrc.hardware.sensors import Sensors
@@ -308,8 +308,9 @@ def test_sensitivity_of_a_walker_is_that_of_its_open_loop(late):
     M, B, C, D = loop.matrices()
     p, nyquist = len(C), np.pi / loop.period
     w = np.geomspace(loop.slow, nyquist, FREQUENCIES)
-    S = Response.of(M, B[:, -p:], C, D[:, -p:]).at(w * loop.period)
-    G = Response.of(M - B[:, -p:] @ C, B[:, -p:], C, np.zeros((p, p))).at(w * loop.period)
+    z = np.exp(1j * w * loop.period)[:, np.newaxis, np.newaxis]
+    S = response(z, M, B[:, -p:], C) + D[:, -p:]
+    G = response(z, M - B[:, -p:] @ C, B[:, -p:], C)
     np.testing.assert_allclose(S @ (np.eye(p) - G), [np.eye(p)] * len(w), atol=1e-9)
     np.testing.assert_allclose(loop.sensitivity()[: len(w)], S, atol=1e-9 * np.max(np.abs(S)))
 

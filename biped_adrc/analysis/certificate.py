@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Sequence
 from dataclasses import asdict, dataclass
-from itertools import repeat
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,15 +25,22 @@ from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.core.shown import Shown
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, Indices
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import ENDS, ROUND_OFF, SLIP, KnownLimits, Limits
 
 IMPULSE = "impulse"
 """The reason that is counted apart: the impulse at impact alone leaves the friction cone."""
-REASONS = ("normal_force", "friction", "torque", "scuffing", "slip", IMPULSE)
-"""Why a single support is not feasible: keys of `Support.infeasible`."""
+REASONS = {
+    "normal_force": "mean_normal_force",
+    "friction": "mean_friction",
+    "torque": "peak_torque",
+    "scuffing": "scuffing",
+    "slip": "slip",
+    IMPULSE: "impulse_ratio",
+}
+"""Why a single support is not feasible, the keys of `Support.infeasible`, and by which of its numbers."""
 
 
 @dataclass(frozen=True)
@@ -68,17 +75,8 @@ class Support(Shown):
     def infeasible(self) -> dict[str, str]:
         """What is not within the limits, in words, by the names in `REASONS`; empty for a feasible step."""
         k = KnownLimits(self.friction_limit, self.torque_limit, self.window)
-        cone, pulls = (1.0 + ROUND_OFF) * k.friction, not self.mean_normal_force > 0.0
-        ratio, never = self.mean_friction, self.mean_friction == math.inf
-        checks = {
-            "normal_force": (self.mean_normal_force, not pulls),
-            "friction": (ratio, ratio <= cone or (never and pulls)),
-            "torque": (self.peak_torque, self.peak_torque <= k.torque),
-            "scuffing": (self.scuffing, self.scuffing <= 0.0),
-            "slip": (self.slip, self.slip <= SLIP),
-            IMPULSE: (self.impulse_ratio, self.impulse_ratio <= cone),
-        }
-        return {name: violation(name, x, k) for name, (x, holds) in checks.items() if not holds}
+        numbers = {name: getattr(self, number) for name, number in REASONS.items()}
+        return {name: violation(name, x, k) for name, x in numbers.items() if not keeps(name, x, k)}
 
     def record(self) -> dict[str, float]:
         """All fields as a dictionary of numbers."""
@@ -126,6 +124,19 @@ def ratio_text(ratio: float) -> str:
     return f"{ratio:.3f}" if math.isfinite(ratio) else "no contact"
 
 
+def keeps(name: str, x: Any, k: KnownLimits) -> Any:
+    """Whether numbers x (...,), of the kind `name` in `REASONS`, are within the limits; NaN is not.
+
+    A friction that is infinite, where the ground never pushed, is left to the normal force.
+    """
+    cone = (1.0 + ROUND_OFF) * k.friction
+    if name == "normal_force":
+        return x > 0.0
+    if name == "friction":
+        return (x <= cone) | (x == math.inf)
+    return x <= {"torque": k.torque, "scuffing": 0.0, "slip": SLIP, IMPULSE: cone}[name]
+
+
 def violation(name: str, x: float, k: KnownLimits) -> str:
     """What is wrong with a number x that is not within its limit, in words; name: in `REASONS`."""
     over = f"over {1e3 * k.window:g} ms"
@@ -137,6 +148,27 @@ def violation(name: str, x: float, k: KnownLimits) -> str:
         "slip": f"a foot slips by {1e3 * x:.2g} mm > {1e3 * SLIP:g}",
         IMPULSE: f"the impulse at impact asks for friction {ratio_text(x)} > {k.friction:g}",
     }[name]
+
+
+def series(
+    walker: Walker, n: Nodes, k: KnownLimits, impacts: int, after: Array | None = None
+) -> dict[str, tuple[Array, Indices, Array]]:
+    """Of each of `REASONS` but slips times (M,) [s], single supports (M,) and numbers (M,), in order.
+
+    Frictions are -inf where the mean force does not push. impacts, after: as of `impulse_ratios`; on soft
+    ground, where friction is not limited, there are no impulses.
+    """
+    first, last, of = n.supports
+    means, impulses = mean_forces(walker, n, k.window), np.zeros(len(first))
+    if k.friction < math.inf:
+        impulses = impulse_ratios(walker, n, impacts, after)
+    return {
+        "normal_force": (means.t, means.of, means.F[:, 1]),
+        "friction": (means.t, means.of, ratios(means.F, -np.inf)),
+        "torque": (n.t, of, np.max(np.abs(n.u), axis=1, initial=0.0)),
+        "scuffing": (n.t, of, depths(walker, n, impacts)),
+        IMPULSE: (n.t[last], np.arange(len(first)), impulses),
+    }
 
 
 def supports(
@@ -153,22 +185,25 @@ def supports(
     cone; None on the rigid plant.
     """
     first, last, _ = n.supports
-    if slips is None:
-        slips, impulses = [0.0] * len(first), impulse_ratios(walker, n, impacts, after)
-    else:
-        k, impulses = k._replace(friction=math.inf), np.zeros(len(first))
-    of, _, F = mean_forces(walker, n, k.window)
-    normal, friction = np.full(len(first), np.inf), np.full(len(first), -np.inf)
-    with np.errstate(invalid="ignore"):  # NaN stays, and is judged
-        np.minimum.at(normal, of, F[:, 1])
-        np.maximum.at(friction, of, ratios(F, -np.inf))
-    friction = np.where(friction == -np.inf, np.where(normal == np.inf, 0.0, np.inf), friction)
-    depth = np.maximum.reduceat(depths(walker, n, impacts), first)
-    torque = np.maximum.reduceat(np.max(np.abs(n.u), axis=1, initial=0.0), first)
-    columns = (n.step[first], n.t[last] - n.t[first], normal, friction, depth, slips, torque)
-    numbers = (np.asarray(x).tolist() for x in (*columns, impulses))
-    limits = (k.friction, k.torque, k.window)
-    return tuple(Support(*row) for row in zip(*numbers, *map(repeat, limits), strict=False))
+    k = k if slips is None else k._replace(friction=math.inf)
+    worst = {name: np.zeros(len(first)) for name in REASONS}
+    worst["normal_force"] += np.inf
+    worst["friction"] -= np.inf
+    for name, (_, of, x) in series(walker, n, k, impacts, after).items():
+        with np.errstate(invalid="ignore"):  # NaN stays, and is judged
+            (np.minimum if name == "normal_force" else np.maximum).at(worst[name], of, x)
+    never = np.where(worst["normal_force"] == np.inf, 0.0, np.inf)  # has a mean force pushed
+    worst["friction"] = np.where(worst["friction"] == -np.inf, never, worst["friction"])
+    worst["slip"] += 0.0 if slips is None else slips
+    columns = {"step": n.step[first], "duration": n.t[last] - n.t[first]}
+    columns |= {REASONS[name]: x for name, x in worst.items()}
+    limits: dict[str, Any] = {
+        "friction_limit": k.friction,
+        "torque_limit": k.torque,
+        "window": k.window,
+    }
+    rows = zip(*(x.tolist() for x in columns.values()), strict=True)
+    return tuple(Support(**dict(zip(columns, row, strict=True)), **limits) for row in rows)
 
 
 def depths(walker: Walker, n: Nodes, impacts: int) -> Array:

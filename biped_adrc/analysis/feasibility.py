@@ -18,20 +18,22 @@ import numpy as np
 
 from biped_adrc.analysis.certificate import (
     IMPULSE,
+    REASONS,
     Support,
     after_last_impact,
-    depths,
     ended_in_impact,
+    keeps,
+    series,
     violation,
 )
-from biped_adrc.analysis.ground_force import Nodes, impulse_ratios, mean_forces, ratios
+from biped_adrc.analysis.ground_force import Nodes
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Trajectory
-from biped_adrc.model.robots.limits import ROUND_OFF, SLIP, KnownLimits, Limits
+from biped_adrc.model.robots.limits import SLIP, KnownLimits, Limits
 
 VERDICTS = {
     "infeasible": "not feasible",
@@ -47,15 +49,6 @@ OUTCOMES = {
 """Outcome of a walk: word in records, and its meaning in reports."""
 COUNTED = ("feasible", "but_impact")
 """Outcomes of a walk that is feasible, the impact at most aside."""
-NUMBERS = (
-    "mean_normal_force",
-    "mean_friction",
-    "scuffing",
-    "slip",
-    "impulse_ratio",
-    "peak_torque",
-)
-"""Numbers of `Feasibility` that its record holds."""
 
 
 def outcome_of(status: Status, broken: Collection[str]) -> str:
@@ -139,7 +132,7 @@ class Feasibility(Shown):
         """Outcome, numbers and reasons as plain values; None where a number is not finite, such as a
         friction without contact.
         """
-        numbers = {name: float(getattr(self, name)) for name in NUMBERS}
+        numbers = {name: float(getattr(self, name)) for name in REASONS.values()}
         return {
             "outcome": self.outcome,
             "feasible_impacts": self.feasible_impacts,
@@ -170,24 +163,10 @@ def first_violation(
 
     impacts: how many of its single supports ended in one; after: as of `impulse_ratios`.
     """
-    last, of = n.supports[1:]
-    means, cone = mean_forces(walker, n, k.window), (1.0 + ROUND_OFF) * k.friction
-    impulses = np.zeros(len(last))
-    if k.friction < math.inf:
-        impulses = impulse_ratios(walker, n, impacts, after)
-    # times, single supports and numbers, of which the first is bounded from below by 0
-    series = {
-        "normal_force": (means.t, means.of, means.F[:, 1], 0.0),
-        "friction": (means.t, means.of, ratios(means.F, -math.inf), cone),
-        "torque": (n.t, of, np.max(np.abs(n.u), axis=1, initial=0.0), k.torque),
-        "scuffing": (n.t, of, depths(walker, n, impacts), 0.0),
-        IMPULSE: (n.t[last], np.arange(len(last)), impulses, cone),
-    }
     result = []
-    for name, (t, where, x, limit) in series.items():
-        holds = x > limit if name == "normal_force" else x <= limit
-        for i in np.flatnonzero(~holds)[:1]:
-            result.append(Violation(float(t[i]), int(where[i]), violation(name, x[i], k)))
+    for name, (t, of, x) in series(walker, n, k, impacts, after).items():
+        for i in np.flatnonzero(~keeps(name, x, k))[:1]:
+            result.append(Violation(float(t[i]), int(of[i]), violation(name, x[i], k)))
     return min(result, default=None, key=lambda one: one.t)
 
 

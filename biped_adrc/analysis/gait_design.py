@@ -21,7 +21,6 @@ from biped_adrc.core.errors import GaitError
 from biped_adrc.core.shown import Shown, columns
 from biped_adrc.core.types import Array
 from biped_adrc.engine.run import COMPILED, simulate_by
-from biped_adrc.gait.design.ipopt import IpoptProgress
 from biped_adrc.gait.design.optimise import Optimum, optimise
 from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits
 from biped_adrc.gait.gait import Gait
@@ -98,15 +97,14 @@ def design_gait(
     nodes: int = 24,
     limits: StepLimits | None = None,
     curve: str = "bezier",
-    progress: IpoptProgress | None = None,
 ) -> DesignedGait:
     """The periodic, hybrid-invariant gait of least objective, proved by a simulated walk.
 
     robot: a robot, its name or the path of its robot.toml. speed: along the ground [m/s]. step: between the
     feet [m]; one of the two may be left out and is then free. slope: [rad], positive downhill. through: (q-,
     q'-), each (n,) [rad, rad/s], which the orbit has to pass in place of speed and step. curve: its kind by
-    name, one that lies between its ends. degree: of the curves. nodes: at which limits are kept. progress:
-    called after each iteration of IPOPT. Raises GaitError naming what could not be met.
+    name, one that lies between its ends. degree: of the curves. nodes: at which limits are kept. Raises
+    GaitError naming what could not be met, and KeyboardInterrupt on Ctrl-C.
 
     >>> design = ba.design_gait("rabbit", speed=0.7, limits=ba.StepLimits(torque=100.0))
     >>> print(f"{design.speed:.3f} m/s, peak {design.certificate.peak_torque:.1f} N m")
@@ -119,7 +117,7 @@ def design_gait(
     request = GaitRequest(
         speed, step, slope, Objective(objective), degree, nodes, limits, point, curve
     )
-    return certify(biped, request, optimise(biped, request, progress))
+    return certify(biped, request, optimise(biped, request))
 
 
 def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGait:

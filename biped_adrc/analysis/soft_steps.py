@@ -6,8 +6,8 @@
 
 Times are of the readings (`closed_loop.feet`), each of which stands for half the way to its neighbours, so
 that single support, double support and flight add up to the duration. The force of a touchdown begins
-within one step h of the engine, of which half is counted: impulses and work are off by up to h F / 2 and
-h F v / 2 there, of first order, and of second order everywhere else.
+within one step h of the engine, of which half is counted: impulses are off by up to h F / 2 there, of first
+order, and of second order everywhere else.
 """
 
 from __future__ import annotations
@@ -48,24 +48,14 @@ class SoftStep(Shown):
     """Both feet carry [s]."""
     flight: float
     """No foot carries [s]."""
-    slip_time: tuple[float, float]
-    """[s]"""
     slip: tuple[float, float]
     """Distance along the ground while slipping [m]."""
-    creep: tuple[float, float]
-    """Distance along the ground while carrying and not slipping [m]."""
     depth: float
     """Largest penetration [m]."""
-    peak_torque: float
-    """[N m]"""
-    normal_force: tuple[float, float]
-    """Largest F_N [N]."""
     friction_used: float
     """Largest |F_T| / F_N of a foot with F_N > 20 N [1]."""
     impulse: tuple[float, float]
     """Of the ground on the robot (x, z) [N s]."""
-    contact_work: float
-    """Of the ground on the robot [J]; what contact takes is negative."""
 
     @property
     def single_support(self) -> float:
@@ -152,15 +142,10 @@ def step_of(
         duration=float(r.t[-1] - r.t[0]),
         double_support=float(w @ (feet == 2)),
         flight=float(w @ (feet == 0)),
-        slip_time=_pair(w @ slips),
         slip=_pair(w @ (slips * speed)),
-        creep=_pair(w @ ((carries & ~slips) * speed)),
         depth=float(max(0.0, np.max(level * out[1] - r.place @ out))),
-        peak_torque=float(np.max(np.abs(r.u), initial=0.0)),
-        normal_force=_pair(np.max(normal, axis=0)),
         friction_used=float(np.max(used)),
         impulse=_pair(w @ r.force.sum(axis=1)),
-        contact_work=float(w @ np.sum(r.force * r.speed, axis=(1, 2))),
     )
 
 

@@ -7,8 +7,8 @@ multipliers of a cycle, P(s) = s, are the eigenvalues lambda of dP/ds; it is sta
     central differences     eigenvalues of dP/ds by differences of the return map at two widths d and d / 2,
                             extrapolated: (4 J(d/2) - J(d)) / 3 is dP/ds up to d^4 and round-off / d
 
-Both find dP/ds in independent ways, so their agreement is evidence. A method that doubts its own result
-says why (`MethodRow.doubt`). Two sets of multipliers are compared in pairs, one from each set. Of all ways to
+Both find dP/ds in independent ways, so their agreement is evidence. Where the variational equation doubts its
+own result it says why. Two sets of multipliers are compared in pairs, one from each set. Of all ways to
 make pairs that one is taken whose sum of distances is least; distances are divided by the tolerance.
 
     cycle_stability(cycle)   fixed point, and the multipliers of each method in one table
@@ -20,7 +20,6 @@ mechanical ones in the state of the map; then only central differences apply.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from enum import Enum
 
 import numpy as np
 from scipy.linalg import eig
@@ -36,7 +35,7 @@ from biped_adrc.analysis.signals import signals
 from biped_adrc.analysis.variational import StepDerivative, periodic_orbit
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode
 from biped_adrc.core.checks import check_part
-from biped_adrc.core.errors import InputError, SimulationError
+from biped_adrc.core.errors import SimulationError
 from biped_adrc.core.shown import Shown, columns
 from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.gait.constraint import VirtualConstraint
@@ -47,14 +46,8 @@ from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.limits import Limits
 
-
-class StabilityMethod(Enum):
-    """How multipliers were found; the values are the names in the table."""
-
-    VARIATIONAL = "variational equation"
-    CENTRAL = "central differences"
-
-
+VARIATIONAL, CENTRAL = "variational equation", "central differences"
+"""Names of the methods."""
 RELATIVE, ABSOLUTE = 1e-6, 1e-7
 """Two multipliers agree within the first of the larger one, or within the second."""
 FLOW = 1e-5
@@ -67,128 +60,86 @@ SETTLES = 1e-9
 
 
 @dataclass(frozen=True)
-class MethodRow(Shown):
-    """Multipliers by one method."""
-
-    method: StabilityMethod
-    """How they were found."""
-    multipliers: ComplexArray
-    """(k,), the largest magnitude first."""
-    noise: Array | None = None
-    """Bound (k,) of the numerical error, for each multiplier of the variational equation in their order; of
-    central differences only, see `noise_of_differences`.
-    """
-    doubt: str = ""
-    """Why the method is not to be trusted; empty when it is."""
-
-    @property
-    def magnitudes(self) -> Array:
-        """|lambda| (k,), the largest first."""
-        return np.abs(self.multipliers)
-
-
-@dataclass(frozen=True)
 class StabilityTable(Shown):
-    """One row per method; `verdict` says whether they agree and which to trust."""
+    """Multipliers (k,) by both methods, the largest magnitude first; `verdict` says whether they agree, and
+    which to trust.
+    """
 
-    rows: tuple[MethodRow, ...]
+    central: ComplexArray
+    """By central differences."""
+    variational: ComplexArray | None = None
+    """By the variational equation; None for a controller with states."""
+    noise: Array | float = 0.0
+    """Bound (k,) of the error of differences, see `noise_of_differences`."""
+    doubt: str = ""
+    """Why the variational equation is not to be trusted; empty when it is."""
 
     @property
-    def trusted(self) -> MethodRow:
-        """The first row without a doubt. Raises InputError when no row is left."""
-        for row in self.rows:
-            if not row.doubt:
-                return row
-        doubts = "; ".join(f"{r.method.value}: {r.doubt}" for r in self.rows)
-        raise InputError(f"no method gives the multipliers without a doubt ({doubts})")
+    def trusted(self) -> ComplexArray:
+        """Those of the variational equation, where there is no doubt of them."""
+        return self.central if self.variational is None or self.doubt else self.variational
 
     @property
     def stable(self) -> bool:
         """Whether all trusted multipliers are inside the unit circle."""
-        return bool(np.max(self.trusted.magnitudes) < 1.0)
+        return bool(np.max(np.abs(self.trusted)) < 1.0)
 
     @property
     def agree(self) -> bool:
-        """Whether every other method without a doubt agrees with the trusted one."""
-        return all(row.doubt or self.gap(row) <= 1.0 for row in self.rows)
+        """Whether the methods agree; True where only one is trusted."""
+        return self.gap() <= 1.0
 
-    def gap(self, row: MethodRow) -> float:
-        """Largest distance of a row to the trusted one in units of the tolerance; at most 1 when they agree."""
-        return _farthest(_distances(row.multipliers, self.trusted.multipliers, row.noise))
+    def gap(self, noise: Array | float | None = None) -> float:
+        """Largest distance of the two sets in units of the tolerance, which is `noise` at least; at most 1 when
+        they agree, 0 for one set.
+        """
+        if self.trusted is self.central:
+            return 0.0
+        return _farthest(self.central, self.trusted, self.noise if noise is None else noise)
 
     @property
     def verdict(self) -> str:
-        """One sentence for each other row, then which row to trust. Raises InputError as `trusted` does."""
-        trusted = self.trusted
-        sentences = [self._sentence(row) for row in self.rows if row is not trusted]
-        name, end = trusted.method.value, "stable" if self.stable else "not stable"
-        largest = np.max(trusted.magnitudes)
+        """One sentence for the method that is not trusted, then which one to trust."""
+        name = CENTRAL if self.trusted is self.central else VARIATIONAL
+        largest, end = np.max(np.abs(self.trusted)), "stable" if self.stable else "not stable"
         last = f"Trust the {name}: the cycle is {end}, the largest |lambda| is {largest:.6f}."
-        return " ".join((*sentences, last))
-
-    def _sentence(self, row: MethodRow) -> str:
-        """What one row says relative to the trusted one."""
-        name, gap = row.method.value.capitalize(), self.gap(row)
-        if row.doubt:
-            return f"{name}: not to be trusted, {row.doubt}."
-        within = f"{RELATIVE:g} relative or {ABSOLUTE:g} absolute"
-        plain = _farthest(_distances(row.multipliers, self.trusted.multipliers))
-        if row.noise is not None and max(plain, gap) > 1.0:
-            within += f" or what root finder and step leave open, at most {np.max(row.noise):.1e}"
-        if gap <= 1.0:
-            return f"{name}: agrees within {within}."
-        return f"{name}: disagrees, {gap:.3g} times the tolerance of {within}."
+        if self.doubt:
+            return f"{VARIATIONAL.capitalize()}: not to be trusted, {self.doubt}. {last}"
+        if self.variational is None:
+            return last
+        gap, within = self.gap(), f"{RELATIVE:g} relative or {ABSOLUTE:g} absolute"
+        if max(self.gap(0.0), gap) > 1.0:
+            within += f" or what root finder and step leave open, at most {np.max(self.noise):.1e}"
+        far = f"disagrees, {gap:.3g} times the tolerance of" if gap > 1.0 else "agrees within"
+        return f"{CENTRAL.capitalize()}: {far} {within}. {last}"
 
     def text(self, count: int = 9) -> str:
-        """The table as lines of text, the `count` largest |lambda| of each row, and the verdict."""
+        """The table as lines of text, the `count` largest |lambda| of each method, and the verdict."""
+        methods = {VARIATIONAL: self.variational, CENTRAL: self.central}
         rows = [
-            (row.method.value, " ".join(f"{m:.6e}" for m in row.magnitudes[:count]))
-            for row in self.rows
+            (name, " ".join(f"{size:.6e}" for size in np.abs(z)[:count]))
+            for name, z in methods.items()
+            if z is not None
         ]
         return "\n".join([*columns(rows, 28, gap=1), self.verdict])
 
 
-def _distances(one: ComplexArray, other: ComplexArray, noise: Array | None = None) -> Array:
-    """Distance of every multiplier of one set to every one of the other; at most 1 where they agree.
+def _farthest(one: ComplexArray, other: ComplexArray, noise: Array | float) -> float:
+    """Largest distance of two sets (k,), paired at least total distance, in units of the tolerance.
 
-    one (k,), other (l,) -> (k, l): |one_i - other_j| divided by the largest of the absolute tolerance, the
-    relative one, and noise (l,), what errors of computing may do to each of `other`.
+    A distance is divided by the largest of the absolute tolerance, the relative one, and noise (k,), what
+    errors of computing may do to each of `other`.
     """
-    a, b = one[:, np.newaxis], other[np.newaxis]
-    allowed = np.maximum(ABSOLUTE, RELATIVE * np.maximum(np.abs(a), np.abs(b)))
-    if noise is not None:
-        allowed = np.maximum(allowed, noise)
-    return np.abs(a - b) / allowed
-
-
-def _farthest(cost: Array) -> float:
-    """The largest cost of a pair when rows and columns of `cost` are paired at least total cost.
-
-    Infinite where there are not as many rows as columns.
-    """
-    if cost.shape[0] != cost.shape[1]:
-        return float("inf")
     # `simulate` reads this module, and SciPy's optimisers take long to load
     from scipy.optimize import linear_sum_assignment
 
+    a, b = one[:, np.newaxis], other[np.newaxis]
+    allowed = np.maximum(ABSOLUTE, RELATIVE * np.maximum(np.abs(a), np.abs(b)))
+    cost = np.abs(a - b) / np.maximum(allowed, noise)
     return float(np.max(cost[linear_sum_assignment(cost)]))
 
 
-# -- rows ------------------------------------------------------------------------------------------
-def variational_row(step: StepDerivative) -> MethodRow:
-    """The row of the variational equation.
-
-    Doubted when Phi f(0) is not f-, the flow before the next impact, see `StepDerivative.flow_residual`.
-    """
-    doubt = ""
-    if not step.flow_residual <= FLOW:
-        doubt = (
-            f"its Phi carries the flow along to {step.flow_residual:.1e} only, expected "
-            f"{FLOW:g}: take a shorter step, or look whether the flow depends on time"
-        )
-    return MethodRow(StabilityMethod.VARIATIONAL, step.multipliers, doubt=doubt)
-
-
+# -- both methods ----------------------------------------------------------------------------------
 def noise_of_differences(P: ReturnMap, step: StepDerivative) -> Array:
     """Bound (k,) of |delta lambda_i|, by which differences and variational equation may differ numerically.
 
@@ -208,16 +159,10 @@ def noise_of_differences(P: ReturnMap, step: StepDerivative) -> Array:
     return noise[np.argsort(-np.abs(values))]
 
 
-def central_row(P: ReturnMap, s: Array, step: StepDerivative | None = None) -> MethodRow:
-    """The row of central differences at s (k,) [rad, rad/s], extrapolated from d = P.difference and d / 2.
-
-    step: the derivative at s; without it there is no noise.
-    """
+def central_multipliers(P: ReturnMap, s: Array) -> ComplexArray:
+    """(k,) by central differences at s (k,) [rad, rad/s], extrapolated from d = P.difference and d / 2."""
     wide, narrow = P.jacobian(s), replace(P, difference=0.5 * P.difference).jacobian(s)
-    noise = None if step is None else noise_of_differences(P, step)
-    return MethodRow(
-        StabilityMethod.CENTRAL, sorted_eigenvalues((4.0 * narrow - wide) / 3.0), noise
-    )
+    return sorted_eigenvalues((4.0 * narrow - wide) / 3.0)
 
 
 def invariance_gap(biped: Biped, constraint: VirtualConstraint) -> float:
@@ -239,9 +184,17 @@ def invariance_gap(biped: Biped, constraint: VirtualConstraint) -> float:
 def stability_table(P: ReturnMap, step: StepDerivative) -> StabilityTable:
     """The table at the fixed point of `step`, as `variational.periodic_orbit` finds it.
 
-    Central differences of P cost 4 steps of walking per coordinate.
+    The variational equation is doubted when Phi f(0) is not f-, the flow before the next impact, see
+    `StepDerivative.flow_residual`. Central differences of P cost 4 steps of walking per coordinate.
     """
-    return StabilityTable((variational_row(step), central_row(P, step.s, step)))
+    doubt = ""
+    if not step.flow_residual <= FLOW:
+        doubt = (
+            f"its Phi carries the flow along to {step.flow_residual:.1e} only, expected "
+            f"{FLOW:g}: take a shorter step, or look whether the flow depends on time"
+        )
+    central, noise = central_multipliers(P, step.s), noise_of_differences(P, step)
+    return StabilityTable(central, step.multipliers, noise, doubt)
 
 
 # -- of a cycle -------------------------------------------------------------------------------------
@@ -285,8 +238,7 @@ def cycle_stability(cycle: Cycle) -> CycleStability:
     if len(cycle.guess) > 2 * P.walker.plant.n:
         guess = cycle.guess if P.controller_states else cycle.guess[: 2 * P.walker.plant.n]
         orbit = P.fixed_point(guess)
-        row = MethodRow(StabilityMethod.CENTRAL, orbit.multipliers)
-        return CycleStability(cycle, orbit, StabilityTable((row,)))
+        return CycleStability(cycle, orbit, StabilityTable(orbit.multipliers))
     orbit, step = periodic_orbit(P, cycle.guess, SETTLES)
     return CycleStability(cycle, orbit, stability_table(P, step))
 

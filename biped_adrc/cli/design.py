@@ -1,27 +1,26 @@
 """`biped-adrc gait design`: gaits by optimisation, one or a library by speed.
 
 `analysis.gait_design.design_gait` solves the programme with IPOPT and certifies the gait by walking
-it. The line that moves while IPOPT runs is fed by its iterations.
+it.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rich.status import Status
 from rich.table import Table
 
-from biped_adrc.cli.app import GAITS, console, gait_app, inputs, say_written, target
+from biped_adrc.cli.app import GAITS, command, console, gait_app, inputs, say_written, target
 from biped_adrc.cli.options import options, with_sets
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.core.files import check_folder
 
 if TYPE_CHECKING:
     from biped_adrc.core.types import Array
-    from biped_adrc.gait.design.ipopt import IpoptProgress
+    from biped_adrc.gait.gait import Gait
     from biped_adrc.model.biped import Biped
 
 
@@ -75,11 +74,11 @@ def gait_design(
         _library(biped, speeds, how, Path("gait-library") if out is None else out)
         return
     through = None if c.through is None else _state(c.through, biped.n)
-    with console.status("building the programme") as shown:
-        result = design_gait(biped, speed, step, through=through, progress=_progress(shown), **how)
+    with console.status("IPOPT designs the gait"):
+        result = design_gait(biped, speed, step, through=through, **how)
     console.print(result.text(), highlight=False)
     path = out or Path(result.gait.file_name)
-    result.gait.save(path)
+    _save(result.gait, path)
     say_written(path)
 
 
@@ -91,13 +90,13 @@ def _library(biped: Biped, speeds: str, how: dict[str, Any], out: Path) -> None:
     table = Table("m/s", "step [m]", "torque [N m]", "friction", "delta^2", "transport", "s")
     missed = []
     for speed in _speeds(speeds):
-        with console.status(f"{speed:g} m/s") as shown:
+        with console.status(f"{speed:g} m/s"):
             try:
-                result = design_gait(biped, speed, progress=_progress(shown), **how)
+                result = design_gait(biped, speed, **how)
             except GaitError as error:
                 missed.append(f"{speed:g} m/s: {error}")
                 continue
-        result.gait.save(out / result.gait.file_name)
+        _save(result.gait, out / result.gait.file_name)
         c = result.certificate
         table.add_row(
             f"{result.speed:.3f}",
@@ -115,13 +114,9 @@ def _library(biped: Biped, speeds: str, how: dict[str, Any], out: Path) -> None:
         raise GaitError("; ".join(missed))
 
 
-def _progress(shown: Status) -> IpoptProgress:
-    """Shows the iterations of IPOPT: number, objective, and how far the constraints are missed."""
-
-    def say(iteration: int, objective: float, missed: float) -> None:
-        shown.update(f"iteration {iteration}, objective {objective:.4g}, missed by {missed:.1e}")
-
-    return say
+def _save(gait: Gait, path: Path) -> None:
+    """Write the gait, with this command line in its provenance."""
+    replace(gait, provenance={**gait.provenance, "command": command()}).save(path)
 
 
 def _state(values: tuple[float, ...], n: int) -> tuple[Array, Array]:

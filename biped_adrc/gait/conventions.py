@@ -29,7 +29,7 @@ from functools import cached_property
 
 import numpy as np
 
-from biped_adrc.core.errors import GaitError, InputError
+from biped_adrc.core.errors import GaitError
 from biped_adrc.core.files import packaged
 from biped_adrc.core.types import Array, read_only
 from biped_adrc.model.biped import Biped
@@ -53,16 +53,11 @@ class AngleMap:
             object.__setattr__(self, name, read_only(getattr(self, name)))
 
     def angles(self, q: Array) -> Array:
-        """A q + b [rad] of angles q (n,), or of each row of (K, n). Raises InputError for another length."""
+        """A q + b [rad] of angles q (n,), or of each row of (K, n)."""
         return self.rates(q) + self.b
 
     def rates(self, v: Array) -> Array:
-        """A v of rates [rad/s] or accelerations (n,), or of each row of (K, n). Raises InputError likewise."""
-        v = np.asarray(v, dtype=float)
-        if v.ndim not in (1, 2) or v.shape[-1] != len(self.b):
-            raise InputError(
-                f"angles or rates have shape {v.shape}, expected ({len(self.b)},) or rows of that"
-            )
+        """A v of rates [rad/s] or accelerations (n,), or of each row of (K, n)."""
         mapped: Array = v @ self.A.T
         return mapped
 

@@ -164,6 +164,6 @@ def design_recipe_gait(biped: Biped) -> Gait:
         "torso amplitude [rad]": f"{p.torso_amplitude:.6f}",
         "degree": str(p.degree),
         "regression residual [rad]": f"{residual:.2e}",
-        "command": f"biped-adrc gait recipe --preset {biped.preset}",
+        "command": "python -m validation.gaits",
     }
     return Gait.of_cycle("recipe", ZeroDynamics.of(biped, constraint), provenance)

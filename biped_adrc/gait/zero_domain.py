@@ -26,7 +26,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from biped_adrc.core.errors import check_positive
+from biped_adrc.core.checks import Checked, PositiveFloat
 from biped_adrc.core.types import Array
 from biped_adrc.gait.zero_orbits import ZeroOrbits, grid, series
 from biped_adrc.model.ground import check_slope, ground_axes
@@ -38,24 +38,20 @@ UNLIMITED = "no limit"
 
 
 @dataclass(frozen=True)
-class DomainLimits:
+class DomainLimits(Checked):
     """What ground and motors allow in `domain`; None leaves a limit out. F_N > 0 holds in any case.
 
     Raises InputError for a limit that is not positive or a slope of a right angle and more.
     """
 
-    friction: float | None = None
+    friction: PositiveFloat | None = None
     """mu, largest |F_T| / F_N."""
-    torque: float | None = None
+    torque: PositiveFloat | None = None
     """Largest |u_i| [N m]."""
     slope: float = 0.0
     """Of the ground [rad], positive downhill."""
 
     def __post_init__(self) -> None:
-        for name in ("friction", "torque"):
-            value = getattr(self, name)
-            if value is not None:
-                check_positive(value, f"limit of {name} is {value}", " or None")
         check_slope(self.slope)
 
 

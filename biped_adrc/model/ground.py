@@ -14,7 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.core.errors import InputError, check_count, check_positive, check_whole
+from biped_adrc.core.checks import Checked, PositiveFloat, PositiveInt
+from biped_adrc.core.errors import InputError, check_whole
 from biped_adrc.core.types import Array
 
 
@@ -34,18 +35,13 @@ def check_slope(slope: float) -> None:
 
 
 @dataclass(frozen=True)
-class GroundStep:
+class GroundStep(Checked):
     """What a step down and a step up share: the single support that ends on it, and a height [m] > 0."""
 
-    step: int
+    step: PositiveInt
     """Number of the single support, from 1, that ends on the changed ground."""
-    height: float
+    height: PositiveFloat
     """[m], positive whichever way the step goes."""
-
-    def __post_init__(self) -> None:
-        name, step, height = type(self).__name__, self.step, self.height
-        check_count(step, f"{name} is in single support {step}; they are counted from 1")
-        check_positive(height, f"{name} is {height} m high", "; StepDown and StepUp say the way")
 
     @property
     def drop(self) -> float:

@@ -155,7 +155,7 @@ def test_samples_in_files(step, kind, biped, gait, tmp_path):
 
 
 def test_a_bad_fit_is_said_to_be_one(step, biped):
-    with pytest.raises(ba.BipedError, match="degree 5 would do"):
+    with pytest.raises(ba.BipedError, match="try a degree up to 12"):
         ba.import_gait(step, biped, degree=4)
 
 

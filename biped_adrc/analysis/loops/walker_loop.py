@@ -13,13 +13,12 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.linalg import eig, expm, matrix_balance, schur
+from scipy.linalg import eig, expm
 from scipy.optimize import brentq
 
 from biped_adrc.analysis.loops.tick_matrices import TickMatrices
@@ -197,31 +196,20 @@ class WalkerLoops:
         own = own[..., : int(np.max(np.sum(inside, axis=-1)))]
         grid = np.geomspace(self.slow, nyquist, FREQUENCIES)
         grid = grid.reshape(*(1 for _ in own.shape[:-1]), -1)
-        controller, robot = self._responses()
+        (j, f), (Z, Y, C, E), p = (
+            whole_and_part(self.delay, self.period),
+            self.tick,
+            self.B.shape[-1],
+        )
+        Phi, G_1, G_2 = robot_step(self.A, self.B, self.period, f, self.lag)
+        G, of_plant = np.concatenate((G_2, G_1), axis=-1), np.eye(Y.shape[-1], Phi.shape[-1])
         result = []
         for angles in (grid * self.period, own * self.period):
-            K, P = controller.at(angles).swapaxes(-2, -1), robot(angles)
-            result.append(np.linalg.inv(np.eye(K.shape[-2]) - K @ P))
+            z = np.exp(1j * angles)[..., np.newaxis, np.newaxis]
+            K, P = response(z, Z, Y, C) + E[..., np.newaxis, :, :], response(z, Phi, G, of_plant)
+            P = (P[..., :p] + P[..., p:] / z) / z**j
+            result.append(np.linalg.inv(np.eye(p) - K @ P))
         return np.concatenate(result, axis=-3)
-
-    def _responses(self) -> tuple[Response, Callable[[Array], ComplexArray]]:
-        """Of the controller from (q, q') to its torques, transposed, and of the robot from these to (q, q')."""
-        Z, Y, C, E = self.tick
-        j, f = whole_and_part(self.delay, self.period)
-        Phi, G_1, G_2 = robot_step(self.A, self.B, self.period, f, self.lag)
-        m, p = Y.shape[-1], G_2.shape[-1]
-        G = np.concatenate((G_2, G_1), axis=-1) if f > 0.0 else G_2
-        eye = np.broadcast_to(np.eye(m, Phi.shape[-1]), (*G.shape[:-2], m, Phi.shape[-1]))
-        robot = Response.of(Phi, G, eye, np.zeros((m, G.shape[-1])))
-
-        def moved(angles: Array) -> ComplexArray:
-            late = np.exp(-1j * angles)[..., np.newaxis, np.newaxis]
-            P = robot.at(angles)
-            P = P[..., :p] + late * P[..., p:] if f > 0.0 else P
-            return np.asarray(late**j * P)
-
-        # p columns to solve for in place of 2 n
-        return Response.of(*(x.swapaxes(-2, -1) for x in (Z, C, Y, E))), moved
 
     def covariance_of_torque(self, errors: Array) -> Array:
         """Of the torques (p, p) [N^2 m^2] of one loop under independent errors of (q, q') at every tick, of
@@ -239,46 +227,8 @@ class WalkerLoops:
         return np.asarray(C @ P @ C.T + direct @ direct.T)
 
 
-class Response(NamedTuple):
-    """Frequency responses C (z - M)^-1 B + D of sampled systems, of many at once.
-
-    Systems with leading axes (..), of s states, m inputs and p outputs. M is balanced, since its states have
-    units far apart, and brought to its triangular form once; then all frequencies are solved for at once, row
-    by row.
-    """
-
-    T: ComplexArray
-    """(.., s, s), upper triangular: U^H M U of the balanced M."""
-    B: ComplexArray
-    """(.., s, m)."""
-    C: ComplexArray
-    """(.., p, s)."""
-    D: Array
-    """(.., p, m)."""
-
-    @classmethod
-    def of(cls, M: Array, B: Array, C: Array, D: Array) -> Response:
-        """Of systems M (.., s, s), B (.., s, m), C (.., p, s), D (.., p, m)."""
-        T, b, c = (np.zeros(np.shape(x), dtype=complex) for x in (M, B, C))
-        for at in np.ndindex(np.shape(M)[:-2]):
-            if M.shape[-1] == 0:
-                break
-            balanced, (scale, _) = matrix_balance(M[at], permute=False, separate=True)
-            T[at], U = schur(balanced, output="complex")
-            b[at], c[at] = U.conj().T @ (B[at].T / scale).T, (C[at] * scale) @ U
-        return cls(T, b, c, np.asarray(D))
-
-    def at(self, angles: Array) -> ComplexArray:
-        """(.., F, p, m) at z = exp(i angle), angles (.., F) [rad] a sample."""
-        z: ComplexArray = np.exp(1j * angles)
-        s, m = self.B.shape[-2:]
-        *axes, F = np.broadcast_shapes(z.shape, (*self.B.shape[:-2], z.shape[-1]))
-        X = np.zeros((*axes, s, F, m), dtype=complex)
-        for i in range(s - 1, -1, -1):
-            later = X[..., i + 1 :, :, :].reshape(*axes, s - i - 1, F * m)
-            rest = (self.T[..., i : i + 1, i + 1 :] @ later).reshape(*axes, F, m)
-            pivot = (z - self.T[..., i, i, np.newaxis])[..., np.newaxis]
-            X[..., i, :, :] = (self.B[..., i, np.newaxis, :] + rest) / pivot
-        result = self.C @ X.reshape(*axes, s, F * m)
-        result = result.reshape(*axes, -1, F, m).swapaxes(-3, -2)
-        return np.asarray(result + self.D[..., np.newaxis, :, :])
+def response(z: ComplexArray, M: Array, B: Array, C: Array) -> ComplexArray:
+    """C (z - M)^-1 B (.., F, p, m) of sampled systems, of many at once, at z (.., F, 1, 1)."""
+    M, B = M[..., np.newaxis, :, :], B[..., np.newaxis, :, :]
+    states = np.linalg.solve(z * np.eye(M.shape[-1]) - M, B + 0.0 * z)
+    return np.asarray(C[..., np.newaxis, :, :] @ states)

@@ -5,5 +5,4 @@
 - `impact`   the estimation error that an impact leaves
 - `choice`   the largest bandwidth that the hardware allows, for each order m
 - `report`   puts all of this together, in numbers, words and tables
-- `check`    walks at the margins: the proof in simulation
 """

@@ -78,10 +78,10 @@ def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
     order: states per joint of the observer, m + 2: q_b, q_b', and m for xi and its derivatives.
     Raises GaitError where the gait has no periodic orbit.
     """
-    orbit = ZeroDynamics.of(biped, gait.constraint).cycle
+    zero = ZeroDynamics.of(biped, gait.constraint)
+    orbit = zero.cycle
     xi = np.array([biped.reduction(q, v).xi for q, v in zip(orbit.q, orbit.v, strict=True)])
-    rate = orbit.v @ gait.constraint.phase
-    t = _times(orbit.theta, rate, gait.constraint.theta_plus)
+    t = zero.cumulative @ (1.0 / (orbit.v @ gait.constraint.phase))  # of the nodes [s]
     fits = [Chebyshev.fit(t, column, DEGREE, domain=[0.0, orbit.period]) for column in xi.T]
 
     def chain(time: float, q: Array, v: Array) -> Array:
@@ -92,16 +92,6 @@ def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
     start = gait.start(biped)
     before, after = chain(orbit.period, gait.q_minus, gait.v_minus), chain(0.0, *start)
     return ImpactStates(before, after, biped.swap, biped.reduction(*start).kappa_inverse)
-
-
-def _times(theta: Array, rate: Array, start: float) -> Array:
-    """Time since the start of the step at the nodes (K,) [s]: the integral of dTheta / Theta'.
-
-    theta (K,) [rad] and rate Theta' (K,) [rad/s] at the nodes; start: Theta+ [rad], Theta as the step begins.
-    """
-    slowness = Chebyshev.fit(theta, 1.0 / rate, DEGREE)
-    whole = slowness.integ()
-    return whole(theta) - whole(start)
 
 
 def reset_error(impact: ImpactStates, policy: ResetPolicy) -> Array:

@@ -118,45 +118,32 @@ class ObserverReport(OnHardware):
         or a worse rejection than without an observer.
         """
         k, limit = self.hardware, self.hardware.torque_limit
-        share = self.ripple / limit
-        where = (
-            f"on {self.robot} at {1.0 / k.period:.0f} Hz with {k.counts:g} counts per revolution"
-        )
+        share, unstable = self.ripple / limit, self.obstacle == "stability"
         part = f"{100.0 * share:.3g} % of" if share <= 1.0 else f"{share:.3g} times"
-        torque = (
+        noise = (
             f"one encoder count makes {self.ripple:.4g} N m rms, {part} the limit of {limit:g} N m"
         )
-        unstable = [self._unstable()] if self.obstacle == "stability" else []
+        margin = microseconds(self.sampled_margins[int(k.known)])
+        bears = f"with the model's kappa its delay margin at this period is {margin}"
+        facts = [noise] if math.isfinite(share) else []
+        facts += [self._unstable(), bears] if unstable else [bears, self._use()]
+        word = "can run"
         if unstable or share > 1.0:
-            noise = [torque] if math.isfinite(share) else []
-            reasons = noise + unstable if share > 1.0 else unstable + noise
-            return f"{self.name} cannot run {where}: {'; '.join((*reasons, self._bears()))}"
-        facts, wish = [torque, self._bears(), self._use()], ": "
-        if not self.runs:
-            wish = f", but not well: at most {100.0 * SHARE:g} % are asked for, and "
+            word = "cannot run"
+        elif not self.runs:
+            word = f"can run, but not well, with more than {100.0 * SHARE:g} % of the limit,"
         elif self.against_none > 1.0:
-            wish, facts = ", but is worse than no observer: ", [*facts[2:], *facts[:2]]
-        return f"{self.name} can run {where}{wish}{'; '.join(facts)}"
-
-    def _bears(self) -> str:
-        """The largest delay that the sampled loop bears, in words."""
-        margin = self.sampled_margins[int(self.hardware.known)]
-        if math.isnan(margin):
-            return "it bears no delay, since with the model's kappa it is unstable"
-        if math.isinf(margin):
-            return "with the model's kappa no delay was found that it does not bear"
-        return f"with the model's kappa it bears {microseconds(margin)} of delay at this period"
+            word = "can run, but is worse than no observer,"
+        where = f"{self.robot} at {1.0 / k.period:.0f} Hz with {k.counts:g} counts per revolution"
+        return f"{self.name} {word} on {where}: {'; '.join(facts)}"
 
     def _unstable(self) -> str:
         """Which ratio of the robot's kappa to the model's makes the sampled loop unstable."""
-        delay, radius = self.hardware.delay, self.sampled().spectral_radius
-        late = f"with a delay of {delay * 1e6:.0f} us" if delay > 0.0 else "with no delay"
-        if not radius < 1.0:
-            return f"{late} the sampled loop is unstable, spectral radius {radius:.4g}"
-        ratio, radius = self.weakest
+        (ratio, radius), late = self.weakest, 1e6 * self.hardware.delay
         return (
-            f"{late} and {ratio:g} times the model's kappa the sampled loop is unstable, spectral radius "
-            f"{radius:.4g} (stability is asked for from {KAPPA_RATIOS[0]:g} to {KAPPA_RATIOS[-1]:g} times)"
+            f"with a delay of {late:.0f} us and {ratio:g} times the model's kappa the sampled loop is unstable,"
+            f" spectral radius {radius:.4g} (stability is asked for from {KAPPA_RATIOS[0]:g} to "
+            f"{KAPPA_RATIOS[-1]:g} times)"
         )
 
     def _use(self) -> str:

@@ -1,4 +1,4 @@
-"""IPOPT on a nonlinear programme: options, progress, Ctrl-C, and the reason when no solution exists.
+"""IPOPT on a nonlinear programme: options, Ctrl-C, and the reason when no solution exists.
 
 `solve` runs IPOPT once. Where it finds no feasible point, `relaxed` solves the same programme with a slack
 variable s >= 0 in each limit and sum s minimised (an elastic, or l1, relaxation): a slack that stays above zero
@@ -8,11 +8,7 @@ names a limit that cannot be kept, and an end without slack is a feasible point 
 
 from __future__ import annotations
 
-import signal
-import threading
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
@@ -21,8 +17,6 @@ from biped_adrc.core.errors import GaitError
 from biped_adrc.core.types import Array
 from biped_adrc.gait.design.nlp import Bounded, NonlinearProgram
 
-IpoptProgress = Callable[[int, float, float], None]
-"""Called after each iteration with its number, the objective, and the largest violation of a constraint."""
 Bounds = tuple[Array, Array]
 """Lower and upper bounds of the decision vector, both (nx,)."""
 
@@ -36,46 +30,37 @@ ASKED_WEIGHT = 100.0
 """Weight of the slacks of ASKED in the relaxation, so that a limit gives way before what was asked does."""
 MISSED = 1e-5
 """Largest slack of a limit that counts as kept."""
-_SOLVED = ("Solve_Succeeded", "Solved_To_Acceptable_Level")
+INTERRUPTED = "NonIpopt_Exception_Thrown"
+"""Status with which CasADi ends IPOPT after Ctrl-C: the only exception that an evaluation can meet."""
 
 
-@dataclass(frozen=True)
-class IpoptResult:
+class IpoptResult(NamedTuple):
     """How one run of IPOPT ended."""
 
     x: Array
     """Decision vector (nx,) of the last iteration, a solution or not."""
     status: str
     """IPOPT's return status, such as "Solve_Succeeded" or "Infeasible_Problem_Detected"."""
+    solved: bool
+    """Whether IPOPT met its tolerances, or its acceptable ones."""
     iterations: int
-
-    @property
-    def solved(self) -> bool:
-        """Whether IPOPT met its tolerances, or its acceptable ones."""
-        return self.status in _SOLVED
 
 
 def solve(
-    programme: NonlinearProgram,
-    x0: Array,
-    bounds: Bounds,
-    progress: IpoptProgress | None,
-    strategy: str = "adaptive",
+    programme: NonlinearProgram, x0: Array, bounds: Bounds, strategy: str = "adaptive"
 ) -> IpoptResult:
     """Run IPOPT from x0 (nx,) within bounds of the decision vector.
 
     strategy: how IPOPT lowers its barrier parameter, "adaptive" (fast) or "monotone" (more robust). Raises
-    KeyboardInterrupt on Ctrl-C, after the iteration under way.
+    KeyboardInterrupt on Ctrl-C, which CasADi notices at its next evaluation.
     """
     rows = programme.rows
     g = ca.vertcat(*(row.value for row in rows))
     low = np.concatenate([np.full(row.value.numel(), row.low) for row in rows])
     high = np.concatenate([np.full(row.value.numel(), row.high) for row in rows])
-    watch = _Watch(programme.x.numel(), low, high, progress)
     problem = {"x": programme.x, "f": programme.objective, "g": g}
     options: dict[str, Any] = {
         "print_time": False,
-        "iteration_callback": watch,
         "show_eval_warnings": False,
         "ipopt.print_level": 0,
         "ipopt.sb": "yes",
@@ -87,62 +72,12 @@ def solve(
         "ipopt.acceptable_iter": 5,
     }
     solver = ca.nlpsol("gait", "ipopt", problem, options)
-    # CasADi swallows an exception in a callback, so Ctrl-C sets a flag; it reaches the main thread alone
-    here = threading.current_thread() is threading.main_thread()
-    before = signal.signal(signal.SIGINT, watch.interrupt) if here else None
-    try:
-        result = solver(x0=x0, lbx=bounds[0], ubx=bounds[1], lbg=low, ubg=high)
-    finally:
-        if here:
-            signal.signal(signal.SIGINT, before)
-    if watch.interrupted:
-        raise KeyboardInterrupt
+    result = solver(x0=x0, lbx=bounds[0], ubx=bounds[1], lbg=low, ubg=high)
     stats = solver.stats()
-    return IpoptResult(
-        np.array(result["x"]).ravel(), str(stats["return_status"]), int(stats["iter_count"])
-    )
-
-
-class _Watch(ca.Callback):
-    """IPOPT's iteration callback: reports progress, and stops IPOPT by returning 1 after Ctrl-C.
-
-    CasADi asks it for the sizes of its inputs (the solver's outputs x, f, g and multipliers) by the methods
-    below, whose names are CasADi's.
-    """
-
-    def __init__(self, nx: int, low: Array, high: Array, progress: IpoptProgress | None) -> None:
-        ca.Callback.__init__(self)
-        ng = len(low)
-        self._sizes = {"x": nx, "f": 1, "g": ng, "lam_x": nx, "lam_g": ng, "lam_p": 0}
-        self._low, self._high = low, high
-        self._progress, self._iteration = progress, -1
-        self.interrupted = False
-        self.construct("watch", {})
-
-    def interrupt(self, *_: object) -> None:
-        """Stop at the next iteration; a handler of a signal."""
-        self.interrupted = True
-
-    def get_n_in(self) -> int:
-        return int(ca.nlpsol_n_out())
-
-    def get_sparsity_in(self, i: int) -> ca.Sparsity:
-        """Shape of the solver's output i: a dense column, or empty for the multipliers of no parameters."""
-        size = self._sizes[ca.nlpsol_out(i)]
-        return ca.Sparsity.dense(size, 1) if size else ca.Sparsity(0, 0)
-
-    def eval(self, arg: Sequence[ca.DM]) -> list[int]:
-        """One iteration: report it, and return [1] to stop, [0] to go on."""
-        values = dict(zip((ca.nlpsol_out(i) for i in range(len(arg))), arg, strict=True))
-        g = np.array(values["g"]).ravel()
-        self._iteration += 1
-        missed = float(np.max(np.maximum(self._low - g, g - self._high), initial=0.0))
-        try:
-            if self._progress is not None:
-                self._progress(self._iteration, float(values["f"]), missed)
-        except KeyboardInterrupt:
-            self.interrupted = True
-        return [int(self.interrupted)]
+    status, count = stats["return_status"], stats["iter_count"]
+    if status == INTERRUPTED:
+        raise KeyboardInterrupt
+    return IpoptResult(np.array(result["x"]).ravel(), status, stats["success"], count)
 
 
 def relaxed(
@@ -155,7 +90,7 @@ def relaxed(
     Each name of a limit has one slack s, so that all rows of that name give way together; the small share of
     the objective keeps the solution unique. The problem is always feasible for slacks that are large enough.
 
-    asked, status: what was asked for and how IPOPT failed, for the message. One slack per name of a limit;
+    request, status: what was asked for and how IPOPT failed, for the message. One slack per name of a limit;
     speed and step length asked for have slacks of weight ASKED_WEIGHT, the equations of the model none.
     Raises GaitError naming the limits whose slack stays above MISSED.
     """
@@ -179,7 +114,7 @@ def relaxed(
     )
     low, high = bounds
     ends = np.append(low, np.zeros(count)), np.append(high, np.full(count, np.inf))
-    result = solve(softened, np.concatenate((x0, np.ones(count))), ends, None, "monotone")
+    result = solve(softened, np.concatenate((x0, np.ones(count))), ends, "monotone")
     missed = {k: s for k, s in zip(names, result.x[-count:], strict=True) if s > MISSED}
     if missed or not result.solved:
         reason = f"; these would have to give: {'; '.join(programme.in_words(missed))}"

@@ -24,7 +24,7 @@ import numpy as np
 
 from biped_adrc.core.errors import GaitError
 from biped_adrc.core.types import Array
-from biped_adrc.gait.design.ipopt import ASKED, Bounds, IpoptProgress, IpoptResult, relaxed, solve
+from biped_adrc.gait.design.ipopt import ASKED, Bounds, IpoptResult, relaxed, solve
 from biped_adrc.gait.design.nlp import transcribe
 from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
 from biped_adrc.gait.design.start import cold_start
@@ -104,12 +104,11 @@ class Optimum:
     """Wall time [s]."""
 
 
-def optimise(biped: Biped, request: GaitRequest, progress: IpoptProgress | None = None) -> Optimum:
+def optimise(biped: Biped, request: GaitRequest) -> Optimum:
     """The gait of least objective, from a cold start; local optimum, as of any nonlinear programme.
 
-    progress: called after each iteration of IPOPT. Raises GaitError naming the limits that would have to give,
-    or the robot that has no such gait (exactly one unactuated coordinate is needed), and KeyboardInterrupt on
-    Ctrl-C.
+    Raises GaitError naming the limits that would have to give, or the robot that has no such gait (exactly one
+    unactuated coordinate is needed), and KeyboardInterrupt on Ctrl-C.
     """
     begin, spent, missed = perf_counter(), 0, list[str]()
     if biped.p != biped.n - 1 or biped.p == 0:
@@ -118,7 +117,7 @@ def optimise(biped: Biped, request: GaitRequest, progress: IpoptProgress | None 
             "designed for robots with one coordinate without a motor and at least one motor"
         )
     for nodes in (request.nodes, 2 * request.nodes):
-        x, iterations = _staged(biped, replace(request, nodes=nodes), progress)
+        x, iterations = _staged(biped, replace(request, nodes=nodes))
         spent += iterations
         try:
             gait, orbit = exact_gait(biped, request, x)
@@ -134,9 +133,7 @@ def optimise(biped: Biped, request: GaitRequest, progress: IpoptProgress | None 
     )
 
 
-def _staged(
-    biped: Biped, request: GaitRequest, progress: IpoptProgress | None
-) -> tuple[Unknowns[Array], int]:
+def _staged(biped: Biped, request: GaitRequest) -> tuple[Unknowns[Array], int]:
     """The solution and the number of iterations, stage after stage of the request.
 
     A stage that is not solved hands the guess of the one before on; only the last one has to be solved.
@@ -146,7 +143,7 @@ def _staged(
     direction = float(np.sign(guess.theta[1] - guess.theta[0]))
     for stage in stages:
         last = stage is stages[-1]
-        result, x = _solve(biped, stage, limits, direction, guess, progress, last)
+        result, x = _solve(biped, stage, limits, direction, guess, last)
         iterations += result.iterations
         if result.solved:
             guess = x
@@ -159,7 +156,6 @@ def _solve(
     limits: RobotLimits,
     direction: float,
     guess: Unknowns[Array],
-    progress: IpoptProgress | None,
     diagnose: bool,
 ) -> tuple[IpoptResult, Unknowns[Array]]:
     """IPOPT from a guess, with the adaptive and then the monotone barrier strategy.
@@ -170,20 +166,20 @@ def _solve(
     programme, unknowns = transcribe(biped, request, limits, direction)
     x0, bounds, iterations = flat(guess), _bounds(unknowns, guess, request, limits), 0
     for strategy in ("adaptive", "monotone"):
-        result = solve(programme, x0, bounds, progress, strategy)
+        result = solve(programme, x0, bounds, strategy)
         iterations += result.iterations
         if result.solved:
             break
     if not result.solved and diagnose:
         point = relaxed(programme, request.in_words(), x0, bounds, result.status)
-        result = solve(programme, point, bounds, progress)
+        result = solve(programme, point, bounds)
         iterations += result.iterations
         if not result.solved:
             raise GaitError(
                 f"no gait with {request.in_words()} was found: IPOPT stopped with {result.status}, though its "
                 "limits can be met; try another degree or number of nodes"
             )
-    return replace(result, iterations=iterations), unknowns.split(result.x)
+    return result._replace(iterations=iterations), unknowns.split(result.x)
 
 
 def _bounds(
@@ -233,11 +229,11 @@ def exact_gait(
     limits = vars(request.limits.of(biped))
     provenance = {
         "method": "direct optimisation on the zero dynamics, hybrid-invariant curves, IPOPT",
+        "curves": f"{request.curve}, degree {request.degree}, limits kept at {request.nodes} nodes",
         "asked": request.in_words(),
         "minimised": request.objective.value,
         "limits": ", ".join(f"{k} {v}" for k, v in limits.items()),
         "speed [m/s]": f"{step / gait.period:.6f}",
         "step length [m]": f"{step:.6f}",
-        "command": request.command(biped),
     }
     return replace(gait, provenance=provenance), zero.cycle

@@ -1,7 +1,7 @@
 """What is asked of a gait: speed, step length, slope, objective, and the limits that its step must keep.
 
-`GaitRequest` is checked when it is made, before anything is computed, and knows how it is solved in stages,
-what its gait is called, and which command designs it again (all three go into the provenance of the gait file).
+`GaitRequest` is checked when it is made, before anything is computed, and knows how it is solved in stages and
+what its gait is called.
 `StepLimits` may leave friction and torque to the robot's record; `StepLimits.of` fills them in as
 `RobotLimits`. Used by `analysis.gait_design`, by the command line and by the modules of this folder.
 """
@@ -12,8 +12,9 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from typing import Annotated
 
-from biped_adrc.core.checks import check_fields
+from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat, Range
 from biped_adrc.core.errors import GaitError
 from biped_adrc.core.shown import Shown
 from biped_adrc.gait.curves import ControlledCurve, curve_kind
@@ -22,6 +23,12 @@ from biped_adrc.model.biped import Biped
 MOST_NODES = 100
 """Largest number of nodes that may be asked for; twice as many are tried where limits are missed between
 them."""
+FrictionFloat = Annotated[float, Range("a number above 0, or infinity", lambda x: x > 0.0)]
+SlopeFloat = Annotated[float, Range("below 0.5 rad either way", lambda x: abs(x) < 0.5)]
+DegreeInt = Annotated[int, Range("a degree from 4 to 12", lambda x: x in range(4, 13))]
+NodesInt = Annotated[
+    int, Range(f"8 to {MOST_NODES} nodes", lambda x: x in range(8, 2 * MOST_NODES + 1))
+]
 
 
 class Objective(Enum):
@@ -41,37 +48,37 @@ class Objective(Enum):
 
 
 @dataclass(frozen=True)
-class StepLimits(Shown):
+class StepLimits(Checked, Shown):
     """Limits of one step; None takes the robot's own from its record (`robot.toml`).
 
-    Raises GaitError for a limit that is negative, zero where it divides, or a range without extent.
+    Raises InputError for a limit that is negative, zero where it divides, or a range without extent.
 
     >>> limits = ba.StepLimits(friction=0.5, torque=100.0, clearance=0.03)
     >>> limits.torque
     100.0
     """
 
-    friction: float | None = None
+    friction: FrictionFloat | None = None
     """|F_T| / F_N in single support."""
-    impulse_friction: float | None = None
+    impulse_friction: FrictionFloat | None = None
     """|F_T| / F_N of the impulse; infinite when it does not matter."""
-    torque: float | None = None
+    torque: PositiveFloat | None = None
     """[N m]."""
-    normal_force: float = 0.1
+    normal_force: NonNegativeFloat = 0.1
     """Least F_N, share of the weight."""
-    clearance: float | None = 0.02
+    clearance: NonNegativeFloat | None = 0.02
     """Height of the swing foot in the middle of the step, share of the leg; None lets it scuff in the
     first half of the step, as it must where legs have no knees."""
-    lift_off: float = 0.02
+    lift_off: NonNegativeFloat = 0.02
     """Least vertical speed of the old foot after impact, and of the swing foot before it [m/s]."""
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     """[rad] by name of the coordinate, besides those of the record."""
-    multiplier: float = 0.95
+    multiplier: NonNegativeFloat = 0.95
     """Largest delta^2 of the zero dynamics."""
-    slowest: float = 0.15
+    slowest: NonNegativeFloat = 0.15
     """Least |Theta'| in the step, share of that before impact: a walk that nearly stops falls back at a
     touch."""
-    reserve: float = 0.02
+    reserve: NonNegativeFloat = 0.02
     """Share of friction and torque, and of a quarter of a radian at the ends of ranges, kept back for what
     happens between the nodes."""
 
@@ -95,47 +102,37 @@ class StepLimits(Shown):
         return RobotLimits(**{**vars(self), **own})
 
     def __post_init__(self) -> None:
-        check_fields(self)
-        for name, value in vars(self).items():
-            if name == "ranges":
-                fits = all(low < high for low, high in value.values())
-            elif name in ("friction", "impulse_friction", "torque"):
-                fits = value is None or value > 0.0
-            else:
-                fits = (value is None and name == "clearance") or value >= 0.0
-            if not fits or (name == "torque" and value == math.inf):
-                raise GaitError(
-                    f"limit '{name}' is {value}, expected a number >= 0, of friction and torque above 0, a "
-                    "finite torque, and ranges low < high"
-                )
+        for joint, (low, high) in self.ranges.items():
+            if not low < high:
+                raise GaitError(f"the range of '{joint}' is {low} to {high}, expected low < high")
 
 
 @dataclass(frozen=True)
 class RobotLimits(StepLimits):
     """StepLimits of one robot: friction coefficients and torque [N m] are numbers, never None."""
 
-    friction: float
-    impulse_friction: float
-    torque: float
+    friction: FrictionFloat
+    impulse_friction: FrictionFloat
+    torque: PositiveFloat
 
 
 @dataclass(frozen=True)
-class GaitRequest(Shown):
+class GaitRequest(Checked, Shown):
     """A gait to be designed: speed, step length or both (one left out is free), or a state to pass through.
 
-    Raises GaitError for a request that contradicts itself or a value out of range.
+    Raises GaitError for a request that contradicts itself, InputError for a value out of range.
     """
 
-    speed: float | None = None
+    speed: PositiveFloat | None = None
     """Average, along the ground [m/s]."""
-    step: float | None = None
+    step: PositiveFloat | None = None
     """Distance between the feet [m]."""
-    slope: float = 0.0
+    slope: SlopeFloat = 0.0
     """[rad], positive downhill."""
     objective: Objective = Objective.TORQUE
-    degree: int = 6
+    degree: DegreeInt = 6
     """Of the curves: one less than they have coefficients."""
-    nodes: int = 24
+    nodes: NodesInt = 24
     """Gauss nodes at which the limits are kept; twice as many where that does not do."""
     limits: StepLimits = StepLimits()
     through: tuple[float, ...] | None = None
@@ -149,19 +146,11 @@ class GaitRequest(Shown):
         return curve_kind(self.curve)  # type: ignore[return-value]
 
     def __post_init__(self) -> None:
-        check_fields(self)
-        targets = [x for x in (self.speed, self.step) if x is not None]
+        targets = self.speed is not None or self.step is not None
         for fits, expected in (
-            (bool(targets) != bool(self.through), "a speed, a step length or both, or a state"),
-            (
-                all(0.0 < x < math.inf for x in targets),
-                "a positive speed [m/s] and step length [m]",
-            ),
+            (targets != bool(self.through), "a speed, a step length or both, or a state"),
             (all(map(math.isfinite, self.through or ())), "finite numbers"),
-            (abs(self.slope) < 0.5, "a slope below 0.5 rad either way"),
             (issubclass(self.kind, ControlledCurve), "a curve with ends, such as bezier"),
-            (4 <= self.degree <= 12, "a degree from 4 to 12"),
-            (8 <= self.nodes <= 2 * MOST_NODES, f"8 to {MOST_NODES} nodes"),
         ):
             if not fits:
                 raise GaitError(f"no gait can be designed for {self!r}: expected {expected}")
@@ -193,32 +182,3 @@ class GaitRequest(Shown):
         parts += [f"s{self.step:g}"] if self.step is not None else []
         parts += [f"slope{self.slope:g}"] if self.slope else []
         return "-".join(parts)
-
-    def command(self, biped: Biped) -> str:
-        """The command line that designs it again, for the provenance.
-
-        A robot of the user's own appears by its name; whoever repeats the command has to give its robot.toml.
-        """
-        options = {
-            "robot": biped.description.name,
-            "preset": biped.preset,
-            "speed": self.speed,
-            "step": self.step,
-            "slope": self.slope or None,
-            "minimise": self.objective.value,
-        }
-        usual, own = (
-            {
-                **{name: getattr(r, name) for name in ("degree", "curve", "nodes", "through")},
-                **{f"limits.{name}": x for name, x in vars(r.limits).items() if name != "ranges"},
-            }
-            for r in (GaitRequest(1.0), self)
-        )
-        words = [f"--{name} {x}" for name, x in options.items() if x is not None]
-        for name, x in own.items():
-            if x != usual[name]:
-                text = (
-                    ",".join(map(repr, x)) if isinstance(x, tuple) else "none" if x is None else x
-                )
-                words.append(f"--set {name}={text}")
-        return f"biped-adrc gait design {' '.join(words)}"

@@ -36,7 +36,7 @@ from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.core.files import output_path, plain, read_json, reading, write_bytes, write_text
 from biped_adrc.core.types import Array
 from biped_adrc.gait.conventions import OWN
-from biped_adrc.gait.exchange.record import GaitRecord
+from biped_adrc.gait.exchange.record import ENTRIES, REQUIRED, GaitRecord
 from biped_adrc.gait.exchange.samples import Samples, read_csv
 from biped_adrc.gait.gait import FORMAT as STORED
 
@@ -72,19 +72,7 @@ def _text(value: object) -> object:
 
 FORMAT = "biped_adrc exchanged gait 1"
 """Entry `format` of a gait file written here; files of other programs need none."""
-UNITS = {  # of the entries of a gait file, written into it
-    "coefficients": "rad",
-    "theta_plus": "rad",
-    "theta_minus": "rad",
-    "phase": "1",
-    "outputs": "1",
-    "q_minus": "rad",
-    "v_minus": "rad/s",
-    "period": "s",
-    "slope": "rad",
-}
 _KEYS = tuple(f.name for f in fields(GaitRecord))
-_REQUIRED = ("coefficients", "theta_plus", "theta_minus")
 
 
 def write_record(record: GaitRecord, path: Path | str) -> None:
@@ -95,14 +83,15 @@ def write_record(record: GaitRecord, path: Path | str) -> None:
     """
     path = output_path(path, (".json", ".mat"))
     entries = {key: x for key, x in vars(record).items() if x is not None}
+    units = {key: unit for key, (_, unit) in ENTRIES.items()}
     if path.suffix.lower() == ".mat":
         for key, x in entries.items():
             entries[key] = np.atleast_2d(x) if isinstance(x, np.ndarray) else x  # rows stay rows
         entries["provenance"] = json.dumps(dict(record.provenance))
-        units = {key: unit for key, unit in UNITS.items() if key in entries}
+        units = {key: unit for key, unit in units.items() if key in entries}
         write_mat(path, {"format": FORMAT, **entries}, units)
     else:
-        text = json.dumps({"format": FORMAT, **plain(entries), "units": UNITS}, indent=1)
+        text = json.dumps({"format": FORMAT, **plain(entries), "units": units}, indent=1)
         write_text(path, text + "\n")
 
 
@@ -135,7 +124,7 @@ def read_record(
         absent += [theirs for theirs in (names or {}).values() if theirs not in entries]
         entries |= {ours: entries.get(theirs) for ours, theirs in (names or {}).items()}
         samples = "coefficients" not in entries and {"t", "q"} <= set(entries)
-        absent += [key for key in _REQUIRED if not samples and key not in entries]
+        absent += [key for key in REQUIRED if not samples and key not in entries]
         if absent:
             raise GaitError(
                 f"the entries {absent} are missing; the file has {sorted(_flat(result))}. Say what they are "

@@ -20,14 +20,12 @@ from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import GaitError
 from biped_adrc.gait.conventions import CONVENTIONS, OWN, layout_of, of_the_paper
 from biped_adrc.gait.exchange.files import read_record, write_record
-from biped_adrc.gait.exchange.record import GaitRecord, coordinates, record_of
+from biped_adrc.gait.exchange.record import SLOPES, GaitRecord, coordinates, record_of
 from biped_adrc.gait.exchange.samples import Samples, gait_of_samples
 from biped_adrc.gait.gait import Gait, impact_smoothness
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 
-SLOPES = 1e-2
-"""[rad/rad]: largest jump of dq/dTheta through the impact in a gait whose slopes close."""
 RATES = 1e-2
 """[rad/s]: largest gap between the stored rates before impact and those of the curve."""
 

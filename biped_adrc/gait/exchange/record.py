@@ -37,17 +37,21 @@ LARGEST = 4.0 * math.pi
 _TURN = 2.0 * math.pi
 _PARALLEL = 1e-12
 """Largest relative difference of two phase rows that count as parallel."""
-_DIMENSIONS = {
-    "coefficients": 2,
-    "theta_plus": 0,
-    "theta_minus": 0,
-    "phase": 1,
-    "outputs": 2,
-    "q_minus": 1,
-    "v_minus": 1,
-    "period": 0,
-    "slope": 0,
+SLOPES = 1e-2
+"""[rad/rad]: largest jump of dq/dTheta through the impact in a gait whose slopes close."""
+ENTRIES = {
+    "coefficients": (2, "rad"),
+    "theta_plus": (0, "rad"),
+    "theta_minus": (0, "rad"),
+    "phase": (1, "1"),
+    "outputs": (2, "1"),
+    "q_minus": (1, "rad"),
+    "v_minus": (1, "rad/s"),
+    "period": (0, "s"),
+    "slope": (0, "rad"),
 }
+"""Dimensions and unit of each entry that is of numbers."""
+REQUIRED = ("coefficients", "theta_plus", "theta_minus")
 
 
 @dataclass(frozen=True)
@@ -90,24 +94,21 @@ class GaitRecord(Shown):
     """Where the gait comes from, free text by name."""
 
     def __post_init__(self) -> None:
-        for key, dimensions in _DIMENSIONS.items():
+        for key, (dimensions, _) in ENTRIES.items():
             value = getattr(self, key)
-            if value is not None or key in ("coefficients", "theta_plus", "theta_minus"):
+            if value is not None or key in REQUIRED:
                 object.__setattr__(self, key, self._numbers(key, value, dimensions))
 
     def _numbers(self, key: str, value: object, dimensions: int) -> Array | float:
         """An entry as a read-only array of so many dimensions, or a float. Raises GaitError."""
         try:
-            a = np.array(value)
-            a = read_only(np.full(1, np.nan) if np.iscomplexobj(a) else a)
-        except (TypeError, ValueError):  # text, or rows of different lengths
-            a = np.full(1, np.nan)
-        if a.ndim != dimensions or not np.all(np.isfinite(a)):
-            kind = ("one number", "one row of numbers", "a row of numbers for each joint")[
-                dimensions
-            ]
+            a = np.asarray(value)
+        except ValueError:  # rows of different lengths
+            a = np.array(None)
+        if a.dtype.kind not in "fiu" or a.ndim != dimensions or not np.all(np.isfinite(a)):
+            kind = ("one number", "one row of numbers", "rows of numbers")[dimensions]
             raise self.error(f"{key} is {value}, expected {kind}, all finite")
-        return a if dimensions else float(a)
+        return read_only(a) if dimensions else float(a)
 
     def error(self, text: str) -> GaitError:
         """An error that names the gait and its convention."""

@@ -11,8 +11,6 @@ The orbit and its period then come from the zero dynamics of the robot.
 
 from __future__ import annotations
 
-import csv
-import re
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
@@ -21,21 +19,19 @@ import numpy as np
 
 from biped_adrc.core.checks import numbers
 from biped_adrc.core.errors import GaitError, InputError
-from biped_adrc.core.files import number_in, reading
+from biped_adrc.core.files import csv_rows, number_in, reading
 from biped_adrc.core.shown import one_line
 from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.conventions import OWN, Convention
 from biped_adrc.gait.curves import Bezier
-from biped_adrc.gait.exchange.record import LARGEST, whole_turns
+from biped_adrc.gait.exchange.record import LARGEST, SLOPES, whole_turns
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, invariant_constraint
 from biped_adrc.model.biped import Biped
 
 FITS = 5e-3
 """[rad]: largest distance of a sample from the curve in a fit that is good."""
-SLOPES = 1e-2
-"""[rad/rad]: largest distance of dq/dTheta at the first sample from that after the impact."""
 LASTS = 0.05
 """Largest relative gap between the time that samples take and the period of the zero dynamics."""
 DEGREES = range(4, 13)
@@ -71,19 +67,10 @@ def gait_of_samples(
     _check_impact(s, fitted, biped)
     said, gap = _missed(fitted, s, biped)
     if gap > FITS:
-        higher = range(degree + 1, min(len(s.t), DEGREES.stop))
-        do = [m for m in higher if _missed(_fitted(s, biped, m), s, biped)[1] <= FITS]
-        advice = (
-            f"degree {do[0]} would do"
-            if do
-            else (
-                f"no degree up to {DEGREES[-1]} does; the first sample has to be just after an "
-                "impact, the last just before the next, in the order and signs of the joints of the robot"
-            )
-        )
         raise GaitError(
             f"the fit is bad: curves of degree {degree} miss the samples by {said}, expected at most {FITS:g} "
-            f"rad; {advice}"
+            f"rad; try a degree up to {DEGREES[-1]}. The first sample has to be just after an impact, the last "
+            "just before the next, in the order and signs of the joints of the robot"
         )
     provenance = {
         "method": f"Bezier curves of degree {degree} fitted to {len(s.t)} samples over time",
@@ -189,29 +176,17 @@ def read_csv(path: Path) -> Samples:
     Raises InputError.
     """
     with reading("samples", path, InputError):
-        with open(path, newline="", encoding="utf-8-sig") as file:
-            lines = csv.reader(file)
-            read = [(lines.line_num, row) for row in lines if row]
-        (_, header), *rows = read or [(1, [])]
-        names = [name.strip().partition(" ")[0] for name in header]
+        head, rows = csv_rows(path)
+        names = [name.partition(" ")[0] for name in head]
         if not {"t", "q1"} <= set(names) or not rows:
             raise InputError(
-                f"its first line is {header} with {len(rows)} rows below, expected names t, q1, q2, ... and "
+                f"its first line is {head} with {len(rows)} rows below, expected names t, q1, q2, ... and "
                 "perhaps v1, v2, ..., and numbers below"
             )
-        for line, row in rows:
-            if len(row) != len(names):
-                raise InputError(
-                    f"line {line} has {len(row)} entries, expected {len(names)}: {names}"
-                )
 
-        def columns(pattern: str) -> Array:
-            of = sorted(
-                (x for x in names if re.fullmatch(pattern, x)), key=lambda x: int(x[1:] or 0)
-            )
-            return np.array(
-                [[number_in(row[names.index(x)], line, x) for x in of] for line, row in rows]
-            )
+        def columns(of: list[str]) -> Array:
+            places = [(names.index(x), x) for x in of]
+            return np.array([[number_in(row[k], line, x) for k, x in places] for line, row in rows])
 
-        v = columns("v[1-9][0-9]*")
-        return Samples(columns("t")[:, 0], columns("q[1-9][0-9]*"), v if v.size else None)
+        q, v = ([f"{x}{k}" for k in range(1, len(names)) if f"{x}{k}" in names] for x in "qv")
+        return Samples(columns(["t"])[:, 0], columns(q), columns(v) if v else None)

@@ -2,7 +2,6 @@
 
 - `urdf`        links and joints as a small tree, what makes it physical, and writing it
 - `urdf_reader` reading a URDF into that tree
-- `urdf_xml`    the XML that it is read from
 - `robot_toml`  the record robot.toml and parameter presets
 - `limits`      what ground and motors can give, within which a walk is feasible
 - `symmetry`    exchange of the legs at impact

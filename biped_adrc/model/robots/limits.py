@@ -12,9 +12,9 @@ the limits; what they leave open is in the robot's record.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
-from biped_adrc.core.errors import InputError, check_positive
+from biped_adrc.core.checks import Checked, PositiveFloat, Range
 from biped_adrc.core.shown import Shown
 from biped_adrc.model.robots.robot_toml import RobotDescription
 
@@ -23,13 +23,12 @@ WINDOW = 5e-3
 SLIP = 5e-3
 """Distance that a foot may slip on soft ground in a single support [m]."""
 
-
 ROUND_OFF = 1e-9
 """Relative amount by which a force may lie outside the friction cone and still count as inside."""
 
-
 ENDS = 0.03
 """Share of a step at either end in which the swing foot may touch the ground, dimensionless."""
+ConeFloat = Annotated[float, Range("a number above 0 and at most 1", lambda x: 0.0 < x <= 1.0)]
 
 
 class KnownLimits(NamedTuple):
@@ -44,7 +43,7 @@ class KnownLimits(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Limits(Shown):
+class Limits(Checked, Shown):
     """What ground and motors can give, within which a walk is feasible; None takes the robot's record.
 
     Raises InputError for a friction that is not above 0 and at most 1, or a torque or window that
@@ -56,24 +55,12 @@ class Limits(Shown):
     'COMPLETED'
     """
 
-    friction: float | None = None
+    friction: ConeFloat | None = None
     """Dry friction mu of the ground, dimensionless."""
-    torque: float | None = None
+    torque: PositiveFloat | None = None
     """Of every motor [N m]."""
-    window: float = WINDOW
+    window: PositiveFloat = WINDOW
     """Time over which the force of the ground is averaged [s]."""
-
-    def __post_init__(self) -> None:
-        mu, torque = self.friction, self.torque
-        if mu is not None and not 0.0 < mu <= 1.0:
-            raise InputError(
-                f"the friction limit is {mu}, expected a number above 0 and at most 1, or None for the "
-                "robot's record"
-            )
-        if torque is not None:
-            hint = ", or None for the robot's record"
-            check_positive(torque, f"the torque limit is {torque} N m", hint)
-        check_positive(self.window, f"the force window is {self.window} s")
 
     def of(self, robot: RobotDescription) -> KnownLimits:
         """These limits with the values of the robot's record where None was given."""

@@ -28,6 +28,7 @@ import numpy as np
 import pinocchio as pin
 
 from biped_adrc.core.errors import ModelError
+from biped_adrc.core.files import reading
 from biped_adrc.core.types import Array
 from biped_adrc.model.robots.urdf import (
     FREE,
@@ -43,8 +44,9 @@ from biped_adrc.model.robots.urdf import (
     Visual,
     check_inertial,
 )
-from biped_adrc.model.robots.urdf_xml import parse
 
+MOST_LINKS = 200
+"""Of a robot."""
 LARGEST = 1e100
 """Bound on every number in a URDF, in any unit; products of larger ones overflow."""
 SMALLEST = 1e-9
@@ -77,6 +79,25 @@ class UrdfContents:
     """Links with a moment about y alone; they got moments of a slender link about x and z, which do
     not enter planar motion.
     """
+
+
+def parse(path: Path | str) -> ET.Element:
+    """The element <robot> of a URDF file, as it stands. Raises ModelError."""
+    path = Path(path)
+    with reading("URDF", path, ModelError):
+        data = path.read_bytes()
+        if path.suffix == ".xacro" or b"<xacro:" in data:
+            raise ValueError(
+                "it holds xacro macros, expected the URDF they expand to; try "
+                f"'xacro {path.name} > robot.urdf' and give robot.urdf"
+            )
+        root = ET.fromstring(data)
+        count = len(root.findall("link"))
+        if root.tag != "robot" or count > MOST_LINKS:
+            raise ValueError(
+                f"<{root.tag}> with {count} links, expected <robot> with at most {MOST_LINKS}"
+            )
+    return root
 
 
 def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> UrdfContents:
