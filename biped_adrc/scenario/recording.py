@@ -25,7 +25,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -37,6 +37,8 @@ from biped_adrc.analysis.signals import Signals, signals
 from biped_adrc.analysis.soft_steps import SoftStep, recorded_steps, slip_times
 from biped_adrc.analysis.touchdowns import Noticed, touchdowns
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
+from biped_adrc.core.errors import optional
+from biped_adrc.core.files import joint_columns, write_csv
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.gait.gait import Gait
@@ -44,7 +46,6 @@ from biped_adrc.gait.reference import Reference, TimeReference
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import Limits
-from biped_adrc.scenario.columns import columns_of, data_frame, write_csv
 from biped_adrc.scenario.edges import edge_remarks, step_remarks
 from biped_adrc.scenario.outcome import Outcome, outcome_of
 
@@ -53,6 +54,16 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from biped_adrc.scenario.scenario import Scenario
+
+OF_JOINTS = {
+    "q": "q{} [rad]",
+    "v": "v{} [rad/s]",
+    "u": "u{} [N m]",
+    "q_d": "q_d{} [rad]",
+    "dq_d": "v_d{} [rad/s]",
+    "error": "error{} [rad]",
+}
+"""Signals with a column for each joint in the table of a walk."""
 
 
 @dataclass(frozen=True)
@@ -253,16 +264,34 @@ class Walk(Shown):
 
         return save_walk(self, path, settings)
 
-    def to_csv(self, path: Path | str) -> Path:
-        """Write time, q, v, torques, references, errors, forces and events as a table (.csv); its path.
+    def _columns(self) -> dict[str, Any]:
+        """Columns (K,) by name with unit: floats, `step` of int, `event` of text, empty elsewhere."""
+        s, events = self.signals, list[str]()
+        for arc in self.trajectory.arcs:
+            events += [""] * (len(arc.t) - 1) + ["" if arc.event is None else arc.event.guard]
+        columns = {"t [s]": s.t, "step": s.step.astype(int), "event": events}
+        forces = dict(zip(("F_T [N]", "F_N [N]"), s.ground_reaction.T, strict=True))
+        return columns | joint_columns(s, OF_JOINTS) | forces
 
-        A row for each stored node, units in the names of the columns. Raises InputError and OutputError.
+    def to_csv(self, path: Path | str) -> Path:
+        """Write a table (.csv), a row for each stored node; its path. Raises InputError and OutputError.
+
+            t [s], step, event, q1 [rad] .. qN, v1 [rad/s] .., u1 [N m] .. up, q_d1 [rad] .. qp,
+            v_d1 [rad/s] .., error1 [rad] .., F_T [N], F_N [N]
+
+        event names the impact or the end that a node lies just before, and is empty elsewhere; an impact
+        repeats its time, before and after it.
         """
-        return write_csv(columns_of(self.signals, self.trajectory), path)
+        return write_csv(self._columns(), path)
 
     def to_pandas(self) -> pandas.DataFrame:
         """The table of `to_csv` as a DataFrame. Raises InputError without pandas, of the extra `study`."""
-        return data_frame(columns_of(self.signals, self.trajectory), self.note)
+        need = "a table of a walk needs pandas, which is not installed"
+        with optional("study", need, ", or write a file with walk.to_csv(path)"):
+            import pandas
+        frame = pandas.DataFrame(self._columns())
+        frame.attrs["note"] = self.note
+        return frame
 
     def export(self, path: Path | str) -> None:
         """Write the table of `to_csv` (.csv), or all signals for MATLAB (.mat), one array per name.

@@ -11,7 +11,6 @@ The orbit and its period then come from the zero dynamics of the robot.
 
 from __future__ import annotations
 
-import csv
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -21,7 +20,7 @@ import numpy as np
 
 from biped_adrc.core.checks import numbers
 from biped_adrc.core.errors import GaitError, InputError
-from biped_adrc.core.files import number_in, reading
+from biped_adrc.core.files import CsvTable, reading
 from biped_adrc.core.shown import one_line
 from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
@@ -189,29 +188,17 @@ def read_csv(path: Path) -> Samples:
     Raises InputError.
     """
     with reading("samples", path, InputError):
-        with open(path, newline="", encoding="utf-8-sig") as file:
-            lines = csv.reader(file)
-            read = [(lines.line_num, row) for row in lines if row]
-        (_, header), *rows = read or [(1, [])]
-        names = [name.strip().partition(" ")[0] for name in header]
-        if not {"t", "q1"} <= set(names) or not rows:
+        table = CsvTable.read(path)
+        names = [name.partition(" ")[0] for name in table.head]
+        if not {"t", "q1"} <= set(names) or not table.rows:
             raise InputError(
-                f"its first line is {header} with {len(rows)} rows below, expected names t, q1, q2, ... and "
-                "perhaps v1, v2, ..., and numbers below"
-            )
-        for line, row in rows:
-            if len(row) != len(names):
-                raise InputError(
-                    f"line {line} has {len(row)} entries, expected {len(names)}: {names}"
-                )
-
-        def columns(pattern: str) -> Array:
-            of = sorted(
-                (x for x in names if re.fullmatch(pattern, x)), key=lambda x: int(x[1:] or 0)
-            )
-            return np.array(
-                [[number_in(row[names.index(x)], line, x) for x in of] for line, row in rows]
+                f"its first line is {table.head} with {len(table.rows)} rows below, expected names t, q1, q2, "
+                "... and perhaps v1, v2, ..., and numbers below"
             )
 
-        v = columns("v[1-9][0-9]*")
-        return Samples(columns("t")[:, 0], columns("q[1-9][0-9]*"), v if v.size else None)
+        def joints(letter: str) -> Array:
+            of = sorted(int(x[1:]) for x in names if re.fullmatch(f"{letter}[1-9][0-9]*", x))
+            return np.array([table.numbers(names.index(f"{letter}{i}")) for i in of]).T
+
+        v = joints("v")
+        return Samples(table.numbers(names.index("t")), joints("q"), v if v.size else None)
