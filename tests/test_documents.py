@@ -27,7 +27,8 @@ import pytest
 from markdown_it import MarkdownIt
 
 import biped_adrc as ba
-from biped_adrc.cli import app, gait_app
+from biped_adrc.cli import app
+from biped_adrc.cli.gait import gait_app
 from biped_adrc.cli.robot import robot_app
 from biped_adrc.studies.study import read_study
 

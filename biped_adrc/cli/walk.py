@@ -16,7 +16,17 @@ import typer
 from rich.box import SIMPLE_HEAD
 from rich.table import Column, Table
 
-from biped_adrc.cli.app import EXIT_FELL, app, bar, console, inputs, say, say_written, target
+from biped_adrc.cli.app import (
+    EXIT_FELL,
+    app,
+    bar,
+    console,
+    inputs,
+    say,
+    say_table,
+    say_written,
+    target,
+)
 from biped_adrc.cli.options import WALKS, options, scenario_from
 from biped_adrc.core.errors import InputError, RaisedError
 from biped_adrc.core.types import PlainRecord
@@ -69,16 +79,15 @@ def _walk(
     """
     from biped_adrc.scenario.run import halved, walk_scenario
 
-    with bar() as shown:
-        task = shown.add_task(f"walking, {s.controller.name}", total=s.run.impacts)
-        full = walk_scenario(s, lambda t, n: shown.update(task, completed=n))
+    with bar("") as shown:
+        name, total = f"walking, {s.controller.name}", s.run.impacts
+        full = walk_scenario(s, lambda t, n: shown(n, total, name))
         half, run = None, full.trajectory
         if run.status is Status.RAISED:
             raise RaisedError(f"{run.status.value}, after {run.t_end:.4g} s:\n{run.detail}")
         if full.gait is not None:
-            shown.update(task, description="the same at half the step", completed=0)
             finer = halved(s, full.walker).replace(run={"engine": "compiled"})
-            half = walk_scenario(finer, lambda t, n: shown.update(task, completed=n))
+            half = walk_scenario(finer, lambda t, n: shown(n, total, "the same at half the step"))
     if end_infeasible:
         full, half = full.until_infeasible(limits), half and half.until_infeasible(limits)
     if out is not None:
@@ -95,8 +104,7 @@ def _walk(
     console.print(f"engine {settings['engine']}: {settings.get('why') or WHY[settings['engine']]}")
     for remark in full.remarks:
         say(f"note: {remark}")
-    say_written(out)
-    say_written(log)
+    say_written(out, log)
     if not full.trajectory.status.ok:
         raise typer.Exit(EXIT_FELL)
 
@@ -161,16 +169,14 @@ def _errors(walk: Walk, half: Walk) -> str:
 
 def _print_on_ground(steps: tuple[SoftStep, ...]) -> None:
     """Print what the feet did on soft ground, a row for each single support; nothing without."""
-    if not steps:
-        return
-    table = Table(
-        "step", "slip [mm]", "in the air [ms]", "on both feet [ms]", "depth [mm]", "friction"
-    )
+    header = "step", "slip [mm]", "in the air [ms]", "on both feet [ms]", "depth [mm]", "friction"
+    rows = []
     for k, s in enumerate(steps, 1):
         slip, depth = f"{1e3 * max(s.slip):.2g}", f"{1e3 * s.depth:.2g}"
         flight, both = f"{1e3 * s.flight:.1f}", f"{1e3 * s.double_support:.1f}"
-        table.add_row(f"{k}", slip, flight, both, depth, f"{s.friction_used:.3f}")
-    console.print(table)
+        rows.append((f"{k}", slip, flight, both, depth, f"{s.friction_used:.3f}"))
+    if rows:
+        say_table(header, rows)
 
 
 def _nominal(c: Certificate) -> str:

@@ -256,9 +256,11 @@ def plain(value: object) -> Any:
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def one_line(text: str) -> str:
-    """The text on one line: line breaks and what is not printable are written out, such as \\n."""
-    return "".join(x if x.isprintable() else x.encode("unicode_escape").decode() for x in text)
+def one_line(text: str, keep: str = "") -> str:
+    """The text on one line: line breaks and what is not printable are written out, such as \\n; keep: what is
+    not.
+    """
+    return "".join(x if x.isprintable() or x in keep else ascii(x)[1:-1] for x in text)
 
 
 def c_comment(text: str) -> str:
