@@ -37,7 +37,7 @@ from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Plan, with_values
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.scenario.recording import Walk, recorded_walk
+from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import execute, execute_twice, halved, walk_scenario
 from biped_adrc.scenario.scenario import Scenario
 
@@ -53,7 +53,7 @@ def sparse(walk: Walk, apart: float = NODE_DISTANCE) -> Walk:
     assert run is not None
     pushed = scenarios.pushed_steps(run)
     arcs = (a if a.mode.step in pushed else a.thinned(apart) for a in walk.trajectory.arcs)
-    return recorded_walk(walk.walker, walk.gait, replace(walk.trajectory, arcs=tuple(arcs)), run)
+    return Walk(walk.walker, walk.gait, replace(walk.trajectory, arcs=tuple(arcs)), run)
 
 
 def twice(run: Scenario) -> Outcome:

@@ -314,14 +314,3 @@ class Walk(Shown):
         summary = f"{self.controller_name}: {impacts} impacts. {status.name}: {status.value}"
         summary = " ".join((summary, *(f"Note: {remark}." for remark in self.remarks)))
         return inline(summary, animation_html({self.controller_name: self}), [self.plot()])
-
-
-def recorded_walk(
-    walker: Walker, gait: Gait | None, trajectory: Trajectory, scenario: Scenario | None = None
-) -> Walk:
-    """The walk of a trajectory, which is given this as its viewer: a trajectory alone can then draw itself."""
-
-    def seen(trajectory: Trajectory) -> Walk:
-        return Walk(walker, gait, trajectory, scenario)
-
-    return seen(replace(trajectory, viewer=seen))

@@ -32,7 +32,7 @@ from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_step, soft_loop, start
 from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.scenario.recording import Walk, recorded_walk
+from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.scenario import FREE, Scenario
 from biped_adrc.scenario.walk import (
     FINE_STEP,
@@ -150,7 +150,7 @@ def walk_scenario(
     begin = start(s, scene) if scene.gait else cycle_start(scene.biped, walker.slope)
     if (loop := soft_loop(s, walker)) is not None:
         run = walk_on(loop, walker, begin, Mode(s.run.first_step), s.run.impacts, progress)
-        return recorded_walk(walker, scene.gait, run, kept)
+        return Walk(walker, scene.gait, run, kept)
     return walk_in_parts(
         walker,
         scene.gait,

@@ -38,7 +38,7 @@ from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import plant_around
-from biped_adrc.scenario.recording import Walk, recorded_walk
+from biped_adrc.scenario.recording import Walk
 
 if TYPE_CHECKING:
     from biped_adrc.scenario.scenario import Scenario
@@ -181,7 +181,7 @@ def walk(
         moved = plant_around(plant, walker, {}) if isinstance(plant, str) else plant
         loop = stepping_loop(walker, moved, engine, first_step)
         run = walk_on(loop, walker, begin, Mode(first_step), impacts, progress)
-        result = recorded_walk(walker, gait, run)
+        result = Walk(walker, gait, run)
     else:
         own_part = None if method is None else (Part(impacts, method),)
         parts = own_part or default_parts(walker, impacts, first_step, engine)
@@ -222,7 +222,7 @@ def walk_in_parts(
     begin, mode = _begin(gait, walker, start, first_step), Mode(first_step)
     x = walker.initial_state(*begin, mode)
     runs = list(runs_in_parts(walker, x, mode, parts, progress, engine))
-    return recorded_walk(walker, gait, _joined(runs), scenario)
+    return Walk(walker, gait, _joined(runs), scenario)
 
 
 def runs_in_parts(
