@@ -49,9 +49,7 @@ def outcome(controller, peak=1e-2, impacts=9, asked=9, half=True, **more):
     status = "COMPLETED" if impacts == asked else "FELL"
     x, times = np.tile(X_STAR, (impacts, 1)), np.full(impacts, 0.4)
     kept = (peak, peak, 100.0, (CERTIFICATE,), FEASIBILITY, "rk4", "compiled")
-    made = Outcome(
-        Scenario(controller, run={"impacts": asked}), status, "", impacts, x, times, *kept
-    )
+    made = Outcome(Scenario(controller, run={"impacts": asked}), status, impacts, x, times, *kept)
     found = replace(made, **more)
     return replace(found, half=found) if half else found
 

@@ -168,7 +168,7 @@ def test_every_example_runs(example, tmp_path, preloaded):
     ("text", "message"),
     [
         ("```console\nrm -rf /\n```", "run by no one"),
-        ("```console\nbiped-adrc simulate --controller PID\n```", "controller 'PID' is unknown"),
+        ("```console\nbiped-adrc simulate --controller PID\n```", "controller 'PID': unknown name"),
         ("```python\n# ../out.py\n```", "outside of the folder"),
         ("```\n1\n```", "no language"),
     ],

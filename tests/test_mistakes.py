@@ -90,7 +90,7 @@ COMMANDS = {
     "simulate -o out.txt": (3, ".npz"),
     "simulate --torque-limit 5 --impacts 4": (4, ""),
     "animate nowhere.npz": (3, "not found"),
-    "poincare --controller pid": (3, "'pid' is unknown"),
+    "poincare --controller pid": (3, "'pid': unknown name"),
     "poincare --robot compass --set ground.slope=0.5": (4, "no return to the section"),
     "reproduce --out file/out": (3, "file"),
 }

@@ -37,7 +37,6 @@ if TYPE_CHECKING:
     from biped_adrc.analysis.soft_steps import SoftStep
     from biped_adrc.model.robots.limits import Limits
     from biped_adrc.scenario.recording import Walk
-    from biped_adrc.scenario.scenario import Scenario
 
 WHY = {
     "compiled": "generated from Pinocchio's model and checked against it",
@@ -57,8 +56,12 @@ def simulate(
     out: Path | None = None,
     log: Path | None = None,
 ) -> None:
-    """Walk, and print what each step needed of the ground and of the motors."""
+    """Walk, and print what each step needed of the ground and of the motors.
+
+    A walk with motors is carried out again at half the step; only the first one is stored.
+    """
     from biped_adrc.scenario.build import limits
+    from biped_adrc.scenario.run import halved, walk_scenario
 
     s = scenario_from(values, sets, scenario, push)
     read = inputs(s.robot.name, s.gait.name)
@@ -67,20 +70,8 @@ def simulate(
         raise InputError(
             "--log needs sample instants, and this walk is in continuous time; give a --period, such as '1 ms'"
         )
-    _walk(s, limits(s), end_infeasible, out, log)
-
-
-def _walk(
-    s: Scenario, limits: Limits, end_infeasible: bool, out: Path | None, log: Path | None
-) -> None:
-    """Carry out a scenario, print it, and write it where it is asked for; raises the exit if the robot fell.
-
-    A walk with motors is carried out again at half the step; only the first one is stored.
-    """
-    from biped_adrc.scenario.run import halved, walk_scenario
-
-    with bar("") as shown:
-        name, total = f"walking, {s.controller.name}", s.run.impacts
+    name, total, within = f"walking, {s.controller.name}", s.run.impacts, limits(s)
+    with bar(name) as shown:
         full = walk_scenario(s, lambda t, n: shown(n, total, name))
         half, run = None, full.trajectory
         if run.status is Status.RAISED:
@@ -89,9 +80,8 @@ def _walk(
             finer = halved(s, full.walker).replace(run={"engine": "compiled"})
             half = walk_scenario(finer, lambda t, n: shown(n, total, "the same at half the step"))
     if end_infeasible:
-        full, half = full.until_infeasible(limits), half and half.until_infeasible(limits)
+        full, half = full.until_infeasible(within), half and half.until_infeasible(within)
     if out is not None:
-        # first, as printing may fail
         (full.save if out.suffix.lower() == ".npz" else full.export)(out)
     if log is not None:
         from biped_adrc.extras.logs.log_file import write_log
@@ -99,7 +89,7 @@ def _walk(
 
         write_log(logged(full), log, full.walker.nominal)
     _print_on_ground(full.soft_steps)
-    _print_steps(full, half, limits)
+    _print_steps(full, half, within)
     settings = full.trajectory.settings
     console.print(f"engine {settings['engine']}: {settings.get('why') or WHY[settings['engine']]}")
     for remark in full.remarks:
@@ -115,6 +105,7 @@ def _print_steps(walk: Walk, half: Walk | None, limits: Limits) -> None:
     half: the same walk at half the step, where there are joints with an error.
     """
     from biped_adrc.analysis.certificate import ratio_text
+    from biped_adrc.paper.convergence import error_text
 
     columns = (
         "step",
@@ -142,29 +133,22 @@ def _print_steps(walk: Walk, half: Walk | None, limits: Limits) -> None:
             ", ".join(name.replace("_", " ") for name in s.infeasible()),
         )
     console.print(table)
-    run = walk.trajectory
+    run, about = walk.trajectory, walk.note
+    if half is not None:
+        each = (walk, half)
+        ends = [(w.signals.peak_error, w.trajectory.status.name, w.impacts) for w in each]
+        about = (
+            f"largest tracking error {error_text(*ends)}, peak torque {walk.peak_torque:.1f} N m, "
+            f"{run.settings['method']}"
+        )
     console.print(
         f"F_N and friction: least and largest mean over {1e3 * limits.window:g} ms\n"
         f"{run.status.name}: {run.status.value} {run.detail}".strip()
-        + f"\n{walk.impacts} impacts, {walk.note if half is None else _errors(walk, half)}\n"
-        + feasibility.text()
+        + f"\n{walk.impacts} impacts, {about}\n{feasibility.text()}"
     )
     stays = [c.step for c in certificates if not c.old_foot_velocity > 0.0]
     if stays and half is not None:
         console.print(f"the old stance foot does not lift off after steps {stays}")
-
-
-def _errors(walk: Walk, half: Walk) -> str:
-    """The largest error at both steps, the largest torque, and the method."""
-    from biped_adrc.paper.convergence import WalkEnd, error_text
-
-    ends = [
-        WalkEnd(w.signals.peak_error, w.trajectory.status.name, w.impacts) for w in (walk, half)
-    ]
-    return (
-        f"largest tracking error {error_text(*ends)}, peak torque {walk.peak_torque:.1f} N m, "
-        f"{walk.trajectory.settings['method']}"
-    )
 
 
 def _print_on_ground(steps: tuple[SoftStep, ...]) -> None:

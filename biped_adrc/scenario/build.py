@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TypeVar
 
 import numpy as np
 
@@ -38,12 +37,11 @@ from biped_adrc.model.model_errors import ModelErrors, impact_error
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.disturbances import disturbances
-from biped_adrc.scenario.hardware import EncoderRecord, PartRecord
+from biped_adrc.scenario.hardware import EncoderRecord
 from biped_adrc.scenario.records import all_taken, named_part
-from biped_adrc.scenario.registry import construct, find, own, takes
+from biped_adrc.scenario.registry import construct, find, made_by_user, takes
 from biped_adrc.scenario.scenario import Scenario, drawn
 
-_T = TypeVar("_T")
 RIGID = "rigid"
 """Name of the plant that is the walker's own."""
 LONGEST_PLANT_STEP = 2e-4
@@ -76,23 +74,14 @@ class RobotAndGait:
 
         Raises InputError for a robot or a gait that there is not, GaitError for a gait that does not fit.
         """
-        robot, friction = s.robot, s.hardware.friction
-        user_class = own("robot", robot.name)
+        robot, friction, name = s.robot, s.hardware.friction, s.gait.name
         values = {"preset": robot.preset, "friction": friction}
-        biped = (
-            Biped.load(robot.name, robot.preset, friction)
-            if user_class is None
-            else construct(f"robot '{robot.name}'", user_class, values, Biped)
-        )
+        biped = made_by_user("robot", robot.name, values, Biped)
+        biped = biped or Biped.load(robot.name, robot.preset, friction)
         if biped.p == 0:
             return cls(biped, cycle=passive_cycle(biped))
-        name = s.gait.name
-        result = own("gait", name)
-        gait = (
-            load_gait(name, biped, True)
-            if result is None
-            else construct(f"gait '{name}'", result, {"biped": biped}, Gait).check(biped)
-        )
+        gait = made_by_user("gait", name, {"biped": biped}, Gait)
+        gait = load_gait(name, biped, True) if gait is None else gait.check(biped)
         gait = gait if s.gait.other_robot else gait.check_robot(biped)
         if s.gait.continued:
             gait = replace(gait, constraint=continued(gait.constraint))
@@ -230,20 +219,15 @@ def plant_of(s: Scenario, biped: Biped) -> Biped:
 
 def sensors(s: Scenario) -> Sensor | None:
     """The sensors of a scenario: encoders, then the one that is named; None where all is measured exactly."""
-    encoders = _encoders(s)
-    if s.hardware.sensor.name is None:
+    e, more, encoders = s.hardware.encoders, s.hardware.sensor, None
+    if e != EncoderRecord(filter_time=e.filter_time):
+        noise = (e.noise, e.pitch_noise, e.rate_noise)
+        encoders = Sensors(e.counts, None, *noise, e.velocity, e.filter_time, drawn(s, "sensors"))
+    if more.name is None:
         return encoders
-    named = _named("sensor", s, {}, Sensor)
-    return named if encoders is None else encoders + named
-
-
-def _encoders(s: Scenario) -> Sensors | None:
-    """Encoders with their noise; None where angles and rates are measured exactly."""
-    e = s.hardware.encoders
-    if e == EncoderRecord(filter_time=e.filter_time):
-        return None
-    noise = (e.noise, e.pitch_noise, e.rate_noise)
-    return Sensors(e.counts, None, *noise, e.velocity, e.filter_time, drawn(s, "sensors"))
+    seed = {"seed": drawn(s, "sensor")}
+    sensor = named_part("sensor", more.name, seed, more.own, Sensor, "hardware.sensor")
+    return sensor if encoders is None else encoders + sensor
 
 
 def touchdown(s: Scenario, gait: Gait) -> Touchdown | None:
@@ -251,16 +235,11 @@ def touchdown(s: Scenario, gait: Gait) -> Touchdown | None:
 
     The slope that it takes is the gait's: what the scenario adds it does not know.
     """
-    if s.hardware.touchdown.name is None:
+    t = s.hardware.touchdown
+    if t.name is None:
         return None
-    return _named("touchdown", s, {"slope": gait.slope}, Touchdown)  # type: ignore[type-abstract]
-
-
-def _named(kind: str, s: Scenario, known: Mapping[str, object], base: type[_T]) -> _T:
-    """The sensor or touchdown that a scenario names, of its own values and of what is known here."""
-    record: PartRecord = getattr(s.hardware, kind)
-    known = {**known, "seed": drawn(s, kind)}
-    return named_part(kind, str(record.name), known, record.own, base, f"hardware.{kind}")
+    known = {"slope": gait.slope, "seed": drawn(s, "touchdown")}
+    return named_part("touchdown", t.name, known, t.own, Touchdown, "hardware.touchdown")  # type: ignore[type-abstract]
 
 
 def plant_step(s: Scenario) -> float:
@@ -308,13 +287,9 @@ def ground(s: Scenario) -> tuple[StepDown | StepUp, ...]:
 
     `rms`: random heights [m], drawn for all steps of the walk. `drop`: depth [m], negative for a step up.
     """
-    steps: tuple[StepDown | StepUp, ...] = ()
-    g = s.ground
-    if g.rms > 0.0:
-        last = s.run.first_step + s.run.impacts - 1
-        steps = uneven_ground(drawn(s, "ground"), g.rms, last)
-    if g.drop > 0.0:
-        steps = (*steps, StepDown(g.drop_step, g.drop))
-    elif g.drop < 0.0:
-        steps = (*steps, StepUp(g.drop_step, -g.drop))
-    return steps
+    g, last = s.ground, s.run.first_step + s.run.impacts - 1
+    steps = uneven_ground(drawn(s, "ground"), g.rms, last) if g.rms > 0.0 else ()
+    if g.drop == 0.0:
+        return steps
+    edge = StepDown(g.drop_step, g.drop) if g.drop > 0.0 else StepUp(g.drop_step, -g.drop)
+    return (*steps, edge)

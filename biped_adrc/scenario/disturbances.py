@@ -12,8 +12,8 @@ from biped_adrc.disturbances.base import Disturbance, Sum, Windowed
 from biped_adrc.disturbances.link import OnLink
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.push import RANDOM, Push
-from biped_adrc.scenario.records import Misfit, all_taken
-from biped_adrc.scenario.registry import construct, find, takes
+from biped_adrc.scenario.records import Misfit, named_part
+from biped_adrc.scenario.registry import find, takes
 from biped_adrc.scenario.scenario import Scenario, drawn
 
 
@@ -30,22 +30,8 @@ def disturbances(s: Scenario, biped: Biped, period: float, plant: Biped) -> Dist
 def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) -> Disturbance:
     """Push number i. Raises InputError for a value that its shape does not take."""
     push = s.pushes[i]
-    entry, what = find("disturbance", push.shape), f"disturbance '{push.shape}'"
-    make = entry.load()
-    accepted = takes(make)
     along = push.force * np.array((math.cos(push.direction), math.sin(push.direction), 0.0))
-    on_link = push.link is not None
-    amplitude = along if on_link else torques(s, i, biped)
-    _check_taken(i, push, set(accepted))
-    values: dict[str, Any] = {**push.own, **window(s, i, period), "rise": push.rise}
-    values |= {"force": tuple(along[:2].tolist()), "amplitude": amplitude, "biped": plant}
-    values |= entry.defaults
-    made = construct(what, make, values, Disturbance, f"pushes.{i}")  # type: ignore[type-abstract]
-    return made if push.link is None else OnLink(plant, push.link, cast(Windowed, made))
-
-
-def _check_taken(i: int, push: Push, accepted: set[str]) -> None:
-    """Raise Misfit for a value that has no effect on this shape."""
+    accepted = takes(find("disturbance", push.shape).load())
     forced = push.link is not None or "force" in accepted
     idle = {
         "force": not forced and "is a torque; name the link on which a force acts",
@@ -55,7 +41,16 @@ def _check_taken(i: int, push: Push, accepted: set[str]) -> None:
     for name, why in idle.items():
         if why and getattr(push, name):
             raise Misfit(f"pushes.{i}.{name}", f"the push '{push.shape}' {why}")
-    all_taken(f"pushes.{i}", push.own, {*accepted, *Push.model_fields})
+    known = {
+        **window(s, i, period),
+        "rise": push.rise,
+        "force": tuple(along[:2].tolist()),
+        "amplitude": torques(s, i, biped) if push.link is None else along,
+        "biped": plant,
+    }
+    place, fields = f"pushes.{i}", Push.model_fields
+    result = named_part("disturbance", push.shape, known, push.own, Disturbance, place, fields)  # type: ignore[type-abstract]
+    return result if push.link is None else OnLink(plant, push.link, cast(Windowed, result))
 
 
 def window(s: Scenario, i: int, period: float) -> dict[str, Any]:

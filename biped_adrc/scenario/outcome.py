@@ -35,8 +35,6 @@ class Outcome(Shown):
     """The scenario that was walked."""
     status: str
     """Name of the trajectory's status, "COMPLETED" for a walk of all impacts asked for."""
-    message: str
-    """The status in words, with its detail."""
     impacts: int
     """Number of impacts made."""
     x_minus: Array
@@ -59,8 +57,6 @@ class Outcome(Shown):
     """The engine that ran, "compiled" or "pinocchio"; "unknown" for a run that does not say."""
     half: Outcome | None = None
     """The same run with every step half as long; its own half is None."""
-    slip: float | None = None
-    """Largest distance that a foot slips in a step [m]; None on the rigid plant."""
 
     def __post_init__(self) -> None:
         freeze(self, "x_minus", "durations")
@@ -91,16 +87,14 @@ def outcome_of(walk: Walk) -> Outcome:
     return Outcome(
         walk.scenario,
         trajectory.status.name,
-        f"{trajectory.status.value} {trajectory.detail}".strip(),
         len(events),
         trajectory.before(FOOT_STRIKE),
         np.diff(times),
         s.peak_error,
         float(np.sqrt(max(mean, 0.0))),
-        float(np.max(np.abs(s.u), initial=0.0)),
+        walk.peak_torque,
         walk.certificates,
         walk.feasibility,
         str(trajectory.settings["method"]),
         str(trajectory.settings.get("engine", "unknown")),
-        slip=max((x for step in walk.soft_steps for x in step.slip), default=None),
     )

@@ -31,7 +31,7 @@ from pydantic import (
 from pydantic.fields import FieldInfo
 
 from biped_adrc.core.errors import InputError
-from biped_adrc.core.shown import LONGEST
+from biped_adrc.core.shown import call_text
 from biped_adrc.scenario.dotted import NAME, flat, merged, nested, unknown
 from biped_adrc.scenario.registry import construct, find, known_name, portable, spelled, takes
 from biped_adrc.scenario.units import in_si, quantity
@@ -73,15 +73,18 @@ def named_part(
     own: Mapping[str, object],
     base: type[_T],
     place: str,
+    fields: Collection[str] = (),
 ) -> _T:
-    """A thing of the registry, made of what is known of the scenario, and of own values.
+    """A thing of the registry, made of what is known of the scenario, of its defaults, and of own values.
 
-    place: the dotted name of its record. Raises InputError for what is not there or cannot be made, and Misfit
-    for an own value that it does not take.
+    place: the dotted name of its record. fields: of that record. Raises InputError for what is not there or
+    cannot be made, and Misfit for an own value that it does not take.
     """
-    make = find(kind, name).load()
-    all_taken(place, own, takes(make))
-    return construct(f"{kind} '{name}'", make, {**known, **own}, base, place)
+    entry = find(kind, name)
+    make = entry.load()
+    all_taken(place, own, {*takes(make), *fields})
+    values = {**known, **entry.defaults, **own}
+    return construct(f"{kind} '{name}'", make, values, base, place)
 
 
 class Described(NamedTuple):
@@ -211,9 +214,7 @@ class Record(BaseModel):
         return type(self)(**merged(self.record(), nested({**(values or {}), **more})))
 
     def __repr__(self) -> str:
-        told = ", ".join(f"{name}={x!r}" for name, x in self.dotted().items())
-        room = LONGEST - len(type(self).__name__) - 2
-        return f"{type(self).__name__}({told if len(told) <= room else told[: room - 3] + '...'})"
+        return call_text(type(self).__name__, ((k, repr(x)) for k, x in self.dotted().items()))
 
     __str__ = __repr__
 
@@ -355,10 +356,15 @@ def misfit(error: ValidationError, cls: type[Record]) -> Misfit:
             return Misfit(place, inner.text)
     if result["type"] == "extra_forbidden" or isinstance(inner, Misfit):
         return Misfit(place, unknown(place, names_of(cls)), known=False)
-    text = result["msg"].removeprefix("Value error, ")
+    return Misfit(place, said(result))
+
+
+def said(error: Mapping[str, Any]) -> str:
+    """One error of pydantic's as what was found and what was expected."""
+    text: str = error["msg"].removeprefix("Value error, ")
     if text.startswith("Input should"):
-        text = f"found {result['input']!r}, {text.replace('Input should', 'should')}"
-    return Misfit(place, text)
+        return f"found {error['input']!r}, {text.replace('Input should', 'should')}"
+    return text
 
 
 _LABELS = ("float", "int", "bool", "str")

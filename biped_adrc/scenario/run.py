@@ -125,15 +125,14 @@ def cycle_start(biped: Biped, slope: float) -> tuple[Array, Array]:
 def walk_scenario(
     s: Scenario,
     progress: Progress | None = None,
-    method: OneStepMethod | None = None,
     controller: Controller | None = None,
 ) -> Walk:
     """Simulate a scenario from the impact of the gait's periodic orbit, or of a passive robot's cycle.
 
     The same scenario gives the same walk in every process: all random numbers come from its seed.
 
-    progress: called as the walk goes on. method, controller: in place of the scenario's; the walk with another
-    controller, such as an exported one, keeps no scenario. A fall is a status of the trajectory, not an error.
+    progress: called as the walk goes on. controller: in place of the scenario's, such as an exported one; the
+    walk then keeps no scenario. A fall is a status of the trajectory, not an error.
     Raises InputError for values that do not fit together.
 
     >>> walk = ba.walk_scenario(ba.Scenario("NPD", run={"impacts": 2}))
@@ -154,7 +153,7 @@ def walk_scenario(
     return walk_in_parts(
         walker,
         scene.gait,
-        parts_of(s, walker) if method is None else (Part(s.run.impacts, method),),
+        parts_of(s, walker),
         start=begin,
         first_step=s.run.first_step,
         progress=progress,

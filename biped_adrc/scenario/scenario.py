@@ -11,16 +11,18 @@ from `run.seed`, one stream per purpose (`drawn`), so that the same scenario giv
 
 from __future__ import annotations
 
-import hashlib
-import json
 import re
+import tomllib
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any, ClassVar, Literal, Self
 
 import numpy as np
 from pydantic import ConfigDict, field_validator, model_validator
 
-from biped_adrc.scenario.dotted import nested
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import one_line, reading, toml_key, toml_value, write_text
+from biped_adrc.scenario.dotted import flat, nested
 from biped_adrc.scenario.hardware import HardwareRecord
 from biped_adrc.scenario.push import Push, parse_push
 from biped_adrc.scenario.records import (
@@ -33,6 +35,7 @@ from biped_adrc.scenario.records import (
     plain,
     read,
 )
+from biped_adrc.scenario.registry import portable
 
 MOST_SEED = 2**63 - 1
 """Largest seed: the largest integer that a file of results can hold."""
@@ -296,20 +299,41 @@ class Scenario(Record):
             raise Misfit("hardware.delay_known", "counts the delay twice beside a prediction")
         return self
 
-    @property
-    def key(self) -> str:
-        """A name for this scenario in stores of results: a hash of its record, equal for equal values."""
-        text = json.dumps(self.record(), sort_keys=True)
-        return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+def read_scenario(path: Path) -> Scenario:
+    """The scenario of a TOML file. Raises InputError with the file and the name of the value.
+
+    controller.name = "LESO"
+    controller.observer.bandwidth = "160 rad/s"
+    pushes = [{ joints = "q1", torque = "30 N m", step = 2, onset = "0.1 s" }]
+    """
+    with reading("scenario file", path, InputError):
+        return Scenario(**tomllib.loads(path.read_text(encoding="utf-8")))
 
 
-def scenario_of(record: Mapping[str, object]) -> Scenario:
-    """The scenario of values by dotted name, or nested. Raises InputError."""
-    return Scenario(**{str(name): x for name, x in record.items()})
+def write_scenario(path: Path, s: Scenario, comment: str = "") -> None:
+    """Write the values of a scenario that differ from the defaults, and whom it is of. Raises OutputError.
+
+    comment: lines at the top of the file.
+    """
+    lines = [f"# {one_line(line)}" for line in comment.splitlines()] + scenario_lines(s)
+    write_text(path, "\n".join(lines) + "\n")
+
+
+def scenario_lines(s: Scenario) -> list[str]:
+    """The values of a scenario that differ from the defaults, and whom it is of, as lines of TOML."""
+    record = {"controller.name": s.controller.name, "robot.name": s.robot.name}
+    pushes = s.record().pop("pushes", [])
+    values = record | flat({k: x for k, x in s.record().items() if k != "pushes"})
+    values |= {"pushes": pushes} if pushes else {}
+    return [
+        f"{'.'.join(map(toml_key, name.split('.')))} = {toml_value(x)}"
+        for name, x in values.items()
+    ]
 
 
 def value_of(name: str, x: object) -> Any:
-    """A value as the scenario takes it, also from text with a unit.
+    """A value as the scenario takes it: a number in SI units, also from text, a name as all processes know it.
 
     Raises InputError for an unknown name and a value out of its range.
     """
@@ -319,7 +343,9 @@ def value_of(name: str, x: object) -> Any:
         what.check(result)
     except ValueError as error:
         raise Misfit(name, str(error)) from None
-    return result
+    if what.kind and isinstance(result, str):
+        return portable(what.kind, result)
+    return float(result) if type(result) is int and float in what.types else result
 
 
 def names() -> list[str]:

@@ -1,7 +1,7 @@
 """Walks on disk, complete in themselves: scenario, states, signals, walker and gait in one .npz file.
 
 Robot and gait are in the file as they were, so that neither the working directory nor later changes of their
-files matter. A stored walk is checked before it is handed over (`_check`), so that damage is noticed.
+files matter.
 
 Entries of the file, beside the trajectory that `hybrid.storage` writes:
 
@@ -32,21 +32,18 @@ from dataclasses import dataclass, field, fields, is_dataclass
 from enum import Enum
 from importlib import import_module
 from pathlib import Path
-from types import NoneType
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.closed_loop.feet import NAMES
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
 from biped_adrc.core.versions import versions
 from biped_adrc.disturbances.base import Disturbance
-from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid import storage
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.scenario.build import RobotAndGait, build
@@ -119,9 +116,7 @@ def load_walk(path: Path | str) -> Walk:
                 "it does not say which robot, gait and controller it is of; runs written by Walk.save, "
                 "'biped-adrc simulate' and 'reproduce' do"
             )
-        result = _stored(trajectory, beside)
-        _check(result)
-    return result
+        return _stored(trajectory, beside)
 
 
 def _stored(trajectory: Trajectory, beside: Mapping[str, Array]) -> Walk:
@@ -133,28 +128,6 @@ def _stored(trajectory: Trajectory, beside: Mapping[str, Array]) -> Walk:
     remarks = tuple(map(str, trajectory.settings.get("remarks", ())))
     gait, scenario = reader.made(record["gait"]), _scenario(trajectory)
     return Walk(walker, gait, trajectory, scenario, Signals(**columns), remarks)
-
-
-def _check(walk: Walk) -> None:
-    """Raise ValueError where gait, states, signals or readings of a file do not fit the walker."""
-    arcs, plant, signals = walk.trajectory.arcs, walk.walker.plant, vars(walk.signals)
-    t = np.concatenate([arc.t for arc in arcs])
-    of_feet = {**dict.fromkeys(NAMES, 4), "u": plant.p, "zeta": plant.n}
-    soft = any(set(NAMES) & set(arc.read) for arc in arcs)
-    readings = [
-        (arc.read.get(x), len(arc.t), n) for arc in arcs if soft for x, n in of_feet.items()
-    ]
-    fits = {
-        "gait": isinstance(walk.gait, Gait if plant.p else NoneType),
-        "signals": {len(x) for x in signals.values()} == {len(t)}
-        and np.array_equal(signals["t"], t),
-        "states": all(arc.x.shape[1] >= 2 * plant.n for arc in arcs),
-        "readings": all(
-            x is not None and x.shape == (k, n) and np.isfinite(x).all() for x, k, n in readings
-        ),
-    }
-    if wrong := [name for name, fit in fits.items() if not fit]:
-        raise ValueError(f"its {' and '.join(wrong)} do not fit its walker")
 
 
 def _walker(reader: Reader, record: PartRecord) -> Walker:
@@ -282,7 +255,7 @@ def _names(x: Any) -> list[str]:
     """Names of what the constructor of an object takes; none for a class or a function itself."""
     if is_dataclass(x):
         return [f.name for f in fields(x) if f.init]
-    return [] if hasattr(x, "__qualname__") else list(takes(type(x)))
+    return [] if hasattr(x, "__qualname__") else list(takes(x.__class__))
 
 
 @dataclass
