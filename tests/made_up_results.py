@@ -26,7 +26,7 @@ from biped_adrc.paper.scenarios import (
     on_the_recipe,
 )
 from biped_adrc.paper.verdict import AtTwoSteps
-from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.recording import Outcome
 from biped_adrc.scenario.scenario import Scenario
 
 PLAN = Plan(quick=True)

@@ -20,7 +20,7 @@ from biped_adrc.paper.convergence import (
     observed_order,
 )
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan, pushed_run
-from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.recording import Outcome
 from biped_adrc.scenario.run import execute_twice, walk_scenario
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import FINE_STEP, Part, refined, walk_in_parts

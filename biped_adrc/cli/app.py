@@ -15,6 +15,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from io import TextIOWrapper
 from pathlib import Path
 from typing import Annotated, Any, TextIO, TypeVar
@@ -150,14 +151,13 @@ def target(out: P, suffixes: Sequence[str], read: Iterable[Path] = ()) -> P:
     return path
 
 
-def say(text: str) -> None:
+def say(text: str, to: Terminal = console) -> None:
     """Print a text as it is, neither wrapped nor coloured, so that it can be searched and copied."""
-    console.print(text, highlight=False, soft_wrap=True)
+    to.print(text, highlight=False, soft_wrap=True)
 
 
-def complain(text: str) -> None:
-    """As `say`, to the error stream."""
-    errors.print(text, highlight=False, soft_wrap=True)
+complain = partial(say, to=errors)
+"""As `say`, to the error stream."""
 
 
 def say_written(*paths: Path | None) -> None:

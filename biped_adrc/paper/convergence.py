@@ -8,7 +8,7 @@ step, three steps h, h/2, h/4 show
 
     k = log2 (|y(h) - y(h/2)| / |y(h/2) - y(h/4)|)
 
-Takes outcomes (`scenario.outcome.Outcome`) that hold the run at half the step in `half`. Called by
+Takes outcomes (`scenario.recording.Outcome`) that hold the run at half the step in `half`. Called by
 `paper.table` (checks) and by the command `simulate`, which prints the error.
 
 For feasibility the two runs have to agree as well: a walk that is feasible at one step and not at the other has
@@ -25,7 +25,7 @@ import numpy as np
 
 from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.paper.verdict import AtTwoSteps
-from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.recording import Outcome
 
 AGREE = 0.01
 """Largest relative difference of two values that agree."""

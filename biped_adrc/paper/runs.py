@@ -36,8 +36,7 @@ from biped_adrc.paper.push_map import push_map
 from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Plan, with_values
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait
-from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.run import execute, execute_twice, halved, walk_scenario
 from biped_adrc.scenario.scenario import Scenario
 

@@ -10,9 +10,11 @@ model errors. Called by `run`, by studies, and by worker processes, which receiv
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any, cast
 
 import numpy as np
 
@@ -23,6 +25,8 @@ from biped_adrc.control.passive import Passive
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.timing import ContinuousTime, SampledTime
 from biped_adrc.core.types import Array, frozen
+from biped_adrc.disturbances.base import Disturbance, Sum, Windowed
+from biped_adrc.disturbances.link import OnLink
 from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.gait import Gait, load_gait
@@ -36,9 +40,9 @@ from biped_adrc.model.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.model.model_errors import ModelErrors, impact_error
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.controllers import controller
-from biped_adrc.scenario.disturbances import disturbances
 from biped_adrc.scenario.hardware import EncoderRecord
-from biped_adrc.scenario.records import all_taken, named_part
+from biped_adrc.scenario.push import RANDOM, Push
+from biped_adrc.scenario.records import Misfit, all_taken, named_part
 from biped_adrc.scenario.registry import construct, find, made_by_user, takes
 from biped_adrc.scenario.scenario import Scenario, drawn
 
@@ -293,3 +297,79 @@ def ground(s: Scenario) -> tuple[StepDown | StepUp, ...]:
         return steps
     edge = StepDown(g.drop_step, g.drop) if g.drop > 0.0 else StepUp(g.drop_step, -g.drop)
     return (*steps, edge)
+
+
+# -- pushes ----------------------------------------------------------------------------------------
+def disturbances(s: Scenario, biped: Biped, period: float, plant: Biped) -> Disturbance | None:
+    """The sum of all pushes of a scenario; None without any.
+
+    biped: the nominal robot, for its joints. period [s]: of the gait. plant: the robot that walks, for forces
+    on its links. Raises InputError for a push that does not fit.
+    """
+    parts = tuple(disturbance(s, i, biped, period, plant) for i in range(len(s.pushes)))
+    return Sum(parts) if len(parts) > 1 else parts[0] if parts else None
+
+
+def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) -> Disturbance:
+    """Push number i. Raises InputError for a value that its shape does not take."""
+    push = s.pushes[i]
+    along = push.force * np.array((math.cos(push.direction), math.sin(push.direction), 0.0))
+    accepted = takes(find("disturbance", push.shape).load())
+    forced = push.link is not None or "force" in accepted
+    idle = {
+        "force": not forced and "is a torque; name the link on which a force acts",
+        "torque": "amplitude" not in accepted and "takes no torque",
+        "rise": "rise" not in accepted and "has no edges; only a pulse has a rise",
+    }
+    for name, why in idle.items():
+        if why and getattr(push, name):
+            raise Misfit(f"pushes.{i}.{name}", f"the push '{push.shape}' {why}")
+    known = {
+        **window(s, i, period),
+        "rise": push.rise,
+        "force": tuple(along[:2].tolist()),
+        "amplitude": torques(s, i, biped) if push.link is None else along,
+        "biped": plant,
+    }
+    place, fields = f"pushes.{i}", Push.model_fields
+    result = named_part("disturbance", push.shape, known, push.own, Disturbance, place, fields)  # type: ignore[type-abstract]
+    return result if push.link is None else OnLink(plant, push.link, cast(Windowed, result))
+
+
+def window(s: Scenario, i: int, period: float) -> dict[str, Any]:
+    """When push i acts: step number, start and stop [s], frequency [Hz] and the seed of noise.
+
+    A push counts from the start of its single support and ends with it at the latest; one that goes on over
+    impacts counts from the time at which the gait, of this period [s], would begin that single support. An
+    onset that is not given is drawn so that the push fits into the period.
+    """
+    push = s.pushes[i]
+    begin = push.onset
+    if begin is None:
+        last = max(period - push.duration, 0.0)
+        begin = float(np.random.default_rng(drawn(s, "onset", i)).uniform(0.0, last))
+    over = push.over_impacts
+    late = (push.step - s.run.first_step) * period if over else 0.0
+    return {
+        "step": None if over else push.step,
+        "start": late + begin,
+        "stop": late + push.stop(begin),
+        "frequency": push.frequency,
+        "bandwidth": push.frequency,
+        "seed": drawn(s, "noise", i),
+    }
+
+
+def torques(s: Scenario, i: int, biped: Biped) -> Array:
+    """Torques (n,) [N m] of push i on the coordinates.
+
+    Raises InputError for a joint that there is not.
+    """
+    push, zeta = s.pushes[i], np.zeros(biped.n)
+    if push.joints == RANDOM and not isinstance(push.torque, dict):
+        random = np.random.default_rng(drawn(s, "joints", i))
+        zeta[: biped.p] = push.torque * random.uniform(-1.0, 1.0, biped.p)
+        return zeta
+    for joint, torque in push.factors.items():
+        zeta[biped.description.joint_index(joint)] += torque
+    return zeta

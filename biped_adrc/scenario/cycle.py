@@ -1,8 +1,10 @@
-"""The return map of a scenario, and a state from which Newton's method finds its cycle.
+"""What is said of a scenario by linearisation: the cycle of its return map, and its specification.
+
+    cycle_of(s)    a `Cycle`, which `analysis.stability.cycle_stability` takes: return map, and a state from
+                   which Newton's method finds the fixed point
+    specified(s)   `stable`, `growth` [1/s], `delay_margin` [s], `disk_margin`, `ripple` [N m] by name
 
 A robot with motors walks a stored gait under NPD or ADRC, one without walks its known cycle down a slope.
-
-    cycle_of(s)   a `Cycle`, which `analysis.stability.cycle_stability` takes
 
 The controller's states (an observer's) belong to the state of the map unless observer_states is False: then the
 controller starts anew after each impact, and the map has 2 n - 1 coordinates.
@@ -12,15 +14,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import lru_cache
 
+from biped_adrc.analysis.loops.frozen_gait import FrozenGait
+from biped_adrc.analysis.loops.specification import Specification, specification
 from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.analysis.stability import Cycle
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.core.errors import InputError
 from biped_adrc.hybrid.integrators import RK4
-from biped_adrc.scenario.build import RobotAndGait, build
+from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_of
 from biped_adrc.scenario.run import known_cycle, method_of
-from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.scenario import ErrorRecord, Scenario
 
 DIFFERENCE = 1e-4
 """Half width of the central differences of P [rad, rad/s], for controllers without states."""
@@ -87,3 +92,39 @@ def cycle_of(s: Scenario, observer_states: bool = True) -> Cycle:
         return gait_cycle(s, observer_states)
     walker = build(s)
     return known_cycle(walker.plant, walker.slope)
+
+
+def specification_of(s: Scenario, scene: RobotAndGait | None = None) -> Specification:
+    """The specification of the walker of a scenario; it needs no walk.
+
+    What the scenario does to the walk, such as pushes, ground and start, has no part in it; what it does to the
+    robot has, as plant beside the model. scene: robot and gait where they are at hand; for many candidates give
+    the same, whose linearisations are kept. Raises InputError for a scenario in continuous time, on another
+    plant than the rigid one, without motors, or whose controller has to notice touchdowns.
+    """
+    if s.ground.plant != RIGID:
+        raise InputError(
+            f"a specification was asked for on plant '{s.ground.plant}', expected '{RIGID}', whose equations "
+            "it linearises"
+        )
+    scene = RobotAndGait.of(s) if scene is None else scene
+    return specification(build(s, scene), _frozen(scene, s.errors, s.run.seed))
+
+
+@lru_cache(maxsize=16)
+def _frozen(scene: RobotAndGait, errors: ErrorRecord, seed: int) -> FrozenGait:
+    """The gait linearised for a plant with the model errors of a scenario.
+
+    No controller has a part in it, so the candidates of a search share it.
+    """
+    plant = plant_of(Scenario(errors=errors, run={"seed": seed}), scene.biped)
+    return FrozenGait.of(plant, scene.walked, scene.biped)
+
+
+def specified(s: Scenario, scene: RobotAndGait | None = None) -> dict[str, float]:
+    """The numbers of `specification_of` by name, none of them NaN; of an unstable loop the margins are 0 and
+    the ripple is infinite. Raises InputError as it.
+
+        specified(ba.Scenario({"name": "LESO", "observer": {"bandwidth": 160.0}}, hardware="rabbit"))
+    """
+    return specification_of(s, scene).columns()

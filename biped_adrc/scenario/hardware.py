@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, Literal, Self
 
-from pydantic import ConfigDict, field_validator, model_validator
+from pydantic import ConfigDict, model_validator
 
 from biped_adrc.core.files import packaged
 from biped_adrc.scenario.dotted import flat, merged
@@ -59,7 +60,7 @@ class HardwareRecord(Record):
     """Sampling, sensors, motors and joint friction."""
 
     SHORT = "profile"
-    profile: str = field("none")
+    profile: Literal["none", "ideal", "rabbit"] = field("none")
     """Fills in what is not given: none, ideal (1 kHz) or rabbit."""
     period: float | None = field(None, "s", ge=1e-5, le=0.1)
     """Sampling period of the controller; by default continuous time."""
@@ -79,21 +80,16 @@ class HardwareRecord(Record):
     friction: bool = field(False)
     """Joint friction of the robot's record in the plant."""
 
+    @model_validator(mode="before")
     @classmethod
-    def filled(cls, values: dict[str, Any]) -> dict[str, Any]:
-        """Values of the profile where none are given."""
+    def _opened(cls, values: Any) -> Any:
+        """The name of the profile as a record, and values of the profile where none are given."""
+        values = super()._opened(values)  # type: ignore[operator]
+        if not isinstance(values, Mapping):
+            return values
         profile = PROFILES.get(str(values.get("profile")), {})
-        return {
-            **values,
-            **merged(profile, {name: values[name] for name in profile if name in values}),
-        }
-
-    @field_validator("profile")
-    @classmethod
-    def _there(cls, profile: str) -> str:
-        if profile not in PROFILES:
-            raise ValueError(f"found '{profile}', expected one of {list(PROFILES)}")
-        return profile
+        given = {name: values[name] for name in profile if name in values}
+        return {**values, **merged(profile, given)}
 
     @model_validator(mode="after")
     def _sampled(self) -> Self:

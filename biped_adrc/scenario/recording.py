@@ -32,22 +32,22 @@ import numpy as np
 from biped_adrc.analysis.certificate import Certificate, after_last_impact, certificates, supports
 from biped_adrc.analysis.feasibility import Feasibility, until_infeasible
 from biped_adrc.analysis.ground_force import Nodes
+from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.analysis.recorded_signals import PLACE, recorded
 from biped_adrc.analysis.signals import Signals, signals
 from biped_adrc.analysis.soft_steps import SoftStep, recorded_steps, slip_times
 from biped_adrc.analysis.touchdowns import Noticed, touchdowns
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
-from biped_adrc.core.errors import optional
+from biped_adrc.core.errors import InputError, optional
 from biped_adrc.core.files import joint_columns, write_csv
 from biped_adrc.core.shown import Shown
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, freeze
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import Reference, TimeReference
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.edges import edge_remarks, step_remarks
-from biped_adrc.scenario.outcome import Outcome, outcome_of
 
 if TYPE_CHECKING:
     import pandas
@@ -64,6 +64,51 @@ OF_JOINTS = {
     "error": "error{} [rad]",
 }
 """Signals with a column for each joint in the table of a walk."""
+
+
+@dataclass(frozen=True)
+class Outcome(Shown):
+    """The numbers that are kept of a scenario's walk: small enough to be sent back by a worker process.
+
+    A walk itself holds megabytes of states; the reproduction of the paper compares outcomes.
+    """
+
+    run: Scenario
+    """The scenario that was walked."""
+    status: str
+    """Name of the trajectory's status, "COMPLETED" for a walk of all impacts asked for."""
+    impacts: int
+    """Number of impacts made."""
+    x_minus: Array
+    """States just before each impact (impacts, states) [rad, rad/s], the controller's behind."""
+    durations: Array
+    """Durations of the single supports (impacts,) [s]."""
+    peak_error: float
+    """max |q_b - q_d| [rad], also between the nodes of the method; 0 where no joint is driven."""
+    rms_error: float
+    """Root of the mean over time and joints of (q_b - q_d)^2 [rad]; 0 where no joint is driven."""
+    peak_torque: float
+    """max |u_i| [N m]; 0 without motors."""
+    certificates: tuple[Certificate, ...]
+    """What each finished step would have asked of ground and motors."""
+    feasibility: Feasibility
+    """Whether ground and motors could have carried the walk, within the limits of the robot's record."""
+    method: str
+    """Integration method, with its step."""
+    engine: str
+    """The engine that ran, "compiled" or "pinocchio"; "unknown" for a run that does not say."""
+    half: Outcome | None = None
+    """The same run with every step half as long: the difference of the two is an estimate of the error of
+    integration in every number here, since RK4's error falls by 16. Its own half is None.
+    """
+
+    def __post_init__(self) -> None:
+        freeze(self, "x_minus", "durations")
+
+    @property
+    def walked(self) -> bool:
+        """True where all impacts asked for were made."""
+        return self.status == "COMPLETED"
 
 
 @dataclass(frozen=True)
@@ -188,8 +233,35 @@ class Walk(Shown):
 
     @cached_property
     def outcome(self) -> Outcome:
-        """The numbers of a scenario's walk that a worker process sends back."""
-        return outcome_of(self)
+        """The numbers of a scenario's walk that a worker process sends back.
+
+        The mean of squared errors is over time, by quadrature between nodes. Raises InputError for a walk that
+        is not of a scenario.
+        """
+        if self.scenario is None:
+            raise InputError(
+                "this walk was made of a walker, and an outcome is a scenario's; take its trajectory, signals "
+                "and feasibility, or walk with biped_adrc.walk_scenario"
+            )
+        run, s = self.trajectory, self.signals
+        times = np.array([0.0, *(event.t for event in run.events(FOOT_STRIKE))])
+        squares = np.sum(s.error**2, axis=1) / max(s.error.shape[1], 1)
+        duration = s.t[-1] - s.t[0]
+        mean = integrate(s.t, squares) / duration if duration > 0 else float(squares[0])
+        return Outcome(
+            self.scenario,
+            run.status.name,
+            self.impacts,
+            run.before(FOOT_STRIKE),
+            np.diff(times),
+            s.peak_error,
+            float(np.sqrt(max(mean, 0.0))),
+            self.peak_torque,
+            self.certificates,
+            self.feasibility,
+            str(run.settings["method"]),
+            str(run.settings.get("engine", "unknown")),
+        )
 
     def until_infeasible(self, limits: Limits | None = None) -> Self:
         """The walk up to the first instant at which ground or motors could not have carried it.

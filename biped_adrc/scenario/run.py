@@ -31,8 +31,7 @@ from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod, Stiff
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_step, soft_loop, start
-from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.scenario import FREE, Scenario
 from biped_adrc.scenario.walk import (
     FINE_STEP,

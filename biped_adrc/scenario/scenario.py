@@ -189,7 +189,7 @@ class StartRecord(Record):
     def own_value(cls, name: str) -> Described:
         if not cls._COORDINATE.fullmatch(name):
             raise Misfit(name, "expected speed, spread, or a coordinate such as q5 or v5")
-        return Described(name, (float,), "rad" if name[0] == "q" else "rad/s", default=0.0)
+        return Described(name, (float,), default=0.0, unit="rad" if name[0] == "q" else "rad/s")
 
 
 class LimitRecord(Record):
@@ -278,24 +278,19 @@ class Scenario(Record):
             x = [x[name] for name in sorted(x, key=int)] if numbered else [x]
         elif isinstance(x, Push):
             x = [x]
-        if not isinstance(x, list | tuple):
-            raise ValueError(f"found {x!r}, expected pushes in a list")
-        return tuple(parse_push(y) if isinstance(y, str) else y for y in x)
+        many = isinstance(x, list | tuple)
+        return tuple(parse_push(y) if isinstance(y, str) else y for y in x) if many else x
 
     @model_validator(mode="after")
     def _acting(self) -> Self:
-        """Raise Misfit for a push that cannot act, and for parts of the controller that need sampled time."""
+        """Raise Misfit for a push that cannot act, and for a delay that is counted twice."""
         first, last = self.run.first_step, self.run.first_step + self.run.impacts - 1
         for i, push in enumerate(self.pushes):
             late = push.step > last
             if late or (push.step < first and push.shape != "step" and not push.over_impacts):
                 walked = f"the walk has the single supports {first} to {last}"
                 raise Misfit(f"pushes.{i}.step", f"is {push.step}, and {walked}: it cannot act")
-        law = self.controller
-        for name, value in (("contact", law.contact.name), ("prediction", law.prediction)):
-            if value and self.hardware.period is None:
-                raise Misfit(f"controller.{name}", "needs sampled time; give hardware.period too")
-        if self.hardware.delay_known and law.prediction > 0.0:
+        if self.hardware.delay_known and self.controller.prediction > 0.0:
             raise Misfit("hardware.delay_known", "counts the delay twice beside a prediction")
         return self
 

@@ -126,7 +126,7 @@ def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
 def test_what_is_wrong_is_said(own: str, values: dict, message: str) -> None:
     values = {k: x.replace("OWN", own) if isinstance(x, str) else x for k, x in values.items()}
     with pytest.raises(InputError, match=message):
-        build(ba.Scenario(**values))
+        ba.walk_scenario(ba.Scenario(**values))
 
 
 def test_what_is_made_of_the_scenarios_values() -> None:
