@@ -55,7 +55,6 @@ def made_up(**values: object) -> Outcome:
     found = Outcome(
         run,
         "COMPLETED",
-        "",
         2,
         np.zeros((2, 10)),
         np.array([0.4, 0.4]),

@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from biped_adrc.analysis.soft_steps import SoftStep
     from biped_adrc.model.robots.limits import Limits
     from biped_adrc.scenario.recording import Walk
+    from biped_adrc.scenario.scenario import Scenario
 
 WHY = {
     "compiled": "generated from Pinocchio's model and checked against it",
@@ -57,12 +58,8 @@ def simulate(
     out: Path | None = None,
     log: Path | None = None,
 ) -> None:
-    """Walk, and print what each step needed of the ground and of the motors.
-
-    A walk with motors is carried out again at half the step; only the first one is stored.
-    """
+    """Walk, and print what each step needed of the ground and of the motors."""
     from biped_adrc.scenario.build import limits
-    from biped_adrc.scenario.run import halved, walk_scenario
 
     s = scenario_from(values, sets, scenario, push)
     read = inputs(s.robot.name, s.gait.name)
@@ -71,7 +68,19 @@ def simulate(
         raise InputError(
             "--log needs sample instants, and this walk is in continuous time; give a --period, such as '1 ms'"
         )
-    name, total, within = f"walking, {s.controller.name}", s.run.impacts, limits(s)
+    _walk(s, limits(s), end_infeasible, out, log)
+
+
+def _walk(
+    s: Scenario, limits: Limits, end_infeasible: bool, out: Path | None, log: Path | None
+) -> None:
+    """Carry out a scenario, print it, and write it where it is asked for; raises the exit if the robot fell.
+
+    A walk with motors is carried out again at half the step; only the first one is stored.
+    """
+    from biped_adrc.scenario.run import halved, walk_scenario
+
+    name, total = f"walking, {s.controller.name}", s.run.impacts
     with bar(name) as shown:
         full = walk_scenario(s, lambda t, n: shown(n, total, name))
         half, run = None, full.trajectory
@@ -81,7 +90,7 @@ def simulate(
             finer = halved(s, full.walker).replace(run={"engine": "compiled"})
             half = walk_scenario(finer, lambda t, n: shown(n, total, "the same at half the step"))
     if end_infeasible:
-        full, half = full.until_infeasible(within), half and half.until_infeasible(within)
+        full, half = full.until_infeasible(limits), half and half.until_infeasible(limits)
     if out is not None:
         (full.save if out.suffix.lower() == ".npz" else full.export)(out)
     if log is not None:
@@ -90,7 +99,7 @@ def simulate(
 
         write_log(logged(full), log, full.walker.nominal)
     _print_on_ground(full.soft_steps)
-    _print_end(full, half, within)
+    _print_end(full, half, limits)
     settings = full.trajectory.settings
     console.print(f"engine {settings['engine']}: {settings.get('why') or WHY[settings['engine']]}")
     for remark in full.remarks:

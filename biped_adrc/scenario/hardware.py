@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Literal, Self
 
-from pydantic import ConfigDict, model_validator
+from pydantic import model_validator
 
 from biped_adrc.core.files import packaged
 from biped_adrc.scenario.dotted import flat, merged
-from biped_adrc.scenario.records import Misfit, Record, field
+from biped_adrc.scenario.records import Misfit, OpenRecord, Record, field
 
 PROFILES: dict[str, dict[str, Any]] = packaged("biped_adrc.scenario", "hardware.toml")
 """Values that `hardware.profile` fills in: none, continuous time; ideal, exact measurements at 1 kHz; rabbit,
@@ -35,21 +35,14 @@ class EncoderRecord(Record):
     """Low-pass of the differences."""
 
 
-class PartRecord(Record):
-    """A part by name, with its parameters."""
-
-    model_config = ConfigDict(extra="allow")
-    name: str | None = field(None)
-
-
-class SensorRecord(PartRecord):
+class SensorRecord(OpenRecord):
     """One more sensor behind the encoders, with its parameters."""
 
     name: str | None = field(None, kind="sensor")
     """Of the registry, or module:Class."""
 
 
-class TouchdownRecord(PartRecord):
+class TouchdownRecord(OpenRecord):
     """How the controller notices touchdowns, with parameters."""
 
     name: str | None = field(None, kind="touchdown")

@@ -17,10 +17,10 @@ import re
 from decimal import Decimal
 from typing import Any
 
-from pydantic import ConfigDict, model_validator
+from pydantic import model_validator
 
 from biped_adrc.core.errors import InputError
-from biped_adrc.scenario.records import Misfit, Record, field
+from biped_adrc.scenario.records import Misfit, OpenRecord, field
 from biped_adrc.scenario.registry import find
 from biped_adrc.scenario.units import quantity
 
@@ -35,7 +35,7 @@ _PUSH = re.compile(
 _FORM = "expected JOINTS=TORQUE@STEP:START-STOP, such as 'q1,q2=30@19:0.1-0.3'"
 
 
-class Push(Record):
+class Push(OpenRecord):
     """A torque on joints or a force on a link, of a shape in time; further values are those of the shape.
 
     Raises InputError for a shape that there is not and for a value out of its range.
@@ -45,7 +45,6 @@ class Push(Record):
     2
     """
 
-    model_config = ConfigDict(extra="allow")
     SHORT = "shape"
 
     shape: str = field("pulse", kind="disturbance")

@@ -223,6 +223,12 @@ class Record(BaseModel):
         return hash(repr(sorted(self.dotted().items())))
 
 
+class OpenRecord(Record):
+    """A record that keeps other names in `own`."""
+
+    model_config = ConfigDict(extra="allow")
+
+
 def plain(x: Any) -> Any:
     """A value without NumPy's types, and lists of numbers and texts as tuples."""
     if isinstance(x, np.generic | np.ndarray):

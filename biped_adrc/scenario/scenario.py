@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any, ClassVar, Literal, Self
 
 import numpy as np
-from pydantic import ConfigDict, field_validator, model_validator
+from pydantic import field_validator, model_validator
 
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import one_line, reading, toml_key, toml_value, write_text
@@ -28,6 +28,7 @@ from biped_adrc.scenario.push import Push, parse_push
 from biped_adrc.scenario.records import (
     Described,
     Misfit,
+    OpenRecord,
     Record,
     described_in,
     field,
@@ -41,7 +42,6 @@ MOST_SEED = 2**63 - 1
 """Largest seed: the largest integer that a file of results can hold."""
 FREE = ("adaptive", "stiff")
 """Integration methods that choose their own step."""
-Own = ConfigDict(extra="allow")
 
 
 class RobotRecord(Record):
@@ -64,10 +64,9 @@ class GaitRecord(Record):
     """Walk a gait that was made for another robot or preset."""
 
 
-class ObserverRecord(Record):
+class ObserverRecord(OpenRecord):
     """The observer of the controller; its further parameters by name."""
 
-    model_config = Own
     name: str | None = field(None, kind="observer")
     """Of the registry, or module:Class; by default the controller's own."""
     bandwidth: float | None = field(None, "rad/s", gt=0, le=1e6)
@@ -88,20 +87,18 @@ class ObserverRecord(Record):
         return self
 
 
-class ContactRecord(Record):
+class ContactRecord(OpenRecord):
     """What the controller does while contact settles after touchdown; further parameters by name."""
 
-    model_config = Own
     name: str | None = field(None, kind="contact")
     """A policy of the registry ('hold'), or module:Class."""
     window: float | None = field(None, "s", ge=0, le=1.0)
     """Time after touchdown that it takes; by default the policy's own."""
 
 
-class ControllerRecord(Record):
+class ControllerRecord(OpenRecord):
     """The controller; its further parameters by name."""
 
-    model_config = Own
     name: str = field("ADRC", kind="controller")
     """Of the registry, or module:Class."""
     K_p: float | None = field(None, "1/s^2", gt=0)
@@ -120,10 +117,9 @@ class ControllerRecord(Record):
     """The controller inside an outer loop."""
 
 
-class GroundRecord(Record):
+class GroundRecord(OpenRecord):
     """The ground, or the engine that walks on it, with its further parameters by name."""
 
-    model_config = Own
     SHORT = "plant"
     plant: str = field("rigid", kind="plant")
     """What walks: rigid (pinned foot, plastic impact), mujoco (soft ground), or module:Class."""
@@ -169,10 +165,9 @@ class ErrorRecord(Record):
     """Half-width of relative errors of rates after impact."""
 
 
-class StartRecord(Record):
+class StartRecord(OpenRecord):
     """What is added to the start: q1.. [rad] and v1.. [rad/s] by name, and what is drawn."""
 
-    model_config = Own
     __pydantic_extra__: dict[str, float]
     SHORT = ""
     _COORDINATE: ClassVar[re.Pattern[str]] = re.compile("[qv][1-9][0-9]*", re.ASCII)

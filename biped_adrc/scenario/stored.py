@@ -116,18 +116,15 @@ def load_walk(path: Path | str) -> Walk:
                 "it does not say which robot, gait and controller it is of; runs written by Walk.save, "
                 "'biped-adrc simulate' and 'reproduce' do"
             )
-        return _stored(trajectory, beside)
-
-
-def _stored(trajectory: Trajectory, beside: Mapping[str, Array]) -> Walk:
-    """The walk of a trajectory, from the record of its walker and the signals beside it in the file."""
-    record = json.loads(str(beside["walker"]))
-    reader = Reader(record["parts"])
-    walker = _walker(reader, record["parts"][record["walker"]])
-    columns = {k.removeprefix("signal."): x for k, x in beside.items() if k.startswith("signal.")}
-    remarks = tuple(map(str, trajectory.settings.get("remarks", ())))
-    gait, scenario = reader.made(record["gait"]), _scenario(trajectory)
-    return Walk(walker, gait, trajectory, scenario, Signals(**columns), remarks)
+        record = json.loads(str(beside["walker"]))
+        reader = Reader(record["parts"])
+        walker = _walker(reader, record["parts"][record["walker"]])
+        arrays = {
+            k.removeprefix("signal."): x for k, x in beside.items() if k.startswith("signal.")
+        }
+        remarks = tuple(map(str, trajectory.settings.get("remarks", ())))
+        gait, scenario = reader.made(record["gait"]), _scenario(trajectory)
+        return Walk(walker, gait, trajectory, scenario, Signals(**arrays), remarks)
 
 
 def _walker(reader: Reader, record: PartRecord) -> Walker:
@@ -157,16 +154,11 @@ def replay(s: Scenario, trajectory: Trajectory) -> Walk:
 
 
 def load_walks(paths: Sequence[Path]) -> dict[str, Walk]:
-    """The walks in run files, by a name for each.
-
-    The name is that of the controller, with the file or a number where names repeat.
-    """
+    """The walks in run files, by the name of the controller, with that of the file where names repeat."""
     walks = [load_walk(path) for path in paths]
     names = [walk.controller_name for walk in walks]
     if len(set(names)) < len(names):
-        names = [f"{name} ({path.stem})" for name, path in zip(names, paths, strict=True)]
-    if len(set(names)) < len(names):
-        names = [f"{name} {k}" for k, name in enumerate(names, start=1)]
+        names = [f"{name} ({path})" for name, path in zip(names, paths, strict=True)]
     return dict(zip(names, walks, strict=True))
 
 

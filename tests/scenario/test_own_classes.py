@@ -100,7 +100,7 @@ def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
     [
         ({"controller": "nowhere_at_all.x:Mine"}, "No module named 'nowhere_at_all'.*installed"),
         ({"controller": "OWN:Mien"}, "has no attribute 'Mien'"),
-        ({"controller": "OWN:Lawless"}, "Lawless' has no method output"),
+        ({"controller": "OWN:Lawless"}, "Lawless has no method output"),
         ({"controller": "OWN:Needy"}, "needs stiffness; give controller.stiffness"),
         (
             {"controller": "OWN:Mine", "controller.gian": 1.0},
