@@ -27,7 +27,7 @@ from biped_adrc.cli.app import (
 )
 from biped_adrc.cli.options import options, pairs, with_sets
 from biped_adrc.core.errors import GaitError, InputError
-from biped_adrc.core.files import check_folder, keep_inputs
+from biped_adrc.core.files import check_folder
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.gait_design import DesignedGait
@@ -242,8 +242,7 @@ def gait_import(
     biped = Biped.load(robot, preset)
     names = pairs(name, "--name", "OURS=THEIRS, such as coefficients=R.alpha")
     gait = import_gait(file, biped, convention, names, slopes, degree, slope)
-    path = out or Path(gait.file_name)
-    keep_inputs((path,), read)
+    path = target(out or Path(gait.file_name), GAITS, read)
     gait.save(path)
     console.print(f"period {gait.period:.6f} s", highlight=False)
     say_written(path)

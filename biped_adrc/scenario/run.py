@@ -1,8 +1,8 @@
 """Simulation of a scenario: integration method, start, walk, and what is kept of it.
 
-`walk_scenario` builds the walker, chooses the method (`parts_of`) and simulates. `execute` and `execute_twice`
-are what a worker process runs: they return an `Outcome` of a few numbers, the latter with the same walk at half
-the step, whose difference estimates the error of integration.
+`walk_scenario` builds the walker, chooses the method (`parts_of`) and simulates. `execute_twice` is what a
+worker process runs: it returns an `Outcome` of a few numbers, with the same walk at half the step, whose
+difference estimates the error of integration.
 
 Robots without motors walk on their known cycle, the fixed point of the return map: Newton's method finds it
 from the stored state, and a walk starts just after its impact.
@@ -161,11 +161,6 @@ def walk_scenario(
     )
 
 
-def execute(s: Scenario) -> Outcome:
-    """Simulate a scenario and keep the numbers of its outcome."""
-    return walk_scenario(s).outcome
-
-
 def execute_twice(s: Scenario) -> Outcome:
-    """As `execute`, and once more with every integration step half as long, which is kept in `Outcome.half`."""
-    return replace(execute(s), half=execute(halved(s)))
+    """The outcome of a scenario's walk, with that at half of its integration steps in `Outcome.half`."""
+    return replace(walk_scenario(s).outcome, half=walk_scenario(halved(s)).outcome)

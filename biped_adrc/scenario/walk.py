@@ -257,25 +257,22 @@ def runs_in_parts(
 def _begin(
     gait: Gait | None, walker: Walker, start: tuple[Array, Array] | None, first_step: int
 ) -> tuple[Array, Array]:
-    """`start`, or the start of the gait, checked. Raises InputError, also for no number of a single support."""
+    """`start`, or the start of the gait, checked.
+
+    Raises InputError, also for no number of a single support, and a gait of a robot with other coordinates.
+    """
     check_count(first_step, f"the walk begins in single support {first_step}")
     if start is None:
         assert gait is not None
-        start = _start_of(gait, walker)
+        if (count := len(gait.q_minus)) != (n := walker.nominal.n):
+            raise InputError(
+                f"gait '{gait.name}' is of robot '{gait.robot}' with {count} coordinates, and the walker is "
+                f"'{walker.nominal.description.name}' with {n}; expected a gait of this robot: "
+                "load_gait(name, biped) or design_gait(biped, speed)"
+            )
+        start = gait.start(walker.nominal)
     check_start(*start, walker)
     return start
-
-
-def _start_of(gait: Gait, walker: Walker) -> tuple[Array, Array]:
-    """As Gait.start. Raises InputError for a gait of a robot with other coordinates."""
-    robot, n = walker.nominal.description.name, walker.nominal.n
-    if len(gait.q_minus) != n:
-        raise InputError(
-            f"gait '{gait.name}' is of robot '{gait.robot}' with {len(gait.q_minus)} coordinates, and the "
-            f"walker is '{robot}' with {n}; expected a gait of this robot: load_gait(name, biped) or "
-            "design_gait(biped, speed)"
-        )
-    return gait.start(walker.nominal)
 
 
 def check_start(q: Array, v: Array, walker: Walker) -> None:
