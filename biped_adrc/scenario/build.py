@@ -254,7 +254,7 @@ def plant_step(s: Scenario) -> float:
 
 
 def plant_around(name: str, walker: Walker, options: Mapping[str, object]) -> SteppingPlant:
-    """A plant of the registry for a walker's robot on its slope. given: more values by name.
+    """A plant of the registry for a walker's robot on its slope. options: more values by name.
 
     Raises InputError for one that there is not, or that cannot be made.
     """

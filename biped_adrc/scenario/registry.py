@@ -17,8 +17,6 @@ What becomes of a name:
 
 from __future__ import annotations
 
-import hashlib
-import inspect
 import os
 import re
 import sys
@@ -153,17 +151,6 @@ def known_name(kind: str, name: str) -> str:
     raise InputError(
         f"{kind} '{name}': {unknown(name, names(kind))}; one of your own is package.module:Class"
     )
-
-
-def source_hash(thing: Callable[..., object]) -> str:
-    """Hash (12 hexadecimal digits) of the source text of a class or function; "none" where there is no text.
-
-    Stored walks carry it, so that a class changed since then is noticed.
-    """
-    try:
-        return hashlib.sha256(inspect.getsource(thing).encode()).hexdigest()[:12]
-    except (OSError, TypeError):
-        return "none"
 
 
 def _plain(name: str) -> str:
