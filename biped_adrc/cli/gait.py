@@ -78,30 +78,28 @@ def gait_design(
     elif speed is not None or step is not None:
         raise InputError("--speeds is given beside a --speed or a --step; give one of them")
     biped = Biped.load(robot, preset)
-    how: dict[str, Any] = {"slope": slope, "objective": minimise, "limits": limits}
-    how |= {"curve": c.curve, "degree": c.degree, "nodes": c.nodes}
+    how: dict[str, Any] = {"slope": slope, "objective": minimise, "limits": limits, **vars(c)}
     if c.through is not None:
         how["through"] = c.through[: biped.n], c.through[biped.n :]
     if speeds is not None:
         _library(biped, speeds, how, Path("gait-library") if out is None else out)
         return
-    result = _designed(biped, speed, step, **how)
+    result = _design(biped, speed, step, **how)
     console.print(result.text(), highlight=False)
     path = out or Path(result.gait.file_name)
     result.gait.save(path)
     say_written(path)
 
 
-def _designed(biped: Biped, speed: float | None, step: float | None, **how: Any) -> DesignedGait:
+def _design(biped: Biped, speed: float | None, step: float | None, **how: Any) -> DesignedGait:
     """The gait that `design_gait` finds, with the iterations of IPOPT shown while it runs."""
     from biped_adrc.analysis.gait_design import design_gait
 
-    with console.status("building the programme") as shown:
+    name = "" if speed is None else f"{speed:g} m/s: "
+    with console.status(f"{name}building the programme") as shown:
 
-        def progress(iteration: int, objective: float, missed: float) -> None:
-            shown.update(
-                f"iteration {iteration}, objective {objective:.4g}, missed by {missed:.1e}"
-            )
+        def progress(i: int, objective: float, missed: float) -> None:
+            shown.update(f"{name}iteration {i}, objective {objective:.4g}, missed by {missed:.1e}")
 
         return design_gait(biped, speed, step, progress=progress, **how)
 
@@ -112,7 +110,7 @@ def _library(biped: Biped, speeds: str, how: dict[str, Any], out: Path) -> None:
     rows, missed = [], []
     for speed in _speeds(speeds):
         try:
-            result = _designed(biped, speed, None, **how)
+            result = _design(biped, speed, None, **how)
         except GaitError as error:
             missed.append(f"{speed:g} m/s: {error}")
             continue

@@ -22,7 +22,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import packaged
 from biped_adrc.core.types import PlainRecord
 from biped_adrc.scenario.dotted import unknown
-from biped_adrc.scenario.records import said
+from biped_adrc.scenario.records import complaint
 from biped_adrc.scenario.scenario import Scenario, field_of, read_scenario
 
 TEXTS = packaged("biped_adrc.cli", "options.toml")
@@ -178,5 +178,5 @@ def with_sets(
         try:
             values[name] = TypeAdapter(hints[name]).validate_python(x)
         except ValidationError as error:
-            raise InputError(f"--set {name}: {said(error.errors()[0])}") from None
+            raise InputError(f"--set {name}: {complaint(error.errors()[0])}") from None
     return make(**values, **fixed)

@@ -43,7 +43,7 @@ from biped_adrc.scenario.controllers import controller
 from biped_adrc.scenario.hardware import EncoderRecord
 from biped_adrc.scenario.push import RANDOM, Push
 from biped_adrc.scenario.records import Misfit, all_taken, named_part
-from biped_adrc.scenario.registry import construct, find, made_by_user, takes
+from biped_adrc.scenario.registry import construct, find, part_of_user, takes
 from biped_adrc.scenario.scenario import Scenario, drawn
 
 RIGID = "rigid"
@@ -80,11 +80,11 @@ class RobotAndGait:
         """
         robot, friction, name = s.robot, s.hardware.friction, s.gait.name
         values = {"preset": robot.preset, "friction": friction}
-        biped = made_by_user("robot", robot.name, values, Biped)
+        biped = part_of_user("robot", robot.name, values, Biped)
         biped = biped or Biped.load(robot.name, robot.preset, friction)
         if biped.p == 0:
             return cls(biped, cycle=passive_cycle(biped))
-        gait = made_by_user("gait", name, {"biped": biped}, Gait)
+        gait = part_of_user("gait", name, {"biped": biped}, Gait)
         gait = load_gait(name, biped, True) if gait is None else gait.check(biped)
         gait = gait if s.gait.other_robot else gait.check_robot(biped)
         if s.gait.continued:

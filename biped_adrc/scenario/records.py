@@ -345,10 +345,10 @@ def misfit(error: ValidationError, cls: type[Record]) -> Misfit:
             return Misfit(place, inner.text)
     if result["type"] == "extra_forbidden" or isinstance(inner, Misfit):
         return Misfit(place, unknown(place, names_of(cls)), known=False)
-    return Misfit(place, said(result))
+    return Misfit(place, complaint(result))
 
 
-def said(error: Mapping[str, Any]) -> str:
+def complaint(error: Mapping[str, Any]) -> str:
     """One error of pydantic's as what was found and what was expected."""
     text: str = error["msg"].removeprefix("Value error, ")
     if text.startswith("Input should"):

@@ -118,7 +118,7 @@ def portable(kind: str, name: str) -> str:
     return entry.home if entry is not None and entry.given is not None else name
 
 
-def made_by_user(kind: str, name: str, values: Mapping[str, object], base: type[_T]) -> _T | None:
+def part_of_user(kind: str, name: str, values: Mapping[str, object], base: type[_T]) -> _T | None:
     """The robot or gait that the user's class or function of this name makes; None where a file has the name.
 
     Raises InputError as `construct`, and where it cannot be imported.

@@ -13,7 +13,7 @@ import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
 from biped_adrc.scenario.dotted import flat
-from biped_adrc.scenario.records import Misfit, said
+from biped_adrc.scenario.records import Misfit, complaint
 from biped_adrc.scenario.scenario import MOST_SEED, field_of, value_of
 
 MOST = 1_000_000
@@ -30,7 +30,7 @@ class Part(BaseModel):
 
 def problem(error: Any) -> str:
     """One error of pydantic's in words: its place, what was found and what was expected."""
-    return ": ".join([*filter(None, [".".join(map(str, error["loc"]))]), said(error)])
+    return ": ".join([*filter(None, [".".join(map(str, error["loc"]))]), complaint(error)])
 
 
 def table(value: object) -> dict[str, Any]:
