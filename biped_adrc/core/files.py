@@ -220,10 +220,11 @@ def joint_columns(of: object, names: Mapping[str, str]) -> dict[str, Array]:
 def write_csv(columns: Mapping[str, Any], path: Path | str) -> Path:
     """Write columns under their names; floats come back to the last bit. Raises InputError, OutputError."""
     target = output_path(path, (".csv",), default=True)
+    lists = [x if isinstance(x, list) else x.tolist() for x in columns.values()]
     with replacing(target) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(columns)
-        writer.writerows(zip(*(np.asarray(x).tolist() for x in columns.values()), strict=True))
+        writer.writerows(zip(*lists, strict=True))
     return target
 
 
