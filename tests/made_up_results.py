@@ -26,7 +26,7 @@ from biped_adrc.paper.scenarios import (
     on_the_recipe,
 )
 from biped_adrc.paper.verdict import AtTwoSteps
-from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.recording import Outcome
 from biped_adrc.scenario.scenario import Scenario
 
 PLAN = Plan(quick=True)
@@ -49,9 +49,7 @@ def outcome(controller, peak=1e-2, impacts=9, asked=9, half=True, **more):
     status = "COMPLETED" if impacts == asked else "FELL"
     x, times = np.tile(X_STAR, (impacts, 1)), np.full(impacts, 0.4)
     kept = (peak, peak, 100.0, (CERTIFICATE,), FEASIBILITY, "rk4", "compiled")
-    made = Outcome(
-        Scenario(controller, run={"impacts": asked}), status, "", impacts, x, times, *kept
-    )
+    made = Outcome(Scenario(controller, run={"impacts": asked}), status, impacts, x, times, *kept)
     found = replace(made, **more)
     return replace(found, half=found) if half else found
 

@@ -9,7 +9,7 @@ from biped_adrc.core.errors import InputError, SimulationError
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.paper.regression import regress_multipliers
 from biped_adrc.scenario.push import Push
-from biped_adrc.scenario.run import execute
+from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario
 
 
@@ -100,7 +100,7 @@ def test_runs_are_records_and_come_back():
     assert Scenario(**run.record()) == run
     with pytest.raises(InputError, match="colour: unknown name"):
         Scenario(colour="red")
-    outcome = execute(run)
+    outcome = walk_scenario(run).outcome
     assert outcome.walked
     assert outcome.x_minus.shape[0] == 2
     assert outcome.run is run

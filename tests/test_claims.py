@@ -274,7 +274,10 @@ def test_the_least_speed_of_the_zero_dynamics_parts_the_starts():
 
 
 def test_what_gait_b_needs_of_ground_and_motors():
-    a, b = (runs.execute(plain("NPD", "identified", gait=gait, impacts=2)) for gait in GAITS)
+    a, b = (
+        runs.walk_scenario(plain("NPD", "identified", gait=gait, impacts=2)).outcome
+        for gait in GAITS
+    )
     assert (
         member_runs.limits_broken(a.feasibility) == 0.0 < member_runs.limits_broken(b.feasibility)
     )
@@ -286,7 +289,9 @@ def test_what_gait_b_needs_of_ground_and_motors():
 
 def test_a_torque_on_the_torso_slows_both_controllers_alike():
     npd, adrc = (
-        runs.execute(loose(c, "tac2003", 1e-3, pushes=(on_torso(20.0),), first_step=19, impacts=4))
+        runs.walk_scenario(
+            loose(c, "tac2003", 1e-3, pushes=(on_torso(20.0),), first_step=19, impacts=4)
+        ).outcome
         for c in CONTROLLERS
     )
     assert npd.walked

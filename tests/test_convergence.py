@@ -15,13 +15,12 @@ from biped_adrc.engine.run import COMPILED
 from biped_adrc.model.robots.limits import KnownLimits
 from biped_adrc.paper.convergence import (
     AGREE,
-    WalkEnd,
     error_text,
     largest_gap,
     observed_order,
 )
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan, pushed_run
-from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.recording import Outcome
 from biped_adrc.scenario.run import execute_twice, walk_scenario
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import FINE_STEP, Part, refined, walk_in_parts
@@ -56,7 +55,6 @@ def made_up(**values: object) -> Outcome:
     found = Outcome(
         run,
         "COMPLETED",
-        "",
         2,
         np.zeros((2, 10)),
         np.array([0.4, 0.4]),
@@ -92,14 +90,13 @@ def test_two_steps_have_to_agree(half, holds):
 @pytest.mark.parametrize(
     ("half", "word"),
     [
-        ({"peak_error": 1.001e-3}, "rad (1.001e-03 at half the step)"),
-        ({"peak_error": 2e-3}, "the step decides it: shorten it"),
-        ({"status": "FELL", "impacts": 1}, "the walk ends as FELL after 1 impacts"),
+        ((1.001e-3, "COMPLETED", 2), "rad (1.001e-03 at half the step)"),
+        ((2e-3, "COMPLETED", 2), "the step decides it: shorten it"),
+        ((1e-3, "FELL", 1), "the walk ends as FELL after 1 impacts"),
     ],
 )
 def test_an_error_is_printed_with_what_the_step_does_to_it(half, word):
-    end = WalkEnd(1e-3, "COMPLETED", 2)
-    text = error_text(end, end._replace(**half))
+    text = error_text((1e-3, "COMPLETED", 2), half)
     assert text.startswith("1.000e-03 rad (")
     assert word in text
 

@@ -27,7 +27,8 @@ import pytest
 from markdown_it import MarkdownIt
 
 import biped_adrc as ba
-from biped_adrc.cli import app, gait_app
+from biped_adrc.cli import app
+from biped_adrc.cli.gait import gait_app
 from biped_adrc.cli.robot import robot_app
 from biped_adrc.studies.study import read_study
 
@@ -167,7 +168,7 @@ def test_every_example_runs(example, tmp_path, preloaded):
     ("text", "message"),
     [
         ("```console\nrm -rf /\n```", "run by no one"),
-        ("```console\nbiped-adrc simulate --controller PID\n```", "controller 'PID' is unknown"),
+        ("```console\nbiped-adrc simulate --controller PID\n```", "controller 'PID': unknown name"),
         ("```python\n# ../out.py\n```", "outside of the folder"),
         ("```\n1\n```", "no language"),
     ],

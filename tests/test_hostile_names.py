@@ -15,14 +15,13 @@ import pytest
 
 import biped_adrc as ba
 import biped_adrc.view.meshcat.objects
-from biped_adrc.core.files import c_comment, data_folder, toml_key, toml_value
+from biped_adrc.core.files import c_comment, data_folder, toml_key, toml_value, write_csv
 from biped_adrc.extras.export.export import export_c
 from biped_adrc.extras.mujoco.mjcf import mjcf
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.model.robot_import.import_robot import to_toml
 from biped_adrc.model.robots.urdf import to_xml
 from biped_adrc.model.robots.urdf_reader import read
-from biped_adrc.scenario.columns import write_csv
 from biped_adrc.view.pages import player
 
 PLANTED = "\n#error planted\nint planted;\n"

@@ -12,7 +12,7 @@ import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.disturbances.recorded import RecordedTorque
 from biped_adrc.gait.exchange.samples import read_csv
-from biped_adrc.scenario.cycle import find_cycle
+from biped_adrc.scenario.cycle import cycle_of
 
 
 class Silent(ba.Controller):
@@ -73,7 +73,10 @@ PYTHON = {
         lambda r: ba.walk_scenario(ba.Scenario({"name": "NPD", "Kp": 0.1})),
         "did you mean 'K_p'",
     ),
-    "a gait for a passive cycle": (lambda r: find_cycle("compass", gait="v0.8"), "no motors"),
+    "a gait for a passive cycle": (
+        lambda r: cycle_of(ba.Scenario("passive", robot="compass", gait="v0.8")),
+        "no motors",
+    ),
 }
 COMMANDS = {
     "simulate --preset foo": (3, "no preset 'foo'"),
@@ -87,7 +90,7 @@ COMMANDS = {
     "simulate -o out.txt": (3, ".npz"),
     "simulate --torque-limit 5 --impacts 4": (4, ""),
     "animate nowhere.npz": (3, "not found"),
-    "poincare --controller pid": (3, "'pid' is unknown"),
+    "poincare --controller pid": (3, "'pid': unknown name"),
     "poincare --robot compass --set ground.slope=0.5": (4, "no return to the section"),
     "reproduce --out file/out": (3, "file"),
 }

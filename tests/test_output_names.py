@@ -15,9 +15,9 @@ from typer.testing import CliRunner
 
 import biped_adrc as ba
 from biped_adrc.cli import app, main
-from biped_adrc.cli.terminal import Terminal, printable
+from biped_adrc.cli.app import Terminal
 from biped_adrc.core.errors import InputError, OutputError
-from biped_adrc.core.files import data_folder, output_path, write_text
+from biped_adrc.core.files import data_folder, one_line, output_path, write_text
 from biped_adrc.hybrid.storage import load, save
 
 WALK = ("simulate", "--engine", "compiled", "--controller", "NPD", "--impacts", "1")
@@ -154,4 +154,4 @@ def test_text_of_files_is_no_command_to_the_terminal(monkeypatch):
     assert found.count("a[/b] [red]c :bomb: ") == 4
     assert not re.search("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202e\ud800-\udfff]", found)
     assert "\\x1b]0;title" in found
-    assert printable("a\tb\nc é ≥") == "a\tb\nc é ≥"
+    assert one_line("a\tb\nc é ≥", keep="\n\t") == "a\tb\nc é ≥"

@@ -14,7 +14,7 @@ from biped_adrc.paper.push_map import (
     push_map,
 )
 from biped_adrc.paper.scenarios import MapPush
-from biped_adrc.scenario.run import execute
+from biped_adrc.scenario.run import walk_scenario
 
 FEASIBLE = Fate("feasible", "COMPLETED", 200.0, 0.4, 0.5)
 MADE = Fate("infeasible", "COMPLETED", 50.0, 0.8, 0.5)
@@ -44,7 +44,7 @@ def test_marginal_cells_carry_no_claim():
 def test_a_fall_of_the_polynomial_is_none_of_the_robot():
     """A late push that throws NPD past the phase range, where the gait's polynomial explodes."""
     push = MapPush("identified-bare", 0.3, 150.0, "swing knee -", None)
-    assert not execute(push.run("NPD").replace(gait={"continued": False})).walked
+    assert not walk_scenario(push.run("NPD").replace(gait={"continued": False})).outcome.walked
     (found,) = push_map([push])
     assert found.npd.status == "COMPLETED"
     assert found.npd.word not in ("feasible", "but_impact")

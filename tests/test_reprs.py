@@ -8,7 +8,7 @@ import numpy as np
 
 import biped_adrc as ba
 from biped_adrc.core.shown import LONGEST
-from biped_adrc.scenario.cycle import find_cycle
+from biped_adrc.scenario.run import known_cycle
 
 LINE = 120
 
@@ -32,7 +32,7 @@ def test_parts_and_walks_fit_a_line(biped, gait):
         m.terms,
     ]
     results = [walk, walk.trajectory, walk.signals, walk.certificates[0], walk.feasibility]
-    studied = [ba.Scenario("NPD"), find_cycle("compass"), ba.Limits()]
+    studied = [ba.Scenario("NPD"), known_cycle(ba.Biped.load("compass")), ba.Limits()]
     for thing in (*parts, *results, *studied):
         assert "\n" not in repr(thing), type(thing)
         assert len(repr(thing)) <= LINE, repr(thing)

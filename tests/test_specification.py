@@ -24,7 +24,7 @@ from biped_adrc.analysis.loops.walker_loop import FREQUENCIES, response, robot_s
 from biped_adrc.engine.tick_derivative import _differenced, tick_derivative
 from biped_adrc.hardware.pitch_sensor import PitchSensor
 from biped_adrc.hardware.sensors import Sensors
-from biped_adrc.scenario.specified import specification_of
+from biped_adrc.scenario.cycle import specification_of
 from tests.specified_walks import candidate, multiplier, rippled, specified
 
 

@@ -23,7 +23,7 @@ from biped_adrc.gait.curves import Polynomial as PolynomialCurve
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.gait.zero_orbits import ZeroOrbits
 from biped_adrc.paper.poincare import return_map_samples
-from biped_adrc.scenario.cycle import find_cycle, gait_cycle
+from biped_adrc.scenario.cycle import gait_cycle
 from biped_adrc.scenario.run import known_cycle
 from biped_adrc.scenario.scenario import Scenario
 
@@ -50,9 +50,9 @@ def solved(cycle: Cycle, tolerance: float = 1e-10) -> StepDerivative:
 # -- robots without motors ---------------------------------------------------------------------------
 def test_multipliers_of_the_literature() -> None:
     """McGeer 1990 in closed form; Goswami et al. 1998, recomputed from their model."""
-    wheel = solved(find_cycle("rimless_wheel", slope=0.2))
+    wheel = solved(known_cycle(ba.Biped.load("rimless_wheel"), 0.2))
     assert wheel.multipliers[0].real == pytest.approx(math.cos(math.pi / 4) ** 2, rel=1e-10)
-    compass = solved(find_cycle("compass"))
+    compass = solved(known_cycle(ba.Biped.load("compass")))
     expected = np.array([-0.1997261 + 0.5444761j, -0.1997261 - 0.5444761j, 0.1315726])
     found = compass.multipliers[np.argsort(-compass.multipliers.imag)][[0, 2, 1]]
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-7)
@@ -170,7 +170,8 @@ def test_samples_of_the_return_map_are_those_of_the_zero_dynamics(
 @pytest.mark.parametrize("robot", ["rimless_wheel", "compass", "three_link"])
 def test_table_of_a_robot(robot: str) -> None:
     """The impact of the three-link walker leaves its constraint, so that there is no delta^2."""
-    table = cycle_stability(three_link() if robot == "three_link" else find_cycle(robot)).table
+    cycle = three_link() if robot == "three_link" else known_cycle(ba.Biped.load(robot))
+    table = cycle_stability(cycle).table
     check(table.variational, table.central)
     assert table.agree
     assert table.stable

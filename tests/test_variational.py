@@ -29,7 +29,7 @@ from biped_adrc.model.derivatives import (
     acceleration_derivatives,
     impact_derivatives,
 )
-from biped_adrc.scenario.cycle import find_cycle
+from biped_adrc.scenario.cycle import gait_cycle
 
 EXACT = ba.Adaptive(1e-10, 1e-10)
 FIRST = ba.Mode()
@@ -304,7 +304,7 @@ def test_recipe_gait_without_invariance(biped):
 def test_differences_are_within_their_noise_and_it_is_no_blank_cheque():
     """The multipliers of gait v0.8 are 1e-7, with sensitivities of a hundred: the bound has to hold, to fall
     with the step to the tolerance, and to be seen where d is small."""
-    cycle = find_cycle("rabbit", gait="v0.8")
+    cycle = gait_cycle(ba.Scenario("NPD", gait="v0.8"))
     bounds = {}
     for h, widths in ((1e-3, [1e-4]), (5e-4, [1e-4, 1e-7])):
         P = replace(cycle.P, method=ba.RK4(h))

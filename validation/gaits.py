@@ -40,7 +40,8 @@ from biped_adrc.gait.recipe import design_recipe_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
-from biped_adrc.scenario.cycle import find_cycle, gait_cycle
+from biped_adrc.scenario.cycle import gait_cycle
+from biped_adrc.scenario.run import known_cycle
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import walk
 from validation.passive import simplest
@@ -132,7 +133,7 @@ def cycle_of(robot: str) -> Cycle:
     if robot == "simplest":
         cycle = simplest(1e-4)
         return replace(cycle, P=replace(cycle.P, difference=2e-4))
-    return designed_three_link() if robot == "three_link" else find_cycle(robot)
+    return designed_three_link() if robot == "three_link" else known_cycle(Biped.load(robot))
 
 
 def robot_rows(robot: str) -> tuple[Row, ...]:

@@ -228,8 +228,8 @@ def cycle_stability(cycle: Cycle) -> CycleStability:
     For a controller with states only central differences apply, since the variational equation is written for
     the mechanics alone. Raises SimulationError when no fixed point is found.
 
-    >>> from biped_adrc.scenario.cycle import find_cycle
-    >>> stability = ba.cycle_stability(find_cycle("compass"))
+    >>> from biped_adrc.scenario.cycle import cycle_of
+    >>> stability = ba.cycle_stability(cycle_of(ba.Scenario("passive", robot="compass")))
     >>> stability.table.stable
     True
     """

@@ -1,36 +1,44 @@
-"""What the commands share: the typer app, the console, the progress bar, and checks of file names.
+"""What the commands share: the typer app, what they print to, the progress bar, and checks of file names.
 
 Names of inputs and outputs are looked at before anything is computed, so that a mistake costs no
 time. Modules of the package that take long to load (Pinocchio, CasADi, numba, matplotlib) are
 imported inside the functions that use them, in all of `cli`: `biped-adrc --help` is printed at
 once.
+
+A name in a file may hold what a terminal or rich would obey (escape sequences, "[/b]", ":bomb:"):
+`Terminal` prints it as it is, and control characters as \\x1b. `Lasting` keeps a command going when
+its reader has left (`| head -1`) or the disk is full: a result is not lost to a line about it.
 """
 
 from __future__ import annotations
 
 import os
-import shlex
-import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from functools import partial
+from io import TextIOWrapper
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, TextIO, TypeVar
 
 import typer
+from rich.console import Console, ConsoleOptions, RenderableType
 from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
     Progress,
-    SpinnerColumn,
     TextColumn,
     TimeElapsedColumn,
+    TimeRemainingColumn,
 )
+from rich.segment import Segment
+from rich.table import Table
 
 import biped_adrc
-from biped_adrc.cli.terminal import Terminal
-from biped_adrc.core.files import keep_inputs, output_path
+from biped_adrc.core.files import keep_inputs, one_line, output_path
 
 EXIT_CHECK_FAILED, EXIT_FELL, EXIT_INTERRUPTED = 1, 4, 130
 """Exit codes beside those of the errors: a check does not hold, the robot fell, Ctrl-C."""
+P = TypeVar("P", Path, Path | None)
 
 app = typer.Typer(
     add_completion=False,
@@ -42,10 +50,6 @@ app = typer.Typer(
     "Exit codes: 0 all is well, 1 a check of 'reproduce' or 'robot check' does not hold, "
     "2 wrong command line, 3 bad input, 4 the robot fell, 5 cannot write, 130 interrupted.",
 )
-gait_app = typer.Typer(
-    no_args_is_help=True, rich_markup_mode=None, help="Design, show, import and export gaits."
-)
-app.add_typer(gait_app, name="gait")
 
 
 def _say_version(flag: bool) -> None:
@@ -64,6 +68,46 @@ def _of_every_command(
     """Options of the command itself."""
 
 
+class Terminal(Console):
+    """rich's console, without markup and emoji: brackets, colons and control characters are text."""
+
+    def __init__(self, stderr: bool = False) -> None:
+        super().__init__(stderr=stderr, markup=False, emoji=False)
+
+    def render(
+        self, renderable: RenderableType, options: ConsoleOptions | None = None
+    ) -> Iterable[Segment]:
+        """The segments that are printed, all that is text made printable."""
+        for segment in super().render(renderable, options):
+            text = one_line(segment.text, keep="\n\t")
+            yield segment if segment.control else segment._replace(text=text)
+
+
+class Lasting:
+    """A stream to print to that takes everything, also when nobody reads or the disk is full."""
+
+    lost: OSError | None = None
+    """Why something could not be written; None while all was."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self.stream = stream
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.stream, name)
+
+    def write(self, text: str) -> int:
+        """Write what can be written, and once something was lost nothing more; the length of the text."""
+        try:
+            self.stream.write(text)
+            self.stream.flush()
+        except OSError as error:
+            self.lost = self.lost or error
+            os.dup2(os.open(os.devnull, os.O_WRONLY), self.stream.fileno())
+        return len(text)
+
+
 console, errors = Terminal(), Terminal(stderr=True)
 """Where all commands print, and complain; rich fits tables to the terminal."""
 
@@ -71,21 +115,16 @@ FIGURES, GAITS = (".png", ".svg"), (".json",)
 """Suffixes of figures and of gaits."""
 
 
-def command() -> str:
-    """The command line as a shell takes it, for reports and summaries: the reader can repeat it."""
-    return shlex.join(["biped-adrc", *sys.argv[1:]])
-
-
-def bar() -> Progress:
-    """A progress bar of this command: what is done, how far, and for how long."""
-    return Progress(
-        SpinnerColumn(),
-        TextColumn("{task.description:<44.44}", markup=False),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        console=console,
-    )
+@contextmanager
+def bar(name: str) -> Iterator[Callable[[int, int | None, str], None]]:
+    """Context with a progress bar; shown(done, of how many, what is done now)."""
+    text = TextColumn("{task.description:<44.44}", markup=False)
+    times = TimeElapsedColumn(), TextColumn("left"), TimeRemainingColumn()
+    with Progress(text, BarColumn(), MofNCompleteColumn(), *times, console=console) as progress:
+        task = progress.add_task(name, total=None)
+        yield lambda done, total, now: progress.update(
+            task, completed=done, total=total, description=now
+        )
 
 
 def inputs(robot: str, *others: str) -> tuple[Path, ...]:
@@ -99,10 +138,11 @@ def inputs(robot: str, *others: str) -> tuple[Path, ...]:
     return (*files, load_description(robot).urdf)
 
 
-def target(out: Path | None, suffixes: Sequence[str], read: Iterable[Path]) -> Path | None:
+def target(out: P, suffixes: Sequence[str], read: Iterable[Path] = ()) -> P:
     """The path of an output, checked before anything is computed; None for none.
 
-    Raises InputError for a name of another kind or one that is read, and OutputError.
+    A name without a kind has the first of the suffixes put behind it. Raises InputError for a name of another
+    kind or one that is read, and OutputError.
     """
     if out is None:
         return None
@@ -111,17 +151,25 @@ def target(out: Path | None, suffixes: Sequence[str], read: Iterable[Path]) -> P
     return path
 
 
-def say(text: str) -> None:
+def say(text: str, to: Terminal = console) -> None:
     """Print a text as it is, neither wrapped nor coloured, so that it can be searched and copied."""
-    console.print(text, highlight=False, soft_wrap=True)
+    to.print(text, highlight=False, soft_wrap=True)
 
 
-def complain(text: str) -> None:
-    """As `say`, to the error stream."""
-    errors.print(text, highlight=False, soft_wrap=True)
+complain = partial(say, to=errors)
+"""As `say`, to the error stream."""
 
 
-def say_written(path: Path | None) -> None:
-    """Say which file was written; nothing for None."""
-    if path is not None:
-        say(f"written to {path}")
+def say_written(*paths: Path | None) -> None:
+    """Say which files were written; nothing for None."""
+    for path in paths:
+        if path is not None:
+            say(f"written to {path}")
+
+
+def say_table(header: Iterable[str], rows: Iterable[Iterable[str]], title: str = "") -> None:
+    """Print a table."""
+    table = Table(*header, title=title or None, title_justify="left")
+    for row in rows:
+        table.add_row(*row)
+    console.print(table)

@@ -7,14 +7,9 @@ what is printed has been seen; without one they are written all the same, and th
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from biped_adrc.cli.app import app, say
 from biped_adrc.cli.options import options, scenario_from
-
-if TYPE_CHECKING:
-    from biped_adrc.extras.export.source import Source
-
 
 SLOW = 10.0
 """[1/s]; several integrators in a row seem to grow by less than this, from round-off."""
@@ -33,32 +28,25 @@ def export_command(
     """Write the controller of a scenario as C99 that needs no library, for a robot's computer."""
     from biped_adrc.extras.export.computer import Computer
     from biped_adrc.extras.export.export import export_c
+    from biped_adrc.extras.export.fmu import contents
+    from biped_adrc.extras.export.loaded import tried
     from biped_adrc.scenario.build import RobotAndGait, build
 
     s = scenario_from({}, sets, scenario)
     source = export_c(s, out, prefix, real, fmu)
-    _print(source, out, fmu)
-    scene = RobotAndGait.of(s)
-    if (growth := Computer(build(s, scene)).growth(*scene.on_orbit)) > SLOW:
-        say(
-            f"by itself this controller is unstable, its fastest mode grows by {growth:.0f} /s: on a recorded "
-            "walk the least difference grows too, so compare it in closed loop"
-        )
-
-
-def _print(source: Source, out: Path, fmu: bool) -> None:
-    """Print what was written, what it costs, and what a compiler says of it."""
-    from biped_adrc.extras.export.fmu import contents
-    from biped_adrc.extras.export.loaded import tried
-
-    step = source.written["step"]
+    step, files = source.written["step"], list(source.files)
     say(
         f"step: {step.operations} operations, {step.doubles} of them in double always; {source.numbers} "
         f"constants; state {', '.join(f'{x.name} {x.size}' for x in source.fields) or 'none'}"
     )
     say(tried(source))
     if fmu:
-        say(f"{source.prefix}.fmu, for co-simulation by FMI 2.0: {contents()}")
-    say(
-        f"written to {out}: {', '.join([*source.files, *([f'{source.prefix}.fmu'] if fmu else [])])}"
-    )
+        files.append(f"{source.prefix}.fmu")
+        say(f"{files[-1]}, for co-simulation by FMI 2.0: {contents()}")
+    say(f"written to {out}: {', '.join(files)}")
+    scene = RobotAndGait.of(s)
+    if (growth := Computer(build(s, scene)).growth(*scene.on_orbit)) > SLOW:
+        say(
+            f"by itself this controller is unstable, its fastest mode grows by {growth:.0f} /s: on a recorded "
+            "walk the least difference grows too, so compare it in closed loop"
+        )

@@ -1,24 +1,152 @@
-"""`biped-adrc gait` for gaits that are there: show, export, import.
+"""`biped-adrc gait`: design, show, export, import.
 
 Each command checks the name of its output first, then loads robot and gait and calls one function:
-`gait.exchange` for files of other programs, `analysis.zero_report` for the zero dynamics. Gaits are
-designed in `cli.design`.
+`analysis.gait_design.design_gait`, which solves the programme with IPOPT and certifies the gait by
+walking it; `gait.exchange` for files of other programs; `analysis.zero_report` for the zero dynamics.
 """
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from rich.table import Table
+import typer
 
-from biped_adrc.cli.app import FIGURES, GAITS, console, gait_app, inputs, say, say_written, target
+from biped_adrc.cli.app import (
+    FIGURES,
+    GAITS,
+    app,
+    command,
+    console,
+    inputs,
+    say,
+    say_table,
+    say_written,
+    target,
+)
 from biped_adrc.cli.options import options, pairs, with_sets
-from biped_adrc.core.files import keep_inputs, output_path
+from biped_adrc.core.errors import GaitError, InputError
+from biped_adrc.core.files import check_folder
 
 if TYPE_CHECKING:
-    from biped_adrc.gait.gait import Gait
+    from biped_adrc.analysis.gait_design import DesignedGait
     from biped_adrc.model.biped import Biped
+
+gait_app = typer.Typer(
+    no_args_is_help=True, rich_markup_mode=None, help="Design, show, import and export gaits."
+)
+app.add_typer(gait_app, name="gait")
+
+
+@dataclass(frozen=True)
+class Curves:
+    """What --set says of a design besides `limits.NAME` (`gait.design.request.StepLimits`)."""
+
+    curve: str = "bezier"
+    """Kind of the curves, of the registry: bezier or bspline."""
+    degree: int = 6
+    """One less than they have coefficients."""
+    nodes: int = 24
+    """Gauss nodes at which the limits are kept."""
+    through: tuple[float, ...] | None = None
+    """Pre-impact state q-, q'- (2 n numbers) that the orbit passes, in place of speed and step."""
+
+
+@gait_app.command("design")
+@options("gait.design")
+def gait_design(
+    speed: float | None = None,
+    step: float | None = None,
+    speeds: str | None = None,
+    robot: str = "rabbit",
+    preset: str | None = None,
+    slope: float = 0.0,
+    minimise: str = "torque",
+    sets: list[str] | None = None,
+    out: Path | None = None,
+) -> None:
+    """Design a periodic, feasible, stable gait for a speed, a step, or both, and certify it by walking."""
+    from biped_adrc.gait.design.request import StepLimits
+    from biped_adrc.model.biped import Biped
+
+    of_limits = [text for text in sets or () if text.startswith("limits.")]
+    c = with_sets(Curves, [text for text in sets or () if text not in of_limits])
+    limits = with_sets(StepLimits, [text.removeprefix("limits.") for text in of_limits])
+    if speeds is None:
+        out = target(out, GAITS, inputs(robot))
+    elif speed is not None or step is not None:
+        raise InputError("--speeds is given beside a --speed or a --step; give one of them")
+    biped = Biped.load(robot, preset)
+    how: dict[str, Any] = {"slope": slope, "objective": minimise, "limits": limits, **vars(c)}
+    if c.through is not None:
+        how["through"] = c.through[: biped.n], c.through[biped.n :]
+    if speeds is not None:
+        _library(biped, speeds, how, Path("gait-library") if out is None else out)
+        return
+    result = _design(biped, speed, step, **how)
+    console.print(result.text(), highlight=False)
+    path = out or Path(result.gait.file_name)
+    result.gait.save(path)
+    say_written(path)
+
+
+def _design(biped: Biped, speed: float | None, step: float | None, **how: Any) -> DesignedGait:
+    """The gait that `design_gait` finds, with this command line in its provenance."""
+    from biped_adrc.analysis.gait_design import design_gait
+
+    with console.status("IPOPT designs a gait" + (f" for {speed:g} m/s" if speed else "")):
+        result = design_gait(biped, speed, step, **how)
+    provenance = {**result.gait.provenance, "command": command()}
+    return replace(result, gait=replace(result.gait, provenance=provenance))
+
+
+def _library(biped: Biped, speeds: str, how: dict[str, Any], out: Path) -> None:
+    """Design a gait for every speed, each from a cold start, and store those that were found in a folder."""
+    check_folder(out)
+    rows, missed = [], []
+    for speed in _speeds(speeds):
+        try:
+            result = _design(biped, speed, None, **how)
+        except GaitError as error:
+            missed.append(f"{speed:g} m/s: {error}")
+            continue
+        result.gait.save(out / result.gait.file_name)
+        c = result.certificate
+        rows.append(
+            (
+                f"{result.speed:.3f}",
+                f"{c.step_length:.3f}",
+                f"{c.peak_torque:.1f}",
+                f"{c.friction:.2f}",
+                f"{result.multiplier:.3f}",
+                f"{c.cost_of_transport:.3f}",
+                f"{result.seconds:.1f}",
+            )
+        )
+    if rows:
+        header = "m/s", "step [m]", "torque [N m]", "friction", "delta^2", "transport", "s"
+        say_table(header, rows)
+        say_written(out)
+    if missed:
+        raise GaitError("; ".join(missed))
+
+
+def _speeds(text: str) -> tuple[float, ...]:
+    """Speeds [m/s] from "0.4,0.5" or "0.4:1.1:0.1", the last one counted where it is met. Raises InputError."""
+    try:
+        if ":" in text:
+            first, last, by = (float(word) for word in text.split(":"))
+            if not (by > 0.0 and last >= first):
+                raise ValueError
+            count = math.floor((last - first) / by + 1e-9) + 1
+            return tuple(round(first + k * by, 9) for k in range(count))
+        return tuple(float(word) for word in text.split(","))
+    except ValueError:
+        raise InputError(
+            f"speeds are '{text}', expected numbers as '0.4,0.5,0.6' or FIRST:LAST:STEP as '0.4:1.1:0.1' [m/s]"
+        ) from None
 
 
 @gait_app.command("show")
@@ -31,11 +159,12 @@ def gait_show(
     sets: list[str] | None = None,
 ) -> None:
     """List the gaits of a robot, or say what one is and what its zero dynamics allow."""
+    from biped_adrc.analysis.zero_report import zero_report
     from biped_adrc.gait.gait import load_gait
+    from biped_adrc.gait.zero_domain import DomainLimits
     from biped_adrc.model.biped import Biped
 
-    plot = None if plot is None else output_path(plot, FIGURES)
-    biped = Biped.load(robot, preset)
+    plot, biped = target(plot, FIGURES), Biped.load(robot, preset)
     if gait is None:
         _list(biped)
         return
@@ -43,29 +172,8 @@ def gait_show(
     for key, value in result.provenance.items():
         say(f"{key}: {value}")
     console.print(f"period {result.period:.6f} s, slope {result.slope:g} rad", highlight=False)
-    _print_zero(biped, result, plot, sets)
-
-
-def _list(biped: Biped) -> None:
-    """Print the stored gaits of a robot in its preset."""
-    from biped_adrc.gait.gait import gait_names, load_gait
-
-    table = Table("gait", "speed [m/s]", "step [m]", "period [s]", "slope [rad]")
-    for name in gait_names(biped.description.name, biped.preset):
-        result = load_gait(name, biped)
-        length = float(biped.swing_foot(result.q_minus)[0])
-        numbers = (length / result.period, length, result.period, result.slope)
-        table.add_row(name, *(f"{x:.4g}" for x in numbers))
-    console.print(table)
-
-
-def _print_zero(biped: Biped, found: Gait, plot: Path | None, sets: list[str] | None) -> None:
-    """Print what the zero dynamics of a gait allow, and draw it where `plot` says."""
-    from biped_adrc.analysis.zero_report import zero_report
-    from biped_adrc.gait.zero_domain import DomainLimits
-
-    usual = {"friction": biped.description.friction_coefficient, "slope": found.slope}
-    report = zero_report(biped, found.constraint, with_sets(DomainLimits, sets, usual))
+    usual = {"friction": biped.description.friction_coefficient, "slope": result.slope}
+    report = zero_report(biped, result.constraint, with_sets(DomainLimits, sets, usual))
     say(report.text())
     if plot is not None:
         from biped_adrc.view.plots.zero_dynamics import zero_dynamics_figure
@@ -73,6 +181,19 @@ def _print_zero(biped: Biped, found: Gait, plot: Path | None, sets: list[str] | 
 
         write_figure(plot, zero_dynamics_figure(report))
         say_written(plot)
+
+
+def _list(biped: Biped) -> None:
+    """Print the stored gaits of a robot in its preset."""
+    from biped_adrc.gait.gait import gait_names, load_gait
+
+    rows = []
+    for name in gait_names(biped.description.name, biped.preset):
+        result = load_gait(name, biped)
+        length = float(biped.swing_foot(result.q_minus)[0])
+        numbers = (length / result.period, length, result.period, result.slope)
+        rows.append((name, *(f"{x:.4g}" for x in numbers)))
+    say_table(("gait", "speed [m/s]", "step [m]", "period [s]", "slope [rad]"), rows)
 
 
 @gait_app.command("export")
@@ -89,8 +210,7 @@ def gait_export(
     from biped_adrc.gait.gait import load_gait
     from biped_adrc.model.biped import Biped
 
-    path = output_path(out, (".json", ".mat"), default=True)
-    keep_inputs((path,), inputs(robot, gait))
+    path = target(out, (".json", ".mat"), inputs(robot, gait))
     biped = Biped.load(robot, preset)
     export_gait(load_gait(gait, biped), path, convention, biped)
     say_written(path)
@@ -118,8 +238,7 @@ def gait_import(
     biped = Biped.load(robot, preset)
     names = pairs(name, "--name", "OURS=THEIRS, such as coefficients=R.alpha")
     gait = import_gait(file, biped, convention, names, slopes, degree, slope)
-    path = out or Path(gait.file_name)
-    keep_inputs((path,), read)
+    path = target(out or Path(gait.file_name), GAITS, read)
     gait.save(path)
     console.print(f"period {gait.period:.6f} s", highlight=False)
     say_written(path)

@@ -22,8 +22,8 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import packaged
 from biped_adrc.core.types import PlainRecord
 from biped_adrc.scenario.dotted import unknown
-from biped_adrc.scenario.file import read_scenario
-from biped_adrc.scenario.scenario import Scenario, field_of
+from biped_adrc.scenario.records import complaint
+from biped_adrc.scenario.scenario import Scenario, field_of, read_scenario
 
 TEXTS = packaged("biped_adrc.cli", "options.toml")
 """The content of options.toml."""
@@ -178,6 +178,5 @@ def with_sets(
         try:
             values[name] = TypeAdapter(hints[name]).validate_python(x)
         except ValidationError as error:
-            said = error.errors()[0]["msg"].replace("Input should", "should")
-            raise InputError(f"--set {name}: found '{text}', {said}") from None
+            raise InputError(f"--set {name}: {complaint(error.errors()[0])}") from None
     return make(**values, **fixed)

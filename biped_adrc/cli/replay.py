@@ -7,11 +7,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from rich.table import Table
-
-from biped_adrc.cli.app import app, console, inputs, say, say_written
+from biped_adrc.cli.app import app, inputs, say, say_table, say_written, target
 from biped_adrc.cli.options import WALKS, options, scenario_from
-from biped_adrc.core.files import check_folder, keep_inputs, output_path, write_text
+from biped_adrc.core.files import check_folder, write_text
 from biped_adrc.core.types import PlainRecord
 
 
@@ -29,33 +27,18 @@ def replay_command(
     from biped_adrc.extras.logs.replay import HEADER, cells, replay
     from biped_adrc.view.style import write_figure
 
-    s = scenario_from(values, sets, scenario)
-    paths = _paths(out, (log, *inputs(s.robot.name, s.gait.name)))
+    s, paths = scenario_from(values, sets, scenario), list[Path]()
+    if out is not None:
+        check_folder(out)
+        read = (log, *inputs(s.robot.name, s.gait.name))
+        names = ("replay.csv", "steps.txt", "replay.svg")
+        paths = [target(out / name, (Path(name).suffix,), read) for name in names]
     result = replay(log, s, window)
-    if paths is not None:
-        table, text, figure = paths
-        result.to_csv(table)
-        write_text(text, f"{result.text()}\n")
-        write_figure(figure, result.plot())
-    shown = Table(*HEADER)
-    for row in result.rows:
-        shown.add_row(*cells(row))
-    console.print(shown)
+    if paths:
+        result.to_csv(paths[0])
+        write_text(paths[1], f"{result.text()}\n")
+        write_figure(paths[2], result.plot())
+    say_table(HEADER, map(cells, result.rows))
     for remark in result.remarks:
         say(f"note: {remark}")
-    for path in paths or ():
-        say_written(path)
-
-
-def _paths(out: Path | None, read: tuple[Path, ...]) -> tuple[Path, Path, Path] | None:
-    """Where signals, table and figure go, checked before anything is computed; None for nowhere.
-
-    Raises InputError where the log itself is there under one of these names, and OutputError.
-    """
-    if out is None:
-        return None
-    check_folder(out)
-    names = ("replay.csv", "steps.txt", "replay.svg")
-    table, text, figure = (output_path(out / name, (Path(name).suffix,)) for name in names)
-    keep_inputs((table, text, figure), read)
-    return table, text, figure
+    say_written(*paths)

@@ -11,12 +11,20 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
-from rich.table import Table
 
-from biped_adrc.cli.app import EXIT_CHECK_FAILED, app, complain, console, inputs, say, say_written
+from biped_adrc.cli.app import (
+    EXIT_CHECK_FAILED,
+    app,
+    complain,
+    inputs,
+    say,
+    say_table,
+    say_written,
+    target,
+)
 from biped_adrc.cli.options import options, scenario_from, with_sets
 from biped_adrc.core.errors import ModelError
-from biped_adrc.core.files import check_folder, keep_inputs, output_path
+from biped_adrc.core.files import check_folder
 
 if TYPE_CHECKING:
     from biped_adrc.model.biped import Biped
@@ -43,14 +51,14 @@ def robot_list(robot: str | None = None, preset: str | None = None) -> None:
         say(f"{d.name}, preset {biped.preset}: {d.preset(biped.preset).source}")
         _describe(biped)
         return
-    table = Table("robot", "preset", "n", "p", "source")
+    rows = []
     for name in robot_names():
         d = load_description(name)
         for each in d.presets.values():
             default = " (default)" if each.name == d.default_preset else ""
             n, p = str(len(d.joints)), str(len(d.actuated))
-            table.add_row(name, each.name + default, n, p, each.source)
-    console.print(table)
+            rows.append((name, each.name + default, n, p, each.source))
+    say_table(("robot", "preset", "n", "p", "source"), rows)
     _print_values()
 
 
@@ -108,7 +116,7 @@ def robot_new(
         raise ModelError(f"URDF '{file}': {'; '.join(map(str, derived.broken))}")
     record = derived.write(out)
     _explain(derived)
-    say(f"written to {record}")
+    say_written(record)
 
 
 @robot_app.command("export")
@@ -124,8 +132,7 @@ def robot_export(
     from biped_adrc.model.biped import Biped
     from biped_adrc.scenario.build import plant_step
 
-    path = output_path(out, (".xml",), default=True)
-    keep_inputs((path,), inputs(robot, *(() if gait is None else (gait,))))
+    path = target(out, (".xml",), inputs(robot, *(() if gait is None else (gait,))))
     s = scenario_from({"robot.name": robot}, sets)
     biped = Biped.load(robot, s.robot.preset, s.hardware.friction)
     g = s.ground

@@ -4,28 +4,12 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import typer
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
-from rich.table import Table
 
-from biped_adrc.cli.app import EXIT_INTERRUPTED, app, console, say
+from biped_adrc.cli.app import EXIT_INTERRUPTED, app, bar, console, say, say_table
 from biped_adrc.cli.options import options
-
-if TYPE_CHECKING:
-    from biped_adrc.studies.results import Results
-    from biped_adrc.studies.runner import Progress as Done
 
 
 @app.command()
@@ -54,52 +38,32 @@ def study(
         )
         return
     from biped_adrc.studies.carry import study as carry_out
-    from biped_adrc.studies.page import write_page
-
-    with _shown(result.name, out) as progress:
-        done = carry_out(result, out, workers, cluster=cluster, progress=progress)
-    _print(done)
-    written = [write_page(done)]
-    if table is not None:
-        done.export(table)
-        written.append(table)
-    say(f"written to {', '.join(map(str, written))}")
-
-
-def _print(done: Results) -> None:
-    """Print the table, what a search chose, and why some walks could not be made."""
-    from biped_adrc.studies.page import chosen, headings, texts
+    from biped_adrc.studies.page import chosen, headings, texts, write_page
     from biped_adrc.studies.parameters import NO_WALK
+    from biped_adrc.studies.runner import Progress
 
-    shown = Table(*headings(done))
-    for line in done.table():
-        shown.add_row(*texts(line, short=True))
-    console.print(shown)
+    try:
+        with bar(result.name) as shown:
+
+            def progress(p: Progress) -> None:
+                shown(p.done, p.total, result.name)
+                if p.note:
+                    console.print(p.note)
+
+            done = carry_out(result, out, workers, cluster=cluster, progress=progress)
+    except KeyboardInterrupt:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        begun = "what is finished is in" if os.path.exists(out) else "nothing was begun in"
+        say(f"{begun} {out}; the same command goes on from there")
+        raise typer.Exit(EXIT_INTERRUPTED) from None
+    say_table(headings(done), (texts(line, short=True) for line in done.table()))
     for name, words in chosen(done).items():
         say(f"{name}: {words}")
     for status, (count, detail) in done.statuses().items():
         if status in NO_WALK:
             say(f"{count} {status}, such as: {detail}")
-
-
-@contextmanager
-def _shown(name: str, out: Path) -> Iterator[Callable[[Done], None]]:
-    """Context with a progress bar; on Ctrl-C it says how to go on, and raises the exit."""
-    text = TextColumn("{task.description:<24.24}", markup=False)
-    times = TimeElapsedColumn(), TextColumn("left"), TimeRemainingColumn()
-    with Progress(text, BarColumn(), MofNCompleteColumn(), *times, console=console) as shown:
-        task = shown.add_task(name, total=None)
-
-        def progress(p: Done) -> None:
-            shown.update(task, completed=p.done, total=p.total)
-            if p.note:
-                shown.console.print(p.note)
-
-        try:
-            yield progress
-        except KeyboardInterrupt:
-            signal.signal(signal.SIGINT, signal.SIG_IGN)
-            shown.stop()
-            begun = "what is finished is in" if os.path.exists(out) else "nothing was begun in"
-            say(f"{begun} {out}; the same command goes on from there")
-            raise typer.Exit(EXIT_INTERRUPTED) from None
+    written = [write_page(done)]
+    if table is not None:
+        done.export(table)
+        written.append(table)
+    say(f"written to {', '.join(map(str, written))}")

@@ -8,6 +8,7 @@ stores the run. `poincare` finds the fixed point of the return map and its multi
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,14 +17,24 @@ import typer
 from rich.box import SIMPLE_HEAD
 from rich.table import Column, Table
 
-from biped_adrc.cli.app import EXIT_FELL, app, bar, console, inputs, say, say_written, target
+from biped_adrc.cli.app import (
+    EXIT_FELL,
+    app,
+    bar,
+    console,
+    inputs,
+    say,
+    say_table,
+    say_written,
+    target,
+)
 from biped_adrc.cli.options import WALKS, options, scenario_from
 from biped_adrc.core.errors import InputError, RaisedError
 from biped_adrc.core.types import PlainRecord
 from biped_adrc.hybrid.status import Status
 
 if TYPE_CHECKING:
-    from biped_adrc.analysis.certificate import Certificate
+    from biped_adrc.analysis.certificate import Certificate, Support
     from biped_adrc.analysis.soft_steps import SoftStep
     from biped_adrc.model.robots.limits import Limits
     from biped_adrc.scenario.recording import Walk
@@ -69,20 +80,18 @@ def _walk(
     """
     from biped_adrc.scenario.run import halved, walk_scenario
 
-    with bar() as shown:
-        task = shown.add_task(f"walking, {s.controller.name}", total=s.run.impacts)
-        full = walk_scenario(s, lambda t, n: shown.update(task, completed=n))
+    name, total = f"walking, {s.controller.name}", s.run.impacts
+    with bar(name) as shown:
+        full = walk_scenario(s, lambda t, n: shown(n, total, name))
         half, run = None, full.trajectory
         if run.status is Status.RAISED:
             raise RaisedError(f"{run.status.value}, after {run.t_end:.4g} s:\n{run.detail}")
         if full.gait is not None:
-            shown.update(task, description="the same at half the step", completed=0)
             finer = halved(s, full.walker).replace(run={"engine": "compiled"})
-            half = walk_scenario(finer, lambda t, n: shown.update(task, completed=n))
+            half = walk_scenario(finer, lambda t, n: shown(n, total, "the same at half the step"))
     if end_infeasible:
         full, half = full.until_infeasible(limits), half and half.until_infeasible(limits)
     if out is not None:
-        # first, as printing may fail
         (full.save if out.suffix.lower() == ".npz" else full.export)(out)
     if log is not None:
         from biped_adrc.extras.logs.log_file import write_log
@@ -90,22 +99,44 @@ def _walk(
 
         write_log(logged(full), log, full.walker.nominal)
     _print_on_ground(full.soft_steps)
-    _print_steps(full, half, limits)
+    _print_end(full, half, limits)
     settings = full.trajectory.settings
     console.print(f"engine {settings['engine']}: {settings.get('why') or WHY[settings['engine']]}")
     for remark in full.remarks:
         say(f"note: {remark}")
-    say_written(out)
-    say_written(log)
+    say_written(out, log)
     if not full.trajectory.status.ok:
         raise typer.Exit(EXIT_FELL)
 
 
-def _print_steps(walk: Walk, half: Walk | None, limits: Limits) -> None:
-    """Print what every step needed of ground and motors, a row each; below how the walk ended.
+def _print_end(walk: Walk, half: Walk | None, limits: Limits) -> None:
+    """Print what every step needed of ground and motors, and how the walk ended.
 
     half: the same walk at half the step, where there are joints with an error.
     """
+    from biped_adrc.paper.convergence import error_text
+
+    feasibility, certificates = walk.feasible_within(limits), walk.certified(limits)
+    _print_steps(feasibility.supports, certificates)
+    run, about = walk.trajectory, walk.note
+    if half is not None:
+        each = (walk, half)
+        ends = [(w.signals.peak_error, w.trajectory.status.name, w.impacts) for w in each]
+        about = (
+            f"largest tracking error {error_text(*ends)}, peak torque {walk.peak_torque:.1f} N m, "
+            f"{run.settings['method']}"
+        )
+    console.print(
+        f"{run.status.name}: {run.status.value} {run.detail}".strip()
+        + f"\n{walk.impacts} impacts, {about}\n{feasibility.text()}"
+    )
+    stays = [c.step for c in certificates if not c.old_foot_velocity > 0.0]
+    if stays and half is not None:
+        console.print(f"the old stance foot does not lift off after steps {stays}")
+
+
+def _print_steps(supports: Sequence[Support], certificates: Sequence[Certificate]) -> None:
+    """Print what steps needed of ground and motors, a row each; those without a certificate have no impact."""
     from biped_adrc.analysis.certificate import ratio_text
 
     columns = (
@@ -120,8 +151,7 @@ def _print_steps(walk: Walk, half: Walk | None, limits: Limits) -> None:
         Column("breaks", min_width=8),
     )
     table = Table(*columns, box=SIMPLE_HEAD, pad_edge=False, padding=(0, 1, 0, 0))
-    feasibility, certificates = walk.feasible_within(limits), walk.certified(limits)
-    for s, c in zip_longest(feasibility.supports, certificates):
+    for s, c in zip_longest(supports, certificates):
         table.add_row(
             f"{s.step}",
             f"{s.duration:.4f}",
@@ -134,58 +164,20 @@ def _print_steps(walk: Walk, half: Walk | None, limits: Limits) -> None:
             ", ".join(name.replace("_", " ") for name in s.infeasible()),
         )
     console.print(table)
-    run = walk.trajectory
-    console.print(
-        f"F_N and friction: least and largest mean over {1e3 * limits.window:g} ms\n"
-        f"{run.status.name}: {run.status.value} {run.detail}".strip()
-        + f"\n{walk.impacts} impacts, {walk.note if half is None else _errors(walk, half)}\n"
-        + feasibility.text()
-    )
-    stays = [c.step for c in certificates if not c.old_foot_velocity > 0.0]
-    if stays and half is not None:
-        console.print(f"the old stance foot does not lift off after steps {stays}")
-
-
-def _errors(walk: Walk, half: Walk) -> str:
-    """The largest error at both steps, the largest torque, and the method."""
-    from biped_adrc.paper.convergence import WalkEnd, error_text
-
-    ends = [
-        WalkEnd(w.signals.peak_error, w.trajectory.status.name, w.impacts) for w in (walk, half)
-    ]
-    return (
-        f"largest tracking error {error_text(*ends)}, peak torque {walk.peak_torque:.1f} N m, "
-        f"{walk.trajectory.settings['method']}"
-    )
+    for window in {s.window for s in supports}:
+        console.print(f"F_N and friction: least and largest mean over {1e3 * window:g} ms")
 
 
 def _print_on_ground(steps: tuple[SoftStep, ...]) -> None:
     """Print what the feet did on soft ground, a row for each single support; nothing without."""
-    if not steps:
-        return
-    table = Table(
-        "step", "slip [mm]", "in the air [ms]", "on both feet [ms]", "depth [mm]", "friction"
-    )
+    header = "step", "slip [mm]", "in the air [ms]", "on both feet [ms]", "depth [mm]", "friction"
+    rows = []
     for k, s in enumerate(steps, 1):
         slip, depth = f"{1e3 * max(s.slip):.2g}", f"{1e3 * s.depth:.2g}"
         flight, both = f"{1e3 * s.flight:.1f}", f"{1e3 * s.double_support:.1f}"
-        table.add_row(f"{k}", slip, flight, both, depth, f"{s.friction_used:.3f}")
-    console.print(table)
-
-
-def _nominal(c: Certificate) -> str:
-    """What the step of a cycle needs of ground and motors, and whether it is feasible, in a sentence."""
-    from biped_adrc.analysis.certificate import ratio_text
-    from biped_adrc.analysis.feasibility import VERDICTS, because, verdict_of
-
-    broken = c.infeasible()
-    return (
-        f"its step: {c.step_length:.4f} m in {c.duration:.4f} s, peak torque {c.peak_torque:.1f} N m; in the "
-        f"mean of {1e3 * c.window:g} ms friction {ratio_text(c.mean_friction)}, "
-        f"F_N {c.mean_normal_force:.1f} N; the swing foot scuffs by {1e3 * c.scuffing:.2g} mm; "
-        f"friction at impact {ratio_text(c.impulse_ratio)}; "
-        f"{because(VERDICTS[verdict_of(broken)], broken)}"
-    )
+        rows.append((f"{k}", slip, flight, both, depth, f"{s.friction_used:.3f}"))
+    if rows:
+        say_table(header, rows)
 
 
 @app.command()
@@ -207,11 +199,10 @@ def poincare(
         result = cycle_stability(cycle)
     walker, o = cycle.P.walker, result.orbit
     law = type(walker.controller).__name__.removesuffix("Controller")
-    lines = (
-        f"{s.robot.name}, {walker.plant.preset}, {law}, slope {walker.slope:g} rad, {cycle.P.method.label}",
-        "x- = " + " ".join(f"{value:.6f}" for value in o.x_minus[: 2 * walker.plant.n]),
-        _nominal(nominal_step(cycle, o, limits(s))),
-        f"residual {o.residual:.1e}; |lambda| by every method:",
-        result.table.text(),
+    say(
+        f"{s.robot.name}, {walker.plant.preset}, {law}, slope {walker.slope:g} rad, {cycle.P.method.label}\n"
+        f"x- = {' '.join(f'{value:.6f}' for value in o.x_minus[: 2 * walker.plant.n])}"
     )
-    say("\n".join(lines))
+    step = nominal_step(cycle, o, limits(s))
+    _print_steps([step], [step])
+    say(f"residual {o.residual:.1e}; |lambda| by every method:\n{result.table.text()}")

@@ -168,7 +168,8 @@ class Controller(Part):
 
     def _only_sampled(self) -> NoReturn:
         raise InputError(
-            f"{type(self).__name__} works in sampled time only; give timing=SampledTime(period)"
+            f"{type(self).__name__} works in sampled time only; give timing=SampledTime(period), or "
+            "hardware.period of a scenario"
         )
 
     def _has_no(self, what: str) -> NoReturn:

@@ -29,11 +29,12 @@ from importlib.resources import files
 from json import JSONDecodeError
 from pathlib import Path
 from tomllib import TOMLDecodeError
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from biped_adrc.core.errors import BipedError, InputError, OutputError
+from biped_adrc.core.types import Array
 
 _KIND = re.compile(r"\.[A-Za-z]\w*")
 """The end of a name that says what is in a file; '.1' of 'push_0.1' does not."""
@@ -173,29 +174,58 @@ def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[No
         raise error(where + why) from found
 
 
-def csv_rows(file: Path | str) -> tuple[list[str], list[tuple[int, list[str]]]]:
-    """The first line of a CSV file, and the lines below it with their numbers, each of as many entries."""
-    with Path(file).open(newline="", encoding="utf-8-sig") as text:
-        lines = csv.reader(text)
-        rows = [(lines.line_num, [x.strip() for x in row]) for row in lines if row]
-    head = rows[0][1] if rows else []
-    for line, row in rows[1:]:
-        if len(row) != len(head):
-            raise InputError(f"line {line} has {len(row)} entries, expected {len(head)}: {head}")
-    return head, rows[1:]
+class CsvTable(NamedTuple):
+    """What is in a CSV file; entries without the blanks around them."""
+
+    head: list[str]
+    """The first line."""
+    rows: list[tuple[int, list[str]]]
+    """Of each line below it the number in the file, and as many entries as the first line has."""
+
+    @classmethod
+    def read(cls, file: Path | str) -> CsvTable:
+        """Of a file. Raises InputError for a line of another length, with its number."""
+        with Path(file).open(newline="", encoding="utf-8-sig") as text:
+            lines = csv.reader(text)
+            rows = [(lines.line_num, [x.strip() for x in row]) for row in lines if row]
+        head = rows[0][1] if rows else []
+        for line, row in rows:
+            if len(row) != len(head):
+                raise InputError(
+                    f"line {line} has {len(row)} entries, expected {len(head)}: {head}"
+                )
+        return cls(head, rows[1:])
+
+    def numbers(self, at: int) -> Array:
+        """The finite numbers (K,) of one column. Raises InputError with the line of the file and the column."""
+        result = np.empty(len(self.rows))
+        for k, (line, row) in enumerate(self.rows):
+            try:
+                result[k] = float(row[at])
+            except ValueError:
+                result[k] = math.nan
+            if not math.isfinite(result[k]):
+                raise InputError(
+                    f"line {line}, column '{self.head[at]}': found '{row[at]}', expected a finite number"
+                )
+        return result
 
 
-def number_in(text: str, line: int, column: str) -> float:
-    """An entry of a table as a finite number. Raises InputError with the line of the file and the column."""
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
-    if not math.isfinite(number):
-        raise InputError(
-            f"line {line}, column '{column}': found '{text}', expected a finite number"
-        )
-    return number
+def joint_columns(of: object, names: Mapping[str, str]) -> dict[str, Array]:
+    """A column (K,) for each joint of arrays (K, n); names: by attribute of `of`, such as "q{} [rad]"."""
+    arrays = ((name, getattr(of, attribute)) for attribute, name in names.items())
+    return {name.format(i): x for name, array in arrays for i, x in enumerate(array.T, 1)}
+
+
+def write_csv(columns: Mapping[str, Any], path: Path | str) -> Path:
+    """Write columns under their names; floats come back to the last bit. Raises InputError, OutputError."""
+    target = output_path(path, (".csv",), default=True)
+    lists = [x if isinstance(x, list) else x.tolist() for x in columns.values()]
+    with replacing(target) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(columns)
+        writer.writerows(zip(*lists, strict=True))
+    return target
 
 
 def read_json(path: Path, what: str, error: type[BipedError] = InputError) -> Any:
@@ -227,9 +257,11 @@ def plain(value: object) -> Any:
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def one_line(text: str) -> str:
-    """The text on one line: line breaks and what is not printable are written out, such as \\n."""
-    return "".join(x if x.isprintable() else x.encode("unicode_escape").decode() for x in text)
+def one_line(text: str, keep: str = "") -> str:
+    """The text on one line: line breaks and what is not printable are written out, such as \\n; keep: what is
+    not.
+    """
+    return "".join(x if x.isprintable() or x in keep else ascii(x)[1:-1] for x in text)
 
 
 def c_comment(text: str) -> str:

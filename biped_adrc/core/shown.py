@@ -5,7 +5,7 @@ A class below `Shown` shows its fields that are not at their defaults, unless it
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import MISSING, fields, is_dataclass
 from itertools import zip_longest
 from numbers import Real
@@ -39,8 +39,12 @@ def one_line(thing: Any) -> str:
 
     Fields at their defaults, and empty mappings, are left out.
     """
-    name = type(thing).__name__
-    told = ", ".join(f"{key}={short(x)}" for key, x in _fields_of(thing))
+    return call_text(type(thing).__name__, ((key, short(x)) for key, x in _fields_of(thing)))
+
+
+def call_text(name: str, fields: Iterable[tuple[str, str]]) -> str:
+    """Name(field=text, ...) in at most `LONGEST` characters."""
+    told = ", ".join(f"{key}={text}" for key, text in fields)
     room = LONGEST - len(name) - 2
     return f"{name}({told if len(told) <= room else told[: room - 3] + '...'})"
 

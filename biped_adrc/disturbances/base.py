@@ -10,7 +10,7 @@ as the method `torque`, which both engines run. One that acts for a part of the 
 and `net_force` are zero elsewhere. Integrators end their steps at `switching_times`, since a method of high
 order loses its accuracy across a jump.
 
-It stands below `closed_loop.walker`, which evaluates it, and `scenario.disturbances`, which makes it by name.
+It stands below `closed_loop.walker`, which evaluates it, and `scenario.build`, which makes it by name.
 """
 
 from __future__ import annotations

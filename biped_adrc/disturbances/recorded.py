@@ -21,7 +21,7 @@ import numpy as np
 
 from biped_adrc.core.checks import PositiveInt, check_part, numbers
 from biped_adrc.core.errors import InputError
-from biped_adrc.core.files import csv_rows, number_in, reading
+from biped_adrc.core.files import CsvTable, reading
 from biped_adrc.core.types import Array, read_only
 from biped_adrc.disturbances.base import Disturbance, Windowed
 from biped_adrc.model.biped import Biped
@@ -101,18 +101,16 @@ class RecordedTorque(Disturbance):
         check_part(biped, "the robot of a recording", Biped)
         check_part(start, "the start of a recording", float)
         with reading("recording", file, InputError):
-            head, rows = csv_rows(file)
+            table = CsvTable.read(file)
+            head = table.head
             if head.count("t") != 1 or len(set(head)) < max(len(head), 2):
                 raise InputError(
                     f"its columns are {head}, expected one 't' [s] and different joints, as t,q1,q3"
                 )
-            table = {
-                name: np.array([number_in(row[k], line, name) for line, row in rows])
-                for k, name in enumerate(head)
-            }
-            times = table.pop("t")
+            columns = {name: table.numbers(k) for k, name in enumerate(head)}
+            times = columns.pop("t")
             torques = np.zeros((len(times), biped.n))
-            for joint, values in table.items():
+            for joint, values in columns.items():
                 torques[:, biped.description.joint_index(joint)] += values
             return cls(times, torques, step, start)
 

@@ -130,7 +130,7 @@ class HybridSystem(Shown):
         return Record(every)
 
     def guards(self, mode: Mode) -> tuple[Guard, ...]:
-        """The event functions recorded_walk in `mode`."""
+        """The event functions that are watched in `mode`."""
         return ()
 
     def clocks(self) -> tuple[Clock, ...]:

@@ -7,10 +7,8 @@ Hermite polynomial. `hybrid.simulator` makes trajectories, and so do the compile
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,20 +18,7 @@ from biped_adrc.core.types import Array, freeze, frozen
 from biped_adrc.hybrid.status import Status
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-
-class Viewer(Protocol):
-    """What draws a trajectory: the walk that it is of (`scenario`), which knows the robot."""
-
-    def animate(self, path: Path | str) -> object:
-        """Write the motion as an animation."""
-
-    def plot(self) -> Figure:
-        """The main signals."""
-
-    def _repr_html_(self) -> str | None:
-        """For notebooks."""
+    pass
 
 
 @dataclass(frozen=True)
@@ -164,10 +149,6 @@ class Trajectory(Shown):
     """What is known beyond the status, such as the time and the error's own text."""
     settings: dict[str, Any] = field(default_factory=dict)
     """Method, engine and whatever else a caller notes; written to disk with the run, so plain values."""
-    viewer: Callable[[Trajectory], Viewer] | None = field(default=None, compare=False, repr=False)
-    """Makes the walk that a trajectory is of, which draws it; given by the layer that knows the
-    robot. Not stored with a run and not sent to another process.
-    """
 
     def __repr__(self) -> str:
         first, nodes = self.arcs[0], sum(len(arc.t) for arc in self.arcs)
@@ -175,9 +156,6 @@ class Trajectory(Shown):
             f"Trajectory({self.status.name}, {self.t_start:.4g} to {self.t_end:.4g} s: {len(self.arcs)} arcs, "
             f"{nodes} nodes of {first.x.shape[1]} numbers)"
         )
-
-    def __getstate__(self) -> dict[str, object]:
-        return {**self.__dict__, "viewer": None}
 
     @property
     def t_start(self) -> float:
@@ -220,24 +198,3 @@ class Trajectory(Shown):
     def final_state(self) -> Array:
         """The state at the end (nx,): x+ when the run ended at an event."""
         return self(self.t_end)
-
-    # -- pictures --------------------------------------------------------------------------------
-    def animate(self, path: Path | str) -> None:
-        """Write the motion as an animation, by the suffix of `path`. Raises InputError and OutputError."""
-        self._seen().animate(path)
-
-    def plot(self) -> Figure:
-        """The main signals as a matplotlib Figure. Raises InputError."""
-        return self._seen().plot()
-
-    def _repr_html_(self) -> str | None:
-        return None if self.viewer is None else self._seen()._repr_html_()
-
-    def _seen(self) -> Viewer:
-        if self.viewer is None:
-            raise InputError(
-                "this trajectory does not know its robot, so it cannot be drawn; take it from "
-                "biped_adrc.walk(...) or biped_adrc.load_walk(...), or draw "
-                "biped_adrc.Walk(walker, gait, trajectory)"
-            )
-        return self.viewer(self)

@@ -8,7 +8,7 @@ step, three steps h, h/2, h/4 show
 
     k = log2 (|y(h) - y(h/2)| / |y(h/2) - y(h/4)|)
 
-Takes outcomes (`scenario.outcome.Outcome`) that hold the run at half the step in `half`. Called by
+Takes outcomes (`scenario.recording.Outcome`) that hold the run at half the step in `half`. Called by
 `paper.table` (checks) and by the command `simulate`, which prints the error.
 
 For feasibility the two runs have to agree as well: a walk that is feasible at one step and not at the other has
@@ -25,7 +25,7 @@ import numpy as np
 
 from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.paper.verdict import AtTwoSteps
-from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.recording import Outcome
 
 AGREE = 0.01
 """Largest relative difference of two values that agree."""
@@ -109,22 +109,17 @@ def _ending(o: Outcome | None) -> tuple[str, int, str] | None:
     return None if o is None else (o.status, o.impacts, o.feasibility.outcome)
 
 
-class WalkEnd(NamedTuple):
-    """What `error_text` says of a walk."""
-
-    peak_error: float
-    """[rad]"""
-    status: str
-    impacts: int
+WalkEnd = tuple[float, str, int]
+"""What `error_text` says of a walk: largest tracking error [rad], status, number of impacts."""
 
 
 def error_text(end: WalkEnd, half: WalkEnd) -> str:
     """The largest tracking error at both steps, with a hint where the step is too long for it."""
-    text = f"{end.peak_error:.3e} rad ({half.peak_error:.3e} at half the step)"
+    errors = end[0], half[0]
+    text = f"{errors[0]:.3e} rad ({errors[1]:.3e} at half the step)"
     if end[1:] != half[1:]:
-        ends = f"at half the step the walk ends as {half.status} after {half.impacts} impacts"
+        ends = f"at half the step the walk ends as {half[1]} after {half[2]} impacts"
         return f"{text}; {ends}: shorten the step"
-    errors = end.peak_error, half.peak_error
     if gap(*errors, PEAK_RESOLUTION) <= AGREE or max(errors) < NEGLIGIBLE:
         return text
     return f"{text}, the step decides it: shorten it"

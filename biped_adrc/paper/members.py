@@ -27,7 +27,7 @@ from biped_adrc.paper import scenarios
 from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Member, with_values
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait, build
-from biped_adrc.scenario.recording import Walk, recorded_walk
+from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import Part, runs_in_parts
@@ -97,7 +97,7 @@ def pieces(run: Scenario, zero: bool, share: float) -> list[Walk]:
     later = Exponential(share * COARSE) if adrc else RK4(share * COARSE)
     parts = [Part(1, method_of(with_values(run, h=share * h), walker)), Part(impacts - 1, later)]
     runs = runs_in_parts(walker, x, mode, parts[: 1 + (impacts > 1)])
-    return [recorded_walk(walker, gait, moved) for moved in runs]
+    return [Walk(walker, gait, moved) for moved in runs]
 
 
 @lru_cache(maxsize=64)

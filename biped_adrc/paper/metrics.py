@@ -26,7 +26,7 @@ from biped_adrc.paper.results import Results
 from biped_adrc.paper.runs import Start
 from biped_adrc.paper.scenarios import CONTROLLERS, KINDS, declared
 from biped_adrc.paper.verdict import AtTwoSteps
-from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.recording import Outcome
 
 Pair = tuple[Outcome, Outcome, float]
 """A walk under NPD and under ADRC, and the period of its gait [s]."""

@@ -37,8 +37,7 @@ from biped_adrc.model.reduction import reduce
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
 from biped_adrc.paper.scenarios import pushed_steps, sampled_walk, scaled_observer
 from biped_adrc.scenario.build import RobotAndGait, build
-from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.run import walk_scenario
 
 MOMENTA = 4

@@ -19,7 +19,7 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.paper.regression import Regression, regress_multipliers
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.cycle import gait_map
-from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.recording import Outcome
 from biped_adrc.scenario.scenario import Scenario
 
 

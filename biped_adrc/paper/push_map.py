@@ -20,7 +20,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 
 from biped_adrc.paper.scenarios import CONTROLLERS, MapPush
-from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.recording import Outcome
 from biped_adrc.scenario.run import execute_twice
 
 WORDS = ("feasible", "but_impact", "infeasible", "pulled", "fell", "ended", "marginal")

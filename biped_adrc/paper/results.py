@@ -17,7 +17,7 @@ from biped_adrc.paper.push_map import PushCell
 from biped_adrc.paper.regression import Regression
 from biped_adrc.paper.runs import Headline, Order, Start
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
-from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.recording import Outcome
 
 
 @dataclass(frozen=True)

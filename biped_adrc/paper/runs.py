@@ -36,9 +36,8 @@ from biped_adrc.paper.push_map import push_map
 from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Plan, with_values
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait
-from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.scenario.recording import Walk, recorded_walk
-from biped_adrc.scenario.run import execute, execute_twice, halved, walk_scenario
+from biped_adrc.scenario.recording import Outcome, Walk
+from biped_adrc.scenario.run import execute_twice, halved, walk_scenario
 from biped_adrc.scenario.scenario import Scenario
 
 NODE_DISTANCE = 5e-4
@@ -53,7 +52,7 @@ def sparse(walk: Walk, apart: float = NODE_DISTANCE) -> Walk:
     assert run is not None
     pushed = scenarios.pushed_steps(run)
     arcs = (a if a.mode.step in pushed else a.thinned(apart) for a in walk.trajectory.arcs)
-    return recorded_walk(walk.walker, walk.gait, replace(walk.trajectory, arcs=tuple(arcs)), run)
+    return Walk(walk.walker, walk.gait, replace(walk.trajectory, arcs=tuple(arcs)), run)
 
 
 def twice(run: Scenario) -> Outcome:
@@ -82,7 +81,7 @@ class Headline:
 def headline(run: Scenario) -> Headline:
     """A pushed run that is kept; at a quarter of the step only the single supports from the push on."""
     walk, half = sparse(walk_scenario(run)), halved(run)
-    quarter = execute(scenarios.from_the_push(halved(half)))
+    quarter = walk_scenario(scenarios.from_the_push(halved(half))).outcome
     at_half = replace(sparse(walk_scenario(half), 0.5 * NODE_DISTANCE).outcome, half=quarter)
     outcome = replace(walk.outcome, half=at_half)
     return Headline(outcome, walk.trajectory, walk.signals, walk_laws(walk))
@@ -92,7 +91,7 @@ def engines(one: Scenario, other: Scenario) -> float:
     """Largest difference of (q, q') before the impacts of two runs [rad, rad/s]; infinite where they differ in
     number, or there is none.
     """
-    a, b = (execute(run).x_minus for run in (one, other))
+    a, b = (walk_scenario(run).outcome.x_minus for run in (one, other))
     n = RobotAndGait.of(one).biped.n
     if a.shape != b.shape or len(a) == 0:
         return math.inf

@@ -15,7 +15,7 @@ from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper.push_map import PushCell, counts
 from biped_adrc.paper.results import Results
-from biped_adrc.scenario.outcome import Outcome
+from biped_adrc.scenario.recording import Outcome
 
 PRINTED_TABLE_I = (-180, -324, -583, -1050, -1890, -3401, -6122, -11020, -19836)
 """Table I as the paper prints it [rad/s]; its "-11.020" and "-19.836" have thousands separators."""

@@ -10,10 +10,11 @@ model errors. Called by `run`, by studies, and by worker processes, which receiv
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TypeVar
+from typing import Any, cast
 
 import numpy as np
 
@@ -24,6 +25,8 @@ from biped_adrc.control.passive import Passive
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.timing import ContinuousTime, SampledTime
 from biped_adrc.core.types import Array, frozen
+from biped_adrc.disturbances.base import Disturbance, Sum, Windowed
+from biped_adrc.disturbances.link import OnLink
 from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.gait import Gait, load_gait
@@ -37,13 +40,12 @@ from biped_adrc.model.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.model.model_errors import ModelErrors, impact_error
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.controllers import controller
-from biped_adrc.scenario.disturbances import disturbances
-from biped_adrc.scenario.hardware import EncoderRecord, PartRecord
-from biped_adrc.scenario.records import all_taken, named_part
-from biped_adrc.scenario.registry import construct, find, own, takes
+from biped_adrc.scenario.hardware import EncoderRecord
+from biped_adrc.scenario.push import RANDOM, Push
+from biped_adrc.scenario.records import Misfit, all_taken, named_part
+from biped_adrc.scenario.registry import construct, find, part_of_user, takes
 from biped_adrc.scenario.scenario import Scenario, drawn
 
-_T = TypeVar("_T")
 RIGID = "rigid"
 """Name of the plant that is the walker's own."""
 LONGEST_PLANT_STEP = 2e-4
@@ -76,23 +78,14 @@ class RobotAndGait:
 
         Raises InputError for a robot or a gait that there is not, GaitError for a gait that does not fit.
         """
-        robot, friction = s.robot, s.hardware.friction
-        user_class = own("robot", robot.name)
+        robot, friction, name = s.robot, s.hardware.friction, s.gait.name
         values = {"preset": robot.preset, "friction": friction}
-        biped = (
-            Biped.load(robot.name, robot.preset, friction)
-            if user_class is None
-            else construct(f"robot '{robot.name}'", user_class, values, Biped)
-        )
+        biped = part_of_user("robot", robot.name, values, Biped)
+        biped = biped or Biped.load(robot.name, robot.preset, friction)
         if biped.p == 0:
             return cls(biped, cycle=passive_cycle(biped))
-        name = s.gait.name
-        result = own("gait", name)
-        gait = (
-            load_gait(name, biped, True)
-            if result is None
-            else construct(f"gait '{name}'", result, {"biped": biped}, Gait).check(biped)
-        )
+        gait = part_of_user("gait", name, {"biped": biped}, Gait)
+        gait = load_gait(name, biped, True) if gait is None else gait.check(biped)
         gait = gait if s.gait.other_robot else gait.check_robot(biped)
         if s.gait.continued:
             gait = replace(gait, constraint=continued(gait.constraint))
@@ -230,20 +223,15 @@ def plant_of(s: Scenario, biped: Biped) -> Biped:
 
 def sensors(s: Scenario) -> Sensor | None:
     """The sensors of a scenario: encoders, then the one that is named; None where all is measured exactly."""
-    encoders = _encoders(s)
-    if s.hardware.sensor.name is None:
+    e, more, encoders = s.hardware.encoders, s.hardware.sensor, None
+    if e != EncoderRecord(filter_time=e.filter_time):
+        noise = (e.noise, e.pitch_noise, e.rate_noise)
+        encoders = Sensors(e.counts, None, *noise, e.velocity, e.filter_time, drawn(s, "sensors"))
+    if more.name is None:
         return encoders
-    named = _named("sensor", s, {}, Sensor)
-    return named if encoders is None else encoders + named
-
-
-def _encoders(s: Scenario) -> Sensors | None:
-    """Encoders with their noise; None where angles and rates are measured exactly."""
-    e = s.hardware.encoders
-    if e == EncoderRecord(filter_time=e.filter_time):
-        return None
-    noise = (e.noise, e.pitch_noise, e.rate_noise)
-    return Sensors(e.counts, None, *noise, e.velocity, e.filter_time, drawn(s, "sensors"))
+    seed = {"seed": drawn(s, "sensor")}
+    sensor = named_part("sensor", more.name, seed, more.own, Sensor, "hardware.sensor")
+    return sensor if encoders is None else encoders + sensor
 
 
 def touchdown(s: Scenario, gait: Gait) -> Touchdown | None:
@@ -251,16 +239,11 @@ def touchdown(s: Scenario, gait: Gait) -> Touchdown | None:
 
     The slope that it takes is the gait's: what the scenario adds it does not know.
     """
-    if s.hardware.touchdown.name is None:
+    t = s.hardware.touchdown
+    if t.name is None:
         return None
-    return _named("touchdown", s, {"slope": gait.slope}, Touchdown)  # type: ignore[type-abstract]
-
-
-def _named(kind: str, s: Scenario, known: Mapping[str, object], base: type[_T]) -> _T:
-    """The sensor or touchdown that a scenario names, of its own values and of what is known here."""
-    record: PartRecord = getattr(s.hardware, kind)
-    known = {**known, "seed": drawn(s, kind)}
-    return named_part(kind, str(record.name), known, record.own, base, f"hardware.{kind}")
+    known = {"slope": gait.slope, "seed": drawn(s, "touchdown")}
+    return named_part("touchdown", t.name, known, t.own, Touchdown, "hardware.touchdown")  # type: ignore[type-abstract]
 
 
 def plant_step(s: Scenario) -> float:
@@ -271,7 +254,7 @@ def plant_step(s: Scenario) -> float:
 
 
 def plant_around(name: str, walker: Walker, options: Mapping[str, object]) -> SteppingPlant:
-    """A plant of the registry for a walker's robot on its slope. given: more values by name.
+    """A plant of the registry for a walker's robot on its slope. options: more values by name.
 
     Raises InputError for one that there is not, or that cannot be made.
     """
@@ -308,13 +291,85 @@ def ground(s: Scenario) -> tuple[StepDown | StepUp, ...]:
 
     `rms`: random heights [m], drawn for all steps of the walk. `drop`: depth [m], negative for a step up.
     """
-    steps: tuple[StepDown | StepUp, ...] = ()
-    g = s.ground
-    if g.rms > 0.0:
-        last = s.run.first_step + s.run.impacts - 1
-        steps = uneven_ground(drawn(s, "ground"), g.rms, last)
-    if g.drop > 0.0:
-        steps = (*steps, StepDown(g.drop_step, g.drop))
-    elif g.drop < 0.0:
-        steps = (*steps, StepUp(g.drop_step, -g.drop))
-    return steps
+    g, last = s.ground, s.run.first_step + s.run.impacts - 1
+    steps = uneven_ground(drawn(s, "ground"), g.rms, last) if g.rms > 0.0 else ()
+    if g.drop == 0.0:
+        return steps
+    edge = StepDown(g.drop_step, g.drop) if g.drop > 0.0 else StepUp(g.drop_step, -g.drop)
+    return (*steps, edge)
+
+
+# -- pushes ----------------------------------------------------------------------------------------
+def disturbances(s: Scenario, biped: Biped, period: float, plant: Biped) -> Disturbance | None:
+    """The sum of all pushes of a scenario; None without any.
+
+    biped: the nominal robot, for its joints. period [s]: of the gait. plant: the robot that walks, for forces
+    on its links. Raises InputError for a push that does not fit.
+    """
+    parts = tuple(disturbance(s, i, biped, period, plant) for i in range(len(s.pushes)))
+    return Sum(parts) if len(parts) > 1 else parts[0] if parts else None
+
+
+def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) -> Disturbance:
+    """Push number i. Raises InputError for a value that its shape does not take."""
+    push = s.pushes[i]
+    along = push.force * np.array((math.cos(push.direction), math.sin(push.direction), 0.0))
+    accepted = takes(find("disturbance", push.shape).load())
+    forced = push.link is not None or "force" in accepted
+    idle = {
+        "force": not forced and "is a torque; name the link on which a force acts",
+        "torque": "amplitude" not in accepted and "takes no torque",
+        "rise": "rise" not in accepted and "has no edges; only a pulse has a rise",
+    }
+    for name, why in idle.items():
+        if why and getattr(push, name):
+            raise Misfit(f"pushes.{i}.{name}", f"the push '{push.shape}' {why}")
+    known = {
+        **window(s, i, period),
+        "rise": push.rise,
+        "force": tuple(along[:2].tolist()),
+        "amplitude": torques(s, i, biped) if push.link is None else along,
+        "biped": plant,
+    }
+    place, fields = f"pushes.{i}", Push.model_fields
+    result = named_part("disturbance", push.shape, known, push.own, Disturbance, place, fields)  # type: ignore[type-abstract]
+    return result if push.link is None else OnLink(plant, push.link, cast(Windowed, result))
+
+
+def window(s: Scenario, i: int, period: float) -> dict[str, Any]:
+    """When push i acts: step number, start and stop [s], frequency [Hz] and the seed of noise.
+
+    A push counts from the start of its single support and ends with it at the latest; one that goes on over
+    impacts counts from the time at which the gait, of this period [s], would begin that single support. An
+    onset that is not given is drawn so that the push fits into the period.
+    """
+    push = s.pushes[i]
+    begin = push.onset
+    if begin is None:
+        last = max(period - push.duration, 0.0)
+        begin = float(np.random.default_rng(drawn(s, "onset", i)).uniform(0.0, last))
+    over = push.over_impacts
+    late = (push.step - s.run.first_step) * period if over else 0.0
+    return {
+        "step": None if over else push.step,
+        "start": late + begin,
+        "stop": late + push.stop(begin),
+        "frequency": push.frequency,
+        "bandwidth": push.frequency,
+        "seed": drawn(s, "noise", i),
+    }
+
+
+def torques(s: Scenario, i: int, biped: Biped) -> Array:
+    """Torques (n,) [N m] of push i on the coordinates.
+
+    Raises InputError for a joint that there is not.
+    """
+    push, zeta = s.pushes[i], np.zeros(biped.n)
+    if push.joints == RANDOM and not isinstance(push.torque, dict):
+        random = np.random.default_rng(drawn(s, "joints", i))
+        zeta[: biped.p] = push.torque * random.uniform(-1.0, 1.0, biped.p)
+        return zeta
+    for joint, torque in push.factors.items():
+        zeta[biped.description.joint_index(joint)] += torque
+    return zeta

@@ -22,7 +22,6 @@ import numpy as np
 from biped_adrc.control.across_contact import AcrossContact
 from biped_adrc.control.base import Controller
 from biped_adrc.control.tracking import TABLE_II, Gains
-from biped_adrc.core.errors import InputError
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.outputs import LinearOutputs
 from biped_adrc.model.biped import Biped
@@ -73,8 +72,6 @@ def _made(place: str, c: ControllerRecord, known: Values) -> Controller:
         raise Misfit(f"{place}.inner", f"{what} is no outer loop, and takes none")
     values, used = _values(what, make, c, entry.defaults)
     law = construct(what, make, {**known, **values}, Controller, place)
-    if type(law).output is Controller.output:
-        raise InputError(f"{what} has no method output(s, m); write it")
     _all_taken(place, c, used, accepted)
     return _around(place, c, law, known)
 

@@ -1,8 +1,10 @@
-"""The return map of a scenario, and a state from which Newton's method finds its cycle.
+"""What is said of a scenario by linearisation: the cycle of its return map, and its specification.
+
+    cycle_of(s)    a `Cycle`, which `analysis.stability.cycle_stability` takes: return map, and a state from
+                   which Newton's method finds the fixed point
+    specified(s)   `stable`, `growth` [1/s], `delay_margin` [s], `disk_margin`, `ripple` [N m] by name
 
 A robot with motors walks a stored gait under NPD or ADRC, one without walks its known cycle down a slope.
-
-    find_cycle, cycle_of   names or a scenario -> `Cycle`, which `analysis.stability.cycle_stability` takes
 
 The controller's states (an observer's) belong to the state of the map unless observer_states is False: then the
 controller starts anew after each impact, and the map has 2 n - 1 coordinates.
@@ -12,16 +14,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import lru_cache
 
+from biped_adrc.analysis.loops.frozen_gait import FrozenGait
+from biped_adrc.analysis.loops.specification import Specification, specification
 from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.analysis.stability import Cycle
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.core.errors import InputError
 from biped_adrc.hybrid.integrators import RK4
-from biped_adrc.scenario.build import RobotAndGait, build
+from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_of
 from biped_adrc.scenario.run import known_cycle, method_of
-from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.scenario.walk import default_method
+from biped_adrc.scenario.scenario import ErrorRecord, Scenario
 
 DIFFERENCE = 1e-4
 """Half width of the central differences of P [rad, rad/s], for controllers without states."""
@@ -41,21 +45,18 @@ FIXED = ("run.method", "run.h", "run.tolerance", "run.runaway_speed")
 """The same of a robot without motors."""
 
 
-def gait_cycle(s: Scenario, observer_states: bool = True, slope: float | None = None) -> Cycle:
+def gait_cycle(s: Scenario, observer_states: bool = True) -> Cycle:
     """Return map of a stored gait under the controller of a scenario, without its pushes.
 
-    observer_states: whether the controller's states belong to the state of the map. slope: [rad], of another
-    ground than the gait's. By the scenario's method and step where it has them, else by a fixed one: RK4 at 0.5
-    ms is within 2e-7 of delta^2 on the published gaits; ADRC takes the exponential method at 1 ms.
+    observer_states: whether the controller's states belong to the state of the map. By the scenario's method
+    and step where it has them; else RK4 at 0.5 ms, which is within 2e-7 of delta^2 on the published gaits, and
+    for controllers with states, such as ADRC, the exponential method at 1 ms.
     """
     cycle = gait_map(s, observer_states)
-    walker = cycle.P.walker if slope is None else replace(cycle.P.walker, slope=slope)
-    has_states = walker.split(Mode()) is not None
-    method = default_method(walker) if has_states else RK4(5e-4)
-    if s.run.method is not None or s.run.h is not None:
-        method = cycle.P.method
-    difference = cycle.P.difference if has_states else DIFFERENCE
-    return replace(cycle, P=replace(cycle.P, walker=walker, method=method, difference=difference))
+    if cycle.P.walker.split(Mode()) is not None:
+        return cycle
+    method = RK4(5e-4) if s.run.method is None and s.run.h is None else cycle.P.method
+    return replace(cycle, P=replace(cycle.P, method=method, difference=DIFFERENCE))
 
 
 def gait_map(s: Scenario, observer_states: bool = True) -> Cycle:
@@ -70,37 +71,14 @@ def gait_map(s: Scenario, observer_states: bool = True) -> Cycle:
     return Cycle(P, walker.initial_state(q, v))
 
 
-def find_cycle(
-    robot: str,
-    preset: str | None = None,
-    gait: str = "published",
-    controller: str | None = None,
-    observer_states: bool = True,
-    slope: float | None = None,
-) -> Cycle:
-    """The cycle of a robot by name: of a gait under a controller (by default NPD), passive without motors.
-
-        walking = find_cycle("rabbit", gait="published", controller="ADRC", observer_states=False)
-        passive = find_cycle("compass", slope=0.05)
-
-    observer_states: whether the controller's states belong to the state of the return map. slope: [rad], of
-    another ground. Raises InputError for a controller that does not fit the
-    robot, and as Biped.load, load_gait, known_cycle.
-    """
-    s = Scenario(
-        {"name": controller or "NPD"},
-        robot={"name": robot, "preset": preset},
-        gait=gait,
-    )
-    if controller is None and RobotAndGait.of(s).gait is None:
-        s = s.replace(controller="passive")
-    return _cycle(s, observer_states, slope)
-
-
 def cycle_of(s: Scenario, observer_states: bool = True) -> Cycle:
-    """The cycle of a scenario, without its pushes.
+    """The cycle of a scenario without its pushes: of a gait under its controller, or a passive one.
 
-    Raises as `find_cycle`, and InputError for values that have no effect on a return map.
+        walking = cycle_of(ba.Scenario("ADRC"), observer_states=False)
+        passive = cycle_of(ba.Scenario("passive", robot="compass", ground={"slope": 0.01}))
+
+    observer_states: as `gait_cycle`. Raises InputError for values that have no effect on a return map, and for
+    a controller that does not fit the robot; GaitError where no cycle is stored.
     """
     gait = RobotAndGait.of(s).gait
     without = NO_MAP if gait else (*NO_MAP, *FIXED)
@@ -110,12 +88,43 @@ def cycle_of(s: Scenario, observer_states: bool = True) -> Cycle:
             f"the return map is of one step of the undisturbed cycle{'' if gait else ', by a fixed method,'} "
             f"and takes no {', '.join(useless)}: this would do nothing, leave it out"
         )
-    return _cycle(s, observer_states, None)
-
-
-def _cycle(s: Scenario, observer_states: bool, slope: float | None) -> Cycle:
-    """The cycle on a slope [rad], None for the scenario's own."""
-    if RobotAndGait.of(s).gait:
-        return gait_cycle(s, observer_states, slope)
+    if gait:
+        return gait_cycle(s, observer_states)
     walker = build(s)
-    return known_cycle(walker.plant, walker.slope if slope is None else slope)
+    return known_cycle(walker.plant, walker.slope)
+
+
+def specification_of(s: Scenario, scene: RobotAndGait | None = None) -> Specification:
+    """The specification of the walker of a scenario; it needs no walk.
+
+    What the scenario does to the walk, such as pushes, ground and start, has no part in it; what it does to the
+    robot has, as plant beside the model. scene: robot and gait where they are at hand; for many candidates give
+    the same, whose linearisations are kept. Raises InputError for a scenario in continuous time, on another
+    plant than the rigid one, without motors, or whose controller has to notice touchdowns.
+    """
+    if s.ground.plant != RIGID:
+        raise InputError(
+            f"a specification was asked for on plant '{s.ground.plant}', expected '{RIGID}', whose equations "
+            "it linearises"
+        )
+    scene = RobotAndGait.of(s) if scene is None else scene
+    return specification(build(s, scene), _frozen(scene, s.errors, s.run.seed))
+
+
+@lru_cache(maxsize=16)
+def _frozen(scene: RobotAndGait, errors: ErrorRecord, seed: int) -> FrozenGait:
+    """The gait linearised for a plant with the model errors of a scenario.
+
+    No controller has a part in it, so the candidates of a search share it.
+    """
+    plant = plant_of(Scenario(errors=errors, run={"seed": seed}), scene.biped)
+    return FrozenGait.of(plant, scene.walked, scene.biped)
+
+
+def specified(s: Scenario, scene: RobotAndGait | None = None) -> dict[str, float]:
+    """The numbers of `specification_of` by name, none of them NaN; of an unstable loop the margins are 0 and
+    the ripple is infinite. Raises InputError as it.
+
+        specified(ba.Scenario({"name": "LESO", "observer": {"bandwidth": 160.0}}, hardware="rabbit"))
+    """
+    return specification_of(s, scene).columns()

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, Literal, Self
 
-from pydantic import ConfigDict, field_validator, model_validator
+from pydantic import model_validator
 
 from biped_adrc.core.files import packaged
 from biped_adrc.scenario.dotted import flat, merged
-from biped_adrc.scenario.records import Misfit, Record, field
+from biped_adrc.scenario.records import Misfit, OpenRecord, Record, field
 
 PROFILES: dict[str, dict[str, Any]] = packaged("biped_adrc.scenario", "hardware.toml")
 """Values that `hardware.profile` fills in: none, continuous time; ideal, exact measurements at 1 kHz; rabbit,
@@ -34,21 +35,14 @@ class EncoderRecord(Record):
     """Low-pass of the differences."""
 
 
-class PartRecord(Record):
-    """A part by name, with its parameters."""
-
-    model_config = ConfigDict(extra="allow")
-    name: str | None = field(None)
-
-
-class SensorRecord(PartRecord):
+class SensorRecord(OpenRecord):
     """One more sensor behind the encoders, with its parameters."""
 
     name: str | None = field(None, kind="sensor")
     """Of the registry, or module:Class."""
 
 
-class TouchdownRecord(PartRecord):
+class TouchdownRecord(OpenRecord):
     """How the controller notices touchdowns, with parameters."""
 
     name: str | None = field(None, kind="touchdown")
@@ -59,7 +53,7 @@ class HardwareRecord(Record):
     """Sampling, sensors, motors and joint friction."""
 
     SHORT = "profile"
-    profile: str = field("none")
+    profile: Literal["none", "ideal", "rabbit"] = field("none")
     """Fills in what is not given: none, ideal (1 kHz) or rabbit."""
     period: float | None = field(None, "s", ge=1e-5, le=0.1)
     """Sampling period of the controller; by default continuous time."""
@@ -79,21 +73,16 @@ class HardwareRecord(Record):
     friction: bool = field(False)
     """Joint friction of the robot's record in the plant."""
 
+    @model_validator(mode="before")
     @classmethod
-    def filled(cls, values: dict[str, Any]) -> dict[str, Any]:
-        """Values of the profile where none are given."""
+    def _opened(cls, values: Any) -> Any:
+        """The name of the profile as a record, and values of the profile where none are given."""
+        values = super()._opened(values)  # type: ignore[operator]
+        if not isinstance(values, Mapping):
+            return values
         profile = PROFILES.get(str(values.get("profile")), {})
-        return {
-            **values,
-            **merged(profile, {name: values[name] for name in profile if name in values}),
-        }
-
-    @field_validator("profile")
-    @classmethod
-    def _there(cls, profile: str) -> str:
-        if profile not in PROFILES:
-            raise ValueError(f"found '{profile}', expected one of {list(PROFILES)}")
-        return profile
+        given = {name: values[name] for name in profile if name in values}
+        return {**values, **merged(profile, given)}
 
     @model_validator(mode="after")
     def _sampled(self) -> Self:

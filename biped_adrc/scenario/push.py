@@ -17,15 +17,13 @@ import re
 from decimal import Decimal
 from typing import Any
 
-from pydantic import ConfigDict, model_validator
+from pydantic import model_validator
 
 from biped_adrc.core.errors import InputError
-from biped_adrc.scenario.records import Misfit, Record, field
+from biped_adrc.scenario.records import Misfit, OpenRecord, field
 from biped_adrc.scenario.registry import find
 from biped_adrc.scenario.units import quantity
 
-HAND = "hand"
-"""Shape of a push that a page wrote down."""
 RANDOM = "random"
 """Joints of a push with factors that are drawn."""
 _NUMBER = r"[0-9.eE+-]+?\s*[^\s@:,=0-9-]*"
@@ -37,7 +35,7 @@ _PUSH = re.compile(
 _FORM = "expected JOINTS=TORQUE@STEP:START-STOP, such as 'q1,q2=30@19:0.1-0.3'"
 
 
-class Push(Record):
+class Push(OpenRecord):
     """A torque on joints or a force on a link, of a shape in time; further values are those of the shape.
 
     Raises InputError for a shape that there is not and for a value out of its range.
@@ -47,7 +45,6 @@ class Push(Record):
     2
     """
 
-    model_config = ConfigDict(extra="allow")
     SHORT = "shape"
 
     shape: str = field("pulse", kind="disturbance")
@@ -108,31 +105,20 @@ class Push(Record):
         return float(Decimal(repr(onset)) + Decimal(repr(self.duration)))
 
     def in_words(self) -> str:
-        """The push as part of a sentence, such as "30 N m on q1, q2 from 0.1 to 0.3 s in single support 19"."""
-        if self.shape == HAND:
-            return f"a hand in single support {self.step}"
-        if self.link is not None or self.force:
-            what = f"{self.force:g} N on {self.link or 'the hip'}"
-        elif self.joints == RANDOM and not isinstance(self.torque, dict):
-            what = f"up to {self.torque:g} N m on random joints"
-        else:
-            what = " and ".join(f"{x:g} N m on {', '.join(on)}" for x, on in self._groups())
-        shape = f", a sine of {self.frequency:g} Hz," if self.shape == "sine" else ""
-        shape = shape or ("" if self.shape in ("pulse", "step") else f" ({self.shape})")
-        edges = f", each edge taking {self.rise:g} s" if self.rise else ""
-        if self.onset is None:
-            when = f" for {self.duration:g} s"
-        else:
-            until = " s on" if self.shape == "step" else f" to {self.stop(self.onset):g} s"
-            when = f" from {self.onset:g}{until}"
-        return f"{what}{shape}{when} in single support {self.step}{edges}"
+        """The push as part of a sentence, such as "30 N m on q1, q2 from 0.1 to 0.3 s in single support 19".
 
-    def _groups(self) -> list[tuple[float, list[str]]]:
-        """Torques [N m], each with the joints that have it, in their order."""
-        result: dict[float, list[str]] = {}
+        One that `parse_push` does not read is written by its values.
+        """
+        if self.onset is None or self.link is not None or self.force or not self.factors:
+            return repr(self)
+        groups: dict[float, list[str]] = {}
         for joint, torque in self.factors.items():
-            result.setdefault(torque, []).append(joint)
-        return list(result.items())
+            groups.setdefault(torque, []).append(joint)
+        what = " and ".join(f"{x:g} N m on {', '.join(on)}" for x, on in groups.items())
+        shape = f", a sine of {self.frequency:g} Hz," if self.shape == "sine" else ""
+        until = " s on" if self.shape == "step" else f" to {self.stop(self.onset):g} s"
+        edges = f", each edge taking {self.rise:g} s" if self.rise else ""
+        return f"{what}{shape} from {self.onset:g}{until} in single support {self.step}{edges}"
 
 
 def parse_push(text: str) -> Push:

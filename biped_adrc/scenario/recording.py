@@ -25,34 +25,90 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
 from biped_adrc.analysis.certificate import Certificate, after_last_impact, certificates, supports
 from biped_adrc.analysis.feasibility import Feasibility, until_infeasible
 from biped_adrc.analysis.ground_force import Nodes
+from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.analysis.recorded_signals import PLACE, recorded
 from biped_adrc.analysis.signals import Signals, signals
 from biped_adrc.analysis.soft_steps import SoftStep, recorded_steps, slip_times
 from biped_adrc.analysis.touchdowns import Noticed, touchdowns
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
+from biped_adrc.core.errors import InputError, optional
+from biped_adrc.core.files import joint_columns, write_csv
 from biped_adrc.core.shown import Shown
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, freeze
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.reference import Reference, TimeReference
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import Limits
-from biped_adrc.scenario.columns import columns_of, data_frame, write_csv
 from biped_adrc.scenario.edges import edge_remarks, step_remarks
-from biped_adrc.scenario.outcome import Outcome, outcome_of
 
 if TYPE_CHECKING:
     import pandas
     from matplotlib.figure import Figure
 
     from biped_adrc.scenario.scenario import Scenario
+
+OF_JOINTS = {
+    "q": "q{} [rad]",
+    "v": "v{} [rad/s]",
+    "u": "u{} [N m]",
+    "q_d": "q_d{} [rad]",
+    "dq_d": "v_d{} [rad/s]",
+    "error": "error{} [rad]",
+}
+"""Signals with a column for each joint in the table of a walk."""
+
+
+@dataclass(frozen=True)
+class Outcome(Shown):
+    """The numbers that are kept of a scenario's walk: small enough to be sent back by a worker process.
+
+    A walk itself holds megabytes of states; the reproduction of the paper compares outcomes.
+    """
+
+    run: Scenario
+    """The scenario that was walked."""
+    status: str
+    """Name of the trajectory's status, "COMPLETED" for a walk of all impacts asked for."""
+    impacts: int
+    """Number of impacts made."""
+    x_minus: Array
+    """States just before each impact (impacts, states) [rad, rad/s], the controller's behind."""
+    durations: Array
+    """Durations of the single supports (impacts,) [s]."""
+    peak_error: float
+    """max |q_b - q_d| [rad], also between the nodes of the method; 0 where no joint is driven."""
+    rms_error: float
+    """Root of the mean over time and joints of (q_b - q_d)^2 [rad]; 0 where no joint is driven."""
+    peak_torque: float
+    """max |u_i| [N m]; 0 without motors."""
+    certificates: tuple[Certificate, ...]
+    """What each finished step would have asked of ground and motors."""
+    feasibility: Feasibility
+    """Whether ground and motors could have carried the walk, within the limits of the robot's record."""
+    method: str
+    """Integration method, with its step."""
+    engine: str
+    """The engine that ran, "compiled" or "pinocchio"; "unknown" for a run that does not say."""
+    half: Outcome | None = None
+    """The same run with every step half as long: the difference of the two is an estimate of the error of
+    integration in every number here, since RK4's error falls by 16. Its own half is None.
+    """
+
+    def __post_init__(self) -> None:
+        freeze(self, "x_minus", "durations")
+
+    @property
+    def walked(self) -> bool:
+        """True where all impacts asked for were made."""
+        return self.status == "COMPLETED"
 
 
 @dataclass(frozen=True)
@@ -177,8 +233,35 @@ class Walk(Shown):
 
     @cached_property
     def outcome(self) -> Outcome:
-        """The numbers of a scenario's walk that a worker process sends back."""
-        return outcome_of(self)
+        """The numbers of a scenario's walk that a worker process sends back.
+
+        The mean of squared errors is over time, by quadrature between nodes. Raises InputError for a walk that
+        is not of a scenario.
+        """
+        if self.scenario is None:
+            raise InputError(
+                "this walk was made of a walker, and an outcome is a scenario's; take its trajectory, signals "
+                "and feasibility, or walk with biped_adrc.walk_scenario"
+            )
+        run, s = self.trajectory, self.signals
+        times = np.array([0.0, *(event.t for event in run.events(FOOT_STRIKE))])
+        squares = np.sum(s.error**2, axis=1) / max(s.error.shape[1], 1)
+        duration = s.t[-1] - s.t[0]
+        mean = integrate(s.t, squares) / duration if duration > 0 else float(squares[0])
+        return Outcome(
+            self.scenario,
+            run.status.name,
+            self.impacts,
+            run.before(FOOT_STRIKE),
+            np.diff(times),
+            s.peak_error,
+            float(np.sqrt(max(mean, 0.0))),
+            self.peak_torque,
+            self.certificates,
+            self.feasibility,
+            str(run.settings["method"]),
+            str(run.settings.get("engine", "unknown")),
+        )
 
     def until_infeasible(self, limits: Limits | None = None) -> Self:
         """The walk up to the first instant at which ground or motors could not have carried it.
@@ -253,16 +336,34 @@ class Walk(Shown):
 
         return save_walk(self, path, settings)
 
-    def to_csv(self, path: Path | str) -> Path:
-        """Write time, q, v, torques, references, errors, forces and events as a table (.csv); its path.
+    def _columns(self) -> dict[str, Any]:
+        """Columns (K,) by name with unit: floats, `step` of int, `event` of text, empty elsewhere."""
+        s, events = self.signals, list[str]()
+        for arc in self.trajectory.arcs:
+            events += [""] * (len(arc.t) - 1) + ["" if arc.event is None else arc.event.guard]
+        columns = {"t [s]": s.t, "step": s.step.astype(int), "event": events}
+        forces = dict(zip(("F_T [N]", "F_N [N]"), s.ground_reaction.T, strict=True))
+        return columns | joint_columns(s, OF_JOINTS) | forces
 
-        A row for each stored node, units in the names of the columns. Raises InputError and OutputError.
+    def to_csv(self, path: Path | str) -> Path:
+        """Write a table (.csv), a row for each stored node; its path. Raises InputError and OutputError.
+
+            t [s], step, event, q1 [rad] .. qN, v1 [rad/s] .., u1 [N m] .. up, q_d1 [rad] .. qp,
+            v_d1 [rad/s] .., error1 [rad] .., F_T [N], F_N [N]
+
+        event names the impact or the end that a node lies just before, and is empty elsewhere; an impact
+        repeats its time, before and after it.
         """
-        return write_csv(columns_of(self.signals, self.trajectory), path)
+        return write_csv(self._columns(), path)
 
     def to_pandas(self) -> pandas.DataFrame:
         """The table of `to_csv` as a DataFrame. Raises InputError without pandas, of the extra `study`."""
-        return data_frame(columns_of(self.signals, self.trajectory), self.note)
+        need = "a table of a walk needs pandas, which is not installed"
+        with optional("study", need, ", or write a file with walk.to_csv(path)"):
+            import pandas
+        frame = pandas.DataFrame(self._columns())
+        frame.attrs["note"] = self.note
+        return frame
 
     def export(self, path: Path | str) -> None:
         """Write the table of `to_csv` (.csv), or all signals for MATLAB (.mat), one array per name.
@@ -285,14 +386,3 @@ class Walk(Shown):
         summary = f"{self.controller_name}: {impacts} impacts. {status.name}: {status.value}"
         summary = " ".join((summary, *(f"Note: {remark}." for remark in self.remarks)))
         return inline(summary, animation_html({self.controller_name: self}), [self.plot()])
-
-
-def recorded_walk(
-    walker: Walker, gait: Gait | None, trajectory: Trajectory, scenario: Scenario | None = None
-) -> Walk:
-    """The walk of a trajectory, which is given this as its viewer: a trajectory alone can then draw itself."""
-
-    def seen(trajectory: Trajectory) -> Walk:
-        return Walk(walker, gait, trajectory, scenario)
-
-    return seen(replace(trajectory, viewer=seen))

@@ -13,6 +13,7 @@ Records of parts of the user's own are open: they keep other names in `own`, and
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Collection, Mapping
 from functools import cache, lru_cache
 from types import NoneType, UnionType
@@ -28,10 +29,10 @@ from pydantic import (
     field_validator,
     model_validator,
 )
-from pydantic.fields import FieldInfo
 
 from biped_adrc.core.errors import InputError
-from biped_adrc.core.shown import LONGEST
+from biped_adrc.core.files import plain as as_json
+from biped_adrc.core.shown import call_text
 from biped_adrc.scenario.dotted import NAME, flat, merged, nested, unknown
 from biped_adrc.scenario.registry import construct, find, known_name, portable, spelled, takes
 from biped_adrc.scenario.units import in_si, quantity
@@ -41,6 +42,8 @@ OF_FILES = ("robot", "gait")
 """Kinds whose names may be those of files."""
 NONE = "none"
 """Text for no value."""
+SIGNS = {"ge": ">=", "gt": ">", "le": "<=", "lt": "<"}
+"""Of the ends of a range, by their names in `operator`."""
 
 
 def field(default: Any, unit: str = "1", kind: str = "", **limits: Any) -> Any:
@@ -73,15 +76,18 @@ def named_part(
     own: Mapping[str, object],
     base: type[_T],
     place: str,
+    fields: Collection[str] = (),
 ) -> _T:
-    """A thing of the registry, made of what is known of the scenario, and of own values.
+    """A thing of the registry, made of what is known of the scenario, of its defaults, and of own values.
 
-    place: the dotted name of its record. Raises InputError for what is not there or cannot be made, and Misfit
-    for an own value that it does not take.
+    place: the dotted name of its record. fields: of that record. Raises InputError for what is not there or
+    cannot be made, and Misfit for an own value that it does not take.
     """
-    make = find(kind, name).load()
-    all_taken(place, own, takes(make))
-    return construct(f"{kind} '{name}'", make, {**known, **own}, base, place)
+    entry = find(kind, name)
+    make = entry.load()
+    all_taken(place, own, {*takes(make), *fields})
+    values = {**known, **entry.defaults, **own}
+    return construct(f"{kind} '{name}'", make, values, base, place)
 
 
 class Described(NamedTuple):
@@ -90,12 +96,12 @@ class Described(NamedTuple):
     name: str
     types: tuple[type, ...]
     """float, int, bool, str, tuple, dict and NoneType; empty for a value that only the user's part knows."""
-    unit: str = "1"
     limits: tuple[tuple[str, float], ...] = ()
     """Of the range: (ge, gt, le or lt, value)."""
     default: Any = None
     text: str = ""
     choices: tuple[str, ...] = ()
+    unit: str = "1"
     kind: str = ""
     """Of the registry, where it is a name of it."""
 
@@ -111,14 +117,13 @@ class Described(NamedTuple):
             kinds = " or ".join(self.choices or (kind.__name__ for kind in self.types))
             raise ValueError(f"found {x!r}, expected {kinds.replace('NoneType', 'none')}")
         for sign, limit in self.limits if isinstance(x, int | float) else ():
-            if not {"ge": x >= limit, "gt": x > limit, "le": x <= limit, "lt": x < limit}[sign]:
+            if not getattr(operator, sign)(x, limit):
                 raise ValueError(f"found {x:g}, expected {self.range_text} [{self.unit}]")
 
     @property
     def range_text(self) -> str:
         """Its range, or its choices, in a few words."""
-        signs = {"ge": ">=", "gt": ">", "le": "<=", "lt": "<"}
-        parts = [f"{signs[sign]} {x:g}" for sign, x in self.limits]
+        parts = [f"{SIGNS[sign]} {x:g}" for sign, x in self.limits]
         return " or ".join(self.choices) or ", ".join(parts)
 
 
@@ -158,12 +163,7 @@ class Record(BaseModel):
                 result[name] = read(what, plain(result[name]))
             except ValueError as error:
                 raise Misfit(name, str(error)) from None
-        return cls.filled(result)
-
-    @classmethod
-    def filled(cls, values: dict[str, Any]) -> dict[str, Any]:
-        """Values with what others of them fill in."""
-        return values
+        return result
 
     @classmethod
     def own_value(cls, name: str) -> Described:
@@ -189,15 +189,19 @@ class Record(BaseModel):
         """
         usual = usual_of(type(self)) if usual is None else usual
         result = {}
-        for name, info in type(self).model_fields.items():
+        for name in type(self).model_fields:
             x, before = getattr(self, name), getattr(usual, name)
             if isinstance(x, Record) and isinstance(before, Record):
                 x, before = x.record(before), {}
             if x != before:
-                kind = extra(info)["kind"]
-                result[name] = portable(kind, x) if kind and x is not None else listed(x)
+                kind = described(type(self), name).kind
+                result[name] = portable(kind, x) if kind and x is not None else as_json(x)
         others = usual.own
-        return result | {name: listed(x) for name, x in self.own.items() if others.get(name) != x}
+        return result | {name: as_json(x) for name, x in self.own.items() if others.get(name) != x}
+
+    def _asdict(self) -> dict[str, Any]:
+        """For `core.files.plain`."""
+        return self.record()
 
     def dotted(self) -> dict[str, Any]:
         """`record` by dotted names, such as {"controller.observer.bandwidth": 300.0}."""
@@ -211,9 +215,7 @@ class Record(BaseModel):
         return type(self)(**merged(self.record(), nested({**(values or {}), **more})))
 
     def __repr__(self) -> str:
-        told = ", ".join(f"{name}={x!r}" for name, x in self.dotted().items())
-        room = LONGEST - len(type(self).__name__) - 2
-        return f"{type(self).__name__}({told if len(told) <= room else told[: room - 3] + '...'})"
+        return call_text(type(self).__name__, ((k, repr(x)) for k, x in self.dotted().items()))
 
     __str__ = __repr__
 
@@ -227,6 +229,12 @@ def usual_of(cls: type[Record]) -> Record:
     return cls.model_construct()
 
 
+class OpenRecord(Record):
+    """A record that keeps other names in `own`."""
+
+    model_config = ConfigDict(extra="allow")
+
+
 def plain(x: Any) -> Any:
     """A value without NumPy's types, and lists of numbers and texts as tuples."""
     if isinstance(x, np.generic | np.ndarray):
@@ -234,21 +242,6 @@ def plain(x: Any) -> Any:
     if isinstance(x, list | tuple) and all(isinstance(y, int | float | str) for y in x):
         return tuple(x)
     return x
-
-
-def listed(x: Any) -> Any:
-    """A value as JSON has it."""
-    if isinstance(x, Record):
-        return x.record()
-    if isinstance(x, list | tuple):
-        return [listed(y) for y in x]
-    return dict(x) if isinstance(x, Mapping) else x
-
-
-def extra(info: FieldInfo) -> dict[str, str]:
-    """Unit and kind of a field."""
-    result: Any = info.json_schema_extra
-    return result or {"unit": "1", "kind": ""}
 
 
 def read(what: Described, x: Any) -> Any:
@@ -287,14 +280,12 @@ def described(cls: type[Record], name: str, place: str = "") -> Described:
     limits = tuple(
         (sign, getattr(rule, sign))
         for rule in info.metadata
-        for sign in ("ge", "gt", "le", "lt")
+        for sign in SIGNS
         if hasattr(rule, sign)
     )
     default, text = info.get_default(call_default_factory=True), str(info.description or "")
-    told = extra(info)
-    return Described(
-        place or name, types, told["unit"], limits, default, text, choices, told["kind"]
-    )
+    more: Any = info.json_schema_extra
+    return Described(place or name, types, limits, default, text, choices, **more)
 
 
 def _members(hint: Any) -> tuple[Any, ...]:
@@ -332,8 +323,7 @@ def described_in(cls: type[Record], name: str) -> Described:
             raise Misfit(name, unknown(name, names_of(cls)))
         inner = record_in(at, part)
         if inner is None:  # a table
-            types = (str,) if dict not in described(at, part).types else (float,)
-            return Described(name, types, text=str(at.model_fields[part].description))
+            return Described(name, (float,), text=str(at.model_fields[part].description))
         at = inner
     if last in at.model_fields:
         inner = record_in(at, last)
@@ -361,10 +351,15 @@ def misfit(error: ValidationError, cls: type[Record]) -> Misfit:
             return Misfit(place, inner.text)
     if result["type"] == "extra_forbidden" or isinstance(inner, Misfit):
         return Misfit(place, unknown(place, names_of(cls)), known=False)
-    text = result["msg"].removeprefix("Value error, ")
+    return Misfit(place, complaint(result))
+
+
+def complaint(error: Mapping[str, Any]) -> str:
+    """One error of pydantic's as what was found and what was expected."""
+    text: str = error["msg"].removeprefix("Value error, ")
     if text.startswith("Input should"):
-        text = f"found {result['input']!r}, {text.replace('Input should', 'should')}"
-    return Misfit(place, text)
+        return f"found {error['input']!r}, {text.replace('Input should', 'should')}"
+    return text
 
 
 _LABELS = ("float", "int", "bool", "str")

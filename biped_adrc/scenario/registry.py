@@ -17,23 +17,21 @@ What becomes of a name:
 
 from __future__ import annotations
 
-import hashlib
-import inspect
 import os
 import re
 import sys
 from collections.abc import Callable, Container, Iterable, Mapping
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from functools import lru_cache
-from importlib import import_module
 from inspect import Parameter, signature
+from pkgutil import resolve_name
 from types import MappingProxyType
 from typing import TypeVar
 
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import BipedError, InputError
 from biped_adrc.core.files import data_folder, packaged
+from biped_adrc.scenario.dotted import unknown
 
 _OWN = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*(\.[^\W\d]\w*)*")
 """package.module:Class, or Class.Inner of a class inside a class."""
@@ -120,12 +118,14 @@ def portable(kind: str, name: str) -> str:
     return entry.home if entry is not None and entry.given is not None else name
 
 
-def own(kind: str, name: str) -> Callable[..., object] | None:
-    """The user's class or function of this name for a robot or a gait; None where the name is that of a file.
+def part_of_user(kind: str, name: str, values: Mapping[str, object], base: type[_T]) -> _T | None:
+    """The robot or gait that the user's class or function of this name makes; None where a file has the name.
 
-    Raises InputError where it cannot be imported.
+    Raises InputError as `construct`, and where it cannot be imported.
     """
-    return find(kind, name).load() if is_own(name) or name in REGISTRY[kind] else None
+    if is_own(name) or name in REGISTRY[kind]:
+        return construct(f"{kind} '{name}'", find(kind, name).load(), values, base)
+    return None
 
 
 def is_own(name: str) -> bool:
@@ -148,23 +148,9 @@ def known_name(kind: str, name: str) -> str:
     known = spelled(kind, name)
     if known in REGISTRY[kind] or is_own(known):
         return known
-    near = get_close_matches(name, names(kind), 1)
-    hint = f"did you mean '{near[0]}'? There are" if near else "choose one of"
     raise InputError(
-        f"{kind} '{name}' is unknown; {hint} {list(names(kind))}, or give one of your own as "
-        "package.module:Class"
+        f"{kind} '{name}': {unknown(name, names(kind))}; one of your own is package.module:Class"
     )
-
-
-def source_hash(thing: Callable[..., object]) -> str:
-    """Hash (12 hexadecimal digits) of the source text of a class or function; "none" where there is no text.
-
-    Stored walks carry it, so that a class changed since then is noticed.
-    """
-    try:
-        return hashlib.sha256(inspect.getsource(thing).encode()).hexdigest()[:12]
-    except (OSError, TypeError):
-        return "none"
 
 
 def _plain(name: str) -> str:
@@ -178,42 +164,31 @@ def _imported(home: str) -> Callable[..., object]:
     The working directory is put at the end of the path, so that it cannot hide an installed module. Whatever
     the user's module raises when it is imported becomes an InputError with the cause, as does a missing class.
     """
-    module, _, name = home.partition(":")
     here = os.getcwd()
     if not home.startswith("biped_adrc.") and here not in sys.path and "" not in sys.path:
         sys.path.append(here)
     try:
-        result = import_module(module)
+        result: object = resolve_name(home)
     except (Exception, SystemExit) as error:  # whatever a module of the user's may raise
         raise InputError(
-            f"'{home}': importing '{module}' failed with {type(error).__name__}: {error}; expected "
-            f"package.module:Class, in '{here}' or installed, here and where workers run"
+            f"'{home}' cannot be imported, {type(error).__name__}: {error}; expected package.module:Class, in "
+            f"'{here}' or installed, here and where workers run"
         ) from error
-    thing: object = result
-    for part in name.split("."):
-        thing = getattr(thing, part, None)
-    if not callable(thing):
-        there = [key for key, x in vars(result).items() if isinstance(x, type)]
-        near = get_close_matches(name, there, 1) or there
-        raise InputError(f"'{home}': module '{module}' has no class '{name}'; it has {near}")
-    return thing
-
-
-def takes(make: Callable[..., object]) -> Mapping[str, Parameter]:
-    """The parameters of a class or function that may be given by name.
-
-    Raises InputError for what has no signature, such as functions written in C, or no hash.
-    """
-    try:
-        return _takes(make)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{error}; expected a class or a function written in Python") from error
+    if not callable(result):
+        raise InputError(f"'{home}' is {result!r}, expected a class or a function")
+    return result
 
 
 @lru_cache(maxsize=1024)
-def _takes(make: Callable[..., object]) -> Mapping[str, Parameter]:
-    """As `takes`; kept, since each walk of a study asks for the same."""
-    result = signature(make).parameters
+def takes(make: Callable[..., object]) -> Mapping[str, Parameter]:
+    """The parameters of a class or function that may be given by name; each walk of a study asks for the same.
+
+    Raises InputError for what has no signature, such as functions written in C.
+    """
+    try:
+        result = signature(make).parameters
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{error}; expected a class or a function written in Python") from error
     return MappingProxyType({name: p for name, p in result.items() if p.kind not in _VARIADIC})
 
 

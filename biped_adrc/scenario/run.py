@@ -1,8 +1,8 @@
 """Simulation of a scenario: integration method, start, walk, and what is kept of it.
 
-`walk_scenario` builds the walker, chooses the method (`parts_of`) and simulates. `execute` and `execute_twice`
-are what a worker process runs: they return an `Outcome` of a few numbers, the latter with the same walk at half
-the step, whose difference estimates the error of integration.
+`walk_scenario` builds the walker, chooses the method (`parts_of`) and simulates. `execute_twice` is what a
+worker process runs: it returns an `Outcome` of a few numbers, with the same walk at half the step, whose
+difference estimates the error of integration.
 
 Robots without motors walk on their known cycle, the fixed point of the return map: Newton's method finds it
 from the stored state, and a walk starts just after its impact.
@@ -31,8 +31,7 @@ from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod, Stiff
 from biped_adrc.hybrid.simulator import Progress
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_step, soft_loop, start
-from biped_adrc.scenario.outcome import Outcome
-from biped_adrc.scenario.recording import Walk, recorded_walk
+from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.scenario import FREE, Scenario
 from biped_adrc.scenario.walk import (
     FINE_STEP,
@@ -125,15 +124,14 @@ def cycle_start(biped: Biped, slope: float) -> tuple[Array, Array]:
 def walk_scenario(
     s: Scenario,
     progress: Progress | None = None,
-    method: OneStepMethod | None = None,
     controller: Controller | None = None,
 ) -> Walk:
     """Simulate a scenario from the impact of the gait's periodic orbit, or of a passive robot's cycle.
 
     The same scenario gives the same walk in every process: all random numbers come from its seed.
 
-    progress: called as the walk goes on. method, controller: in place of the scenario's; the walk with another
-    controller, such as an exported one, keeps no scenario. A fall is a status of the trajectory, not an error.
+    progress: called as the walk goes on. controller: in place of the scenario's, such as an exported one; the
+    walk then keeps no scenario. A fall is a status of the trajectory, not an error.
     Raises InputError for values that do not fit together.
 
     >>> walk = ba.walk_scenario(ba.Scenario("NPD", run={"impacts": 2}))
@@ -150,11 +148,11 @@ def walk_scenario(
     begin = start(s, scene) if scene.gait else cycle_start(scene.biped, walker.slope)
     if (loop := soft_loop(s, walker)) is not None:
         run = walk_on(loop, walker, begin, Mode(s.run.first_step), s.run.impacts, progress)
-        return recorded_walk(walker, scene.gait, run, kept)
+        return Walk(walker, scene.gait, run, kept)
     return walk_in_parts(
         walker,
         scene.gait,
-        parts_of(s, walker) if method is None else (Part(s.run.impacts, method),),
+        parts_of(s, walker),
         start=begin,
         first_step=s.run.first_step,
         progress=progress,
@@ -163,11 +161,6 @@ def walk_scenario(
     )
 
 
-def execute(s: Scenario) -> Outcome:
-    """Simulate a scenario and keep the numbers of its outcome."""
-    return walk_scenario(s).outcome
-
-
 def execute_twice(s: Scenario) -> Outcome:
-    """As `execute`, and once more with every integration step half as long, which is kept in `Outcome.half`."""
-    return replace(execute(s), half=execute(halved(s)))
+    """The outcome of a scenario's walk, with that at half of its integration steps in `Outcome.half`."""
+    return replace(walk_scenario(s).outcome, half=walk_scenario(halved(s)).outcome)

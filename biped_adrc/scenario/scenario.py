@@ -11,21 +11,24 @@ from `run.seed`, one stream per purpose (`drawn`), so that the same scenario giv
 
 from __future__ import annotations
 
-import hashlib
-import json
 import re
+import tomllib
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any, ClassVar, Literal, Self
 
 import numpy as np
-from pydantic import ConfigDict, field_validator, model_validator
+from pydantic import field_validator, model_validator
 
-from biped_adrc.scenario.dotted import nested
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import one_line, reading, toml_key, toml_value, write_text
+from biped_adrc.scenario.dotted import flat, nested
 from biped_adrc.scenario.hardware import HardwareRecord
 from biped_adrc.scenario.push import Push, parse_push
 from biped_adrc.scenario.records import (
     Described,
     Misfit,
+    OpenRecord,
     Record,
     described_in,
     field,
@@ -33,12 +36,12 @@ from biped_adrc.scenario.records import (
     plain,
     read,
 )
+from biped_adrc.scenario.registry import portable
 
 MOST_SEED = 2**63 - 1
 """Largest seed: the largest integer that a file of results can hold."""
 FREE = ("adaptive", "stiff")
 """Integration methods that choose their own step."""
-Own = ConfigDict(extra="allow")
 
 
 class RobotRecord(Record):
@@ -61,10 +64,9 @@ class GaitRecord(Record):
     """Walk a gait that was made for another robot or preset."""
 
 
-class ObserverRecord(Record):
+class ObserverRecord(OpenRecord):
     """The observer of the controller; its further parameters by name."""
 
-    model_config = Own
     name: str | None = field(None, kind="observer")
     """Of the registry, or module:Class; by default the controller's own."""
     bandwidth: float | None = field(None, "rad/s", gt=0, le=1e6)
@@ -85,20 +87,18 @@ class ObserverRecord(Record):
         return self
 
 
-class ContactRecord(Record):
+class ContactRecord(OpenRecord):
     """What the controller does while contact settles after touchdown; further parameters by name."""
 
-    model_config = Own
     name: str | None = field(None, kind="contact")
     """A policy of the registry ('hold'), or module:Class."""
     window: float | None = field(None, "s", ge=0, le=1.0)
     """Time after touchdown that it takes; by default the policy's own."""
 
 
-class ControllerRecord(Record):
+class ControllerRecord(OpenRecord):
     """The controller; its further parameters by name."""
 
-    model_config = Own
     name: str = field("ADRC", kind="controller")
     """Of the registry, or module:Class."""
     K_p: float | None = field(None, "1/s^2", gt=0)
@@ -117,10 +117,9 @@ class ControllerRecord(Record):
     """The controller inside an outer loop."""
 
 
-class GroundRecord(Record):
+class GroundRecord(OpenRecord):
     """The ground, or the engine that walks on it, with its further parameters by name."""
 
-    model_config = Own
     SHORT = "plant"
     plant: str = field("rigid", kind="plant")
     """What walks: rigid (pinned foot, plastic impact), mujoco (soft ground), or module:Class."""
@@ -166,10 +165,9 @@ class ErrorRecord(Record):
     """Half-width of relative errors of rates after impact."""
 
 
-class StartRecord(Record):
+class StartRecord(OpenRecord):
     """What is added to the start: q1.. [rad] and v1.. [rad/s] by name, and what is drawn."""
 
-    model_config = Own
     __pydantic_extra__: dict[str, float]
     SHORT = ""
     _COORDINATE: ClassVar[re.Pattern[str]] = re.compile("[qv][1-9][0-9]*", re.ASCII)
@@ -186,7 +184,7 @@ class StartRecord(Record):
     def own_value(cls, name: str) -> Described:
         if not cls._COORDINATE.fullmatch(name):
             raise Misfit(name, "expected speed, spread, or a coordinate such as q5 or v5")
-        return Described(name, (float,), "rad" if name[0] == "q" else "rad/s", default=0.0)
+        return Described(name, (float,), default=0.0, unit="rad" if name[0] == "q" else "rad/s")
 
 
 class LimitRecord(Record):
@@ -275,41 +273,57 @@ class Scenario(Record):
             x = [x[name] for name in sorted(x, key=int)] if numbered else [x]
         elif isinstance(x, Push):
             x = [x]
-        if not isinstance(x, list | tuple):
-            raise ValueError(f"found {x!r}, expected pushes in a list")
-        return tuple(parse_push(y) if isinstance(y, str) else y for y in x)
+        many = isinstance(x, list | tuple)
+        return tuple(parse_push(y) if isinstance(y, str) else y for y in x) if many else x
 
     @model_validator(mode="after")
     def _acting(self) -> Self:
-        """Raise Misfit for a push that cannot act, and for parts of the controller that need sampled time."""
+        """Raise Misfit for a push that cannot act, and for a delay that is counted twice."""
         first, last = self.run.first_step, self.run.first_step + self.run.impacts - 1
         for i, push in enumerate(self.pushes):
             late = push.step > last
             if late or (push.step < first and push.shape != "step" and not push.over_impacts):
                 walked = f"the walk has the single supports {first} to {last}"
                 raise Misfit(f"pushes.{i}.step", f"is {push.step}, and {walked}: it cannot act")
-        law = self.controller
-        for name, value in (("contact", law.contact.name), ("prediction", law.prediction)):
-            if value and self.hardware.period is None:
-                raise Misfit(f"controller.{name}", "needs sampled time; give hardware.period too")
-        if self.hardware.delay_known and law.prediction > 0.0:
+        if self.hardware.delay_known and self.controller.prediction > 0.0:
             raise Misfit("hardware.delay_known", "counts the delay twice beside a prediction")
         return self
 
-    @property
-    def key(self) -> str:
-        """A name for this scenario in stores of results: a hash of its record, equal for equal values."""
-        text = json.dumps(self.record(), sort_keys=True)
-        return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+def read_scenario(path: Path) -> Scenario:
+    """The scenario of a TOML file. Raises InputError with the file and the name of the value.
+
+    controller.name = "LESO"
+    controller.observer.bandwidth = "160 rad/s"
+    pushes = [{ joints = "q1", torque = "30 N m", step = 2, onset = "0.1 s" }]
+    """
+    with reading("scenario file", path, InputError):
+        return Scenario(**tomllib.loads(path.read_text(encoding="utf-8")))
 
 
-def scenario_of(record: Mapping[str, object]) -> Scenario:
-    """The scenario of values by dotted name, or nested. Raises InputError."""
-    return Scenario(**{str(name): x for name, x in record.items()})
+def write_scenario(path: Path, s: Scenario, comment: str = "") -> None:
+    """Write the values of a scenario that differ from the defaults, and whom it is of. Raises OutputError.
+
+    comment: lines at the top of the file.
+    """
+    lines = [f"# {one_line(line)}" for line in comment.splitlines()] + scenario_lines(s)
+    write_text(path, "\n".join(lines) + "\n")
+
+
+def scenario_lines(s: Scenario) -> list[str]:
+    """The values of a scenario that differ from the defaults, and whom it is of, as lines of TOML."""
+    record = {"controller.name": s.controller.name, "robot.name": s.robot.name}
+    pushes = s.record().pop("pushes", [])
+    values = record | flat({k: x for k, x in s.record().items() if k != "pushes"})
+    values |= {"pushes": pushes} if pushes else {}
+    return [
+        f"{'.'.join(map(toml_key, name.split('.')))} = {toml_value(x)}"
+        for name, x in values.items()
+    ]
 
 
 def value_of(name: str, x: object) -> Any:
-    """A value as the scenario takes it, also from text with a unit.
+    """A value as the scenario takes it: a number in SI units, also from text, a name as all processes know it.
 
     Raises InputError for an unknown name and a value out of its range.
     """
@@ -319,7 +333,9 @@ def value_of(name: str, x: object) -> Any:
         what.check(result)
     except ValueError as error:
         raise Misfit(name, str(error)) from None
-    return result
+    if what.kind and isinstance(result, str):
+        return portable(what.kind, result)
+    return float(result) if type(result) is int and float in what.types else result
 
 
 def names() -> list[str]:

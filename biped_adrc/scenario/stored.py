@@ -1,43 +1,55 @@
 """Walks on disk, complete in themselves: scenario, states, signals, walker and gait in one .npz file.
 
 Robot and gait are in the file as they were, so that neither the working directory nor later changes of their
-files matter. Reading a file imports no code of the user: a stand-in takes the place of a controller that is not
-at hand. A stored walk is checked before it is handed over (`_check`), so that damage is noticed on reading.
+files matter.
 
 Entries of the file, beside the trajectory that `hybrid.storage` writes:
 
     walker      JSON: {"parts": records of all objects, "walker": place of the walker, "gait": the gait}
     signal.*    arrays over the nodes
     settings    versions, the scenario's record, remarks, and what the caller adds
+
+`Writer` turns an object into a record: its class as `module:Class` and the values that its constructor takes,
+with inner objects in records of their own, each once, referred to by number. `Reader` makes the objects again.
+Only classes of this package are imported when a record is read (`is_ours`), so that a file cannot run code of
+its own: of a class of the user's the name alone is stored, and a stand-in takes the place of such a controller.
+
+How values are written:
+
+    None, bool, int, float, str   as they are
+    array                         {"array": [...], "shape": [...], "dtype": "float64"}
+    list, tuple, mapping          {"list": [...]}, {"tuple": [...]}, {"map": {...}}
+    complex, path, enum           {"complex": [re, im]}, {"path": "..."}, {"enum": [module:Class, name]}
+    any other object              {"part": place}, a record in the list of records
 """
 
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, fields, is_dataclass
+from enum import Enum
+from importlib import import_module
 from pathlib import Path
-from types import NoneType
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.closed_loop.feet import NAMES
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
 from biped_adrc.core.versions import versions
 from biped_adrc.disturbances.base import Disturbance
-from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid import storage
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.scenario.build import RobotAndGait, build
-from biped_adrc.scenario.recording import Walk, recorded_walk
+from biped_adrc.scenario.recording import Walk
+from biped_adrc.scenario.registry import takes
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.scenario.walker_record import MissingPart, PartRecord, Reader, Writer
 
 
 @dataclass(frozen=True)
@@ -104,42 +116,15 @@ def load_walk(path: Path | str) -> Walk:
                 "it does not say which robot, gait and controller it is of; runs written by Walk.save, "
                 "'biped-adrc simulate' and 'reproduce' do"
             )
-        result = _stored(trajectory, beside)
-        _check(result)
-    return result
-
-
-def _stored(trajectory: Trajectory, beside: Mapping[str, Array]) -> Walk:
-    """The walk of a trajectory, from the record of its walker and the signals beside it in the file."""
-    record = json.loads(str(beside["walker"]))
-    reader = Reader(record["parts"])
-    walker = _walker(reader, record["parts"][record["walker"]])
-    columns = {k.removeprefix("signal."): x for k, x in beside.items() if k.startswith("signal.")}
-    made = recorded_walk(walker, reader.made(record["gait"]), trajectory, _scenario(trajectory))
-    remarks = tuple(map(str, trajectory.settings.get("remarks", ())))
-    return replace(made, recorded=Signals(**columns), stored_remarks=remarks)
-
-
-def _check(walk: Walk) -> None:
-    """Raise ValueError where gait, states, signals or readings of a file do not fit the walker."""
-    arcs, plant, signals = walk.trajectory.arcs, walk.walker.plant, vars(walk.signals)
-    t = np.concatenate([arc.t for arc in arcs])
-    of_feet = {**dict.fromkeys(NAMES, 4), "u": plant.p, "zeta": plant.n}
-    soft = any(set(NAMES) & set(arc.read) for arc in arcs)
-    readings = [
-        (arc.read.get(x), len(arc.t), n) for arc in arcs if soft for x, n in of_feet.items()
-    ]
-    fits = {
-        "gait": isinstance(walk.gait, Gait if plant.p else NoneType),
-        "signals": {len(x) for x in signals.values()} == {len(t)}
-        and np.array_equal(signals["t"], t),
-        "states": all(arc.x.shape[1] >= 2 * plant.n for arc in arcs),
-        "readings": all(
-            x is not None and x.shape == (k, n) and np.isfinite(x).all() for x, k, n in readings
-        ),
-    }
-    if wrong := [name for name, fit in fits.items() if not fit]:
-        raise ValueError(f"its {' and '.join(wrong)} do not fit its walker")
+        record = json.loads(str(beside["walker"]))
+        reader = Reader(record["parts"])
+        walker = _walker(reader, record["parts"][record["walker"]])
+        arrays = {
+            k.removeprefix("signal."): x for k, x in beside.items() if k.startswith("signal.")
+        }
+        remarks = tuple(map(str, trajectory.settings.get("remarks", ())))
+        gait, scenario = reader.made(record["gait"]), _scenario(trajectory)
+        return Walk(walker, gait, trajectory, scenario, Signals(**arrays), remarks)
 
 
 def _walker(reader: Reader, record: PartRecord) -> Walker:
@@ -165,18 +150,152 @@ def _scenario(trajectory: Trajectory) -> Scenario | None:
 def replay(s: Scenario, trajectory: Trajectory) -> Walk:
     """The walk of a trajectory that another process simulated: its walker is built again from the scenario."""
     scene = RobotAndGait.of(s)
-    return recorded_walk(build(s, scene), scene.gait, trajectory, s)
+    return Walk(build(s, scene), scene.gait, trajectory, s)
 
 
 def load_walks(paths: Sequence[Path]) -> dict[str, Walk]:
-    """The walks in run files, by a name for each.
-
-    The name is that of the controller, with the file or a number where names repeat.
-    """
+    """The walks in run files, by the name of the controller, with that of the file where names repeat."""
     walks = [load_walk(path) for path in paths]
     names = [walk.controller_name for walk in walks]
     if len(set(names)) < len(names):
-        names = [f"{name} ({path.stem})" for name, path in zip(names, paths, strict=True)]
-    if len(set(names)) < len(names):
-        names = [f"{name} {k}" for k, name in enumerate(names, start=1)]
+        names = [f"{name} ({path})" for name, path in zip(names, paths, strict=True)]
     return dict(zip(names, walks, strict=True))
+
+
+# -- objects as plain values ----------------------------------------------------------------------
+_ROOMS = re.compile(
+    r"biped_adrc\.((control|observers|disturbances|gait|hardware|model(\.robots)?)\.[a-z_]+|core\.timing|closed_loop\.walker)"
+)
+"""Modules whose classes are made when a record is read."""
+
+PartRecord = dict[str, Any]
+"""One object: `class` as module:Class, `values` that its constructor takes; without them it is the user's."""
+
+
+class MissingPart(InputError):
+    """An object whose class, or that of an object inside of it, is the user's."""
+
+    def __init__(self, home: str) -> None:
+        super().__init__(f"'{home}' is not of this package")
+        self.home = home
+
+
+def home_of(kind: Any) -> str:
+    """A class or function as `module:Class`."""
+    return f"{kind.__module__}:{kind.__qualname__}"
+
+
+def is_ours(home: str) -> bool:
+    """True where module:Class is of this package, and may be imported when a record is read."""
+    return _ROOMS.fullmatch(home.partition(":")[0]) is not None
+
+
+@dataclass
+class Writer:
+    """Turns objects into records; the inverse of `Reader`.
+
+    An object that is used twice, such as the robot in walker and gait, is written once and is one object again
+    after reading. Objects are dataclasses, NamedTuples, or classes that keep the arguments of their constructor
+    as attributes of the same names.
+    """
+
+    records: list[PartRecord] = field(default_factory=list)
+    """Of all objects seen, each once; an object is referred to by its place here."""
+    _known: dict[int, tuple[int, object]] = field(default_factory=dict)
+    """By id of an object its place, and the object itself, so that its id is not used again."""
+
+    def plain(self, x: object) -> object:
+        """The value as JSON has it; {kind: ...} for arrays, tuples, enums and paths, {"part": place} for
+        objects.
+        """
+        if x is None or (isinstance(x, bool | int | float | str) and not isinstance(x, Enum)):
+            return x
+        if isinstance(x, np.generic):
+            return self.plain(x.item())
+        if isinstance(x, complex):
+            return {"complex": [x.real, x.imag]}
+        if isinstance(x, Enum):
+            return {"enum": [home_of(type(x)), x.name]}
+        if isinstance(x, Path):
+            return {"path": str(x)}
+        if isinstance(x, np.ndarray):
+            return {"array": x.ravel().tolist(), "shape": list(x.shape), "dtype": str(x.dtype)}
+        if isinstance(x, Mapping):
+            return {"map": {str(key): self.plain(inner) for key, inner in x.items()}}
+        if isinstance(x, list | tuple) and not hasattr(x, "_fields"):
+            return {type(x).__name__: [self.plain(inner) for inner in x]}
+        return {"part": self.part(x)}
+
+    def part(self, x: object) -> int:
+        """The place of an object among the records, written the first time it is seen."""
+        if id(x) not in self._known:
+            made = self._record(x)
+            self._known[id(x)] = len(self.records), x
+            self.records.append(made)
+        return self._known[id(x)][0]
+
+    def _record(self, x: object) -> PartRecord:
+        """The record of one object; of one that is the user's its class alone."""
+        home = home_of(type(x))
+        values = {name: self.plain(getattr(x, name)) for name in _names(x) if hasattr(x, name)}
+        if is_ours(home) and values.keys() >= set(_names(x)):
+            return {"class": home, "values": values}
+        return {"class": home_of(x) if hasattr(x, "__qualname__") else home}
+
+
+def _names(x: Any) -> list[str]:
+    """Names of what the constructor of an object takes; none for a class or a function itself."""
+    if is_dataclass(x):
+        return [f.name for f in fields(x) if f.init]
+    return [] if hasattr(x, "__qualname__") else list(takes(x.__class__))
+
+
+@dataclass
+class Reader:
+    """Makes objects of records; the inverse of `Writer`."""
+
+    records: list[PartRecord]
+    _made: dict[int, object] = field(default_factory=dict)
+
+    def made(self, x: object) -> Any:
+        """The value that `Writer.plain` was given.
+
+        Raises MissingPart for an object of the user's and what contains one, InputError for a class that this
+        version of the package does not have, and what a class raises of values that it does not take.
+        """
+        match x:
+            case {"part": int(i)}:
+                if i not in self._made:
+                    self._made[i] = self._new(self.records[i])
+                return self._made[i]
+            case {"array": values, "shape": shape, "dtype": kind}:
+                return np.array(values, dtype=np.dtype(kind)).reshape(shape)
+            case {"map": values}:
+                return {key: self.made(inner) for key, inner in values.items()}
+            case {"list": values}:
+                return [self.made(inner) for inner in values]
+            case {"tuple": values}:
+                return tuple(self.made(inner) for inner in values)
+            case {"enum": (home, name)}:
+                return _class(home)[name]
+            case {"complex": (real, imaginary)}:
+                return complex(real, imaginary)
+            case {"path": path}:
+                return Path(path)
+        return x
+
+    def _new(self, record: PartRecord) -> object:
+        """The object of a record."""
+        home = record["class"]
+        if "values" not in record:
+            raise MissingPart(home)
+        return _class(home)(**{name: self.made(x) for name, x in record["values"].items()})
+
+
+def _class(home: str) -> Any:
+    """A class of this package by module:Class. Raises InputError where this version does not have it."""
+    module, _, name = home.partition(":")
+    result = getattr(import_module(module), name, None) if is_ours(home) else None
+    if not isinstance(result, type) or result.__module__ != module:
+        raise InputError(f"there is no class '{home}' in this version of the package")
+    return result

@@ -38,7 +38,7 @@ from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import plant_around
-from biped_adrc.scenario.recording import Walk, recorded_walk
+from biped_adrc.scenario.recording import Walk
 
 if TYPE_CHECKING:
     from biped_adrc.scenario.scenario import Scenario
@@ -181,7 +181,7 @@ def walk(
         moved = plant_around(plant, walker, {}) if isinstance(plant, str) else plant
         loop = stepping_loop(walker, moved, engine, first_step)
         run = walk_on(loop, walker, begin, Mode(first_step), impacts, progress)
-        result = recorded_walk(walker, gait, run)
+        result = Walk(walker, gait, run)
     else:
         own_part = None if method is None else (Part(impacts, method),)
         parts = own_part or default_parts(walker, impacts, first_step, engine)
@@ -222,7 +222,7 @@ def walk_in_parts(
     begin, mode = _begin(gait, walker, start, first_step), Mode(first_step)
     x = walker.initial_state(*begin, mode)
     runs = list(runs_in_parts(walker, x, mode, parts, progress, engine))
-    return recorded_walk(walker, gait, _joined(runs), scenario)
+    return Walk(walker, gait, _joined(runs), scenario)
 
 
 def runs_in_parts(
@@ -257,25 +257,22 @@ def runs_in_parts(
 def _begin(
     gait: Gait | None, walker: Walker, start: tuple[Array, Array] | None, first_step: int
 ) -> tuple[Array, Array]:
-    """`start`, or the start of the gait, checked. Raises InputError, also for no number of a single support."""
+    """`start`, or the start of the gait, checked.
+
+    Raises InputError, also for no number of a single support, and a gait of a robot with other coordinates.
+    """
     check_count(first_step, f"the walk begins in single support {first_step}")
     if start is None:
         assert gait is not None
-        start = _start_of(gait, walker)
+        if (count := len(gait.q_minus)) != (n := walker.nominal.n):
+            raise InputError(
+                f"gait '{gait.name}' is of robot '{gait.robot}' with {count} coordinates, and the walker is "
+                f"'{walker.nominal.description.name}' with {n}; expected a gait of this robot: "
+                "load_gait(name, biped) or design_gait(biped, speed)"
+            )
+        start = gait.start(walker.nominal)
     check_start(*start, walker)
     return start
-
-
-def _start_of(gait: Gait, walker: Walker) -> tuple[Array, Array]:
-    """As Gait.start. Raises InputError for a gait of a robot with other coordinates."""
-    robot, n = walker.nominal.description.name, walker.nominal.n
-    if len(gait.q_minus) != n:
-        raise InputError(
-            f"gait '{gait.name}' is of robot '{gait.robot}' with {len(gait.q_minus)} coordinates, and the "
-            f"walker is '{robot}' with {n}; expected a gait of this robot: load_gait(name, biped) or "
-            "design_gait(biped, speed)"
-        )
-    return gait.start(walker.nominal)
 
 
 def check_start(q: Array, v: Array, walker: Walker) -> None:

@@ -7,8 +7,9 @@ classes of the user: their contents are hashed into the versions of its results.
 from __future__ import annotations
 
 import hashlib
+import inspect
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import lru_cache
 from pathlib import Path
 
@@ -17,7 +18,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.engine.batch import Case
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, soft_loop, start
-from biped_adrc.scenario.registry import find, is_own, source_hash
+from biped_adrc.scenario.registry import find, is_own
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario, field_of
 from biped_adrc.studies.parameters import PLANT, SUFFIXES
@@ -34,7 +35,7 @@ def versions_of(values: Iterable[tuple[str, object]]) -> dict[str, str]:
             result[f"file {path}"] = _hash(path)
         kind = field_of(name).kind
         if kind and is_own(str(x)):
-            result[f"source {x}"] = source_hash(find(kind, str(x)).load())
+            result[f"source {x}"] = _source(find(kind, str(x)).load())
         if name == PLANT:
             version = getattr(find(kind, str(x)).load(), "engine_version", None)
             result |= {} if version is None else {f"engine of {x}": str(version())}
@@ -42,8 +43,20 @@ def versions_of(values: Iterable[tuple[str, object]]) -> dict[str, str]:
 
 
 def _hash(path: Path) -> str:
-    """Of a file's content; that of nothing for a file that there is not."""
-    return hashlib.sha256(path.read_bytes() if path.is_file() else b"").hexdigest()[:12]
+    """Of a file's content (12 hexadecimal digits); that of nothing for a file that there is not."""
+    return _digits(path.read_bytes() if path.is_file() else b"")
+
+
+def _digits(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()[:12]
+
+
+def _source(thing: Callable[..., object]) -> str:
+    """Hash of the text of a class or function; "none" where there is no text."""
+    try:
+        return _digits(inspect.getsource(thing).encode())
+    except (OSError, TypeError):
+        return "none"
 
 
 def files_of(name: str, value: object) -> tuple[Path, ...]:

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from biped_adrc.core.errors import InputError
-from biped_adrc.scenario.file import write_scenario
+from biped_adrc.scenario.scenario import write_scenario
 from biped_adrc.studies.parameters import SEED, Values, scenario_of
 from biped_adrc.studies.proposals import optuna_library, searched
 from biped_adrc.studies.results import BEFORE, CANDIDATE, CHOSEN, SET, SETTING, Choice, Results

@@ -1,4 +1,4 @@
-"""What a study knows of a scenario: its values by dotted name, and how texts of a study file are read.
+"""What a study knows of a scenario: its values by dotted name, as a study file has them and as they are read.
 
 hardware.period               "1.5 ms"    0.0015    [s]
 controller.observer.order     1           1
@@ -11,9 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from biped_adrc.scenario import scenario as scenarios
-from biped_adrc.scenario.registry import portable
-from biped_adrc.scenario.scenario import Scenario, field_of
+from biped_adrc.scenario.scenario import Scenario
 
 Values = Mapping[str, Any]
 """Values of a scenario by dotted name, in SI units."""
@@ -37,15 +35,4 @@ def scenario_of(values: Record) -> Scenario:
     A row counts at sample instants, so each walk needs some. Raises InputError for values that do not fit
     together.
     """
-    return scenarios.scenario_of({"hardware.profile": "ideal", **values})
-
-
-def read(name: str, x: Any) -> Any:
-    """A value as the scenario takes it: a number in the SI unit, also from a text with a unit, or as it is.
-
-    Raises InputError for an unknown name or a value out of range.
-    """
-    field, result = field_of(name), scenarios.value_of(name, x)
-    if field.kind and isinstance(result, str):
-        return portable(field.kind, result)
-    return float(result) if type(result) is int and float in field.types else result
+    return Scenario(**{"hardware.profile": "ideal", **values})

@@ -13,9 +13,8 @@ import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
 from biped_adrc.scenario.dotted import flat
-from biped_adrc.scenario.records import Misfit
-from biped_adrc.scenario.scenario import MOST_SEED, field_of
-from biped_adrc.studies.parameters import read
+from biped_adrc.scenario.records import Misfit, complaint
+from biped_adrc.scenario.scenario import MOST_SEED, field_of, value_of
 
 MOST = 1_000_000
 """Most levels of a field, samples, and seeds."""
@@ -31,10 +30,7 @@ class Part(BaseModel):
 
 def problem(error: Any) -> str:
     """One error of pydantic's in words: its place, what was found and what was expected."""
-    text = error["msg"].removeprefix("Value error, ")
-    if text.startswith("Input should"):
-        text = f"found {error['input']!r}, {text.replace('Input should', 'should')}"
-    return ": ".join([*filter(None, [".".join(map(str, error["loc"]))]), text])
+    return ": ".join([*filter(None, [".".join(map(str, error["loc"]))]), complaint(error)])
 
 
 def table(value: object) -> dict[str, Any]:
@@ -109,13 +105,13 @@ def read_range(name: str, value: object, kind: type[R] = Range) -> R:  # type: i
     """The range {from, to, scale} of a number, read with its unit. Raises ValueError."""
     types, keys = field_of(name).types, table(value)
     whole = int in types and float not in types
-    ends = {key: read(name, keys[key]) for key in ("from", "to") if key in keys}
+    ends = {key: value_of(name, keys[key]) for key in ("from", "to") if key in keys}
     return kind.model_validate({"whole": whole, **keys, **ends})
 
 
 def read_list(name: str, value: object, least: int = 1) -> tuple[Any, ...]:
     """At least so many different values of one field. Raises ValueError."""
-    result = tuple(read(name, x) for x in value) if isinstance(value, list | tuple) else ()
+    result = tuple(value_of(name, x) for x in value) if isinstance(value, list | tuple) else ()
     if len({repr(x) for x in result}) < max(least, len(result)):
         raise ValueError(
             f"found {value!r}, expected a list of different values or {{from, to, ..}}"
@@ -142,7 +138,7 @@ def _seeds(value: object) -> object:
     return tuple(value)
 
 
-Values = Annotated[dict[str, Any], BeforeValidator(lambda value: each(value, read))]
+Values = Annotated[dict[str, Any], BeforeValidator(lambda value: each(value, value_of))]
 """Values of a scenario by name, read with their units."""
 Sets = dict[str, Values]
 """Values by name of the case or condition."""

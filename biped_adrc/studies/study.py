@@ -33,7 +33,7 @@ from biped_adrc.core.errors import BipedError, InputError
 from biped_adrc.core.files import reading
 from biped_adrc.core.versions import numerical_versions, packages
 from biped_adrc.scenario.dotted import unknown
-from biped_adrc.scenario.file import read_scenario
+from biped_adrc.scenario.scenario import read_scenario
 from biped_adrc.studies.build import case, versions_of
 from biped_adrc.studies.measure import Column, Limit, Measure, Objective
 from biped_adrc.studies.parameters import SEED, Record, scenario_of

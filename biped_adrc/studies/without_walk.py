@@ -13,8 +13,8 @@ from functools import lru_cache
 
 from biped_adrc.analysis.loops.specification import Specification
 from biped_adrc.core.errors import BipedError
+from biped_adrc.scenario.cycle import specification_of
 from biped_adrc.scenario.scenario import GroundRecord
-from biped_adrc.scenario.specified import specification_of
 from biped_adrc.studies.build import scene_of
 from biped_adrc.studies.parameters import Values, scenario_of
 

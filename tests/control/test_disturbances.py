@@ -19,8 +19,7 @@ from biped_adrc.engine.compiled_push import term_code
 from biped_adrc.gait.constraint import continued
 from biped_adrc.model.ground import StepDown, StepUp, uneven_ground
 from biped_adrc.model.pinned import frame_index
-from biped_adrc.scenario.build import RobotAndGait, disturbances
-from biped_adrc.scenario.disturbances import window
+from biped_adrc.scenario.build import RobotAndGait, disturbances, window
 from biped_adrc.scenario.registry import find
 from biped_adrc.scenario.scenario import Scenario
 

@@ -167,7 +167,7 @@ def test_what_does_not_fit_is_refused(gait):
             {"name": "NPD", "prediction": T},
             hardware={"period": T, "delay": T, "delay_known": True},
         ),
-        lambda: ba.Scenario({"name": "NPD", "prediction": T}),
+        lambda: ba.walk_scenario(ba.Scenario({"name": "NPD", "prediction": T})),
     ):
         with pytest.raises(InputError):
             wrong()

@@ -11,9 +11,8 @@ import biped_adrc as ba
 from biped_adrc.cli.options import scenario_from
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.scenario.build import RobotAndGait, build, plant_of, start
-from biped_adrc.scenario.file import read_scenario
 from biped_adrc.scenario.run import walk_scenario
-from biped_adrc.scenario.scenario import Scenario, drawn, field_of, names, scenario_of
+from biped_adrc.scenario.scenario import Scenario, drawn, field_of, names, read_scenario
 from biped_adrc.scenario.units import unit_of
 from biped_adrc.studies.run import run_trial
 
@@ -116,7 +115,7 @@ def test_a_value_that_cannot_act_is_refused(said, idle, with_effect) -> None:
     ],
 )
 def test_a_number_may_have_a_unit_wherever_it_is_given(name, text, number, tmp_path) -> None:
-    by_text, by_number = scenario_of({name: text}), scenario_of({name: number})
+    by_text, by_number = Scenario(**{name: text}), Scenario(**{name: number})
     assert by_text == by_number
     assert by_text.dotted()[name] == pytest.approx(number, rel=1e-15)
     file = tmp_path / "walk.toml"
@@ -150,7 +149,7 @@ def test_every_value_is_known_by_its_name() -> None:
         unit_of(what.unit)
         assert what.text, name
         if not name.startswith(("pushes", "controller.inner")):
-            assert scenario_of({name: what.default}) == Scenario()
+            assert Scenario(**{name: what.default}) == Scenario()
 
 
 def test_a_gait_of_another_robot_is_refused_unless_it_is_asked_for(tmp_path) -> None:

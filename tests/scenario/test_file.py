@@ -3,7 +3,7 @@
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.scenario.file import read_scenario, write_scenario
+from biped_adrc.scenario.scenario import read_scenario, write_scenario
 
 SCENARIOS = [
     ba.Scenario(

@@ -69,7 +69,7 @@ def test_an_observer_and_a_push_of_ones_own(own: str) -> None:
 def test_a_study_of_its_own_gain(own: str, tmp_path, monkeypatch, workers, name: str) -> None:
     if name:
         monkeypatch.setattr(registry, "REGISTRY", {k: {**v} for k, v in registry.REGISTRY.items()})
-        ba.register("controller", name, registry.own("controller", f"{own}:Mine"))
+        ba.register("controller", name, registry.find("controller", f"{own}:Mine").load())
     tables = {
         "name": "gains",
         "base": {"controller.name": name or f"{own}:Mine", "run.impacts": 1},
@@ -83,7 +83,7 @@ def test_a_study_of_its_own_gain(own: str, tmp_path, monkeypatch, workers, name:
 
 def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
     monkeypatch.setattr(registry, "REGISTRY", {k: dict(v) for k, v in registry.REGISTRY.items()})
-    Mine = registry.own("controller", f"{own}:Mine")
+    Mine = registry.find("controller", f"{own}:Mine").load()
     ba.register("controller", "mine", Mine)
     assert isinstance(build(ba.Scenario("Mine")).controller, Mine)
     for taken in ("mine", "npd", "ADRC-output", "a.b:C", " "):
@@ -99,8 +99,8 @@ def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
     ("values", "message"),
     [
         ({"controller": "nowhere_at_all.x:Mine"}, "No module named 'nowhere_at_all'.*installed"),
-        ({"controller": "OWN:Mien"}, "no class 'Mien'; it has .'Mine'"),
-        ({"controller": "OWN:Lawless"}, "Lawless' has no method output"),
+        ({"controller": "OWN:Mien"}, "has no attribute 'Mien'"),
+        ({"controller": "OWN:Lawless"}, "Lawless has no method output"),
         ({"controller": "OWN:Needy"}, "needs stiffness; give controller.stiffness"),
         (
             {"controller": "OWN:Mine", "controller.gian": 1.0},
@@ -126,7 +126,7 @@ def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
 def test_what_is_wrong_is_said(own: str, values: dict, message: str) -> None:
     values = {k: x.replace("OWN", own) if isinstance(x, str) else x for k, x in values.items()}
     with pytest.raises(InputError, match=message):
-        build(ba.Scenario(**values))
+        ba.walk_scenario(ba.Scenario(**values))
 
 
 def test_what_is_made_of_the_scenarios_values() -> None:

@@ -19,7 +19,7 @@ from biped_adrc.cli import app
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import data_folder
 from biped_adrc.hybrid.storage import load, load_beside, save
-from biped_adrc.scenario.walker_record import Reader, Writer
+from biped_adrc.scenario.stored import Reader, Writer
 
 FAST = {"run.engine": "compiled", "run.impacts": 1}
 

@@ -12,8 +12,8 @@ from typer.testing import CliRunner
 import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.core.errors import InputError
-from biped_adrc.scenario.file import read_scenario
-from biped_adrc.scenario.specified import specified
+from biped_adrc.scenario.cycle import specified
+from biped_adrc.scenario.scenario import read_scenario
 from biped_adrc.studies import search as search_room
 from biped_adrc.studies.measure import Limit, Objective
 from biped_adrc.studies.parameters import scenario_of

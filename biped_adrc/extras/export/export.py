@@ -19,8 +19,7 @@ from biped_adrc.extras.export.computer import Computer
 from biped_adrc.extras.export.fmu import fmu_of
 from biped_adrc.extras.export.source import Source, source_of
 from biped_adrc.scenario.build import build
-from biped_adrc.scenario.file import scenario_lines
-from biped_adrc.scenario.scenario import Scenario
+from biped_adrc.scenario.scenario import Scenario, scenario_lines
 
 
 def export_c(

@@ -13,7 +13,6 @@ alone, and it is said.
 
 from __future__ import annotations
 
-import csv
 import re
 from pathlib import Path
 
@@ -21,12 +20,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.core.errors import InputError
-from biped_adrc.core.files import number_in, reading
+from biped_adrc.core.files import CsvTable, reading, write_csv
 from biped_adrc.core.types import Array, relabelled
 from biped_adrc.extras.logs.plausible import check_plausible
 from biped_adrc.extras.logs.robot_log import RobotLog, check_rows
 from biped_adrc.model.biped import Biped
-from biped_adrc.scenario.columns import write_csv
 from biped_adrc.scenario.units import unit_of
 
 UNITS = {"t": "s", "q": "rad", "v": "rad/s", "u": "N m"}
@@ -53,20 +51,11 @@ def read_log(file: str | Path, biped: Biped) -> RobotLog:
     5
     """
     with reading("log", file, InputError):
-        with Path(file).open(newline="", encoding="utf-8-sig") as text:
-            lines = csv.reader(text)
-            (_, head), *rows = [(lines.line_num, row) for row in lines if row] or [(1, list[str]())]
-        wanted = _wanted(head, biped)
-        for line, row in rows:
-            if len(row) != len(head):
-                raise InputError(
-                    f"line {line} has {len(row)} entries, expected {len(head)}: {head}"
-                )
-        table = {
-            name: factor * np.array([number_in(row[at], line, head[at]) for line, row in rows])
-            for name, (at, factor) in wanted.items()
-        }
-        return _log(table, biped, [f"line {line}" for line, _ in rows], _said(head, wanted))
+        table = CsvTable.read(file)
+        wanted = _wanted(table.head, biped)
+        columns = {name: factor * table.numbers(at) for name, (at, factor) in wanted.items()}
+        names = [f"line {line}" for line, _ in table.rows]
+        return _log(columns, biped, names, _said(table.head, wanted))
 
 
 def write_log(log: RobotLog, path: str | Path, biped: Biped) -> Path:

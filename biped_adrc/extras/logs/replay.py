@@ -21,13 +21,13 @@ from numpy.typing import NDArray
 
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import InputError, check_positive
+from biped_adrc.core.files import joint_columns, write_csv
 from biped_adrc.core.shown import Shown, columns
 from biped_adrc.core.types import Array
 from biped_adrc.extras.logs.log_file import read_log
 from biped_adrc.extras.logs.replay_signals import ReplaySignals, replayed
 from biped_adrc.extras.logs.robot_log import RobotLog
 from biped_adrc.scenario.build import RobotAndGait, build
-from biped_adrc.scenario.columns import write_csv
 from biped_adrc.scenario.scenario import Scenario
 
 if TYPE_CHECKING:
@@ -36,16 +36,16 @@ if TYPE_CHECKING:
 WINDOW = 0.02
 """[s] after a touchdown that count as contact; on MuJoCo's ground of 2 ms forces have settled by then."""
 COLUMNS = {
-    "torque": ("u asked", "N m"),
-    "u": ("u", "N m"),
-    "residual": ("residual", "rad"),
-    "xi_estimate": ("xi estimate", "rad/s^2"),
-    "xi_nominal": ("xi nominal", "rad/s^2"),
-    "xi_model_error": ("xi model error", "rad/s^2"),
-    "xi_contact": ("xi contact", "rad/s^2"),
-    "zeta_estimate": ("zeta estimate", "N m"),
+    "torque": "u asked {} [N m]",
+    "u": "u {} [N m]",
+    "residual": "residual {} [rad]",
+    "xi_estimate": "xi estimate {} [rad/s^2]",
+    "xi_nominal": "xi nominal {} [rad/s^2]",
+    "xi_model_error": "xi model error {} [rad/s^2]",
+    "xi_contact": "xi contact {} [rad/s^2]",
+    "zeta_estimate": "zeta estimate {} [N m]",
 }
-"""Signals of the table of `Replay.to_csv`, a column for each joint: name and unit."""
+"""Signals of the table of `Replay.to_csv`, a column for each joint."""
 
 
 class ReplayRow(NamedTuple):
@@ -121,10 +121,7 @@ class Replay(Shown):
         """
         x = self.signals
         table = {"t [s]": x.t, "step": x.step.astype(int), "in contact": x.in_contact.astype(int)}
-        for signal, (name, unit) in COLUMNS.items():
-            values: Array = getattr(x, signal)
-            table |= {f"{name} {i + 1} [{unit}]": column for i, column in enumerate(values.T)}
-        return write_csv(table, path)
+        return write_csv(table | joint_columns(x, COLUMNS), path)
 
 
 def cells(row: ReplayRow) -> tuple[str, ...]:

@@ -11,6 +11,7 @@ The orbit and its period then come from the zero dynamics of the robot.
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
@@ -19,7 +20,7 @@ import numpy as np
 
 from biped_adrc.core.checks import numbers
 from biped_adrc.core.errors import GaitError, InputError
-from biped_adrc.core.files import csv_rows, number_in, reading
+from biped_adrc.core.files import CsvTable, reading
 from biped_adrc.core.shown import one_line
 from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
@@ -176,17 +177,17 @@ def read_csv(path: Path) -> Samples:
     Raises InputError.
     """
     with reading("samples", path, InputError):
-        head, rows = csv_rows(path)
-        names = [name.partition(" ")[0] for name in head]
-        if not {"t", "q1"} <= set(names) or not rows:
+        table = CsvTable.read(path)
+        names = [name.partition(" ")[0] for name in table.head]
+        if not {"t", "q1"} <= set(names) or not table.rows:
             raise InputError(
-                f"its first line is {head} with {len(rows)} rows below, expected names t, q1, q2, ... and "
-                "perhaps v1, v2, ..., and numbers below"
+                f"its first line is {table.head} with {len(table.rows)} rows below, expected names t, q1, q2, "
+                "... and perhaps v1, v2, ..., and numbers below"
             )
 
-        def columns(of: list[str]) -> Array:
-            places = [(names.index(x), x) for x in of]
-            return np.array([[number_in(row[k], line, x) for k, x in places] for line, row in rows])
+        def joints(letter: str) -> Array:
+            of = sorted(int(x[1:]) for x in names if re.fullmatch(f"{letter}[1-9][0-9]*", x))
+            return np.array([table.numbers(names.index(f"{letter}{i}")) for i in of]).T
 
-        q, v = ([f"{x}{k}" for k in range(1, len(names)) if f"{x}{k}" in names] for x in "qv")
-        return Samples(columns(["t"])[:, 0], columns(q), columns(v) if v else None)
+        v = joints("v")
+        return Samples(table.numbers(names.index("t")), joints("q"), v if v.size else None)
