@@ -15,7 +15,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from itertools import pairwise
 from threading import Lock
-from typing import TypeVar
+from typing import Any
 
 from biped_adrc.analysis.certificate import REASONS, supports
 from biped_adrc.analysis.feasibility import Feasibility, outcome_of
@@ -32,12 +32,11 @@ from biped_adrc.studies.build import Trial, trial_of
 from biped_adrc.studies.counted import WalkRow, counted, counted_in
 from biped_adrc.studies.parameters import NO_WALK, RAISED, REFUSED, Record, scenario_of
 
-T = TypeVar("T")
 COLUMNS: Mapping[str, str] = packaged("biped_adrc.studies", "columns.toml")
 """The columns of a row and what each means, with units."""
 WORDS = ("status", "detail", "outcome", "engine")
 """Columns that hold text."""
-AT_ONCE = 80
+AT_ONCE = 160
 """Impacts of the walks that are judged together: the nodes of a walk take some 80 kB for each."""
 _PREPARING = Lock()
 """Held while walkers are built or their plants are used: threads of a process share robots and compiled code."""
@@ -51,25 +50,27 @@ def run_trial(record: Record) -> WalkRow:
 def run_trials(records: Sequence[Record]) -> list[WalkRow]:
     """A row for each trial, in their order: the function that workers run.
 
-    All are prepared; then some are walked, and judged together. Stage by stage a processor finds what it runs
-    in its cache, and takes a fifth less time than walk by walk.
+    All trials take a step before the first one takes the next, walking and judging only as many as memory holds
+    well: so a processor finds the code of a step in its cache, and takes a fifth less time than trial by trial.
     """
     with _PREPARING:
-        trials = [_attempt(partial(_prepared, record)) for record in records]
-    impacts = (x[0].case.impacts for x in trials if isinstance(x, tuple))
-    size, rows = max(1, AT_ONCE // max(impacts, default=1)), list[WalkRow]()
-    for i in range(0, len(trials), size):
-        some = trials[i : i + size]
-        walks = [(x[0], _attempt(x[1])) if isinstance(x, tuple) else (None, x) for x in some]
+        trials = _each(trial_of, [_attempt(scenario_of, record) for record in records])
+        runs, rows = _each(_run_of, trials), list[WalkRow]()
+    impacts = (t.case.impacts for t in trials if isinstance(t, Trial))
+    size = max(1, AT_ONCE // max(impacts, default=1))
+    for i in range(0, len(runs), size):
+        walks = _each(lambda run: run(), runs[i : i + size])
         with _PREPARING:
-            rows += [_row(w if isinstance(w, dict) else measured(t, w)) for t, w in walks]
+            rows += [
+                _row(walk if isinstance(walk, dict) else measured(trial, walk))
+                for trial, walk in zip(trials[i : i + size], walks, strict=True)
+            ]
     return rows
 
 
-def _prepared(record: Record) -> tuple[Trial, Callable[[], BatchWalk]]:
-    """A trial, and the function that carries it out. Raises InputError for values that do not fit together."""
-    t = trial_of(scenario_of(record))
-    return t, run_case(t.case) if t.loop is None else partial(_on_other_ground, t)
+def _run_of(t: Trial) -> Callable[[], BatchWalk]:
+    """The function that carries a trial out, in any thread."""
+    return run_case(t.case) if t.loop is None else partial(_on_other_ground, t)
 
 
 def _on_other_ground(t: Trial) -> BatchWalk:
@@ -79,10 +80,15 @@ def _on_other_ground(t: Trial) -> BatchWalk:
     return left_by(c, run, str(run.settings["engine"]))
 
 
-def _attempt(step: Callable[[], T]) -> T | WalkRow:
-    """What a step of a trial returns, or the row that says why it raised."""
+def _each(step: Callable[[Any], Any], items: Sequence[Any]) -> list[Any]:
+    """What a step makes of each item; a row that says why an earlier step raised is handed on."""
+    return [x if isinstance(x, dict) else _attempt(step, x) for x in items]
+
+
+def _attempt(step: Callable[[Any], Any], x: Any) -> Any:
+    """step(x), or the row that says why it raised."""
     try:
-        return step()
+        return step(x)
     except BipedError as error:
         return {"status": REFUSED, "detail": str(error), "impacts": 0}
     except Exception as error:  # whatever a controller in Python may raise
