@@ -24,7 +24,7 @@ from report import Run, Table, arguments, forked, rounds, spent
 
 import biped_adrc as ba
 from biped_adrc.engine.batch import Case, simulate_many
-from biped_adrc.studies.build import case
+from biped_adrc.studies.build import trial_of
 from biped_adrc.studies.parameters import Record, scenario_of
 from biped_adrc.studies.run import run_trials
 from biped_adrc.studies.runner import LARGEST_CHUNK
@@ -75,7 +75,7 @@ def on_two(run: Any) -> None:
 def sweeps(size: int, count: int) -> Table:
     """A sweep in one thread and in two processes."""
     asked = study(size)
-    CASES[:] = [case(scenario_of(point.record)) for point in asked.points()]
+    CASES[:] = [trial_of(scenario_of(point.record)).case for point in asked.points()]
     table = Table("Sweep", "walk", f"{size} walks", ("numba",))
     runs: dict[str, Run] = {
         "bare walks, 1 thread": partial(walk, 0, size),

@@ -220,7 +220,7 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
     if case.curve is None:
         return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts)
     if not walker.sampled or walker.touchdown is not None or isinstance(walker.law, OuterLoop):
-        return lambda: _left_by(
+        return lambda: left_by(
             case, run_made(compiled, x, case.mode, case.method, case.options), COMPILED
         )
     read = reading_code("judged", step_reading, compiled.program, case.curve).addresses["judged"]
@@ -271,12 +271,12 @@ def _in_python(case: Case, x: Array, reason: BipedError) -> BatchWalk:
     """The walk on the compiled plant, or on Pinocchio's where there is none; reason: why it is not compiled."""
     run = on_compiled_plant if isinstance(reason, NotCompiled) else simulator.run
     trajectory = run(case.walker, x, case.mode, case.method, case.options)
-    return _left_by(
+    return left_by(
         case, trajectory, COMPILED_PLANT if isinstance(reason, NotCompiled) else PINOCCHIO
     )
 
 
-def _left_by(case: Case, run: Trajectory, engine: str) -> BatchWalk:
+def left_by(case: Case, run: Trajectory, engine: str) -> BatchWalk:
     """What the run of a case leaves, and the run itself where it is recorded."""
     return BatchWalk(
         run.status,

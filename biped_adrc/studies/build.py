@@ -12,12 +12,14 @@ import tomllib
 from collections.abc import Callable, Iterable
 from functools import lru_cache
 from pathlib import Path
+from typing import NamedTuple
 
+from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.core.errors import InputError
 from biped_adrc.engine.batch import Case
 from biped_adrc.engine.run import COMPILED
-from biped_adrc.scenario.build import RIGID, RobotAndGait, build, soft_loop, start
+from biped_adrc.scenario.build import RobotAndGait, build, soft_loop, start
 from biped_adrc.scenario.registry import find, is_own
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario, field_of
@@ -89,8 +91,18 @@ def _scene(
     return RobotAndGait.of(Scenario(robot=robot, gait=gait, hardware={"friction": friction}))
 
 
-def case(s: Scenario) -> Case:
-    """The walk of a scenario with its start and method, recorded on the rigid plant.
+class Trial(NamedTuple):
+    """A walk that is ready to be made."""
+
+    scenario: Scenario
+    scene: RobotAndGait
+    case: Case
+    loop: SteppingLoop | None
+    """The walker's controller around another plant than the rigid one; else None."""
+
+
+def trial_of(s: Scenario) -> Trial:
+    """The walk of a scenario with its start and method.
 
     Raises InputError for values that do not fit together, or that a study cannot use: continuous time, fine
     steps besides, another engine.
@@ -105,9 +117,7 @@ def case(s: Scenario) -> Case:
         raise InputError(f"a study walks in sampled time, with one step, compiled: {result}")
     scene = scene_of(s)
     q, v = start(s, scene)
-    walker = build(s, scene)
-    if s.ground.plant != RIGID:
-        soft_loop(s, walker)
-    mode = Mode(s.run.first_step)
-    curve = scene.walked.constraint if s.ground.plant == RIGID else None
-    return Case(walker, q, v, method_of(s, walker), s.run.impacts, mode, curve)
+    walker, mode = build(s, scene), Mode(s.run.first_step)
+    curve = scene.walked.constraint
+    made = Case(walker, q, v, method_of(s, walker), s.run.impacts, mode, curve)
+    return Trial(s, scene, made, soft_loop(s, walker))

@@ -34,11 +34,11 @@ def counted(n: Nodes, found: Feasibility, soft: bool = False) -> WalkRow:
     Root mean squares are over nodes and joints.
     """
     held = np.flatnonzero(np.diff(n.t) > 0.0)
-    u, turned = n.u[held], np.diff(n.q_b, axis=0)[held]
+    error, u, turned = (np.take(x, held, axis=0) for x in (n.error, n.u, np.diff(n.q_b, axis=0)))
     outcome, judged = found.outcome, set(REASONS) - {IMPULSE if soft else "slip"}
     return {
         "peak_error": _largest(n.error),
-        "rms_error": _rms(n.error[held]),
+        "rms_error": _rms(error),
         "peak_torque": _largest(n.u),
         "rms_torque": _rms(u),
         "work": float(np.sum(np.abs(u) * np.abs(turned))),

@@ -28,7 +28,7 @@ PRELOADED = ("biped_adrc.studies.run",)
 """Modules that worker processes share."""
 LOOK_UP = 256
 """Points that are made and looked up in the store at once."""
-LARGEST_CHUNK = 16
+LARGEST_CHUNK = 32
 """Most walks handed to a worker at once: what a kill may lose, and what progress is counted in."""
 AHEAD = 3
 """Chunks on their way for each worker, so that none waits for this process."""

@@ -34,7 +34,7 @@ from biped_adrc.core.files import reading
 from biped_adrc.core.versions import numerical_versions, packages
 from biped_adrc.scenario.dotted import unknown
 from biped_adrc.scenario.scenario import read_scenario
-from biped_adrc.studies.build import case, versions_of
+from biped_adrc.studies.build import trial_of, versions_of
 from biped_adrc.studies.measure import Column, Limit, Measure, Objective
 from biped_adrc.studies.parameters import SEED, Record, scenario_of
 from biped_adrc.studies.search import Search, Variable, WalkSets
@@ -203,7 +203,7 @@ class Study(Part):
         for values, names in self.sets():
             for at in self._some(values):
                 try:
-                    case(scenario_of(values | at))
+                    trial_of(scenario_of(values | at))
                 except BipedError as error:
                     where = ", ".join(f"{k} = {x}" for k, x in (names | at).items())
                     raise InputError(
