@@ -34,6 +34,7 @@ from biped_adrc.analysis import soft_steps as meters
 from biped_adrc.analysis.recorded_signals import FORCE, PLACE, SPEED, footholds
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.core.checks import Checked, PositiveFloat
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
@@ -46,6 +47,8 @@ MOST_FRAMES = 200_000
 """Of a page or a moving picture: an hour at 50 in a second."""
 TILE = 0.5
 """[m], along x, of the light and dark tiles."""
+VIEWS = ("side", "perspective")
+"""Cameras: "side" is orthographic, so lengths can be compared anywhere in the picture."""
 
 
 class Tile(NamedTuple):
@@ -189,6 +192,47 @@ def joint_values(
     values[d.base[0]] = foothold - float(M[0, 3])
     values[d.base[1]] = height - float(M[2, 3])
     return values
+
+
+@dataclass(frozen=True)
+class Clip(Checked):
+    """What part of the walks is shown, and how; None leaves the choice to the kind of picture.
+
+    start, stop [s]: the part shown in a moving picture or a strip; None: the whole walk, or its
+    last two steps for a strip.
+    fps [1/s]: frames per second; None: 60 for a page and 25 for a moving picture.
+    view: camera of a page at the start, one of `VIEWS`; all else is from the side.
+    apart: moving picture with the walks side by side and their errors below, instead of over one
+    another.
+    slower [1]: how many times slower than the walk a moving picture plays.
+
+    Raises InputError for values that do not fit.
+    """
+
+    start: float | None = None
+    stop: float | None = None
+    fps: PositiveFloat | None = None
+    view: str = "side"
+    apart: bool = False
+    slower: PositiveFloat = 1.0
+
+    def __post_init__(self) -> None:
+        if self.view not in VIEWS:
+            raise InputError(f"view is '{self.view}', choose one of {list(VIEWS)}")
+
+    def part(self, begin: float, end: float, usual: float) -> tuple[float, float]:
+        """What is shown of walks from `begin` to `end` [s]; from `usual` to the end if nothing is said.
+
+        Raises InputError for times outside the walks.
+        """
+        start = usual if self.start is None else self.start
+        stop = end if self.stop is None else self.stop
+        if not begin <= start < stop <= end:
+            raise InputError(
+                f"the part from {start:g} to {stop:g} s was asked for, expected a part of the walk, which "
+                f"lasts from {begin:g} to {end:g} s"
+            )
+        return start, stop
 
 
 class Recorded(Protocol):

@@ -28,9 +28,9 @@ from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.scenario.dotted import merged, nested
 from biped_adrc.scenario.scenario import ObserverRecord, Scenario
 from biped_adrc.view.meshcat import objects as draw
-from biped_adrc.view.meshcat.view import Look, captions, scene_settings
+from biped_adrc.view.meshcat.view import captions, scene_settings
 from biped_adrc.view.pages import with_viewer
-from biped_adrc.view.placement import WalkScene
+from biped_adrc.view.placement import Clip, WalkScene
 from biped_adrc.view.style import TORQUE
 
 FIRST = Scenario("ADRC", hardware={"profile": "ideal", "torque_limit": 150.0})
@@ -163,7 +163,7 @@ def settings(walk: PageWalk, scene: WalkScene) -> dict[str, object]:
     most        force [N] and torque [N m] of a hand
     """
     biped = walk.walker.plant
-    given = scene_settings({"walk": scene, "ghost": scene}, Look(solid="walk"))
+    given = scene_settings({"walk": scene, "ghost": scene}, Clip())
     commands = given["commands"]
     assert isinstance(commands, list)
     robot = "meshcat/robots/walk"

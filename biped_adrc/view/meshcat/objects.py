@@ -24,12 +24,12 @@ from typing import Protocol
 import numpy as np
 import umsgpack  # type: ignore[import-untyped]
 from matplotlib.colors import to_hex
-from numpy.typing import NDArray
 
 from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.urdf import Joint, Tree, Visual
 from biped_adrc.view.placement import TILE, WalkScene, joint_transform, legs, spokes, turn
+from biped_adrc.view.style import bent_arrow
 
 with warnings.catch_warnings():
     # meshcat 0.3.2 imports a deprecated module of pyzmq for the server that is not used here
@@ -196,31 +196,12 @@ def add_ring(node: SceneNode, origin: Sequence[float], rgb: Colour, opacity: flo
     The player scales its node `turn` by the torque; a negative one turns it round.
     """
     node.set_transform(shift(origin))
-    vertices, faces = ring_mesh()
-    node["turn"]["body"].set_object(
-        shapes.TriangularMeshGeometry(vertices, faces), paint(rgb, opacity)
-    )
-
-
-def ring_mesh(width: float = 0.12, segments: int = 40) -> tuple[Array, NDArray[np.int_]]:
-    """Vertices (V, 3) and faces (F, 3) of a flat bent arrow over 300 degrees, its head at the end."""
-    angle = np.linspace(math.radians(-60.0), math.radians(200.0), segments)
-    rim = np.column_stack((np.cos(angle), np.zeros(segments), np.sin(angle)))
-    vertices = np.vstack(((1.0 - width) * rim, (1.0 + width) * rim))
-    k = np.arange(segments - 1)
-    faces = np.vstack(
-        (
-            np.column_stack((k, k + 1, k + segments)),
-            np.column_stack((k + 1, k + 1 + segments, k + segments)),
-        )
-    )
-    end, tip = angle[-1], math.radians(240.0)
-    head = [
-        [r * math.cos(a), 0.0, r * math.sin(a)]
-        for r, a in ((1.0 - 2.5 * width, end), (1.0 + 2.5 * width, end), (1.0, tip))
-    ]
-    faces = np.vstack((faces, [[len(vertices), len(vertices) + 1, len(vertices) + 2]]))
-    return np.vstack((vertices, head)), faces
+    outline = bent_arrow(1.0)
+    last, n = len(outline) - 1, len(outline) // 2 - 1  # point k of the outer rim is beside last - k
+    k = np.arange(n - 1)
+    rim = np.column_stack((last - k, last - k - 1, k, last - k - 1, k + 1, k)).reshape(-1, 3)
+    mesh = np.insert(outline, 1, 0.0, axis=1), np.vstack((rim, (n + 2, n, n + 1)))
+    node["turn"]["body"].set_object(shapes.TriangularMeshGeometry(*mesh), paint(rgb, opacity))
 
 
 def add_ground(node: SceneNode, scenes: Sequence[WalkScene], depth: float, lane: float) -> None:
