@@ -22,6 +22,7 @@ in the walk.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -109,15 +110,20 @@ def turn(axis: tuple[float, float, float], angle: float) -> Array:
     return np.eye(3) + math.sin(angle) * K + (1.0 - math.cos(angle)) * (K @ K)
 
 
+def placed(origin: Sequence[float] | Array = (0.0, 0.0, 0.0), R: Array | None = None) -> Array:
+    """Placement (4, 4) at `origin` (3,) [m], turned by R (3, 3)."""
+    M = np.eye(4)
+    M[:3, 3] = origin
+    M[:3, :3] = np.eye(3) if R is None else R
+    return M
+
+
 def joint_transform(joint: Joint, value: float) -> Array:
     """Placement (4, 4) of the child link in its parent; value [rad] or [m], ignored when fixed."""
-    M = np.eye(4)
-    M[:3, 3] = joint.origin
     if joint.type == "revolute":
-        M[:3, :3] = turn(joint.axis, value)
-    elif joint.type == "prismatic":
-        M[:3, 3] += value * np.array(joint.axis)
-    return M
+        return placed(joint.origin, turn(joint.axis, value))
+    moved = value if joint.type == "prismatic" else 0.0
+    return placed(joint.origin + moved * np.array(joint.axis))
 
 
 def link_placements(tree: Tree, values: dict[str, float]) -> dict[str, Array]:
@@ -309,13 +315,21 @@ class WalkScene:
         ends = [arc.t[-1] for arc in self.trajectory.arcs]
         return min(int(np.searchsorted(ends, t, side="right")), len(ends) - 1)
 
-    def joints(self, t: float) -> dict[str, float]:
-        """Joint values of the URDF [rad], [m] at t [s]; before and after the run, those of its ends."""
+    def posture(self, t: float) -> tuple[int, Array]:
+        """Index of the arc shown at t [s], and q (n,) [rad]; before and after the run, those of its ends."""
         t = min(max(t, self.trajectory.t_start), self.trajectory.t_end)
         i = self.arc_at(t)
-        arc = self.trajectory.arcs[i]
-        q = arc(t)[: self.biped.n]
-        return joint_values(self.biped, q, arc.mode.step, *self.foot(i, t))
+        return i, self.trajectory.arcs[i](t)[: self.biped.n]
+
+    def joints(self, t: float) -> dict[str, float]:
+        """Joint values of the URDF [rad], [m] at t [s]."""
+        i, q = self.posture(t)
+        return joint_values(self.biped, q, self.trajectory.arcs[i].mode.step, *self.foot(i, t))
+
+    def points(self, i: int, t: float, q: Array) -> Array:
+        """(4,), x and z [m] of the hip and of the swing foot at q (n,) [rad] in arc i at t [s]."""
+        ends = np.concatenate((self.biped.hip(q), self.biped.swing_foot(q)))
+        return ends + np.tile(self.foot(i, t), 2)
 
 
 class DrawnLoads(NamedTuple):

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import base64
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -27,6 +27,7 @@ from biped_adrc.view.placement import (
     ending,
     exchanged,
     is_wheel,
+    placed,
 )
 from biped_adrc.view.style import (
     LONGEST,
@@ -90,21 +91,19 @@ def scene_settings(
     has none.
 
         walks       for each walk what `_add_walk` says, its name, its end [s] and how it ended
-        leader      index of the walk the camera follows; follow: the node it follows
+        follow      the node, of the first walk, that the camera follows
         marks       (start, stop, text); fps [1/s]; start, end [s] of the slider
         view        the camera at the start; views: commands, position and target [m] of each
         commands    Meshcat's commands that build the scene
     """
     window = draw.MemoryWindow()
     viewer = window.viewer
-    names = node_names(scenes)
     described = []
     for lane, (name, scene) in enumerate(scenes.items()):
         opacity, sampled = (1.0 if lane == 0 else GHOST), (frames or {}).get(name)
         room = TRACE_POINTS if sampled is None else len(sampled.t)
-        robot = viewer[f"robots/{names[name]}"]
-        robot.set_transform(draw.shift((0.0, LANE * lane, 0.0)))
-        path = f"meshcat/robots/{names[name]}"
+        robot, path = viewer[f"robots/{lane}"], f"meshcat/robots/{lane}"
+        robot.set_transform(placed((0.0, LANE * lane, 0.0)))
         over = {"name": name, "end": scene.trajectory.t_end, "ending": ending(scene.trajectory)}
         data = {} if sampled is None else {"data": _packed(sampled)}
         described.append(over | _add_walk(robot, path, scene, opacity, room) | data)
@@ -116,23 +115,15 @@ def scene_settings(
     scale = max(1.0, SideView(solid).height / TALL)
     return {
         "walks": described,
-        "leader": 0,
-        "follow": f"meshcat/robots/{next(iter(names.values()))}/{draw.joint_path(tree, base_x)}",
+        "follow": f"meshcat/robots/0/{draw.joint_path(tree, base_x)}",
         "marks": [list(mark) for mark in marks],
         "fps": clip.fps or FPS,
         "start": min(scene.trajectory.t_start for scene in scenes.values()),
         "end": max(scene.trajectory.t_end for scene in scenes.values()),
         "view": clip.view,
-        "views": {kind: _view(kind, scale) for kind in VIEWS},
+        "views": {kind: draw.camera(kind, scale) for kind in VIEWS},
         "commands": window.packed,
     }
-
-
-def _view(kind: str, scale: float) -> dict[str, object]:
-    """A camera: its commands, position and target [m]."""
-    window = draw.MemoryWindow(kind)
-    position, target = draw.set_camera(window.viewer, kind, scale)
-    return {"commands": window.packed, "position": position, "target": target}
 
 
 def _add_walk(
@@ -208,17 +199,6 @@ def _add_ring(robot: draw.SceneNode, biped: Biped, name: str, opacity: float) ->
     origin = inertial.com if torso and inertial is not None else (0.0, 0.0, 0.0)
     draw.add_ring(robot[path], origin, TORQUE, opacity)
     return path
-
-
-def node_names(names: Iterable[str]) -> dict[str, str]:
-    """Each name as it may stand in a path of the scene (letters, digits, underscores); no two alike."""
-    result: dict[str, str] = {}
-    for name in names:
-        plain = "".join(c if c.isalnum() else "_" for c in name) or "walk"
-        while plain in result.values():
-            plain += "_"
-        result[name] = plain
-    return result
 
 
 def captions(scenes: Mapping[str, WalkScene]) -> list[tuple[str, str]]:
