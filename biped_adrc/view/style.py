@@ -4,7 +4,7 @@ The colours are the palette of Okabe and Ito, which readers with any colour visi
 points and bars have a dash, marker or hatch besides their colour, so that figures can also be read in grey.
 Sizes of arrows are here too, as the views from the side and in Meshcat share them.
 
-Figures are `matplotlib.figure.Figure` objects made inside `with style():`; pyplot and its global
+Figures are `matplotlib.figure.Figure` objects made by `with new_figure(..) as figure:`; pyplot and its global
 state are not used, so a notebook's own settings are not changed, and do not change the figures.
 """
 
@@ -67,9 +67,16 @@ def style() -> Iterator[None]:
         yield
 
 
-def new_figure(width: float, height: float) -> Figure:
-    """An empty figure of width x height [inch], with the layout that keeps room for labels and legends."""
-    return Figure(figsize=(width, height), layout="constrained")
+@contextmanager
+def new_figure(width: float, height: float, title: str = "") -> Iterator[Figure]:
+    """Context with an empty figure of width x height [inch], in this package's style; its layout keeps room for
+    labels and legends.
+    """
+    with style():
+        figure = Figure(figsize=(width, height), layout="constrained")
+        if title:
+            figure.suptitle(title)
+        yield figure
 
 
 def label(axes: Axes, x: str, y: str, title: str = "") -> None:

@@ -23,7 +23,7 @@ from biped_adrc.view.from_the_side.moving_picture import encoded, write_moving_p
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.from_the_side.stick_figures import strip
 from biped_adrc.view.placement import Clip, WalkScene, ending
-from biped_adrc.view.style import new_figure, style
+from biped_adrc.view.style import new_figure
 
 
 def test_lines_are_the_limbs(biped: Biped, walks: dict[str, Walk]) -> None:
@@ -135,16 +135,16 @@ def test_the_last_frame_of_a_walk_that_fell_differs_and_stays(
 
 
 def test_a_strip_says_how_a_walk_ended(walks: dict[str, Walk]) -> None:
-    with style():
-        axes = new_figure(6.0, 4.0).subplots()
+    with new_figure(6.0, 4.0) as figure:
+        axes = figure.subplots()
         strip(axes, fallen(walks["NPD"], Status.STALLED, "step_too_long"), Clip())
     assert "stalled at" in axes.get_title(loc="left")
-    with style():
-        axes = new_figure(6.0, 4.0).subplots()
+    with new_figure(6.0, 4.0) as figure:
+        axes = figure.subplots()
         strip(axes, walks["NPD"], Clip(0.0, 1.2))
     assert axes.get_title(loc="left") == "a pose every 100 ms"
-    with style():
-        axes = new_figure(6.0, 4.0).subplots()
+    with new_figure(6.0, 4.0) as figure:
+        axes = figure.subplots()
         strip(axes, fallen(walks["NPD"], Status.STALLED, "step_too_long"), Clip(0.1, 0.4))
     assert "stalled" not in axes.get_title(loc="left")
 

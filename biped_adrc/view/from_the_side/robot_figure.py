@@ -20,7 +20,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.urdf import Visual
 from biped_adrc.view.placement import joint_values, link_placements
-from biped_adrc.view.style import GREY, PALETTE, label, literal, new_figure, style
+from biped_adrc.view.style import GREY, PALETTE, label, literal, new_figure
 
 POSE = (3.5, 4.05, -0.5, -0.75, -0.32)
 """q1..q5 [rad] of a posture in which no mark covers another."""
@@ -37,8 +37,7 @@ def robot_figure(biped: Biped, q: Array | None = None) -> Figure:
     if biped.n != 5:
         raise InputError(f"figure 1 shows a biped of 5 coordinates, found {biped.n}")
     q = np.array(POSE) if q is None else np.asarray(q, dtype=float)
-    with style():
-        figure = new_figure(6.0, 6.6)
+    with new_figure(6.0, 6.6) as figure:
         axes = figure.subplots()
         _ground(axes, biped, q)
         _links(axes, biped, q)

@@ -21,7 +21,6 @@ from biped_adrc.view.style import (
     label,
     literal,
     new_figure,
-    style,
     write_figure,
 )
 
@@ -107,7 +106,6 @@ def _ground(axes: Axes, view: SideView, start: float, stop: float) -> None:
 
 def write_strip(path: Path, walk: Recorded, clip: Clip) -> None:
     """Write a strip as .png or .svg; arguments as for `strip`. Raises InputError and OutputError."""
-    with style():
-        figure = new_figure(6.4, 5.2)
+    with new_figure(6.4, 5.2) as figure:
         strip(figure.subplots(), walk, clip)
     write_figure(path, figure)
