@@ -19,7 +19,7 @@ from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.stored import load_walk
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.placement import WalkScene, link_placements
-from biped_adrc.view.plots import friction_cone
+from biped_adrc.view.plots.over_time import friction_cone
 
 from .pinocchio_view import floating
 

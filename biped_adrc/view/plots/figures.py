@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.types import Array
-from biped_adrc.view import plots
+from biped_adrc.view.plots import comparison, over_time, stability
 from biped_adrc.view.plots.over_time import Window
 from biped_adrc.view.style import new_figure
 
@@ -44,10 +44,10 @@ def tracking_figure(
     """
     p = signals.q_d.shape[1]
     halves = [half.tolist() for half in np.array_split(np.arange(p), min(2, p))]
-    angles = [partial(plots.joint_tracking, s=signals, joints=x, push=push) for x in halves]
+    angles = [partial(over_time.joint_tracking, s=signals, joints=x, push=push) for x in halves]
     below: list[Draw] = [
-        partial(plots.torques, s=signals, limit=torque_limit, push=push),
-        partial(plots.tracking_errors, s=signals, push=push),
+        partial(over_time.torques, s=signals, limit=torque_limit, push=push),
+        partial(over_time.tracking_errors, s=signals, push=push),
     ]
     size = (10.0, 7.2) if push else (7.5, 9.0)
     with new_figure(*size, _titled(title, signals, push)) as figure:
@@ -161,9 +161,9 @@ def passive_figure(signals: Signals, title: str = "", push: Window | None = None
         parts = figure.subplot_mosaic(
             [["angles", "phase"], ["energy", "phase"]], width_ratios=(3, 2)
         )
-        plots.angles(parts["angles"], signals, push).set_xlabel("")
-        plots.energy(parts["energy"], signals, push)
-        plots.phase_portrait(parts["phase"], signals)
+        over_time.angles(parts["angles"], signals, push).set_xlabel("")
+        over_time.energy(parts["energy"], signals, push)
+        over_time.phase_portrait(parts["phase"], signals)
         return figure
 
 
@@ -174,7 +174,7 @@ def phase_figure(walks: Mapping[str, Signals]) -> Figure:
     with new_figure(4.6 * len(walks), 4.2) as figure:
         row = figure.subplots(1, len(walks), squeeze=False, sharex=True, sharey=True)[0]
         for i, (axes, (name, s)) in enumerate(zip(row, walks.items(), strict=True)):
-            plots.phase_portrait(axes, s, name, i).set_title(name, loc="left")
+            over_time.phase_portrait(axes, s, name, i).set_title(name, loc="left")
         return figure
 
 
@@ -190,8 +190,8 @@ def disturbance_figure(signals: Signals, title: str = "", push: Window | None = 
         parts: Any = figure.subfigures(2, 1)
         above, below = parts
         for i, axes in enumerate(above.subplots(1, p, squeeze=False, sharex=True)[0]):
-            _zoom([plots.total_disturbance(axes, signals, i, push)], signals, push)
-        draw = partial(plots.matched_disturbance, s=signals, push=push)
+            _zoom([over_time.total_disturbance(axes, signals, i, push)], signals, push)
+        draw = partial(over_time.matched_disturbance, s=signals, push=push)
         _around_and_edges(below, below.add_gridspec(1, 4), (0,), [draw], signals, push)
         return figure
 
@@ -209,16 +209,16 @@ def ground_figure(
     shaded; the time around it is shown.
     """
     with new_figure(10.0, 4.0, _titled(title, signals, push)) as figure:
-        over_time, cone = figure.subplots(1, 2, width_ratios=(3, 2))
-        _zoom([plots.ground_reaction(over_time, signals, push, slope)], signals, push)
-        plots.friction_cone(cone, signals, mu, slope)
+        forces, cone = figure.subplots(1, 2, width_ratios=(3, 2))
+        _zoom([over_time.ground_reaction(forces, signals, push, slope)], signals, push)
+        over_time.friction_cone(cone, signals, mu, slope)
         return figure
 
 
 def energy_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
     """Kinetic, potential and total energy [J] over time [s]; around a push (start, stop) [s], shaded."""
     with new_figure(7.0, 3.4, _titled(title, signals, push)) as figure:
-        _zoom([plots.energy(figure.subplots(), signals, push)], signals, push)
+        _zoom([over_time.energy(figure.subplots(), signals, push)], signals, push)
         return figure
 
 
@@ -227,22 +227,22 @@ def multiplier_figure(
 ) -> Figure:
     """Floquet multipliers (k,), complex, by name in the unit circle, and their magnitudes in decreasing order.
 
-    published (k,): magnitudes printed in the paper, shown for comparison; see `plots.magnitudes`.
+    published (k,): magnitudes printed in the paper, shown for comparison; see `stability.magnitudes`.
     """
     with new_figure(9.5, 4.4) as figure:
         circle, sizes = figure.subplots(1, 2)
-        plots.multipliers(circle, multipliers).set_title("multipliers", loc="left")
-        plots.magnitudes(sizes, multipliers, published).set_title("magnitudes", loc="left")
+        stability.multipliers(circle, multipliers).set_title("multipliers", loc="left")
+        stability.magnitudes(sizes, multipliers, published).set_title("magnitudes", loc="left")
         return figure
 
 
 def return_map_figure(before: Array, after: Array) -> Figure:
-    """The return map of Theta' as a staircase; see `plots.staircase`.
+    """The return map of Theta' as a staircase; see `stability.staircase`.
 
     before, after (k,): Theta' before one impact and before the next [rad/s].
     """
     with new_figure(5.2, 4.8) as figure:
-        plots.staircase(figure.subplots(), before, after)
+        stability.staircase(figure.subplots(), before, after)
         return figure
 
 
@@ -255,11 +255,11 @@ def comparison_figure(walks: Mapping[str, Signals], push: Window | None = None) 
     first = next(iter(walks.values()))
     with new_figure(10.0, 5.8, _titled(" and ".join(walks), first, push)) as figure:
         spec = figure.add_gridspec(2, 4)
-        draw = partial(plots.error_over_time, walks=walks, push=push)
+        draw = partial(comparison.error_over_time, walks=walks, push=push)
         (around,), *edges = _around_and_edges(figure, spec, (0,), [draw], first, push)
         for (axes,) in edges:
             axes.set_ylim(around.get_ylim())
         sizes, motors = (figure.add_subplot(place) for place in _halves(spec, 1))
-        plots.error_sizes(sizes, walks)
-        plots.torque_sizes(motors, walks)
+        comparison.error_sizes(sizes, walks)
+        comparison.torque_sizes(motors, walks)
         return figure
