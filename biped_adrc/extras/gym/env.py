@@ -43,7 +43,7 @@ class WalkEnv(gymnasium.Env[Any, Any]):
     - scenario: `biped_adrc.Scenario`, or a condition by name ("nothing" without), on the base of
       its comparisons. values: fields of the scenario by name, such as plant, gait, push, amplitude.
     - action: "torques", all of the torque, or "added", beside that of the scenario's controller. For each motor
-      a share of its limit [N m], the scenario's where that is lower; the motors give no more than that, whatever is asked.
+      a share of its limit, the scenario's where that is lower [N m]; the motors give no more than that.
     - seconds [s]: longest walk. alive, tracking, effort: weights of the reward (`task.LearnerTask`).
     - render_mode: "rgb_array"; with "human" `gymnasium.make` shows these pictures in a window of pygame's.
 
