@@ -13,15 +13,15 @@ from biped_adrc.gait.gait import load_gait
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.view.from_the_side.moving_parts import Motion
 from biped_adrc.view.from_the_side.moving_picture import write_moving_picture
+from biped_adrc.view.placement import Clip
 from biped_adrc.view.plots.zero_dynamics import zero_dynamics_figure
 from biped_adrc.view.style import render
 
 IMAGES = Path(__file__).resolve().parent / "images"
 PUSH = "q1,q2=-150@4:0.3-0.5"
 """A push on both hips under which NPD falls and ADRC walks on, each step of it feasible."""
-MOTION = Motion(apart=True, slower=2.0, fps=16.0, width=800)
+CLIP = Clip(start=1.95, stop=3.62, fps=16.0, apart=True, slower=2.0)
 TOP, BOTTOM, WORDS = 75, 545, (0, 40, 800, 58)
 """[px], of a frame: names and robots alone, without legend, curves and the line of errors."""
 
@@ -32,7 +32,7 @@ def push_picture(path: Path) -> None:
     walks = {name: walk_scenario(Scenario(name, **values)) for name in ("NPD", "ADRC")}
     assert walks["ADRC"].feasibility.outcome == "feasible"
     assert walks["NPD"].feasibility.outcome == "fell"
-    write_moving_picture(path, walks, start=1.95, stop=3.62, motion=MOTION)
+    write_moving_picture(path, walks, CLIP)
     with Image.open(path) as picture:
         frames = []
         for i in range(picture.n_frames):

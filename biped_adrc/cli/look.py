@@ -28,7 +28,8 @@ def animate(
 ) -> None:
     """Write the walk as a page, a picture or a strip."""
     from biped_adrc.scenario.stored import load_walks
-    from biped_adrc.view.export import SUFFIXES, Clip, export
+    from biped_adrc.view.export import SUFFIXES, export
+    from biped_adrc.view.placement import Clip
 
     runs, clip = [run, *(ghost or [])], with_sets(Clip, sets, start=start, stop=stop)
     out = target(out, SUFFIXES, runs)

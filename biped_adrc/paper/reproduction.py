@@ -33,7 +33,7 @@ from biped_adrc.paper.tables import tables
 from biped_adrc.paper.verdict import tally, texts
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.stored import replay
-from biped_adrc.view.meshcat.view import Look, animation_html
+from biped_adrc.view.meshcat.view import animation_html
 from biped_adrc.view.pages import write_report
 
 WRITTEN = (".html", ".json", ".npz", ".png", ".svg")
@@ -126,4 +126,4 @@ def _settings(plan: Plan) -> dict[str, object]:
 def _animate(walks: dict[str, Walk], r: Results) -> str:
     """The animation of both headline runs as one HTML page, with the window of the push marked."""
     window = push_window(r.headline["NPD"].signals)
-    return animation_html(walks, Look("ADRC", [] if window is None else [(*window, "push")]))
+    return animation_html(walks, marks=[] if window is None else [(*window, "push")])

@@ -317,7 +317,8 @@ class Walk(Shown):
 
         view: "side" (orthographic) or "perspective", of the page. Raises InputError and OutputError.
         """
-        from biped_adrc.view.export import Clip, export
+        from biped_adrc.view.export import export
+        from biped_adrc.view.placement import Clip
 
         export(Path(path), {self.controller_name: self}, Clip(view=view))
 

@@ -11,19 +11,16 @@ the three takes of it what it can use, and options that it has no use for are re
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import write_text
-from biped_adrc.view.from_the_side.moving_parts import Motion
 from biped_adrc.view.from_the_side.moving_picture import write_moving_picture
 from biped_adrc.view.from_the_side.stick_figures import write_strip
-from biped_adrc.view.meshcat.view import Look, animation_html
-from biped_adrc.view.placement import Recorded
+from biped_adrc.view.meshcat.view import animation_html
+from biped_adrc.view.placement import Clip, Recorded
 
-GIF = ".gif"
-SUFFIXES = (".html", GIF, ".png", ".svg")
+SUFFIXES = (".html", ".gif", ".png", ".svg")
 """Kinds of files a walk can be drawn to."""
 
 
@@ -41,42 +38,6 @@ def check_suffix(path: Path) -> str:
     return suffix
 
 
-@dataclass(frozen=True)
-class Clip:
-    """What part of the walks is shown, and how; None leaves the choice to the kind of file.
-
-    start, stop [s]: the part shown in a moving picture or a strip; None: the whole walk, or its
-    last two steps for a strip.
-    fps [1/s]: frames per second; None: 60 for a page and 25 for a moving picture.
-    view: camera of a page, "side" or "perspective"; all else is from the side.
-    apart: moving picture with the walks side by side and their errors below, instead of over one
-    another.
-    slower [1]: how many times slower than the walk a moving picture plays.
-    """
-
-    start: float | None = None
-    stop: float | None = None
-    fps: float | None = None
-    view: str = "side"
-    apart: bool = False
-    slower: float = 1.0
-
-    @property
-    def moving(self) -> bool:
-        """Whether something is asked for that only a moving picture has: apart or slower."""
-        return self.apart or self.slower != 1.0
-
-    def look(self) -> Look:
-        """The settings of a page."""
-        return Look(fps=60.0 if self.fps is None else self.fps, view=self.view)
-
-    def motion(self) -> Motion:
-        """The settings of a moving picture. Raises InputError for values that do not fit."""
-        fps = 25.0 if self.fps is None else self.fps
-        width = 800 if self.apart else 600
-        return Motion(self.apart, self.slower, fps, width)
-
-
 def export(path: Path, walks: Mapping[str, Recorded], clip: Clip | None = None) -> None:
     """Write the walks to `path`, as its suffix says; a strip shows the last of them.
 
@@ -87,15 +48,15 @@ def export(path: Path, walks: Mapping[str, Recorded], clip: Clip | None = None) 
     suffix = check_suffix(path)
     if not walks:
         raise InputError("there is no walk to draw; expected at least one")
-    if suffix != GIF and clip.moving:
+    if suffix != ".gif" and (clip.apart or clip.slower != 1.0):
         raise InputError(
             f"'{path}' is no moving picture, and apart and slower are of one; write a .gif"
         )
     if suffix != ".html" and clip.view != "side":
         raise InputError(f"'{path}' is seen from the side; view '{clip.view}' is of a page (.html)")
     if suffix == ".html":
-        write_text(path, animation_html(walks, clip.look()))
-    elif suffix == GIF:
-        write_moving_picture(path, walks, start=clip.start, stop=clip.stop, motion=clip.motion())
+        write_text(path, animation_html(walks, clip))
+    elif suffix == ".gif":
+        write_moving_picture(path, walks, clip)
     else:
-        write_strip(path, list(walks.values())[-1], clip.start, clip.stop)
+        write_strip(path, list(walks.values())[-1], clip)

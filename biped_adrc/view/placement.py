@@ -22,6 +22,7 @@ in the walk.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -34,6 +35,7 @@ from biped_adrc.analysis import soft_steps as meters
 from biped_adrc.analysis.recorded_signals import FORCE, PLACE, SPEED, footholds
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.core.checks import Checked, PositiveFloat
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
@@ -46,6 +48,8 @@ MOST_FRAMES = 200_000
 """Of a page or a moving picture: an hour at 50 in a second."""
 TILE = 0.5
 """[m], along x, of the light and dark tiles."""
+VIEWS = ("side", "perspective")
+"""Cameras: "side" is orthographic, so lengths can be compared anywhere in the picture."""
 
 
 class Tile(NamedTuple):
@@ -106,15 +110,20 @@ def turn(axis: tuple[float, float, float], angle: float) -> Array:
     return np.eye(3) + math.sin(angle) * K + (1.0 - math.cos(angle)) * (K @ K)
 
 
+def placed(origin: Sequence[float] | Array = (0.0, 0.0, 0.0), R: Array | None = None) -> Array:
+    """Placement (4, 4) at `origin` (3,) [m], turned by R (3, 3)."""
+    M = np.eye(4)
+    M[:3, 3] = origin
+    M[:3, :3] = np.eye(3) if R is None else R
+    return M
+
+
 def joint_transform(joint: Joint, value: float) -> Array:
     """Placement (4, 4) of the child link in its parent; value [rad] or [m], ignored when fixed."""
-    M = np.eye(4)
-    M[:3, 3] = joint.origin
     if joint.type == "revolute":
-        M[:3, :3] = turn(joint.axis, value)
-    elif joint.type == "prismatic":
-        M[:3, 3] += value * np.array(joint.axis)
-    return M
+        return placed(joint.origin, turn(joint.axis, value))
+    moved = value if joint.type == "prismatic" else 0.0
+    return placed(joint.origin + moved * np.array(joint.axis))
 
 
 def link_placements(tree: Tree, values: dict[str, float]) -> dict[str, Array]:
@@ -191,6 +200,47 @@ def joint_values(
     return values
 
 
+@dataclass(frozen=True)
+class Clip(Checked):
+    """What part of the walks is shown, and how; None leaves the choice to the kind of picture.
+
+    start, stop [s]: the part shown in a moving picture or a strip; None: the whole walk, or its
+    last two steps for a strip.
+    fps [1/s]: frames per second; None: 60 for a page and 25 for a moving picture.
+    view: camera of a page at the start, one of `VIEWS`; all else is from the side.
+    apart: moving picture with the walks side by side and their errors below, instead of over one
+    another.
+    slower [1]: how many times slower than the walk a moving picture plays.
+
+    Raises InputError for values that do not fit.
+    """
+
+    start: float | None = None
+    stop: float | None = None
+    fps: PositiveFloat | None = None
+    view: str = "side"
+    apart: bool = False
+    slower: PositiveFloat = 1.0
+
+    def __post_init__(self) -> None:
+        if self.view not in VIEWS:
+            raise InputError(f"view is '{self.view}', choose one of {list(VIEWS)}")
+
+    def part(self, begin: float, end: float, usual: float) -> tuple[float, float]:
+        """What is shown of walks from `begin` to `end` [s]; from `usual` to the end if nothing is said.
+
+        Raises InputError for times outside the walks.
+        """
+        start = usual if self.start is None else self.start
+        stop = end if self.stop is None else self.stop
+        if not begin <= start < stop <= end:
+            raise InputError(
+                f"the part from {start:g} to {stop:g} s was asked for, expected a part of the walk, which "
+                f"lasts from {begin:g} to {end:g} s"
+            )
+        return start, stop
+
+
 class Recorded(Protocol):
     """What a drawing needs of a walk; `scenario.recording.Walk` is one.
 
@@ -265,13 +315,21 @@ class WalkScene:
         ends = [arc.t[-1] for arc in self.trajectory.arcs]
         return min(int(np.searchsorted(ends, t, side="right")), len(ends) - 1)
 
-    def joints(self, t: float) -> dict[str, float]:
-        """Joint values of the URDF [rad], [m] at t [s]; before and after the run, those of its ends."""
+    def posture(self, t: float) -> tuple[int, Array]:
+        """Index of the arc shown at t [s], and q (n,) [rad]; before and after the run, those of its ends."""
         t = min(max(t, self.trajectory.t_start), self.trajectory.t_end)
         i = self.arc_at(t)
-        arc = self.trajectory.arcs[i]
-        q = arc(t)[: self.biped.n]
-        return joint_values(self.biped, q, arc.mode.step, *self.foot(i, t))
+        return i, self.trajectory.arcs[i](t)[: self.biped.n]
+
+    def joints(self, t: float) -> dict[str, float]:
+        """Joint values of the URDF [rad], [m] at t [s]."""
+        i, q = self.posture(t)
+        return joint_values(self.biped, q, self.trajectory.arcs[i].mode.step, *self.foot(i, t))
+
+    def points(self, i: int, t: float, q: Array) -> Array:
+        """(4,), x and z [m] of the hip and of the swing foot at q (n,) [rad] in arc i at t [s]."""
+        ends = np.concatenate((self.biped.hip(q), self.biped.swing_foot(q)))
+        return ends + np.tile(self.foot(i, t), 2)
 
 
 class DrawnLoads(NamedTuple):

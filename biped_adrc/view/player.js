@@ -1,6 +1,6 @@
 // Plays walks at any time t, from the data of the page; scene.js draws them.
 const robots = scene.walks.map((walk) => new Robot(walk));
-const leader = robots[scene.leader];
+const leader = robots[0];
 
 // -- time ------------------------------------------------------------------------------------------
 const animator = viewer.animator;
@@ -31,7 +31,7 @@ function tell(words) {
 function show(t, poses) {
   animator.time = t;
   robots.forEach((robot, k) => robot.show(poses[k]));
-  describe(t, poses[scene.leader]);
+  describe(t, poses[0]);
   viewer.set_dirty();
 }
 animator.seek = (t) => {

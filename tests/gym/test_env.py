@@ -176,6 +176,7 @@ WRONG = (
     {"hardware.period": None},
     {"controller": "NPD"},
     {"seconds": 0.0},
+    {"alive": -1.0},
     {"effort": 2.0},
     {"scenario": ba.Scenario(), "condition": "delay"},
 )

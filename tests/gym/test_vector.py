@@ -62,8 +62,6 @@ def test_how_many_they_are_changes_no_bit():
 
 
 def test_what_is_no_vector_is_refused():
-    with pytest.raises(InputError, match="no window"):
-        made(2, render_mode="human")
     envs = made(2)
     envs.reset(seed=0)
     with pytest.raises(InputError, match=r"shape \(4,\), expected \(2, 4\)"):

@@ -66,12 +66,12 @@ def test_links_are_where_pinocchio_puts_them(
         for name, walk in walks.items():
             laid_out = WalkScene.of(walk)
             expected = floating(biped, laid_out.joints(float(t)))
-            lane = 0.0 if name == solid else 0.4
+            lane = 0 if name == solid else 1
             for joint in biped.tree.joints:
-                path = f"meshcat/robots/{name}/{joint_path(biped.tree, joint)}"
+                path = f"meshcat/robots/{lane}/{joint_path(biped.tree, joint)}"
                 drawn = world(browser, path)
                 there = expected[joint.child].copy()
-                there[1, 3] += lane
+                there[1, 3] += 0.4 * lane
                 np.testing.assert_allclose(drawn, there, atol=1e-5, err_msg=f"{path}, t = {t}")
 
 

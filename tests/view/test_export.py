@@ -18,14 +18,12 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Event
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.recording import Walk
-from biped_adrc.view.export import Clip, export
-from biped_adrc.view.from_the_side import gif
-from biped_adrc.view.from_the_side.moving_parts import Motion
-from biped_adrc.view.from_the_side.moving_picture import write_moving_picture
+from biped_adrc.view.export import export
+from biped_adrc.view.from_the_side.moving_picture import encoded, write_moving_picture
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.from_the_side.stick_figures import strip
-from biped_adrc.view.placement import WalkScene, ending
-from biped_adrc.view.style import new_figure, style
+from biped_adrc.view.placement import Clip, WalkScene, ending
+from biped_adrc.view.style import new_figure
 
 
 def test_lines_are_the_limbs(biped: Biped, walks: dict[str, Walk]) -> None:
@@ -44,13 +42,11 @@ def test_lines_are_the_limbs(biped: Biped, walks: dict[str, Walk]) -> None:
 
 def test_gif(walks: dict[str, Walk], tmp_path: Path) -> None:
     for name in ("a.gif", "b.gif"):
-        write_moving_picture(
-            tmp_path / name, walks, start=0.1, stop=0.5, motion=Motion(fps=20.0, width=300)
-        )
+        write_moving_picture(tmp_path / name, walks, Clip(0.1, 0.5, fps=20.0))
     assert (tmp_path / "a.gif").read_bytes() == (tmp_path / "b.gif").read_bytes()
     with Image.open(tmp_path / "a.gif") as image:
         assert image.n_frames == 8
-        assert image.size[0] == 300
+        assert image.size[0] == 600
         assert image.info["duration"] == 50
         assert image.info["loop"] == 0
         frames = []
@@ -73,12 +69,13 @@ def test_export_goes_by_the_suffix(walks: dict[str, Walk], tmp_path: Path) -> No
         ("walk.gif", {}, clip),
         ("walk.gif", walks, Clip(fps=100.0)),
         ("walk.gif", walks, Clip(start=0.5, stop=0.1)),
-        ("walk.gif", walks, Clip(slower=0.0)),
         ("walk.html", walks, Clip(apart=True)),
         ("walk.png", walks, Clip(view="perspective")),
     ):
         with pytest.raises(InputError):
             export(tmp_path / name, shown, wrong)
+    with pytest.raises(InputError, match="positive"):
+        Clip(slower=0.0)
 
 
 @pytest.mark.parametrize("fps", [0.1, 29.97, 45.0])
@@ -87,7 +84,7 @@ def test_a_gif_goes_at_the_pace_that_is_asked_for(fps: float) -> None:
     frames = [np.full((20, 60, 3), 255, dtype=np.uint8) for _ in range(40)]
     for k, frame in enumerate(frames):
         frame[5:15, k : k + 15] = 0
-    with Image.open(io.BytesIO(gif.encoded(frames, fps, 2.0))) as image:
+    with Image.open(io.BytesIO(encoded(frames, fps, 2.0))) as image:
         durations = []
         for k in range(image.n_frames):
             image.seek(k)
@@ -128,7 +125,7 @@ def test_the_last_frame_of_a_walk_that_fell_differs_and_stays(
     frames, durations = {}, {}
     for status in (Status.COMPLETED, Status.FELL):
         walk, path = fallen(walks["NPD"], status, "hip_too_low"), tmp_path / f"{status.name}.gif"
-        write_moving_picture(path, {"NPD": walk}, start=end - 0.2, motion=Motion(fps=10.0))
+        write_moving_picture(path, {"NPD": walk}, Clip(end - 0.2, fps=10.0))
         with Image.open(path) as image:
             frames[status] = image.n_frames
             image.seek(image.n_frames - 1)
@@ -138,17 +135,17 @@ def test_the_last_frame_of_a_walk_that_fell_differs_and_stays(
 
 
 def test_a_strip_says_how_a_walk_ended(walks: dict[str, Walk]) -> None:
-    with style():
-        axes = new_figure(6.0, 4.0).subplots()
-        strip(axes, fallen(walks["NPD"], Status.STALLED, "step_too_long"))
+    with new_figure(6.0, 4.0) as figure:
+        axes = figure.subplots()
+        strip(axes, fallen(walks["NPD"], Status.STALLED, "step_too_long"), Clip())
     assert "stalled at" in axes.get_title(loc="left")
-    with style():
-        axes = new_figure(6.0, 4.0).subplots()
-        strip(axes, walks["NPD"], 0.0, 1.2)
+    with new_figure(6.0, 4.0) as figure:
+        axes = figure.subplots()
+        strip(axes, walks["NPD"], Clip(0.0, 1.2))
     assert axes.get_title(loc="left") == "a pose every 100 ms"
-    with style():
-        axes = new_figure(6.0, 4.0).subplots()
-        strip(axes, fallen(walks["NPD"], Status.STALLED, "step_too_long"), 0.1, 0.4)
+    with new_figure(6.0, 4.0) as figure:
+        axes = figure.subplots()
+        strip(axes, fallen(walks["NPD"], Status.STALLED, "step_too_long"), Clip(0.1, 0.4))
     assert "stalled" not in axes.get_title(loc="left")
 
 

@@ -22,8 +22,8 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.paper.figures import NAMES, draw
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.walk import walk as walk_of
-from biped_adrc.view import plots
 from biped_adrc.view.from_the_side.robot_figure import robot_figure
+from biped_adrc.view.plots import comparison, over_time
 from biped_adrc.view.style import render
 
 
@@ -56,44 +56,42 @@ def drawn_lines(axes: Axes) -> dict[str, np.ndarray]:
 def test_plots_draw_the_signals_on_axes_of_ones_own(pushed: dict[str, Walk]) -> None:
     s = pushed["ADRC"].signals
     axes = axes_of_my_own()
-    assert plots.joint_tracking(axes, s, [0, 2]) is axes
+    assert over_time.joint_tracking(axes, s, [0, 2]) is axes
     assert set(drawn_lines(axes)) == {"$q_1$ stance hip", "$q_3$ stance knee", "references"}
     np.testing.assert_array_equal(drawn_lines(axes)["$q_3$ stance knee"], s.q[:, 2])
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("time [s]", "angle [rad]")
-    with pytest.raises(InputError, match="from 0 to 3"):
-        plots.joint_tracking(axes, s, [4])
 
-    axes = plots.torques(axes_of_my_own(), s, limit=150.0, push=(0.5, 0.7))
+    axes = over_time.torques(axes_of_my_own(), s, limit=150.0, push=(0.5, 0.7))
     assert set(drawn_lines(axes)) == {"$u_1$", "$u_2$", "$u_3$", "$u_4$", "limit 150 N m"}
     np.testing.assert_array_equal(drawn_lines(axes)["$u_4$"], s.u[:, 3])
     assert axes.get_ylabel() == "torque [N m]"
     assert "push" in axes.get_legend_handles_labels()[1]
 
-    axes = plots.tracking_errors(axes_of_my_own(), s)
+    axes = over_time.tracking_errors(axes_of_my_own(), s)
     unit = {"rad": 1.0, "mrad": 1e3, "µrad": 1e6, "nrad": 1e9}[axes.get_ylabel()[16:-1]]
     np.testing.assert_allclose(drawn_lines(axes)["$q_2$"], unit * s.error[:, 1])
 
-    axes = plots.energy(axes_of_my_own(), s)
+    axes = over_time.energy(axes_of_my_own(), s)
     lines = drawn_lines(axes)
     np.testing.assert_allclose(lines["kinetic"] + lines["potential"], lines["total"])
     assert lines["potential"].min() == 0.0
     assert axes.get_ylabel() == "energy [J]"
 
-    axes = plots.phase_portrait(axes_of_my_own(), s)
+    axes = over_time.phase_portrait(axes_of_my_own(), s)
     np.testing.assert_array_equal(drawn_lines(axes)["walk"], s.dtheta)
 
 
 def test_the_friction_cone_has_its_slope(pushed: dict[str, Walk]) -> None:
     s = pushed["NPD"].signals
-    axes = plots.friction_cone(axes_of_my_own(), s, mu=0.5)
+    axes = over_time.friction_cone(axes_of_my_own(), s, mu=0.5)
     edge = next(x for x in axes.get_lines() if x.get_label() == "cone, $\\mu$ = 0.5")
     (x0, x1), (y0, y1) = edge.get_data()
     assert (x1 - x0) / (y1 - y0) == pytest.approx(0.5)
     np.testing.assert_array_equal(drawn_lines(axes)["ground reaction"], s.ground_reaction[:, 1])
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("$F_T$ [N]", "$F_N$ [N]")
     with pytest.raises(InputError, match="positive"):
-        plots.friction_cone(axes, s, mu=0.0)
-    axes = plots.ground_reaction(axes_of_my_own(), s)
+        over_time.friction_cone(axes, s, mu=0.0)
+    axes = over_time.ground_reaction(axes_of_my_own(), s)
     np.testing.assert_array_equal(drawn_lines(axes)["$F_T$"], s.ground_reaction[:, 0])
 
 
@@ -103,7 +101,7 @@ def test_the_size_of_a_sine_is_its_amplitude_and_that_over_the_root_of_two(
     t = np.linspace(0.0, 1.0, 1001)
     error = 0.02 * np.sin(2 * np.pi * 5 * t)
     sine = replace(pushed["NPD"].signals, t=t, error=np.column_stack((error, -error, error, error)))
-    axes = plots.error_sizes(axes_of_my_own(), {"NPD": sine})
+    axes = comparison.error_sizes(axes_of_my_own(), {"NPD": sine})
     np.testing.assert_allclose(
         axes.get_lines()[0].get_ydata(), [0.02, 0.02 / np.sqrt(2)], rtol=1e-4
     )
@@ -141,7 +139,7 @@ def test_robot_figure_marks_everything_and_labels_stay_apart(biped: Biped) -> No
 
 @pytest.mark.parametrize("mu", [0.3, 0.6])
 def test_the_cone_is_filled_between_its_edges(pushed: dict[str, Walk], mu: float) -> None:
-    axes = plots.friction_cone(axes_of_my_own(), pushed["NPD"].signals, mu=mu)
+    axes = over_time.friction_cone(axes_of_my_own(), pushed["NPD"].signals, mu=mu)
     corners = axes.patches[0].get_xy()
     for x, z in corners[1:3]:
         assert abs(x) / z == pytest.approx(mu)

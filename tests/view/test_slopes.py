@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 import biped_adrc as ba
 from biped_adrc.control.reference_reset import ReferenceReset
@@ -18,8 +19,7 @@ from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.stored import load_walk
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.placement import WalkScene, link_placements
-from biped_adrc.view.plots import friction_cone
-from biped_adrc.view.style import new_figure
+from biped_adrc.view.plots.over_time import friction_cone
 
 from .pinocchio_view import floating
 
@@ -137,7 +137,7 @@ def test_energy_of_a_passive_walk(walks: dict[str, Walk], name: str) -> None:
 def test_a_wheel_needs_the_friction_of_its_spoke_angle(walks: dict[str, Walk]) -> None:
     """With all mass at the hub the ground pushes along the spoke: |F_T| / F_N ends at tan(alpha)."""
     walk = walks["wheel"]
-    axes = friction_cone(new_figure(4.0, 4.0).subplots(), walk.signals, slope=walk.walker.slope)
+    axes = friction_cone(Figure().subplots(), walk.signals, slope=walk.walker.slope)
     line = next(a for a in axes.get_lines() if a.get_label() == "ground reaction")
     F_T, F_N = np.array(line.get_data())
     assert np.nanmax(np.abs(F_T) / F_N) == pytest.approx(math.tan(ALPHA), abs=1e-6)

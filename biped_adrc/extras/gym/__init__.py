@@ -3,14 +3,10 @@
 Importing this registers the environment. Raises InputError without Gymnasium, of the extra `[gym]`.
 """
 
-from biped_adrc.core.errors import InputError
+from biped_adrc.core.errors import optional
 
-try:
+with optional("gym", "learners need Gymnasium, which is not installed"):
     import gymnasium
-except ImportError:
-    raise InputError(
-        "learners need Gymnasium, which is not installed; pip install 'biped-adrc[gym]'"
-    ) from None
 
 ID = "biped_adrc/Walk-v0"
 """Of the environment."""

@@ -18,13 +18,11 @@ from gymnasium.spaces import Box
 
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
-from biped_adrc.extras.gym.picture import Drawn, Window
+from biped_adrc.extras.gym.picture import Picture
 from biped_adrc.extras.gym.stage import Stage
-from biped_adrc.extras.gym.task import TORQUES, LearnerTask
+from biped_adrc.extras.gym.task import LearnerTask
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 from biped_adrc.scenario.stepper import finite_numbers
-
-RENDER_MODES = ("human", "rgb_array")
 
 
 def spaces_of(stage: Stage) -> tuple[Box, Box]:
@@ -45,34 +43,28 @@ class WalkEnv(gymnasium.Env[Any, Any]):
     - scenario: `biped_adrc.Scenario`, or a condition by name ("nothing" without), on the base of
       its comparisons. values: fields of the scenario by name, such as plant, gait, push, amplitude.
     - action: "torques", all of the torque, or "added", beside that of the scenario's controller. For each motor
-      a share of its limit, `torque` [N m]; the motors give no more than that, whatever is asked.
+      a share of its limit, the scenario's where that is lower [N m]; the motors give no more than that.
     - seconds [s]: longest walk. alive, tracking, effort: weights of the reward (`task.LearnerTask`).
-    - render_mode: "rgb_array", or "human", a window of matplotlib's; without a screen there is none.
+    - render_mode: "rgb_array"; with "human" `gymnasium.make` shows these pictures in a window of pygame's.
 
     `reset(seed=k)` walks the scenario with seed = k; without a seed another one is drawn. Raises InputError.
     """
 
-    metadata: dict[str, Any] = {"render_modes": [*RENDER_MODES], "render_fps": 1000}  # noqa: RUF012
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 1000}  # noqa: RUF012
 
     def __init__(
         self,
         scenario: Scenario | None = None,
         condition: str | None = None,
-        action: str = TORQUES,
-        seconds: float = LearnerTask.seconds,
-        alive: float = LearnerTask.alive,
-        tracking: float = LearnerTask.tracking,
-        effort: float = LearnerTask.effort,
         render_mode: str | None = None,
-        **values: object,
+        **values: Any,
     ):
-        how = (action, seconds, alive, tracking, effort)
-        task = LearnerTask.of(scenario, condition, values, *how)
-        self.render_mode = checked_mode(render_mode)
-        self.stage = Stage(task, 1)
+        self.stage, self.render_mode = (
+            Stage(LearnerTask.of(scenario, condition, **values), 1),
+            render_mode,
+        )
         self.observation_space, self.action_space = spaces_of(self.stage)
-        self.drawn = None if render_mode is None else Drawn(self.stage, 0)
-        self.window = Window() if render_mode == "human" else None
+        self.picture = Picture(self.stage) if render_mode else None
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -81,7 +73,6 @@ class WalkEnv(gymnasium.Env[Any, Any]):
         super().reset(seed=seed)
         check_options(options)
         self.stage.begin(0, int(self.np_random.integers(MOST_SEED)) if seed is None else seed)
-        self._show(True)
         return self.stage.observations()[0], self._info()
 
     def step(self, action: Array) -> tuple[Array, float, bool, bool, dict[str, Any]]:
@@ -91,14 +82,8 @@ class WalkEnv(gymnasium.Env[Any, Any]):
             raise InputError("there is no walk that goes on; call reset() first")
         stage.move(finite_numbers("action", action, (stage.plant.p,))[np.newaxis])
         fallen, late = (bool(over[0]) for over in stage.ended())
-        self._show(False)
         reward = float(stage.rewards()[0])
         return stage.observations()[0], reward, fallen, late, self._info()
-
-    @property
-    def torque(self) -> float:
-        """Of an action of 1 [N m]: the limit of the motors, or the scenario's where that is lower."""
-        return self.stage.limits.torque
 
     def _info(self) -> dict[str, Any]:
         """Of this walk alone."""
@@ -107,27 +92,5 @@ class WalkEnv(gymnasium.Env[Any, Any]):
         }
 
     def render(self) -> Any:
-        """A picture (height, width, 3), uint8; None for "human", and without a render_mode."""
-        if self.drawn is None or self.window is not None:
-            return None
-        return self.drawn.picture()
-
-    def _show(self, begins: bool) -> None:
-        """Keep the place of the foot, and show the window."""
-        if self.drawn is None:
-            return
-        self.drawn.follow(begins)
-        if self.window is not None and self.window.due(self.drawn.t, begins):
-            self.window.show(self.drawn.picture())
-
-    def close(self) -> None:
-        """Close the window."""
-        if self.window is not None:
-            self.window.close()
-
-
-def checked_mode(mode: str | None) -> str | None:
-    """A render_mode. Raises InputError for one that there is not."""
-    if mode is not None and mode not in RENDER_MODES:
-        raise InputError(f"render_mode is {mode!r}, expected one of {list(RENDER_MODES)}, or None")
-    return mode
+        """A picture (height, width, 3), uint8; None without a render_mode."""
+        return self.picture.drawn(0) if self.picture else None

@@ -16,7 +16,6 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.run_plan import STATUS
-from biped_adrc.extras.gym.needs import Needs
 from biped_adrc.extras.gym.task import ADDED, FALLEN_FROM, LearnerTask
 from biped_adrc.extras.gym.view import learner_view
 from biped_adrc.scenario.build import RobotAndGait, build, limits
@@ -36,7 +35,11 @@ Flags = NDArray[np.bool_]
 
 
 class Stage:
-    """N walks. Raises InputError for a task that cannot be walked."""
+    """N walks. Raises InputError for a task that cannot be walked.
+
+    needs (N, 4): 1 where all single supports that are over are feasible, else 0; largest |F_T| / F_N and least
+    F_N [N] of the mean force; largest torque [N m]. feet (N, 2): places of the stance feet [m].
+    """
 
     def __init__(self, task: LearnerTask, count: int):
         self.stepper = Stepper(task.scenario, count, self._walker, limits(task.scenario))
@@ -49,8 +52,9 @@ class Stage:
         self.highest = np.concatenate(
             (self._fastest(), np.full(p, self.limits.torque), [2.0 * TURNS])
         )
-        self.needs = Needs(count)
+        self.needs = np.zeros((count, 4))
         self.seeds, self._seen = np.zeros(count, dtype=np.int64), np.zeros(0)
+        self.feet, self.steps = np.zeros((count, 2)), np.zeros(count)
         self.begin(0, self.task.scenario.run.seed)  # what is wrong is said here
         self.stepper.codes[:] = -1
 
@@ -74,7 +78,8 @@ class Stage:
         """Walk i anew, with this seed of its scenario."""
         self.stepper.reset(i, seed)
         self.seeds[i], self._seen = seed, np.zeros(0)
-        self.needs.begin(i)
+        self.needs[i] = 1.0, 0.0, np.inf, 0.0
+        self.feet[i], self.steps[i] = 0.0, 0.0
 
     def move(self, actions: Array) -> None:
         """One sample of all that walk, under actions (N, p), shares of the motors' limit [1]."""
@@ -83,14 +88,27 @@ class Stage:
         self.stepper.move(inputs)
         self._seen = np.zeros(0)
         for i, support in self.stepper.over:
-            self.needs.add(i, support)
+            feasible, friction, normal, torque = self.needs[i]
+            self.needs[i] = (
+                feasible * (not support.infeasible()),
+                max(friction, support.mean_friction),
+                min(normal, support.mean_normal_force),
+                max(torque, support.peak_torque),
+            )
 
     # -- where they are ----------------------------------------------------------------------------
     @property
     def view(self) -> Array:
-        """The numbers of `view.LearnerView` of each walk, N rows, read once after each sample."""
+        """The numbers of `view.LearnerView` of each walk, N rows, read once after each sample.
+
+        After a touchdown the stance foot before is the swing foot, from which the place of the new one follows.
+        """
         if not self._seen.size:
             self._seen = self.stepper.read(learner_view)
+            step = self._seen[:, self.first + 1].copy()
+            for i in np.flatnonzero((self.steps > 0.0) & (self.steps != step)):
+                self.feet[i] -= self.plant.swing_foot(self._seen[i, : self.plant.n])
+            self.steps = step
         return self._seen
 
     def observations(self) -> Array:
@@ -116,8 +134,8 @@ class Stage:
         return fallen, late & ~fallen
 
     def infos(self) -> dict[str, Any]:
-        """What is known beside the observation, (N,) each; `needs.Needs` has the second four."""
-        at, rows = self.view[:, self.first :], self.needs.rows
+        """What is known beside the observation, (N,) each; the second four are of the single supports over."""
+        at, rows = self.view[:, self.first :], self.needs
         return {
             "t": at[:, 0].copy(),
             "step": at[:, 1].astype(np.int64),

@@ -9,13 +9,12 @@ sample costs anything, as effort is at most alive: who walks on has more than wh
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 
-from biped_adrc.core.checks import check_part
+from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import packaged
 from biped_adrc.core.shown import Shown
@@ -45,7 +44,7 @@ FALLEN_FROM = 1e-9
 
 
 @dataclass(frozen=True)
-class LearnerTask(Shown):
+class LearnerTask(Checked, Shown):
     """A scenario for learners.
 
     Raises InputError for an action that there is not, a time or weight out of range, and values of the scenario
@@ -56,29 +55,22 @@ class LearnerTask(Shown):
     """Its seed is that of each walk."""
     action: str = TORQUES
     """"torques": all of it; "added": beside the torque of the scenario's controller."""
-    seconds: float = 10.0
+    seconds: PositiveFloat = 10.0
     """Longest walk [s]."""
-    alive: float = 1.0
+    alive: NonNegativeFloat = 1.0
     """Reward of a sample that does not end the walk [1]."""
-    tracking: float = 1.0
+    tracking: NonNegativeFloat = 1.0
     """Reward of one without any error [1]."""
-    effort: float = 0.1
+    effort: NonNegativeFloat = 0.1
     """What one with all motors at their limit costs [1], at most `alive`."""
 
     def __post_init__(self) -> None:
-        check_part(self.scenario, "what is to be learnt", Scenario)
         if self.action not in ACTIONS:
             raise InputError(f"the action is {self.action!r}, expected one of {list(ACTIONS)}")
-        for name in ("seconds", "alive", "tracking", "effort"):
-            x = getattr(self, name)
-            if not (isinstance(x, int | float) and math.isfinite(x) and x >= 0.0):
-                raise InputError(f"{name} is {x!r}, expected a finite number, 0 or more")
         if self.effort > self.alive:
             raise InputError(
                 f"effort = {self.effort} is above alive = {self.alive}: to fall would pay"
             )
-        if not self.seconds > 0.0:
-            raise InputError(f"seconds is {self.seconds}, expected a positive time")
         mine = flat({"controller": self.scenario.controller.record()})
         if self.action == TORQUES and mine:
             raise InputError(
@@ -87,33 +79,26 @@ class LearnerTask(Shown):
             )
 
     @classmethod
-    def of(
-        cls,
-        scenario: Scenario | None,
-        condition: str | None,
-        values: Mapping[str, object],
-        *how: object,
-    ) -> LearnerTask:
-        """A scenario, or a condition on its base, with other values by name.
+    def of(cls, scenario: Scenario | None, condition: str | None, **values: Any) -> LearnerTask:
+        """A scenario, or a condition on its base; values: fields of a task, and of the scenario, by name.
 
-        how: the fields of a task behind its scenario, in their order.
         Raises InputError for a condition that there is not on this plant, and values that are no scenario.
         """
         if scenario is not None and condition is not None:
             raise InputError("a scenario and a condition were given, expected one of them")
+        how = {f.name: values.pop(f.name) for f in fields(cls) if f.name in values}
         record = nested(values)
-        if scenario is None:
-            ground = record.get("ground", RIGID)
-            plant = ground if isinstance(ground, str) else ground.get("plant", RIGID)
-            there = [name for name, x in CONDITIONS.items() if plant == RIGID or OF_RIGID not in x]
-            name = condition or "nothing"
-            if name not in there:
-                raise InputError(
-                    f"there is no condition {name!r} on plant '{plant}', expected one of {there}"
-                )
-            record = merged(nested({**BASE, **CONDITIONS[name]}), record)
-            return cls(Scenario(**record), *how)  # type: ignore[arg-type]
-        return cls(scenario.replace(record), *how)  # type: ignore[arg-type]
+        if scenario is not None:
+            return cls(scenario.replace(record), **how)
+        ground = record.get("ground", RIGID)
+        plant = ground if isinstance(ground, str) else ground.get("plant", RIGID)
+        there = [name for name, x in CONDITIONS.items() if plant == RIGID or OF_RIGID not in x]
+        name = condition or "nothing"
+        if name not in there:
+            raise InputError(
+                f"there is no condition {name!r} on plant '{plant}', expected one of {there}"
+            )
+        return cls(Scenario(**merged(nested({**BASE, **CONDITIONS[name]}), record)), **how)
 
     def limits(self, scene: RobotAndGait) -> KnownLimits:
         """Of ground and motors; the torque limit is the scenario's where it has one."""

@@ -18,10 +18,10 @@ from gymnasium.vector.utils import batch_space
 
 from biped_adrc.core.errors import InputError, check_count
 from biped_adrc.core.types import Array
-from biped_adrc.extras.gym.env import check_options, checked_mode, spaces_of
-from biped_adrc.extras.gym.picture import Drawn
+from biped_adrc.extras.gym.env import check_options, spaces_of
+from biped_adrc.extras.gym.picture import Picture
 from biped_adrc.extras.gym.stage import Flags, Stage
-from biped_adrc.extras.gym.task import TORQUES, LearnerTask
+from biped_adrc.extras.gym.task import LearnerTask
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 from biped_adrc.scenario.stepper import finite_numbers
 
@@ -43,28 +43,18 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         num_envs: int = 1,
         scenario: Scenario | None = None,
         condition: str | None = None,
-        action: str = TORQUES,
-        seconds: float = LearnerTask.seconds,
-        alive: float = LearnerTask.alive,
-        tracking: float = LearnerTask.tracking,
-        effort: float = LearnerTask.effort,
         render_mode: str | None = None,
-        **values: object,
+        **values: Any,
     ):
         check_count(num_envs, f"num_envs is {num_envs}")
-        if checked_mode(render_mode) == "human":
-            raise InputError("a vector of walks has no window; expected render_mode 'rgb_array'")
-        how = (action, seconds, alive, tracking, effort)
-        task = LearnerTask.of(scenario, condition, values, *how)
         self.num_envs, self.render_mode = num_envs, render_mode
-        self.stage = Stage(task, num_envs)
+        self.stage = Stage(LearnerTask.of(scenario, condition, **values), num_envs)
         self.single_observation_space, self.single_action_space = spaces_of(self.stage)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
         self.generators = [np.random.default_rng() for _ in range(num_envs)]
         self.over: Flags = np.ones(num_envs, dtype=bool)
-        drawn = [Drawn(self.stage, i) for i in range(num_envs)] if render_mode else []
-        self.drawn: list[Drawn] = drawn
+        self.picture = Picture(self.stage) if render_mode else None
 
     def reset(
         self,
@@ -90,8 +80,6 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
             self.generators[i], _ = seeding.np_random(seed)
         drawn = int(self.generators[i].integers(MOST_SEED)) if seed is None else seed
         self.stage.begin(i, drawn)
-        if self.drawn:
-            self.drawn[i].follow(True)
 
     def step(self, actions: Array) -> tuple[Array, Array, Flags, Flags, dict[str, Any]]:
         """One sample of each walk under actions (N, p) [1]; those that had ended begin anew."""
@@ -106,8 +94,6 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
         if resting:
             rewards[again] = 0.0
         self.over = fallen | late
-        for drawn in self.drawn:
-            drawn.follow(bool(again[drawn.i]))
         return stage.observations(), rewards, fallen, late, self._infos()
 
     def _infos(self) -> dict[str, Any]:
@@ -117,4 +103,4 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
 
     def render(self) -> tuple[Any, ...] | None:
         """A picture (height, width, 3), uint8, of each walk; None without a render_mode."""
-        return tuple(drawn.picture() for drawn in self.drawn) if self.drawn else None
+        return tuple(map(self.picture.drawn, range(self.num_envs))) if self.picture else None

@@ -25,7 +25,7 @@ from biped_adrc.core.types import Array, relabelled
 from biped_adrc.extras.logs.plausible import check_plausible
 from biped_adrc.extras.logs.robot_log import RobotLog, check_rows
 from biped_adrc.model.biped import Biped
-from biped_adrc.scenario.units import unit_of
+from biped_adrc.scenario.units import quantity
 
 UNITS = {"t": "s", "q": "rad", "v": "rad/s", "u": "N m"}
 """Unit of each signal in the package."""
@@ -135,19 +135,14 @@ def _wanted(head: list[str], biped: Biped) -> dict[str, tuple[int, float]]:
 def _factor(column: str, name: str, unit: str | None) -> float:
     """From the unit of a column to that of the package. Raises InputError for none, or another dimension."""
     expected = UNITS[name[0]]
-    if unit is None:
+    if not unit:
         raise InputError(
             f"column '{column}' has no unit, expected one in brackets, as '{name} [{expected}]'"
         )
     try:
-        unit_here, usual = unit_of(unit.strip()), unit_of(expected)
+        return quantity(f"1 {unit}", expected)
     except ValueError as error:
-        raise InputError(
-            f"column '{column}': {error}; expected a unit such as '{expected}'"
-        ) from None
-    if unit_here.powers != usual.powers:
-        raise InputError(f"column '{column}' is in '{unit}', expected a unit such as '{expected}'")
-    return unit_here.factor / usual.factor
+        raise InputError(f"column '{column}': {error}") from None
 
 
 def _said(head: list[str], wanted: dict[str, tuple[int, float]]) -> tuple[str, ...]:

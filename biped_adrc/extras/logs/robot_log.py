@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,21 +56,21 @@ class RobotLog(Shown):
 
     def __post_init__(self) -> None:
         """Copy the arrays, and check them; see the class."""
-        for name in ("t", "step", "q", "u"):
-            object.__setattr__(
-                self, name, read_only(numbers(getattr(self, name), f"{name} of the log"))
-            )
-        v, had, n = self.v, self.measured, self.q.shape[-1:]
-        had = numbers(np.full(n, v is not None) if had is None else had, "measured of the log")
-        v = np.zeros(self.q.shape) if v is None else numbers(v, "v of the log")
-        if had.shape != n:
+        n = np.shape(self.q)[-1:]
+        given: dict[str, Any] = dict(vars(self))
+        if self.measured is None:
+            given["measured"] = np.full(n, self.v is not None)
+        if self.v is None:
+            given["v"] = np.zeros(np.shape(self.q))
+        for name in ("t", "step", "q", "u", "v", "measured"):
+            values = read_only(numbers(given[name], f"{name} of the log"))
+            object.__setattr__(self, name, values)
+        if self.has_rate.shape != n:
             raise InputError(
-                f"measured of the log has the shape {had.shape}, expected {n}, 1 or 0 for each rate"
+                f"measured of the log has the shape {self.has_rate.shape}, expected {n}, 1 or 0 for each rate"
             )
-        object.__setattr__(self, "v", read_only(v))
-        object.__setattr__(self, "measured", read_only(had))
         names = [f"row {k}" for k in range(1, self.t.size + 1)]
-        check_rows(self.t, self.step, self.q, self.u, v, names)
+        check_rows(self.t, self.step, self.q, self.u, self.rates, names)
 
     def __repr__(self) -> str:
         K, n = self.q.shape
@@ -78,14 +79,12 @@ class RobotLog(Shown):
     @property
     def rates(self) -> Array:
         """v (K, n) [rad/s], zero where no rate was measured."""
-        assert self.v is not None
-        return self.v
+        return np.asarray(self.v)
 
     @property
     def has_rate(self) -> NDArray[np.bool_]:
         """Of which coordinates the rate was measured (n,)."""
-        assert self.measured is not None
-        return self.measured > 0.5
+        return np.asarray(self.measured) > 0.5
 
     @cached_property
     def period(self) -> float:
@@ -180,15 +179,10 @@ def _check_times(t: Array, step: Array, names: list[str]) -> None:
             "from which its period follows"
         )
     period = float(np.median(ways[same]))
-    if period > LONGEST_PERIOD:
+    if not SHORTEST_PERIOD <= period <= LONGEST_PERIOD:
         raise InputError(
-            f"the rows of the log are {period:g} s apart, expected at most {LONGEST_PERIOD} s; if its "
-            "times are in milliseconds, call the column 't [ms]'"
-        )
-    if period < SHORTEST_PERIOD:
-        raise InputError(
-            f"the rows of the log are {period:g} s apart, expected at least {SHORTEST_PERIOD} s; if its "
-            "times are in seconds, call the column 't [s]'"
+            f"the rows of the log are {period:g} s apart, expected {SHORTEST_PERIOD} to {LONGEST_PERIOD} s; if "
+            "its times are in another unit, say so in the name of the column, as 't [ms]'"
         )
     late = ways > (1.0 + GAP) * period
     for k in np.flatnonzero(late | (same & (ways < (1.0 - GAP) * period)))[:1]:

@@ -28,9 +28,9 @@ from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.scenario.dotted import merged, nested
 from biped_adrc.scenario.scenario import ObserverRecord, Scenario
 from biped_adrc.view.meshcat import objects as draw
-from biped_adrc.view.meshcat.view import Look, captions, scene_settings
+from biped_adrc.view.meshcat.view import captions, scene_settings
 from biped_adrc.view.pages import with_viewer
-from biped_adrc.view.placement import WalkScene
+from biped_adrc.view.placement import Clip, WalkScene, placed
 from biped_adrc.view.style import TORQUE
 
 FIRST = Scenario("ADRC", hardware={"profile": "ideal", "torque_limit": 150.0})
@@ -163,10 +163,10 @@ def settings(walk: PageWalk, scene: WalkScene) -> dict[str, object]:
     most        force [N] and torque [N m] of a hand
     """
     biped = walk.walker.plant
-    given = scene_settings({"walk": scene, "ghost": scene}, Look(solid="walk"))
+    given = scene_settings({"walk": scene, "ghost": scene}, Clip())
     commands = given["commands"]
     assert isinstance(commands, list)
-    robot = "meshcat/robots/walk"
+    robot = "meshcat/robots/0"
     links = [(f"{robot}/{path}", link) for path, link in draw.visual_links(biped.tree)]
     return given | {
         "commands": [*commands, *hand_commands()],
@@ -185,7 +185,7 @@ def settings(walk: PageWalk, scene: WalkScene) -> dict[str, object]:
 def hand_commands() -> list[str]:
     """Meshcat's commands for the arrow of the hand and the line of its spring."""
     window = draw.MemoryWindow("hand")
-    window.viewer["hand"].set_transform(draw.shift((0.0, NEARER, 0.0)))
+    window.viewer["hand"].set_transform(placed((0.0, NEARER, 0.0)))
     draw.add_arrow(window.viewer["hand/arrow"], TORQUE, 1.0)
     draw.add_trace(window.viewer["hand/line"], 2, draw.DARK, 1.0)
     return window.packed

@@ -32,8 +32,8 @@ class LiveRobot extends Robot {
   }
 }
 const robots = scene.walks.map((walk) => new LiveRobot(walk));
-const leader = robots[scene.leader];
-const roots = ["walk", "ghost"].map((name) => node("meshcat/robots/" + name));
+const leader = robots[0];
+const roots = [0, 1].map((k) => node("meshcat/robots/" + k));
 
 // the tiles repeat after a metre; they are drawn on the slope of the start
 const drawnSlope = Math.atan(leader.walk.fall);

@@ -1,83 +1,70 @@
-"""The parts of a moving picture from the side: ground, robots, trails, footprints, arrows, rings.
+"""The parts of a moving picture from the side: ground, walks, and the times of the frames.
 
-Each part is a class that makes its artists on an Axes once and has a method `show`, which moves
-them to what they are at t [s]; `moving_picture` and `side_by_side` put parts together. The robot and forces of
-walk k are drawn in the layers 10 k to 10 k + 9, so that one walk is in front of another as a whole;
-trails and ground are behind all of them.
+A `DrawnWalk` makes its artists on an Axes once and has a method `show`, which moves them to what they are at
+t [s]; `moving_picture` and `side_by_side` put the parts together. The robot and forces of walk k are drawn in
+the layers 10 k to 10 k + 9, so that one walk is in front of another as a whole; trails and ground are
+behind all of them.
 """
 
 from __future__ import annotations
 
 import math
 import textwrap
-from dataclasses import dataclass
+from collections.abc import Callable
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.figure import Figure
+from matplotlib.patches import FancyArrow
 
-from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
-from biped_adrc.view.from_the_side.side_view import SideView
+from biped_adrc.view.from_the_side.side_view import SideView, placed_lines
 from biped_adrc.view.placement import TILE, loads
-from biped_adrc.view.style import METRES_PER_NEWTON_METRE, REACTION, STANCE, SWING, TORQUE, TRUNK
+from biped_adrc.view.style import (
+    LONGEST,
+    METRES_PER_NEWTON_METRE,
+    REACTION,
+    STANCE,
+    SWING,
+    TORQUE,
+    TRUNK,
+    bent_arrow,
+)
 
 COLOURS = {"stance": STANCE, "swing": SWING, "": TRUNK}
 """Colour of a bone by its role; the trunk has none."""
 SOLE, HEADROOM = 0.12, 1.2
 """Ground shown below the foot [m], and the height of the picture above it as a multiple of the robot's."""
-EDGE = 0.04
-"""Distance [m] that arrows keep from the edge of the picture."""
 DPI = 100
 """Pixels for each inch of a figure; sizes here are in pixels."""
-
 LETTER = 9.5
 """Width of a letter of 11 points [px], of the wide ones."""
-FPS, SLOWER = (0.1, 50.0), (1e-3, 1e6)
-"""Ranges of frames per second, and of how many times slower a picture plays."""
 
 
-@dataclass(frozen=True)
-class Motion:
-    """How walks are set in motion.
+def blank(width: float, height: float) -> Figure:
+    """An empty figure of width x height [px]."""
+    return Figure(figsize=(width / DPI, height / DPI), dpi=DPI)
 
-    apart: side by side instead of over one another, with their errors over time below.
-    slower [1]: how many times slower than the walk, in SLOWER.
-    fps [1/s]: frames per second, in FPS, as a GIF counts time in hundredths of a second.
-    width [px]: of the picture, 100 to 4000.
 
-    Raises InputError for values that do not fit.
+def frames(figure: Figure, show: Callable[[float], None], times: Array) -> list[Array]:
+    """The figure as pixels (height, width, 3) at the times (K,) [s], to which `show` moves its parts.
+
+    The figure is made once; from frame to frame only its lines move, as making a figure takes longer
+    than drawing it.
     """
-
-    apart: bool = False
-    slower: float = 1.0
-    fps: float = 25.0
-    width: int = 600
-
-    def __post_init__(self) -> None:
-        for name, x, (least, most) in (("fps", self.fps, FPS), ("slower", self.slower, SLOWER)):
-            if not least <= x <= most:
-                raise InputError(f"{name} is {x:g}, expected {least:g} to {most:g}")
-        if not 100 <= self.width <= 4000:
-            raise InputError(f"width is {self.width} px, expected 100 to 4000")
-
-    def pace(self, before: str = "") -> str:
-        """By how much slower the picture is than the walk, in words behind `before`; empty for the
-        pace of the walk.
-        """
-        return "" if self.slower == 1.0 else f"{before}{self.slower:g} times slower"
+    canvas, out = FigureCanvasAgg(figure), []
+    for t in times.tolist():
+        show(t)
+        canvas.draw()  # type: ignore[no-untyped-call]
+        out.append(np.asarray(canvas.buffer_rgba())[:, :, :3].copy())  # type: ignore[no-untyped-call]
+    return out
 
 
 def wrapped(words: str, width: float) -> str:
     """Words of 11 points in lines of at most `width` [px]."""
     return "\n".join(textwrap.fill(line, int(width / LETTER)) for line in words.split("\n"))
-
-
-def picture(canvas: FigureCanvasAgg) -> Array:
-    """The figure as it is now, as pixels (height, width, 3)."""
-    canvas.draw()  # type: ignore[no-untyped-call]
-    return np.asarray(canvas.buffer_rgba())[:, :, :3].copy()  # type: ignore[no-untyped-call]
 
 
 def ground(axes: Axes, views: list[SideView]) -> None:
@@ -107,172 +94,86 @@ def follow(axes: Axes, view: SideView, t: float, left: float, right: float) -> N
     axes.set_ylim(z - SOLE, z + HEADROOM * view.height)
 
 
-class DrawnRobot:
-    """The links of one posture as thick lines, in the colours of stance leg, swing leg and trunk.
+class DrawnWalk:
+    """One walk: links as thick lines, in the colours of stance leg, swing leg and trunk, footprints and loads.
 
-    opacity: 0 to 1. order: number of the layer.
-    """
-
-    def __init__(self, axes: Axes, view: SideView, opacity: float, order: int) -> None:
-        self.view = view
-        self.lines = LineCollection([], capstyle="round", alpha=opacity, zorder=10 * order)
-        axes.add_collection(self.lines)
-
-    def show(self, t: float) -> None:
-        """Move the links to the posture at t [s]."""
-        roles = self.view.roles(t)
-        self.lines.set_segments(list(self.view.segments(t)))
-        self.lines.set_color([COLOURS[role] for role in roles])
-        self.lines.set_linewidth([9.0 if role == "" else 6.5 for role in roles])
-
-
-class Trail:
-    """The paths of hip and swing foot so far, and footprints.
-
-    times (K,) [s]: those of the frames. All points are computed at the beginning; a frame shows the
-    first of them.
+    The ground reaction is an arrow at the stance foot, a torque from outside a ring around its joint. On soft
+    ground there is an arrow at the other foot too where both carry, and the word where one slips. opacity:
+    0 to 1. order: number of the layer. trail: with the paths of hip and swing foot so far.
     """
 
     def __init__(
-        self, axes: Axes, view: SideView, times: Array, opacity: float, order: int
+        self, axes: Axes, view: SideView, opacity: float, order: int, trail: bool = False
     ) -> None:
-        self.view = view
-        self.points = np.array([view.points(float(t)) for t in times])
-        self.steps = np.array([view.step(float(t)) for t in times])
+        self.axes, self.view, self.trail = axes, view, trail
+        layer = 10 * order
         (self.hip,) = axes.plot([], [], color="#555555", lw=0.9, alpha=opacity, zorder=order)
         (self.foot,) = axes.plot([], [], color=SWING, lw=0.9, alpha=opacity, zorder=order)
-        self.prints = Footprints(axes, view, opacity, order)
-
-    def show(self, k: int, t: float) -> None:
-        """Draw what frame k, at t [s], has behind it; the swing foot's path breaks where the feet exchange."""
-        self.hip.set_data(self.points[: k + 1, 0], self.points[: k + 1, 1])
-        jumps = np.flatnonzero(np.diff(self.steps[: k + 1])) + 1
-        self.foot.set_data(*np.insert(self.points[: k + 1, 2:], jumps, np.nan, axis=0).T)
-        self.prints.show(t)
-
-
-class Footprints:
-    """A mark at every foothold so far."""
-
-    def __init__(self, axes: Axes, view: SideView, opacity: float, order: int) -> None:
-        self.scene = view.scene
-        (self.marks,) = axes.plot([], [], "^", color="black", ms=4, alpha=opacity, zorder=order)
-
-    def show(self, t: float) -> None:
-        """Draw the footprints up to t [s]."""
-        i = self.scene.arc_at(t)
-        self.marks.set_data(self.scene.footholds[: i + 1], self.scene.heights[: i + 1])
-
-
-class Forces:
-    """The arrow of the ground reaction at the stance foot, and a ring around every joint that is pushed.
-
-    On soft ground an arrow at the other foot too where both carry, and the word where one slips.
-
-    Scales: the robot's weight gives an arrow of `WEIGHT_LENGTH` [m], and rings are the same for all
-    robots. order: number of the layer; arrows are in front of the links of the same walk.
-    """
-
-    def __init__(self, axes: Axes, view: SideView, opacity: float, order: int) -> None:
-        self.axes, self.view = axes, view
-        self.reaction = PolyCollection([], color=REACTION, alpha=opacity, zorder=10 * order + 1)
-        self.torques = PolyCollection([], color=TORQUE, alpha=opacity, zorder=10 * order + 2)
-        axes.add_collection(self.reaction)
+        (self.prints,) = axes.plot([], [], "^", color="black", ms=4, alpha=opacity, zorder=order)
+        self.links = LineCollection([], capstyle="round", alpha=opacity, zorder=layer)
+        self.torques = PolyCollection([], color=TORQUE, alpha=opacity, zorder=layer + 2)
+        axes.add_collection(self.links)
         axes.add_collection(self.torques)
-        self.text = axes.text(0.0, 0.0, "", color=REACTION, fontsize=9, zorder=10 * order + 3)
+        self.arrows = [
+            FancyArrow(0, 0, 0, 0, width=0.024, length_includes_head=True) for _ in range(2)
+        ]
+        for arrow in self.arrows:
+            arrow.set(color=REACTION, alpha=opacity, zorder=layer + 1)
+            axes.add_patch(arrow)
+        self.text = axes.text(0.0, 0.0, "", color=REACTION, fontsize=9, zorder=layer + 3)
+        self.passed: list[Array] = []
+        self.steps: list[int] = []
 
     def show(self, t: float) -> None:
-        """Draw the forces at t [s]; an arrow that would leave the picture is cut and says how large
-        the force is [N].
-        """
-        scene, scale = self.view.scene, self.view.metres_per_newton
-        acting, limits = loads(scene, t), (self.axes.get_xlim(), self.axes.get_ylim())
-        start, force = np.array(scene.foot(scene.arc_at(t), t)), scale * acting.ground_reaction
-        drawn = cut(start, force, *limits)
-        arrows = [arrow(start, drawn)]
-        if acting.other.any():
-            other = self.view.points(t)[2:]
-            arrows.append(arrow(other, cut(other, scale * acting.other, *limits)))
-        self.reaction.set_verts(arrows)
-        size = float(np.hypot(*acting.ground_reaction))
-        amount = f"{size:.3g} N" if math.isfinite(size) else "no finite force"
-        word = "slips" if acting.slips else ""
-        self.text.set_text(word if np.array_equal(drawn, force) else f"{amount}, arrow cut")
-        right = start[0] > np.mean(limits[0])  # so that the words stay in the picture
-        x = start[0] + (-0.05 if right else 0.05)
+        """Move all to t [s], which is later than the time before."""
+        view, scene = self.view, self.view.scene
+        roles, placements = view.roles(t), view.placements(t)
+        self.links.set_segments(placed_lines(view.bones, placements))
+        self.links.set_color([COLOURS[role] for role in roles])
+        self.links.set_linewidth([9.0 if role == "" else 6.5 for role in roles])
+        i, points = scene.arc_at(t), view.points(t)
+        self.prints.set_data(scene.footholds[: i + 1], scene.heights[: i + 1])
+        if self.trail:
+            self._extend(points, view.step(t))
+        acting, foot = loads(scene, t), np.array(scene.foot(i, t))
+        drawn, cut = self._arrow(0, foot, acting.ground_reaction)
+        self._arrow(1, points[2:], acting.other)
+        self.text.set_text(cut or ("slips" if acting.slips else ""))
+        right = foot[0] > np.mean(self.axes.get_xlim())  # so that the words stay in the picture
         self.text.set_horizontalalignment("right" if right else "left")
-        self.text.set_position((x, max(start[1] + 0.5 * drawn[1], start[1] + 0.05)))
-        self.torques.set_verts(self._rings(t, acting.zeta))
-
-    def _rings(self, t: float, zeta: Array) -> list[Array]:
-        """Outlines of the rings for external torques zeta (n,) [N m]; none where no joint is pushed."""
-        if not zeta.any():
-            return []
-        biped = self.view.scene.biped
-        placements = self.view.placements(t)
-        joints = {joint.name: joint for joint in biped.tree.joints}
-        return [
-            ring(placements[joints[name].child][[0, 2], 3], METRES_PER_NEWTON_METRE * float(torque))
-            for name, torque in zip(biped.description.joints, zeta, strict=True)
-            if torque != 0.0
-        ]
-
-
-def cut(start: Array, vector: Array, x: tuple[float, float], z: tuple[float, float]) -> Array:
-    """The vector (2,) at `start` (2,), shortened so that its tip stays `EDGE` inside the limits x, z [m].
-
-    Zero for a vector that is not finite.
-    """
-    if not np.isfinite(vector).all():
-        return np.zeros(2)
-    share = 1.0
-    for at, by, (low, high) in zip(start, vector, (x, z), strict=True):
-        room = (high - EDGE - at) if by > 0.0 else (at - low - EDGE)
-        if abs(by) > room:
-            share = min(share, max(room, 0.0) / abs(by))
-    return vector if share == 1.0 else share * vector
-
-
-def arrow(start: Array, vector: Array) -> Array:
-    """Outline (7, 2) [m] of an arrow from `start` along `vector`, both (2,); the head shrinks with a
-    short one.
-    """
-    length = float(np.hypot(*vector))
-    if length == 0.0:
-        return np.tile(start, (7, 1))
-    along = vector / length
-    across = np.array([-along[1], along[0]])
-    head, half = min(0.09, length), 0.012
-    neck = start + (length - head) * along
-    wide = 0.035 * head / 0.09
-    return np.array(
-        [
-            start - half * across,
-            neck - half * across,
-            neck - wide * across,
-            start + vector,
-            neck + wide * across,
-            neck + half * across,
-            start + half * across,
-        ]
-    )
-
-
-def ring(centre: Array, radius: float) -> Array:
-    """Outline (K, 2) [m] of a bent arrow around `centre` (2,), counter-clockwise for a positive radius [m].
-
-    Its angles from -60 to 240 degrees leave an opening below, so that the joint stays visible.
-    """
-    angle = np.radians(np.linspace(-60.0, 200.0, 30))
-    rim = np.column_stack((np.cos(angle), np.sin(angle)))
-    tip = np.radians(240.0)
-    outline = np.vstack(
-        (
-            1.12 * rim,
-            1.3 * rim[-1],
-            [[math.cos(tip), math.sin(tip)]],
-            0.7 * rim[-1],
-            0.88 * rim[::-1],
+        beside = foot[0] + (-0.05 if right else 0.05)
+        self.text.set_position((beside, foot[1] + max(0.5 * drawn[1], 0.05)))
+        radii = METRES_PER_NEWTON_METRE * acting.zeta
+        torque = dict(zip(scene.biped.description.joints, radii.tolist(), strict=True))
+        pushed = [joint for joint in scene.biped.tree.joints if torque.get(joint.name)]
+        self.torques.set_verts(
+            [placements[j.child][[0, 2], 3] + bent_arrow(torque[j.name]) for j in pushed]
         )
-    )
-    return centre + abs(radius) * outline * np.array([math.copysign(1.0, radius), 1.0])
+
+    def _extend(self, points: Array, step: int) -> None:
+        """Draw the paths up to hip and swing foot (4,) [m]; that of the foot breaks where the feet exchange."""
+        self.passed.append(points)
+        self.steps.append(step)
+        path, jumps = np.array(self.passed), np.flatnonzero(np.diff(self.steps)) + 1
+        self.hip.set_data(*path[:, :2].T)
+        self.foot.set_data(*np.insert(path[:, 2:], jumps, np.nan, axis=0).T)
+
+    def _arrow(self, k: int, start: Array, force: Array) -> tuple[Array, str]:
+        """Draw arrow k for a force (2,) [N] at `start` (2,) [m]: what is drawn [m], and the words of one cut.
+
+        The robot's weight gives `WEIGHT_LENGTH`; the head shrinks with a short arrow.
+        """
+        vector = self.view.metres_per_newton * force
+        length, words = float(np.hypot(*vector)), ""
+        if not math.isfinite(length):
+            vector, length, words = np.zeros(2), 0.0, "no finite force, arrow cut"
+        elif length > LONGEST:
+            vector, words = LONGEST / length * vector, f"{np.hypot(*force):.3g} N, arrow cut"
+            length = LONGEST
+        self.arrows[k].set_visible(length > 0.0)
+        head = min(0.09, length)
+        x, y, dx, dy = (*start, *vector)
+        self.arrows[k].set_data(
+            x=x, y=y, dx=dx, dy=dy, head_width=0.07 * head / 0.09, head_length=head
+        )
+        return vector, words

@@ -20,7 +20,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.urdf import Visual
 from biped_adrc.view.placement import joint_values, link_placements
-from biped_adrc.view.style import GREY, PALETTE, label, literal, new_figure, style
+from biped_adrc.view.style import GREY, PALETTE, label, literal, new_figure
 
 POSE = (3.5, 4.05, -0.5, -0.75, -0.32)
 """q1..q5 [rad] of a posture in which no mark covers another."""
@@ -37,8 +37,7 @@ def robot_figure(biped: Biped, q: Array | None = None) -> Figure:
     if biped.n != 5:
         raise InputError(f"figure 1 shows a biped of 5 coordinates, found {biped.n}")
     q = np.array(POSE) if q is None else np.asarray(q, dtype=float)
-    with style():
-        figure = new_figure(6.0, 6.6)
+    with new_figure(6.0, 6.6) as figure:
         axes = figure.subplots()
         _ground(axes, biped, q)
         _links(axes, biped, q)
@@ -95,12 +94,26 @@ def _silhouette(visual: Visual, placement: Array) -> Polygon | Circle:
     return Polygon(centre + corners @ R[np.ix_([0, 2], [0, 2])].T)
 
 
-def _arc(axes: Axes, centre: Array, radius: float, span: tuple[float, float], colour: str) -> None:
-    """An arc about `centre` (2,) from absolute angle span[0] to span[1] [rad], with an arrow at its end."""
+def _angle(
+    axes: Axes,
+    centre: Array,
+    radius: float,
+    span: tuple[float, float],
+    name: str,
+    colour: str,
+    at: float,
+    out: float = 0.0,
+) -> None:
+    """An arc about `centre` (2,) from absolute angle span[0] to span[1] [rad], with an arrow at its end.
+
+    Its name is at the share `at` of the arc, `out` [m] outside it.
+    """
     points = np.array([centre + radius * direction(a) for a in np.linspace(*span, 60)])
     axes.plot(points[:-2, 0], points[:-2, 1], color=colour, lw=1.3, zorder=5)
     arrow = {"arrowstyle": "-|>", "color": colour, "lw": 1.3, "shrinkA": 0, "shrinkB": 0}
     axes.annotate("", points[-1], points[-4], arrowprops=arrow, zorder=5)
+    middle = span[0] + at * (span[1] - span[0])
+    _text(axes, centre + (radius + out) * direction(middle), name, colour)
 
 
 def _text(axes: Axes, at: Array, text: str, colour: str) -> None:
@@ -123,20 +136,13 @@ def _hip_angles(axes: Axes, biped: Biped, q: Array) -> None:
     The vertical and the line to p_e are dashed; each angle has a radius of its own, so that no two
     arcs meet.
     """
-    hip = biped.hip(q)
+    hip, theta = biped.hip(q), float(biped.phase @ q)
     _ray(axes, hip, hip + 0.72 * direction(0.0))
     for i, radius in enumerate(_HIP_ARCS):
-        _arc(axes, hip, radius, (q[4], q[4] + q[i]), PALETTE[i])
-        at = hip + radius * direction(q[4] + 0.32 * q[i])
-        _text(axes, at, f"$q_{i + 1}$", PALETTE[i])
-    theta = float(biped.phase @ q)
+        _angle(axes, hip, radius, (q[4], q[4] + q[i]), f"$q_{i + 1}$", PALETTE[i], 0.32)
     _ray(axes, hip, np.zeros(2), "black", 1.3)
-    _arc(axes, hip, _THETA_ARC, (0.0, theta), "black")
-    _text(axes, hip + _THETA_ARC * direction(0.55 * theta), r"$\Theta$", "black")
-    _arc(axes, hip, _PITCH_ARC, (0.0, q[4]), PALETTE[2])
-    side = 0.07 if q[4] >= 0 else -0.07
-    middle = hip + (_PITCH_ARC + 0.05) * direction(0.5 * q[4] if abs(q[4]) > 0.2 else q[4] + side)
-    _text(axes, middle, "$q_5$", PALETTE[2])
+    _angle(axes, hip, _THETA_ARC, (0.0, theta), r"$\Theta$", "black", 0.55)
+    _angle(axes, hip, _PITCH_ARC, (0.0, q[4]), "$q_5$", PALETTE[2], 0.5, 0.05)
 
 
 def _knee_angles(axes: Axes, biped: Biped, q: Array) -> None:
@@ -147,9 +153,8 @@ def _knee_angles(axes: Axes, biped: Biped, q: Array) -> None:
         knee = placements[joints[biped.description.joints[i]].child][[0, 2], 3]
         thigh = float(q[4] + q[i - 2])
         _ray(axes, knee, knee + 0.24 * direction(thigh))
-        _arc(axes, knee, _KNEE_ARC, (thigh, thigh + q[i]), PALETTE[i + 1])
-        at = knee + (_KNEE_ARC + 0.05) * direction(thigh + 0.5 * q[i])
-        _text(axes, at, f"$q_{i + 1}$", PALETTE[i + 1])
+        span = thigh, thigh + q[i]
+        _angle(axes, knee, _KNEE_ARC, span, f"$q_{i + 1}$", PALETTE[i + 1], 0.5, 0.05)
 
 
 def _feet(axes: Axes, biped: Biped, q: Array) -> None:

@@ -1,65 +1,65 @@
 """Walks side by side in a moving picture, and the tracking errors of all of them below.
 
 A tracking error of a milliradian is invisible on a robot 1.4 m high: the curves show which controller has it.
-One `_Panel` for each walk, one `_Errors` for all, put
-together by `frames_apart`.
+One `_Panel` for each walk, one `_Errors` for all, put together by `side_by_side`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
 from biped_adrc.view.from_the_side import moving_parts as draw
 from biped_adrc.view.from_the_side.side_view import SideView, Tracked
-from biped_adrc.view.placement import Recorded, WalkScene, ending, is_wheel
+from biped_adrc.view.placement import Recorded, WalkScene, ending
 from biped_adrc.view.plots.over_time import angle_unit
 from biped_adrc.view.style import PUSH, REACTION, TORQUE
 
-SHOWN = 1.5
-"""Width [m] of the panel of one walk."""
+WIDTH, SHOWN = 800, 1.5
+"""Width of the picture [px], and what the panel of one walk shows [m]."""
 LINES = ("#D55E00", "#000000", "#56B4E9", "#E69F00")
 """Vermillion, black, sky blue, orange: one for the name and the error of each walk."""
 HEAD, STRIP = 78, 150
 """Heights [px] of the legend above and of the errors below."""
 
 
-def frames_apart(walks: Mapping[str, Recorded], times: Array, motion: draw.Motion) -> list[Array]:
-    """Frames (height, width, 3) at `times` (K,) [s], a panel for each walk and the errors of all below.
+def side_by_side(
+    walks: Mapping[str, Recorded], times: Array, pace: str
+) -> tuple[Figure, Callable[[float], None]]:
+    """The figure with a panel for each walk and the errors of all below, and what moves it to a time [s].
 
-    All panels have the height of the tallest robot. Raises InputError for walks without a
-    reference.
+    times (K,) [s]: of the frames. pace: words above. All panels have the height of the tallest robot. Raises
+    InputError for walks without a reference.
     """
-    start, width = float(times[0]), motion.width
+    colours = [LINES[i % len(LINES)] for i in range(len(walks))]
     panels = [
-        _Panel(n, walk, LINES[i % len(LINES)], start) for i, (n, walk) in enumerate(walks.items())
+        _Panel(name, walk, colour, float(times[0]))
+        for (name, walk), colour in zip(walks.items(), colours, strict=True)
     ]
     tall = max(draw.HEADROOM * panel.view.height + draw.SOLE for panel in panels)
-    body = width / len(panels) * tall / SHOWN
+    share = 1.0 / len(panels)
+    body = share * WIDTH * tall / SHOWN
     height = HEAD + body + STRIP
-    figure = Figure(figsize=(width / draw.DPI, height / draw.DPI), dpi=draw.DPI)
-    canvas = FigureCanvasAgg(figure)
-    bottom, share = STRIP / height, 1.0 / len(panels)
+    figure = draw.blank(WIDTH, height)
     for k, panel in enumerate(panels):
-        panel.draw(figure.add_axes((k * share, bottom, share, body / height)))
+        panel.draw(figure.add_axes((k * share, STRIP / height, share, body / height)))
     strip = figure.add_axes((0.095, 48 / height, 0.88, (STRIP - 60) / height))
     errors = _Errors(strip, panels, times)
-    _legend(figure, panels, motion, height)
-    out = []
-    for t in times.tolist():
+    _legend(figure, pace, height)
+
+    def show(t: float) -> None:
         for panel in panels:
             panel.show(t)
         errors.show(t)
-        out.append(draw.picture(canvas))
-    return out
+
+    return figure, show
 
 
 class _Panel:
@@ -83,9 +83,7 @@ class _Panel:
         axes.set_axis_off()
         draw.ground(axes, [self.view])
         self.axes = axes
-        self.prints = draw.Footprints(axes, self.view, 1.0, 2)
-        self.robot = draw.DrawnRobot(axes, self.view, 1.0, 3)
-        self.forces = draw.Forces(axes, self.view, 1.0, 4)
+        self.walk = draw.DrawnWalk(axes, self.view, 1.0, 2)
         self.title = axes.text(0.04, 0.99, self.name, fontsize=15, color=self.colour, weight="bold")
         self.text = axes.text(0.04, 0.915, "", fontsize=11)
         for text in (self.title, self.text):
@@ -94,22 +92,17 @@ class _Panel:
     def show(self, t: float) -> None:
         """Draw the walk at t [s], and in words its largest error so far, or how it has ended."""
         draw.follow(self.axes, self.view, t, 0.5 * SHOWN, 0.5 * SHOWN)
-        self.prints.show(t)
-        self.robot.show(t)
-        self.forces.show(t)
+        self.walk.show(t)
         if self.ending and t >= self.view.scene.trajectory.t_end:
             width = 0.92 * self.axes.bbox.width
             self.text.set_text(draw.wrapped(self.ending.replace(": ", ":\n"), width))
             return
-        result = self.largest(self.start, t)
-        unit, factor = angle_unit(np.array([result]))
-        size = f"{factor * result:.3g} {unit}" if result >= 1e-9 else "below 1 nrad"
-        self.text.set_text(f"largest error so far {size}")
-
-    def largest(self, start: float, t: float) -> float:
-        """max_i |q_i - q_di| [rad] from start to t [s], at the nodes of the walk."""
         s = self.signals
-        return float(np.max(np.abs(s.error[(s.t >= start) & (s.t <= t)]), initial=0.0))
+        so_far = np.abs(s.error[(s.t >= self.start) & (s.t <= t)])
+        largest = float(np.max(so_far, initial=0.0))  # at the nodes of the walk
+        unit, factor = angle_unit(so_far)
+        size = f"{factor * largest:.3g} {unit}" if largest >= 1e-9 else "below 1 nrad"
+        self.text.set_text(f"largest error so far {size}")
 
 
 class _Errors:
@@ -127,18 +120,9 @@ class _Errors:
         inside = [(s.t >= low) & (s.t <= high) for s in signals]
         tops = np.concatenate([e[rows] for e, rows in zip(largest, inside, strict=True)])
         unit, factor = angle_unit(tops)
-        for s in signals[:1]:
-            pushed = np.any(s.zeta != 0.0, axis=1)
-            axes.fill_between(
-                s.t,
-                0,
-                1,
-                pushed,
-                transform=axes.get_xaxis_transform(),
-                color=PUSH,
-                alpha=0.45,
-                lw=0,
-            )
+        band, pushed = axes.get_xaxis_transform(), np.any(signals[0].zeta != 0.0, axis=1)
+        look: dict[str, Any] = {"transform": band, "color": PUSH, "alpha": 0.45, "lw": 0}
+        axes.fill_between(signals[0].t, 0, 1, pushed, **look)
         for panel, s, error in zip(panels, signals, largest, strict=True):
             (line,) = axes.plot([], [], color=panel.colour, lw=2.0)
             (dot,) = axes.plot([], [], "o", color=panel.colour, ms=5)
@@ -155,21 +139,12 @@ class _Errors:
             dot.set_data(at[rows][-1:], error[rows][-1:])
 
 
-def _legend(figure: Figure, panels: list[_Panel], motion: draw.Motion, height: float) -> None:
+def _legend(figure: Figure, pace: str, height: float) -> None:
     """Say what the colours mean, and how much slower the picture is; height [px] of the picture."""
-    entries: list[Patch | Line2D] = []
-    if not is_wheel(panels[0].view.scene.biped):
-        entries += [
-            Patch(color=draw.COLOURS[leg], label=f"{leg} leg") for leg in ("stance", "swing")
-        ]
-    entries.append(Patch(color=REACTION, label="ground force"))
-    entries.append(Patch(color=TORQUE, label="push"))
-    figure.legend(
-        handles=entries,
-        loc="upper center",
-        bbox_to_anchor=(0.5, 1.0 - 26 / height),
-        ncols=len(entries),
-        fontsize=11,
-        columnspacing=1.4,
+    entries = [Patch(color=draw.COLOURS[leg], label=f"{leg} leg") for leg in ("stance", "swing")]
+    entries += [Patch(color=REACTION, label="ground force"), Patch(color=TORQUE, label="push")]
+    legend = figure.legend(
+        handles=entries, loc="upper center", ncols=4, fontsize=11, columnspacing=1.4
     )
-    figure.text(0.5, 1.0 - 6 / height, motion.pace(), ha="center", va="top", fontsize=13)
+    legend.set_bbox_to_anchor((0.5, 1.0 - 26 / height))
+    figure.text(0.5, 1.0 - 6 / height, pace, ha="center", va="top", fontsize=13)

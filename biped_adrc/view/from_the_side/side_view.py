@@ -120,12 +120,8 @@ class SideView:
 
     def points(self, t: float) -> Array:
         """(4,), x and z [m] of the hip and of the swing foot at t [s]."""
-        trajectory, biped = self.scene.trajectory, self.scene.biped
-        t = min(max(t, trajectory.t_start), trajectory.t_end)
-        i = self.scene.arc_at(t)
-        q = trajectory.arcs[i](t)[: biped.n]
-        points = np.concatenate((biped.hip(q), biped.swing_foot(q)))
-        return points + np.tile(self.scene.foot(i, t), 2)
+        i, q = self.scene.posture(t)
+        return self.scene.points(i, t, q)
 
     @cached_property
     def _about_foot(self) -> Array:

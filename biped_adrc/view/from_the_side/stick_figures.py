@@ -12,9 +12,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
-from biped_adrc.core.errors import InputError
 from biped_adrc.view.from_the_side.side_view import SideView
-from biped_adrc.view.placement import Recorded, WalkScene, ending
+from biped_adrc.view.placement import Clip, Recorded, WalkScene, ending
 from biped_adrc.view.style import (
     STANCE,
     SWING,
@@ -22,7 +21,6 @@ from biped_adrc.view.style import (
     label,
     literal,
     new_figure,
-    style,
     write_figure,
 )
 
@@ -38,15 +36,10 @@ MARGIN = 0.6
 """Least ground [m] shown before the first and behind the last foothold."""
 
 
-def strip(
-    axes: Axes,
-    walk: Recorded,
-    start: float | None = None,
-    stop: float | None = None,
-) -> Axes:
-    """Draw the robot at POSES times, equally spaced from `start` to `stop` [s]; returns the axes.
+def strip(axes: Axes, walk: Recorded, clip: Clip) -> Axes:
+    """Draw the robot at POSES times, equally spaced over the part that `clip` shows; returns the axes.
 
-    Without times: the last two steps. The first pose is at `start`. A pose at an impact shows the
+    Without times: the last two steps. The first pose is at its start. A pose at an impact shows the
     end of the step before it, as the first pose of the next step has the same posture with the legs
     exchanged. The title says how far apart the poses are, and how a walk ended that did not do what
     it was asked for.
@@ -54,7 +47,8 @@ def strip(
     Raises InputError for times outside the walk.
     """
     scene = WalkScene.of(walk)
-    start, stop = _interval(scene, start, stop)
+    run = scene.trajectory
+    start, stop = clip.part(run.t_start, run.t_end, float(run.arcs[-2:][0].t[0]))
     view = SideView(scene)
     times = np.linspace(start, stop, POSES)
     for k, t in enumerate(times):
@@ -65,24 +59,10 @@ def strip(
     axes.set_aspect("equal")
     axes.grid(False)
     axes.legend(loc="upper right", bbox_to_anchor=(1.0, 1.1), ncols=4, borderaxespad=0.0)
-    over = ending(scene.trajectory) if stop >= scene.trajectory.t_end else ""
+    over = ending(run) if stop >= run.t_end else ""
     every = f"a pose every {1e3 * (times[1] - times[0]):.0f} ms"
     label(axes, "x [m]", "z [m]", f"{every}; {literal(over)}" if over else every)
     return axes
-
-
-def _interval(scene: WalkScene, start: float | None, stop: float | None) -> tuple[float, float]:
-    """The times asked for, or those of the last two steps [s]. Raises InputError for times outside the walk."""
-    trajectory = scene.trajectory
-    arcs = trajectory.arcs[-2:]
-    start = float(arcs[0].t[0]) if start is None else start
-    stop = float(arcs[-1].t[-1]) if stop is None else stop
-    if not trajectory.t_start <= start < stop <= trajectory.t_end:
-        raise InputError(
-            f"the part from {start:g} to {stop:g} s was asked for; the walk lasts from "
-            f"{trajectory.t_start:g} to {trajectory.t_end:g} s"
-        )
-    return start, stop
 
 
 def _pose(axes: Axes, view: SideView, t: float, darkness: float, named: bool) -> None:
@@ -124,9 +104,8 @@ def _ground(axes: Axes, view: SideView, start: float, stop: float) -> None:
     axes.set_ylim(float(line[:, 1].min()) - 0.08, float(z.max()) + 1.05 * view.height)
 
 
-def write_strip(path: Path, walk: Recorded, start: float | None, stop: float | None) -> None:
+def write_strip(path: Path, walk: Recorded, clip: Clip) -> None:
     """Write a strip as .png or .svg; arguments as for `strip`. Raises InputError and OutputError."""
-    with style():
-        figure = new_figure(6.4, 5.2)
-        strip(figure.subplots(), walk, start, stop)
+    with new_figure(6.4, 5.2) as figure:
+        strip(figure.subplots(), walk, clip)
     write_figure(path, figure)

@@ -88,12 +88,11 @@ def pose(scene: WalkScene, i: int, t: float) -> Pose:
     )
     rates = [(later[name] - earlier[name]) / (2.0 * EPSILON) for name in moving]
     acting = loads(scene, min(t, math.nextafter(float(arc.t[-1]), -math.inf)))
-    points = np.concatenate((biped.hip(q), biped.swing_foot(q))) + np.tile(foothold, 2)
     return Pose(
         np.array([at[name] for name in moving]),
         np.array(rates),
         np.concatenate((acting.ground_reaction, acting.zeta)),
-        points,
+        scene.points(i, t, q),
         np.array([*foothold, *acting.other, acting.slips]),
     )
 

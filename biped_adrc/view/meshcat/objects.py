@@ -18,18 +18,26 @@ import random
 import re
 import uuid
 import warnings
-from collections.abc import Iterator, Sequence
-from typing import Protocol
+from collections.abc import Sequence
+from typing import Any, TypeAlias
 
 import numpy as np
 import umsgpack  # type: ignore[import-untyped]
 from matplotlib.colors import to_hex
-from numpy.typing import NDArray
 
 from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.urdf import Joint, Tree, Visual
-from biped_adrc.view.placement import TILE, WalkScene, joint_transform, legs, spokes, turn
+from biped_adrc.view.placement import (
+    TILE,
+    WalkScene,
+    joint_transform,
+    legs,
+    placed,
+    spokes,
+    turn,
+)
+from biped_adrc.view.style import bent_arrow
 
 with warnings.catch_warnings():
     # meshcat 0.3.2 imports a deprecated module of pyzmq for the server that is not used here
@@ -48,33 +56,8 @@ HEAD = 0.09
 """Length [m] of the head of an arrow."""
 
 
-class SceneNode(Protocol):
-    """A node of Meshcat's tree; `node[path]` is one below it. meshcat has no types of its own."""
-
-    def __getitem__(self, path: str) -> SceneNode: ...
-    def set_object(self, geometry: object, material: object = ...) -> None: ...
-    def set_transform(self, matrix: Array) -> None: ...
-    def set_property(self, key: str, value: object) -> None: ...
-
-
-class MeshcatCommand(Protocol):
-    """A command that meshcat sends to a viewer; `lower` gives it as plain values."""
-
-    def lower(self) -> dict[str, object]: ...
-
-
-def shift(origin: Sequence[float]) -> Array:
-    """Placement (4, 4) of a translation by `origin` (3,) [m]."""
-    M = np.eye(4)
-    M[:3, 3] = origin
-    return M
-
-
-def rotation(R: Array) -> Array:
-    """Placement (4, 4) of a rotation by R (3, 3)."""
-    M = np.eye(4)
-    M[:3, :3] = R
-    return M
+SceneNode: TypeAlias = meshcat.Visualizer
+"""A node of Meshcat's tree; `node[path]` is one below it."""
 
 
 def paint(rgb: Colour, opacity: float = 1.0) -> object:
@@ -108,7 +91,7 @@ def add_robot(node: SceneNode, biped: Biped, opacity: float) -> None:
             for i, R in enumerate(spokes(biped) if any(visual.origin) else [np.eye(3)]):
                 part = here[f"visual_{k}" if i == 0 else f"visual_{k}_spoke_{i}"]
                 part.set_object(_shape(visual), paint(visual.rgba, opacity * visual.rgba[3]))
-                part.set_transform(rotation(R) @ visual_transform(visual))
+                part.set_transform(placed(R=R) @ visual_transform(visual))
 
 
 def _shape(visual: Visual) -> object:
@@ -122,13 +105,11 @@ def _shape(visual: Visual) -> object:
 
 def visual_transform(visual: Visual) -> Array:
     """Placement (4, 4) of a primitive in its link; a URDF cylinder lies along z, Meshcat's along y."""
-    return shift(visual.origin) @ (UPRIGHT if visual.shape == "cylinder" else np.eye(4))
+    return placed(visual.origin, UPRIGHT if visual.shape == "cylinder" else np.eye(3))
 
 
-UPRIGHT = np.array(
-    [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
-)
-"""(4, 4): turns y, the axis of Meshcat's cylinders, to z."""
+UPRIGHT = turn((1.0, 0.0, 0.0), 0.5 * math.pi)
+"""(3, 3): turns y, the axis of Meshcat's cylinders, to z."""
 
 
 def leg_visuals(biped: Biped) -> list[list[str]]:
@@ -171,7 +152,7 @@ def under(point: Sequence[float], slope: float, depth: float, side: float = 0.0)
     slope [rad], positive downhill; side [m], away from the camera.
     """
     R = turn((0.0, 1.0, 0.0), slope)
-    return shift((point[0], side, point[1])) @ rotation(R) @ shift((0.0, 0.0, -depth))
+    return placed(np.array([point[0], side, point[1]]) - depth * R[:, 2], R)
 
 
 def add_trace(node: SceneNode, points: int, rgb: Colour, opacity: float) -> None:
@@ -185,9 +166,9 @@ def add_arrow(node: SceneNode, rgb: Colour, opacity: float) -> None:
     """Draw an arrow along z: a shaft of length 1 m and a head of length `HEAD`, to be scaled by the player."""
     shaft, head = node["shaft"]["body"], node["head"]["body"]
     shaft.set_object(shapes.Cylinder(1.0, 0.012), paint(rgb, opacity))
-    shaft.set_transform(shift((0.0, 0.0, 0.5)) @ UPRIGHT)
+    shaft.set_transform(placed((0.0, 0.0, 0.5), UPRIGHT))
     head.set_object(shapes.Cylinder(HEAD, radiusTop=0.0, radiusBottom=0.035), paint(rgb, opacity))
-    head.set_transform(shift((0.0, 0.0, 0.5 * HEAD)) @ UPRIGHT)
+    head.set_transform(placed((0.0, 0.0, 0.5 * HEAD), UPRIGHT))
 
 
 def add_ring(node: SceneNode, origin: Sequence[float], rgb: Colour, opacity: float) -> None:
@@ -195,32 +176,13 @@ def add_ring(node: SceneNode, origin: Sequence[float], rgb: Colour, opacity: flo
 
     The player scales its node `turn` by the torque; a negative one turns it round.
     """
-    node.set_transform(shift(origin))
-    vertices, faces = ring_mesh()
-    node["turn"]["body"].set_object(
-        shapes.TriangularMeshGeometry(vertices, faces), paint(rgb, opacity)
-    )
-
-
-def ring_mesh(width: float = 0.12, segments: int = 40) -> tuple[Array, NDArray[np.int_]]:
-    """Vertices (V, 3) and faces (F, 3) of a flat bent arrow over 300 degrees, its head at the end."""
-    angle = np.linspace(math.radians(-60.0), math.radians(200.0), segments)
-    rim = np.column_stack((np.cos(angle), np.zeros(segments), np.sin(angle)))
-    vertices = np.vstack(((1.0 - width) * rim, (1.0 + width) * rim))
-    k = np.arange(segments - 1)
-    faces = np.vstack(
-        (
-            np.column_stack((k, k + 1, k + segments)),
-            np.column_stack((k + 1, k + 1 + segments, k + segments)),
-        )
-    )
-    end, tip = angle[-1], math.radians(240.0)
-    head = [
-        [r * math.cos(a), 0.0, r * math.sin(a)]
-        for r, a in ((1.0 - 2.5 * width, end), (1.0 + 2.5 * width, end), (1.0, tip))
-    ]
-    faces = np.vstack((faces, [[len(vertices), len(vertices) + 1, len(vertices) + 2]]))
-    return np.vstack((vertices, head)), faces
+    node.set_transform(placed(origin))
+    outline = bent_arrow(1.0)
+    last, n = len(outline) - 1, len(outline) // 2 - 1  # point k of the outer rim is beside last - k
+    k = np.arange(n - 1)
+    rim = np.column_stack((last - k, last - k - 1, k, last - k - 1, k + 1, k)).reshape(-1, 3)
+    mesh = np.insert(outline, 1, 0.0, axis=1), np.vstack((rim, (n + 2, n, n + 1)))
+    node["turn"]["body"].set_object(shapes.TriangularMeshGeometry(*mesh), paint(rgb, opacity))
 
 
 def add_ground(node: SceneNode, scenes: Sequence[WalkScene], depth: float, lane: float) -> None:
@@ -237,33 +199,15 @@ def add_ground(node: SceneNode, scenes: Sequence[WalkScene], depth: float, lane:
     for k, scene in enumerate(scenes[:1] if shared else scenes):
         near = -0.5 if k == 0 else (k - 0.5) * lane
         far = last * lane + 0.5 if shared or k == last else (k + 0.5) * lane
-        _add_strip(node, names, scene, (low, high), depth, (near, far))
-
-
-def _add_strip(
-    node: SceneNode,
-    names: Iterator[int],
-    scene: WalkScene,
-    reach: tuple[int, int],
-    depth: float,
-    sides: tuple[float, float],
-) -> None:
-    """Draw the tiles of one ground, thick enough to reach the lower ground beside the highest step.
-
-    names: numbers for the nodes. reach: first and last tile. sides [m]: near and far edge, from the
-    first walk's plane.
-    """
-    near, far = sides
-    thick = 0.03 + float(np.max(np.abs(scene.surface.drops), initial=0.0))
-    for tile in scene.surface.tiles(*reach):
-        grey = 0.78 if tile.even else 0.62
-        size = [float(np.hypot(*(tile.ends[1] - tile.ends[0]))), far - near, thick]
-        slab = node[f"{next(names)}"]
-        slab.set_object(shapes.Box(size), paint((grey, grey, grey)))
-        middle = tile.ends.mean(axis=0)
-        slab.set_transform(
-            under(middle, scene.surface.slope, depth + 0.5 * thick, 0.5 * (near + far))
-        )
+        # thick enough to reach the lower ground beside the highest step
+        thick = 0.03 + float(np.max(np.abs(scene.surface.drops), initial=0.0))
+        for tile in scene.surface.tiles(low, high):
+            grey = 0.78 if tile.even else 0.62
+            size = [float(np.hypot(*(tile.ends[1] - tile.ends[0]))), far - near, thick]
+            slab, middle = node[f"{next(names)}"], tile.ends.mean(axis=0)
+            slab.set_object(shapes.Box(size), paint((grey, grey, grey)))
+            below, side = depth + 0.5 * thick, 0.5 * (near + far)
+            slab.set_transform(under(middle, scene.surface.slope, below, side))
 
 
 def set_stage(viewer: SceneNode) -> None:
@@ -274,21 +218,23 @@ def set_stage(viewer: SceneNode) -> None:
         viewer["/Background"].set_property(name, [1.0, 1.0, 1.0])
 
 
-def set_camera(viewer: SceneNode, kind: str, scale: float = 1.0) -> tuple[list[float], list[float]]:
-    """Place a camera at the robot's right side ("side", x to the right, z up) or before it ("perspective").
+def camera(kind: str, scale: float) -> dict[str, object]:
+    """A camera at the robot's right side ("side", x to the right, z up) or before it ("perspective").
 
-    Returns its position and its target [m], in the camera's own frame, which has y up and z towards
+    Meshcat's commands, position and target [m], these in the camera's own frame, which has y up and z towards
     the robot's right. scale: how much larger than for RABBIT.
     """
-    node = viewer[f"/Cameras/{kind}/rotated"]
-    node.set_transform(UPRIGHT)
+    window = MemoryWindow(kind)
+    node = window.viewer[f"/Cameras/{kind}/rotated"]
+    node.set_transform(placed(R=UPRIGHT))
     if kind == "side":
-        half = 0.5 * VIEW * scale
+        half, position, target = 0.5 * VIEW * scale, [0.0, 0.7, 8.0 / scale], [0.0, 0.7, 0.0]
         node.set_object(shapes.OrthographicCamera(-half, half, half, -half, near=0.1, far=100.0))
-        return [0.0, 0.7 * scale, 8.0], [0.0, 0.7 * scale, 0.0]
-    node.set_object(shapes.PerspectiveCamera(fov=40.0, near=0.05, far=100.0))
-    position, target = [1.7, 1.3, 2.6], [0.1, 0.6, 0.0]
-    return [scale * c for c in position], [scale * c for c in target]
+    else:
+        position, target = [1.7, 1.3, 2.6], [0.1, 0.6, 0.0]
+        node.set_object(shapes.PerspectiveCamera(fov=40.0, near=0.05, far=100.0))
+    position, target = ([scale * c for c in place] for place in (position, target))
+    return {"commands": window.packed, "position": position, "target": target}
 
 
 class MemoryWindow:
@@ -301,12 +247,12 @@ class MemoryWindow:
     def __init__(self, seed: str = "scene") -> None:
         self.packed: list[str] = []
         """The commands in base64."""
-        self.viewer: SceneNode = meshcat.Visualizer(window=self)
+        self.viewer = meshcat.Visualizer(window=self)
         """Meshcat's tree of nodes."""
         self._names: dict[bytes, bytes] = {}
         self._source = random.Random(seed)
 
-    def send(self, command: MeshcatCommand) -> None:
+    def send(self, command: Any) -> None:
         """Keep a command of meshcat, packed as its viewer expects it.
 
         Meshcat names objects by clock and host (uuid1). Here names come from a seeded source in the

@@ -10,19 +10,27 @@ from __future__ import annotations
 
 import base64
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from biped_adrc.core.errors import InputError, check_positive
 from biped_adrc.model.biped import Biped
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.meshcat import objects as draw
 from biped_adrc.view.meshcat.frames import Frames
 from biped_adrc.view.pages import player
-from biped_adrc.view.placement import Recorded, WalkScene, ending, exchanged, is_wheel
+from biped_adrc.view.placement import (
+    VIEWS,
+    Clip,
+    Recorded,
+    WalkScene,
+    ending,
+    exchanged,
+    is_wheel,
+    placed,
+)
 from biped_adrc.view.style import (
+    LONGEST,
     METRES_PER_NEWTON_METRE,
     REACTION,
     STANCE,
@@ -35,59 +43,32 @@ GHOST = 0.35
 """Opacity of a ghost."""
 LANE = 0.4
 """By how much [m] each ghost walks farther from the camera: faces in one plane would flicker."""
-LONGEST = 1.2
-"""Longest arrow of a ground reaction [m]; that of a larger one is cut, and the page says so."""
+FPS = 60.0
+"""Frames per second of a page."""
 TRACE_POINTS = 20_000
 """Room for the traces of a walk without samples."""
 TALL = 1.6
 """Height [m] of the highest robot that the cameras show from where they are for RABBIT; for higher
 ones they stand back.
 """
-VIEWS = ("side", "perspective")
-"""Cameras: "side" is orthographic, so lengths can be compared anywhere in the picture."""
-
 Marks = Sequence[tuple[float, float, str]]
 """(start, stop, text) of what is shown beside the clock, times in [s]."""
 
 
-@dataclass(frozen=True)
-class Look:
-    """How walks are shown.
-
-    solid: name of the walk drawn opaque and followed by the camera, the last one if None; the
-    others are translucent.
-    marks: (start, stop, text) [s], shown beside the clock.
-    fps [1/s]: frames sampled from the trajectories. view: camera at the start, one of `VIEWS`.
-    """
-
-    solid: str | None = None
-    marks: Marks = ()
-    fps: float = 60.0
-    view: str = "side"
-
-    def order(self, walks: Mapping[str, Recorded]) -> list[str]:
-        """The names with the solid walk first, then the ghosts. Raises InputError for what does not fit."""
-        if self.view not in VIEWS:
-            raise InputError(f"view is '{self.view}', choose one of {list(VIEWS)}")
-        check_positive(self.fps, f"fps is {self.fps} frames per second")
-        solid = list(walks)[-1] if self.solid is None else self.solid
-        if solid not in walks:
-            raise InputError(
-                f"there is no walk '{solid}' to draw solid; choose one of {list(walks)}"
-            )
-        return [solid, *(name for name in walks if name != solid)]
-
-
-def animation_html(walks: Mapping[str, Recorded], look: Look | None = None) -> str:
+def animation_html(
+    walks: Mapping[str, Recorded], clip: Clip | None = None, marks: Marks = ()
+) -> str:
     """The walks, overlaid, as one page that needs no server and no network; the same walks give the same text.
 
-    walks: name -> walk. Raises InputError for no walk, an unknown view or solid walk, or an fps
-    that is not positive.
+    walks: name -> walk, one or more; the last is drawn opaque and followed by the camera, the others are
+    translucent. clip: frames per second and camera. marks: shown beside the clock. Raises InputError for too
+    many frames.
     """
-    look = Look() if look is None else look
-    scenes = {name: WalkScene.of(walks[name]) for name in look.order(walks)}
-    frames = {name: Frames.of(scene, look.fps) for name, scene in scenes.items()}
-    return player(scene_settings(scenes, look, frames), " and ".join(walks), captions(scenes))
+    clip = Clip() if clip is None else clip
+    scenes = {name: WalkScene.of(walks[name]) for name in [*walks][-1:] + [*walks][:-1]}
+    frames = {name: Frames.of(scene, clip.fps or FPS) for name, scene in scenes.items()}
+    settings = scene_settings(scenes, clip, frames, marks)
+    return player(settings, " and ".join(walks), captions(scenes))
 
 
 def _packed(frames: Frames) -> dict[str, str]:
@@ -99,7 +80,10 @@ def _packed(frames: Frames) -> dict[str, str]:
 
 # -- scene -----------------------------------------------------------------------------------------
 def scene_settings(
-    scenes: Mapping[str, WalkScene], look: Look, frames: Mapping[str, Frames] | None = None
+    scenes: Mapping[str, WalkScene],
+    clip: Clip,
+    frames: Mapping[str, Frames] | None = None,
+    marks: Marks = (),
 ) -> dict[str, object]:
     """What scene.js and player.js are told: Meshcat's commands and, by walk, the paths of what moves.
 
@@ -107,21 +91,19 @@ def scene_settings(
     has none.
 
         walks       for each walk what `_add_walk` says, its name, its end [s] and how it ended
-        leader      index of the walk the camera follows; follow: the node it follows
-        marks       as in `Look`; fps [1/s]; start, end [s] of the slider
+        follow      the node, of the first walk, that the camera follows
+        marks       (start, stop, text); fps [1/s]; start, end [s] of the slider
         view        the camera at the start; views: commands, position and target [m] of each
         commands    Meshcat's commands that build the scene
     """
     window = draw.MemoryWindow()
     viewer = window.viewer
-    names = node_names(scenes)
     described = []
     for lane, (name, scene) in enumerate(scenes.items()):
         opacity, sampled = (1.0 if lane == 0 else GHOST), (frames or {}).get(name)
         room = TRACE_POINTS if sampled is None else len(sampled.t)
-        robot = viewer[f"robots/{names[name]}"]
-        robot.set_transform(draw.shift((0.0, LANE * lane, 0.0)))
-        path = f"meshcat/robots/{names[name]}"
+        robot, path = viewer[f"robots/{lane}"], f"meshcat/robots/{lane}"
+        robot.set_transform(placed((0.0, LANE * lane, 0.0)))
         over = {"name": name, "end": scene.trajectory.t_end, "ending": ending(scene.trajectory)}
         data = {} if sampled is None else {"data": _packed(sampled)}
         described.append(over | _add_walk(robot, path, scene, opacity, room) | data)
@@ -133,23 +115,15 @@ def scene_settings(
     scale = max(1.0, SideView(solid).height / TALL)
     return {
         "walks": described,
-        "leader": 0,
-        "follow": f"meshcat/robots/{next(iter(names.values()))}/{draw.joint_path(tree, base_x)}",
-        "marks": [list(mark) for mark in look.marks],
-        "fps": look.fps,
+        "follow": f"meshcat/robots/0/{draw.joint_path(tree, base_x)}",
+        "marks": [list(mark) for mark in marks],
+        "fps": clip.fps or FPS,
         "start": min(scene.trajectory.t_start for scene in scenes.values()),
         "end": max(scene.trajectory.t_end for scene in scenes.values()),
-        "view": look.view,
-        "views": {kind: _view(kind, scale) for kind in VIEWS},
+        "view": clip.view,
+        "views": {kind: draw.camera(kind, scale) for kind in VIEWS},
         "commands": window.packed,
     }
-
-
-def _view(kind: str, scale: float) -> dict[str, object]:
-    """A camera: its commands, position and target [m]."""
-    window = draw.MemoryWindow(kind)
-    position, target = draw.set_camera(window.viewer, kind, scale)
-    return {"commands": window.packed, "position": position, "target": target}
 
 
 def _add_walk(
@@ -225,17 +199,6 @@ def _add_ring(robot: draw.SceneNode, biped: Biped, name: str, opacity: float) ->
     origin = inertial.com if torso and inertial is not None else (0.0, 0.0, 0.0)
     draw.add_ring(robot[path], origin, TORQUE, opacity)
     return path
-
-
-def node_names(names: Iterable[str]) -> dict[str, str]:
-    """Each name as it may stand in a path of the scene (letters, digits, underscores); no two alike."""
-    result: dict[str, str] = {}
-    for name in names:
-        plain = "".join(c if c.isalnum() else "_" for c in name) or "walk"
-        while plain in result.values():
-            plain += "_"
-        result[name] = plain
-    return result
 
 
 def captions(scenes: Mapping[str, WalkScene]) -> list[tuple[str, str]]:

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 
 from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.view.plots.over_time import Window, broken, shade
+from biped_adrc.view.plots.over_time import Window, broken, finished, legend
 from biped_adrc.view.style import DASHES, PALETTE, label
 
 MARKERS = "osD^"
@@ -27,15 +27,12 @@ def error_over_time(axes: Axes, walks: Mapping[str, Signals], push: Window | Non
 
     push: (start, stop) [s], shaded. Lines break at impacts.
     """
-    shade(axes, push)
     for i, (name, s) in enumerate(walks.items()):
         largest = np.maximum(np.max(np.abs(s.error), axis=1), FLOOR)
         x, y = broken(s, s.t), broken(s, largest)
         axes.plot(x, y, label=name, color=PALETTE[i], ls=DASHES[i % 4], lw=1.0)
     axes.set_yscale("log")
-    label(axes, "time [s]", "largest tracking error [rad]")
-    axes.legend(loc="upper left", frameon=False)
-    return axes
+    return finished(axes, "largest tracking error [rad]", push)
 
 
 def error_sizes(axes: Axes, walks: Mapping[str, Signals]) -> Axes:
@@ -77,4 +74,4 @@ def torque_sizes(axes: Axes, walks: Mapping[str, Signals]) -> Axes:
         axes.bar(at, peaks, width, color=PALETTE[i], ec="white", hatch=hatch, label=name)
     axes.set_xticks(np.arange(len(peaks)), [f"$u_{k + 1}$" for k in range(len(peaks))])
     label(axes, "", "peak torque [N m]")
-    return axes
+    return legend(axes)

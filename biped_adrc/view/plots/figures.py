@@ -6,20 +6,21 @@ time around it, and most of them the milliseconds after either edge, in which a 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
-from matplotlib.gridspec import GridSpec, SubplotSpec
+from matplotlib.gridspec import SubplotSpec
 from numpy.typing import ArrayLike
 
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.types import Array
-from biped_adrc.view import plots
+from biped_adrc.view.plots import comparison, over_time, stability
 from biped_adrc.view.plots.over_time import Window
-from biped_adrc.view.style import new_figure, style
+from biped_adrc.view.style import new_figure
 
 BEFORE, AFTER = 0.3, 0.6
 """What the zoom shows before and after a push [s]."""
@@ -27,6 +28,9 @@ EDGE_BEFORE, EDGE_AFTER = 1e-3, 6e-3
 """What is shown before and after an edge of a push [s]."""
 EDGES = ("push begins", "push ends")
 """Titles of the columns of the two edges."""
+
+Draw = Callable[[Axes], object]
+"""Draws one panel."""
 
 
 def tracking_figure(
@@ -40,28 +44,22 @@ def tracking_figure(
     """
     p = signals.q_d.shape[1]
     halves = [half.tolist() for half in np.array_split(np.arange(p), min(2, p))]
-    with style():
-        figure = new_figure(10.0 if push else 7.5, 7.2 if push else 9.0)
-        figure.suptitle(_titled(title, signals, push))
+    angles = [partial(over_time.joint_tracking, s=signals, joints=x, push=push) for x in halves]
+    below: list[Draw] = [
+        partial(over_time.torques, s=signals, limit=torque_limit, push=push),
+        partial(over_time.tracking_errors, s=signals, push=push),
+    ]
+    size = (10.0, 7.2) if push else (7.5, 9.0)
+    with new_figure(*size, _titled(title, signals, push)) as figure:
         if push is None:
             spec = figure.add_gridspec(len(halves) + 2, 1)
-            column = _column(figure, [spec[i] for i in range(len(halves) + 2)])
-            for axes, half in zip(column, halves, strict=False):
-                plots.joint_tracking(axes, signals, half).set_xlabel("")
-            _torques_and_errors(column[-2:], signals, push, torque_limit)
+            column = _column(figure, [spec[i] for i in range(len(halves) + 2)], [*angles, *below])
             column[0].set_xlim(signals.t[0], signals.t[-1])
             return figure
         spec = figure.add_gridspec(3, 4)
-        for axes, half in zip(_row(figure, spec, 0, len(halves)), halves, strict=True):
-            plots.joint_tracking(axes, signals, half, push)
-            _zoom([axes], signals, push)
-            _legend_above(axes)
-        columns = _around_and_edges(figure, spec, (1, 2))
-        for column in columns:
-            _torques_and_errors(column, signals, push, torque_limit)
-        _zoom(columns[0], signals, push)
-        _edges(columns[1:], signals, push)
-        _one_legend_a_row(columns)
+        for place, draw in zip(_halves(spec, 0, len(halves)), angles, strict=True):
+            _zoom(_column(figure, [place], [draw]), signals, push)
+        _around_and_edges(figure, spec, (1, 2), below, signals, push)
         return figure
 
 
@@ -77,97 +75,61 @@ def _titled(title: str, s: Signals, push: Window | None) -> str:
     return f"{title}: {words}" if words else title
 
 
-def _row(figure: Figure, spec: GridSpec, row: int, count: int) -> list[Axes]:
-    """One or two panels that fill a row of four places."""
-    ends = (slice(0, 4),) if count == 1 else (slice(0, 2), slice(2, 4))
-    return [figure.add_subplot(spec[row, end]) for end in ends]
+def _halves(spec: Any, row: int, count: int = 2) -> list[SubplotSpec]:
+    """The places of one or two panels that fill a row of four places."""
+    return [spec[row, :]] if count == 1 else [spec[row, :2], spec[row, 2:]]
 
 
-def _around_and_edges(figure: FigureBase, spec: GridSpec, rows: Sequence[int]) -> list[list[Axes]]:
-    """Three columns of panels in four places: around the push, where it begins, and where it ends."""
-    places = (slice(0, 2), slice(2, 3), slice(3, 4))
-    return [_column(figure, [spec[row, place] for row in rows]) for place in places]
-
-
-def _column(figure: FigureBase, places: Sequence[SubplotSpec]) -> list[Axes]:
-    """Panels one above the other that share one time axis, whose numbers stand below the lowest."""
-    first = figure.add_subplot(places[0])
-    column = [first, *(figure.add_subplot(place, sharex=first) for place in places[1:])]
+def _column(figure: FigureBase, places: Sequence[SubplotSpec], draws: Sequence[Draw]) -> list[Axes]:
+    """Panels one above the other that share one time axis, whose numbers and name stand below the lowest."""
+    column: list[Axes] = []
+    for place, draw in zip(places, draws, strict=True):
+        column.append(figure.add_subplot(place, sharex=column[0] if column else None))
+        draw(column[-1])
     for axes in column[:-1]:
         axes.tick_params(labelbottom=False)
+        axes.set_xlabel("")
     return column
 
 
-def _torques_and_errors(
-    column: Sequence[Axes], s: Signals, push: Window | None, limit: float | None
-) -> None:
-    """Draw torques, with their limit [N m], above tracking errors."""
-    plots.torques(column[0], s, limit, push).set_xlabel("")
-    plots.tracking_errors(column[1], s, push)
+def _around_and_edges(
+    figure: FigureBase,
+    spec: Any,
+    rows: Sequence[int],
+    draws: Sequence[Draw],
+    s: Signals,
+    push: Window | None,
+) -> list[list[Axes]]:
+    """Panels, a row for each of `draws`, in three columns: around the push, where it begins, and where it ends.
 
-
-def _edges(columns: Sequence[Sequence[Axes]], s: Signals, push: Window) -> None:
-    """Set the limits of two columns around either edge of the push, and label their time in [ms] from it.
-
-    What they show is named at the left end of their row.
+    The edges have their time in [ms] from it; what they show is named at the left end of their row. Without a
+    push there is one column, with the whole walk.
     """
-    for column, edge, name in zip(columns, push, EDGES, strict=True):
-        _limits(column, max(edge - EDGE_BEFORE, s.t[0]), min(edge + EDGE_AFTER, s.t[-1]))
-        column[0].set_title(name, loc="left")
-        at = np.arange(0.0, EDGE_AFTER + 1e-9, 2e-3)
-        for axes in column:
-            axes.set_xticks(edge + at, [f"{1e3 * t:g}" for t in at])
-            axes.set_xlabel("")
-            axes.set_ylabel("")
-        column[-1].set_xlabel("after the edge [ms]")
-
-
-def _legend_above(axes: Axes) -> None:
-    """Put the legend in a line above a panel, where it takes no width."""
-    handles, names = axes.get_legend_handles_labels()
-    axes.legend(
-        handles,
-        names,
-        ncols=len(names),
-        frameon=False,
-        columnspacing=1.2,
-        handlelength=1.6,
-        loc="lower left",
-        bbox_to_anchor=(-0.01, 1.0),
-        borderaxespad=0.0,
+    if push is None:
+        return [_column(figure, [spec[row, :] for row in rows], draws)]
+    around, *edges = (
+        _column(figure, [spec[row, place] for row in rows], draws)
+        for place in (slice(0, 2), slice(2, 3), slice(3, 4))
     )
+    _zoom(around, s, push)
+    at = np.arange(0.0, EDGE_AFTER + 1e-9, 2e-3)
+    for column, edge, name in zip(edges, push, EDGES, strict=True):
+        _limits(column, max(edge - EDGE_BEFORE, s.t[0]), min(edge + EDGE_AFTER, s.t[-1]))
+        for axes in column:
+            axes.legend().remove()
+            axes.set_xticks(edge + at, [f"{1e3 * t:g}" for t in at])
+            axes.set_ylabel("")
+        column[0].set_title(name, loc="left")
+        column[-1].set_xlabel("after the edge [ms]")
+    return [around, *edges]
 
 
-def _one_legend_a_row(columns: Sequence[Sequence[Axes]]) -> None:
-    """Legends above the panels of the first column, none in the others."""
-    for axes in columns[0]:
-        _legend_above(axes)
-    for axes in (axes for column in columns[1:] for axes in column):
-        legend = axes.get_legend()
-        if legend is not None:
-            legend.remove()
-
-
-def passive_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
-    """A walk without motors: its angles [rad] and energies [J] over time [s], and Theta against its rate.
-
-    push: (start, stop) [s], shaded.
+def _zoom(column: Sequence[Axes], s: Signals, push: Window | None) -> None:
+    """Set the limits of a column to the time around the push, if there is one, and of each value axis to what
+    is drawn there.
     """
-    with style():
-        figure = new_figure(10.5, 5.6)
-        figure.suptitle(title)
-        parts = figure.subplot_mosaic(
-            [["angles", "phase"], ["energy", "phase"]], width_ratios=(3, 2)
-        )
-        plots.angles(parts["angles"], signals, push).set_xlabel("")
-        plots.energy(parts["energy"], signals, push)
-        plots.phase_portrait(parts["phase"], signals)
-        return figure
-
-
-def _zoom(column: Sequence[Axes], s: Signals, push: Window) -> None:
-    """Set the limits of a column to the time around the push, and of each value axis to what is drawn there."""
-    _limits(column, max(push[0] - BEFORE, float(s.t[0])), min(push[1] + AFTER, float(s.t[-1])))
+    if push is not None:
+        _limits(column, max(push[0] - BEFORE, s.t[0]), min(push[1] + AFTER, s.t[-1]))
 
 
 def _limits(column: Sequence[Axes], low: float, high: float) -> None:
@@ -190,15 +152,29 @@ def _limits(column: Sequence[Axes], low: float, high: float) -> None:
         axes.set_ylim(ends[:, 0].min() - pad, ends[:, 1].max() + pad)
 
 
+def passive_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
+    """A walk without motors: its angles [rad] and energies [J] over time [s], and Theta against its rate.
+
+    push: (start, stop) [s], shaded.
+    """
+    with new_figure(10.5, 5.6, title) as figure:
+        parts = figure.subplot_mosaic(
+            [["angles", "phase"], ["energy", "phase"]], width_ratios=(3, 2)
+        )
+        over_time.angles(parts["angles"], signals, push).set_xlabel("")
+        over_time.energy(parts["energy"], signals, push)
+        over_time.phase_portrait(parts["phase"], signals)
+        return figure
+
+
 def phase_figure(walks: Mapping[str, Signals]) -> Figure:
     """The paper's figure 6: Theta [rad] against Theta' [rad/s], a panel for each controller; lines
     break at impacts.
     """
-    with style():
-        figure = new_figure(4.6 * len(walks), 4.2)
+    with new_figure(4.6 * len(walks), 4.2) as figure:
         row = figure.subplots(1, len(walks), squeeze=False, sharex=True, sharey=True)[0]
         for i, (axes, (name, s)) in enumerate(zip(row, walks.items(), strict=True)):
-            plots.phase_portrait(axes, s, name, i).set_title(name, loc="left")
+            over_time.phase_portrait(axes, s, name, i).set_title(name, loc="left")
         return figure
 
 
@@ -210,25 +186,13 @@ def disturbance_figure(signals: Signals, title: str = "", push: Window | None = 
     the time around it is shown, and below also the milliseconds at either edge.
     """
     p = signals.q_d.shape[1]
-    with style():
-        figure = new_figure(10.0, 5.2)
-        figure.suptitle(_titled(title, signals, push))
+    with new_figure(10.0, 5.2, _titled(title, signals, push)) as figure:
         parts: Any = figure.subfigures(2, 1)
         above, below = parts
-        row = above.subplots(1, p, squeeze=False, sharex=True)[0]
-        for i, axes in enumerate(row):
-            plots.total_disturbance(axes, signals, i, push)
-            if push:
-                _zoom([axes], signals, push)
-            _legend_above(axes)
-        spec = below.add_gridspec(1, 4)
-        columns = _around_and_edges(below, spec, (0,)) if push else [[below.add_subplot(spec[:])]]
-        for (axes,) in columns:
-            plots.matched_disturbance(axes, signals, push)
-        if push:
-            _zoom(columns[0], signals, push)
-            _edges(columns[1:], signals, push)
-        _one_legend_a_row(columns)
+        for i, axes in enumerate(above.subplots(1, p, squeeze=False, sharex=True)[0]):
+            _zoom([over_time.total_disturbance(axes, signals, i, push)], signals, push)
+        draw = partial(over_time.matched_disturbance, s=signals, push=push)
+        _around_and_edges(below, below.add_gridspec(1, 4), (0,), [draw], signals, push)
         return figure
 
 
@@ -244,28 +208,17 @@ def ground_figure(
     mu [1]: coefficient of friction. slope [rad]: of the ground, positive downhill. push: (start, stop) [s],
     shaded; the time around it is shown.
     """
-    with style():
-        figure = new_figure(10.0, 4.0)
-        figure.suptitle(_titled(title, signals, push))
-        over_time, cone = figure.subplots(1, 2, width_ratios=(3, 2))
-        plots.ground_reaction(over_time, signals, push, slope)
-        plots.friction_cone(cone, signals, mu, slope)
-        for axes in (over_time, cone):
-            _legend_above(axes)
-        if push:
-            _zoom([over_time], signals, push)
+    with new_figure(10.0, 4.0, _titled(title, signals, push)) as figure:
+        forces, cone = figure.subplots(1, 2, width_ratios=(3, 2))
+        _zoom([over_time.ground_reaction(forces, signals, push, slope)], signals, push)
+        over_time.friction_cone(cone, signals, mu, slope)
         return figure
 
 
 def energy_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
     """Kinetic, potential and total energy [J] over time [s]; around a push (start, stop) [s], shaded."""
-    with style():
-        figure = new_figure(7.0, 3.4)
-        figure.suptitle(_titled(title, signals, push))
-        axes = plots.energy(figure.subplots(), signals, push)
-        _legend_above(axes)
-        if push:
-            _zoom([axes], signals, push)
+    with new_figure(7.0, 3.4, _titled(title, signals, push)) as figure:
+        _zoom([over_time.energy(figure.subplots(), signals, push)], signals, push)
         return figure
 
 
@@ -274,24 +227,22 @@ def multiplier_figure(
 ) -> Figure:
     """Floquet multipliers (k,), complex, by name in the unit circle, and their magnitudes in decreasing order.
 
-    published (k,): magnitudes printed in the paper, shown for comparison; see `plots.magnitudes`.
+    published (k,): magnitudes printed in the paper, shown for comparison; see `stability.magnitudes`.
     """
-    with style():
-        figure = new_figure(9.5, 4.4)
+    with new_figure(9.5, 4.4) as figure:
         circle, sizes = figure.subplots(1, 2)
-        plots.multipliers(circle, multipliers).set_title("multipliers", loc="left")
-        plots.magnitudes(sizes, multipliers, published).set_title("magnitudes", loc="left")
+        stability.multipliers(circle, multipliers).set_title("multipliers", loc="left")
+        stability.magnitudes(sizes, multipliers, published).set_title("magnitudes", loc="left")
         return figure
 
 
 def return_map_figure(before: Array, after: Array) -> Figure:
-    """The return map of Theta' as a staircase; see `plots.staircase`.
+    """The return map of Theta' as a staircase; see `stability.staircase`.
 
     before, after (k,): Theta' before one impact and before the next [rad/s].
     """
-    with style():
-        figure = new_figure(5.2, 4.8)
-        plots.staircase(figure.subplots(), before, after)
+    with new_figure(5.2, 4.8) as figure:
+        stability.staircase(figure.subplots(), before, after)
         return figure
 
 
@@ -302,24 +253,13 @@ def comparison_figure(walks: Mapping[str, Signals], push: Window | None = None) 
     milliseconds after either edge.
     """
     first = next(iter(walks.values()))
-    with style():
-        figure = new_figure(10.0, 5.8)
-        figure.suptitle(_titled(" and ".join(walks), first, push))
+    with new_figure(10.0, 5.8, _titled(" and ".join(walks), first, push)) as figure:
         spec = figure.add_gridspec(2, 4)
-        columns = [[figure.add_subplot(spec[0, :])]]
-        if push:
-            columns[0][0].remove()
-            columns = _around_and_edges(figure, spec, (0,))
-        for (axes,) in columns:
-            plots.error_over_time(axes, walks, push)
-        if push:
-            _zoom(columns[0], first, push)
-            _edges(columns[1:], first, push)
-            for (axes,) in columns[1:]:
-                axes.set_ylim(columns[0][0].get_ylim())
-        _one_legend_a_row(columns)
-        sizes, motors = _row(figure, spec, 1, 2)
-        plots.error_sizes(sizes, walks)
-        plots.torque_sizes(motors, walks)
-        _legend_above(motors)
+        draw = partial(comparison.error_over_time, walks=walks, push=push)
+        (around,), *edges = _around_and_edges(figure, spec, (0,), [draw], first, push)
+        for (axes,) in edges:
+            axes.set_ylim(around.get_ylim())
+        sizes, motors = (figure.add_subplot(place) for place in _halves(spec, 1))
+        comparison.error_sizes(sizes, walks)
+        comparison.torque_sizes(motors, walks)
         return figure

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from biped_adrc.analysis.observer.report import ObserverReport
-from biped_adrc.view.style import DASHES, GREY, PALETTE, label, new_figure, style
+from biped_adrc.view.style import DASHES, GREY, PALETTE, label, new_figure
 
 FEWEST, FLOOR = 400, 1e-12
 """Frequencies of a curve, and how far below a panel's largest value it is drawn, as a share of it."""
@@ -30,8 +30,7 @@ def observer_figure(report: ObserverReport) -> Figure:
         ("xi^ / xi", "|xi^ / xi|", "estimate of the disturbance"),
         ("u / n", "|u / n| [N m/rad]", "torque from an angle's error"),
     )
-    with style():
-        figure = new_figure(9.0, 3.4)
+    with new_figure(9.0, 3.4) as figure:
         panels = figure.subplots(1, 3)
         for axes, (response, name, title) in zip(panels, curves, strict=True):
             label(axes, "frequency [rad/s]", name, title)

@@ -9,12 +9,13 @@ torques jump.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Protocol
 
 import numpy as np
 from matplotlib.axes import Axes
 
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.core.errors import InputError, check_positive
+from biped_adrc.core.errors import check_positive
 from biped_adrc.core.types import Array
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.view.style import DASHES, GREY, PALETTE, PUSH, label
@@ -23,7 +24,16 @@ Window = tuple[float, float]
 """Start and stop of a push [s]."""
 
 
-def broken(s: Signals, y: Array) -> Array:
+class Rows(Protocol):
+    """What lines over time need of signals: t (K,) [s], and the number of the single support (K,)."""
+
+    @property
+    def t(self) -> Array: ...
+    @property
+    def step(self) -> Array: ...
+
+
+def broken(s: Rows, y: Array) -> Array:
     """y (K,) or (K, k), in any unit, with a row of NaN where a single support begins.
 
     matplotlib breaks a line at NaN, so none crosses an impact. Time is broken in the same way.
@@ -31,27 +41,40 @@ def broken(s: Signals, y: Array) -> Array:
     return np.insert(y, np.flatnonzero(np.diff(s.step)) + 1, np.nan, axis=0)
 
 
-def line(axes: Axes, s: Signals, y: Array, i: int, name: str) -> None:
+def line(axes: Axes, s: Rows, y: Array, i: int, name: str) -> None:
     """Draw y (K,) over time [s] in the i-th colour and dash."""
     axes.plot(broken(s, s.t), broken(s, y), color=PALETTE[i], ls=DASHES[i % 4], label=name)
 
 
-def curves(axes: Axes, s: Signals, values: Array, symbol: str, unit: str) -> None:
-    """Draw the columns of values (K, k) over time [s]: symbol_1, symbol_2, ...; unit: label of the axis."""
+def curves(axes: Axes, s: Rows, values: Array, symbol: str) -> None:
+    """Draw the columns of values (K, k) over time [s]: symbol_1, symbol_2, ..."""
     for i, column in enumerate(values.T):
         line(axes, s, column, i, f"${symbol}_{i + 1}$")
-    label(axes, "time [s]", unit)
 
 
-def shade(axes: Axes, push: Window | None) -> None:
-    """Shade the time of a push (start, stop) [s]; nothing without one."""
+def finished(axes: Axes, unit: str, push: Window | None = None) -> Axes:
+    """Shade the time of a push (start, stop) [s], name the axes, and put the legend in a line above them.
+
+    unit: label of the axis of values. Returns the axes.
+    """
     if push is not None:
         axes.axvspan(*push, color=PUSH, alpha=0.3, zorder=0, label="push")
+    label(axes, "time [s]", unit)
+    return legend(axes)
 
 
 def legend(axes: Axes) -> Axes:
-    """Put a legend to the right of the axes, where it covers nothing; returns the axes."""
-    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2, frameon=False)
+    """Put the legend in a line above the axes, where it covers nothing and takes no width; returns the axes."""
+    count = len(axes.get_legend_handles_labels()[1])
+    axes.legend(
+        ncols=count,
+        frameon=False,
+        columnspacing=1.2,
+        handlelength=1.6,
+        loc="lower left",
+        bbox_to_anchor=(-0.01, 1.0),
+        borderaxespad=0.0,
+    )
     return axes
 
 
@@ -74,22 +97,10 @@ def joint_name(s: Signals, i: int) -> str:
     return f"$q_{i + 1}$ {JOINTS[i]}" if known else f"$q_{i + 1}$"
 
 
-def chosen(s: Signals, joints: Sequence[int] | None) -> tuple[int, ...]:
-    """Indices of actuated joints from 0, all if None. Raises InputError for one that does not exist."""
-    p = s.q_d.shape[1]
-    result = tuple(range(p)) if joints is None else tuple(joints)
-    if not result or not all(0 <= i < p for i in result):
-        raise InputError(
-            f"joints {list(result)} were asked for, expected indices from 0 to {p - 1}"
-        )
-    return result
-
-
 def angles(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
     """All coordinates q (K, n) [rad] over time [s], with motors or without."""
-    shade(axes, push)
-    curves(axes, s, s.q, "q", "angle [rad]")
-    return legend(axes)
+    curves(axes, s, s.q, "q")
+    return finished(axes, "angle [rad]", push)
 
 
 def joint_tracking(
@@ -98,56 +109,42 @@ def joint_tracking(
     """Angles of the actuated joints [rad] as broad lines over time [s], their references dashed on top
     in black.
 
-    joints: indices from 0, all if None. Raises InputError for an index that does not exist.
+    joints: indices from 0, all if None.
     """
-    shade(axes, push)
-    joints, t = chosen(s, joints), broken(s, s.t)
+    joints, t = range(s.q_d.shape[1]) if joints is None else joints, broken(s, s.t)
     for i in joints:
-        dash = DASHES[i % 2]
-        axes.plot(
-            t, broken(s, s.q[:, i]), color=PALETTE[i], ls=dash, lw=2.2, label=joint_name(s, i)
-        )
+        name, y = joint_name(s, i), broken(s, s.q[:, i])
+        axes.plot(t, y, color=PALETTE[i], ls=DASHES[i % 2], lw=2.2, label=name)
     for i in joints:
-        name = "references" if i == joints[0] else "_"
-        axes.plot(t, broken(s, s.q_d[:, i]), color="black", ls=(0, (4, 3)), lw=0.8, label=name)
-    label(axes, "time [s]", "angle [rad]")
-    return legend(axes)
+        name, y = "references" if i == joints[0] else "_", broken(s, s.q_d[:, i])
+        axes.plot(t, y, color="black", ls=(0, (4, 3)), lw=0.8, label=name)
+    return finished(axes, "angle [rad]", push)
 
 
 def tracking_errors(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
     """q_b - q_d (K, p) by joint over time [s], in the unit from rad to nrad in which the largest reads well."""
-    shade(axes, push)
     unit, factor = angle_unit(s.error)
-    curves(axes, s, factor * s.error, "q", f"tracking error [{unit}]")
-    return legend(axes)
+    curves(axes, s, factor * s.error, "q")
+    return finished(axes, f"tracking error [{unit}]", push)
 
 
 def torques(axes: Axes, s: Signals, limit: float | None = None, push: Window | None = None) -> Axes:
     """Torques of the motors u (K, p) [N m] over time [s]; limit [N m] is drawn as dotted lines."""
-    shade(axes, push)
-    curves(axes, s, s.u, "u", "torque [N m]")
+    curves(axes, s, s.u, "u")
     if limit is not None:
         axes.axhline(limit, color=GREY, ls=":", label=f"limit {limit:g} N m")
         axes.axhline(-limit, color=GREY, ls=":", label="_")
-    return legend(axes)
-
-
-NO_OBSERVER = "no observer: nothing is estimated"
-"""Written on a panel in place of an estimate."""
+    return finished(axes, "torque [N m]", push)
 
 
 def total_disturbance(axes: Axes, s: Signals, joint: int = 0, push: Window | None = None) -> Axes:
     """xi of (13), q_b'' - kappa u, and its estimate xi^ [rad/s^2] for one actuated joint over time [s].
 
-    joint: index from 0; InputError for one that does not exist. Without an observer the panel says
-    so.
+    joint: index from 0. Without an observer the panel says so.
     """
-    chosen(s, (joint,))
-    shade(axes, push)
     names = f"\\xi_{joint + 1}", f"\\hat{{\\xi}}_{joint + 1}"
     _pair(axes, s, s.xi[:, joint], s.xi_estimate[:, joint], names, PALETTE[0])
-    label(axes, "time [s]", f"$\\xi_{joint + 1}$ [rad/s²]")
-    return legend(axes)
+    return finished(axes, f"$\\xi_{joint + 1}$ [rad/s²]", push)
 
 
 def matched_disturbance(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
@@ -157,17 +154,14 @@ def matched_disturbance(axes: Axes, s: Signals, push: Window | None = None) -> A
     also holds the unmatched part and errors of the model, so the lines differ by those. Joints with the same
     torque share the first one's lines.
     """
-    shade(axes, push)
     alike: dict[bytes, list[int]] = {}
     for i in range(s.q_d.shape[1]):
         alike.setdefault(s.zeta[:, i].tobytes(), []).append(i)
     for joints in alike.values():
-        names = ", ".join(f"\\zeta_{i + 1}" for i in joints)
-        estimate = f"\\hat{{\\zeta}}_{joints[0] + 1}"
-        i = joints[0]
+        i, names = joints[0], ", ".join(f"\\zeta_{j + 1}" for j in joints)
+        estimate = f"\\hat{{\\zeta}}_{i + 1}"
         _pair(axes, s, s.zeta[:, i], s.zeta_estimate[:, i], (names, estimate), PALETTE[i])
-    label(axes, "time [s]", r"torque $\zeta$ [N m]")
-    return legend(axes)
+    return finished(axes, r"torque $\zeta$ [N m]", push)
 
 
 def _pair(
@@ -177,25 +171,26 @@ def _pair(
     t = broken(s, s.t)
     axes.plot(t, broken(s, true), color=colour, lw=2.4, alpha=0.6, label=f"${names[0]}$")
     if np.isnan(estimate).all():
-        middle = {"ha": "center", "va": "center", "transform": axes.transAxes}
-        axes.text(0.5, 0.9, NO_OBSERVER, **middle)  # type: ignore[arg-type]
+        without_observer(axes)
         return
-    dashed = {"color": "black", "ls": (0, (4, 2)), "lw": 1.0}
-    axes.plot(t, broken(s, estimate), label=f"${names[1]}$", **dashed)  # type: ignore[arg-type]
+    y, dash = broken(s, estimate), (0, (4, 2))
+    axes.plot(t, y, color="black", ls=dash, lw=1.0, label=f"${names[1]}$")
+
+
+def without_observer(axes: Axes) -> None:
+    """Say on the axes, in place of an estimate, that there is none."""
+    axes.text(0.5, 0.9, "no observer: nothing is estimated", ha="center", transform=axes.transAxes)
 
 
 def energy(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
     """Energies [J] over time [s], the potential energy from its least value; impacts take kinetic
     energy only.
     """
-    shade(axes, push)
     potential = s.potential - s.potential.min()
-    for i, (values, name) in enumerate(
-        ((s.kinetic, "kinetic"), (potential, "potential"), (s.kinetic + potential, "total"))
-    ):
-        line(axes, s, values, i, name)
-    label(axes, "time [s]", "energy [J]")
-    return legend(axes)
+    line(axes, s, s.kinetic, 0, "kinetic")
+    line(axes, s, potential, 1, "potential")
+    line(axes, s, s.kinetic + potential, 2, "total")
+    return finished(axes, "energy [J]", push)
 
 
 def friction_cone(axes: Axes, s: Signals, mu: float = 0.6, slope: float = 0.0) -> Axes:
@@ -219,18 +214,15 @@ def friction_cone(axes: Axes, s: Signals, mu: float = 0.6, slope: float = 0.0) -
     )
     axes.axhline(0.0, color="black", lw=0.8, label="_")
     label(axes, "$F_T$ [N]", "$F_N$ [N]")
-    axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.14), ncols=2, frameon=False)
-    return axes
+    return legend(axes)
 
 
 def ground_reaction(axes: Axes, s: Signals, push: Window | None = None, slope: float = 0.0) -> Axes:
     """F_T and F_N [N] over time [s], along and out of ground of this slope [rad], positive downhill."""
-    shade(axes, push)
     for i, (name, axis) in enumerate(zip(("$F_T$", "$F_N$"), ground_axes(slope), strict=True)):
         line(axes, s, s.ground_reaction @ axis, i, name)
     axes.axhline(0.0, color="black", lw=0.8, label="_")
-    label(axes, "time [s]", "ground reaction [N]")
-    return legend(axes)
+    return finished(axes, "ground reaction [N]", push)
 
 
 def phase_portrait(axes: Axes, s: Signals, name: str = "walk", colour: int = 0) -> Axes:

@@ -14,7 +14,7 @@ from matplotlib.patches import Patch, Polygon
 
 from biped_adrc.analysis.feasibility import COUNTED
 from biped_adrc.core.types import PlainRecord
-from biped_adrc.view.style import label, named_cells, new_figure, style
+from biped_adrc.view.style import label, named_cells, new_figure
 
 FATES: dict[str, tuple[str, str, str]] = {
     "feasible": ("walks on, feasible", "#FFFFFF", ""),
@@ -40,9 +40,8 @@ def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
     limits = sorted({r["torque_limit"] for r in rows}, key=lambda v: (v is not None, v))
     kinds = list(dict.fromkeys((r["pattern"], r["amplitude"]) for r in rows))
     onsets = sorted({r["onset_ms"] for r in rows})
-    with style():
-        height = 2.1 + 0.2 * max(len(kinds), 4)
-        figure = new_figure(1.8 + len(limits) * (1.4 + 0.38 * max(len(onsets), 5)), height)
+    height = 2.1 + 0.2 * max(len(kinds), 4)
+    with new_figure(1.8 + len(limits) * (1.4 + 0.38 * max(len(onsets), 5)), height) as figure:
         panels = figure.subplots(1, len(limits), squeeze=False, sharey=True)[0]
         for axes, limit in zip(panels, limits, strict=True):
             here = [r for r in rows if r["torque_limit"] == limit]

@@ -18,7 +18,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from biped_adrc.core.types import Array
-from biped_adrc.view.style import GREY, PALETTE, label, literal, named_cells, new_figure, style
+from biped_adrc.view.style import GREY, PALETTE, label, literal, named_cells, new_figure
 
 MARKERS = ("o", "s", "D", "^", "v", "P", "X", "*")
 """Marks by series."""
@@ -38,8 +38,7 @@ def cells_figure(shares: Mapping[tuple[str, str], tuple[int, int]]) -> Figure:
     rows, columns = _names(shares)
     counts = [[shares.get((row, column)) for column in columns] for row in rows]
     values = np.array([[math.nan if x is None else x[0] / x[1] for x in row] for row in counts])
-    with style():
-        figure = new_figure(2.2 + 1.1 * len(columns), 0.8 + 0.3 * len(rows))
+    with new_figure(2.2 + 1.1 * len(columns), 0.8 + 0.3 * len(rows)) as figure:
         axes = figure.subplots()
         edges = [np.arange(len(names) + 1) - 0.5 for names in (columns, rows)]
         axes.pcolormesh(
@@ -60,8 +59,7 @@ def dots_figure(numbers: Numbers, title: str, reference: float | None = None) ->
     """
     rows, series = _names(numbers)
     offsets = np.linspace(-0.22, 0.22, len(series)) if len(series) > 1 else [0.0]
-    with style():
-        figure = new_figure(6.5, 1.1 + 0.36 * len(rows))
+    with new_figure(6.5, 1.1 + 0.36 * len(rows)) as figure:
         axes = figure.subplots()
         axes.set_xscale("log")
         if reference is not None:
@@ -116,9 +114,8 @@ def map_figure(
     norm = LogNorm(low, max(high, low * 1.001)) if log and low > 0.0 else Normalize(low, high)
     columns = min(len(means), 4)
     rows = -(-len(means) // columns)
-    with style():
-        width = 1.6 + columns * (1.0 + 0.3 * min(max(len(xs[1]), 5), 20))
-        figure = new_figure(width, 0.8 + rows * (1.2 + 0.22 * min(max(len(ys[1]), 5), 20)))
+    width = 1.6 + columns * (1.0 + 0.3 * min(max(len(xs[1]), 5), 20))
+    with new_figure(width, 0.8 + rows * (1.2 + 0.22 * min(max(len(ys[1]), 5), 20))) as figure:
         grid = figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
         for k, axes in enumerate(grid.flat):
             if k >= len(means):
@@ -141,8 +138,7 @@ def path_figure(
 
     A line is the best one so far that keeps all limits. less: whether less is better.
     """
-    with style():
-        figure = new_figure(6.5, 3.2)
+    with new_figure(6.5, 3.2) as figure:
         axes = figure.subplots()
         axes.set_yscale("log")
         for i, (name, path) in enumerate(paths.items()):

@@ -23,7 +23,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.gait.zero_domain import PASSING
 from biped_adrc.gait.zero_orbits import ZeroOrbits, grid
 from biped_adrc.view.plots.stability import stairs
-from biped_adrc.view.style import DASHES, GREY, PALETTE, label, new_figure, style
+from biped_adrc.view.style import DASHES, GREY, PALETTE, label, new_figure
 
 WIDE = 2.0  # where the domain has no upper end it is drawn to this many zeta*
 STAIRS = 8
@@ -115,8 +115,7 @@ def restricted_map(axes: Axes, report: ZeroDynamicsReport) -> Axes:
 
 def zero_dynamics_figure(report: ZeroDynamicsReport) -> Figure:
     """All four plots, with what bounds the domain as a title."""
-    with style():
-        figure = new_figure(9.0, 6.6)
+    with new_figure(9.0, 6.6) as figure:
         (inertia, potential), (portrait, returns) = figure.subplots(2, 2)
         zero_inertia(inertia, report.orbits)
         zero_potential(potential, report)
