@@ -11,7 +11,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.stepping_plant import Advanced, Contact, PlantState
+from biped_adrc.closed_loop.stepping_plant import Contact, Moved
 from biped_adrc.core.errors import InputError, RaisedError
 from biped_adrc.engine.on_plant import CompiledLoop
 from biped_adrc.gait.reference import TimeReference
@@ -35,25 +35,24 @@ class Ball:
     swap = np.zeros(1, dtype=int)
 
     def start(self, t, q, v):
-        return PlantState(t, q, v, np.zeros(1))
+        return np.concatenate((q, v, np.zeros(1)))
 
-    def advance(self, state, u, outside, until):
-        first, state_nodes = state.t, []
-        steps = max(1, round((until - first) / DT))
+    def advance(self, t, row, u, load, until):
+        q, v, bounces = row.tolist()
+        a = (u[0] + (0.0 if load is None else load.zeta[0])) / MASS - GRAVITY
+        steps = max(1, round((until - t) / DT))
+        dt = (until - t) / steps
         for k in range(1, steps + 1):
-            t = first + (until - first) * k / steps
-            a = (u + outside(state.t, state.q, state.v).zeta) / MASS - GRAVITY
-            v = state.v + a * (t - state.t)
-            state = PlantState(t, state.q + v * (t - state.t), v, state.own)
-            state_nodes.append(state)
-            if state.q[0] <= 0.0 and v[0] < 0.0:
-                if t > self.sticks_at:
-                    stuck = (Contact("stuck", ends=ba.Status.FELL),)
-                    return Advanced(state, stuck, tuple(state_nodes))
-                after = state._replace(v=-self.restitution * v, own=state.own + 1.0)
-                impulse = np.array([0.0, -MASS * (1.0 + self.restitution) * v[0]])
-                return Advanced(after, (Contact("wall", impulse),), tuple(state_nodes))
-        return Advanced(state, (), tuple(state_nodes))
+            v += a * dt
+            q += v * dt
+            if q <= 0.0 and v < 0.0:
+                at, here = t + k * dt, np.array([q, v, bounces])
+                if at > self.sticks_at:
+                    return Moved(at, here, (Contact("stuck", ends=ba.Status.FELL),))
+                impulse = np.array([0.0, -MASS * (1.0 + self.restitution) * v])
+                after = np.array([q, -self.restitution * v, bounces + 1.0])
+                return Moved(at, here, (Contact("wall", impulse),), after)
+        return Moved(until, np.array([q, v, bounces]))
 
 
 @dataclass(frozen=True)
@@ -189,69 +188,64 @@ def test_what_does_not_fit():
         loop(motors=Motors(lag=1e-3))
 
     class Lazy(Ball):
-        def advance(self, state, u, outside, until):
-            return super().advance(state, u, outside, 0.5 * (state.t + until))
+        def advance(self, t, row, u, load, until):
+            return super().advance(t, row, u, load, 0.5 * (t + until))
 
     with pytest.raises(InputError, match=r"Lazy\.advance came to 0.0025 s without a contact"):
         run(loop(plant=Lazy()))
 
+    class Elsewhere(Ball):
+        def start(self, t, q, v):
+            return super().start(t, q + 1.0, v)
+
+    with pytest.raises(InputError, match=r"Elsewhere\.start gives .* expected a row that begins"):
+        run(loop(plant=Elsewhere()))
+
 
 def at_contact(**change):
-    """What is told of a contact, changed: each value is made from (state where advance began, what is told)."""
+    """What is told of a contact, changed: each value is made from what is told."""
 
-    def told(before, moved):
+    def told(moved):
         if not moved.contacts:
             return moved
-        return moved._replace(**{name: made(before, moved) for name, made in change.items()})
+        return moved._replace(**{name: made(moved) for name, made in change.items()})
 
     return told
 
 
 def contact(**change):
-    return at_contact(contacts=lambda before, moved: (moved.contacts[0]._replace(**change),))
-
-
-def state(**change):
-    return lambda before, moved: moved._replace(state=moved.state._replace(**change))
-
-
-def later(dt):
-    return at_contact(state=lambda before, moved: moved.state._replace(t=moved.state.t + dt))
-
-
-def nodes(change):
-    return lambda before, moved: moved._replace(nodes=change(before, moved.nodes))
+    return at_contact(contacts=lambda moved: (moved.contacts[0]._replace(**change),))
 
 
 def telling(change):
     """A ball that tells something else of how it moved."""
 
     class Liar(Ball):
-        def advance(self, state, u, outside, until):
-            return change(state, super().advance(state, u, outside, until))
+        def advance(self, *given):
+            return change(super().advance(*given))
 
     return Liar()
 
 
 LIES = {
-    "nothing": (lambda before, moved: None, "gives None, expected an Advanced"),
-    "no time": (state(t=np.nan), "came to nan s without a contact, expected 0.005 s"),
-    "nodes of another type": (
-        nodes(lambda before, n: (0.4,)),
-        r"nodes\[0\] is 0.4, expected a Plant",
+    "nothing": (lambda moved: None, "gives None, expected a Moved"),
+    "no time": (
+        lambda moved: moved._replace(t=np.nan),
+        "came to nan s without a contact, expected 0.005 s",
     ),
-    "nodes backwards": (
-        nodes(lambda before, n: n[::-1]),
-        "expected increasing times after 0.0 s",
+    "a row of another size": (
+        lambda moved: moved._replace(row=moved.row[:2]),
+        r".* returned an array of shape \(2,\), expected \(3,\)",
     ),
-    "the last node left out": (
-        nodes(lambda before, n: n[:-1]),
-        "the last at 0.005 s, the time of state",
+    "a row of text": (lambda moved: moved._replace(row="here"), " .* returned 'here'"),
+    "contact beyond": (
+        at_contact(t=lambda moved: moved.t + 1.0),
+        "contact at 1.30.* s, .* not after 0.31 s",
     ),
-    "contact beyond": (later(1.0), "contact at 1.30.* s, .* not after 0.31 s"),
+    "contact with nothing after": (at_contact(after=lambda moved: None), "returned None"),
     "contacts one": (
-        at_contact(contacts=lambda before, moved: moved.contacts[0]),
-        "gives Advanced.*, expected an Advanced",
+        at_contact(contacts=lambda moved: moved.contacts[0]),
+        "gives Moved.*, expected a Moved",
     ),
 }
 
@@ -269,14 +263,14 @@ def test_what_a_plant_tells_is_checked(name):
     assert re.search(expected, ended.detail)
 
 
-def spoilt(before, n):
-    return (*n[:25], n[25]._replace(v=np.full(1, np.nan)), *n[26:])
+def spoilt(moved):
+    return moved._replace(row=moved.row * np.nan) if moved.t > 0.0251 else moved
 
 
 @pytest.mark.parametrize(
     ("change", "last"),
     [
-        (nodes(spoilt), 25 * DT),
+        (spoilt, 0.025),
         (contact(impulse=np.full(2, np.nan)), 0.3088),
     ],
 )
@@ -290,7 +284,7 @@ def test_values_that_are_not_finite_end_the_run_and_are_not_kept(change, last):
 
 
 def test_contacts_at_one_moment_are_one_event():
-    def both(before, moved):
+    def both(moved):
         left = moved.contacts[0]
         return left, left._replace(name="floor"), left
 
@@ -303,33 +297,22 @@ def test_contacts_at_one_moment_are_one_event():
 @pytest.mark.parametrize(
     "written",
     [
-        "q",
+        "row",
         "u",
+        "zeta",
     ],
 )
 def test_a_plant_cannot_write_into_what_it_is_given(written):
     class Writing(Ball):
-        def advance(self, state, u, outside, until):
-            given = {"u": u, "zeta": outside(*state[:3]).zeta} | state._asdict()
+        def advance(self, t, row, u, load, until):
+            given = {"u": u, "row": row, "zeta": load.zeta}
             given[written][:] = 99.0
-            return super().advance(state, u, outside, until)
+            return super().advance(t, row, u, load, until)
 
     with pytest.raises(
         RaisedError, match=r"Writing\.advance .* writes into an array that it was handed"
     ):
-        run(loop(plant=Writing()))
-
-
-def test_every_so_many_nodes_are_kept():
-    whole, thin = run(loop()), run(loop(), store_every=10)
-    assert [event.t for event in thin.events()] == [event.t for event in whole.events()]
-    for all_of, some in zip(whole.arcs, thin.arcs, strict=True):
-        assert len(some.t) < 0.15 * len(all_of.t)
-        assert np.all(np.isin(some.t, all_of.t))
-        assert len(some.read["u"]) == len(some.t)
-        assert max(np.diff(some.t)) <= 10 * DT + 1e-12
-    between = np.linspace(0.0, 0.3, 77)
-    assert max(abs(thin(t)[0] - whole(t)[0]) for t in between) < 1e-6
+        run(loop(plant=Writing(), disturbance=ba.TorqueSine((3.0,), frequency=2.0)))
 
 
 @pytest.mark.parametrize("timing", [TICK, replace(TICK, delay=2e-3)])

@@ -78,7 +78,7 @@ def soft_steps(
         )
     apart, axes = plant.h if apart is None else apart, ground_axes(plant.slope)
     return tuple(
-        step_of(r, plant.ground.friction, axes, plant.levels(r.own))
+        step_of(r, plant.ground.friction, axes, plant.levels(r.row[:, 2 * plant.n :]))
         for r in (readings(loop, arc, apart) for arc in run.arcs)
     )
 
@@ -110,14 +110,14 @@ def _slip_time(r: Readings, friction: float, axes: tuple[Array, Array]) -> float
 
 
 def _recorded(arc: Arc) -> Readings:
-    """The readings that an arc carries; angles, rates and the plant's own are left out.
+    """The readings that an arc carries; states of the plant are left out.
 
     An arc that failed at once has one node, and no torque yet.
     """
     force, place, speed = (arc.read[name].reshape(-1, 2, 2) for name in NAMES)
     none = np.zeros((len(arc.t), 0))
     u, zeta = (arc.read.get(name, none) for name in ("u", "zeta"))
-    return Readings(arc.t, none, none, none, u, zeta, force, place, speed)
+    return Readings(arc.t, none, u, zeta, force, place, speed)
 
 
 def step_of(

@@ -4,14 +4,15 @@
 
 There is no x' = f(x) and there are no event functions: the plant is asked to advance to the next sample instant
 or edge of a disturbance and reports its touchdowns (`closed_loop.stepping_plant` defines what it has to give).
-Sample instants, sensors, motors, controller and recording are those of every closed loop, so a controller is
-tested unchanged on a plant of another kind. Torque, disturbance and estimate are recorded at the nodes, since
-they cannot be computed again from the states.
+What acts from outside is taken in the middle of such a stretch. Sample instants, sensors, motors and controller
+are those of every closed loop, so a controller is tested unchanged on a plant of another kind. Torque,
+disturbance and estimate are recorded at both ends of every stretch, since they cannot be computed again from
+the states.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, cast
 
@@ -22,26 +23,23 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.semantics import after_contact, parts, torque_held
 from biped_adrc.closed_loop.stepping_plant import (
     Contact,
+    LaggingPlant,
     Load,
-    PlantState,
+    Moved,
     SteppingPlant,
-    StridingPlant,
     advanced,
     check_swap,
-    motor_torque,
     started,
-    state_of,
 )
-from biped_adrc.closed_loop.stretches import Stretches
 from biped_adrc.closed_loop.system import ClosedLoop
-from biped_adrc.core.checks import handing_out, numbers
+from biped_adrc.core.checks import handing_out, numbers, returned
 from biped_adrc.core.errors import InputError, NotFiniteError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array, Indices, frozen
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.system import FoundEvent, Mover
-from biped_adrc.hybrid.trajectory import Event, Trajectory
+from biped_adrc.hybrid.trajectory import Arc, Event, Record, Trajectory
 
 
 @dataclass(frozen=True)
@@ -50,7 +48,6 @@ class SteppingLoop(ClosedLoop[Any]):
 
     - plant: what moves. model: what the controller knows of it, a `protocols.Plant`.
     - timing: sampled, since between sample instants the plant is given one torque.
-    - disturbance: asked for by the plant as often as it likes.
 
     Raises InputError for what does not fit: continuous time, no model, or a motor's lag, which belongs into
     the plant.
@@ -98,7 +95,13 @@ class SteppingLoop(ClosedLoop[Any]):
     def own(self) -> int:
         """How many numbers of its own the plant keeps, found by starting it once at rest."""
         still = np.zeros(self.plant.n)
-        return len(started(self.plant, 0.0, still, still, None).own)
+        return len(started(self.plant, 0.0, still, still, None)) - 2 * self.plant.n
+
+    @cached_property
+    def own_places(self) -> slice:
+        """Places in x of the plant's own numbers, counted from its end."""
+        assert self.held is not None
+        return slice(-self.behind, self.held.sizes.own - self.behind)
 
     def initial_state(self, q: Array, v: Array, mode: Mode | None = None) -> Array:
         """x (nx,) at the start of a single support in q (n,) [rad], v (n,) [rad/s], the plant started there."""
@@ -130,18 +133,22 @@ class SteppingLoop(ClosedLoop[Any]):
             )
         return x
 
-    def with_plant(self, x: Array, state: PlantState) -> Array:
-        """x (nx,) with the plant in another state, all else kept."""
-        n, size = self.plant.n, 2 * self.plant.n + self.controller_size(x)
-        after = size + len(state.own)
-        return np.concatenate((state.q, state.v, x[2 * n : size], state.own, x[after:]))
+    def with_plant(self, x: Array, row: Array) -> Array:
+        """x (nx,) with the plant in another state, its row (2 n + k,), all else kept."""
+        x, n = x.copy(), self.plant.n
+        x[: 2 * n], x[self.own_places] = row[: 2 * n], row[2 * n :]
+        return x
+
+    def row(self, x: Array) -> Array:
+        """The plant's row (2 n + k,) in x (nx,)."""
+        return np.concatenate((x[: 2 * self.plant.n], x[self.own_places]))
 
     def mover(self, fired: str | None) -> Mover:
         """One function for all arcs; the plant does not need to know what fired."""
         return self.move
 
     def record(self, every: int) -> Stretches:
-        """Room for the nodes of one arc, of which each `every`-th of a stretch is kept."""
+        """Room for the stretches of one arc, of which both ends are kept."""
         return Stretches(every, loop=self)
 
     def move(
@@ -149,70 +156,35 @@ class SteppingLoop(ClosedLoop[Any]):
     ) -> tuple[float, Array, FoundEvent | None]:
         """One stretch from x (nx,) at t [s] to `until` [s] or to a contact, as `hybrid.system.Mover`.
 
-        Nodes are recorded before a state that is not finite raises NotFiniteError, or one beyond the
-        bounds RanAwayError, so that the last good motion can be looked at.
+        Its end is recorded unless the state there is not finite (NotFiniteError) or beyond the bounds
+        (RanAwayError).
         """
-        assert self.held is not None
-        n, p, (near, slow) = self.held.sizes.n, self.held.sizes.p, self.squares
-        xi, row = self.estimated(t, x, mode), record.row(x)
-        nodes, contacts, after = self.stretch(t, row, x[-p:], mode, until)
+        n, (near, slow), u = self.plant.n, self.squares, x[-self.plant.p :]
+        xi, row = self.estimated(t, x, mode), record.rows[-1] if record.rows else self.row(x)
+        for given in (u, row):
+            given.setflags(write=False)
+        load = None if self.disturbance is None else self.push(0.5 * (t + until), row, mode)
+        moved = advanced(self.plant, t, row, u, load, until)
         record.begin(t, row, x, xi, mode)
-        for end, row in nodes:
-            q = row[:n]
-            if not (q.dot(q) < near and row.dot(row) < slow):  # two products test all of them
-                if not np.all(np.isfinite(row)):
-                    raise NotFiniteError(
-                        f"the state of the plant is not finite after t = {t:.6g} s"
-                    )
-                self.bounds.check(end, q, row[n : 2 * n])
-            record.point(end, row, mode)
-            t = end
-        x = x.copy()
-        x[: 2 * n], x[self.own_places] = row[: 2 * n], row[2 * n :]
-        return t, x, None if after is None else self.found(t, x, mode, contacts, after)
+        row = moved.row
+        q = row[:n]
+        if not (q.dot(q) < near and row.dot(row) < slow):  # two products test all of them
+            if not np.all(np.isfinite(row)):
+                raise NotFiniteError(f"the state of the plant is not finite after t = {t:.6g} s")
+            self.bounds.check(moved.t, q, row[n : 2 * n])
+        record.point(moved.t, row, mode)
+        x = self.with_plant(x, row)
+        return moved.t, x, self.found(x, mode, moved) if moved.contacts else None
 
-    def stretch(
-        self, t: float, row: Array, u: Array, mode: Mode, until: float
-    ) -> tuple[list[tuple[float, Array]], tuple[Contact, ...], PlantState | None]:
-        """Times [s] and rows (2 n + k,) that the plant passes from a row at t [s] under u (p,) [N m], its
-        contacts, and its state after them, None without.
-
-        On a plant that strides what acts from outside is taken in the middle.
-        """
-        plant, n = self.strides, self.plant.n
-        if plant is not None:
-            load = None if self.disturbance is None else self.push(0.5 * (t + until), row, mode)
-            row, contacts = plant.stride(t, row, u, load, until)
-            after = plant.landed(state_of(until, row, n), contacts) if contacts else None
-            return [(until, row)], contacts, after
-
-        def outside(t: float, q: Array, v: Array) -> Load:
-            return self.load(t, q, v, mode)
-
-        moved = advanced(self.plant, state_of(t, row, n), u, outside, until)
-        nodes = [(node.t, np.concatenate(node[1:])) for node in moved.nodes]
-        return nodes, moved.contacts, moved.state if moved.contacts else None
-
-    @cached_property
-    def strides(self) -> StridingPlant | None:
-        """The plant, where its word is taken."""
-        return self.plant if isinstance(self.plant, StridingPlant) else None
-
-    @cached_property
-    def own_places(self) -> slice:
-        """Places in x of the plant's own numbers, counted from its end."""
-        assert self.held is not None
-        return slice(-self.behind, self.held.sizes.own - self.behind)
-
-    def load(self, t: float, q: Array, v: Array, mode: Mode) -> Load:
-        """What acts from outside at t [s], q (n,) [rad], v (n,) [rad/s], read-only."""
-        zeta = self.external(t, frozen(q), frozen(v), mode)
+    def load(self, t: float, row: Array, mode: Mode) -> Load:
+        """What acts from outside in a row of the plant at t [s], read-only."""
+        n = self.plant.n
+        zeta = self.external(t, frozen(row[:n]), frozen(row[n : 2 * n]), mode)
         return frozen(Load(zeta, self.resultant(t, mode)))
 
     def push(self, t: float, row: Array, mode: Mode) -> Load | None:
-        """As `load`, in a row of the plant; None may stand for nothing."""
-        n = self.plant.n
-        return self.load(t, row[:n], row[n : 2 * n], mode)
+        """As `load`; None may stand for nothing."""
+        return self.load(t, row, mode)
 
     @cached_property
     def pushed_in_python(self) -> bool:
@@ -225,7 +197,10 @@ class SteppingLoop(ClosedLoop[Any]):
 
     def motor_torque(self, x: Array) -> Array:
         """Torque on the joints (.., p) [N m] in states x (.., nx): the plant's, where its motors have a lag."""
-        return motor_torque(self.plant, x[..., self.own_places], x[..., -self.plant.p :])
+        plant, u = self.plant, x[..., -self.plant.p :]
+        if not isinstance(plant, LaggingPlant):
+            return u
+        return plant.motor_torque(x[..., self.own_places], u)
 
     def estimated(self, t: float, x: Array, mode: Mode) -> Array:
         """The observer's estimate of xi (p,) [rad/s^2] at (t, x), t in [s]; NaN without an observer."""
@@ -239,28 +214,28 @@ class SteppingLoop(ClosedLoop[Any]):
         """On stance and swing foot [N], as the plant says (`closed_loop.feet`)."""
         k, plant = self.held, cast("Any", self.plant)
         assert k is not None
-        state, u = PlantState(t, q, v, tail[: k.sizes.own]), torque_held(k, tail)
-        stance, swing = plant.footing(state, u, self.load(t, q, v, mode)).force[:, 1]
-        return float(stance), float(swing)
+        row = np.concatenate((q, v, tail[: k.sizes.own]))
+        forces = plant.footing(row, torque_held(k, tail), self.load(t, row, mode)).force
+        return float(forces[0, 1]), float(forces[1, 1])
 
-    def found(
-        self, t: float, x: Array, mode: Mode, contacts: tuple[Contact, ...], state: PlantState
-    ) -> FoundEvent:
-        """The event of the contacts at t [s], x (nx,) the state just before and `state` the plant's after, with
-        the controller's jump.
+    def found(self, x: Array, mode: Mode, moved: Moved) -> FoundEvent:
+        """The event of the contacts at which the plant came to x (nx,), with the controller's jump.
 
         A contact with a status ends the run. Raises NotFiniteError for an impulse or a state after
         it that is not finite.
         """
-        name, impulse, ends = together(contacts)
+        t, (name, impulse, ends) = moved.t, together(moved.contacts)
         if ends is not None:
             return FoundEvent(Event(name, t, x, None), None, ends)
-        if not np.all(np.isfinite([*state.q, *state.v, *state.own, *impulse])):
+        n = self.plant.n
+        row = returned(moved.after, moved.row.shape, self.plant, "advance", finite=False)
+        if not np.all(np.isfinite([*row, *impulse])):
             raise NotFiniteError(
                 f"{name} at t = {t:.6g} s: its impulse or the state after it is not finite"
             )
         after = Mode(mode.step + 1, t)
-        x_plus = self.with_plant(after_contact(self, t, x, state.q, state.v, after), state)
+        x_plus = after_contact(self, t, x, row[:n], row[n : 2 * n], after)
+        x_plus = self.with_plant(x_plus, row)
         return FoundEvent(Event(name, t, x, x_plus), (x_plus, after))
 
 
@@ -269,3 +244,54 @@ def together(contacts: tuple[Contact, ...]) -> Contact:
     ends = tuple(contact for contact in contacts if contact.ends is not None)
     names, impulses, statuses = zip(*(ends or contacts), strict=True)
     return Contact("+".join(dict.fromkeys(names)), np.sum(impulses, axis=0), statuses[0])
+
+
+@dataclass
+class Stretches(Record):
+    """The record of one arc, stretch after stretch: from a sample instant or an edge of a disturbance to the
+    next.
+
+    What is recorded at both ends is put together once per arc, since a stretch costs microseconds.
+    """
+
+    loop: SteppingLoop = field(kw_only=True)
+    rows: list[Array] = field(default_factory=list)
+    """The plant's (2 n + k,) where the arc begins, and at the end of every stretch."""
+    zeta: list[Array] = field(default_factory=list)
+    """(n,) [N m] there, where Python computes it."""
+    held: list[tuple[Array, Array]] = field(default_factory=list)
+    """x (nx,) and the estimate of xi (p,) [rad/s^2] at the start of every stretch."""
+
+    def begin(self, t: float, row: Array, x: Array, xi: Array, mode: Mode) -> None:
+        """A stretch begins at t [s]."""
+        if not self.rows:
+            self.point(t, row, mode)
+        self.held.append((x, xi))
+
+    def point(self, t: float, row: Array, mode: Mode) -> None:
+        """The plant is in a row at t [s]."""
+        if self.loop.pushed_in_python:
+            self.zeta.append(self.loop.load(t, row, mode).zeta)
+        self.t.append(t)
+        self.rows.append(row)
+
+    def arc(self, mode: Mode, event: Event | None) -> Arc:
+        """Both ends of every stretch as one arc; of one that failed, its start.
+
+        Read are the motors' torque (p,), zeta (n,) [N m] and the estimate (p,) [rad/s^2]. Slopes of the rates
+        are their differences, since the plant does not give q''.
+        """
+        if not self.rows:
+            return super().arc(mode, event)
+        n, t, rows = self.loop.plant.n, np.array(self.t), np.array(self.rows)
+        nodes = len(self.held) + len(t) - 1  # a stretch that failed has one
+        of = np.repeat(np.arange(len(self.held)), 2)[:nodes]
+        at, v = of + np.arange(nodes) % 2, rows[:, n : 2 * n]
+        a = np.vstack((np.diff(v, axis=0) / np.diff(t)[:, np.newaxis], np.zeros(n)))
+        x, xi = (np.array(part)[of] for part in zip(*self.held, strict=True))
+        x[:, : 2 * n], x[:, self.loop.own_places] = rows[at, : 2 * n], rows[at, 2 * n :]
+        dx = np.zeros_like(x)
+        dx[:, :n], dx[:, n : 2 * n] = v[at], a[of]
+        zeta = np.array(self.zeta) if self.zeta else self.loop.zetas(t, rows, mode)
+        read = {"u": self.loop.motor_torque(x), "zeta": zeta[at], "xi_estimate": xi}
+        return Arc(mode, t[at], x, dx, event, read)

@@ -1,6 +1,7 @@
 """What a plant that moves by itself has to give, and the checks of what it gives.
 
-    advance(state, u, outside, until) -> state, contacts, nodes
+    row = (q, q', own)                          the whole state, own what else the plant needs to go on
+    advance(t, row, u, load, until) -> Moved
 
 `closed_loop.stepping.SteppingLoop` drives such a plant, for instance MuJoCo or Drake behind a class
 of the user's. `started` and `advanced` call the plant and check once what it gives. What breaks
@@ -10,31 +11,18 @@ Values that are not finite pass: the loop ends the run with NOT_FINITE, as for a
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, NamedTuple, Protocol, runtime_checkable
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
+from biped_adrc.core.checks import returned
 from biped_adrc.core.errors import InputError
-from biped_adrc.core.types import Array, Indices, frozen, read_only
+from biped_adrc.core.types import Array, Indices, read_only
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.ground import StepDown, StepUp
 
 ROUND_OFF = 1e-9
 """Largest difference [s] between a plant's own clock and the time that it was to reach."""
-
-
-class PlantState(NamedTuple):
-    """The whole state of such a plant at one time."""
-
-    t: float
-    """[s]"""
-    q: Array
-    """Angles (n,) [rad]."""
-    v: Array
-    """Rates (n,) [rad/s]."""
-    own: Array
-    """What else the plant needs to go on, numbers of its own (k,)."""
 
 
 class Load(NamedTuple):
@@ -57,20 +45,29 @@ class Contact(NamedTuple):
     """Status with which the run ends; None for a touchdown."""
 
 
-class Advanced(NamedTuple):
-    """What a plant gives back: where it is, at `until` or just after the contacts, and how it came there.
+class Moved(NamedTuple):
+    """Where a plant came to."""
 
-    Every state has arrays of its own: those in one buffer that is written over would all be the last.
-    """
+    t: float
+    """`until`, or the time of the contacts [s]."""
+    row: Array
+    """State (2 n + k,) there, just before the contacts."""
+    contacts: tuple[Contact, ...] = ()
+    """All at that time. They are one event: names joined by +, impulses added. Where some of them end the run,
+    only those count: a fall with a touchdown is a fall."""
+    after: Array | None = None
+    """State (2 n + k,) just after a touchdown."""
 
-    state: PlantState
-    """At `until`, or just after the contacts."""
-    contacts: tuple[Contact, ...]
-    """All at the time of `state`, later than where `advance` began. They are one event: names joined by +,
-    impulses added. Where some of them end the run, only those count: a fall with a touchdown is a fall."""
-    nodes: tuple[PlantState, ...]
-    """The states passed, at least one, without that where `advance` began, at increasing times. The last is
-    the state just before the contacts, at the same time as `state`; without contacts it equals `state`."""
+
+class Feet(NamedTuple):
+    """Both feet at one time, the stance foot first; (x, z) of each."""
+
+    force: Array
+    """Of the ground on the feet (2, 2) [N]."""
+    place: Array
+    """Of the foot points (2, 2) [m]."""
+    speed: Array
+    """Of the points that touch the ground, or would (2, 2) [m/s]."""
 
 
 @runtime_checkable
@@ -89,17 +86,12 @@ class SteppingPlant(Protocol):
     def swap(self) -> Indices:
         """Relabelling of the motors at a touchdown (p,), for `types.relabelled`; `arange(p)` for none."""
 
-    def start(self, t: float, q: Array, v: Array) -> PlantState:
-        """The plant at t [s] in q (n,) [rad], v (n,) [rad/s], at rest inside (solver state, contacts)."""
+    def start(self, t: float, q: Array, v: Array) -> Array:
+        """The row at t [s] in q (n,) [rad], v (n,) [rad/s], at rest inside (solver state, contacts)."""
 
-    def advance(
-        self,
-        state: PlantState,
-        u: Array,
-        outside: Callable[[float, Array, Array], Load],
-        until: float,
-    ) -> Advanced:
-        """On to `until` [s] or to the next contact, under u (p,) [N m] and outside(t, q, v).
+    def advance(self, t: float, row: Array, u: Array, load: Load | None, until: float) -> Moved:
+        """On from a row at t [s] to `until` [s] or to the next contact, with u (p,) [N m] and a load held;
+        None for no load.
 
         Where it cannot go on it raises `hybrid.integrators.StepFailed`, which ends the run with
         that status.
@@ -107,20 +99,11 @@ class SteppingPlant(Protocol):
 
 
 @runtime_checkable
-class StridingPlant(SteppingPlant, Protocol):
-    """One whose word is taken: what `stride` and `landed` give is not checked, so that a sample instant costs
-    microseconds. Its state is one row (q, q', own) (2 n + k,).
-    """
+class OnFeet(Protocol):
+    """A plant that can say what its feet do."""
 
-    def stride(
-        self, t: float, row: Array, u: Array, load: Load | None, until: float
-    ) -> tuple[Array, tuple[Contact, ...]]:
-        """The row at `until` [s] from one at t [s], under u (p,) [N m] and a load held, and the contacts
-        there; before what these change.
-        """
-
-    def landed(self, state: PlantState, contacts: tuple[Contact, ...]) -> PlantState:
-        """The state after these contacts."""
+    def footing(self, row: Array, u: Array, load: Load) -> Feet:
+        """In a row under u (p,) [N m] and what acts from outside."""
 
 
 @runtime_checkable
@@ -150,16 +133,6 @@ class UnevenPlant(SteppingPlant, Protocol):
         """The same plant on these steps; its first single support is number `first_step`."""
 
 
-def state_of(t: float, row: Array, n: int) -> PlantState:
-    """A row (q, q', own) (2 n + k,) at t [s] in parts."""
-    return PlantState(t, row[:n], row[n : 2 * n], row[2 * n :])
-
-
-def motor_torque(plant: SteppingPlant, own: Array, u: Array) -> Array:
-    """As `LaggingPlant.motor_torque`; u (.., p) [N m] itself where the plant knows of no lag."""
-    return plant.motor_torque(own, u) if isinstance(plant, LaggingPlant) else u
-
-
 def lag_of(plant: SteppingPlant) -> float:
     """Time constant of the plant's motors [s]; 0 for one that knows of none."""
     return plant.lag if isinstance(plant, LaggingPlant) else 0.0
@@ -175,65 +148,40 @@ def check_swap(plant: SteppingPlant) -> None:
         )
 
 
-def started(plant: SteppingPlant, t: float, q: Array, v: Array, own: int | None) -> PlantState:
-    """What `plant.start` gives at t [s] for q (n,) [rad], v (n,) [rad/s], checked.
+def started(plant: SteppingPlant, t: float, q: Array, v: Array, own: int | None) -> Array:
+    """The row that `plant.start` gives at t [s] for q (n,) [rad], v (n,) [rad/s], checked.
 
     own: how many numbers of its own are expected; None accepts any. Raises InputError where the
     plant starts elsewhere.
     """
-    who = f"{type(plant).__name__}.start"
-    state = _state(who, plant.start(t, read_only(q), read_only(v)), len(q), own)
-    if state.t != t or not np.array_equal(state[1:3], (q, v)):
-        raise InputError(f"{who} gives {state}, expected the t = {t} s, q = {q}, v = {v} given")
-    return state
+    found = plant.start(t, read_only(q), read_only(v))
+    shape = None if own is None else (2 * len(q) + own,)
+    row = returned(found, shape, plant, "start", finite=False).copy()
+    if not np.array_equal(row[: 2 * len(q)], (*q, *v)):
+        raise InputError(
+            f"{type(plant).__name__}.start gives {row}, expected a row that begins with the q = {q}, v = {v} "
+            "that it was given"
+        )
+    return row
 
 
 def advanced(
-    plant: SteppingPlant,
-    state: PlantState,
-    u: Array,
-    outside: Callable[[float, Array, Array], Load],
-    until: float,
-) -> Advanced:
-    """What `plant.advance` gives under u (p,) [N m], checked, its last times at `until` [s] without
-    round-off.
+    plant: SteppingPlant, t: float, row: Array, u: Array, load: Load | None, until: float
+) -> Moved:
+    """What `plant.advance` gives, its row checked and copied, its time `until` [s] without round-off.
 
     Raises InputError for what breaks the contract.
     """
-    who, sizes = f"{type(plant).__name__}.advance", (len(state.q), len(state.own))
-    result = plant.advance(frozen(state), frozen(u), outside, until)
-    if not (isinstance(result, Advanced) and type(result.contacts) is tuple and result.nodes):
+    moved = plant.advance(t, row, u, load, until)
+    if type(moved) is not Moved or type(moved.contacts) is not tuple:
         raise InputError(
-            f"{who} gives {result!r:.60}, expected an Advanced(state, contacts, nodes)"
+            f"{type(plant).__name__}.advance gives {moved!r:.60}, expected a Moved(t, row, contacts, after)"
         )
-    nodes = [_state(f"{who}: nodes[{k}]", node, *sizes) for k, node in enumerate(result.nodes)]
-    after = _state(f"{who}: state", result.state, *sizes)
-    if not result.contacts and not abs(after.t - until) <= ROUND_OFF:
-        raise InputError(f"{who} came to {after.t} s without a contact, expected {until} s")
-    if not state.t < after.t <= until + ROUND_OFF:
-        raise InputError(
-            f"{who} came to a contact at {after.t} s, expected after {state.t} s, not after {until} s"
-        )
-    times = [node.t for node in nodes]
-    if not np.all(np.diff(times, prepend=state.t) > 0.0) or abs(times[-1] - after.t) > ROUND_OFF:
-        raise InputError(
-            f"{who} has nodes at {times} s, expected increasing times after {state.t} s, the last at "
-            f"{after.t} s, the time of state"
-        )
-    end = until if abs(after.t - until) <= ROUND_OFF else after.t
-    passed = *(node for node in nodes[:-1] if node.t < end), nodes[-1]._replace(t=end)
-    return Advanced(after._replace(t=end), result.contacts, passed)
-
-
-def _state(what: str, found: Any, n: int, own: int | None) -> PlantState:
-    """`found` as a PlantState of n coordinates with float64 copies. Raises InputError."""
-    try:
-        state = PlantState(float(found[0]), *(np.array(x, dtype=float) for x in found[1:]))
-        fits = state.q.shape == state.v.shape == (n,) and own in (None, len(state.own))
-    except (TypeError, ValueError, LookupError):
-        fits = False
-    if not fits:
-        raise InputError(
-            f"{what} is {found!r:.60}, expected a PlantState(t, q, v, own) of {n} coordinates"
-        )
-    return state
+    end, found, contacts, after = moved
+    if not (at_end := abs(end - until) <= ROUND_OFF) and not (contacts and t < end < until):
+        here = f"a contact at {end} s, expected after {t} s, not after {until} s"
+        here = here if contacts else f"{end} s without a contact, expected {until} s"
+        raise InputError(f"{type(plant).__name__}.advance came to {here}")
+    found = returned(found, row.shape, plant, "advance", finite=False).copy()
+    found.setflags(write=False)
+    return Moved(until if at_end else end, found, contacts, after)

@@ -27,12 +27,13 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.closed_loop.feet import OnFeet, with_readings
+from biped_adrc.closed_loop.feet import with_readings
 from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import (
     LaggingPlant,
     Load,
+    OnFeet,
     SteppingPlant,
     UnevenPlant,
     lag_of,

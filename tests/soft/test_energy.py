@@ -11,7 +11,7 @@ import biped_adrc as ba
 from biped_adrc.closed_loop.feet import readings
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.stepping_plant import Load, PlantState
+from biped_adrc.closed_loop.stepping_plant import Load
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
 from biped_adrc.hybrid.simulator import RunOptions
@@ -22,7 +22,7 @@ PUSH = ba.TorquePulse([30.0, 30.0, 0.0, 0.0, 0.0], step=2, start=0.02, stop=0.06
 
 def energy(plant, r, k):
     """Kinetic with rotors, and potential [J], by MuJoCo at reading k."""
-    plant.footing(PlantState(r.t[k], r.q[k], r.v[k], r.own[k]), r.u[k], STILL)
+    plant.footing(r.row[k], r.u[k], STILL)
     mujoco().mj_energyPos(plant.model, plant.data)
     mujoco().mj_energyVel(plant.model, plant.data)
     return plant.data.energy.sum()
@@ -47,9 +47,10 @@ def balance(biped, gait, h):
     viscous, static = (float(biped.friction) * x for x in biped.friction_coefficients)
     for part in (before, later):
         r = readings(loop, part, h)
-        power = np.sum(r.u * r.v[:, :4], axis=1) + np.sum(r.zeta * r.v, axis=1)
+        v = r.row[:, 5:10]
+        power = np.sum(r.u * v[:, :4], axis=1) + np.sum(r.zeta * v, axis=1)
         ground = np.sum(r.force * r.speed, axis=(1, 2))
-        power += ground - r.v**2 @ viscous - np.abs(r.v) @ static
+        power += ground - v**2 @ viscous - np.abs(v) @ static
         level = np.array([energy(plant, r, k) for k in range(len(r.t))])
         work = 0.5 * np.diff(r.t) * (power[1:] + power[:-1])
         missing.append(np.diff(level) - work)

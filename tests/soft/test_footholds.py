@@ -97,10 +97,9 @@ def test_each_foot_touches_its_own_level_along_the_vertical(biped, gait, slope):
     state = plant.start(0.0, q, np.zeros(5))
     foot = float(biped.swing_foot(q) @ out)
     for levels in ((0.0, foot / out[1] + 1e-3), (2e-3, foot / out[1] + 3e-3)):
-        own = state.own.copy()
-        own[6:8] = levels
+        state[16:18] = levels
         for p in (plant, pickle.loads(pickle.dumps(plant))):
-            p.engine.place(np.concatenate((q, np.zeros(5), own)))
+            p.engine.place(state)
             mujoco().mj_forward(p.model, p.data)
             depths = [-contact.dist for contact in p.data.contact]
             expected = [x * out[1] for x in (levels[0], levels[1] - foot / out[1])]

@@ -8,7 +8,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.stepping_plant import Load, PlantState
+from biped_adrc.closed_loop.stepping_plant import Load
 from biped_adrc.core.errors import InputError
 from biped_adrc.engine.on_plant import CompiledLoop, stepping_loop
 from biped_adrc.extras.mujoco.mjcf import mjcf
@@ -54,7 +54,7 @@ def test_the_angles_are_of_second_order_in_the_engines_step(biped, gait):
     plants = [MuJoCoPlant(biped, soft, h=1e-3 / k, lag=1e-3) for k in (2, 4, 64)]
     rows = []
     for plant in plants:
-        row = np.concatenate(plant.start(0.0, *gait.start(biped))[1:])
+        row = plant.start(0.0, *gait.start(biped))
         row[12] += 9.0
         for k in range(10):
             row = plant.engine.moved(k * 1e-3, row, U, None, (k + 1) * 1e-3)
@@ -118,14 +118,13 @@ def test_a_rate_limit_stays_and_what_does_not_fit_is_said(biped, gait):
 def test_the_ground_carries_what_motors_with_lag_press(biped, gait):
     """Forces at a touchdown and in the readings are those under u_m, not under u."""
     plant, ideal = MuJoCoPlant(biped, lag=TAU), MuJoCoPlant(biped)
-    state, u = plant.start(0.0, *gait.start(biped)), 5.0 * U
-    row, _ = plant.stride(0.0, np.concatenate(state[1:]), u, None, 2e-3)
+    u = 5.0 * U
+    row = plant.advance(0.0, plant.start(0.0, *gait.start(biped)), u, None, 2e-3).row
     found = plant.forces()
     u_m, still = u * (1.0 - np.exp(-2e-3 / TAU)), Load(np.zeros(5), np.zeros(2))
-    expected = ideal.footing(PlantState(2e-3, row[:5], row[5:10], row[10:15]), u_m, still).force
+    expected = ideal.footing(row[:15], u_m, still).force
     np.testing.assert_allclose(found, expected, rtol=1e-6)
-    own = PlantState(2e-3, row[:5], row[5:10], row[10:])
-    np.testing.assert_allclose(plant.footing(own, u, still).force, expected, rtol=1e-6)
+    np.testing.assert_allclose(plant.footing(row, u, still).force, expected, rtol=1e-6)
     assert np.max(np.abs(expected)) > 100.0
 
 

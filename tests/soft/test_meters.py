@@ -11,7 +11,7 @@ import biped_adrc as ba
 from biped_adrc.analysis.soft_steps import soft_steps, step_of, weights
 from biped_adrc.closed_loop.feet import Readings, readings, with_readings
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.stepping_plant import Load, PlantState
+from biped_adrc.closed_loop.stepping_plant import Load
 from biped_adrc.core.errors import InputError
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
@@ -43,7 +43,7 @@ def walk(biped, gait):
 
 def momentum(plant, r, k):
     """Of the whole robot (x, z) [N s], by MuJoCo's own sum over its bodies."""
-    plant.footing(PlantState(r.t[k], r.q[k], r.v[k], r.own[k]), r.u[k], STILL)
+    plant.footing(r.row[k], r.u[k], STILL)
     mujoco().mj_subtreeVel(plant.model, plant.data)
     return plant.model.body_subtreemass[0] * plant.data.subtree_linvel[0, [0, 2]]
 
@@ -84,7 +84,7 @@ def test_a_large_foot_rolls_and_the_point_that_touches_rests(biped, gait):
     np.testing.assert_allclose(pinned.place[0], [0.0, 0.0], atol=1e-5)
     shin = v @ [1.0, 0.0, 1.0, 0.0, 1.0]  # rate of the stance shin, counter-clockwise
     centre = np.array([-shin * 0.05, 0.0])  # rolls forwards where it turns clockwise
-    rolling = state._replace(own=state.own + np.array([0.0, 0.0, 0.0, *centre]))
+    rolling = state + np.array([*np.zeros(13), *centre])
     np.testing.assert_allclose(plant.footing(rolling, np.zeros(4), STILL).speed[0], 0.0, atol=1e-12)
 
 
@@ -99,7 +99,7 @@ def test_a_block_that_slides_to_rest():
     speed[:, 0, 0] = v
     place = np.full((len(t), 2, 2), -2e-4)
     none = np.zeros((len(t), 1))
-    found = step_of(Readings(t, none, none, none, none - 7.0, none, force, place, speed), mu, FLAT)
+    found = step_of(Readings(t, none, none - 7.0, none, force, place, speed), mu, FLAT)
     assert found.slip == pytest.approx(((v0**2 - s**2) / (2 * mu * g), 0.0), rel=1e-3)
     assert (found.friction_used, found.depth) == pytest.approx((mu, 2e-4))
     taken = -mass * v0 - 0.5 * mu * mass * g * (0.5 - v0 / (mu * g))

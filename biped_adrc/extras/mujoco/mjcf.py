@@ -73,9 +73,8 @@ def _shape(visual: Visual) -> ET.Element:
 
 def _start(plant: MuJoCoPlant, gait: Gait) -> dict[str, str]:
     """Positions and velocities of the model at the start of a gait."""
-    _, q, v, own = plant.start(0.0, *gait.start(plant.biped))
     engine = plant.engine
-    engine.place(np.concatenate((q, v, own)))
+    engine.place(plant.start(0.0, *gait.start(plant.biped)))
     return {"qpos": text(engine.qpos), "qvel": text(engine.qvel)}
 
 

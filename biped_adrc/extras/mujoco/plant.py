@@ -23,7 +23,6 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable
 from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -31,8 +30,7 @@ from threading import Lock, get_ident
 
 import numpy as np
 
-from biped_adrc.closed_loop.feet import Feet
-from biped_adrc.closed_loop.stepping_plant import Advanced, Contact, Load, PlantState, state_of
+from biped_adrc.closed_loop.stepping_plant import Contact, Feet, Load, Moved
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.core.checks import Checked, NonNegativeFloat, check_fields
 from biped_adrc.core.errors import InputError, check_count, check_positive
@@ -202,8 +200,8 @@ class MuJoCoPlant(Checked, Shown):
         """MuJoCo's, on which the digits of a run depend."""
         return str(mujoco().__version__)
 
-    def start(self, t: float, q: Array, v: Array) -> PlantState:
-        """At t [s] in q (n,) [rad], v (n,) [rad/s], the stance foot at rest at the origin."""
+    def start(self, t: float, q: Array, v: Array) -> Array:
+        """The row at t [s] in q (n,) [rad], v (n,) [rad/s], the stance foot at rest at the origin."""
         f = self.biped.floating
         base, speed = f.configuration(q)[f.base], (f.velocity_map(q)[:, : self.n] @ v)[f.base]
         depth = -float(np.dot(self.out, self.biped.swing_foot(q)))
@@ -215,33 +213,18 @@ class MuJoCoPlant(Checked, Shown):
         steps = [float(self.first_step), 0.0, 0.0] if self.ground_steps else []
         rest = [*steps, *np.zeros(self.p if self.lag > 0.0 else 0)]
         own = Own(t, base - TOUCHING * np.array(self.out), speed, np.array(rest))
-        return PlantState(t, q, v, own.numbers())
+        return np.concatenate((q, v, own.numbers()))
 
-    def advance(
-        self,
-        state: PlantState,
-        u: Array,
-        outside: Callable[[float, Array, Array], Load],
-        until: float,
-    ) -> Advanced:
+    def advance(self, t: float, row: Array, u: Array, load: Load | None, until: float) -> Moved:
         """On to `until` [s], u (p,) [N m] asked of the motors; a touchdown and a fall are looked for there."""
-        t, q, v, own = state
-        load = outside(0.5 * (t + until), q, v)
-        row, contacts = self.stride(t, np.concatenate((q, v, own)), u, load, until)
-        moved = state_of(until, row, self.n)
-        return Advanced(self.landed(moved, contacts), contacts, (moved,))
-
-    def stride(
-        self, t: float, row: Array, u: Array, load: Load | None, until: float
-    ) -> tuple[Array, tuple[Contact, ...]]:
-        """As `advance` for the state as one row (q, q', own), before what a contact changes."""
         engine = self.engine
         after = engine.moved(t, row, u, load, until)
         own, points = after[2 * self.n :], engine.points()
         result = self.contacts(until, own, points)
         if self.ground_steps and not result:
             self.look_ahead(own, points)
-        return after, result
+        lands = result and result[0].ends is None
+        return Moved(until, after, result, self.landed(until, after) if lands else None)
 
     def look_ahead(self, own: Array, points: list[list[float]]) -> None:
         """Put the swing foot's plane at the next foothold, in `own`, where the foot is ahead and above that."""
@@ -250,11 +233,10 @@ class MuJoCoPlant(Checked, Shown):
         if swing[0] > stance[0] and x * swing[0] + z * (swing[2] - foothold) > 0.0:
             own[7] = foothold
 
-    def footing(self, state: PlantState, u: Array, load: Load) -> Feet:
-        """Both feet in a state under u (p,) [N m] and a load (`closed_loop.feet`)."""
-        _, q, v, own = state
-        self.engine.place(np.concatenate((q, v, own)))
-        self.engine.push(self.motor_torque(own, u), q, load)
+    def footing(self, row: Array, u: Array, load: Load) -> Feet:
+        """Both feet in a row under u (p,) [N m] and a load (`closed_loop.feet`)."""
+        self.engine.place(row)
+        self.engine.push(self.motor_torque(row[2 * self.n :], u), row[: self.n], load)
         # from the point that touches to the foot's centre; it moves at v + omega x (-up)
         mj, up = mujoco(), self.ground.foot_radius * np.array(self.out)
         model, data, force = self.engine.model, self.engine.data, self.forces()
@@ -267,17 +249,15 @@ class MuJoCoPlant(Checked, Shown):
             speed[i] = centre - spin * np.array([up[1], -up[0]])
         return Feet(force, place, speed)
 
-    def landed(self, state: PlantState, contacts: tuple[Contact, ...]) -> PlantState:
-        """The same motion after these contacts: a touchdown relabels the coordinates."""
-        if not contacts or contacts[0].ends is not None:
-            return state
-        own = Own.of(state.own)._replace(since=state.t).numbers()
+    def landed(self, t: float, row: Array) -> Array:
+        """The row after a touchdown at t [s], which relabels the coordinates."""
+        n = self.n
+        own = Own.of(row[2 * n :])._replace(since=t).numbers()
         if self.lag > 0.0:
             own[-self.p :] = relabelled(own[-self.p :], self.swap)
         if self.ground_steps:
             own[5:8] = own[5] + 1.0, own[7], own[6]
-        q, v = self.biped.relabel(state.q), self.biped.R @ state.v
-        return PlantState(state.t, q, v, own)
+        return np.concatenate((self.biped.relabel(row[:n]), self.biped.R @ row[n : 2 * n], own))
 
     # -- what ends a single support ----------------------------------------------------------------
     def contacts(self, t: float, own: Array, points: list[list[float]]) -> tuple[Contact, ...]:
