@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -37,14 +37,10 @@ class Program:
 
     make: WalkerStructure
     """Structure of the walker."""
-    machine: LoadedCode
-    """Its functions in memory."""
     K: Array
     """The numbers as a vector; its last entry is unused, so that it is never empty."""
     numbers: WalkerNumbers
     """The same by name."""
-    key: Hashable
-    """What decides the code."""
 
     @classmethod
     def of(cls, walker: Walker, size: int, split: ErrorForm | None = None) -> Program:
@@ -52,8 +48,8 @@ class Program:
         exponential method.
 
         Takes the controller in its time base, the data of plant and model, and puts all
-        floats into K in the order of `WalkerNumbers`. Raises NotCompiled for a part that
-        cannot be traced, or ModelError for a robot that is no planar tree.
+        floats into K in the order of `WalkerNumbers`. Raises NotCompiled for a part whose content cannot
+        be compared, or ModelError for a robot that is no planar tree.
         """
         make, numbers = structure_of(walker, size, split)
         K = np.array([*floats(numbers), 0.0])
@@ -62,8 +58,30 @@ class Program:
                 f"a parameter of {type(walker.controller).__name__} or its walker is NaN, of which generated "
                 "code would make 0 where it is multiplied by 0"
             )
-        code, key = machine_of(make, numbers, Equations.names(numbers))
-        return cls(make, code, K, numbers, key)
+        return cls(make, K, numbers)
+
+    @cached_property
+    def key(self) -> Hashable:
+        """What decides the code."""
+        return structure_of_walker(self.make), structure(self.numbers)
+
+    @cached_property
+    def machine(self) -> LoadedCode:
+        """Its functions in memory, compiled when they are asked for. Raises NotCompiled as `functions`."""
+        return self.functions(Equations.names(self.numbers))
+
+    def functions(self, names: Sequence[str]) -> LoadedCode:
+        """Functions of `Equations` in memory, each traced by itself.
+
+        Raises NotCompiled for a method that cannot be traced or an operation without machine code.
+        """
+
+        def traced(name: str) -> SymbolicFunction:
+            with located(name):
+                function: SymbolicFunction = getattr(Equations.of(self.make, self.numbers), name)()
+                return function
+
+        return generated((*names, self.key), {name: partial(traced, name) for name in names})
 
     def address(self, name: str) -> int:
         """Address of a compiled function; 0 if this walker does not need it, which no kernel calls."""
@@ -133,23 +151,6 @@ def controller_numbers(robot: RobotData, loop: Walker | SteppingLoop) -> WalkerN
     limit = math.inf if loop.torque_limit is None else float(loop.torque_limit)
     strongest, held = float(loop.bounds.strongest), loop.held or ()
     return WalkerNumbers(robot.arrays, None, loop.law, limit, strongest=strongest, held=held)
-
-
-def machine_of(
-    make: WalkerStructure, numbers: WalkerNumbers, names: Sequence[str]
-) -> tuple[LoadedCode, Hashable]:
-    """Functions of `Equations` in memory, and their key; traced one by one where there is no code on disk.
-
-    Raises NotCompiled for a method that cannot be traced or an operation without machine code.
-    """
-
-    def traced(name: str) -> SymbolicFunction:
-        with located(name):
-            function: SymbolicFunction = getattr(Equations.of(make, numbers), name)()
-            return function
-
-    key = *names, structure_of_walker(make), structure(numbers)
-    return generated(key, {name: partial(traced, name) for name in names}), key
 
 
 def structure_of_walker(make: WalkerStructure) -> Hashable:
