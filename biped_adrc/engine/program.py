@@ -23,7 +23,7 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers, WalkerStructure
-from biped_adrc.engine.ir import generated
+from biped_adrc.engine.ir import generated, module_text
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.mechanics import RobotData, RobotStructure, robot_of
 from biped_adrc.engine.structure import structure
@@ -71,17 +71,22 @@ class Program:
         return self.functions(Equations.names(self.numbers))
 
     def functions(self, names: Sequence[str]) -> LoadedCode:
-        """Functions of `Equations` in memory, each traced by itself.
+        """Functions of `Equations` in memory.
 
         Raises NotCompiled for a method that cannot be traced or an operation without machine code.
         """
+        functions = {name: partial(self._traced, name) for name in names}
+        return generated((*names, self.key), functions)
 
-        def traced(name: str) -> SymbolicFunction:
-            with located(name):
-                function: SymbolicFunction = getattr(Equations.of(self.make, self.numbers), name)()
-                return function
+    def text(self) -> str:
+        """What `machine` is made from, in LLVM's language."""
+        names = Equations.names(self.numbers)
+        return module_text({name: self._traced(name) for name in names})
 
-        return generated((*names, self.key), {name: partial(traced, name) for name in names})
+    def _traced(self, name: str) -> SymbolicFunction:
+        with located(name):
+            function: SymbolicFunction = getattr(Equations.of(self.make, self.numbers), name)()
+            return function
 
     def address(self, name: str) -> int:
         """Address of a compiled function; 0 if this walker does not need it, which no kernel calls."""
