@@ -12,7 +12,6 @@ check` does not hold; 2 the command line is wrong; 3 bad input (robot, gait, pol
 
 from __future__ import annotations
 
-import gc
 import signal
 import sys
 import warnings
@@ -63,7 +62,6 @@ def main() -> None:
         complain(
             f"error: what was printed cannot be written: {lost}; files that were to be written are complete"
         )
-    gc.disable()  # so that it does not look through all objects once more
     sys.exit(OutputError.exit_code if lost is not None and code == 0 else code)
 
 
