@@ -10,8 +10,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.linalg import solve_banded
 
+from biped_adrc.core.linear import lapack
 from biped_adrc.core.types import Array
 
 
@@ -42,14 +42,14 @@ def _under_spline(t: Array, y: Array) -> float:
     """
     h = np.diff(t)
     m = np.diff(y) / h
-    A, b = np.zeros((3, len(t))), np.empty(len(t))
+    A, b = np.zeros((3, len(t))), np.empty(len(t))  # above, on and below the diagonal
     A[0, 2:], A[1, 1:-1], A[2, :-2] = h[:-1], 2.0 * (h[:-1] + h[1:]), h[1:]
     b[1:-1] = 3.0 * (h[1:] * m[:-1] + h[:-1] * m[1:])
     for i, j, row in ((0, 1, 0), (-1, -2, 2)):
         d = h[i] + h[j]
         A[1, i], A[row, j] = h[j], d
         b[i] = ((h[i] + 2.0 * d) * h[j] * m[i] + h[i] ** 2 * m[j]) / d
-    s = solve_banded((1, 1), A, b)
+    s = lapack.dgtsv(A[2, :-1], A[1], A[0, 1:], b)[3]
     return float(np.trapezoid(y, t) + np.sum(h * h * (s[:-1] - s[1:])) / 12.0)
 
 

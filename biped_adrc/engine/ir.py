@@ -23,8 +23,16 @@ from collections.abc import Callable, Hashable, Mapping, Sequence
 import casadi as ca
 
 from biped_adrc.engine.equations import SymbolicFunction
-from biped_adrc.engine.machine import LoadedCode, ModuleText, load_or_compile
-from biped_adrc.engine.structure import Unchanged, reaching
+from biped_adrc.engine.machine import (
+    LoadedCode,
+    ModuleText,
+    hash_of,
+    keep,
+    load,
+    load_or_compile,
+    stored,
+)
+from biped_adrc.engine.structure import Unchanged, lasting, reaching
 from biped_adrc.engine.symbols import NotCompiled
 
 CHOICE = -1
@@ -210,12 +218,27 @@ def in_memory(key: Hashable, names: Sequence[str], text: Callable[[], ModuleText
     if code is None or not all(unchanged() for unchanged in reached):
         with reaching() as reached:
             try:
-                code = load_or_compile(text(), names)
+                code = _from_disk(key, names, text, reached)
             except NotCompiled as error:
                 code = str(error)
         _IN_MEMORY[key] = code, reached
     if isinstance(code, str):
         raise NotCompiled(code)
+    return code
+
+
+def _from_disk(
+    key: Hashable, names: Sequence[str], text: Callable[[], ModuleText], reached: list[Unchanged]
+) -> LoadedCode:
+    """As `in_memory`; nothing is traced where another process left code for the same structure."""
+    structure = lasting(key)
+    link = "" if structure is None else hash_of(structure)
+    there = stored(link)
+    code = None if there is None else load(there.decode(), names)
+    if code is None:
+        code = load_or_compile(text(), names)
+        if link and not reached:
+            keep(link, code.key.encode())
     return code
 
 

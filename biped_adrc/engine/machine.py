@@ -13,7 +13,7 @@ import platform
 import threading
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
@@ -38,8 +38,8 @@ class LoadedCode:
     """By name."""
     owner: object
     """LLVM's engine."""
-    text: str = ""
-    """What they were made from, in LLVM's language."""
+    key: str
+    """Hash under which the object code is stored."""
 
 
 class ModuleText(NamedTuple):
@@ -57,14 +57,25 @@ def load_or_compile(text: ModuleText, names: Sequence[str]) -> LoadedCode:
     One thread at a time, so that no two of them compile the same; other processes may, and write
     the same file.
     """
-    made_from = "\0".join((text.text, str(text.vectors), processor()))
-    key = hashlib.sha256(made_from.encode()).hexdigest()[:32]
+    key = hash_of(text.text, str(text.vectors))
     with _LOCK:
         code = stored(key)
         if code is None:
             code = compiled(*text)
             keep(key, code)
-        return replace(loaded(code, names), text=text.text)
+        return loaded(key, code, names)
+
+
+def load(key: str, names: Sequence[str]) -> LoadedCode | None:
+    """The functions `names` of object code on the disk; None where it is not there."""
+    with _LOCK:
+        code = stored(key)
+        return None if code is None else loaded(key, code, names)
+
+
+def hash_of(*made_from: str) -> str:
+    """Name of what is made from these texts for this processor."""
+    return hashlib.sha256("\0".join((*made_from, processor())).encode()).hexdigest()[:32]
 
 
 def processor() -> str:
@@ -102,13 +113,13 @@ def compiled(text: str, vectors: bool = False) -> bytes:
     return bytes(host.emit_object(module))
 
 
-def loaded(code: bytes, names: Sequence[str]) -> LoadedCode:
+def loaded(key: str, code: bytes, names: Sequence[str]) -> LoadedCode:
     """Object code in memory, with the addresses of these functions."""
     engine = binding.create_mcjit_compiler(binding.parse_assembly(""), target())
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
     addresses = {name: int(engine.get_function_address(name)) for name in names}
-    return LoadedCode(addresses, engine)
+    return LoadedCode(addresses, engine, key)
 
 
 def _path(key: str) -> Path:
@@ -153,5 +164,4 @@ def key_of(source: str) -> str:
     What is compiled for one processor may use instructions that another has not.
     """
     made_by = packages(("numba", "llvmlite", "numpy")).values()
-    made_from = "\0".join((source, *made_by, platform.python_version(), processor()))
-    return hashlib.sha256(made_from.encode()).hexdigest()[:32]
+    return hash_of(source, *made_by, platform.python_version())

@@ -47,7 +47,7 @@ from biped_adrc.engine.compiled_push import CompiledPush, summed
 from biped_adrc.engine.equations import WalkerStructure
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.mechanics import robot_of
-from biped_adrc.engine.program import controller_numbers, machine_of
+from biped_adrc.engine.program import Program, controller_numbers
 from biped_adrc.engine.run import COMPILED, PINOCCHIO
 from biped_adrc.engine.symbols import NotCompiled, floats
 from biped_adrc.hybrid import simulator
@@ -198,7 +198,7 @@ class CompiledTick:
         K = np.array([*floats(self.numbers), 0.0])
         if np.any(np.isnan(K)):
             raise NotCompiled(f"a parameter of {type(loop.controller).__name__} or its loop is NaN")
-        owner, _ = machine_of(self.make, self.numbers, ["sample"])
+        owner = Program(self.make, K, self.numbers).functions(["sample"])
         n, p, nx = loop.plant.n, loop.plant.p, self.make.nx
         self.sample = Call(owner, "sample", K, np.zeros(3 + nx + n + OUTSIDE), nx + p + 1)
         self.x, self.xi = np.zeros(0), np.zeros(0)

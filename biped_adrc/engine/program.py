@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -24,7 +24,7 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers, WalkerStructure
-from biped_adrc.engine.ir import generated
+from biped_adrc.engine.ir import generated, module_text
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.mechanics import RobotData, RobotStructure, robot_of
 from biped_adrc.engine.structure import structure
@@ -38,39 +38,67 @@ class Program:
 
     make: WalkerStructure
     """Structure of the walker."""
-    machine: LoadedCode
-    """Its functions in memory."""
     K: Array
     """The numbers as a vector; its last entry is unused, so that it is never empty."""
     numbers: WalkerNumbers
     """The same by name."""
-    key: Hashable
-    """What decides the code."""
+    plant_alone: bool = False
+    """Whether there are flow and event functions alone."""
 
     @classmethod
     def of(
         cls, walker: Walker, size: int, split: ErrorForm | None = None, plant_alone: bool = False
     ) -> Program:
         """The program of a walker whose controller has `size` states; split: coordinates of the
-        exponential method. plant_alone: flow and event functions in sampled time, which call no other part.
+        exponential method. plant_alone: flow and event functions, which in sampled time call no other part.
 
         Takes the controller in its time base, the data of plant and model, and puts all
-        floats into K in the order of `WalkerNumbers`. Raises NotCompiled for a part that
-        cannot be traced, or ModelError for a robot that is no planar tree.
+        floats into K in the order of `WalkerNumbers`. Raises NotCompiled for a part whose content cannot
+        be compared, or ModelError for a robot that is no planar tree.
         """
         make, numbers = structure_of(walker, size, split)
-        names = Equations.names(numbers)
         if plant_alone:
             held = walker.held._replace(sensors=None, touchdown=None) if walker.held else ()
-            numbers, names = numbers._replace(controller=Passive(), held=held), ["flow", "events"]
+            numbers = numbers._replace(controller=Passive(), held=held)
         K = np.array([*floats(numbers), 0.0])
         if np.any(np.isnan(K)):
             raise NotCompiled(
                 f"a parameter of {type(walker.controller).__name__} or its walker is NaN, of which generated "
                 "code would make 0 where it is multiplied by 0"
             )
-        code, key = machine_of(make, numbers, names)
-        return cls(make, code, K, numbers, key)
+        return cls(make, K, numbers, plant_alone)
+
+    @cached_property
+    def key(self) -> Hashable:
+        """What decides the code."""
+        return structure_of_walker(self.make), structure(self.numbers)
+
+    @property
+    def names(self) -> list[str]:
+        """Of its functions."""
+        return ["flow", "events"] if self.plant_alone else Equations.names(self.numbers)
+
+    @cached_property
+    def machine(self) -> LoadedCode:
+        """Its functions in memory, compiled when they are asked for. Raises NotCompiled as `functions`."""
+        return self.functions(self.names)
+
+    def functions(self, names: Sequence[str]) -> LoadedCode:
+        """Functions of `Equations` in memory.
+
+        Raises NotCompiled for a method that cannot be traced or an operation without machine code.
+        """
+        functions = {name: partial(self._traced, name) for name in names}
+        return generated((*names, self.key), functions)
+
+    def text(self) -> str:
+        """What `machine` is made from, in LLVM's language."""
+        return module_text({name: self._traced(name) for name in self.names})
+
+    def _traced(self, name: str) -> SymbolicFunction:
+        with located(name):
+            function: SymbolicFunction = getattr(Equations.of(self.make, self.numbers), name)()
+            return function
 
     def address(self, name: str) -> int:
         """Address of a compiled function; 0 if this walker does not need it, which no kernel calls."""
@@ -140,23 +168,6 @@ def controller_numbers(robot: RobotData, loop: Walker | SteppingLoop) -> WalkerN
     limit = math.inf if loop.torque_limit is None else float(loop.torque_limit)
     strongest, held = float(loop.bounds.strongest), loop.held or ()
     return WalkerNumbers(robot.arrays, None, loop.law, limit, strongest=strongest, held=held)
-
-
-def machine_of(
-    make: WalkerStructure, numbers: WalkerNumbers, names: Sequence[str]
-) -> tuple[LoadedCode, Hashable]:
-    """Functions of `Equations` in memory, and their key; traced one by one where there is no code on disk.
-
-    Raises NotCompiled for a method that cannot be traced or an operation without machine code.
-    """
-
-    def traced(name: str) -> SymbolicFunction:
-        with located(name):
-            function: SymbolicFunction = getattr(Equations.of(make, numbers), name)()
-            return function
-
-    key = *names, structure_of_walker(make), structure(numbers)
-    return generated(key, {name: partial(traced, name) for name in names}), key
 
 
 def structure_of_walker(make: WalkerStructure) -> Hashable:

@@ -1,22 +1,27 @@
-"""What decides generated code, to be found again within a process; on disk it is under the hash of its text.
+"""What decides generated code, to be found again in memory and on disk.
 
 Tracing takes a tenth of a second, and a study makes thousands of walkers with other numbers. So code in memory
 is found by the structure of what it was made from, floats replaced by their shapes, and by what its methods
-reached outside of this package: a class, function or constant that was defined anew makes other code.
+reached outside of this package: a class, function or constant that was defined anew makes other code. Another
+process finds it by that structure where all of it is this package's own (`lasting`).
 """
 
 from __future__ import annotations
 
+import sys
 import types
 from collections.abc import Callable, Hashable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
+from enum import Enum
+from itertools import chain
 from typing import Any
 
 import numpy as np
 
 from biped_adrc.core.checks import LIBRARIES, is_users
 from biped_adrc.core.part import content, is_part
+from biped_adrc.core.versions import numerical_versions
 from biped_adrc.engine.symbols import HIDDEN, NotCompiled
 
 
@@ -47,6 +52,43 @@ def structure(tree: Any, exact: bool = False) -> Hashable:
     known = isinstance(tree, type | types.FunctionType | types.ModuleType)
     inside = {} if known else getattr(tree, "__dict__", {})
     return type(tree), tree, structure(inside, True) if inside else None
+
+
+def lasting(key: Hashable) -> str | None:
+    """A structure as text, the same in every process that has the same versions; None for one with classes or
+    functions of the user's, or where one of this package's functions was replaced in this process."""
+    try:
+        return None if _replaced() else f"{_spelled(key)} {sorted(numerical_versions().items())}"
+    except LookupError:
+        return None
+
+
+def _spelled(key: Hashable) -> str:
+    """A structure as text. Raises LookupError for what may be something else in another process."""
+    if isinstance(key, tuple):
+        return f"({','.join(map(_spelled, key))})"
+    if isinstance(key, type | types.FunctionType):
+        home = key.__module__.partition(".")[0]
+        own = home == "biped_adrc" and vars(sys.modules[key.__module__])[key.__qualname__] is key
+        if own or home in ("builtins", "enum", "numpy"):
+            return f"{key.__module__}.{key.__qualname__}"
+    elif key is None or isinstance(key, int | float | str | bytes | Enum | np.generic):
+        return repr(key)
+    raise LookupError(key)
+
+
+def _replaced() -> bool:
+    """Whether a function or method of this package is the user's in this process."""
+    for name, module in list(sys.modules.items()):
+        if name.startswith("biped_adrc."):
+            types_in = (x for x in vars(module).values() if isinstance(x, type))
+            classes = (x for x in types_in if x.__module__ == name)
+            for x in chain(*(vars(home).values() for home in (module, *classes))):
+                if isinstance(x, types.FunctionType) and x.__globals__ is not vars(module):
+                    at = x.__globals__
+                    if changes(at.get("__name__"), at.get("__file__")):
+                        return True
+    return False
 
 
 Unchanged = Callable[[], bool]

@@ -61,9 +61,9 @@ class HardwareRecord(Record):
     """From a tick to the torque's effect."""
     delay_known: bool = field(False)
     """Whether the observer knows the delay."""
-    encoders: EncoderRecord = field(EncoderRecord())
-    sensor: SensorRecord = field(SensorRecord())
-    touchdown: TouchdownRecord = field(TouchdownRecord())
+    encoders: EncoderRecord = field(EncoderRecord.model_construct())
+    sensor: SensorRecord = field(SensorRecord.model_construct())
+    touchdown: TouchdownRecord = field(TouchdownRecord.model_construct())
     torque_limit: float | None = field(None, "N m", gt=0)
     """Of every motor."""
     rate_limit: float | None = field(None, "N m/s", gt=0)

@@ -13,9 +13,13 @@ Records of parts of the user's own are open: they keep other names in `own`, and
 
 from __future__ import annotations
 
+import ast
 import operator
+import sys
 from collections.abc import Collection, Mapping
 from functools import cache, lru_cache
+from inspect import getsource
+from itertools import pairwise
 from types import NoneType, UnionType
 from typing import Any, ClassVar, Literal, NamedTuple, Self, TypeVar, Union, get_args, get_origin
 
@@ -135,7 +139,7 @@ class Record(BaseModel):
         extra="forbid",
         allow_inf_nan=False,
         protected_namespaces=(),
-        use_attribute_docstrings=True,
+        defer_build=True,
     )
     SHORT: ClassVar[str] = "name"
     """Field that a text in place of the record stands for."""
@@ -272,7 +276,7 @@ def read(what: Described, x: Any) -> Any:
 
 @lru_cache(maxsize=1024)
 def described(cls: type[Record], name: str, place: str = "") -> Described:
-    """One field of a record."""
+    """One field of a record, but for its text."""
     info = cls.model_fields[name]
     kinds = _members(info.annotation)
     choices = tuple(x for kind in kinds if get_origin(kind) is Literal for x in get_args(kind))
@@ -283,9 +287,28 @@ def described(cls: type[Record], name: str, place: str = "") -> Described:
         for sign in SIGNS
         if hasattr(rule, sign)
     )
-    default, text = info.get_default(call_default_factory=True), str(info.description or "")
     more: Any = info.json_schema_extra
-    return Described(place or name, types, limits, default, text, choices, **more)
+    default = info.get_default(call_default_factory=True)
+    return Described(place or name, types, limits, default, choices=choices, **more)
+
+
+@lru_cache
+def texts(cls: type[Record]) -> Mapping[str, str]:
+    """The docstrings below the fields of a record, by name; pydantic would read all at every import."""
+    result: dict[str, str] = {}
+    for base in reversed(cls.__mro__):
+        if issubclass(base, Record):
+            for field, below in pairwise(_bodies(base.__module__)[base.__name__]):
+                if isinstance(field, ast.AnnAssign) and isinstance(below, ast.Expr):
+                    result[ast.unparse(field.target)] = ast.literal_eval(below.value)
+    return result
+
+
+@lru_cache
+def _bodies(module: str) -> Mapping[str, list[ast.stmt]]:
+    """What stands in the classes of a module, by their names."""
+    tree = ast.parse(getsource(sys.modules[module]))
+    return {x.name: x.body for x in tree.body if isinstance(x, ast.ClassDef)}
 
 
 def _members(hint: Any) -> tuple[Any, ...]:
@@ -323,12 +346,12 @@ def described_in(cls: type[Record], name: str) -> Described:
             raise Misfit(name, unknown(name, names_of(cls)))
         inner = record_in(at, part)
         if inner is None:  # a table
-            return Described(name, (float,), text=str(at.model_fields[part].description))
+            return Described(name, (float,), text=texts(at)[part])
         at = inner
     if last in at.model_fields:
         inner = record_in(at, last)
         if inner is None:
-            return described(at, last, name)
+            return described(at, last, name)._replace(text=texts(at).get(last, ""))
         if inner.SHORT in inner.model_fields:
             return described_in(inner, inner.SHORT)._replace(name=name)
         raise Misfit(

@@ -107,8 +107,8 @@ class ControllerRecord(OpenRecord):
     """Derivative gain; by default the controller's own."""
     solve_theta: bool = field(True)
     """Solve the loop through Theta''; if not, as printed."""
-    observer: ObserverRecord = field(ObserverRecord())
-    contact: ContactRecord = field(ContactRecord())
+    observer: ObserverRecord = field(ObserverRecord.model_construct())
+    contact: ContactRecord = field(ContactRecord.model_construct())
     prediction: float = field(0.0, "s", ge=0, le=0.1)
     """The controller gets the state so much ahead, by its model and the torques on their way."""
     feedforward: float = field(0.0, ge=0, le=2)
@@ -247,16 +247,16 @@ class Scenario(Record):
     """
 
     SHORT = "controller"
-    controller: ControllerRecord = field(ControllerRecord())
-    robot: RobotRecord = field(RobotRecord())
-    gait: GaitRecord = field(GaitRecord())
-    hardware: HardwareRecord = field(HardwareRecord())
+    controller: ControllerRecord = field(ControllerRecord.model_construct())
+    robot: RobotRecord = field(RobotRecord.model_construct())
+    gait: GaitRecord = field(GaitRecord.model_construct())
+    hardware: HardwareRecord = field(HardwareRecord.model_construct())
     pushes: tuple[Push, ...] = field(())
-    errors: ErrorRecord = field(ErrorRecord())
-    ground: GroundRecord = field(GroundRecord())
+    errors: ErrorRecord = field(ErrorRecord.model_construct())
+    ground: GroundRecord = field(GroundRecord.model_construct())
     start: StartRecord = field(StartRecord.model_construct())
-    limits: LimitRecord = field(LimitRecord())
-    run: RunRecord = field(RunRecord())
+    limits: LimitRecord = field(LimitRecord.model_construct())
+    run: RunRecord = field(RunRecord.model_construct())
 
     def __init__(self, controller: object = None, **values: object) -> None:
         named = {} if controller is None else {"controller": controller}

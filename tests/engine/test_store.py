@@ -98,14 +98,19 @@ def test_what_cannot_be_written_is_made_in_memory(make, tmp_path, monkeypatch):
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
 
-def test_several_processes_make_the_same_code(cache):
+def test_several_processes_make_the_same_code_and_another_one_traces_nothing(cache):
     lines = (
         "import numpy as np, biped_adrc as ba\n"
+        "from functools import partial\n"
+        "from biped_adrc.engine import ir\n"
         "from biped_adrc.engine.compiled_biped import CompiledBiped\n"
+        "made = []\n"
+        "ir.ModuleText = partial(lambda kind, *x: made.append(1) or kind(*x), ir.ModuleText)\n"
         "c = CompiledBiped.of(ba.Biped.load('rabbit'))\n"
-        "print(c.acceleration(np.linspace(0.1, 0.5, 5), np.ones(5), np.zeros(5)).tobytes().hex())\n"
+        "print(c.acceleration(np.linspace(0.1, 0.5, 5), np.ones(5), np.zeros(5)).tobytes().hex(), *made)\n"
     )
     processes = [python(lines, cache / "several") for _ in range(2)]
     found = {process.communicate(timeout=120)[0].split()[0] for process in processes}
     assert len(found) == 1
     assert [process.returncode for process in processes] == [0, 0]
+    assert python(lines, cache / "several").communicate(timeout=120)[0].split() == [*found]

@@ -12,7 +12,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.engine.compiled_push import term_code
 from biped_adrc.engine.ir import in_memory
 from biped_adrc.engine.machine import ModuleText
-from biped_adrc.engine.structure import structure
+from biped_adrc.engine.structure import lasting, structure
 from biped_adrc.engine.symbols import floats
 from tests.control.conforms import call
 
@@ -89,10 +89,21 @@ def test_numbers_are_no_structure(make):
 
 def test_the_same_structure_is_compiled_once():
     text = "define void @f(ptr %K, ptr %inp, ptr %out) {\nret void\n}"
-    made = []
+    made, once = [], (object(),)
     for _ in range(2):
-        in_memory(("once",), ["f"], lambda: made.append(1) or ModuleText(text))
+        in_memory(once, ["f"], lambda: made.append(1) or ModuleText(text))
     assert made == [1]
+
+
+def test_another_process_finds_what_is_this_packages_own(monkeypatch):
+    pulse, own = structure(ba.TorqueStep([1.0])), types.ModuleType("own")
+    exec(HEAD.format(torque="v"), vars(own))
+    assert lasting(pulse) == lasting(structure(ba.TorqueStep([2.0])))
+    assert lasting(pulse) != lasting(structure(ba.TorqueStep([2.0, 3.0])))
+    assert lasting(structure(own.Own())) is None
+    assert lasting((value,)) is None
+    monkeypatch.setattr(ba.TorquePulse, "torque", own.Own.torque)
+    assert lasting(pulse) is None
 
 
 @dataclass(frozen=True)

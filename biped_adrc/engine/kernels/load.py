@@ -77,23 +77,23 @@ def _loaded() -> tuple[Kernels, object]:
 
 def loops() -> str:
     """All units in one text for LLVM, each under its own name, from the disk where it is there."""
-    text = source()
-    key = key_of(f"{text}\0{Path(__file__).read_text(encoding='utf-8')}")
+    root = Path(__file__).parents[3]
+    paths = [*(root / f"{name.replace('.', '/')}.py" for name in FILES), Path(__file__)]
+    *texts, own = [path.read_text(encoding="utf-8") for path in paths]
+    text = "\n".join(texts)
+    key = key_of(f"{text}\0{own}")
     code = stored(key)
     if code is None:
-        code = _written(text).encode()
+        code = _written(source(text)).encode()
         keep(key, code)
     return code.decode()
 
 
-def source() -> str:
-    """The text of all files, their imports of each other left out."""
-    root = Path(__file__).parents[3]
-    paths = (root / f"{name.replace('.', '/')}.py" for name in FILES)
+def source(text: str) -> str:
+    """The text of all files, one after the other, without their imports of each other."""
     kept = [
         statement
-        for path in paths
-        for statement in ast.parse(path.read_text(encoding="utf-8")).body
+        for statement in ast.parse(text).body
         if not (isinstance(statement, ast.ImportFrom) and statement.module in _LEFT_OUT)
     ]
     return "from __future__ import annotations\n" + ast.unparse(ast.Module(kept, []))

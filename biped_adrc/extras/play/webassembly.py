@@ -95,7 +95,7 @@ def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker
         raise InputError("an offline page takes the steps of RK4; leave out the exponential method")
     signals = SignalNumbers(program.numbers, reference)
 
-    own = laws.of(program.address("flow"), lambda: program.machine.text)
+    own = laws.of(program.address("flow"), program.text)
     seen = laws.of(
         -program.address("flow"), lambda: module_text({"observe": observe(program.make, signals)})
     )
