@@ -1,7 +1,5 @@
 """Controllers in the loop: what (20) and (28) promise, both time bases, saturation, users' own laws."""
 
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
 
@@ -9,7 +7,7 @@ import biped_adrc as ba
 from biped_adrc.analysis.observer.loop import ObserverLoop
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.control.tracking import Gains
-from biped_adrc.core.errors import InputError, NotFiniteError
+from biped_adrc.core.errors import InputError
 from biped_adrc.paper.physical_laws import held_joint
 
 
@@ -81,40 +79,16 @@ def test_sampled_adrc_with_table_one_walks_at_1_khz(biped, gait):
     assert np.max(np.abs(made.signals.error)) < 1e-3
 
 
-@dataclass(frozen=True)
-class Own(ba.Controller):
-    """A user's law without state, in plain Python."""
-
-    reference: ba.Reference
-    bad: object = None
-
-    def output(self, s, m):
-        if self.bad is not None and m.t >= 0.0:
-            return self.bad
-        r = self.reference(m.t, m.q, m.v)
-        return 2500.0 * (r.q_d - m.q_b) + 120.0 * (r.dq_d - m.v_b) + m.terms.Omega[:4]
-
-
-@pytest.mark.parametrize("timing", [ba.ContinuousTime(), ba.SampledTime(5e-4)])
-def test_a_law_of_ones_own_works_in_both_time_bases(biped, gait, timing):
-    walker = ba.Walker(biped, Own(gait.constraint), timing=timing)
-    assert ba.walk(walker, gait, 2).trajectory.status.ok
-
-
 def test_a_law_that_does_not_fit_is_refused(biped, gait):
     for gains in ({"K_p": -1.0}, {"K_d": 0.0}, {"K_p": float("nan")}):
         with pytest.raises(InputError, match="expected positive"):
             Gains(**gains)
     with pytest.raises(InputError, match="torque_limit of Walker"):
         ba.Walker(biped, ba.NPDController(gait.constraint), torque_limit=-3.0)
-    with pytest.raises(InputError, match=r"shape \(3,\), expected \(4,\)"):
-        ba.walk(ba.Walker(biped, Own(gait.constraint, np.zeros(3))), gait, 1)
-    with pytest.raises(NotFiniteError, match="nan"):
-        ba.walk(ba.Walker(biped, Own(gait.constraint, np.full(4, np.nan))), gait, 1)
 
 
 def test_a_state_without_a_discrete_form_is_refused_in_sampled_time(biped, gait):
-    class Stateful(Own):
+    class Stateful(ba.NPDController):
         def initial_state(self, m):
             return np.zeros(1)
 

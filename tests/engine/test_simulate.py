@@ -354,11 +354,13 @@ def test_tick_by_tick(gait, ticked, restart):
     assert s % 1.0 == 0.0
 
 
-def test_tick_by_tick_with_other_methods_pushes_and_ground(biped, gait, ticked):
+def test_tick_by_tick_with_hardware_other_methods_pushes_and_ground(biped, gait, ticked):
     push = ba.TorquePulse((30.0, 0.0, -10.0, 5.0, 3.0), 1, 0.1003, 0.1007)
     walker = replace(ticked, disturbance=push, ground_steps=(ba.StepDown(1, 0.002),))
     heavy = biped.with_errors(mass={"torso": 1.05})
     walker = replace(walker, plant=heavy, model=biped, slope=0.02)
+    late = ba.SampledTime(1e-3, delay=0.4e-3)
+    walker = replace(walker, timing=late, sensors=ba.Sensors(filter_time=2e-3))
     in_part(*runs(walker, gait, ba.RK4(1e-3)), TICKS, "InPython")
     why = "method Adaptive has no compiled form"
     in_part(*runs(walker, gait, ba.Adaptive(1e-9, 1e-9), impacts=1), TICKS, why)
