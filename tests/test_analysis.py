@@ -30,17 +30,6 @@ def test_largest_multiplier_is_delta_squared(return_map, biped, gait):
     assert orbit.x_minus[:5] == pytest.approx(gait.q_minus, abs=1e-7)
 
 
-def test_adrc_counts_its_observer(biped, gait):
-    walker = ba.Walker(biped, ba.ADRCController(gait.constraint))
-    x = walker.initial_state(gait.q_minus, gait.v_minus)
-    whole = ba.ReturnMap(walker, ba.Exponential(1e-3))
-    plant = ba.ReturnMap(walker, ba.Exponential(1e-3), controller_states=False)
-    assert whole.project(x).shape == (45,)
-    assert plant.project(x).shape == (9,)
-    image = whole(whole.project(x))
-    assert image[:9] == pytest.approx(plant(plant.project(x)), abs=1e-12)
-
-
 def test_a_map_without_a_return_raises_with_the_status(return_map, gait):
     x = np.concatenate((gait.q_minus, 0.05 * gait.v_minus))
     with pytest.raises(
