@@ -106,15 +106,6 @@ def test_derivative_of_the_impact_map(name):
 
 
 # -- derivatives of the closed loop ------------------------------------------------------------------
-class PD(ba.Controller):
-    """A law the package does not know."""
-
-    def __init__(self, constraint):
-        self.constraint = constraint
-
-    def output(self, s, m):
-        r = self.constraint(m.t, m.q, m.v)
-        return 2500 * (r.q_d - m.q_b) + 120 * (r.dq_d - m.v_b) + m.terms.Omega[:4]
 
 
 class Halved(ba.NPDController):
@@ -134,7 +125,6 @@ def loops(biped):
         "NPD, gains per joint": npd(biped, controller=ba.NPDController(c, per_joint)),
         "NPD, heavier plant with friction": npd(heavy, model=biped),
         "NPD, limited": npd(biped, torque_limit=500.0),
-        "PD": npd(biped, controller=PD(c)),
         "passive": npd(biped, controller=ba.Passive()),
         "half of NPD": npd(biped, controller=Halved(c)),
     }

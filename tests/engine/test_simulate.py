@@ -22,6 +22,7 @@ from biped_adrc.engine.run import simulate_by
 from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import Stiff
+from tests.plain import Undecorated
 
 simulate = partial(simulate_by, "compiled")
 
@@ -490,14 +491,6 @@ class Catches(Stateless):
             return super().output(s, m) * (1.0 if m.t < 0.02 else 0.9)
         except Exception:
             return np.zeros(4)
-
-
-class Undecorated(Controller):
-    def __init__(self, inner):
-        self.inner = inner
-
-    def output(self, s, m):
-        return self.inner.output(s, m)
 
 
 ROBOT = ba.Biped.load("rabbit")
