@@ -12,8 +12,6 @@ from xdist.scheduler import LoadScopeScheduling
 
 import biped_adrc as ba
 
-from .preloaded import Preloaded
-
 PRESETS = ("identified", "identified-bare", "tac2003")
 
 
@@ -73,16 +71,6 @@ def bare():
 @pytest.fixture(scope="session")
 def published(bare):
     return ba.load_gait("published", bare)
-
-
-@pytest.fixture(scope="session")
-def preloaded():
-    """One process for all commands that this worker runs, with figures drawn into files."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("MPLBACKEND", "agg")
-        process = Preloaded()
-        yield process
-        process.close()
 
 
 WAIT = ("view", "study")

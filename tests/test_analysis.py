@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.core.errors import InputError, SimulationError
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.gait.zero_orbits import ZeroOrbits
+from biped_adrc.paper.poincare import return_map_samples
 from biped_adrc.paper.regression import regress_multipliers
 from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.run import walk_scenario
@@ -27,24 +28,6 @@ def test_largest_multiplier_is_delta_squared(return_map, biped, gait):
     assert np.all(sizes[1:] < 1e-3)
     assert orbit.stable
     assert orbit.x_minus[:5] == pytest.approx(gait.q_minus, abs=1e-7)
-
-
-def test_section_coordinates_come_back(return_map, gait):
-    x = np.concatenate((gait.q_minus, gait.v_minus))
-    s = return_map.project(x)
-    assert s.shape == (9,)
-    assert return_map.lift(s) == pytest.approx(x, abs=1e-12)
-
-
-def test_adrc_counts_its_observer(biped, gait):
-    walker = ba.Walker(biped, ba.ADRCController(gait.constraint))
-    x = walker.initial_state(gait.q_minus, gait.v_minus)
-    whole = ba.ReturnMap(walker, ba.Exponential(1e-3))
-    plant = ba.ReturnMap(walker, ba.Exponential(1e-3), controller_states=False)
-    assert whole.project(x).shape == (45,)
-    assert plant.project(x).shape == (9,)
-    image = whole(whole.project(x))
-    assert image[:9] == pytest.approx(plant(plant.project(x)), abs=1e-12)
 
 
 def test_a_map_without_a_return_raises_with_the_status(return_map, gait):
@@ -106,12 +89,12 @@ def test_runs_are_records_and_come_back():
     assert outcome.run is run
 
 
-def test_power_balance_over_a_pushed_step(biped, gait):
-    """Energy gained is the work of motors and push; the push begins and ends inside the step."""
-    push = ba.TorquePulse([30.0] * 4 + [-10.0], step=1, start=0.1, stop=0.3)
-    made = ba.walk(ba.Walker(biped, ba.NPDController(gait.constraint), push), gait, 1)
-    s = made.signals
-    power = np.sum(s.u * s.v[:, :4], axis=1) + np.sum(s.zeta * s.v, axis=1)
-    gained = s.kinetic[-1] + s.potential[-1] - s.kinetic[0] - s.potential[0]
-    assert integrate(s.t, power) == pytest.approx(gained, abs=1e-5 * s.kinetic[0])
-    assert abs(integrate(s.t, np.sum(s.zeta * s.v, axis=1))) > 1.0
+def test_samples_of_the_return_map_are_those_of_the_zero_dynamics(biped, gait):
+    """With its rates f times those of the gait a walker has f^2 zeta*, and rates go with sqrt(zeta)."""
+    orbits = ZeroOrbits.of(ZeroDynamics.of(biped, gait.constraint))
+    f = np.array([0.95, 1.05])
+    rate = biped.phase @ gait.v_minus
+    zeta = np.array([orbits.rho(k**2 * orbits.zeta_star) for k in f])
+    before, after = return_map_samples(Scenario("NPD"), size=0.05, count=2)
+    np.testing.assert_allclose(before, f * rate)
+    np.testing.assert_allclose(after, rate * np.sqrt(zeta / orbits.zeta_star), rtol=1e-7)

@@ -9,10 +9,8 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.analysis.quadrature import integrate, largest
 from biped_adrc.engine.run import COMPILED
-from biped_adrc.model.robots.limits import KnownLimits
 from biped_adrc.paper.convergence import (
     AGREE,
     error_text,
@@ -20,10 +18,10 @@ from biped_adrc.paper.convergence import (
     observed_order,
 )
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan, pushed_run
-from biped_adrc.scenario.recording import Outcome
 from biped_adrc.scenario.run import execute_twice, walk_scenario
-from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import FINE_STEP, Part, refined, walk_in_parts
+
+from .made_up_results import outcome
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -50,23 +48,9 @@ def test_what_is_not_finite_has_no_peak_and_no_integral():
     assert integrate(t, y) == math.inf
 
 
-def made_up(**values: object) -> Outcome:
-    run = Scenario("ADRC", run={"h": 1e-3})
-    found = Outcome(
-        run,
-        "COMPLETED",
-        2,
-        np.zeros((2, 10)),
-        np.array([0.4, 0.4]),
-        1e-3,
-        1e-4,
-        100.0,
-        (),
-        Feasibility(ba.Status.COMPLETED, (), KnownLimits(0.6, 150.0, 5e-3), 0),
-        "",
-        "",
-    )
-    return replace(found, **values)  # type: ignore[arg-type]
+def walked(**values):
+    """Two steps of nobody's, with these values."""
+    return outcome("ADRC", 1e-3, **{"impacts": 2, "asked": 2, "half": False} | values)
 
 
 @pytest.mark.parametrize(
@@ -83,7 +67,7 @@ def made_up(**values: object) -> Outcome:
     ],
 )
 def test_two_steps_have_to_agree(half, holds):
-    o = made_up(half=made_up(**half))
+    o = replace(walked(), half=walked(**half))
     assert (largest_gap(o) <= AGREE) is holds
 
 
@@ -105,7 +89,7 @@ def test_an_error_is_printed_with_what_the_step_does_to_it(half, word):
 @pytest.mark.parametrize("order", [-1.0, 1.0, 3.0])
 def test_the_observed_order(limit, order):
     """Of a quantity whose error is (h / h_0)^order."""
-    one, half, quarter = (made_up(peak_error=limit + 2.0 ** (-order * k)) for k in (1, 2, 3))
+    one, half, quarter = (walked(peak_error=limit + 2.0 ** (-order * k)) for k in (1, 2, 3))
     o = replace(one, half=replace(half, half=quarter))
     assert observed_order(o, lambda o: o.peak_error) == pytest.approx(order)
 

@@ -15,6 +15,7 @@ import ast
 import csv
 import json
 import re
+import runpy
 import shlex
 import sys
 import tomllib
@@ -25,14 +26,14 @@ from typing import NamedTuple
 
 import pytest
 from markdown_it import MarkdownIt
+from typer.testing import CliRunner
 
 import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.cli.gait import gait_app
 from biped_adrc.cli.robot import robot_app
+from biped_adrc.scenario import registry
 from biped_adrc.studies.study import read_study
-
-from .preloaded import Preloaded
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = sorted(
@@ -84,21 +85,26 @@ def commands(text: str) -> list[str]:
     return [line for line in stripped if line and not line.startswith("#")]
 
 
-def run(command: str, folder: Path, preloaded: Preloaded) -> None:
-    """Run one documented command in `folder`."""
+def run(command: str) -> None:
+    """Run one documented command."""
     words = shlex.split(command, comments=True)
-    python = words[0] == "python" and len(words) > 1 and words[1].endswith(".py")
-    if python:
-        script, *words = words[1:]
+    if words[0] == "python" and len(words) > 1 and words[1].endswith(".py"):
+        run_script(*words[1:])
     elif words[0] == "biped-adrc":
-        script, *words = str(Path(sys.executable).with_name("biped-adrc")), *words[1:]
-        assert Path(script).is_file(), f"{script} is missing: install the package"
+        done = CliRunner().invoke(app, words[1:])
+        assert done.exit_code == 0, f"'{command}': {done.exception!r} {done.output[-2000:]}"
     else:
         plain = shlex.join(words)
         assert plain in LARGE, f"'{plain}' is run by no one: make it run here"
-        return
-    ended = preloaded.run(Path(script), words, folder, strict=python)
-    assert ended.code == 0, f"'{command}' ended with {ended.code}: {ended.stderr[-2000:]}"
+
+
+def run_script(script: str, *words: str) -> None:
+    """A script as __main__, which finds what lies beside it and registers for itself alone."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sys, "argv", [script, *words])
+        patch.syspath_prepend(str(Path(script).resolve().parent))
+        patch.setattr(registry, "REGISTRY", {k: {**v} for k, v in registry.REGISTRY.items()})
+        runpy.run_path(script, run_name="__main__")
 
 
 def write(text: str, folder: Path) -> Path | None:
@@ -114,13 +120,11 @@ def write(text: str, folder: Path) -> Path | None:
     return None
 
 
-def execute(
-    block: Block, names: dict[str, object], folder: Path, document: Path, preloaded: Preloaded
-) -> None:
+def execute(block: Block, names: dict[str, object], folder: Path, document: Path) -> None:
     """Run or check one block."""
     if block.info in SHELLS:
         for command in commands(block.text):
-            run(command, folder, preloaded)
+            run(command)
     elif block.info == "python":
         if write(block.text, folder) is None:
             padded = "\n" * block.line + block.text  # tracebacks point into the document
@@ -141,7 +145,7 @@ def execute(
 
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
-def test_every_block_runs(document, tmp_path, monkeypatch, preloaded):
+def test_every_block_runs(document, tmp_path, monkeypatch):
     (tmp_path / "tests").symlink_to(ROOT / "tests")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("BROWSER", "true")  # a page that is shown is not looked at
@@ -150,7 +154,7 @@ def test_every_block_runs(document, tmp_path, monkeypatch, preloaded):
     names: dict[str, object] = {"__name__": "document"}
     try:
         for block in blocks(document.read_text()):
-            execute(block, names, tmp_path, document, preloaded)
+            execute(block, names, tmp_path, document)
     finally:
         for module in set(sys.modules) - before:
             origin = getattr(sys.modules[module], "__file__", None) or ""
@@ -159,9 +163,9 @@ def test_every_block_runs(document, tmp_path, monkeypatch, preloaded):
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.name)
-def test_every_example_runs(example, tmp_path, preloaded):
-    ended = preloaded.run(example, [str(tmp_path / "out")], tmp_path, strict=False)
-    assert ended.code == 0, ended.stderr[-2000:]
+def test_every_example_runs(example, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    run_script(str(example), "out")
 
 
 @pytest.mark.parametrize(
@@ -173,10 +177,10 @@ def test_every_example_runs(example, tmp_path, preloaded):
         ("```\n1\n```", "no language"),
     ],
 )
-def test_a_block_that_cannot_run_fails(text, message, tmp_path, preloaded):
+def test_a_block_that_cannot_run_fails(text, message, tmp_path):
     (block,) = blocks(text)
     with pytest.raises(AssertionError, match=re.escape(message)):
-        execute(block, {}, tmp_path, tmp_path / "page.md", preloaded)
+        execute(block, {}, tmp_path, tmp_path / "page.md")
 
 
 def test_every_equation_of_the_paper_has_its_place():

@@ -192,15 +192,13 @@ def test_the_mean_over_a_window_is_that_of_the_force_in_it(walker):
 PUSH = ba.TorquePulse([30.0, 30.0, 30.0, 30.0, 0.0], step=1, start=0.1, stop=0.2503)
 
 
-@pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
-def test_the_mean_force_is_the_change_of_momentum(biped, gait, engine):
+def test_the_mean_force_is_the_change_of_momentum(biped, gait):
     """m v_com from Pinocchio at the stored states, over windows in a pushed step."""
     pull = ba.TorquePulse([-60.0, 20.0, 0.0], step=1, start=0.13, stop=0.21)
     push = PUSH + ba.OnLink(biped, biped.description.trunk, pull)
     heavier = biped.with_errors(mass={"torso": 1.1})
     walker = ba.Walker(heavier, ba.NPDController(gait.constraint), push, model=biped)
-    walk = ba.walk(walker, gait, impacts=1, method=ba.RK4(H), engine=engine)
-    s = walk.signals
+    s = ba.walk(walker, gait, impacts=1, method=ba.RK4(H)).signals
     p = np.array([heavier.momentum(q, v) for q, v in zip(s.q, s.v, strict=True)])
     # once more, by the Jacobian of the COM
     J = np.array([heavier.pinned.mass_jacobian(q) @ v for q, v in zip(s.q, s.v, strict=True)])
@@ -271,17 +269,16 @@ def test_what_the_model_does_not_know_is_matched_and_unmatched(biped, gait):
     heavier = rubbing.with_errors(mass={"torso": 1.2, "thigh": 1.15})
     for plant, model in ((rubbing, None), (heavier, biped)):
         walker = ba.Walker(plant, ba.NPDController(gait.constraint), PUSH, model=model)
-        for engine in ("pinocchio", "compiled"):
-            s = ba.walk(walker, gait, 1, ba.RK4(1e-3), engine=engine).signals
-            assert np.allclose(s.xi_matched + s.xi_unmatched, s.xi - s.xi_nominal, atol=1e-9)
-            for i in range(0, len(s.t), 37):
-                q, v, a = s.q[i], s.v[i], s.a[i]
-                terms = biped.reduction(q, v)
-                unknown = s.zeta[i] + plant.friction_torque(v)
-                unknown += (terms.D - plant.inertia(q)) @ a + terms.Omega - plant.bias(q, v)
-                assert np.allclose(s.xi_matched[i], terms.kappa @ unknown[:4], atol=1e-8)
-                rest = terms.kappa @ (terms.A_N.T @ unknown[4:])
-                assert np.allclose(s.xi_unmatched[i], rest, atol=1e-8)
+        s = ba.walk(walker, gait, 1, ba.RK4(1e-3)).signals
+        assert np.allclose(s.xi_matched + s.xi_unmatched, s.xi - s.xi_nominal, atol=1e-9)
+        for i in range(0, len(s.t), 37):
+            q, v, a = s.q[i], s.v[i], s.a[i]
+            terms = biped.reduction(q, v)
+            unknown = s.zeta[i] + plant.friction_torque(v)
+            unknown += (terms.D - plant.inertia(q)) @ a + terms.Omega - plant.bias(q, v)
+            assert np.allclose(s.xi_matched[i], terms.kappa @ unknown[:4], atol=1e-8)
+            rest = terms.kappa @ (terms.A_N.T @ unknown[4:])
+            assert np.allclose(s.xi_unmatched[i], rest, atol=1e-8)
     assert np.max(np.abs(s.xi_unmatched)) > 0.5
 
 
@@ -342,3 +339,48 @@ def test_a_foot_that_comes_from_lower_ground_does_not_scuff(biped, gait):
     deep[middle] = -0.002
     dipped = replace(s, swing_foot=np.column_stack((s.swing_foot[:, 0], deep)))
     assert np.max(depths(up, Nodes.of(dipped), 1)) == pytest.approx(0.002)
+
+
+# -- the first violation ---------------------------------------------------------------------------
+LATER = {"torque": 0.0, "scuffs": 0.0, "F_N": 3.75e-3, "friction": 3.6e-3}
+"""[s] until the mean over 5 ms is outside the cone; torque and depth count at once."""
+
+
+def beginning(walker, **begins):
+    """A single support at 300 N in which each violation begins at its time [s]."""
+    t = grid()
+
+    def since(name, before, after):
+        return np.where(t >= begins.get(name, np.inf), after, before)
+
+    u = np.outer(since("torque", 149.0, -151.0), [0.0, 0.0, 1.0, 0.0])
+    forces = since("F_N", 300.0, -100.0), since("friction", 0.0, -250.0)
+    return handmade(walker, t, *forces, since("scuffs", 0.05, -0.002), u)
+
+
+def first_in(walker, n, finished=True):
+    """The first violation of a single support, with an impulse along the normal at its end."""
+    return first_violation(walker, n, KNOWN, int(finished), n.momentum[-1] + np.array([0.0, 1.0]))
+
+
+@pytest.mark.parametrize("first", LATER)
+@pytest.mark.parametrize("second", [None, *LATER])
+def test_the_earliest_of_all_is_told(walker, first, second):
+    begins = {first: 0.1} if second is None else {second: 0.2, first: 0.1}
+    found = first_in(walker, beginning(walker, **begins))
+    assert found.t == pytest.approx(0.1 + LATER[first], abs=2e-4)
+    assert first in found.what
+
+
+def test_none_is_none_and_a_number_that_is_none_is_one(walker):
+    feasible = beginning(walker)
+    assert first_in(walker, feasible) is None
+    u = feasible.u.copy()
+    u[7, 1] = np.nan
+    assert first_in(walker, replace(feasible, u=u)).t == feasible.t[7]
+
+
+def test_the_end_of_a_step_counts_unless_the_foot_comes_down_there(walker):
+    late = beginning(walker, scuffs=0.395)
+    assert first_in(walker, late) is None
+    assert first_in(walker, late, finished=False).t == pytest.approx(0.395)

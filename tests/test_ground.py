@@ -30,23 +30,6 @@ def energy(biped, x):
 
 
 # -- force on the hip ------------------------------------------------------------------------------
-def test_the_power_of_the_force_is_force_times_the_velocity_of_the_hip(bare):
-    random, d = np.random.default_rng(3), 1e-6
-    for _ in range(5):
-        q, v = random.uniform(-3, 3, 5), random.uniform(-1, 1, 5)
-        hip_velocity = (bare.hip(q + d * v) - bare.hip(q - d * v)) / (2 * d)
-        F = random.uniform(-50, 50, 2)
-        zeta = HipForce(bare, tuple(F)).zeta(0.0, 1, 0.0, q, v)
-        assert zeta @ v == pytest.approx(F @ hip_velocity, rel=1e-7)
-
-
-def test_the_work_of_the_force_and_of_the_joints_is_the_energy_gained(bare, published):
-    F = np.array([-20.0, 10.0])
-    walker = ba.Walker(bare, ba.NPDController(published.constraint), HipForce(bare, tuple(F)))
-    made = ba.walk(walker, published, 1, ba.RK4(1e-3))
-    x, y = made.trajectory.arcs[0].x[0], made.trajectory.arcs[0].x[-1]
-    work = made.certificates[0].joint_work + F @ (bare.hip(y[:5]) - bare.hip(x[:5]))
-    assert energy(bare, y) - energy(bare, x) == pytest.approx(work, abs=1e-4)
 
 
 def test_the_force_acts_in_its_steps_only(bare):

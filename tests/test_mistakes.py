@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import json
+import os
+import shlex
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,14 +17,6 @@ from biped_adrc.cli import app
 from biped_adrc.disturbances.recorded import RecordedTorque
 from biped_adrc.gait.exchange.samples import read_csv
 from biped_adrc.scenario.cycle import cycle_of
-
-
-class Silent(ba.Controller):
-    """Its output forgets to return."""
-
-    def output(self, s, m):
-        pass
-
 
 PYTHON = {
     "a torque too few": (lambda r: r.walk(push=ba.TorquePulse([30.0] * 4)), "expected 5"),
@@ -55,10 +51,6 @@ PYTHON = {
         "expected 5 finite numbers",
     ),
     "a URDF as the robot": (lambda r: ba.Biped.load("x.urdf"), "biped_from_urdf"),
-    "an output without return": (
-        lambda r: r.walk(Silent()),
-        "Silent.output (test_mistakes.py:21) returned None",
-    ),
     "a period in words": (lambda r: ba.SampledTime("1ms"), "'1ms'"),
     "a number as the timing": (
         lambda r: ba.Walker(r.biped, ba.NPDController(r.h), timing=1e-3),
@@ -78,22 +70,66 @@ PYTHON = {
         "no motors",
     ),
 }
-COMMANDS = {
-    "simulate --preset foo": (3, "no preset 'foo'"),
-    "simulate --gait foo": (3, "no gait 'foo'"),
-    "simulate --set controller.observer.poles=-1,2": (3, "pole 2 rad/s is not stable"),
-    "simulate --push q1=5": (3, "JOINTS=TORQUE@STEP"),
-    "simulate --push q7=5@1:0-1": (3, "no joint 'q7'"),
-    "simulate --period -1": (3, "period"),
-    "simulate --impacts 0": (3, "impacts"),
-    "simulate --colour red": (2, "No such option"),
-    "simulate -o out.txt": (3, ".npz"),
-    "simulate --torque-limit 5 --impacts 4": (4, ""),
-    "animate nowhere.npz": (3, "not found"),
-    "poincare --controller pid": (3, "'pid': unknown name"),
-    "poincare --robot compass --set ground.slope=0.5": (4, "no return to the section"),
-    "reproduce --out file/out": (3, "file"),
-}
+LONG = "n" * 300
+URDF = Path(__file__).parents[1] / "urdf" / "rabbit" / "floating.urdf"
+STUDY = """
+name = "a"
+[base]
+controller.name = "NPD"
+run.impacts = 1
+[grid]
+controller.K_p = [5000.0]
+"""
+SEARCH = """
+name = "s"
+base = {controller.name = "LESO"}
+[search]
+budget = 10
+generation = 4
+variables = {controller.observer.bandwidth = {from = 50, to = 500}}
+objective = {column = "rms_error"}
+walks = {search = {seeds = [0]}, choice = {seeds = [10]}, test = {seeds = [20]}}
+"""
+
+COMMANDS = [
+    ("simulate --preset foo", 3, "no preset 'foo'"),
+    ("simulate --gait foo", 3, "no gait 'foo'"),
+    ("simulate --set controller.observer.poles=-1,2", 3, "pole 2 rad/s is not stable"),
+    ("simulate --push q1=5", 3, "JOINTS=TORQUE@STEP"),
+    ("simulate --push q7=5@1:0-1", 3, "no joint 'q7'"),
+    ("simulate --period -1", 3, "period"),
+    ("simulate --impacts 0", 3, "impacts"),
+    ("simulate --colour red", 2, "No such option"),
+    ("simulate -o out.txt", 3, ".npz"),
+    ("simulate --torque-limit 5 --impacts 4", 4, ""),
+    ("animate nowhere.npz", 3, "not found"),
+    ("poincare --controller pid", 3, "'pid': unknown name"),
+    ("poincare --robot compass --set ground.slope=0.5", 4, "no return to the section"),
+    (f"simulate --gait {LONG}", 3, "no gait"),
+    (f"simulate --gait {LONG}.json", 3, "too long"),
+    (f"simulate -o {LONG}", 5, "too long"),
+    ("simulate -o 'a\nb.npz'", 3, "control characters"),
+    ("simulate -o pipe.npz", 5, "not a regular file"),
+    (f"study study.toml -o {LONG}", 5, "too long"),
+    ("study study.toml -o afile", 3, "is a file"),
+    ("study study.toml -o afile/below", 3, "is a file"),
+    ("study /dev/full -o out", 3, "not a regular file"),
+    ("study pipe.toml -o out", 3, "not a regular file"),
+    (f"study search.toml -o {LONG}", 5, "too long"),
+    ("reproduce --out afile", 3, "is a file"),
+    (f"gait design --speeds 0.5 -o {LONG}", 5, "too long"),
+    ("gait import zero.json", 3, "no name of a file"),
+    ("gait import pipe.json", 3, "not a regular file"),
+    ("gait import pipe.mat", 3, "not a regular file"),
+    ("gait show --robot pipe.toml", 3, "not a regular file"),
+    ("animate pipe.npz -o a.gif", 3, "not a regular file"),
+    ("replay pipe.csv", 3, "not a regular file"),
+    ("robot check nonexistent", 3, "not found"),
+    ("robot check pipe.urdf", 3, "not a regular file"),
+    (f"robot new URDF -o {LONG}", 5, "too long"),
+    ("robot new URDF -o afile", 3, "is a file"),
+]
+"""Command line, exit code, words of the sentence."""
 TABLES = {
     "t,q1\n0,1\n\n1,x\n": "line 4, column 'q1'",
     "t,q1\n0,1\n\n1,nan\n": "line 4, column 'q1'",
@@ -121,16 +157,31 @@ def test_a_mistake_in_python_is_one_sentence(mistake, right):
     assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize("line", COMMANDS)
-def test_a_mistake_on_the_command_line_has_its_exit_code(line, tmp_path, monkeypatch):
+@pytest.fixture
+def here(tmp_path, monkeypatch, gait):
+    """A folder with a file, a study, a gait whose name has a zero byte, and pipes that nobody writes to."""
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "file").write_text("")
-    code, word = COMMANDS[line]
-    done = CliRunner().invoke(app, line.split())
+    Path("afile").write_text("kept")
+    Path("study.toml").write_text(STUDY)
+    Path("search.toml").write_text(SEARCH)
+    gait.save("zero.json")
+    record = json.loads(Path("zero.json").read_text())
+    Path("zero.json").write_text(json.dumps(record | {"name": "a\0b"}))
+    for kind in ("npz", "toml", "json", "mat", "csv", "urdf"):
+        os.mkfifo(f"pipe.{kind}")
+
+
+@pytest.mark.parametrize(("line", "code", "words"), COMMANDS, ids=[x[0][:40] for x in COMMANDS])
+def test_a_mistake_on_the_command_line_is_one_sentence_with_its_exit_code(here, line, code, words):
+    before = sorted(os.listdir())
+    done = CliRunner().invoke(app, shlex.split(line.replace("URDF", str(URDF))))
     error = done.exception
-    assert (error.exit_code if isinstance(error, ba.BipedError) else done.exit_code) == code
-    assert word in (str(error) if isinstance(error, ba.BipedError) else done.output)
-    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+    sentence = isinstance(error, ba.BipedError)
+    assert sentence or code in (2, 4), done.output
+    assert (error.exit_code if sentence else done.exit_code) == code
+    assert words in (str(error) if sentence else done.output)
+    assert sorted(os.listdir()) == before
+    assert Path("afile").read_text() == "kept"
 
 
 @pytest.mark.parametrize("text", TABLES)

@@ -229,23 +229,6 @@ def test_line_hands_out_what_went_in_a_delay_before():
     assert line.output(R.ravel(), one)[0] == pytest.approx(math.cos(w * (2.0 - 0.1)), abs=1e-8)
 
 
-@pytest.mark.parametrize("known", [False, True], ids=["hidden", "known"])
-@pytest.mark.parametrize("inner", ["ADRC", "NPD"])
-def test_delayed_controller_compiles_to_what_its_methods_do(bare, published, inner, known):
-    controllers = {
-        "ADRC": ba.ADRCController(published.constraint, FIRST),
-        "NPD": ba.NPDController(published.constraint),
-    }
-    controller = Delayed(controllers[inner], 2e-3, 3, known, torque_limit=60.0)
-    walker = ba.Walker(bare, controller, torque_limit=55.0)
-    slow, fast = (
-        ba.walk(walker, published, 1, ba.RK4(1e-3), engine=engine).trajectory
-        for engine in ("pinocchio", "compiled")
-    )
-    assert fast.settings["engine"] == "compiled"
-    np.testing.assert_allclose(fast.final_state, slow.final_state, rtol=1e-7, atol=1e-7)
-
-
 def test_known_feeds_what_acts_and_hidden_what_was_asked(bare, published):
     inner = ba.ADRCController(published.constraint, FIRST)
     q, v = published.start(bare)

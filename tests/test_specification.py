@@ -25,6 +25,7 @@ from biped_adrc.engine.tick_derivative import _differenced, tick_derivative
 from biped_adrc.hardware.pitch_sensor import PitchSensor
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.scenario.cycle import specification_of
+from tests.plain import Undecorated
 from tests.specified_walks import candidate, multiplier, rippled, specified
 
 
@@ -154,19 +155,8 @@ def test_the_derivative_of_a_tick_is_that_of_differences():
 
 
 def test_a_controller_in_plain_python_has_a_specification():
-    class Spring(ba.Controller):
-        """K_p and K_d about the gait, through the model."""
-
-        def __init__(self, reference):
-            self.reference = reference
-
-        def output(self, s, m):
-            r = self.reference(m.t, m.q, m.v)
-            a = -5000.0 * (m.q_b - r.q_d) - 50.0 * (m.v_b - r.dq_d)
-            return m.terms.kappa_inverse @ (a - m.terms.xi)
-
     walker, gait, _ = loop_of(controller={"name": "NPD", "solve_theta": False})
-    one = replace(walker, controller=Spring(gait.constraint))
+    one = replace(walker, controller=Undecorated(walker.controller))
     by_differences, by_laws = (specified(w, gait) for w in (one, walker))
     assert by_differences.worst.growth == pytest.approx(by_laws.worst.growth, rel=0.3)
     assert by_differences.stable

@@ -56,16 +56,6 @@ def test_outputs_are_the_published_ones() -> None:
         np.testing.assert_allclose(o.y, expected, atol=1e-14)
 
 
-def test_cycle_under_proportional_derivative_feedback() -> None:
-    """Both poles at -20 rad/s; digits from a separate derivation in absolute angles."""
-    controller = OutputNPDController(outputs(), ba.Gains(400.0, 40.0))
-    omega, period, slope = cycle(controller, ba.Adaptive())
-    assert step(controller, omega, ba.Adaptive())[0] == pytest.approx(omega, abs=1e-8)
-    assert omega == pytest.approx(1.545015, rel=1e-6)
-    assert period == pytest.approx(1.145869, rel=1e-6)
-    assert slope == pytest.approx(0.5748, abs=1e-4)
-
-
 def test_cycle_under_finite_time_feedback() -> None:
     """alpha and eps as published; digits from a separate integration in absolute angles with LSODA."""
     controller = FiniteTimeController(outputs(), alpha=0.9, eps=0.1)

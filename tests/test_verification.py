@@ -38,8 +38,7 @@ PARTS: dict[str, Maker] = {
     "Table I": rabbit.poles_row,
     "x* identified": partial(rabbit.fixed_point_rows, "identified"),
     "other coordinates": frost_urdf.sense_rows,
-    "multipliers of the compass": partial(gaits.robot_rows, "compass"),
-    "multipliers of the simplest walker": partial(gaits.robot_rows, "simplest"),
+    **{f"multipliers, {x}": partial(gaits.robot_rows, x) for x in gaits.ROBOTS if x != "rabbit"},
     "design identified": partial(design_rows, "identified", 0.7),
     "design tac2003": partial(design_rows, "tac2003", 1.1),
 }

@@ -23,6 +23,8 @@ from biped_adrc.gait.reference import TimeReference
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.observers.high_gain import HighGainObserver
 
+from .off_orbit import off_orbit, output_acceleration
+
 K_P, K_D = 5000.0, 50.0
 LIMIT = 150.0
 NO_STATE = np.zeros(0)
@@ -95,18 +97,6 @@ def at_rest(q):
 
 
 # -- ADRC in output form -----------------------------------------------------------------------
-def off_orbit(gait, biped, seed=2):
-    random = np.random.default_rng(seed)
-    q, v = gait.start(biped)
-    return q + random.normal(0, 0.02, biped.n), v + random.normal(0, 0.3, biped.n)
-
-
-def output_acceleration(walker, gait, x):
-    """y, y', y'' with the plant's own acceleration."""
-    i = walker.instant(0.0, x, Mode())
-    m = i.measurement
-    r = gait.constraint(0.0, m.q, m.v)
-    return m.q_b - r.q_d, m.v_b - r.dq_d, i.a[:4] - r.drift - r.H @ i.a
 
 
 def left_over(walker, gait, x):

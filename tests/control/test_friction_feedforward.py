@@ -80,20 +80,6 @@ def test_with_the_right_friction_a_walk_is_that_without_to_the_order_of_the_erro
     assert (gaps[2] - gaps[0]) / (gaps[1] - gaps[0]) == pytest.approx(2.0, abs=0.3)
 
 
-def test_the_work_of_motors_is_energy_and_what_friction_takes(biped, rubbing, gait):
-    law = friction_feedforward(ba.NPDController(gait.constraint), gait.constraint, biped, 1.0)
-    walker, run = walked(rubbing, biped, law, ba.ContinuousTime(), gait.start(biped))
-    t, q, v = run.t, run.x[:, :5], run.x[:, 5:10]
-    u = np.array([walker.instant(*x, ba.Mode()).u for x in zip(t, run.x, strict=True)])
-    taken = -np.array([rubbing.friction_torque(x) for x in v])
-    power = np.sum(u * v[:, :4], axis=1) - np.sum(taken * v, axis=1)
-    before, after = (
-        biped.kinetic_energy(q[k], v[k]) + biped.potential_energy(q[k]) for k in (0, -1)
-    )
-    assert np.trapezoid(power, t) == pytest.approx(after - before, rel=1e-4)
-    assert np.trapezoid(np.sum(taken * v, axis=1), t) > 1.0
-
-
 @pytest.mark.parametrize("share", [0.0, 0.6, 1.0])
 def test_what_is_estimated_is_the_disturbance_beside_the_torque_that_acts(
     biped, rubbing, gait, share

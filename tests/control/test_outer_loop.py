@@ -38,12 +38,6 @@ def largest_error(walk):
     return max(np.max(np.abs(gap(walk.walker, x, t)[0])) for t, x in nodes)
 
 
-def speeds(walk):
-    run, plant = walk.trajectory, walk.walker.plant
-    lengths = [plant.swing_foot(arc.event.x_minus[:5])[0] for arc in run.arcs]
-    return np.array(lengths) / [arc.t[-1] - arc.t[0] for arc in run.arcs]
-
-
 def stride(law, gait, biped, **options):
     gains = stride_response(gait, biped).gains()
     return StridePI.on_gait(law(gait.constraint), gait, biped, gains, **options)
@@ -139,18 +133,6 @@ def test_the_gains_give_three_equal_poles_and_no_others_are_quicker(bare, publis
         for K_I in (0.9, 1.0, 1.1):
             other = StrideGains(K_P * best.K_P, K_I * best.K_I)
             assert abs(response.poles(other)[0]) > abs(np.mean(poles)) - 1e-6
-
-
-def test_a_force_on_the_hip_slows_the_walk_unless_the_stride_is_controlled(bare, published):
-    """The setting of Westervelt et al. 2003: tracking cannot reject it, a loop around the steps does."""
-    force, inner = HipForce(bare, (-3.0, 0.0)), ba.NPDController(published.constraint)
-    slow = speeds(ba.walk(ba.Walker(bare, inner, force), published, 3, RK4))
-    kept = stride(ba.NPDController, published, bare)
-    held = speeds(ba.walk(ba.Walker(bare, kept, force), published, 10, RK4))
-    assert np.all(np.diff(slow) < -0.01)
-    assert slow[-1] < 0.9 * kept.speed
-    assert held[-1] == pytest.approx(kept.speed, rel=0.01)
-    assert np.argmin(held) < 4
 
 
 def test_a_force_that_stops_the_walk_does_not_with_the_stride_controlled(bare, published):

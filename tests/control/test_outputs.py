@@ -11,6 +11,8 @@ from biped_adrc.control.output_npd import OutputNPDController
 from biped_adrc.core.errors import GaitError, InputError, NotFiniteError, SingularError
 from biped_adrc.gait.outputs import FunctionOutputs, LinearOutputs
 
+from .off_orbit import off_orbit
+
 # stance shank, swing thigh, swing shank, torso: all from the vertical
 ABSOLUTE = np.array([[1, 0, 1, 0, 1], [0, 1, 0, 0, 1], [0, 1, 0, 1, 1], [0, 0, 0, 0, 1.0]])
 K_P, K_D = 400.0, 30.0
@@ -20,9 +22,7 @@ GAINS = ba.Gains(K_P, K_D)
 @pytest.fixture
 def state(gait, biped):
     """Off the orbit."""
-    random = np.random.default_rng(2)
-    q, v = gait.start(biped)
-    return q + random.normal(0, 0.02, biped.n), v + random.normal(0, 0.3, biped.n)
+    return off_orbit(gait, biped)
 
 
 def absolute_outputs(constraint):

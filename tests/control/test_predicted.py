@@ -120,21 +120,6 @@ def test_torques_on_their_way_are_relabelled_at_an_impact_and_move_up_at_a_tick(
     assert np.array_equal(law.output(s, m), by_hand)
 
 
-def test_both_engines_walk_alike_with_all_leaves():
-    law = {"name": "LESO", "observer": {"bandwidth": 150.0}, "contact": {"name": "hold"}}
-    hardware = {"profile": "rabbit", "delay": 2e-3, "encoders": {"filter_time": 5e-3}}
-    s = ba.Scenario({**law, "prediction": 2e-3, "feedforward": 0.9}, hardware=hardware)
-    engines = ("compiled", "pinocchio")
-    walks = [
-        ba.walk_scenario(s.replace(run={"engine": engine, "impacts": 2})).trajectory
-        for engine in engines
-    ]
-    assert tuple(walk.settings["engine"] for walk in walks) == engines
-    assert walks[0].status is ba.Status.COMPLETED
-    one, two = (walk.final_state for walk in walks)
-    np.testing.assert_allclose(one, two, rtol=1e-7, atol=1e-7)
-
-
 @pytest.mark.parametrize("share", [0.4, 2.6])
 def test_the_clock_of_a_walker_has_the_torques_on_their_way_that_are_predicted_with(
     biped, gait, share

@@ -17,6 +17,8 @@ from biped_adrc.engine.batch import Case, simulate_many
 from biped_adrc.engine.run import simulate_by
 from biped_adrc.gait.published import passive_cycle
 
+from .test_simulate import Rooted
+
 simulate = partial(simulate_by, "compiled")
 
 FALL = ba.TorqueStep((0.0, 0.0, 0.0, 0.0, 60.0), 1, 0.1)
@@ -34,16 +36,6 @@ class Raising(Controller):
         if (self.at_once or m.t > 0.1) and self.error is not None:
             raise self.error("what the controller says")
         return self.npd.output(s, m)
-
-
-@dataclass(frozen=True)
-class Rooted(Controller):
-    """NaN after 0.1 s."""
-
-    npd: ba.NPDController
-
-    def output(self, s, m):
-        return self.npd.output(s, m) * np.sqrt(0.1 - m.t)
 
 
 @pytest.fixture(scope="module")
@@ -181,6 +173,9 @@ def test_a_case_that_does_not_fit_is_an_error(plain):
     for impacts in (0, 10**9):
         with pytest.raises(InputError, match="impacts"):
             list(simulate_many([replace(plain, impacts=impacts)]))
+    short = replace(plain, walker=replace(plain.walker, timing=ba.SampledTime(1e-12)))
+    with pytest.raises(InputError, match="period"):
+        list(simulate_many([short]))
     with pytest.raises(InputError, match="0 threads"):
         simulate_many([plain], threads=0)
     assert list(simulate_many([])) == []

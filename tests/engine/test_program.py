@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.closed_loop.walker import Mode, Walker
+from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.timing import SampledTime
@@ -15,40 +15,10 @@ from biped_adrc.engine.compiled_biped import CompiledBiped
 from biped_adrc.engine.program import Program
 from biped_adrc.model.planar import PlanarTree
 from biped_adrc.model.robots.robot_toml import robot_names
+from tests.control.conforms import call, loop_compiles
 
 EXACT = 1e-11
 COUNT = 1000
-
-
-def evaluator(program, name, inputs, outputs):
-    import ctypes
-
-    function = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 3)(program.address(name))
-    inp, out, K = np.zeros(inputs), np.zeros(outputs), program.K
-
-    def call(*parts):
-        np.concatenate([np.atleast_1d(x) for x in parts], out=inp)
-        function(K.ctypes.data, inp.ctypes.data, out.ctypes.data)
-        return out.copy()
-
-    return call
-
-
-def compiled(walker, x0):
-    n, p = walker.plant.n, walker.plant.p
-    return Program.of(walker, len(x0) - 2 * n - (p if walker.sampled else 0))
-
-
-def states(walker, gait, count, spread=0.3):
-    """Random states about the start of a gait, the controller's own near what it starts with."""
-    random = np.random.default_rng(11)
-    n = walker.plant.n
-    q, v = gait.start(walker.plant)
-    for _ in range(count):
-        near = q + spread * random.normal(size=n), v + 3.0 * spread * random.normal(size=n)
-        x = walker.initial_state(*near)
-        x[2 * n :] *= 1.0 + 0.1 * random.normal(size=len(x) - 2 * n)
-        yield x, random
 
 
 def close(found, expected):
@@ -74,10 +44,8 @@ def test_the_terms_of_every_robot_are_pinocchio_s(robot):
 @pytest.mark.parametrize("robot", ["rabbit", "three_link"])
 def test_terms_and_impact_at_a_thousand_states(robot):
     biped = ba.Biped.load(robot)
-    code, walker = CompiledBiped.of(biped), Walker(biped, Passive())
-    strike = evaluator(
-        compiled(walker, np.zeros(2 * biped.n)), "impact", 2 + 2 * biped.n, 2 * biped.n + 1
-    )
+    code, n = CompiledBiped.of(biped), biped.n
+    program = Program.of(Walker(biped, Passive()), 0)
     random = np.random.default_rng(12)
     for _ in range(COUNT):
         q, v = random.uniform(-np.pi, np.pi, biped.n), random.normal(0.0, 3.0, biped.n)
@@ -89,7 +57,9 @@ def test_terms_and_impact_at_a_thousand_states(robot):
             inverse = np.max(np.abs(np.linalg.inv(expected.D)))
             assert gap <= EXACT * np.max(np.abs(expected.Omega)) * inverse
         after = biped.impact(q, v)
-        close(strike(0.0, 2.0, q, v), np.concatenate((after.q, after.v)))
+        struck = np.concatenate(([0.0, 2.0], q, v))
+        found = call(program.machine, "impact", program.K, struck, 2 * n + 1)
+        close(found, np.concatenate((after.q, after.v)))
 
 
 @pytest.mark.parametrize("timing", [ba.ContinuousTime(), SampledTime(1e-3)], ids=["all", "ticks"])
@@ -98,35 +68,7 @@ def test_a_plant_that_is_not_the_model(gait, timing):
     heavy = biped.with_errors(mass={"torso": 1.2}, inertia={"thigh": 1.15})
     law = ba.ADRCController(gait.constraint)
     walker = Walker(heavy, law, timing=timing, model=biped, slope=0.05, torque_limit=150.0)
-    check_walker(replace(walker, runaway_torque=math.inf), gait, 200)
-
-
-def check_walker(walker, gait, count):
-    n, mode = walker.plant.n, Mode(3, 0.05)
-    call = None
-    for x, random in states(walker, gait, count):
-        nx = len(x)
-        if call is None:
-            program = compiled(walker, x)
-            call = {
-                "flow": evaluator(program, "flow", 3 + nx + n, nx + 1),
-                "impact": evaluator(program, "impact", 2 + nx, nx + 1),
-                "events": evaluator(program, "events", 3 + n, 4),
-            }
-            if walker.sampled:
-                call["tick"] = evaluator(program, "tick", 3 + nx + n, nx + 1 + n)
-        zeta = 30.0 * random.normal(size=n)
-        pushed = replace(walker, disturbance=ba.TorqueStep(zeta))
-        close(call["flow"](0.1, 3.0, 0.05, x, zeta), pushed.flow(0.1, x, mode))
-        q = x[:n]
-        witnesses = [guard.witness(0.1, x) for guard in walker.guards(Mode(3, 0.05))]
-        seen = [*witnesses, walker.plant.swing_foot(q)[0]]
-        close(call["events"](0.1, 0.05, walker.drop(3), q), np.array(seen))
-        if walker.sampled:
-            close(call["tick"](0.1, 3.0, 0.05, x, zeta), pushed.tick(0.1, x, mode))
-        struck = walker.strike(0.1, x, Mode(2, 0.0))
-        if struck is not None:
-            close(call["impact"](0.1, 3.0, x), struck[0])
+    loop_compiles(replace(walker, runaway_torque=math.inf), 200)
 
 
 def test_one_compilation_serves_every_number(biped, gait):

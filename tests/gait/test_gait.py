@@ -18,7 +18,7 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 
 
 @pytest.mark.parametrize("kind", [Bezier, Polynomial])
-def test_curves_by_definition_and_difference(kind):
+def test_curves_by_definition(kind):
     a = np.random.default_rng(0).normal(size=(3, 7))
     curve = kind(a)
     for s in (-0.1, 0.0, 0.3, 1.0, 1.2):
@@ -27,11 +27,7 @@ def test_curves_by_definition_and_difference(kind):
             weights = [comb(6, j) * s**j * (1 - s) ** (6 - j) for j in k]
         else:
             weights = [s**j for j in k]
-        h, dh, ddh = curve(s)
-        assert h == pytest.approx(a @ weights, abs=1e-12)
-        d = 1e-5
-        assert dh == pytest.approx((curve(s + d)[0] - curve(s - d)[0]) / (2 * d), abs=1e-6)
-        assert ddh == pytest.approx((curve(s + d)[1] - curve(s - d)[1]) / (2 * d), abs=1e-5)
+        assert curve(s)[0] == pytest.approx(a @ weights, abs=1e-12)
 
 
 @pytest.mark.parametrize("kind", [Bezier, Polynomial, BSpline])
@@ -68,20 +64,6 @@ def test_curves_that_are_no_curves():
             Bezier(bad)
     with pytest.raises(GaitError, match="two different ends"):
         ba.VirtualConstraint(Bezier(np.zeros((4, 3))), np.ones(5), 1.0, 1.0)
-
-
-def test_reference_is_the_derivative_of_the_constraint(biped, gait):
-    """q_d' and q_d'' along an arbitrary motion q(t) = q + v t + a t^2/2."""
-    q, v = gait.start(biped)
-    a = np.array([1.0, -2.0, 3.0, 0.5, -1.0])
-    c, d = gait.constraint, 1e-5
-
-    def at(t):
-        return c(t, q + v * t + 0.5 * a * t**2, v + a * t)
-
-    r = at(0.0)
-    assert r.dq_d == pytest.approx((at(d).q_d - at(-d).q_d) / (2 * d), abs=1e-7)
-    assert r.drift + r.H @ a == pytest.approx((at(d).dq_d - at(-d).dq_d) / (2 * d), abs=1e-5)
 
 
 def test_quadrature_predicts_the_simulated_step(any_biped):
@@ -121,14 +103,6 @@ def test_section_is_reached_by_the_smallest_move(biped):
     assert abs(biped.swing_foot(q)[1]) < 1e-14
     assert q[4] == X_STAR[4]
     assert np.max(np.abs(q - X_STAR[:5])) < 5e-4
-
-
-def test_gait_files_come_back_exactly(tmp_path, biped, gait):
-    gait.save(tmp_path / "g.json")
-    again = ba.load_gait(tmp_path / "g.json", biped)
-    assert np.array_equal(again.constraint.curve.coefficients, gait.constraint.curve.coefficients)
-    assert np.array_equal(again.v_minus, gait.v_minus)
-    assert again.provenance == gait.provenance
 
 
 @pytest.mark.parametrize(

@@ -199,56 +199,8 @@ def test_a_lag_that_goes_to_zero_goes_to_no_lag(biped, gait):
     assert off[2] < 1e-5
 
 
-def adrc(gait, bandwidth=300.0):
-    return ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(bandwidth, 1))
-
-
-PUSH = ba.TorquePulse([30.0, 30.0, 30.0, 30.0, 10.0], step=2, start=0.1, stop=0.3)
-SETUPS = {
-    "encoders": {"sensors": Sensors(8192.0), "delay": 0.5e-3},
-    "all": {
-        "sensors": Sensors(8192.0, noise=5e-5, rate_noise=0.01, filter_time=2e-3, seed=3),
-        "motors": Motors(2e4, 1e-3),
-        "delay": 1.4e-3,
-        "known": True,
-    },
-    "impact": {"impact_gain": (0.01, 0.02, 0.0, 0.0, -0.01), "delay": 1e-3},
-}
-
-
-def made(biped, gait, name, controller):
-    parts = dict(SETUPS[name])
-    timing = ba.SampledTime(T, delay=parts.pop("delay"), delay_known=parts.pop("known", False))
-    heavier = biped.with_errors(mass={"torso": 1.1})
-    return ba.Walker(heavier, controller, PUSH, timing, biped, torque_limit=150.0, **parts)
-
-
-class Plain(ba.Controller):
-    """In Python alone."""
-
-    def __init__(self, h):
-        self.h = h
-
-    def output(self, s, m):
-        r = self.h(m.t, m.q, m.v)
-        return 2500 * (r.q_d - m.q_b) + 120 * (r.dq_d - m.v_b) + m.terms.Omega[:4]
-
-
-@pytest.mark.parametrize(("name", "plain"), [("all", False), ("encoders", True)])
-def test_both_engines_walk_alike(biped, gait, name, plain):
-    walker = made(biped, gait, name, Plain(gait.constraint) if plain else adrc(gait))
-    one, other = (
-        ba.walk(walker, gait, impacts=2, engine=engine).trajectory
-        for engine in ("pinocchio", "compiled")
-    )
-    assert one.status is other.status is ba.Status.COMPLETED
-    assert other.settings["engine"] == ("compiled plant" if plain else "compiled")
-    for a, b in zip(one.arcs, other.arcs, strict=True):
-        assert abs(a.event.t - b.event.t) < 1e-7
-        assert np.max(np.abs(a.event.x_minus - b.event.x_minus)[:10]) < 1e-6
-
-
 def test_bad_hardware_is_refused(biped, gait):
+    npd = ba.NPDController(gait.constraint)
     for make in (
         lambda: Sensors(counts=0.5),
         lambda: Sensors(rate_noise=float("nan")),
@@ -257,33 +209,11 @@ def test_bad_hardware_is_refused(biped, gait):
         lambda: Motors(lag=-1.0),
         lambda: ba.SampledTime(0.0),
         lambda: ba.SampledTime(1e-3, delay=-1e-3),
-        lambda: ba.Walker(biped, adrc(gait), sensors=Sensors()),
-        lambda: ba.Walker(biped, adrc(gait), impact_gain=(0.1,)),
+        lambda: ba.Walker(biped, npd, sensors=Sensors()),
+        lambda: ba.Walker(biped, npd, impact_gain=(0.1,)),
     ):
         with pytest.raises(ba.BipedError):
             make()
-
-
-class Late(ba.Controller):
-    """Forgets a motor after a while, or gives no number."""
-
-    def __init__(self, late):
-        self.late = late
-
-    def output(self, s, m):
-        return np.zeros(4) if m.t < 0.05 else self.late
-
-
-@pytest.mark.parametrize("timing", [ba.SampledTime(T), ba.ContinuousTime()], ids=["ticks", "all"])
-def test_a_controller_that_forgets_a_motor_is_named(biped, gait, timing):
-    walker = ba.Walker(biped, Late(np.zeros(3)), timing=timing)
-    found = ba.walk(walker, gait, 1, ba.RK4(T)).trajectory
-    assert found.status is ba.Status.RAISED
-    assert "Late.output" in found.detail
-    assert found.t_end == pytest.approx(0.05, abs=2 * T)
-    nan = ba.Walker(biped, Late(np.full(4, np.nan)), timing=timing)
-    found = ba.walk(nan, gait, 1, ba.RK4(T)).trajectory
-    assert found.status is ba.Status.NOT_FINITE
 
 
 @pytest.mark.parametrize(("known", "share"), [(0, 1.0), (1, 0.7)])

@@ -13,7 +13,6 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.engine.simulate import run_compiled
 from biped_adrc.hardware.detectors import ByForce, ByKinematics, Told
 from biped_adrc.hardware.touchdown import Look, belief_of
-from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import RunOptions
 
 T = 1e-3
@@ -91,29 +90,6 @@ def test_noticed_at_the_first_tick_the_controller_jumps_and_acts_there(biped, ga
 
 
 SENSORS = ba.Sensors(counts=2**18)
-BOTH = {
-    "false": (Told(false_at=(1, 0.395)), low_order, {}),
-    "force": (ByForce(debounce=1e-3, delay=2e-3), low_order, {}),
-    "delay": (
-        ByKinematics(),
-        ba.NPDController,
-        {"sensors": SENSORS, "timing": ba.SampledTime(T, restart=False, delay=1.5e-3)},
-    ),
-}
-
-
-@pytest.mark.parametrize("name", BOTH)
-def test_both_engines_agree(biped, gait, name):
-    leaf, controller, more = BOTH[name]
-    system = walker(biped, gait, leaf, controller, **more)
-    compiled, python = (run(system, gait, 0.43, each) for each in (run_compiled, simulator.run))
-    assert compiled.settings["engine"] == "compiled"
-    assert len(python.events("foot_strike")) == len(compiled.events("foot_strike")) == 1
-    scale = 1.0 + np.abs(python.final_state)
-    np.testing.assert_allclose(compiled.final_state / scale, python.final_state / scale, atol=1e-8)
-    found, expected = touchdowns(system, compiled), touchdowns(system, python)
-    np.testing.assert_allclose(found.late, expected.late, atol=1e-12)
-    np.testing.assert_allclose(found.false, expected.false, atol=1e-12)
 
 
 def test_two_touchdowns_of_which_none_is_noticed_leave_the_labels_right(biped, gait):

@@ -8,6 +8,7 @@ from scipy.linalg import expm
 from scipy.special import ellipk
 
 import biped_adrc as ba
+from biped_adrc.engine.run import simulate_by
 from biped_adrc.hybrid.exponential import Exponential, phi_levels
 from biped_adrc.hybrid.integrators import RK4, Adaptive, Stiff
 from biped_adrc.hybrid.simulator import simulate
@@ -170,14 +171,16 @@ def test_exponential_method_is_stable_where_rk4_is_not_and_right():
     assert not (unstable.status.ok and np.max(np.abs(unstable.final_state - exact)) < 1e-2)
 
 
-def test_order_of_the_exponential_method_on_a_smooth_closed_loop(biped, gait):
+@pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
+def test_order_of_the_exponential_method_on_a_smooth_closed_loop(biped, gait, engine):
     """Table I times 0.05, half a step of walking."""
     observer = ba.GPIObserver.from_poles([0.05 * pole for pole in TABLE_I])
     walker = ba.Walker(biped, ba.ADRCController(gait.constraint, observer))
     x0 = walker.initial_state(*gait.start(biped))
 
     def end(h):
-        return simulate(walker, x0, ba.Mode(), Exponential(h), t_end=0.16).final_state[:10]
+        run = simulate_by(engine, walker, x0, ba.Mode(), Exponential(h), t_end=0.16)
+        return run.final_state[:10]
 
     steps = np.array([4e-3, 2e-3, 1e-3])
     exact = end(1.25e-4)

@@ -130,43 +130,6 @@ def test_phase_is_the_slope_of_the_virtual_leg(urdf):
     np.testing.assert_allclose(own.phase, slope, atol=1e-8)
 
 
-def test_a_stiff_robot_that_leans_forwards_falls_forwards(urdf):
-    """Joints locked, D_NN q_N'' = -G_N: gravity takes the hip to +x, and Theta falls."""
-    own = biped_from_urdf(urdf(rabbit()))
-    q = np.array([math.pi, math.pi - 0.1, 0.0, 0.0, 0.2])  # leans by 0.2 rad
-    assert own.hip(q)[0] > 0
-    a = np.zeros(5)
-    a[-1] = -own.gravity(q)[-1] / own.inertia(q)[-1, -1]
-    assert own.hip_velocity(q, a)[0] > 0
-    assert own.phase @ a < 0
-
-
-def test_published_gait_walks_in_other_senses(urdf):
-    """The gait of RABBIT in the angles of FROST: q_b' = A_b^-1 (q_b - b_b), Theta' = Theta - c b."""
-    paper = ba.Biped.load("rabbit", "identified-bare")
-    own, known = biped_from_urdf(urdf(rabbit())), ba.load_gait("published", paper)
-    constraint, shift = known.constraint, float(paper.phase @ TURNED.b)
-    rows = np.linalg.solve(
-        TURNED.A[:4, :4], constraint.curve.coefficients - TURNED.b[:4, np.newaxis]
-    )
-    mapped = ba.VirtualConstraint(
-        type(constraint.curve)(rows),
-        own.phase,
-        constraint.theta_plus - shift,
-        constraint.theta_minus - shift,
-    )
-    zero = ba.ZeroDynamics.of(own, mapped)
-    orbit = zero.orbit(zero.sigma_minus * zero.delta)
-    assert orbit.period == pytest.approx(known.period, rel=1e-9)
-    before = zero.end_state(zero.sigma_minus)
-    gait = ba.Gait("mapped", "own", own.preset, mapped, *before, orbit.period, {}).check(own)
-    walk = ba.walk(ba.Walker(own, ba.NPDController(mapped)), gait, impacts=2)
-    assert walk.trajectory.status is ba.Status.COMPLETED
-    for step in walk.certificates:
-        assert step.duration == pytest.approx(known.period, abs=1e-6)
-        assert step.violations(but=("impulse",)) == ()
-
-
 def test_a_file_as_frost_writes_it(urdf):
     """No base, no limits, no feet, inertia about y alone, a zero axis on what is fixed."""
     text = rabbit(base=False).replace(LIMIT, "")

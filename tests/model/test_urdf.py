@@ -86,18 +86,6 @@ def test_states_that_are_no_states(biped):
         biped.reduction(np.zeros(5), np.full(5, np.nan))
 
 
-def test_legs_that_differ_are_refused(tmp_path):
-    folder = data_folder("urdf") / "rabbit"
-    text = FLOATING.read_text().replace(
-        '<child link="left_shin"/>\n    <origin xyz="0 0 0.4"/>',
-        '<child link="left_shin"/>\n    <origin xyz="0 0 0.5"/>',
-    )
-    (tmp_path / "floating.urdf").write_text(text)
-    (tmp_path / "robot.toml").write_text((folder / "robot.toml").read_text())
-    with pytest.raises(ModelError, match="legs differ"):
-        ba.Biped.load(tmp_path / "robot.toml")
-
-
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [

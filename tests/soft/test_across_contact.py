@@ -3,11 +3,11 @@
 import numpy as np
 
 import biped_adrc as ba
-from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.control.across_contact import Hold
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.soft_ground import SoftGround
-from biped_adrc.hybrid.simulator import RunOptions
+
+from .loops import loop_on, run_of
 
 PUSH = ba.TorquePulse([30.0, 30.0, 30.0, 30.0, 0.0], step=2, start=0.1, stop=0.3)
 
@@ -17,9 +17,7 @@ def test_held_after_touchdown_an_observer_of_low_order_leaves_a_quarter_of_npds_
     h, plant, found = gait.constraint, MuJoCoPlant(biped, SoftGround(friction=0.8)), []
     slow = ba.ADRCController(h, ba.GPIObserver.from_bandwidth(500.0))
     for controller in (ba.NPDController(h), Hold(slow, 0.015)):
-        loop = SteppingLoop(plant, controller, PUSH, ba.SampledTime(1e-3), biped, 150.0)
-        x0 = loop.initial_state(*gait.start(biped))
-        run = loop.run(x0, RunOptions(1.0, stop_after=("foot_strike", 2)))
+        run = run_of(loop_on(plant, controller, disturbance=PUSH), gait, impacts=2)
         assert run.status is ba.Status.COMPLETED
         arc = run.arcs[1]
         late = arc.x[(arc.t > arc.mode.start + 0.1) & (arc.t < arc.mode.start + 0.35)]

@@ -17,8 +17,9 @@ from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.hybrid.integrators import StepFailed
 from biped_adrc.hybrid.simulator import RunOptions
 
+from .loops import TICK, run_of
+
 LOOPS = [SteppingLoop, CompiledLoop]
-TICK = ba.SampledTime(1e-3)
 
 
 class Explodes(ba.Controller):
@@ -33,10 +34,6 @@ def plant(biped):
     return MuJoCoPlant(biped)
 
 
-def run(loop, gait):
-    return loop.run(loop.initial_state(*gait.start(loop.model)), RunOptions(0.05))
-
-
 def all_finite(found):
     return all(np.all(np.isfinite(arc.x)) and np.all(np.isfinite(arc.dx)) for arc in found.arcs)
 
@@ -44,12 +41,14 @@ def all_finite(found):
 @pytest.mark.parametrize("made", LOOPS)
 def test_a_controller_that_explodes_ends_as_run_away(made, plant, gait):
     """By its torque: e^(1e3 t) is above 1000 times 150 N m from 12 ms on, unless a rate is too high before."""
-    free = run(made(plant, Explodes(), None, TICK, plant.biped, runaway_speed=math.inf), gait)
+    free = run_of(
+        made(plant, Explodes(), None, TICK, plant.biped, runaway_speed=math.inf), gait, 0.05
+    )
     assert free.status is ba.Status.RAN_AWAY
     assert "above 1.5e+05 N m" in free.detail
     assert free.t_end == pytest.approx(12e-3)
     assert all_finite(free)
-    found = run(made(plant, Explodes(), None, TICK, plant.biped, runaway_speed=0.5), gait)
+    found = run_of(made(plant, Explodes(), None, TICK, plant.biped, runaway_speed=0.5), gait, 0.05)
     assert found.status is ba.Status.RAN_AWAY
     assert "rad/s, above" in found.detail
     assert found.t_end < 12e-3
@@ -61,16 +60,16 @@ def test_a_controller_that_explodes_ends_as_run_away(made, plant, gait):
 def test_the_bounds_are_the_loops(made, plant, gait):
     """Just below the peaks of a walk they end it, at the tick or the stride where it is beyond; above, not."""
     parts = plant, ba.NPDController(gait.constraint), None, TICK, plant.biped
-    arc = run(made(*parts), gait).arcs[0]
+    arc = run_of(made(*parts), gait, 0.05).arcs[0]
     peak = np.max(np.abs(arc.read["u"]), axis=1) / 150.0
     fast = np.max(np.abs(arc.x[:, 5:10]) / plant.biped.speed_limits, axis=1)
     for bound, course in (("runaway_torque", peak), ("runaway_speed", fast)):
         limit = float(0.99 * np.max(course))
-        found = run(made(*parts, **{bound: limit}), gait)
+        found = run_of(made(*parts, **{bound: limit}), gait, 0.05)
         assert found.status is ba.Status.RAN_AWAY
         # at the tick of that torque; after the last stretch that is not too fast
         assert found.t_end == pytest.approx(arc.t[np.argmax(course > limit) - ("speed" in bound)])
-        whole = run(made(*parts, **{bound: float(1.01 * np.max(course))}), gait)
+        whole = run_of(made(*parts, **{bound: float(1.01 * np.max(course))}), gait, 0.05)
         assert whole.status is ba.Status.COMPLETED
     with pytest.raises(InputError, match="runaway_speed is nan"):
         made(*parts, runaway_speed=math.nan)

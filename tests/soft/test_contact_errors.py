@@ -11,10 +11,10 @@ import biped_adrc as ba
 from biped_adrc.analysis.contact_errors import contact_errors
 from biped_adrc.analysis.soft_steps import recorded_steps, soft_steps
 from biped_adrc.closed_loop.feet import with_readings
-from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
-from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.model.ground import ground_axes
+
+from .loops import loop_on, run_of
 
 
 def walk(*humps, pushed=(2.0, 3.0)):
@@ -64,10 +64,8 @@ def test_nothing_pushed_is_no_number():
 
 def test_meters_of_recorded_nodes_are_those_of_readings_at_the_nodes(biped, gait):
     plant = MuJoCoPlant(biped)
-    npd, period = ba.NPDController(gait.constraint), ba.SampledTime(1e-3)
-    loop = SteppingLoop(plant, npd, None, period, biped, torque_limit=150.0)
-    x0 = loop.initial_state(*gait.start(biped))
-    run = loop.run(x0, RunOptions(1.0, stop_after=("foot_strike", 1)))
+    loop = loop_on(plant, ba.NPDController(gait.constraint))
+    run = run_of(loop, gait, impacts=1)
     again = recorded_steps(with_readings(loop, run), 0.6, ground_axes(0.0))
     assert again == soft_steps(loop, run, 1e-3)
     assert sum(again[0].impulse) > 1.0

@@ -10,11 +10,12 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.closed_loop.feet import readings
 from biped_adrc.closed_loop.protocols import Mode
-from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import Load
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
 from biped_adrc.hybrid.simulator import RunOptions
+
+from .loops import loop_on, run_of
 
 STILL = Load(np.zeros(5), np.zeros(2))
 PUSH = ba.TorquePulse([30.0, 30.0, 0.0, 0.0, 0.0], step=2, start=0.02, stop=0.06)
@@ -33,10 +34,8 @@ def balance(biped, gait, h):
     there on for 0.1 s; the largest power of the ground [W]; and all the work that was exchanged [J].
     """
     plant = MuJoCoPlant(biped, h=h)
-    npd, period = ba.NPDController(gait.constraint), ba.SampledTime(1e-3)
-    loop = SteppingLoop(plant, npd, PUSH, period, biped, torque_limit=150.0)
-    x0 = loop.initial_state(*gait.start(biped))
-    first = loop.run(x0, RunOptions(0.6, stop_after=("foot_strike", 1)))
+    loop = loop_on(plant, ba.NPDController(gait.constraint), disturbance=PUSH)
+    first = run_of(loop, gait, impacts=1)
     end = first.events()[0]
     later = loop.run(end.x_plus, RunOptions(end.t + 0.1, end.t), mode=Mode(2, end.t)).arcs[0]
     arc = first.arcs[0]

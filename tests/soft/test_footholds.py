@@ -14,11 +14,9 @@ from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
 from biped_adrc.extras.mujoco.soft_ground import SoftGround
-from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.model.ground import StepUp, ground_axes
 
-TICK = ba.SampledTime(1e-3)
-SOFT = {"ground.plant": "mujoco", "hardware.period": 1e-3, "hardware.torque_limit": 150.0}
+from .loops import SOFT, TICK, run_of
 
 
 def walker_on(biped, gait, *steps):
@@ -28,8 +26,7 @@ def walker_on(biped, gait, *steps):
 
 def walked(walker, gait, impacts=3):
     loop = stepping_loop(walker, MuJoCoPlant(walker.plant))
-    x0 = loop.initial_state(*gait.start(walker.plant))
-    return loop, loop.run(x0, RunOptions(4.0, stop_after=("foot_strike", impacts)))
+    return loop, run_of(loop, gait, impacts=impacts)
 
 
 def first(arc, k):

@@ -16,17 +16,11 @@ from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
 from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.hardware.motors import Motors
-from biped_adrc.hybrid.simulator import RunOptions, simulate
+from biped_adrc.hybrid.simulator import simulate
 
-TICK = ba.SampledTime(1e-3)
+from .loops import SOFT, TICK, run_of
+
 TAU = 5e-3
-SOFT = {
-    "ground.plant": "mujoco",
-    "hardware.period": 1e-3,
-    "hardware.torque_limit": 150.0,
-    "run.impacts": 1,
-    "hardware.lag": TAU,
-}
 
 
 class Holds(ba.Controller):
@@ -40,8 +34,7 @@ class Holds(ba.Controller):
 @pytest.mark.parametrize("tau", [1e-5, 50e-3])
 def test_the_recorded_torque_is_the_closed_form(made, biped, gait, tau):
     loop = made(MuJoCoPlant(biped, lag=tau), Holds(), None, TICK, biped)
-    run = loop.run(loop.initial_state(*gait.start(biped)), RunOptions(0.02))
-    arc = run.arcs[0]
+    arc = run_of(loop, gait, 0.02).arcs[0]
     expected = Holds().output(None, None) * (1.0 - np.exp(-arc.t / tau))[:, np.newaxis]
     np.testing.assert_allclose(arc.read["u"], expected, rtol=1e-12, atol=1e-12)
 
@@ -75,7 +68,7 @@ def test_it_moves_as_the_rigid_plant_with_this_lag(biped, gait):
         x0 = walker.initial_state(*start)
         rigid = simulate(walker, x0, Mode(), ba.RK4(1e-4), t_end=0.06)
         loop = stepping_loop(walker, MuJoCoPlant(biped, ground))
-        soft = loop.run(loop.initial_state(*start), RunOptions(0.06))
+        soft = run_of(loop, gait, 0.06)
         moved.append((rigid.final_state[:5], soft.final_state[:5]))
     (rigid, soft), (rigid_lag, soft_lag) = moved
     by_lag = rigid_lag - rigid
@@ -86,7 +79,9 @@ def test_it_moves_as_the_rigid_plant_with_this_lag(biped, gait):
 
 def test_a_walk_of_a_scenario_has_u_m_as_on_the_rigid_plant():
     walks = [
-        ba.walk_scenario(ba.Scenario("NPD", run={"engine": e}, **SOFT))
+        ba.walk_scenario(
+            ba.Scenario("NPD", run={"engine": e, "impacts": 1}, **SOFT, **{"hardware.lag": TAU})
+        )
         for e in ("compiled", "pinocchio")
     ]
     for walk in walks:

@@ -11,7 +11,8 @@ from biped_adrc.engine.on_plant import CompiledLoop
 from biped_adrc.extras.mujoco.engine import leapfrog
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
-from biped_adrc.hybrid.simulator import RunOptions
+
+from .loops import loop_on, run_of
 
 LENGTH, GRAVITY = 0.7, 9.81
 
@@ -58,29 +59,26 @@ def test_free_fall_is_exact(biped, gait):
     np.testing.assert_allclose(fallen[:5], q, rtol=0.0, atol=1e-12)
 
 
-def walked(biped, gait, controller, plant, impacts, push=None):
-    loop = CompiledLoop(
-        plant, controller(gait.constraint), push, ba.SampledTime(1e-3), biped, 150.0
-    )
-    x0 = loop.initial_state(*gait.start(biped))
-    return loop.run(x0, RunOptions(0.8 * impacts, stop_after=("foot_strike", impacts)))
+def walked(gait, controller, plant, impacts):
+    loop = loop_on(plant, controller(gait.constraint), CompiledLoop)
+    return run_of(loop, gait, impacts=impacts)
 
 
 def test_table_1_walks_on_it_and_not_on_eulers_method(biped, gait):
     plant = MuJoCoPlant(biped, integrator="leapfrog")
-    run = walked(biped, gait, ba.ADRCController, plant, 5)
+    run = walked(gait, ba.ADRCController, plant, 5)
     assert run.status is ba.Status.COMPLETED
     periods = np.diff([event.t for event in run.events("foot_strike")])
     np.testing.assert_allclose(periods, 0.422, atol=0.004)
     plant.engine.step = mujoco().mj_step
-    assert walked(biped, gait, ba.ADRCController, plant, 5).status is ba.Status.INFEASIBLE
+    assert walked(gait, ba.ADRCController, plant, 5).status is ba.Status.INFEASIBLE
 
 
 def test_through_a_touchdown(biped, gait):
     """From the same state 8 ms before to 12 ms after it, against a 16th of the step: places of the foot within
     0.3 mm and its depth within 10 %, where RK4 has 0.06 mm and 3 %.
     """
-    first = walked(biped, gait, ba.NPDController, MuJoCoPlant(biped), 1).arcs[0]
+    first = walked(gait, ba.NPDController, MuJoCoPlant(biped), 1).arcs[0]
     x = first.x[np.searchsorted(first.t, first.t[-1] - 8.5e-3)]
 
     def feet(h, integrator):

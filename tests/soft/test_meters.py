@@ -19,26 +19,22 @@ from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.storage import load, save
 
+from .loops import loop_on, run_of
+
 STILL = Load(np.zeros(5), np.zeros(2))
 FLAT = np.array([1.0, 0.0]), np.array([0.0, 1.0])
 
 
-def loop_on(plant, gait, **more):
-    npd, period = ba.NPDController(gait.constraint), ba.SampledTime(1e-3)
-    return SteppingLoop(plant, npd, timing=period, model=plant.biped, torque_limit=150.0, **more)
-
-
-def walked(loop, gait, impacts):
-    x0 = loop.initial_state(*gait.start(loop.plant.biped))
-    return loop.run(x0, RunOptions(1.0 * impacts, stop_after=("foot_strike", impacts)))
+def under_npd(plant, gait, **more):
+    return loop_on(plant, ba.NPDController(gait.constraint), **more)
 
 
 @pytest.fixture(scope="module")
 def walk(biped, gait):
     """Two steps, pushed in the second."""
     push = ba.TorquePulse([30.0, 30.0, 0.0, 0.0, 0.0], step=2, start=0.1004, stop=0.2)
-    loop = loop_on(MuJoCoPlant(biped), gait, disturbance=push)
-    return loop, walked(loop, gait, 2)
+    loop = under_npd(MuJoCoPlant(biped), gait, disturbance=push)
+    return loop, run_of(loop, gait, impacts=2)
 
 
 def momentum(plant, r, k):
@@ -52,8 +48,8 @@ def momentum(plant, r, k):
 def test_the_readings_carry_what_the_momentum_asks_for(biped, gait, force):
     """Impulse of the ground = change of momentum + m g T - that of the force at the hip."""
     plant = MuJoCoPlant(biped)
-    loop = loop_on(plant, gait, disturbance=ba.HipForce(biped, force))
-    run = loop.run(loop.initial_state(*gait.start(biped)), RunOptions(0.1))
+    loop = under_npd(plant, gait, disturbance=ba.HipForce(biped, force))
+    run = run_of(loop, gait, 0.1)
     r = readings(loop, run.arcs[0], plant.h)
     assert not any(array.flags.writeable for array in vars(r).values())
     a, b = 100, len(r.t) - 1
@@ -108,10 +104,10 @@ def test_a_block_that_slides_to_rest():
 
 def test_less_friction_slips_and_flies(biped, gait):
     """At 0.2 where 1.0 does not; single support, double support and flight are the whole step."""
-    rough = loop_on(MuJoCoPlant(biped, SoftGround(1.0)), gait)
-    holds = soft_steps(rough, walked(rough, gait, 1))
-    smooth = loop_on(MuJoCoPlant(biped, SoftGround(0.2)), gait)
-    slips = soft_steps(smooth, run := walked(smooth, gait, 1))
+    rough = under_npd(MuJoCoPlant(biped, SoftGround(1.0)), gait)
+    holds = soft_steps(rough, run_of(rough, gait, impacts=1))
+    smooth = under_npd(MuJoCoPlant(biped, SoftGround(0.2)), gait)
+    slips = soft_steps(smooth, run := run_of(smooth, gait, impacts=1))
     assert sum(holds[0].slip) == 0.0
     assert slips[0].slip[0] > 3e-4
     assert slips[0].friction_used == pytest.approx(0.2, rel=1e-3)

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.stepping_plant import Load
 from biped_adrc.core.errors import InputError
 from biped_adrc.extras.mujoco import robot as mujoco_robot
@@ -17,6 +16,8 @@ from biped_adrc.extras.mujoco.robot import compiled, mujoco, pinned_mjcf
 from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.model.ground import ground_axes
+
+from .loops import loop_on, run_of
 
 ROBOTS = [("rabbit", "identified"), ("rabbit", "tac2003"), ("three_link", None)]
 """Those with motors."""
@@ -106,25 +107,9 @@ def test_feet_and_hip_are_where_pinocchio_has_them(robot):
         np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-12)
 
 
-def loop(plant, controller, **more):
-    return SteppingLoop(
-        plant,
-        controller,
-        timing=ba.SampledTime(1e-3),
-        model=plant.biped,
-        torque_limit=150.0,
-        **more,
-    )
-
-
-def walked(system, gait, impacts):
-    x0 = system.initial_state(*gait.start(system.plant.biped))
-    return system.run(x0, RunOptions(0.8 * impacts, stop_after=("foot_strike", impacts)))
-
-
 @pytest.fixture(scope="module")
 def walk(plant, gait):
-    return walked(loop(plant, ba.NPDController(gait.constraint)), gait, 3)
+    return run_of(loop_on(plant, ba.NPDController(gait.constraint)), gait, impacts=3)
 
 
 def test_feedback_linearisation_walks(walk):
@@ -137,10 +122,11 @@ def test_feedback_linearisation_walks(walk):
 
 def test_the_same_walk_bit_for_bit(plant, gait, walk):
     """Whatever the engine did before: its work space is no state."""
-    again = walked(loop(plant, ba.NPDController(gait.constraint)), gait, 1)
+    law = ba.NPDController(gait.constraint)
+    again = run_of(loop_on(plant, law), gait, impacts=1)
     np.testing.assert_array_equal(again.arcs[0].x, walk.arcs[0].x)
-    other = loop(MuJoCoPlant(plant.biped), ba.NPDController(gait.constraint))
-    np.testing.assert_array_equal(walked(other, gait, 1).arcs[0].x, walk.arcs[0].x)
+    other = run_of(loop_on(MuJoCoPlant(plant.biped), law), gait, impacts=1)
+    np.testing.assert_array_equal(other.arcs[0].x, walk.arcs[0].x)
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.1])
@@ -160,7 +146,7 @@ def test_a_push_shorter_than_a_period_gives_the_momentum_that_it_has(biped, gait
     """In free flight, by a torque on the torso of 0.2 ms within a period of 1 ms: change of spin = A T."""
     plant, (q, v) = MuJoCoPlant(biped, flight_height=99.0), gait.start(biped)
     push = ba.TorquePulse([0.0, 0.0, 0.0, 0.0, 500.0], start=1.4e-3, stop=1.6e-3)
-    system = loop(plant, ba.Passive(), disturbance=push)
+    system = loop_on(plant, ba.Passive(), disturbance=push)
     lifted = plant.start(0.0, q, v)
     lifted[12] += 9.0
     run = system.run(system.with_plant(system.initial_state(q, v), lifted), RunOptions(3e-3))
@@ -178,18 +164,15 @@ def test_a_push_shorter_than_a_period_gives_the_momentum_that_it_has(biped, gait
 
 
 def test_a_robot_in_the_air_is_told_from_one_that_fell(plant, gait):
-    system = loop(plant, ba.Passive(), disturbance=ba.HipForce(plant.biped, (0.0, 900.0)))
-    q, v = gait.start(plant.biped)
-    run = system.run(system.initial_state(q, v), RunOptions(1.0))
+    system = loop_on(plant, ba.Passive(), disturbance=ba.HipForce(plant.biped, (0.0, 900.0)))
+    run = run_of(system, gait, 1.0)
     assert run.status is ba.Status.INFEASIBLE
     assert run.arcs[-1].event.guard == "stance_foot_in_the_air"
-    fallen = loop(plant, ba.Passive())
-    run = fallen.run(fallen.initial_state(q, v), RunOptions(2.0))
-    assert run.status is ba.Status.FELL
+    assert run_of(loop_on(plant, ba.Passive()), gait, 2.0).status is ba.Status.FELL
 
 
 def test_a_foot_inside_the_ground_is_no_start(biped, gait):
-    downhill = loop(MuJoCoPlant(biped, slope=0.02), ba.NPDController(gait.constraint))
+    downhill = loop_on(MuJoCoPlant(biped, slope=0.02), ba.NPDController(gait.constraint))
     with pytest.raises(InputError, match="inside the ground"):
         downhill.initial_state(*gait.start(biped))
 

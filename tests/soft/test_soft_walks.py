@@ -7,43 +7,26 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.analysis.recorded_signals import accelerations
-from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker
 from biped_adrc.core.errors import InputError
 from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.soft_ground import SoftGround
-from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.scenario.run import halved
 
-SOFT = {
-    "ground.plant": "mujoco",
-    "hardware.period": 1e-3,
-    "hardware.torque_limit": 150.0,
-    "run.impacts": 2,
-}
+from .loops import SOFT, TICK, loop_on, run_of
 
 
 @pytest.fixture(scope="module")
 def made():
-    return ba.walk_scenario(ba.Scenario("NPD", **SOFT))
+    return ba.walk_scenario(ba.Scenario("NPD", run={"impacts": 2}, **SOFT))
 
 
 def test_it_is_the_walk_of_a_loop_around_the_plant(made, biped, gait):
-    plant = MuJoCoPlant(biped)
-    loop = SteppingLoop(
-        plant,
-        ba.NPDController(gait.constraint),
-        None,
-        ba.SampledTime(1e-3),
-        biped,
-        torque_limit=150.0,
-    )
-    run = loop.run(
-        loop.initial_state(*gait.start(biped)), RunOptions(4.0, stop_after=(FOOT_STRIKE, 2))
-    )
-    plain = ba.walk_scenario(ba.Scenario("NPD", run={"engine": "pinocchio"}, **SOFT))
+    loop = loop_on(MuJoCoPlant(biped), ba.NPDController(gait.constraint))
+    run = run_of(loop, gait, impacts=2)
+    plain = ba.walk_scenario(ba.Scenario("NPD", run={"engine": "pinocchio", "impacts": 2}, **SOFT))
     assert plain.trajectory.settings["engine"] == "pinocchio"
     assert made.trajectory.settings["engine"] == "compiled"
     for walk, apart in ((plain, 0.0), (made, 1e-9)):
@@ -55,9 +38,7 @@ def test_it_is_the_walk_of_a_loop_around_the_plant(made, biped, gait):
 
 
 def test_ba_walk_takes_the_plant_by_name_or_itself(made, biped, gait):
-    walker = Walker(
-        biped, ba.NPDController(gait.constraint), timing=ba.SampledTime(1e-3), torque_limit=150.0
-    )
+    walker = Walker(biped, ba.NPDController(gait.constraint), timing=TICK, torque_limit=150.0)
     walk = ba.walk(walker, gait, impacts=2, plant="mujoco")
     assert np.array_equal(walk.trajectory.final_state, made.trajectory.final_state)
     stiffer = MuJoCoPlant(biped, SoftGround(friction=1.0))
@@ -114,7 +95,7 @@ def test_what_does_not_fit_is_refused(values):
 
 def test_what_only_the_rigid_plant_has_is_named(biped, gait):
     law, plant = ba.NPDController(gait.constraint), MuJoCoPlant(biped)
-    walker = Walker(biped, law, timing=ba.SampledTime(1e-3), impact_gain=(0.01,) * 5)
+    walker = Walker(biped, law, timing=TICK, impact_gain=(0.01,) * 5)
     with pytest.raises(InputError, match="impact"):
         stepping_loop(walker, plant)
     with pytest.raises(InputError, match="method"):
@@ -131,7 +112,7 @@ def test_what_only_the_rigid_plant_has_is_named(biped, gait):
 )
 def test_values_of_ground_and_engine_come_from_the_scenario(ground, h):
     own = {"friction": 0.9, "impratio": 40.0}
-    s = ba.Scenario("NPD", ground=own | ground, **{**SOFT, "run.impacts": 1})
+    s = ba.Scenario("NPD", ground=own | ground, run={"impacts": 1}, **SOFT)
     plant = ba.walk_scenario(s).trajectory.settings["plant"]
     found = plant | plant["ground"]
     assert (own | ground).items() - {("plant_step", h)} <= {

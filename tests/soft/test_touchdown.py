@@ -11,7 +11,8 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.engine.on_plant import CompiledLoop
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.hardware.detectors import ByForce, ByKinematics, Told
-from biped_adrc.hybrid.simulator import RunOptions
+
+from .loops import loop_on, run_of
 
 pytest.importorskip("mujoco")
 T = 1e-3
@@ -26,11 +27,11 @@ def low_order(constraint):
     return ba.ADRCController(constraint, observer=ba.GPIObserver.from_bandwidth(300.0, m=1))
 
 
-def walked(plant, gait, touchdown, kind=CompiledLoop, t_end=0.43, controller=low_order, **more):
+def walked(plant, gait, touchdown, kind=CompiledLoop, t_end=0.43, controller=low_order):
     clock = ba.SampledTime(T, restart=False)
-    given = {"torque_limit": 150.0, "touchdown": touchdown} | more
-    loop = kind(plant, controller(gait.constraint), None, clock, plant.biped, **given)
-    return loop, loop.run(loop.initial_state(*gait.start(plant.biped)), RunOptions(t_end))
+    more = {"timing": clock, "touchdown": touchdown}
+    loop = loop_on(plant, controller(gait.constraint), kind, **more)
+    return loop, run_of(loop, gait, t_end)
 
 
 LEAVES = (

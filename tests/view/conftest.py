@@ -14,11 +14,6 @@ from biped_adrc.scenario.walk import walk
 
 
 @pytest.fixture(scope="package")
-def biped() -> Biped:
-    return Biped.load("rabbit")
-
-
-@pytest.fixture(scope="package")
 def walks(biped: Biped) -> dict[str, Walk]:
     """Three single supports under NPD and under ADRC, without a push."""
     gait = load_gait("published", biped)
