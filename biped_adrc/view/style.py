@@ -2,7 +2,7 @@
 
 The colours are the palette of Okabe and Ito, which readers with any colour vision can tell apart. Most lines,
 points and bars have a dash, marker or hatch besides their colour, so that figures can also be read in grey.
-Sizes of arrows are here too, as the views from the side and in Meshcat share them.
+Those of the robot and its arrows are in `view.colours`.
 
 Figures are `matplotlib.figure.Figure` objects made inside `with style():`; pyplot and its global
 state are not used, so a notebook's own settings are not changed, and do not change the figures.
@@ -31,14 +31,6 @@ GREY = "#666666"
 """Colour of lines that are not data: limits, diagonals, reference lines."""
 PUSH = "#F0E442"
 """Yellow, for the time in which a push acts."""
-STANCE, SWING, TRUNK = "#0072B2", "#E69F00", "#333333"
-"""Colours of stance leg, swing leg and trunk: blue, orange, dark grey; in grey print dark, light and black."""
-REACTION, TORQUE = "#009E73", "#CC79A7"
-"""Colours of the ground reaction, bluish green, and of a torque from outside, reddish purple."""
-WEIGHT_LENGTH = 0.4
-"""Length [m] of the arrow of a ground reaction that is as large as the robot's weight."""
-METRES_PER_NEWTON_METRE = 0.004
-"""Radius of the ring that shows an external torque, per torque [m / N m]; the same for all robots."""
 DASHES: tuple[LineStyleType, ...] = ("-", (0, (6, 1.5)), (0, (1.5, 1)), (0, (6, 1.5, 1, 1.5)))
 """Line styles for the first four colours of `PALETTE`; callers repeat them, so the fifth is as the first."""
 

@@ -10,9 +10,9 @@ import numpy as np
 from PIL import Image, ImageColor
 
 from biped_adrc.core.types import Array
+from biped_adrc.view.colours import REACTION, TORQUE
 from biped_adrc.view.from_the_side import moving_parts as draw
 from biped_adrc.view.from_the_side.side_by_side import LINES
-from biped_adrc.view.style import REACTION, TORQUE
 
 
 def encoded(frames: Sequence[Array], fps: float, rest: float) -> bytes:

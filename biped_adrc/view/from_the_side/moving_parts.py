@@ -19,9 +19,9 @@ from matplotlib.collections import LineCollection, PolyCollection
 
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
+from biped_adrc.view.colours import METRES_PER_NEWTON_METRE, REACTION, STANCE, SWING, TORQUE, TRUNK
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.placement import TILE, loads
-from biped_adrc.view.style import METRES_PER_NEWTON_METRE, REACTION, STANCE, SWING, TORQUE, TRUNK
 
 COLOURS = {"stance": STANCE, "swing": SWING, "": TRUNK}
 """Colour of a bone by its role; the trunk has none."""

@@ -18,11 +18,12 @@ from matplotlib.patches import Patch
 
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
+from biped_adrc.view.colours import REACTION, TORQUE
 from biped_adrc.view.from_the_side import moving_parts as draw
 from biped_adrc.view.from_the_side.side_view import SideView, Tracked
 from biped_adrc.view.placement import Recorded, WalkScene, ending, is_wheel
 from biped_adrc.view.plots.over_time import angle_unit
-from biped_adrc.view.style import PUSH, REACTION, TORQUE
+from biped_adrc.view.style import PUSH
 
 SHOWN = 1.5
 """Width [m] of the panel of one walk."""

@@ -23,7 +23,6 @@ from typing import Protocol
 
 import numpy as np
 import umsgpack  # type: ignore[import-untyped]
-from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 
 from biped_adrc.core.types import Array
@@ -84,7 +83,10 @@ def paint(rgb: Colour, opacity: float = 1.0) -> object:
 
 def colour(rgb: Colour) -> int:
     """The colour as Meshcat has it, 0xRRGGBB."""
-    return int(to_hex(rgb)[1:], 16)
+    red, green, blue = (
+        (round(255 * c) for c in rgb[:3]) if isinstance(rgb, tuple) else bytes.fromhex(rgb[1:])
+    )
+    return red << 16 | green << 8 | blue
 
 
 # -- robot -----------------------------------------------------------------------------------------

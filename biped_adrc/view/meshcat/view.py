@@ -17,12 +17,7 @@ import numpy as np
 
 from biped_adrc.core.errors import InputError, check_positive
 from biped_adrc.model.biped import Biped
-from biped_adrc.view.from_the_side.side_view import SideView
-from biped_adrc.view.meshcat import objects as draw
-from biped_adrc.view.meshcat.frames import Frames
-from biped_adrc.view.pages import player
-from biped_adrc.view.placement import Recorded, WalkScene, ending, exchanged, is_wheel
-from biped_adrc.view.style import (
+from biped_adrc.view.colours import (
     METRES_PER_NEWTON_METRE,
     REACTION,
     STANCE,
@@ -30,6 +25,11 @@ from biped_adrc.view.style import (
     TORQUE,
     WEIGHT_LENGTH,
 )
+from biped_adrc.view.from_the_side.side_view import SideView
+from biped_adrc.view.meshcat import objects as draw
+from biped_adrc.view.meshcat.frames import Frames
+from biped_adrc.view.pages import player
+from biped_adrc.view.placement import Recorded, WalkScene, ending, exchanged, is_wheel
 
 GHOST = 0.35
 """Opacity of a ghost."""
