@@ -15,15 +15,17 @@ from collections.abc import Mapping, Sequence
 from functools import cache, partial
 from importlib.resources import files
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from jinja2 import Environment, FileSystemLoader
 from markupsafe import Markup
-from matplotlib.figure import Figure
 
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import packaged, write_text
 from biped_adrc.core.types import PlainRecord
-from biped_adrc.view.style import render
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 HERE = "biped_adrc.view"
 POLICY = (
@@ -207,5 +209,7 @@ def inline(summary: str, animation: str, figures: Sequence[Figure] = ()) -> str:
     The frame has the page as its source text, so the scripts of the notebook and of the page cannot
     meet.
     """
+    from biped_adrc.view.style import render  # loads matplotlib, which other pages do not need
+
     uris = [data_uri("walk", render(figure, "png", dpi=80.0)) for figure in figures]
     return rendered("notebook", summary=summary, animation=animation, figures=uris, height=HEIGHT)

@@ -1,8 +1,10 @@
 "use strict";
 // Robots in Meshcat's viewer: their parts, one pose of each at a time, and the cameras.
 const scene = JSON.parse(document.getElementById("scene").textContent);
-const viewer = new MeshCat.Viewer(document.getElementById("meshcat-pane"));
 const element = (id) => document.getElementById(id);
+// a page with a painter of its own says itself when it paints
+const pane = element("meshcat-pane");
+const viewer = typeof Painter === "undefined" ? new MeshCat.Viewer(pane) : new MeshCat.Viewer(pane, false, new Painter(pane));
 const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 const command = (text) => viewer.handle_command_bytearray(bytes(text));
 const node = (path) => viewer.scene_tree.find(path.split("/")).object;

@@ -2,7 +2,7 @@
 
 The colours are the palette of Okabe and Ito, which readers with any colour vision can tell apart. Most lines,
 points and bars have a dash, marker or hatch besides their colour, so that figures can also be read in grey.
-Sizes of arrows are here too, as the views from the side and in Meshcat share them.
+Those of the robot and its arrows are in `view.colours`.
 
 Figures are `matplotlib.figure.Figure` objects made by `with new_figure(..) as figure:`; pyplot and its global
 state are not used, so a notebook's own settings are not changed, and do not change the figures.
@@ -18,14 +18,12 @@ from importlib.resources import files
 from pathlib import Path
 
 import matplotlib as mpl
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.typing import LineStyleType
 
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import write_bytes
-from biped_adrc.core.types import Array
 
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 """Blue, vermillion, bluish green, reddish purple, orange, sky blue, black (Okabe and Ito, 2008)."""
@@ -33,16 +31,6 @@ GREY = "#666666"
 """Colour of lines that are not data: limits, diagonals, reference lines."""
 PUSH = "#F0E442"
 """Yellow, for the time in which a push acts."""
-STANCE, SWING, TRUNK = "#0072B2", "#E69F00", "#333333"
-"""Colours of stance leg, swing leg and trunk: blue, orange, dark grey; in grey print dark, light and black."""
-REACTION, TORQUE = "#009E73", "#CC79A7"
-"""Colours of the ground reaction, bluish green, and of a torque from outside, reddish purple."""
-WEIGHT_LENGTH = 0.4
-"""Length [m] of the arrow of a ground reaction that is as large as the robot's weight."""
-LONGEST = 1.2
-"""Longest arrow of a ground reaction [m]; that of a larger one is cut, and the picture says so."""
-METRES_PER_NEWTON_METRE = 0.004
-"""Radius of the ring that shows an external torque, per torque [m / N m]; the same for all robots."""
 DASHES: tuple[LineStyleType, ...] = ("-", (0, (6, 1.5)), (0, (1.5, 1)), (0, (6, 1.5, 1, 1.5)))
 """Line styles for the first four colours of `PALETTE`; callers repeat them, so the fifth is as the first."""
 
@@ -90,17 +78,6 @@ def label(axes: Axes, x: str, y: str, title: str = "") -> None:
 def literal(text: str) -> str:
     """A text of somebody's file as matplotlib draws it: a dollar begins no formula."""
     return text.replace("$", r"\$")
-
-
-def bent_arrow(radius: float, points: int = 30) -> Array:
-    """Outline (2 points + 3, 2) [m] of an arrow bent around 0, counter-clockwise for a positive radius [m].
-
-    Outer rim, head and inner rim, from -60 to 240 degrees: the opening below leaves a joint visible.
-    """
-    angle, tip = np.radians(np.linspace(-60.0, 200.0, points)), np.radians(240.0)
-    rim = np.column_stack((np.cos(angle), np.sin(angle)))
-    head = 1.3 * rim[-1], (np.cos(tip), np.sin(tip)), 0.7 * rim[-1]
-    return np.vstack((1.12 * rim, head, 0.88 * rim[::-1])) * [radius, abs(radius)]
 
 
 def named_cells(

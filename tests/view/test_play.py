@@ -20,7 +20,7 @@ import biped_adrc as ba
 from biped_adrc.cli import app
 from biped_adrc.core.errors import BipedError, InputError, OutputError
 from biped_adrc.extras.play.page import FIRST, page, revised, tour
-from biped_adrc.extras.play.walks import MOST, SPRING
+from biped_adrc.extras.play.walks import MOST, SPRING, PageWalk
 from biped_adrc.extras.play.webassembly import web_module
 from biped_adrc.model.planar import jacobian, link_point, point, turned
 from biped_adrc.scenario.build import RobotAndGait
@@ -182,6 +182,18 @@ def test_sliders_set_the_values_of_the_scenario(
     np.testing.assert_allclose(state, arc(t, "left")[:10], rtol=0.0, atol=1e-8)
 
 
+def test_a_slider_ends_where_its_controller_refuses_more() -> None:
+    walk = PageWalk.of("NPID", revised(FIRST, {"controller": "NPID"}))
+    found = walk.sliders()
+    assert {"controller.K_p", "controller.K_d", "controller.K_i"} <= found.keys()
+    gain, _ = found["controller.K_p"]
+    assert gain.low < gain.value == 5000.0 < gain.high
+    for x in (gain.low, gain.high):
+        walk.at(walk.rubbed.replace({"controller.K_p": x}))
+    with pytest.raises(InputError, match="the loop of NPID is unstable"):
+        walk.at(walk.rubbed.replace({"controller.K_p": 0.5 * gain.low}))
+
+
 def test_back_up_again_and_the_timeline(browser: Chrome) -> None:
     fallen = """
 play.push({ force: [-300, 0], seconds: 1 });
@@ -209,6 +221,29 @@ return was;
     keys(browser, Keys.ARROW_RIGHT)
     until(browser, "return Math.abs(page.last.t - 0.031) < 1e-9 && element('timeline').max === '3'")
     assert was > 0.03
+
+
+# -- the picture ---------------------------------------------------------------------------------------
+PAINTED = """
+showFrame(play.frame());
+viewer.render();
+const pen = viewer.renderer.pen, box = pane.getBoundingClientRect();
+const of = (x, y) => [...pen.getImageData(Math.round(x), Math.round(y), 1, 1).data.slice(0, 3)];
+const part = (name) => [...parts].find(([path, link]) => link === name)[0];
+return [["torso", 0.3], ["left_shin", 0.3], ["right_shin", 0.3]].map(([name, z]) => {
+  const at = part(name).parent.localToWorld(new THREE.Vector3(0, 0, z)).project(viewer.camera);
+  return of(0.5 * (at.x + 1) * box.width, 0.5 * (1 - at.y) * box.height);
+}).concat([of(3, 100)]);
+"""
+
+
+@pytest.mark.parametrize("camera", ["side", "perspective"])
+def test_links_are_painted_where_they_are_in_their_colours(browser: Chrome, camera: str) -> None:
+    browser.execute_script("look(arguments[0])", camera)
+    torso, left, right, beside = browser.execute_script(PAINTED)
+    assert max(torso) - min(torso) < 40, "grey"
+    assert {int(np.argmax(leg)) for leg in (left, right)} == {0, 2}, "orange and blue"
+    assert beside == [255, 255, 255]
 
 
 # -- mouse, finger, keys -------------------------------------------------------------------------------

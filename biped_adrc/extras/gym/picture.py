@@ -14,10 +14,11 @@ from PIL import Image, ImageDraw
 
 from biped_adrc.core.types import Array
 from biped_adrc.extras.gym.stage import Stage
+from biped_adrc.view.colours import TRUNK
 from biped_adrc.view.from_the_side.moving_parts import COLOURS
 from biped_adrc.view.from_the_side.side_view import bones, placed_lines, roles_of
 from biped_adrc.view.placement import TILE, joint_values, link_placements
-from biped_adrc.view.style import GREY, TRUNK
+from biped_adrc.view.style import GREY
 
 WIDTH, HEIGHT = 480, 360
 """Of a picture [pixels]."""

@@ -66,7 +66,7 @@ const ACTIONS = {
 for (const [id, act] of Object.entries(ACTIONS)) element(id).onclick = act;
 element("walk").onchange = (event) => act({ do: "reset", walk: event.target.value });
 element("ghost").onchange = (event) => act({ do: "ghost", walk: event.target.value || null });
-element("plotted").onchange = (event) => { joint = event.target.selectedIndex; drawPlots(); };
+element("plotted").onchange = (event) => { joint = event.target.selectedIndex; drawBeside(); };
 element("close-keys").onclick = () => element("keys").close();
 element("timeline").oninput = (event) => { act({ do: "pause" }); send({ do: "scrub", place: event.target.valueAsNumber }); };
 document.addEventListener("change", (event) => event.target.blur()); // keys are for the walk again

@@ -1,8 +1,6 @@
 // The mouse or a finger: a drag that begins on the robot pulls it by a spring, another one turns the camera.
-const PULLS = 1000 / 75; // [ms] between two messages of a pull
 const ray = new MeshCat.THREE.Raycaster();
 const AROUND = [[0, 0], [8, 0], [-8, 0], [0, 8], [0, -8], [6, 6], [-6, 6], [6, -6], [-6, -6]]; // [px] that a pointer may miss by
-const pane = element("meshcat-pane");
 const parts = new Map(scene.links.map(([path, link]) => [node(path), link]));
 let selected = null, pull = null;
 
@@ -57,17 +55,14 @@ function select(found) {
 
 // the anchor goes as the pointer goes: wherever the drag began, the spring is slack there
 function sendPull(event) {
-  const now = performance.now(), at = pointed(event);
+  const at = pointed(event);
   pull.event = { clientX: event.clientX, clientY: event.clientY };
-  if (at === null || now - pull.sent < PULLS) return;
-  pull.sent = now;
-  send({ do: "pull", link: pull.link, at: pull.at, anchor: [at[0] + pull.away[0], at[1] + pull.away[1]] });
+  if (at) send({ do: "pull", link: pull.link, at: pull.at, anchor: [at[0] + pull.away[0], at[1] + pull.away[1]] });
 }
 // the camera goes along with the robot, and the pointer with the camera
 function keepPulling() {
   if (pull) sendPull(pull.event);
 }
-setInterval(keepPulling, 4 * PULLS); // where the walk rests too
 function release() {
   if (!pull) return;
   pull = null;
@@ -86,7 +81,7 @@ pane.addEventListener("pointerdown", (event) => {
   select(found);
   pane.setPointerCapture(event.pointerId);
   const [x, z] = placeOf(found);
-  pull = { ...found, away: [x - at[0], z - at[1]], sent: 0, event: null };
+  pull = { ...found, away: [x - at[0], z - at[1]], event: null };
   sendPull(event);
 }, true);
 pane.addEventListener("contextmenu", (event) => event.preventDefault());

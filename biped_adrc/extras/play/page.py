@@ -27,11 +27,11 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.scenario.dotted import merged, nested
 from biped_adrc.scenario.scenario import ObserverRecord, Scenario
+from biped_adrc.view.colours import TORQUE
 from biped_adrc.view.meshcat import objects as draw
 from biped_adrc.view.meshcat.view import captions, scene_settings
 from biped_adrc.view.pages import with_viewer
 from biped_adrc.view.placement import Clip, WalkScene, placed
-from biped_adrc.view.style import TORQUE
 
 FIRST = Scenario("ADRC", hardware={"profile": "ideal", "torque_limit": 150.0})
 """What walks on a page that was given nothing: as in the tour."""

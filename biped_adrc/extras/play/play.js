@@ -2,7 +2,7 @@
 const STAYS = 600; // [ms] for which a breach of a limit can be read
 let breach = { words: "", until: 0 };
 
-// of all samples since the last frame
+// of all samples since the frame before
 function breachOf({ worst }) {
   if (!worst) return "";
   const { friction, torque } = scene.limits;
@@ -10,9 +10,20 @@ function breachOf({ worst }) {
   if (worst.friction > friction) return "friction " + worst.friction.toFixed(2) + " > " + friction;
   return worst.torque > torque * (1 + 1e-9) ? "torque " + worst.torque.toFixed(0) + " > " + torque + " N m" : "";
 }
+// words, timeline and plots no more often than they can be read, so that the robot has the time
+const READ = 80; // [ms]
+let asked = false; // whether the next picture of them is on its way
+function drawBeside() {
+  if (asked || page.last === null) return;
+  asked = true;
+  setTimeout(() => {
+    asked = false;
+    describe(page.last);
+    drawPlots(page.last.t);
+  }, READ);
+}
 function describe(message) {
-  const [walk, ghost] = message.walks, now = performance.now(), found = breachOf(walk);
-  if (found) breach = { words: found, until: now + STAYS };
+  const [walk, ghost] = message.walks, now = performance.now();
   element("clock").textContent = "t = " + message.t.toFixed(2) + " s, step " + walk.support.number;
   const slow = !message.paused && message.reached < 0.9 * message.rate;
   element("rate").textContent = message.rate + " x" + (message.paused ? ", paused" : "")
@@ -23,6 +34,9 @@ function describe(message) {
   const ends = [["walk", walk], ["ghost", ghost]].filter(([, w]) => w && w.ending);
   tell(ends.map(([name, w]) => name + " " + w.ending).join(". "));
   element("up").hidden = !walk.ending;
+  element("play").textContent = message.paused ? "go" : "pause";
+  [, element("timeline").max] = message.timeline; // before the value, which it bounds
+  [element("timeline").value] = message.timeline;
 }
 function tell(words) {
   if (element("ended").textContent !== words) element("ended").textContent = words;
@@ -32,14 +46,12 @@ function tell(words) {
 function showFrame(frame) {
   ({ rate, paused } = frame);
   scene.limits = frame.limits;
-  element("play").textContent = paused ? "go" : "pause";
-  [, element("timeline").max] = frame.timeline; // before the value, which it bounds
-  [element("timeline").value] = frame.timeline;
+  const words = breachOf(frame.walks[0]);
+  if (words) breach = { words, until: performance.now() + STAYS };
   page.last = frame;
   drawWalks(frame);
   remember(frame);
-  drawPlots();
-  describe(frame);
+  drawBeside();
   keepPulling();
   page.frames += 1;
 }
@@ -57,6 +69,7 @@ function send({ do: word, ...given }) {
 function turn(now) {
   play.advance(now);
   if (play.news || now < breach.until + STAYS) showFrame(play.frame());
+  if (viewer.needs_render) viewer.render();
   requestAnimationFrame(turn);
 }
 const page = { last: null, frames: 0 };
@@ -87,5 +100,5 @@ document.addEventListener("keydown", (event) => {
 });
 viewer.gui.close();
 // the tour and long sentences take room from the picture
-new ResizeObserver(() => { viewer.set_3d_pane_size(); viewer.set_dirty(); }).observe(pane);
+new ResizeObserver(() => { viewer.set_3d_pane_size(); viewer.render(); }).observe(pane);
 look(scene.view);

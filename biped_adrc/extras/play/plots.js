@@ -113,29 +113,21 @@ function stroke(pen, line, colour, at) {
   }
   pen.stroke();
 }
-// no more often than an eye needs, so that the robot has the time
-const PLOTTED = 50; // [ms]
-let asked = false; // whether the next picture is on its way
-function drawPlots() {
-  if (asked || page.last === null) return;
-  asked = true;
-  setTimeout(() => {
-    asked = false;
-    element("shown").textContent = ", last " + Number(shown().toPrecision(2)) + " s";
-    show(page.last.t);
-    PLOTS.forEach(draw);
-  }, PLOTTED);
+function drawPlots(end) {
+  element("shown").textContent = ", last " + Number(shown().toPrecision(2)) + " s";
+  show(end);
+  PLOTS.forEach(draw);
 }
 element("plots").addEventListener("pointermove", (event) => {
   const box = event.target.getBoundingClientRect();
   hovered = event.target.tagName === "CANVAS" ? (event.clientX - box.left) / box.width : null;
-  drawPlots();
+  drawBeside();
 });
-element("plots").addEventListener("pointerleave", () => { hovered = null; drawPlots(); });
+element("plots").addEventListener("pointerleave", () => { hovered = null; drawBeside(); });
 element("plots").addEventListener("wheel", (event) => {
   if (event.target.tagName !== "CANVAS") return;
   event.preventDefault();
   const k = SPANS.indexOf(span) + Math.sign(event.deltaY);
   span = SPANS[Math.min(Math.max(k, 0), SPANS.length - 1)];
-  drawPlots();
+  drawBeside();
 }, { passive: false });

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from biped_adrc.control.tracking import TABLE_II
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.types import Array
 from biped_adrc.scenario.controllers import CONTEXT, GAINS
@@ -22,8 +23,10 @@ from biped_adrc.scenario.scenario import Scenario, field_of
 
 Form = tuple[float, float, int] | list[float]
 """(a, b, k) of a number, k = 0 for the tangent; or its values at those of a table."""
-ROUND = np.array((10, 12, 14, 16, 18, 20, 22, 25, 28, 30, 35, 40, 45, 50, 55, 60, 70, 80, 90))
+ROUND = np.array((10, 12, 15, 20, 25, 30, 40, 50, 60, 80))
 """First two digits of the values in tables."""
+CLOSER = 8
+"""At how many places between a slider's end and its value another end is looked for."""
 POWERS = (*range(1, 15), -1, -2)
 EXACT = 1e-12
 """Largest relative error of a form."""
@@ -64,7 +67,7 @@ class Slider(NamedTuple):
         """The slider of round values alone."""
         decades = 10.0 ** np.arange(-9, 9)
         known = np.unique((np.outer(decades, ROUND)).ravel().round(12))
-        even = np.linspace(self.low, self.high, 41).round(6)
+        even = np.linspace(self.low, self.high, 21).round(6)
         values = known[(known >= self.low) & (known <= self.high)] if self.log else even
         return self._replace(table=tuple(values.tolist()))
 
@@ -86,15 +89,18 @@ def offered(s: Scenario, order: int | None) -> Iterator[Slider]:
     """
     also: dict[str, object] = {} if order is None else {OBSERVER + "order": order}
     also |= {OBSERVER + "poles": "none"} if s.controller.observer.poles else {}
+    c = s.controller
+    values = {f"controller.{k}": getattr(c, k) or float(getattr(TABLE_II, k)) for k in GAINS}
     for one in USUAL:
-        yield one._replace(also=also if one.name.startswith(OBSERVER) else {})
-    for name, parameter in takes(find("controller", s.controller.name).load()).items():
-        x = s.controller.own.get(name, parameter.default)
+        also_here = also if one.name.startswith(OBSERVER) else {}
+        yield one._replace(also=also_here, value=values.get(one.name))
+    for name, parameter in takes(find("controller", c.name).load()).items():
+        x = c.own.get(name, parameter.default)
         if isinstance(x, float) and np.isfinite(x) and name not in ELSEWHERE:
             ends = (
                 (0.1 * x, 10.0 * x) if x > 0.0 else (-1.0, 1.0) if x == 0.0 else (10.0 * x, 0.1 * x)
             )
-            yield Slider(f"controller.{name}", *ends, x > 0.0)
+            yield Slider(f"controller.{name}", *ends, x > 0.0, value=x)
 
 
 def sliders(
@@ -108,17 +114,44 @@ def sliders(
     result, moved = dict[str, tuple[Slider, dict[int, Form]]](), set[int]()
     for one in offered(s, order):
         try:
-            forms = fitted(one, base, numbers_at(one, s, numbers))
-            if not forms:
-                one = one.tabulated()
-                rows = numbers_at(one, s, numbers, one.table)
-                forms = {k: rows[:, k].tolist() for k in changing(base, rows)}
+            one, forms = with_forms(one, s, base, numbers)
         except BipedError:
             continue
         if forms and moved.isdisjoint(forms):
             moved |= forms.keys()
             result[one.name] = at_base(one, base, forms), forms
     return result
+
+
+def with_forms(
+    one: Slider, s: Scenario, base: Array, numbers: Callable[[Scenario], Array]
+) -> tuple[Slider, dict[int, Form]]:
+    """A slider, nearer to its value where the controller refuses its ends, or of a table; forms by place.
+
+    Raises BipedError where the walk cannot have it.
+    """
+    try:
+        rows = numbers_at(one, s, numbers)
+    except BipedError:  # such as gains of an unstable loop
+        one = one._replace(low=end(one, one.low, s, numbers), high=end(one, one.high, s, numbers))
+        rows = numbers_at(one, s, numbers)
+    if forms := fitted(one, base, rows):
+        return one, forms
+    one = one.tabulated()
+    rows = numbers_at(one, s, numbers, one.table)
+    return one, {k: rows[:, k].tolist() for k in changing(base, rows)}
+
+
+def end(one: Slider, x: float, s: Scenario, numbers: Callable[[Scenario], Array]) -> float:
+    """The end x of a slider, moved to its value until the walk can have it."""
+    ways = np.geomspace if one.log else np.linspace
+    for y in () if one.value is None else ways(x, one.value, CLOSER):
+        try:
+            numbers_at(one, s, numbers, (x := float(f"{y:.2g}"),))
+            break
+        except BipedError:
+            continue
+    return x
 
 
 def numbers_at(

@@ -65,7 +65,6 @@ function drawHand(acting) {
 // a text beside a point (x, z) [m] of the walk's plane
 function label(text, x, z, words) {
   const at = roots[0].localToWorld(new MeshCat.THREE.Vector3(x, 0, z)).project(viewer.camera);
-  const pane = element("meshcat-pane");
   text.style.left = 0.5 * (at.x + 1) * pane.clientWidth + 14 + "px";
   text.style.top = 0.5 * (1 - at.y) * pane.clientHeight - 28 + "px";
   text.textContent = words;
@@ -75,7 +74,7 @@ function label(text, x, z, words) {
 function drawWalks(message) {
   if (message.t < drawWalks.t) robots.forEach((robot) => robot.forget());
   drawWalks.t = message.t;
-  roots[1].visible = message.walks.length > 1;
+  roots.forEach((root, k) => { root.visible = k < message.walks.length; });
   message.walks.forEach((pose, k) => robots[k].show(pose));
   moveGround(message.walks[0].support);
   follow(); // the hand aims between two pictures too
@@ -83,4 +82,11 @@ function drawWalks(message) {
   viewer.set_dirty();
 }
 drawWalks.t = 0;
-roots[1].visible = false;
+// nothing is shown before the first pose, which scales the arrows
+for (const root of [...roots, node(scene.hand.arrow), node(scene.hand.line)]) root.visible = false;
+// the ground below its footprints, these below the traces
+viewer.renderer.layers.set(node("meshcat/ground"), 0);
+for (const { footprints, hip, foot } of robots) {
+  footprints.forEach((print) => viewer.renderer.layers.set(print, 1));
+  [hip, foot].forEach(({ line }) => viewer.renderer.layers.set(line, 2));
+}

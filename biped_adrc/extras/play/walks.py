@@ -95,7 +95,7 @@ class PageWalk:
             )
         x = walker.initial_state(*start(s, scene), Mode(s.run.first_step))
         try:
-            code = compiled(s, scene, walker, x)
+            code = compiled(s, scene, with_hand(walker), x)
         except NotCompiled as reason:
             raise InputError(
                 f"the walk '{name}' does not run in machine code as a whole: {reason}"
@@ -123,9 +123,14 @@ class PageWalk:
         """Of the block as it begins."""
         return self._block(self.code)
 
+    @cached_property
+    def rubbed(self) -> Scenario:
+        """The scenario with the joint friction that its walker has."""
+        return self.scenario.replace({FRICTION: self.walker.plant.friction})
+
     def at(self, s: Scenario) -> Array:
         """Numbers of the block of another scenario. Raises InputError, also for another structure."""
-        walker = build(s.replace({FRICTION: self.walker.plant.friction}), self.scene)
+        walker = replace(build(s, self.scene), disturbance=self.code.walker.disturbance)
         code = compiled(s, self.scene, walker, self.x)
         if code.program.key != self.code.program.key:
             raise InputError("another structure")
@@ -143,7 +148,7 @@ class PageWalk:
         named = {k: name for name, k in self.names.items()}
         result = {
             name: (one, {named[k]: form for k, form in forms.items()})
-            for name, (one, forms) in sliders(self.scenario, order, self.numbers, self.at).items()
+            for name, (one, forms) in sliders(self.rubbed, order, self.numbers, self.at).items()
             if forms.keys() <= named.keys()
         }
         rubbing = {
@@ -164,7 +169,7 @@ class PageWalk:
         if low == high:
             return {}
         inside = Slider(DELAY, low + 0.1 * (high - low), high - 0.1 * (high - low), False)
-        return fitted(inside, self.numbers, numbers_at(inside, self.scenario, self.at))
+        return fitted(inside, self.numbers, numbers_at(inside, self.rubbed, self.at))
 
     @property
     def delays(self) -> tuple[float, float]:
@@ -175,9 +180,9 @@ class PageWalk:
 
 
 def compiled(s: Scenario, scene: RobotAndGait, walker: Walker, x: Array) -> CompiledWalker:
-    """The walker with a hand. Raises NotCompiled."""
+    """A walker with a hand in machine code. Raises NotCompiled."""
     size, method = walker.controller_size(x), method_of(s, walker)
-    return CompiledWalker.of(with_hand(walker), method, size, 0.0, scene.walked.constraint)
+    return CompiledWalker.of(walker, method, size, 0.0, scene.walked.constraint)
 
 
 def variants(name: str, s: Scenario, samples: int) -> list[PageWalk]:

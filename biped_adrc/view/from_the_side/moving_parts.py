@@ -20,9 +20,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrow
 
 from biped_adrc.core.types import Array
-from biped_adrc.view.from_the_side.side_view import SideView, placed_lines
-from biped_adrc.view.placement import TILE, loads
-from biped_adrc.view.style import (
+from biped_adrc.view.colours import (
     LONGEST,
     METRES_PER_NEWTON_METRE,
     REACTION,
@@ -32,6 +30,8 @@ from biped_adrc.view.style import (
     TRUNK,
     bent_arrow,
 )
+from biped_adrc.view.from_the_side.side_view import SideView, placed_lines
+from biped_adrc.view.placement import TILE, loads
 
 COLOURS = {"stance": STANCE, "swing": SWING, "": TRUNK}
 """Colour of a bone by its role; the trunk has none."""

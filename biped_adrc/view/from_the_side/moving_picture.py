@@ -19,11 +19,12 @@ from PIL import Image, ImageColor
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import write_bytes
 from biped_adrc.core.types import Array
+from biped_adrc.view.colours import REACTION, TORQUE
 from biped_adrc.view.from_the_side import moving_parts as draw
 from biped_adrc.view.from_the_side.side_by_side import LINES, side_by_side
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.placement import Clip, Recorded, WalkScene, check_frames, ending
-from biped_adrc.view.style import REACTION, TORQUE, style
+from biped_adrc.view.style import style
 
 GHOST = 0.35
 """Opacity of walks that are not the solid one."""

@@ -16,11 +16,12 @@ from matplotlib.patches import Patch
 
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
+from biped_adrc.view.colours import REACTION, TORQUE
 from biped_adrc.view.from_the_side import moving_parts as draw
 from biped_adrc.view.from_the_side.side_view import SideView, Tracked
 from biped_adrc.view.placement import Recorded, WalkScene, ending
 from biped_adrc.view.plots.over_time import angle_unit
-from biped_adrc.view.style import PUSH, REACTION, TORQUE
+from biped_adrc.view.style import PUSH
 
 WIDTH, SHOWN = 800, 1.5
 """Width of the picture [px], and what the panel of one walk shows [m]."""

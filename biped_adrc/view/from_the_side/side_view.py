@@ -16,8 +16,8 @@ from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.urdf import Visual
+from biped_adrc.view.colours import WEIGHT_LENGTH
 from biped_adrc.view.placement import Recorded, WalkScene, exchanged, legs, link_placements, spokes
-from biped_adrc.view.style import WEIGHT_LENGTH
 
 
 @runtime_checkable

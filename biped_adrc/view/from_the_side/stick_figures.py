@@ -12,17 +12,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
+from biped_adrc.view.colours import STANCE, SWING, TRUNK
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.placement import Clip, Recorded, WalkScene, ending
-from biped_adrc.view.style import (
-    STANCE,
-    SWING,
-    TRUNK,
-    label,
-    literal,
-    new_figure,
-    write_figure,
-)
+from biped_adrc.view.style import label, literal, new_figure, write_figure
 
 LOOKS = {
     "swing": (SWING, 1.4, (0, (4, 1.5)), "swing leg"),

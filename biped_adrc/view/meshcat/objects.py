@@ -23,11 +23,11 @@ from typing import Any, TypeAlias
 
 import numpy as np
 import umsgpack  # type: ignore[import-untyped]
-from matplotlib.colors import to_hex
 
 from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.robots.urdf import Joint, Tree, Visual
+from biped_adrc.view.colours import bent_arrow
 from biped_adrc.view.placement import (
     TILE,
     WalkScene,
@@ -37,7 +37,6 @@ from biped_adrc.view.placement import (
     spokes,
     turn,
 )
-from biped_adrc.view.style import bent_arrow
 
 with warnings.catch_warnings():
     # meshcat 0.3.2 imports a deprecated module of pyzmq for the server that is not used here
@@ -67,7 +66,10 @@ def paint(rgb: Colour, opacity: float = 1.0) -> object:
 
 def colour(rgb: Colour) -> int:
     """The colour as Meshcat has it, 0xRRGGBB."""
-    return int(to_hex(rgb)[1:], 16)
+    red, green, blue = (
+        (round(255 * c) for c in rgb[:3]) if isinstance(rgb, tuple) else bytes.fromhex(rgb[1:])
+    )
+    return red << 16 | green << 8 | blue
 
 
 # -- robot -----------------------------------------------------------------------------------------

@@ -15,6 +15,15 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from biped_adrc.model.biped import Biped
+from biped_adrc.view.colours import (
+    LONGEST,
+    METRES_PER_NEWTON_METRE,
+    REACTION,
+    STANCE,
+    SWING,
+    TORQUE,
+    WEIGHT_LENGTH,
+)
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.meshcat import objects as draw
 from biped_adrc.view.meshcat.frames import Frames
@@ -28,15 +37,6 @@ from biped_adrc.view.placement import (
     exchanged,
     is_wheel,
     placed,
-)
-from biped_adrc.view.style import (
-    LONGEST,
-    METRES_PER_NEWTON_METRE,
-    REACTION,
-    STANCE,
-    SWING,
-    TORQUE,
-    WEIGHT_LENGTH,
 )
 
 GHOST = 0.35
