@@ -13,6 +13,8 @@ its reader has left (`| head -1`) or the disk is full: a result is not lost to a
 from __future__ import annotations
 
 import os
+import shlex
+import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
@@ -110,6 +112,12 @@ class Lasting:
 
 console, errors = Terminal(), Terminal(stderr=True)
 """Where all commands print, and complain; rich fits tables to the terminal."""
+
+
+def command() -> str:
+    """The command line as a shell takes it, for reports and provenance: the reader can repeat it."""
+    return shlex.join(["biped-adrc", *sys.argv[1:]])
+
 
 FIGURES, GAITS = (".png", ".svg"), (".json",)
 """Suffixes of figures and of gaits."""

@@ -7,14 +7,12 @@ the exit code; all else is in report.html. Joints of a push are checked before t
 
 from __future__ import annotations
 
-import shlex
-import sys
 from pathlib import Path
 from typing import Any
 
 import typer
 
-from biped_adrc.cli.app import EXIT_CHECK_FAILED, app, bar, say
+from biped_adrc.cli.app import EXIT_CHECK_FAILED, app, bar, command, say
 from biped_adrc.cli.options import options
 
 SHOWN = 5
@@ -43,9 +41,8 @@ def reproduce(
     for joint in (joint for p in pushes for joint in p.factors):
         description.joint_index(joint)
     plan = Plan(preset, pushes=pushes or (PAPER_PUSH,), full=full, quick=quick)
-    command = shlex.join(["biped-adrc", *sys.argv[1:]])
     with bar("starting") as progress:
-        summary = run(plan, out, command, workers, progress)
+        summary = run(plan, out, command(), workers, progress)
     say("\n".join(lines(summary, out)))
     if not summary["holds"]:
         raise typer.Exit(EXIT_CHECK_FAILED)

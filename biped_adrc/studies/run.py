@@ -20,9 +20,10 @@ from typing import Any
 from biped_adrc.analysis.certificate import REASONS, supports
 from biped_adrc.analysis.feasibility import Feasibility, outcome_of
 from biped_adrc.analysis.ground_force import Nodes
+from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.files import packaged
-from biped_adrc.engine.batch import BatchWalk, left_by, run_case
+from biped_adrc.engine.batch import BatchWalk, Case, left_by, run_case
 from biped_adrc.engine.on_plant import walk_on
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.robots.limits import Limits
@@ -70,13 +71,12 @@ def run_trials(records: Sequence[Record]) -> list[WalkRow]:
 
 def _run_of(t: Trial) -> Callable[[], BatchWalk]:
     """The function that carries a trial out, in any thread."""
-    return run_case(t.case) if t.loop is None else partial(_on_other_ground, t)
+    return run_case(t.case) if t.loop is None else partial(_on_other_ground, t.case, t.loop)
 
 
-def _on_other_ground(t: Trial) -> BatchWalk:
-    """The walk on another plant than the rigid one."""
-    c = t.case
-    run = walk_on(t.loop, c.walker, (c.q, c.v), c.mode, c.impacts)
+def _on_other_ground(c: Case, loop: SteppingLoop) -> BatchWalk:
+    """The walk of a case with its controller around another plant than the rigid one."""
+    run = walk_on(loop, c.walker, (c.q, c.v), c.mode, c.impacts)
     return left_by(c, run, str(run.settings["engine"]))
 
 
