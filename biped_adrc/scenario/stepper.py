@@ -41,6 +41,7 @@ from biped_adrc.engine.on_plant import as_walked
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.engine.samples import CompiledWalk, PythonWalk, reading, with_inputs
 from biped_adrc.engine.symbols import NotCompiled
+from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.robots.limits import Limits
@@ -49,7 +50,7 @@ from biped_adrc.scenario.build import start as start_of
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario
-from biped_adrc.scenario.walk import check_start
+from biped_adrc.scenario.walk import check_start, default_method
 
 _STATUS = np.array([*STATUS, None], dtype=object)
 """By code; the last one is for a walk that has not begun, code -1."""
@@ -77,11 +78,11 @@ class Snapshot(NamedTuple):
 
 
 class Stepper:
-    """`count` walks of a scenario in sampled time.
+    """`count` walks of a scenario, or of a walker, in sampled time.
 
-    walker_of(scenario, robot and gait): the walker in place of `scenario.build`, such as one made in Python.
-    within: limits by which single supports are judged when they end, for `over`. Raises InputError for
-    continuous time, a scenario with `run.fine`, a robot without motors, and parts that do not fit together.
+    walker_of(scenario, robot and gait): the walker in place of `scenario.build`. within: limits by which the
+    single supports of a scenario are judged when they end, for `over`. Raises InputError for continuous time, a
+    scenario with `run.fine`, a robot without motors, and parts that do not fit together.
 
     >>> stepper = ba.Stepper(ba.Scenario("NPD", hardware={"period": 1e-3}), count=2)
     >>> stepper.reset(seed=1).t
@@ -92,23 +93,29 @@ class Stepper:
 
     def __init__(
         self,
-        scenario: Scenario,
+        what: Scenario | Walker,
         count: int = 1,
         walker_of: Callable[[Scenario, RobotAndGait], Walker] = build,
         within: Limits | None = None,
     ):
-        check_part(scenario, "what is moved by samples", Scenario)
+        check_part(what, "what is moved by samples", Scenario, Walker)
         check_count(count, f"the number of walks is {count}")
-        if scenario.hardware.period is None:
+        self.what, self.walker_of = what, walker_of
+        self.within = within if isinstance(what, Scenario) else None
+        self.curve: Reference | None = None
+        if what.hardware.period is None if isinstance(what, Scenario) else not what.sampled:
             raise InputError(
                 "walks go from one sample instant to the next here, and there are none; give hardware.period, "
-                "as '1 ms', or hardware = 'ideal'"
+                "as '1 ms', or hardware = 'ideal', or timing=SampledTime(1e-3) of a walker"
             )
-        if (fine := scenario.run.fine) is not None:
-            raise InputError(f"steps of a sample have one length; leave out run.fine = {fine:g} s")
-        self.scenario, self.walker_of, self.within = scenario, walker_of, within
-        self.scene = RobotAndGait.of(scenario)
-        self.curve, self.p = self.scene.walked.constraint, self.scene.biped.p
+        if isinstance(what, Scenario):
+            if what.run.fine is not None:
+                raise InputError(
+                    f"steps of a sample have one length; leave out run.fine = {what.run.fine:g} s"
+                )
+            self.scene = RobotAndGait.of(what)
+            self.curve = self.scene.walked.constraint
+        self.p = what.plant.p if isinstance(what, Walker) else self.scene.biped.p
         self.why = ""
         """Why walks are not moved in machine code; empty where they are."""
         self.walks: list[CompiledWalk | PythonWalk | None] = [None] * count
@@ -147,7 +154,7 @@ class Stepper:
         """Walk i anew, or all of them.
 
         seed: of the scenario; where all begin, walk i has seed + i. None is the scenario's own, for each.
-        start: (q, v), each (n,) [rad, rad/s]; None is the scenario's.
+        start: (q, v), each (n,) [rad, rad/s]; None is the scenario's. A walker has no seed, and needs a start.
         """
         if i is None:
             for k in range(len(self.walks)):
@@ -158,13 +165,22 @@ class Stepper:
 
     def _begin(self, i: int, seed: int | None, start: tuple[Array, Array] | None) -> None:
         """Walk i as `reset` has it."""
-        s = self.scenario if seed is None else self.scenario.replace({"run.seed": seed})
-        walker, outside = with_inputs(self.walker_of(s, self.scene))
-        start = start_of(s, self.scene) if start is None else start
-        loop, method, mode = soft_loop(s, walker), method_of(s, walker), Mode(s.run.first_step)
+        s, mode = self.what, Mode()
+        if isinstance(s, Scenario):
+            s, mode = s if seed is None else s.replace({"run.seed": seed}), Mode(s.run.first_step)
+            walker, outside = with_inputs(self.walker_of(s, self.scene))
+            start = start_of(s, self.scene) if start is None else start
+            loop, method = soft_loop(s, walker) or walker, method_of(s, walker)
+        elif start is None or seed is not None:
+            raise InputError(
+                "a walker has no seed and no start of its own; call reset(start=gait.start(biped))"
+            )
+        else:
+            walker, outside = with_inputs(s)
+            loop, method = walker, default_method(walker)
         check_start(*start, walker)
-        x = (loop or walker).initial_state(*start, mode)
-        if loop is not None:
+        x = loop.initial_state(*start, mode)
+        if loop is not walker:
             self.why = "the plant moves by itself"
         walk: CompiledWalk | PythonWalk | None = None
         if not self.why:
@@ -173,7 +189,7 @@ class Stepper:
             except NotCompiled as reason:
                 self.why = str(reason)
         self.walkers[i] = walker
-        self._put(i, walk or PythonWalk.of(loop or walker, outside, method, x, mode), 0)
+        self._put(i, walk or PythonWalk.of(loop, outside, method, x, mode), 0)
 
     def _put(self, i: int, walk: CompiledWalk | PythonWalk, code: int) -> None:
         """A walk in place i."""
@@ -259,10 +275,10 @@ class Stepper:
     def read(self, view: Reading) -> Array:
         """What view(loop, t, x, mode, reference) says of each walk where it is, as `signals_at`, in N rows.
 
-        The reference is the scenario's gait. Raises InputError where no walk has begun.
+        The reference is the scenario's gait. Raises InputError for a walker, and where no walk has begun.
         """
-        if not self.rows.size:
-            raise InputError("there is no walk; call reset()")
+        if self.curve is None or not self.rows.size:
+            raise InputError("there is no gait to refer to, or no walk; call reset() of a scenario")
         if view not in self._laws:
             first = next(walk for walk in self.walks if walk is not None)
             size = len(reading(first, view, self.curve))

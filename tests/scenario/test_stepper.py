@@ -106,7 +106,7 @@ def test_an_input_is_the_same_push_as_a_disturbance(biped, gait, name, in_python
         alone = replace(alone, disturbance=InPython())
     pushed = replace(alone, disturbance=push if not in_python else InPython() + push)
     arc = ba.walk(pushed, gait, 1).trajectory.arcs[0]
-    stepper = ba.Stepper(NPD, walker_of=lambda s, scene: alone)
+    stepper = ba.Stepper(alone)
     stepper.reset(start=gait.start(biped))
     assert bool(stepper.why) is in_python
     for k in range(80):
@@ -155,7 +155,7 @@ def test_a_walk_that_has_ended_stays_where_it_is():
     assert stepper.reset(0).status[0] is ba.Status.COMPLETED
 
 
-def test_what_is_no_step_is_refused():
+def test_what_is_no_step_is_refused(biped, gait):
     with pytest.raises(InputError, match=r"give hardware\.period"):
         ba.Stepper(ba.Scenario("NPD"))
     with pytest.raises(InputError, match="fine"):
@@ -168,5 +168,8 @@ def test_what_is_no_step_is_refused():
     for inputs in ({"torque": np.zeros(5)}, {"force": [[np.nan, 0.0]] * 2}):
         with pytest.raises(InputError, match=r"expected \(2, .\)|finite"):
             stepper.step(**inputs)
+    walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=ba.SampledTime(1e-3))
+    with pytest.raises(InputError, match="start"):
+        ba.Stepper(walker).reset()
     with pytest.raises(ValueError, match="read-only"):
         stepper.sample.x[0, 0] = 1.0
