@@ -19,7 +19,6 @@ from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.core.files import check_folder
 
 if TYPE_CHECKING:
-    from biped_adrc.core.types import Array
     from biped_adrc.gait.gait import Gait
     from biped_adrc.model.biped import Biped
 
@@ -73,7 +72,7 @@ def gait_design(
     if speeds is not None:
         _library(biped, speeds, how, Path("gait-library") if out is None else out)
         return
-    through = None if c.through is None else _state(c.through, biped.n)
+    through = None if c.through is None else (c.through[: biped.n], c.through[biped.n :])
     with console.status("IPOPT designs the gait"):
         result = design_gait(biped, speed, step, through=through, **how)
     console.print(result.text(), highlight=False)
@@ -117,17 +116,6 @@ def _library(biped: Biped, speeds: str, how: dict[str, Any], out: Path) -> None:
 def _save(gait: Gait, path: Path) -> None:
     """Write the gait, with this command line in its provenance."""
     replace(gait, provenance={**gait.provenance, "command": command()}).save(path)
-
-
-def _state(values: tuple[float, ...], n: int) -> tuple[Array, Array]:
-    """(q-, q'-), each (n,) [rad], [rad/s], of 2 n numbers. Raises InputError for too many or too few."""
-    import numpy as np
-
-    if len(values) != 2 * n:
-        raise InputError(
-            f"through has {len(values)} numbers, expected {2 * n}: q- [rad], then q'- [rad/s]"
-        )
-    return np.array(values[:n]), np.array(values[n:])
 
 
 def _speeds(text: str) -> tuple[float, ...]:

@@ -30,8 +30,8 @@ ASKED_WEIGHT = 100.0
 """Weight of the slacks of ASKED in the relaxation, so that a limit gives way before what was asked does."""
 MISSED = 1e-5
 """Largest slack of a limit that counts as kept."""
-INTERRUPTED = "NonIpopt_Exception_Thrown"
-"""Status with which CasADi ends IPOPT after Ctrl-C: the only exception that an evaluation can meet."""
+INTERRUPTED = ("NonIpopt_Exception_Thrown", "User_Requested_Stop")
+"""Statuses with which CasADi ends IPOPT after Ctrl-C, in an evaluation or between two of them."""
 
 
 class IpoptResult(NamedTuple):
@@ -75,7 +75,7 @@ def solve(
     result = solver(x0=x0, lbx=bounds[0], ubx=bounds[1], lbg=low, ubg=high)
     stats = solver.stats()
     status, count = stats["return_status"], stats["iter_count"]
-    if status == INTERRUPTED:
+    if status in INTERRUPTED:
         raise KeyboardInterrupt
     return IpoptResult(np.array(result["x"]).ravel(), status, stats["success"], count)
 
