@@ -119,14 +119,10 @@ def _slip_time(r: Readings, friction: float, axes: tuple[Array, Array]) -> float
 
 
 def _recorded(arc: Arc) -> Readings:
-    """The readings that an arc carries; angles, rates and the plant's own are left out.
-
-    An arc that failed at once has one node, and no torque yet.
-    """
+    """The readings that an arc carries; all else than feet is left out."""
     force, place, speed = (arc.read[name].reshape(-1, 2, 2) for name in NAMES)
     none = np.zeros((len(arc.t), 0))
-    u, zeta = (arc.read.get(name, none) for name in ("u", "zeta"))
-    return Readings(arc.t, none, none, none, u, zeta, force, place, speed)
+    return Readings(arc.t, none, none, none, none, none, force, place, speed)
 
 
 def step_of(

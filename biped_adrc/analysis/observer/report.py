@@ -31,7 +31,6 @@ from biped_adrc.analysis.observer.impact import ImpactStates, impact_peak, orbit
 from biped_adrc.analysis.observer.loop import GRID
 from biped_adrc.analysis.observer.sampled import largest_delay, largest_period
 from biped_adrc.control.tracking import TABLE_II, Gains
-from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import columns
 from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.gait.gait import Gait
@@ -286,8 +285,6 @@ def observer_report(
     """
     if not isinstance(observer, GPIObserver):
         observer = GPIObserver.from_poles(observer)
-    if not (math.isfinite(counts) and counts >= 1.0):
-        raise InputError(f"the encoders have {counts} counts per revolution, expected at least 1")
     gains.check(robot.p)
     limit, inertia = robot.description.peak_torque, worst_inertia(robot, gait)
     hardware = Hardware(period, delay, known, float(counts), limit, inertia)

@@ -10,7 +10,7 @@ hybrid-invariant and the orbit periodic to round-off.
 
 The programme keeps its limits at the nodes only. `audit` evaluates the same rows for the exact gait at many
 more; if one is missed there, the programme is solved once more with twice the nodes. A programme without a
-solution ends in `ipopt.relaxed`, which names the limits that contradict each other. `analysis.gait_design`
+solution ends in `nlp.relaxed`, which names the limits that contradict each other. `analysis.gait_design`
 calls `optimise` and then walks the gait in simulation.
 """
 
@@ -24,8 +24,7 @@ import numpy as np
 
 from biped_adrc.core.errors import GaitError
 from biped_adrc.core.types import Array
-from biped_adrc.gait.design.ipopt import ASKED, Bounds, relaxed, solve
-from biped_adrc.gait.design.nlp import transcribe
+from biped_adrc.gait.design.nlp import ASKED, Bounds, relaxed, solve, transcribe
 from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
 from biped_adrc.gait.design.start import cold_start
 from biped_adrc.gait.design.step import Unknowns, at_gait, flat

@@ -25,11 +25,13 @@ from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.conventions import OWN, Convention
 from biped_adrc.gait.curves import Bezier
-from biped_adrc.gait.exchange.record import LARGEST, whole_turns
+from biped_adrc.gait.exchange.record import whole_turns
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, invariant_constraint
 from biped_adrc.model.biped import Biped
 
+LARGEST = 4.0 * np.pi
+"""[rad]: angles above this are taken for degrees."""
 FITS = 5e-3
 """[rad]: largest distance of a sample from the curve in a fit that is good."""
 LASTS = 0.05
