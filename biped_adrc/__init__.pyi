@@ -45,7 +45,6 @@ from biped_adrc.gait.exchange.importing import export_gait as export_gait
 from biped_adrc.gait.exchange.importing import import_gait as import_gait
 from biped_adrc.gait.gait import Gait as Gait
 from biped_adrc.gait.gait import load_gait as load_gait
-from biped_adrc.gait.library import GaitLibrary as GaitLibrary
 from biped_adrc.gait.reference import Reference as Reference
 from biped_adrc.gait.reference import ReferencePoint as ReferencePoint
 from biped_adrc.gait.zero_dynamics import ZeroDynamics as ZeroDynamics

@@ -3,7 +3,8 @@
 Of a finished walk:
 - `signals`, `quadrature`          all time series of a walk, and integrals and means of them
 - `certificate`, `feasibility`     whether a real robot could have made these steps
-- `touchdowns`, `contact_errors`   when they were noticed, and what they do to the error
+- `touchdowns`                     when they were noticed
+- `soft_steps`                     what the feet did on soft ground, and what that does to the error
 - `statistics`                     shares and medians over many walks
 
 Of a closed loop or a gait:

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -77,10 +77,6 @@ class Support(Shown):
         k = KnownLimits(self.friction_limit, self.torque_limit, self.window)
         numbers = {name: getattr(self, number) for name, number in REASONS.items()}
         return {name: violation(name, x, k) for name, x in numbers.items() if not keeps(name, x, k)}
-
-    def record(self) -> dict[str, float]:
-        """All fields as a dictionary of numbers."""
-        return asdict(self)
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,6 @@ import numpy as np
 
 from biped_adrc.analysis.certificate import (
     IMPULSE,
-    REASONS,
     Support,
     after_last_impact,
     ended_in_impact,
@@ -124,21 +123,7 @@ class Feasibility(Shown):
     mean_normal_force = _over_steps(np.min, "mean_normal_force", "Least of the means [N].")
     mean_friction = _over_steps(np.max, "mean_friction", "Largest of the means.")
     scuffing = _over_steps(np.max, "scuffing", "[m].")
-    slip = _over_steps(np.max, "slip", "On soft ground [m].")
-    peak_torque = _over_steps(np.max, "peak_torque", "[N m].")
     impulse_ratio = _over_steps(np.max, "impulse_ratio", "Of the impacts, 0 without one.")
-
-    def record(self) -> dict[str, object]:
-        """Outcome, numbers and reasons as plain values; None where a number is not finite, such as a
-        friction without contact.
-        """
-        numbers = {name: float(getattr(self, name)) for name in REASONS.values()}
-        return {
-            "outcome": self.outcome,
-            "feasible_impacts": self.feasible_impacts,
-            **{name: x if math.isfinite(x) else None for name, x in numbers.items()},
-            "reasons": self.reasons,
-        }
 
     def text(self) -> str:
         """The outcome in words, with the reasons."""

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from biped_adrc.analysis.certificate import IMPULSE, Certificate, certificates
 from biped_adrc.analysis.signals import signals
@@ -19,7 +20,6 @@ from biped_adrc.control.npd import NPDController
 from biped_adrc.core.checks import check_part
 from biped_adrc.core.errors import GaitError
 from biped_adrc.core.shown import Shown, columns
-from biped_adrc.core.types import Array
 from biped_adrc.engine.run import COMPILED, simulate_by
 from biped_adrc.gait.design.optimise import Optimum, optimise
 from biped_adrc.gait.design.request import GaitRequest, Objective, StepLimits
@@ -92,7 +92,7 @@ def design_gait(
     preset: str | None = None,
     slope: float = 0.0,
     objective: Objective | str = Objective.TORQUE,
-    through: tuple[Array, Array] | None = None,
+    through: tuple[ArrayLike, ArrayLike] | None = None,
     degree: int = 6,
     nodes: int = 24,
     limits: StepLimits | None = None,

@@ -8,21 +8,30 @@ Times are of the readings (`closed_loop.feet`), each of which stands for half th
 that single support, double support and flight add up to the duration. The force of a touchdown begins
 within one step h of the engine, of which half is counted: impulses are off by up to h F / 2 there, of first
 order, and of second order everywhere else.
+
+`contact_errors` keeps the error that a touchdown leaves and the error that a push causes apart:
+
+    settling   t - start of the single support <= SETTLING
+    pushed     t - last time at which zeta != 0 <= AFTER, and not settling
+
+Contact that takes time moves the joints at every touchdown, whatever the controller. The largest error of a
+step is then often this transient, and hides what a push has done.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from biped_adrc.analysis.signals import Signals
 from biped_adrc.closed_loop.feet import NAMES, Readings, readings
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown
+from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.ground import ground_axes
@@ -34,6 +43,10 @@ CARRYING = 1.0
 """Normal force from which on a foot carries weight [N]."""
 SLIP_SPEED = 5e-3
 """Tangential speed from which on a foot at the cone slips [m/s]."""
+SETTLING = 0.06
+"""How long after a touchdown an error is the transient of contact [s]."""
+AFTER = 0.05
+"""How long after its end a push counts as the cause of an error [s]."""
 PRESSED = 20.0
 """Normal force from which on |F_T| / F_N is taken [N]; below, it is a quotient of small numbers."""
 
@@ -68,14 +81,10 @@ def soft_steps(
 ) -> tuple[SoftStep, ...]:
     """What was done in every single support of a run on soft ground, that at the end included.
 
-    apart [s]: between two readings; None for one at each step of the engine. Raises InputError for a plant
-    that is not on soft ground, and for a run that is not of this loop.
+    apart [s]: between two readings; None for one at each step of the engine. Raises InputError for a run that
+    is not of this loop.
     """
     plant: Any = loop.plant
-    if not hasattr(plant, "levels"):
-        raise InputError(
-            f"the plant of the loop is a {type(plant).__name__}, expected a MuJoCoPlant"
-        )
     apart, axes = plant.h if apart is None else apart, ground_axes(plant.slope)
     return tuple(
         step_of(r, plant.ground.friction, axes, plant.levels(r.row[:, 2 * plant.n :]))
@@ -110,14 +119,10 @@ def _slip_time(r: Readings, friction: float, axes: tuple[Array, Array]) -> float
 
 
 def _recorded(arc: Arc) -> Readings:
-    """The readings that an arc carries; states of the plant are left out.
-
-    An arc that failed at once has one node, and no torque yet.
-    """
+    """The readings that an arc carries; all else than feet is left out."""
     force, place, speed = (arc.read[name].reshape(-1, 2, 2) for name in NAMES)
     none = np.zeros((len(arc.t), 0))
-    u, zeta = (arc.read.get(name, none) for name in ("u", "zeta"))
-    return Readings(arc.t, none, u, zeta, force, place, speed)
+    return Readings(arc.t, none, none, none, force, place, speed)
 
 
 def step_of(
@@ -172,3 +177,44 @@ def weights(t: Array) -> Array:
 def _pair(numbers: Array) -> tuple[float, float]:
     one, other = map(float, numbers)
     return one, other
+
+
+# -- errors ------------------------------------------------------------------------------------------
+class ContactErrors(NamedTuple):
+    """Largest absolute errors and root mean squares over the joints [rad]; None of nothing."""
+
+    touchdown_error: float | None
+    """While contact settles, from the second single support on."""
+    pushed_error: float | None
+    """From the onset of a push to `AFTER` its end, where contact has settled."""
+    settled_error: float | None
+    """Where contact has settled."""
+    settled_rms: float | None
+    """Over time, where contact has settled."""
+
+
+def contact_errors(x: Signals) -> ContactErrors:
+    """The errors of a walk, at its nodes."""
+    since = x.t - starts(x)
+    settling = since <= SETTLING + SAME_INSTANT
+    acted = np.maximum.accumulate(np.where(np.any(x.zeta != 0.0, axis=1), x.t, -np.inf))
+    pushed = x.t - acted <= AFTER + SAME_INSTANT
+    lasts = np.append(np.diff(x.t) > 0.0, False)
+    settled = x.error[lasts & ~settling]
+    return ContactErrors(
+        _largest(x.error[settling & (x.step > x.step[0])]),
+        _largest(x.error[pushed & ~settling]),
+        _largest(x.error[~settling]),
+        math.sqrt(float(np.mean(settled**2))) if settled.size else None,
+    )
+
+
+def starts(x: Signals) -> Array:
+    """Start of the single support of each node (K,) [s]."""
+    _, first, places = np.unique(x.step, return_index=True, return_inverse=True)
+    begins: Array = x.t[first][places]
+    return begins
+
+
+def _largest(error: Array) -> float | None:
+    return float(np.max(np.abs(error))) if error.size else None

@@ -39,7 +39,7 @@ from biped_adrc.core.shown import Shown, columns
 from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.reference import TimeReference
-from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.gait.zero_dynamics import ZeroDynamics, impact_jump
 from biped_adrc.hybrid.constants import XRTOL, XTOL
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.model.biped import Biped
@@ -172,14 +172,9 @@ def invariance_gap(biped: Biped, constraint: VirtualConstraint) -> float:
     The larger of max |q_b+ - h(Theta+)| [rad] and max |q_b'+ - h' Theta'+| [rad/s], after an impact at the end
     of the constraint with |Theta'-| = 1 rad/s.
     """
-    zero = ZeroDynamics.of(biped, constraint)
-    q, v = zero.end_state(1.0)
-    c, p = constraint.phase, biped.p
-    after = biped.impact(q, v / abs(float(c @ v)))
-    h, slope, _ = constraint.h(float(c @ after.q))
-    position = np.max(np.abs(after.q[:p] - h))
-    velocity = np.max(np.abs(after.v[:p] - slope * float(c @ after.v)))
-    return float(max(position, velocity))
+    q, v = ZeroDynamics.of(biped, constraint).end_state(1.0)
+    jump = impact_jump(biped, constraint, q, v / abs(float(constraint.phase @ v)))
+    return float(np.max(np.abs(jump)))
 
 
 def stability_table(P: ReturnMap, step: StepDerivative) -> StabilityTable:

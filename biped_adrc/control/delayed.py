@@ -23,21 +23,20 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from math import factorial
-from typing import Self
+from typing import Annotated, Self
 
 import numpy as np
 
 from biped_adrc.control.around import Around
 from biped_adrc.control.base import Controller, Measurement
-from biped_adrc.core.checks import PositiveFloat
+from biped_adrc.core.checks import PositiveFloat, Range
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import derived
 from biped_adrc.core.types import Array, Indices, relabelled
 from biped_adrc.observers.base import Estimate
-from biped_adrc.observers.chain import whole
 
-HIGHEST = 10
-"""Largest order: beyond it coefficients cover more than ten decades and the line gets no better."""
+OrderInt = Annotated[int, Range("a whole number from 1 to 10", lambda x: x in range(1, 11))]
+"""Beyond 10 coefficients cover more than ten decades, and the line gets no better."""
 
 
 @dataclass(frozen=True)
@@ -49,12 +48,9 @@ class Delayed(Around):
     """
 
     delay: PositiveFloat
-    order: int = 4
+    order: OrderInt = 4
     known: bool = False
     torque_limit: PositiveFloat | None = None
-
-    def __post_init__(self) -> None:
-        whole(self.order, 1, "k", "the line's order", HIGHEST)
 
     @derived
     def pade(self) -> tuple[Array, Array]:

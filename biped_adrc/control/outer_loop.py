@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.control.around import Around
-from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.control.base import Controller, Measurement, nested
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import with_fields
 from biped_adrc.core.types import Array, Indices
@@ -132,15 +132,12 @@ def tracked_constraint(controller: Controller, why: str = OF_A_LOOP) -> VirtualC
 
 def own_reference(controller: Controller | None) -> Any:
     """The field `reference` of the controller inside all others (field `inner`); None where it has none."""
-    while controller is not None and not hasattr(controller, "reference"):
-        controller = getattr(controller, "inner", None)
-    return getattr(controller, "reference", None)
+    return next((c.reference for c in nested(controller) if hasattr(c, "reference")), None)
 
 
 def tracking(controller: Controller, reference: Constraint) -> Controller:
     """A copy of the controller, or of that inside it (field `inner`), with another reference."""
-    here = hasattr(controller, "reference")
-    if here:
+    if hasattr(controller, "reference"):
         return with_fields(controller, reference=reference)
     return with_fields(controller, inner=tracking(controller.inner, reference))  # type: ignore[attr-defined]
 
@@ -171,9 +168,7 @@ def innermost(loop: OuterLoop, s: Array) -> Controller:
 
     An observer of outputs starts from the error of that, not of h alone.
     """
-    core: Controller = loop
-    while isinstance(core, OuterLoop):
-        core = core.inner
+    core = next(c for c in nested(loop) if not isinstance(c, OuterLoop))
     return core if own_reference(core) is None else tracking(core, reference_in_force(loop, s))
 
 

@@ -198,16 +198,10 @@ def _readable(record: Mapping[str, Any]) -> str:
 
 
 def gait_names(robot: str, preset: str) -> tuple[str, ...]:
-    """Names of the stored gaits of a robot and preset, sorted.
-
-    Files are called NAME-PRESET.json, and one preset may be the end of another, as "bare" is of
-    "identified-bare": files of the longer preset are not taken for gaits of the shorter one.
-    """
+    """Names of the stored gaits of a robot and preset, sorted; files are called NAME-PRESET.json."""
     end = f"-{preset}.json"
-    folder = data_folder("gaits") / robot
-    result = (f.name.removesuffix(end) for f in folder.glob(f"*{end}"))
-    known = {name.removesuffix("-identified") for name in result}
-    return tuple(sorted(name for name in known if (folder / f"{name}{end}").is_file()))
+    files = (data_folder("gaits") / robot).glob(f"*{end}")
+    return tuple(sorted(file.name.removesuffix(end) for file in files))
 
 
 def load_gait(gait: str | Path, biped: Biped, other_robot: bool = False) -> Gait:
@@ -270,17 +264,6 @@ def onto_section(biped: Biped, q: Array, slope: float = 0.0) -> Array:
             f"the swing foot stays {height:.3g} m off the ground: no configuration near this one reaches it"
         )
     return q
-
-
-def impact_smoothness(gait: Gait, biped: Biped) -> Array:
-    """Jump of the tracking error's rate at impact: q_b'+ - h'(Theta+) Theta'+ (p,) [rad/s].
-
-    Zero for a hybrid-invariant constraint; otherwise each impact disturbs the tracking controller by this much.
-    """
-    q, v = gait.start(biped)
-    c = gait.constraint
-    _, slope, _ = c.h(float(c.phase @ q))
-    return v[: biped.p] - slope * float(c.phase @ v)
 
 
 def finite_vector(record: Mapping[str, object], key: str, length: int) -> Array:

@@ -22,7 +22,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.core.errors import GaitError
 from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Polynomial
@@ -78,23 +77,16 @@ def fit_to_x_star(biped: Biped) -> RecipeParameters:
 def inverse_kinematics(leg: Array, length: float) -> tuple[float, float]:
     """Absolute thigh angle and knee angle (backwards, < 0) [rad] for the vector hip to foot (2,) [m].
 
-    Thigh and shin of equal length; a link of angle a points along (-sin a, cos a). Raises GaitError.
+    Thigh and shin of equal length; a link of angle a points along (-sin a, cos a).
     """
     reach = float(np.hypot(*leg))
-    if not 0.0 < reach <= 2.0 * length:
-        raise GaitError(
-            f"the foot is {reach:.4g} m from the hip, the leg reaches {2.0 * length:.4g} m"
-        )
     knee = -2.0 * float(np.arccos(reach / (2.0 * length)))
     thigh = float(np.arctan2(-leg[0], leg[1])) - 0.5 * knee
     return thigh % (2.0 * np.pi), knee
 
 
 def joint_trajectories(biped: Biped, p: RecipeParameters, s: Array) -> Array:
-    """Configurations q (K, 5) [rad] at the shares s (K,) of a step, by inverse kinematics of both legs.
-
-    Raises GaitError where a foot would be out of reach of its leg.
-    """
+    """Configurations q (K, 5) [rad] at the shares s (K,) of a step, by inverse kinematics of both legs."""
     pose = onto_section(biped, X_STAR[: biped.n])
     x_hip, z_hip = biped.hip(pose)
     length = 0.5 * float(np.linalg.norm(biped.hip(np.zeros(biped.n))))
@@ -134,14 +126,9 @@ def regress(theta: Array, joints: Array, degree: int) -> tuple[Polynomial, float
 
 
 def recipe_constraint(biped: Biped, p: RecipeParameters) -> tuple[VirtualConstraint, float]:
-    """The virtual constraint of the recipe and the largest residual of its regression [rad].
-
-    Raises GaitError when Theta is not strictly decreasing over the step, so that it is no phase.
-    """
+    """The virtual constraint of the recipe and the largest residual of its regression [rad]."""
     q = joint_trajectories(biped, p, np.linspace(0.0, 1.0, SAMPLES))
     theta = q @ biped.phase
-    if not np.all(np.diff(theta) < 0):
-        raise GaitError("Theta does not decrease through the step; it cannot be the phase")
     curve, residual = regress(theta, q[:, : biped.p], p.degree)
     constraint = VirtualConstraint(curve, biped.phase, float(theta[0]), float(theta[-1]))
     return constraint, residual
@@ -150,7 +137,7 @@ def recipe_constraint(biped: Biped, p: RecipeParameters) -> tuple[VirtualConstra
 def design_recipe_gait(biped: Biped) -> Gait:
     """Gait (b) with the pre-impact state of its zero dynamics, as if the impact were smooth.
 
-    Raises GaitError when a foot is out of reach, Theta is no phase, or there is no periodic orbit.
+    Raises GaitError when there is no periodic orbit.
     """
     p = fit_to_x_star(biped)
     constraint, residual = recipe_constraint(biped, p)

@@ -221,6 +221,19 @@ def configuration(constraint: VirtualConstraint, theta: float) -> tuple[Array, A
     )
 
 
+def impact_jump(
+    biped: Biped, constraint: VirtualConstraint, q: Array, v: Array
+) -> tuple[Array, Array]:
+    """How far an impact at (q-, q'-) (n,) [rad, rad/s] leaves a constraint: q_b+ - h(Theta+) [rad] and
+    q_b'+ - h'(Theta+) Theta'+ [rad/s], each (p,).
+
+    Zero for a hybrid-invariant constraint; otherwise each impact disturbs the tracking controller by this much.
+    """
+    after, c, p = biped.impact(q, v), constraint.phase, biped.p
+    h, slope, _ = constraint.h(float(c @ after.q))
+    return after.q[:p] - h, after.v[:p] - slope * float(c @ after.v)
+
+
 def invariant_constraint(
     kind: type[ControlledCurve], biped: Biped, q: Array, dq: Array, degree: int
 ) -> VirtualConstraint:

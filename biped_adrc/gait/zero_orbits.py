@@ -134,25 +134,20 @@ class ZeroOrbits(Shown):
 
         Raises GaitError that says which condition of existence or stability fails, and by how much.
         """
-        d2, V = self.delta**2, self.v_end
+        d2, V, unit = self.delta**2, self.v_end, "kg^2 m^4/s^2"
         for holds, text in (
             (
                 d2 < 1.0,
-                f"delta^2 = {d2:.6g}, expected below 1 (the impact has to take angular momentum); take longer "
-                "steps or a faster retraction of the swing leg",
+                f"delta^2 = {d2:.6g}, expected below 1; take longer steps, retract the leg faster",
             ),
             (
                 V < 0.0,
-                f"V_zero(Theta-) = {V:.6g} kg^2 m^4/s^2, expected below 0: gravity takes from a step more than "
-                "it "
-                "gives; move the hip forward over the step",
+                f"V_zero(Theta-) = {V:.6g} {unit}, expected below 0; move the hip forward over the step",
             ),
             (
                 self.existence < 0.0,
-                f"a step would begin {self.existence:.3g} kg^2 m^4/s^2 short of the V_max = {self.v_max:.6g} "
-                f"that it has to pass at Theta = {self.theta_max:.4g} rad; shorten the first half of the step "
-                "or lower "
-                "the hip in it",
+                f"a step would begin {self.existence:.3g} {unit} short of the V_max = {self.v_max:.6g} that it "
+                f"has to pass at Theta = {self.theta_max:.4g} rad; lower the hip there or shorten the way",
             ),
         ):
             if not holds:
@@ -201,18 +196,13 @@ class ZeroOrbits(Shown):
         return square
 
     def period(self, zeta: float) -> float:
-        """Duration [s] of the step after zeta, int |I / sigma| dTheta.
+        """Duration [s] of the step after zeta, int |I / sigma| dTheta; also at the lower end of the domain.
 
-        Raises GaitError as rho, and for a step that comes too near to rest.
+        By adaptive quadrature, which sigma near 0 at V_max asks for. Raises GaitError as rho, and where its
+        error estimate exceeds _DURATION of it, in a step that comes too near to rest.
         """
-        self.rho(zeta)
-        return self._duration(zeta)
-
-    def _duration(self, zeta: float) -> float:
-        """int |I / sigma| dTheta [s] by adaptive quadrature, which sigma near 0 at V_max asks for.
-
-        Raises GaitError where its error estimate exceeds _DURATION of it.
-        """
+        if zeta != self.lowest:
+            self.rho(zeta)
         c, low = self.zero.constraint, self.lowest
 
         def slowness(theta: float) -> float:
@@ -241,9 +231,9 @@ class ZeroOrbits(Shown):
 
     def speed(self, zeta: float) -> float:
         """Average speed [m/s] of the step after zeta; its limit at the lower end of the domain."""
-        if zeta != self.lowest:
-            return self.step_length / self.period(zeta)
-        return 0.0 if self._slows_down_for_ever else self.step_length / self._duration(zeta)
+        if zeta == self.lowest and self._slows_down_for_ever:
+            return 0.0
+        return self.step_length / self.period(zeta)
 
     @cached_property
     def _slows_down_for_ever(self) -> bool:

@@ -196,12 +196,6 @@ class LinkMotion:
         h = self.momentum(joints)
         return -float((h.angular - np.cross([point[0], 0.0, point[1]], h.linear))[1])
 
-    @property
-    def new_foot(self) -> Array:
-        """Place (x, z) of the swing foot (2,) [m], the contact point of the impact."""
-        place: Array = self.data.oMf[self.floating.swing].translation
-        return place[[0, 2]]
-
     def old_leg(self) -> list[int]:
         """Pinocchio's numbers of the joints of the leg that was the support, from its knee up to its hip."""
         model, result = self.floating.model, []
@@ -226,9 +220,3 @@ class LinkMotion:
         rotor = -float((below - above)[1]) * float(model.armature[model.joints[joint].idx_v])
         centre = data.oMi[joint].translation[[0, 2]]
         return self.about(centre, model.subtrees[joint]) + rotor
-
-    @property
-    def com_velocity(self) -> Array:
-        """Velocity (x, z) of the COM (2,) [m/s]."""
-        velocity: Array = self.momentum().linear / pin.computeTotalMass(self.floating.model)
-        return velocity[[0, 2]]

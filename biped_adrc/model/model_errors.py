@@ -18,7 +18,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from biped_adrc.core.errors import InputError, ModelError, check_whole
+from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.model.biped import Biped
@@ -75,14 +75,9 @@ class ModelErrors(Shown):
 
         mass, com, inertia, friction: the widths, dimensionless. Friction is drawn for the joints
         that have some, where the robot was loaded with friction. The errors depend on the seed and
-        on the bodies, in their order. Raises InputError for a width outside [0, 1).
+        on the bodies, in their order. Raises InputError for widths with which nothing may be left.
         """
-        for kind, width in zip(KINDS, (mass, com, inertia, friction), strict=True):
-            if not 0.0 <= width < 1.0:
-                raise InputError(
-                    f"the width of errors of {kind} is {width}, expected 0 <= width < 1"
-                )
-        random = _random(seed)
+        random = np.random.default_rng(seed)
         bodies = tuple(biped.description.links)
         m, d, J = (
             dict(zip(bodies, random.uniform(-width, width, len(bodies)).tolist(), strict=True))
@@ -132,13 +127,7 @@ def impact_error(seed: int, spread: float, n: int) -> Array:
 
     The impact then leaves (1 + e) q'+ in place of q'+ of (7).
     """
-    return _random(seed).uniform(-spread, spread, n)
-
-
-def _random(seed: int) -> np.random.Generator:
-    """Random numbers of a seed. Raises InputError unless it is a whole number >= 0."""
-    check_whole(seed, f"the seed of model errors is {seed}")
-    return np.random.default_rng(seed)
+    return np.random.default_rng(seed).uniform(-spread, spread, n)
 
 
 def _rubbing(biped: Biped) -> Iterator[tuple[str, ...]]:

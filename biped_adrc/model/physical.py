@@ -33,13 +33,11 @@ def check_planar(tree: Tree, d: RobotDescription) -> None:
 
     Raises ModelError that names the joint, its axis and the expected one.
     """
-    checked_values: list[tuple[str, str, Vector]] = [
-        (d.base[0], "prismatic", (1.0, 0.0, 0.0)),
-        (d.base[1], "prismatic", (0.0, 0.0, 1.0)),
-        *((name, "revolute", (0.0, 1.0, 0.0)) for name in d.joints),
-    ]
+    x, y, z = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    axes: dict[str, Vector] = {d.base[0]: x, d.base[1]: z, **dict.fromkeys(d.joints, y)}
     joints = {joint.name: joint for joint in tree.joints}
-    for name, kind, axis in checked_values:
+    for name, axis in axes.items():
+        kind = "revolute" if axis == y else "prismatic"
         joint = joints.get(name)
         along = 0.0 if joint is None else float(np.dot(joint.axis, axis))
         off = 1.0 - (abs(along) if kind == "revolute" else along)
@@ -73,14 +71,11 @@ def check_numbers(biped: Biped) -> None:
                     "for masses, inertias and lengths that are far apart"
                 )
             try:
-                impact = biped.impact(q, v)
-            except SingularError as error:
-                raise ModelError(
-                    f"{where}: {error}; look for a foot that no joint moves, and for masses and lengths that "
-                    "are far apart"
-                ) from error
-        if not np.all(np.isfinite(np.concatenate((Omega, *impact)))):
+                finite = bool(np.all(np.isfinite(np.concatenate((Omega, *biped.impact(q, v))))))
+            except SingularError:
+                finite = False
+        if not finite:
             raise ModelError(
-                f"{where}: Omega or the impact is not finite at random angles; look for masses or lengths that "
-                "are too large"
+                f"{where}: Omega or the impact (7) is not finite at random angles; look for a foot that no "
+                "joint moves, and for masses and lengths that are too large or far apart"
             )

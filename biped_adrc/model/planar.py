@@ -108,7 +108,7 @@ class PlanarTree:
         Raises ModelError when the robot is not a planar tree of rigid links.
         """
         n, (mass, inertia, A) = biped.n, biped.pinned.bodies()
-        d, _, _ = fitted(A, biped.pinned.points, EXACT)
+        d = fitted(A, biped.pinned.points, EXACT)
         com, rotor = d[:n], np.zeros(n)
         rotor[: biped.p] = biped.armature
         W = com.conj().T @ (mass[:, np.newaxis] * com)
@@ -161,23 +161,21 @@ def _parts(z: ComplexArray) -> tuple[Array, Array]:
     return np.ascontiguousarray(z.real), np.ascontiguousarray(z.imag)
 
 
-def fitted(
-    A: Array, places: Callable[[Array], Array], exact: float
-) -> tuple[ComplexArray, float, float]:
-    """Find the vectors d (points, n) [m] of points fixed to links, by least squares over random angles.
+def fitted(A: Array, places: Callable[[Array], Array], exact: float) -> ComplexArray:
+    """The vectors d (points, n) [m] of points fixed to links, by least squares over random angles.
 
     A is the matrix of the absolute angles (n, n); `places` maps q (n,) [rad] to the places (points, 2) [m].
-    Also returns the largest error of the fit [m] and the largest distance of a place from the origin [m]. Parts
-    of d below `exact` times that distance, or times 1 m where it is smaller, are round-off and set to 0.
+    Parts of d below `exact` times the largest distance of a place from the origin, or times 1 m where it is
+    smaller, are round-off and set to 0.
     """
     n = len(A)
     q = np.random.default_rng(1).uniform(-np.pi, np.pi, (3 * n + 3, n))
     turns = np.exp(1j * q @ A.T)
     there = np.array([np.atleast_2d(places(x)) for x in q]) @ np.array([1.0, 1.0j])
     d = np.linalg.lstsq(turns, there, rcond=None)[0]
-    gap, size = float(np.max(np.abs(turns @ d - there))), float(np.max(np.abs(there)))
-    re, im = (np.where(np.abs(x) < exact * max(1.0, size), 0.0, x) for x in (d.real, d.imag))
-    return (re + 1j * im).T, gap, size
+    least = exact * max(1.0, float(np.max(np.abs(there))))
+    re, im = (np.where(np.abs(x) < least, 0.0, x) for x in (d.real, d.imag))
+    return np.asarray((re + 1j * im).T)
 
 
 # -- laws, for numbers and symbols -----------------------------------------------------------------
@@ -262,9 +260,7 @@ def ground_reaction(robot: Joined, K: PlantArrays, q: Numbers, v: Numbers, a: Nu
 
 
 POINT_EXACT = 1e-10
-"""Largest error of the fit of a `LinkPoint`, relative to the point's largest distance from the stance foot, or
-to the leg's length where that is larger: the stance foot is a point too.
-"""
+"""Parts of a `LinkPoint` below this, relative to its largest distance from the stance foot, are round-off."""
 
 
 class LinkPoint(NamedTuple):
@@ -296,7 +292,8 @@ def link_point(biped: Biped, link: str, at: tuple[float, float] | None = None) -
     coordinates.
     """
     f, x_z = biped.floating, at or (0.0, 0.0)
-    known = [name for name in biped.tree.links if _moves(biped, name)]
+    tree, trunk = biped.tree, biped.description.trunk
+    known = [name for name in tree.links if tree.path_below(name, trunk) is not None]
     if link not in known:
         raise ModelError(
             f"robot '{biped.description.name}' has no link '{link}' that moves with its coordinates; it has "
@@ -310,31 +307,16 @@ def link_point(biped: Biped, link: str, at: tuple[float, float] | None = None) -
 
     zero = f.configuration(np.zeros(biped.n))
     J = pin.computeFrameJacobian(f.model, f.data, zero, frame, pin.LOCAL_WORLD_ALIGNED)
-    return _fitted(biped, place, np.ascontiguousarray(-J[4, f.angles]), link)
+    return _fitted(biped, place, np.ascontiguousarray(-J[4, f.angles]))
 
 
 def hip_point(biped: Biped) -> LinkPoint:
     """The hip as a point without rotation: forces act there, moments do not."""
-    return _fitted(biped, biped.hip, np.zeros(biped.n), "hip")
+    return _fitted(biped, biped.hip, np.zeros(biped.n))
 
 
-def _moves(biped: Biped, link: str) -> bool:
-    """Whether a link is the trunk or hangs below it in the URDF, and so moves with the coordinates."""
-    return biped.tree.path_below(link, biped.description.trunk) is not None
-
-
-def _fitted(biped: Biped, place: Callable[[Array], Array], turn: Array, name: str) -> LinkPoint:
-    """The `LinkPoint` of a point, fitted to its place (x, z) [m] as a function of q (n,) [rad].
-
-    turn: b (n,) of the link. name: of the point, for messages. Raises ModelError where the fit is not exact.
-    """
+def _fitted(biped: Biped, place: Callable[[Array], Array], turn: Array) -> LinkPoint:
+    """The `LinkPoint` with this place (x, z) [m] as a function of q (n,) [rad]; turn: b (n,) of its link."""
     _, _, A = biped.pinned.bodies()
-    (d,), gap, size = fitted(A, place, POINT_EXACT)
-    size = max(size, float(np.linalg.norm(biped.hip(np.zeros(biped.n)))))
-    if not gap <= POINT_EXACT * size:
-        raise ModelError(
-            f"robot '{biped.description.name}': '{name}' is no point of a planar tree; its place is off by "
-            f"{gap:.1e} m at random angles, expected less than {POINT_EXACT * size:.1e} m"
-        )
-    A, re, im = map(np.ascontiguousarray, (A, d.real, d.imag))
-    return LinkPoint(A, re, im, turn)
+    (d,) = fitted(A, place, POINT_EXACT)
+    return LinkPoint(np.ascontiguousarray(A), *_parts(d), turn)

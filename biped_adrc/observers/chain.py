@@ -26,7 +26,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from biped_adrc.core.errors import InputError, check_positive
+from biped_adrc.core.errors import InputError, check_count, check_positive
 from biped_adrc.core.part import derived
 from biped_adrc.core.types import Array, Indices, relabelled
 from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
@@ -64,20 +64,11 @@ def stable_poles(poles: Sequence[complex], what: str) -> tuple[complex, ...]:
 
 
 def equal_poles(bandwidth: float, number: int) -> tuple[complex, ...]:
-    """That many poles at -bandwidth [rad/s]. Raises InputError unless it is positive."""
+    """That many poles at -bandwidth [rad/s]. Raises InputError unless both are positive, and not too many."""
     check_positive(bandwidth, f"observer bandwidth is {bandwidth} rad/s")
+    check_count(number, f"an observer has {number!r} poles")
+    check_chain(number, bandwidth, "an observer")
     return (complex(-bandwidth),) * number
-
-
-def whole(number: int, least: int, name: str, what: str, most: int = MOST_POLES - 2) -> int:
-    """The number as an int, as m of m + 2 poles. Raises InputError unless it is whole, `least` to `most`."""
-    is_whole = isinstance(number, (int, np.integer)) and not isinstance(number, bool)
-    if not (is_whole and least <= number <= most):
-        above = f", at most {most}" if is_whole and number > least else ""
-        raise InputError(
-            f"{what} is {name} = {number!r}, expected a whole number {name} >= {least}{above}"
-        )
-    return int(number)
 
 
 def mean_bandwidth(poles: Sequence[complex]) -> float:

@@ -28,7 +28,7 @@ from typing import Self
 
 import numpy as np
 
-from biped_adrc.core.errors import InputError, check_positive
+from biped_adrc.core.errors import InputError, check_positive, check_whole
 from biped_adrc.core.part import derived
 from biped_adrc.core.types import Array
 from biped_adrc.observers.base import ErrorSystem
@@ -39,7 +39,6 @@ from biped_adrc.observers.chain import (
     mean_bandwidth,
     scaled_polynomial,
     stable_poles,
-    whole,
 )
 
 TABLE_I = tuple(-180.0 * 1.8**k for k in range(9))
@@ -117,7 +116,8 @@ class GPIObserver(InjectedChain):
 
         Raises InputError.
         """
-        return cls.from_poles(equal_poles(bandwidth, whole(m, 0, "m", "observer order") + 2))
+        check_whole(m, f"observer order m is {m!r}")
+        return cls.from_poles(equal_poles(bandwidth, m + 2))
 
 
 @dataclass(frozen=True)

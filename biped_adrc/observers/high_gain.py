@@ -22,10 +22,9 @@ from math import comb
 import numpy as np
 
 from biped_adrc.core.checks import numbers
-from biped_adrc.core.errors import InputError, check_positive
+from biped_adrc.core.errors import InputError, check_positive, check_whole
 from biped_adrc.core.part import derived
 from biped_adrc.core.types import Array
-from biped_adrc.observers.chain import whole
 from biped_adrc.observers.gpi import InjectedChain
 
 
@@ -45,10 +44,10 @@ class HighGainObserver(InjectedChain):
         stable polynomial of degree m + 2.
         """
         check_positive(epsilon, f"epsilon is {epsilon} s", " as 0.002")
-        m = whole(m, 1, "m", "order of an observer with a state for the disturbance")
+        check_whole(m, f"the order m of a high-gain observer is {m!r}", 1)
         if alpha is None:
             alpha = [comb(m + 2, i) for i in range(1, m + 3)]
-        return cls(m, 1.0 / float(epsilon), _hurwitz(alpha, m))
+        return cls(int(m), 1.0 / float(epsilon), _hurwitz(alpha, m))
 
     @property
     def epsilon(self) -> float:

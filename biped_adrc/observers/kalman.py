@@ -26,10 +26,10 @@ from math import factorial
 import numpy as np
 from scipy.linalg import solve_discrete_are
 
-from biped_adrc.core.errors import check_positive
+from biped_adrc.core.errors import check_positive, check_whole
 from biped_adrc.core.part import derived
 from biped_adrc.core.types import Array
-from biped_adrc.observers.chain import SampledChain, whole
+from biped_adrc.observers.chain import SampledChain
 from biped_adrc.observers.gpi import InjectedChain
 
 
@@ -47,10 +47,10 @@ class KalmanObserver(InjectedChain):
         An encoder with errors of standard deviation s at ticks of T seconds has the measurement s T^(1/2).
         Raises InputError for numbers that are not positive, and for m below 1.
         """
-        m = whole(m, 1, "m", "order of an observer with a state for the disturbance")
+        check_whole(m, f"the order m of a Kalman observer is {m!r}", 1)
         check_positive(drift, f"the drift of a Kalman observer is {drift} rad/s^{m + 1.5:g}")
         check_positive(measurement, f"its measurement noise is {measurement} rad s^(1/2)")
-        return cls(m, float(drift / measurement) ** (1.0 / (m + 2)), float(measurement) ** 2)
+        return cls(int(m), float(drift / measurement) ** (1.0 / (m + 2)), float(measurement) ** 2)
 
     @property
     def intensity(self) -> float:

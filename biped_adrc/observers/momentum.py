@@ -36,12 +36,10 @@ import numpy as np
 from biped_adrc.core.types import Array, Indices, relabelled
 from biped_adrc.observers.base import ResetPolicy
 from biped_adrc.observers.chain import (
-    MOST_POLES,
     ChainObserver,
     equal_poles,
     mean_bandwidth,
     stable_poles,
-    whole,
 )
 from biped_adrc.observers.gpi import InjectedChain, SampledGPIObserver
 
@@ -95,8 +93,7 @@ class MomentumObserver(MomentumChain, InjectedChain):
     @classmethod
     def from_bandwidth(cls, bandwidth: float, order: int = 2) -> MomentumObserver:
         """The observer with k = order poles, two or more, all at -bandwidth [rad/s]. Raises InputError."""
-        number = whole(order, 2, "k", "the number of poles of a momentum observer", MOST_POLES)
-        return cls.from_poles(equal_poles(bandwidth, number))
+        return cls.from_poles(equal_poles(bandwidth, order))
 
     def sampled(self, period: float) -> SampledMomentumObserver:
         """The discrete observer with period T [s] and poles exp(s T), in its current form.

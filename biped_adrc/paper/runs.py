@@ -19,8 +19,7 @@ from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.processes import Task
 from biped_adrc.core.types import relabelled
-from biped_adrc.gait.gait import impact_smoothness
-from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.gait.zero_dynamics import ZeroDynamics, impact_jump
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.paper import scenarios
@@ -164,7 +163,8 @@ def jumps(preset: str) -> dict[str, float]:
     before = biped.reduction(gait.q_minus, gait.v_minus)
     after = biped.reduction(*gait.start(biped))
     xi, edge = after.xi - relabelled(before.xi, biped.swap), after.kappa @ np.full(biped.p, 30.0)
-    rates = {name: impact_smoothness(of.walked, biped) for name, of in scenes.items()}
+    gaits = {name: of.walked for name, of in scenes.items()}
+    rates = {k: impact_jump(biped, g.constraint, g.q_minus, g.v_minus)[1] for k, g in gaits.items()}
     result = {"xi_at_impact": xi, "xi_at_an_edge": edge, **rates}
     return {name: float(np.max(np.abs(x))) for name, x in result.items()} | {"period": gait.period}
 

@@ -33,8 +33,7 @@ from biped_adrc.analysis.certificate import Certificate, after_last_impact, cert
 from biped_adrc.analysis.feasibility import Feasibility, until_infeasible
 from biped_adrc.analysis.ground_force import Nodes
 from biped_adrc.analysis.quadrature import integrate
-from biped_adrc.analysis.recorded_signals import PLACE, recorded
-from biped_adrc.analysis.signals import Signals, signals
+from biped_adrc.analysis.signals import PLACE, Signals, recorded, signals
 from biped_adrc.analysis.soft_steps import SoftStep, recorded_steps, slip_times
 from biped_adrc.analysis.touchdowns import Noticed, touchdowns
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Walker

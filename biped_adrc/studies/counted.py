@@ -14,9 +14,9 @@ import math
 import numpy as np
 
 from biped_adrc.analysis.certificate import IMPULSE, REASONS
-from biped_adrc.analysis.contact_errors import contact_errors
 from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.analysis.ground_force import Nodes
+from biped_adrc.analysis.soft_steps import contact_errors
 from biped_adrc.core.types import Array
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.recording import Walk

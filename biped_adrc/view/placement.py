@@ -32,8 +32,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.analysis import soft_steps as meters
-from biped_adrc.analysis.recorded_signals import FORCE, PLACE, SPEED, footholds
-from biped_adrc.analysis.signals import Signals
+from biped_adrc.analysis.signals import FORCE, PLACE, SPEED, Signals, footholds
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.checks import Checked, PositiveFloat
 from biped_adrc.core.errors import InputError

@@ -326,7 +326,6 @@ def test_a_torque_for_another_robot_is_refused_before_it_acts(biped, gait):
         lambda biped: TorqueNoise([1.0, 2.0], bandwidth=1.0, seed=1.5),
         lambda biped: StepUp(1, -0.01),
         lambda biped: StepDown(0, 0.01),
-        lambda biped: uneven_ground(1, -1.0, 3),
     ],
 )
 def test_what_does_not_fit_is_refused(biped, make):

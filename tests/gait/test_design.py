@@ -5,6 +5,7 @@ from __future__ import annotations
 import signal
 from threading import Timer, get_ident
 
+import casadi as ca
 import numpy as np
 import pytest
 
@@ -12,12 +13,17 @@ from biped_adrc.analysis.gait_design import DesignedGait, design_gait
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.gait.design.optimise import audit, optimise
 from biped_adrc.gait.design.request import GaitRequest, StepLimits
-from biped_adrc.gait.gait import load_gait, onto_section
-from biped_adrc.gait.library import GaitLibrary, speed_of
+from biped_adrc.gait.gait import Gait, load_gait, onto_section
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import PlanarTree, ground_reaction, point, turned
+
+
+def speed_of(gait: Gait, biped: Biped) -> float:
+    """Along the ground [m/s]."""
+    return float(np.hypot(*biped.swing_foot(gait.q_minus)) / gait.period)
+
 
 SPEEDS = tuple(round(0.4 + 0.1 * k, 1) for k in range(8))
 
@@ -126,17 +132,6 @@ def test_stored_gaits_have_their_speed_and_keep_the_limits(preset: str) -> None:
         assert zero.end_state(zero.sigma_minus)[1] == pytest.approx(gait.v_minus, abs=1e-9)
 
 
-def test_library_is_written_read_and_searched(tmp_path, level: DesignedGait) -> None:
-    biped = Biped.load("rabbit", "tac2003")
-    for stored in (level.gait, load_gait("v0.5", biped)):
-        stored.save(tmp_path / stored.file_name)
-    library = GaitLibrary.load(tmp_path, biped)
-    assert library.speeds == pytest.approx((0.5, 0.8), abs=1e-5)
-    assert library.nearest(0.9).name == level.gait.name
-    with pytest.raises(GaitError, match="no gait of robot 'rabbit', preset 'identified'"):
-        GaitLibrary.load(tmp_path, Biped.load("rabbit", "identified"))
-
-
 # -- bad input -------------------------------------------------------------------------------------
 
 
@@ -166,8 +161,14 @@ def test_requests_without_a_gait(asked: dict, word: str) -> None:
         design_gait(**asked)
 
 
-def test_ctrl_c_ends_ipopt() -> None:
-    request = GaitRequest(0.9, 0.6, limits=StepLimits(clearance=None))
-    Timer(0.1, signal.pthread_kill, (get_ident(), signal.SIGINT)).start()
+def test_ctrl_c_ends_ipopt(monkeypatch) -> None:
+    request, me = GaitRequest(0.9, 0.6, limits=StepLimits(clearance=None)), get_ident()
+
+    def interrupted(*arguments, nlpsol=ca.nlpsol):
+        solver = nlpsol(*arguments)
+        Timer(0.02, signal.pthread_kill, (me, signal.SIGINT)).start()
+        return solver
+
+    monkeypatch.setattr(ca, "nlpsol", interrupted)
     with pytest.raises(KeyboardInterrupt):
         optimise(Biped.load("three_link"), request)

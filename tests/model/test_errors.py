@@ -123,7 +123,7 @@ def test_an_impact_error_of_plus_makes_the_rates_larger(bare, published, engine)
         lambda: ModelErrors(mass={"torso": 1e308}).apply(rough()),
         lambda: ModelErrors(friction={"left_knee": 0.1}).apply(rough()),
         lambda: ModelErrors(friction={"torso_pitch": 0.1}).apply(rough()),
-        lambda: ModelErrors.drawn(rough(), 1, mass=1.0),
+        lambda: ModelErrors.drawn(rough(), 1, mass=9.0),
     ],
 )
 def test_errors_that_leave_nothing_or_do_not_fit_are_refused(make):

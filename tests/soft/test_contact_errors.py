@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.contact_errors import contact_errors
-from biped_adrc.analysis.soft_steps import recorded_steps, soft_steps
+from biped_adrc.analysis.soft_steps import contact_errors, recorded_steps, soft_steps
 from biped_adrc.closed_loop.feet import with_readings
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.model.ground import ground_axes

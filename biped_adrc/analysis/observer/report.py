@@ -31,14 +31,12 @@ from biped_adrc.analysis.observer.impact import ImpactStates, impact_peak, orbit
 from biped_adrc.analysis.observer.loop import GRID
 from biped_adrc.analysis.observer.sampled import largest_delay, largest_period
 from biped_adrc.control.tracking import TABLE_II, Gains
-from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import columns
-from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
-from biped_adrc.observers.base import Observer, ResetPolicy
+from biped_adrc.observers.base import ResetPolicy
 from biped_adrc.observers.gpi import GPIObserver
 
 COUNTS = 8192.0
@@ -285,20 +283,12 @@ def observer_report(
     instant to its torque, `known` to the observer or not. Of gains with one number per joint those
     of the first count. Raises InputError for what is impossible, and names it.
     """
-    if isinstance(observer, Observer) and not isinstance(observer, GPIObserver):
-        raise InputError(
-            f"a report on a {type(observer).__name__} was asked for, expected a GPIObserver in continuous "
-            "time or its poles [rad/s]"
-        )
     if not isinstance(observer, GPIObserver):
         observer = GPIObserver.from_poles(observer)
-    SampledTime(period, delay=delay)
-    if not (math.isfinite(counts) and counts >= 1.0):
-        raise InputError(f"the encoders have {counts} counts per revolution, expected at least 1")
     gains.check(robot.p)
     limit, inertia = robot.description.peak_torque, worst_inertia(robot, gait)
     hardware = Hardware(period, delay, known, float(counts), limit, inertia)
-    OnHardware(hardware, observer, gains).sampled()  # refuses an order that round-off spoils
+    OnHardware(hardware, observer, gains).sampled()  # refuses what has no sampled form
     name = f"{robot.description.name} ({robot.preset})"
     impact = orbit_impact(robot, gait, observer.order)
     return ObserverReport(hardware, observer, gains, robot=name, impact=impact)

@@ -10,7 +10,7 @@ hybrid-invariant and the orbit periodic to round-off.
 
 The programme keeps its limits at the nodes only. `audit` evaluates the same rows for the exact gait at many
 more; if one is missed there, the programme is solved once more with twice the nodes. A programme without a
-solution ends in `ipopt.relaxed`, which names the limits that contradict each other. `analysis.gait_design`
+solution ends in `nlp.relaxed`, which names the limits that contradict each other. `analysis.gait_design`
 calls `optimise` and then walks the gait in simulation.
 """
 
@@ -24,8 +24,7 @@ import numpy as np
 
 from biped_adrc.core.errors import GaitError
 from biped_adrc.core.types import Array
-from biped_adrc.gait.design.ipopt import ASKED, Bounds, IpoptResult, relaxed, solve
-from biped_adrc.gait.design.nlp import transcribe
+from biped_adrc.gait.design.nlp import ASKED, Bounds, relaxed, solve, transcribe
 from biped_adrc.gait.design.request import GaitRequest, Objective, RobotLimits
 from biped_adrc.gait.design.start import cold_start
 from biped_adrc.gait.design.step import Unknowns, at_gait, flat
@@ -117,7 +116,7 @@ def optimise(biped: Biped, request: GaitRequest) -> Optimum:
             "designed for robots with one coordinate without a motor and at least one motor"
         )
     for nodes in (request.nodes, 2 * request.nodes):
-        x, iterations = _staged(biped, replace(request, nodes=nodes))
+        x, iterations = _solution(biped, replace(request, nodes=nodes))
         spent += iterations
         try:
             gait, orbit = exact_gait(biped, request, x)
@@ -133,53 +132,34 @@ def optimise(biped: Biped, request: GaitRequest) -> Optimum:
     )
 
 
-def _staged(biped: Biped, request: GaitRequest) -> tuple[Unknowns[Array], int]:
+def _solution(biped: Biped, request: GaitRequest) -> tuple[Unknowns[Array], int]:
     """The solution and the number of iterations, stage after stage of the request.
 
-    A stage that is not solved hands the guess of the one before on; only the last one has to be solved.
+    IPOPT lowers its barrier in the adaptive and then in the monotone way. A stage that is not solved hands on
+    the guess of the one before. Where the last one is not, its limits are relaxed, and IPOPT starts again from
+    the feasible point found; raises GaitError with the reason if that fails too.
     """
     stages, iterations, limits = request.stages(), 0, request.limits.of(biped)
     guess = cold_start(biped, stages[0], limits)
     direction = float(np.sign(guess.theta[1] - guess.theta[0]))
     for stage in stages:
-        last = stage is stages[-1]
-        result, x = _solve(biped, stage, limits, direction, guess, last)
-        iterations += result.iterations
-        if result.solved:
-            guess = x
-    return x, iterations
-
-
-def _solve(
-    biped: Biped,
-    request: GaitRequest,
-    limits: RobotLimits,
-    direction: float,
-    guess: Unknowns[Array],
-    diagnose: bool,
-) -> tuple[IpoptResult, Unknowns[Array]]:
-    """IPOPT from a guess, with the adaptive and then the monotone barrier strategy.
-
-    diagnose: where both fail, relax the limits, start again from the feasible point found, and raise GaitError
-    with the reason if that fails too.
-    """
-    programme, unknowns = transcribe(biped, request, limits, direction)
-    x0, bounds, iterations = flat(guess), _bounds(unknowns, guess, request, limits), 0
-    for strategy in ("adaptive", "monotone"):
-        result = solve(programme, x0, bounds, strategy)
-        iterations += result.iterations
-        if result.solved:
-            break
-    if not result.solved and diagnose:
-        point = relaxed(programme, request.in_words(), x0, bounds, result.status)
-        result = solve(programme, point, bounds)
-        iterations += result.iterations
-        if not result.solved:
-            raise GaitError(
-                f"no gait with {request.in_words()} was found: IPOPT stopped with {result.status}, though its "
-                "limits can be met; try another degree or number of nodes"
-            )
-    return result._replace(iterations=iterations), unknowns.split(result.x)
+        programme, unknowns = transcribe(biped, stage, limits, direction)
+        x0, bounds = flat(guess), _bounds(unknowns, guess, stage, limits)
+        runs = [solve(programme, x0, bounds)]
+        if not runs[-1].solved:
+            runs.append(solve(programme, x0, bounds, "monotone"))
+        if not runs[-1].solved and stage is stages[-1]:
+            point = relaxed(programme, stage.in_words(), x0, bounds, runs[-1].status)
+            runs.append(solve(programme, point, bounds))
+            if not runs[-1].solved:
+                raise GaitError(
+                    f"no gait with {stage.in_words()} was found: IPOPT stopped with {runs[-1].status}, though "
+                    "its limits can be met; try another degree or number of nodes"
+                )
+        iterations += sum(run.iterations for run in runs)
+        if runs[-1].solved:
+            guess = unknowns.split(runs[-1].x)
+    return guess, iterations
 
 
 def _bounds(

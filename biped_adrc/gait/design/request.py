@@ -90,16 +90,10 @@ class StepLimits(Checked, Shown):
             raise GaitError(
                 f"ranges are given for {sorted(unknown)}, robot '{d.name}' has the joints {list(d.joints)}"
             )
-        friction = d.friction_coefficient if self.friction is None else self.friction
-        own = {
-            "friction": friction,
-            "impulse_friction": friction
-            if self.impulse_friction is None
-            else self.impulse_friction,
-            "torque": d.peak_torque if self.torque is None else self.torque,
-            "ranges": {**d.ranges, **self.ranges},
-        }
-        return RobotLimits(**{**vars(self), **own})
+        mu = d.friction_coefficient if self.friction is None else self.friction
+        own = {"friction": mu, "impulse_friction": mu, "torque": d.peak_torque}
+        given = {name: x for name, x in vars(self).items() if x is not None or name == "clearance"}
+        return RobotLimits(**{**own, **given, "ranges": {**d.ranges, **self.ranges}})
 
     def __post_init__(self) -> None:
         for joint, (low, high) in self.ranges.items():

@@ -22,8 +22,8 @@ from biped_adrc.gait.conventions import CONVENTIONS, OWN, layout_of, of_the_pape
 from biped_adrc.gait.exchange.files import read_record, write_record
 from biped_adrc.gait.exchange.record import SLOPES, GaitRecord, coordinates, record_of
 from biped_adrc.gait.exchange.samples import Samples, gait_of_samples
-from biped_adrc.gait.gait import Gait, impact_smoothness
-from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.gait.gait import Gait
+from biped_adrc.gait.zero_dynamics import ZeroDynamics, impact_jump
 from biped_adrc.model.biped import Biped
 
 RATES = 1e-2
@@ -135,7 +135,8 @@ def check_slopes(gait: Gait, biped: Biped) -> None:
 
     It depends on the masses, so this is the one check that tells robots of equal link lengths apart.
     """
-    jump = np.abs(impact_smoothness(gait, biped) / (gait.constraint.phase @ gait.start(biped)[1]))
+    _, jump = impact_jump(biped, gait.constraint, gait.q_minus, gait.v_minus)
+    jump = np.abs(jump / (gait.constraint.phase @ gait.start(biped)[1]))
     joint = int(np.argmax(jump))
     if not jump[joint] <= SLOPES:
         raise GaitError(

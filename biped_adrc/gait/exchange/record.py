@@ -15,7 +15,6 @@ gait to another convention; both keep kind and degree of the curves.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -32,9 +31,7 @@ from biped_adrc.gait.gait import CLOSES, Gait
 from biped_adrc.gait.outputs import all_coordinates
 from biped_adrc.model.biped import Biped
 
-LARGEST = 4.0 * math.pi
-"""[rad]: angles above this are taken for degrees."""
-_TURN = 2.0 * math.pi
+_TURN = 2.0 * np.pi
 _PARALLEL = 1e-12
 """Largest relative difference of two phase rows that count as parallel."""
 SLOPES = 1e-2
@@ -183,12 +180,6 @@ def _of_all(record: GaitRecord, layout: Convention, c: Array) -> Curve:
         )
     curve = curve_kind(record.curve)(record.coefficients)
     s, (plus, minus) = np.linspace(0.0, 1.0, 21), (record.theta_plus, record.theta_minus)
-    largest = float(np.max(np.abs(curve.over(s))))
-    if largest > LARGEST:
-        raise record.error(
-            f"an angle of the curves is {largest:.5g}, expected radians, at most {LARGEST:.4g}; are they "
-            "degrees?"
-        )
     if rows != n or record.outputs is not None:
         return all_coordinates(curve, outputs, c, (plus, minus))
     gap = float(np.max(np.abs(curve.over(s) @ c - (plus + s * (minus - plus)))))

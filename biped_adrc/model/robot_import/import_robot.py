@@ -189,17 +189,8 @@ def _bodies(tree: Tree, feet: tuple[str, str]) -> dict[str, list[str]]:
 
 
 def to_toml(record: Mapping[str, object]) -> str:
-    """TOML text of `record`: its values first, then its tables."""
-    tables = {key: value for key, value in record.items() if isinstance(value, Mapping)}
-    lines = _lines({key: value for key, value in record.items() if key not in tables})
-    for name, table in tables.items():
-        lines += ["", f"[{toml_key(name)}]", *_lines(table)]
-    return "\n".join(lines) + "\n"
-
-
-def _lines(table: Mapping[str, object]) -> list[str]:
-    """The keys of a table with their values."""
-    return [f"{toml_key(key)} = {toml_value(value)}" for key, value in table.items()]
+    """TOML text of `record`, a line for each key."""
+    return "".join(f"{toml_key(key)} = {toml_value(value)}\n" for key, value in record.items())
 
 
 @dataclass(frozen=True)
@@ -279,14 +270,10 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
 
 def _with_tips(path: Path | str, hints: Hints) -> tuple[UrdfContents, tuple[str, ...] | None]:
     """The URDF, and the feet: those of the hints, or links put at their tips. Raises ModelError."""
-    if hints.tip is None:
-        return read(path), hints.feet
-    if hints.feet is None or not all(map(math.isfinite, hints.tip)):
-        raise ModelError(
-            f"URDF '{path}': feet at {hints.tip} m of links {hints.feet}; expected three finite numbers, and "
-            "the links by feet=(...) or --feet"
-        )
-    return read(path, dict.fromkeys(hints.feet, hints.tip)), tuple(map(tip_of, hints.feet))
+    if hints.tip is not None and hints.feet is None:
+        raise ModelError(f"URDF '{path}': give the links with this tip by feet=(...) or --feet")
+    tips = {} if hints.tip is None else dict.fromkeys(hints.feet or (), hints.tip)
+    return read(path, tips), tuple(map(tip_of, tips)) or hints.feet
 
 
 # -- motors ----------------------------------------------------------------------------------------
@@ -343,11 +330,6 @@ def _remarks(reading: UrdfContents, hints: Hints) -> tuple[str, ...]:
         result.append("rotor inertia: none; a URDF does not say")
     if any(reading.viscous.values()) or any(reading.static.values()):
         result.append("joint friction: read from <dynamics>, off unless asked for")
-    if reading.flat:
-        result.append(
-            f"moments about x and z of {list(reading.flat)}: those of slender links; the URDF has none, and "
-            "planar motion needs none"
-        )
     if reading.undrawn:
         result.append(
             f"shapes of {list(reading.undrawn)} are meshes or stand oblique, and are not drawn"

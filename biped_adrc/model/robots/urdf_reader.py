@@ -75,10 +75,6 @@ class UrdfContents:
     """Static friction [N m], where <dynamics friction> is given."""
     undrawn: tuple[str, ...]
     """Links with a shape that was not kept: a mesh, or one that stands oblique."""
-    flat: tuple[str, ...]
-    """Links with a moment about y alone; they got moments of a slender link about x and z, which do
-    not enter planar motion.
-    """
 
 
 def parse(path: Path | str) -> ET.Element:
@@ -115,8 +111,7 @@ def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> UrdfCont
             raise ModelError(f"{file}: two {tag}s are named '{name}'; names must differ")
     ends = [_ends(joint, file) for joint in movers]
     turns = _turns([link.get("name", "") for link in bodies], movers, ends, file)
-    read_links = [_link(link, file, turns) for link in bodies]
-    links = {link.name: link for link, _ in read_links}
+    links = {link.get("name", ""): _link(link, file, turns) for link in bodies}
     joints = tuple(_joint(j, file, turns, *pair) for j, pair in zip(movers, ends, strict=True))
     robot.set("name", robot.get("name", Path(path).stem))
     turning = [joint for joint in movers if joint.get("type") in _CIRCULAR]
@@ -131,8 +126,11 @@ def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> UrdfCont
         },
         _by_joint(turning, "dynamics", "damping", file),
         _by_joint(turning, "dynamics", "friction", file),
-        tuple(e.get("name", "") for e in bodies if _undrawn(e, links)),
-        tuple(link.name for link, flat in read_links if flat),
+        tuple(
+            link.name
+            for e, link in zip(bodies, links.values(), strict=True)
+            if len(e.findall("visual")) > len(link.visuals)
+        ),
     )
 
 
@@ -265,21 +263,22 @@ def _vector(values: Array) -> Vector:
 
 
 # -- links and joints ------------------------------------------------------------------------------
-def _link(element: ET.Element, file: str, turns: Mapping[str, Array]) -> tuple[Link, bool]:
-    """A link with parallel axes, and whether its moments had to be completed."""
+def _link(element: ET.Element, file: str, turns: Mapping[str, Array]) -> Link:
+    """A link with parallel axes."""
     where, R = _place_of(element, file), turns[element.get("name", "")]
     visuals = tuple(v for e in element.findall("visual") if (v := _visual(e, where, R)) is not None)
-    body, inertial, flat = element.find("inertial"), None, False
+    body, inertial = element.find("inertial"), None
     if body is not None:
-        inertial, flat = _inertial(body, where, R)
+        inertial = _inertial(body, where, R)
         check_inertial(inertial, where)
-    return Link(element.get("name", ""), inertial, visuals), flat
+    return Link(element.get("name", ""), inertial, visuals)
 
 
-def _inertial(element: ET.Element, where: str, R: Array) -> tuple[Inertial, bool]:
-    """The body in axes turned by R, and whether its moments had to be completed.
+def _inertial(element: ET.Element, where: str, R: Array) -> Inertial:
+    """The body in axes turned by R.
 
-    A body with a moment about y alone, as some planar URDFs have, gets those of a slender link along z.
+    A body with a moment about y alone, as some planar URDFs have, gets those of a slender link along z,
+    which do not enter planar motion.
     """
     mass = _numbers(_required(element, "mass", where), "value", "", 1, f"{where} <mass>")[0]
     com, turn = _origin(element, f"{where} <inertial>", R)
@@ -289,12 +288,7 @@ def _inertial(element: ET.Element, where: str, R: Array) -> tuple[Inertial, bool
     moments = (0.5 * (turned + turned.T))[np.triu_indices(3)]
     yy = moments[3]
     flat = bool(yy > 0.0 and np.all(np.abs(np.delete(moments, 3)) <= _ROUND_OFF * yy))
-    return Inertial(mass, com, tuple((yy * _SLENDER if flat else moments).tolist())), flat
-
-
-def _undrawn(element: ET.Element, links: Mapping[str, Link]) -> bool:
-    """Whether a link has a shape that was not kept."""
-    return len(element.findall("visual")) > len(links[element.get("name", "")].visuals)
+    return Inertial(mass, com, tuple((yy * _SLENDER if flat else moments).tolist()))
 
 
 def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
