@@ -187,7 +187,7 @@ class Record(BaseModel):
 
         What was registered in this process is written as module:Class, by which any other process finds it.
         """
-        usual = type(self).model_construct() if usual is None else usual
+        usual = usual or by_default(type(self))
         result = {}
         for name in type(self).model_fields:
             x, before = getattr(self, name), getattr(usual, name)
@@ -262,6 +262,12 @@ def read(what: Described, x: Any) -> Any:
     if int in types and isinstance(x, float) and x.is_integer():
         return int(x)
     return x
+
+
+@lru_cache
+def by_default(cls: type[Record]) -> Record:
+    """The record of the defaults."""
+    return cls.model_construct()
 
 
 @lru_cache(maxsize=1024)
