@@ -317,26 +317,21 @@ def names_of(cls: type[Record], before: str = "") -> list[str]:
 def described_in(cls: type[Record], name: str) -> Described:
     """What is known of a value by its dotted name. Raises InputError with the nearest names."""
     at: type[Record] = cls
-    *path, last = [part for part in name.split(".") if not part.isdigit()]
-    for part in path:
+    parts = [part for part in name.split(".") if not part.isdigit()]
+    for k, part in enumerate(parts):
+        inside = k < len(parts) - 1
         if part not in at.model_fields:
+            if issubclass(at, OpenRecord) and not inside:
+                return at.own_value(part)._replace(name=name)
             raise Misfit(name, unknown(name, names_of(cls)))
         inner = record_in(at, part)
-        if inner is None:  # a table
-            return Described(name, (float,), text=str(at.model_fields[part].description))
-        at = inner
-    if last in at.model_fields:
-        inner = record_in(at, last)
         if inner is None:
-            return described(at, last, name)
-        if inner.SHORT in inner.model_fields:
-            return described_in(inner, inner.SHORT)._replace(name=name)
-        raise Misfit(
-            name, f"is a record; name a value in it, as {name}.{next(iter(inner.model_fields))}"
-        )
-    if at.model_config.get("extra") == "allow":
-        return at.own_value(last)._replace(name=name)
-    raise Misfit(name, unknown(name, names_of(cls)))
+            value = described(at, part, name)
+            return Described(name, (float,), text=value.text) if inside else value  # of a table
+        at = inner
+    if at.SHORT in at.model_fields:
+        return described(at, at.SHORT, name)
+    raise Misfit(name, f"is a record; name a value in it, as {name}.{next(iter(at.model_fields))}")
 
 
 def misfit(error: ValidationError, cls: type[Record]) -> Misfit:
