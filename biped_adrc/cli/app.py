@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import partial
 from io import TextIOWrapper
 from pathlib import Path
@@ -93,6 +93,8 @@ class Lasting:
         self.stream = stream
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
+            with suppress(OSError):  # no file of the operating system
+                os.set_blocking(stream.fileno(), True)
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self.stream, name)
