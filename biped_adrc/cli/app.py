@@ -16,7 +16,7 @@ import os
 import shlex
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import partial
 from io import TextIOWrapper
 from pathlib import Path
@@ -95,6 +95,8 @@ class Lasting:
         self.stream = stream
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
+            with suppress(OSError):  # no file of the operating system
+                os.set_blocking(stream.fileno(), True)
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self.stream, name)

@@ -120,8 +120,8 @@ class Run:
         self.calendar, self.method, self.record = calendar, method, record
         self.system, self.mode = calendar.system, calendar.mode
         self.t, self.t_end, self.limit, self.t_event = t, calendar.t_end, math.inf, 0.0
-        self.recorded_walk = self.system.guards(self.mode)
-        names = [guard.name for guard in self.recorded_walk]
+        self.event_functions = self.system.guards(self.mode)
+        names = [guard.name for guard in self.event_functions]
         self.guards, self.fired = len(names), names.index(fired) if fired in names else -1
         self.t_arc, self.armed, self.sloped, self.every = t, 0, 0, record.every
         self.look = self.pulled = 0
@@ -267,7 +267,7 @@ def broken(r: Run) -> int:
 def watch(r: Run, t: float, x: Array, out: Array) -> None:
     """out (guards,): the event functions at (t, x), t in [s]."""
     x = x.copy()
-    for i, guard in enumerate(r.recorded_walk):
+    for i, guard in enumerate(r.event_functions):
         out[i] = guard.witness(t, x)
 
 
@@ -278,7 +278,7 @@ def suspect(r: Run, t0: float, t1: float, count: int) -> bool:
 
 def accepts(r: Run, guard: int, te: float) -> bool:
     """Whether the crossing at te [s] in x_e is an event, whose outcome is then kept."""
-    it, x_minus = r.recorded_walk[guard], r.x_e.copy()
+    it, x_minus = r.event_functions[guard], r.x_e.copy()
     if it.terminal is not None:
         r.accepted[guard] = FoundEvent(Event(it.name, te, x_minus, None), None, it.terminal)
         return True

@@ -53,8 +53,8 @@ def controller(s: Scenario, gait: Gait, biped: Biped) -> Controller:
         "gait": gait,
         "reference": h,
         "outputs": LinearOutputs(rows, h),
+        "torque_limit": s.hardware.torque_limit,
     }
-    known["torque_limit"] = s.hardware.torque_limit
     return _made("controller", s.controller, known)
 
 
@@ -128,7 +128,7 @@ def _observer(
     """
     usual = _default(make)
     kind = type(usual) if o.name is None else find("observer", o.name).load()
-    ways = [*(getattr(kind, name) for name in _ways(kind)), kind]
+    ways = [*(getattr(kind, name) for name in dir(kind) if name.startswith(MAKER)), kind]
     offered = {**settings, **o.own} | ({"m": settings["order"]} if "order" in settings else {})
     if o.name is None and not any(set(offered) & set(takes(way)) for way in ways):
         return (usual if "observer" in lacking(make, ()) else None), set()
@@ -137,12 +137,6 @@ def _observer(
     taken = {"name", *takes(best)} | ({"order"} if "m" in takes(best) else set())
     law = construct(f"the observer of {what}", best, offered, Observer, "controller.observer")  # type: ignore[type-abstract]
     return law, taken
-
-
-def _ways(kind: object) -> list[str]:
-    """Names of the methods `from_...` of a class and its base classes, in the order they are written."""
-    classes = getattr(kind, "__mro__", ())
-    return list(dict.fromkeys(x for cls in classes for x in vars(cls) if x.startswith(MAKER)))
 
 
 def _default(make: Callable[..., object]) -> Observer:

@@ -17,7 +17,7 @@ import ast
 import operator
 import sys
 from collections.abc import Collection, Mapping
-from functools import cache, lru_cache
+from functools import lru_cache
 from inspect import getsource
 from itertools import pairwise
 from types import NoneType, UnionType
@@ -191,7 +191,7 @@ class Record(BaseModel):
 
         What was registered in this process is written as module:Class, by which any other process finds it.
         """
-        usual = usual_of(type(self)) if usual is None else usual
+        usual = usual or by_default(type(self))
         result = {}
         for name in type(self).model_fields:
             x, before = getattr(self, name), getattr(usual, name)
@@ -225,12 +225,6 @@ class Record(BaseModel):
 
     def __hash__(self) -> int:
         return hash(repr(sorted(self.dotted().items())))
-
-
-@cache
-def usual_of(cls: type[Record]) -> Record:
-    """The record of defaults."""
-    return cls.model_construct()
 
 
 class OpenRecord(Record):
@@ -272,6 +266,12 @@ def read(what: Described, x: Any) -> Any:
     if int in types and isinstance(x, float) and x.is_integer():
         return int(x)
     return x
+
+
+@lru_cache
+def by_default(cls: type[Record]) -> Record:
+    """The record of the defaults."""
+    return cls.model_construct()
 
 
 @lru_cache(maxsize=1024)
@@ -340,26 +340,23 @@ def names_of(cls: type[Record], before: str = "") -> list[str]:
 def described_in(cls: type[Record], name: str) -> Described:
     """What is known of a value by its dotted name. Raises InputError with the nearest names."""
     at: type[Record] = cls
-    *path, last = [part for part in name.split(".") if not part.isdigit()]
-    for part in path:
+    parts = [part for part in name.split(".") if not part.isdigit()]
+    for k, part in enumerate(parts):
+        inside = k < len(parts) - 1
         if part not in at.model_fields:
+            if issubclass(at, OpenRecord) and not inside:
+                return at.own_value(part)._replace(name=name)
             raise Misfit(name, unknown(name, names_of(cls)))
         inner = record_in(at, part)
-        if inner is None:  # a table
-            return Described(name, (float,), text=texts(at)[part])
-        at = inner
-    if last in at.model_fields:
-        inner = record_in(at, last)
         if inner is None:
-            return described(at, last, name)._replace(text=texts(at).get(last, ""))
-        if inner.SHORT in inner.model_fields:
-            return described_in(inner, inner.SHORT)._replace(name=name)
-        raise Misfit(
-            name, f"is a record; name a value in it, as {name}.{next(iter(inner.model_fields))}"
-        )
-    if at.model_config.get("extra") == "allow":
-        return at.own_value(last)._replace(name=name)
-    raise Misfit(name, unknown(name, names_of(cls)))
+            text = texts(at)[part]
+            if inside:  # of a table
+                return Described(name, (float,), text=text)
+            return described(at, part, name)._replace(text=text)
+        at = inner
+    if at.SHORT in at.model_fields:
+        return described_in(at, at.SHORT)._replace(name=name)
+    raise Misfit(name, f"is a record; name a value in it, as {name}.{next(iter(at.model_fields))}")
 
 
 def misfit(error: ValidationError, cls: type[Record]) -> Misfit:

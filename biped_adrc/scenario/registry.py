@@ -168,15 +168,12 @@ def _imported(home: str) -> Callable[..., object]:
     if not home.startswith("biped_adrc.") and here not in sys.path and "" not in sys.path:
         sys.path.append(here)
     try:
-        result: object = resolve_name(home)
+        return resolve_name(home)
     except (Exception, SystemExit) as error:  # whatever a module of the user's may raise
         raise InputError(
             f"'{home}' cannot be imported, {type(error).__name__}: {error}; expected package.module:Class, in "
             f"'{here}' or installed, here and where workers run"
         ) from error
-    if not callable(result):
-        raise InputError(f"'{home}' is {result!r}, expected a class or a function")
-    return result
 
 
 @lru_cache(maxsize=1024)
