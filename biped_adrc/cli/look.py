@@ -25,11 +25,10 @@ def animate(
 ) -> None:
     """Write the walk as a page, a picture or a strip."""
     from biped_adrc.scenario.stored import load_walks
-    from biped_adrc.view.export import SUFFIXES, check_suffix, export
+    from biped_adrc.view.export import SUFFIXES, export
     from biped_adrc.view.placement import Clip
 
     runs, clip = [run, *(ghost or [])], with_sets(Clip, sets, start=start, stop=stop)
-    check_suffix(out)
     keep_inputs((output_path(out, SUFFIXES),), runs)
     walks = load_walks(runs)
     first, *others = walks
