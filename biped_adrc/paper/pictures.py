@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def draw_all(r: Results, out: Path, workers: int | None = None) -> dict[str, str]:
-    """Write every figure to `out` as .png and .svg; returns the SVG text by name, for the report."""
+def draw_all(r: Results, out: Path, workers: int | None = None) -> dict[str, bytes]:
+    """Write every figure to `out` as .png and .svg; returns the SVG by name, for the report."""
     named = pictures(r)
     drawn = run_tasks(list(named.values()), workers)
     result = {}
@@ -35,7 +35,7 @@ def draw_all(r: Results, out: Path, workers: int | None = None) -> dict[str, str
         png, svg = picture.value
         write_bytes(out / f"{name}.png", png)
         write_bytes(out / f"{name}.svg", svg)
-        result[name] = svg.decode("utf-8")
+        result[name] = svg
     return result
 
 

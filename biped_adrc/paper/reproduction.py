@@ -34,7 +34,7 @@ from biped_adrc.paper.verdict import tally, texts
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.stored import replay
 from biped_adrc.view.meshcat.view import animation_html
-from biped_adrc.view.pages import write_report
+from biped_adrc.view.pages import report_html
 
 WRITTEN = (".html", ".json", ".npz", ".png", ".svg")
 """Kinds of the files that a reproduction writes."""
@@ -68,7 +68,7 @@ def reproduce(
     animation = _animate(walks, r)
     write_text(out / "walk.html", animation)
     summary["wall_time_s"] = time.perf_counter() - started
-    write_report(out / "report.html", summary, pictures, animation)
+    write_text(out / "report.html", report_html(summary, pictures, animation))
     write_text(out / "summary.json", json.dumps(summary, indent=1) + "\n")
     return summary
 

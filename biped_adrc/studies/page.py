@@ -30,8 +30,7 @@ def write_page(found: Results) -> Path:
     """Write the page into the folder of the study. Raises OutputError."""
     path = found.folder / PAGE
     figures = [
-        (question, "", data_uri(question, render(figure, "svg")))
-        for question, figure in _figures(found)
+        (question, "", data_uri(render(figure, "svg"))) for question, figure in _figures(found)
     ]
     text = rendered(
         "study",

@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from biped_adrc.core.errors import InputError
-from biped_adrc.core.files import write_text
+from biped_adrc.core.files import output_path, write_text
 from biped_adrc.view.from_the_side.moving_picture import write_moving_picture
 from biped_adrc.view.from_the_side.stick_figures import write_strip
 from biped_adrc.view.meshcat.view import animation_html
@@ -24,30 +24,14 @@ SUFFIXES = (".html", ".gif", ".png", ".svg")
 """Kinds of files a walk can be drawn to."""
 
 
-def check_suffix(path: Path) -> str:
-    """The suffix of `path` in small letters. Raises InputError for one that is not in `SUFFIXES`.
-
-    Called before a walk is computed or loaded, so that a wrong name costs no time.
-    """
-    suffix = path.suffix.lower()
-    if suffix not in SUFFIXES:
-        raise InputError(
-            f"cannot write a walk to '{path}': the name ends in '{suffix}', expected .html (a page with "
-            "the animation), .gif (a moving picture) or .png or .svg (a strip of stick figures)"
-        )
-    return suffix
-
-
 def export(path: Path, walks: Mapping[str, Recorded], clip: Clip | None = None) -> None:
     """Write the walks to `path`, as its suffix says; a strip shows the last of them.
 
-    walks: name -> walk; the names are shown. clip: what is shown, the defaults if None. Raises
+    walks: name -> walk, one or more; the names are shown. clip: what is shown, the defaults if None. Raises
     InputError for a suffix, a part or an option that does not fit, and OutputError.
     """
     clip = Clip() if clip is None else clip
-    suffix = check_suffix(path)
-    if not walks:
-        raise InputError("there is no walk to draw; expected at least one")
+    suffix = output_path(path, SUFFIXES).suffix.lower()
     if suffix != ".gif" and (clip.apart or clip.slower != 1.0):
         raise InputError(
             f"'{path}' is no moving picture, and apart and slower are of one; write a .gif"

@@ -12,16 +12,14 @@ import base64
 import json
 import zlib
 from collections.abc import Mapping, Sequence
-from functools import cache, partial
+from functools import cache
 from importlib.resources import files
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from jinja2 import Environment, FileSystemLoader
 from markupsafe import Markup
 
-from biped_adrc.core.errors import InputError
-from biped_adrc.core.files import packaged, write_text
+from biped_adrc.core.files import packaged
 from biped_adrc.core.types import PlainRecord
 
 if TYPE_CHECKING:
@@ -43,18 +41,6 @@ KINDS = {
 """Kind of a check -> what the report says about it."""
 HEIGHT = 480
 """[px] of the animation in a notebook."""
-MAGIC = {b"\x89PNG": "image/png", b"<?xml": "image/svg+xml", b"<svg": "image/svg+xml"}
-"""First bytes of a picture -> its media type."""
-
-Captions = dict[str, tuple[str, str]]
-"""Heading of each figure and what to look for in it, by name."""
-
-
-@cache
-def captions(page: str) -> Captions:
-    """The headings and captions of the figures of a page ("report"), from captions.toml."""
-    result = packaged("biped_adrc.view", "captions.toml")[page].items()
-    return {name: (x["title"], " ".join(x["text"].split())) for name, x in result}
 
 
 def rendered(template: str, package: str = HERE, **values: object) -> str:
@@ -69,26 +55,18 @@ def rendered(template: str, package: str = HERE, **values: object) -> str:
 @cache
 def _environment(package: str) -> Environment:
     """Jinja's environment, made once: it compiles the templates."""
-    places = [str(files(package)), str(files(HERE) / "templates")]
+    places = [files(package), files(HERE), files(HERE) / "templates"]
+    loader = FileSystemLoader([str(place) for place in places])
     environment = Environment(
-        loader=FileSystemLoader(places),
-        autoescape=True,
-        finalize=plain,
-        trim_blocks=True,
-        lstrip_blocks=True,
+        loader=loader, autoescape=True, finalize=plain, trim_blocks=True, lstrip_blocks=True
     )
     environment.globals |= {
         "policy": POLICY,
         "style": "report.css",
-        "file": partial(own_file, package),
+        # a style or script as it is, trusted and not escaped
+        "file": lambda name: Markup(loader.get_source(environment, name)[0]),
     }
     return environment
-
-
-def own_file(package: str, name: str) -> Markup:
-    """The text of a style or script of a package, or from here, trusted and not escaped; for templates."""
-    there = (files(package) / name, files(HERE) / name)
-    return Markup(next(x for x in there if x.is_file()).read_text(encoding="utf-8"))
 
 
 def plain(value: object) -> str:
@@ -111,66 +89,44 @@ def plain(value: object) -> str:
     return str(value)
 
 
-def data_uri(title: str, source: str | bytes | Path) -> str:
-    """A figure as a data URI for the source of an <img>: an SVG there can neither run scripts nor
-    clash with the ids of another. title: for the message. source: text or bytes of an SVG or PNG,
-    or its path.
-
-    Raises InputError for what is neither PNG nor SVG.
+def data_uri(picture: bytes) -> str:
+    """A PNG or SVG as a data URI for the source of an <img>: an SVG there can neither run scripts nor
+    clash with the ids of another.
     """
-    data = source.read_bytes() if isinstance(source, Path) else source
-    data = data.encode("utf-8") if isinstance(data, str) else data
-    kinds = [kind for start, kind in MAGIC.items() if data.lstrip().startswith(start)]
-    if not kinds:
-        raise InputError(
-            f"figure '{title}' is neither PNG nor SVG; give SVG text or a Path to a file"
-        )
-    return f"data:{kinds[0]};base64,{base64.b64encode(data).decode('ascii')}"
-
-
-def write_report(
-    path: Path,
-    summary: PlainRecord,
-    figures: Mapping[str, str | Path],
-    animation: str | None = None,
-) -> None:
-    """Write the page of a reproduction (report.html).
-
-    summary: as in summary.json; parts that are missing are left out of the page.
-    figures: name -> text of an SVG, or path of an SVG or PNG file; the name selects the caption.
-    animation: text of the page of `meshcat.view.animation_html`, shown in a frame.
-    Raises InputError for a figure that is no picture, and OutputError.
-    """
-    write_text(path, report_html(summary, figures, animation))
+    kind = "png" if picture.startswith(b"\x89PNG") else "svg+xml"
+    return f"data:image/{kind};base64,{base64.b64encode(picture).decode('ascii')}"
 
 
 def report_html(
-    summary: PlainRecord,
-    figures: Mapping[str, str | Path],
-    animation: str | None = None,
+    summary: PlainRecord, figures: Mapping[str, bytes], animation: str | None = None
 ) -> str:
-    """The text of the page that `write_report` writes, from the same values."""
+    """The page of a reproduction (report.html).
+
+    summary: as in summary.json; parts that are missing are left out of the page.
+    figures: name -> an SVG or PNG; the name selects the caption.
+    animation: text of the page of `meshcat.view.animation_html`, shown in a frame.
+    """
     return rendered(
         "report",
         s=summary,
-        figures=[_figure(name, source) for name, source in figures.items()],
+        figures=[_figure(name, picture) for name, picture in figures.items()],
         animation=animation,
         columns=CLAIM_COLUMNS,
         kinds=KINDS,
     )
 
 
-def _figure(name: str, source: str | Path) -> tuple[str, str, str]:
+def _figure(name: str, picture: bytes) -> tuple[str, str, str]:
     """(heading, what to look for, data URI) of one figure; its name begins with that of a caption.
 
     What the name has behind that, such as the preset of a map, is put behind the heading.
     """
-    known = captions("report")
+    known = packaged(HERE, "captions.toml")["report"]
     key = next((key for key in known if name == key or name.startswith(f"{key}_")), "")
-    title, caption = known.get(key, (name, ""))
+    caption = known.get(key, {"title": name, "text": ""})
     rest = name.removeprefix(key).replace("_", " ").strip() if key else ""
-    title = f"{title}, {rest}" if rest else title
-    return title, caption, data_uri(title, source)
+    title = f"{caption['title']}, {rest}" if rest else caption["title"]
+    return title, caption["text"], data_uri(picture)
 
 
 def player(settings: Mapping[str, object], title: str, legend: Sequence[tuple[str, str]]) -> str:
@@ -211,5 +167,5 @@ def inline(summary: str, animation: str, figures: Sequence[Figure] = ()) -> str:
     """
     from biped_adrc.view.style import render  # loads matplotlib, which other pages do not need
 
-    uris = [data_uri("walk", render(figure, "png", dpi=80.0)) for figure in figures]
+    uris = [data_uri(render(figure, "png", dpi=80.0)) for figure in figures]
     return rendered("notebook", summary=summary, animation=animation, figures=uris, height=HEIGHT)

@@ -13,11 +13,12 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from importlib.resources import files
 from pathlib import Path
 
 import matplotlib as mpl
+import matplotlib.style
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.typing import LineStyleType
@@ -37,22 +38,16 @@ DASHES: tuple[LineStyleType, ...] = ("-", (0, (6, 1.5)), (0, (1.5, 1)), (0, (6, 
 _PATH = re.compile(rb'\bd="[^"]*"')
 _LONG = re.compile(rb"-?\d+\.\d{3,}")
 
-RC = mpl.rc_params_from_file(
-    str(files("biped_adrc.view") / "style.mplstyle"), use_default_template=False
-)
-"""This package's settings of matplotlib, from style.mplstyle."""
+SETTINGS = str(files("biped_adrc.view") / "style.mplstyle")
+"""File with this package's settings of matplotlib."""
 
 
-@contextmanager
-def style() -> Iterator[None]:
+def style() -> AbstractContextManager[None]:
     """Context in which matplotlib has this package's settings; afterwards they are as before.
 
     They start from matplotlib's defaults, so a user's matplotlibrc has no effect on the figures.
     """
-    with mpl.rc_context():
-        mpl.rcdefaults()
-        mpl.rcParams.update(RC)
-        yield
+    return mpl.style.context(SETTINGS, after_reset=True)
 
 
 @contextmanager

@@ -24,9 +24,9 @@ PUSH = ba.TorquePulse([30.0, 30.0, 0.0, 0.0, 0.0], step=2, start=0.02, stop=0.06
 def energy(plant, r, k):
     """Kinetic with rotors, and potential [J], by MuJoCo at reading k."""
     plant.footing(r.row[k], r.u[k], STILL)
-    mujoco().mj_energyPos(plant.model, plant.data)
-    mujoco().mj_energyVel(plant.model, plant.data)
-    return plant.data.energy.sum()
+    mujoco().mj_energyPos(plant.engine.model, plant.engine.data)
+    mujoco().mj_energyVel(plant.engine.model, plant.engine.data)
+    return plant.engine.data.energy.sum()
 
 
 def balance(biped, gait, h):

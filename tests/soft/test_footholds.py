@@ -97,8 +97,8 @@ def test_each_foot_touches_its_own_level_along_the_vertical(biped, gait, slope):
         state[16:18] = levels
         for p in (plant, pickle.loads(pickle.dumps(plant))):
             p.engine.place(state)
-            mujoco().mj_forward(p.model, p.data)
-            depths = [-contact.dist for contact in p.data.contact]
+            mujoco().mj_forward(p.engine.model, p.engine.data)
+            depths = [-contact.dist for contact in p.engine.data.contact]
             expected = [x * out[1] for x in (levels[0], levels[1] - foot / out[1])]
             np.testing.assert_allclose(depths, expected, rtol=0.0, atol=2e-6)
 

@@ -40,8 +40,8 @@ def walk(biped, gait):
 def momentum(plant, r, k):
     """Of the whole robot (x, z) [N s], by MuJoCo's own sum over its bodies."""
     plant.footing(r.row[k], r.u[k], STILL)
-    mujoco().mj_subtreeVel(plant.model, plant.data)
-    return plant.model.body_subtreemass[0] * plant.data.subtree_linvel[0, [0, 2]]
+    mujoco().mj_subtreeVel(plant.engine.model, plant.engine.data)
+    return plant.engine.model.body_subtreemass[0] * plant.engine.data.subtree_linvel[0, [0, 2]]
 
 
 @pytest.mark.parametrize("force", [(0.0, 0.0), (60.0, 40.0)])

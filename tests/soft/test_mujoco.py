@@ -11,7 +11,7 @@ import biped_adrc as ba
 from biped_adrc.closed_loop.stepping_plant import Load
 from biped_adrc.core.errors import InputError
 from biped_adrc.extras.mujoco import robot as mujoco_robot
-from biped_adrc.extras.mujoco.plant import TOUCHING, MuJoCoPlant, Own
+from biped_adrc.extras.mujoco.plant import TOUCHING, MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import compiled, mujoco, pinned_mjcf
 from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.hybrid.simulator import RunOptions
@@ -56,7 +56,7 @@ def test_pinned_it_accelerates_as_pinocchio_says(robot):
 
 def placed(plant, q, v, own, u=0.0, load=None):
     """MuJoCo in that state, under u (p,) [N m] and a load."""
-    plant.engine.place(np.concatenate((q, v, own.numbers())))
+    plant.engine.place(np.concatenate((q, v, own)))
     plant.engine.push(u, q, load)
 
 
@@ -65,33 +65,33 @@ def test_motors_and_pushes_give_the_power_that_they_give_on_the_rigid_plant(plan
     q, v = gait.start(plant.biped)
     f, random = plant.biped.floating, np.random.default_rng(5)
     speed = (f.velocity_map(q)[:, :5] @ v)[f.base]
-    own = Own(0.0, f.configuration(q)[f.base], speed)
+    own = np.array([0.0, *f.configuration(q)[f.base], *speed])
     u = random.normal(size=4)
     load = Load(random.normal(size=5), random.normal(size=2))
     placed(plant, q, v, own, u, load)
-    data = plant.data
-    mujoco().mj_forward(plant.model, data)
+    data = plant.engine.data
+    mujoco().mj_forward(plant.engine.model, data)
     power = (data.qfrc_actuator + data.qfrc_applied) @ data.qvel
     assert power == pytest.approx(u @ v[:4] + load.zeta @ v, rel=1e-12)
     read = plant.engine.read(np.zeros(15))
-    np.testing.assert_allclose(read, np.concatenate((q, v, own.numbers())), rtol=0.0, atol=1e-14)
+    np.testing.assert_allclose(read, np.concatenate((q, v, own)), rtol=0.0, atol=1e-14)
 
 
 def test_a_force_on_a_link_moves_the_centre_of_mass_as_newton_says(plant, gait):
     """Off the ground, F = m a of the centre for a force that the pinned coordinates feel as J' F."""
     biped = plant.biped
     q, _ = gait.start(biped)
-    own = Own(0.0, np.array([0.0, 9.0]), np.zeros(2))
+    own = np.array([0.0, 0.0, 9.0, 0.0, 0.0])
     force = np.array([30.0, -20.0])
     hip = biped.floating.velocity_map(q)[biped.floating.base, :5]
     placed(plant, q, np.zeros(5), own, load=Load(hip.T @ force, force))
-    mujoco().mj_forward(plant.model, plant.data)
-    mujoco().mj_rnePostConstraint(plant.model, plant.data)
+    mujoco().mj_forward(plant.engine.model, plant.engine.data)
+    mujoco().mj_rnePostConstraint(plant.engine.model, plant.engine.data)
     masses = plant.model.body_mass
     jacobian, total = np.zeros((3, plant.model.nv)), np.zeros(3)
     for body in np.flatnonzero(masses):
-        mujoco().mj_jacBodyCom(plant.model, plant.data, jacobian, None, body)
-        total += masses[body] * (jacobian @ plant.data.qacc)
+        mujoco().mj_jacBodyCom(plant.engine.model, plant.engine.data, jacobian, None, body)
+        total += masses[body] * (jacobian @ plant.engine.data.qacc)
     np.testing.assert_allclose(total[[0, 2]], force - [0.0, biped.weight], rtol=1e-10)
 
 
@@ -101,7 +101,7 @@ def test_feet_and_hip_are_where_pinocchio_has_them(robot):
     for _ in range(5):
         q = random.uniform(-np.pi, np.pi, robot.n)
         base = f.configuration(q)[f.base] + at
-        placed(plant, q, np.zeros(robot.n), Own(0.0, base, np.zeros(2)))
+        placed(plant, q, np.zeros(robot.n), np.array([0.0, *base, 0.0, 0.0]))
         expected = at + np.array((np.zeros(2), robot.swing_foot(q), robot.hip(q)))
         found = np.array(plant.engine.points())[:, [0, 2]]
         np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-12)
@@ -134,10 +134,11 @@ def test_a_foot_touches_where_a_point_would_and_slides_with_its_friction(biped, 
     plant = MuJoCoPlant(biped, SoftGround(friction=0.4, foot_radius=5e-3), slope)
     q = gait.start(biped)[0] - [0.0, 0.0, 0.0, 0.6, 0.0]  # the swing foot in the air
     along, out = ground_axes(slope)
-    own = Own.of(plant.start(0.0, q, np.zeros(5))[10:])
-    placed(plant, q, np.zeros(5), own._replace(speed=0.5 * along))
-    mujoco().mj_forward(plant.model, plant.data)
-    assert plant.data.contact[0].dist == pytest.approx(-TOUCHING, abs=1e-12)
+    row = plant.start(0.0, q, np.zeros(5))
+    row[13:15] = 0.5 * along
+    plant.engine.place(row)
+    mujoco().mj_forward(plant.engine.model, plant.engine.data)
+    assert plant.engine.data.contact[0].dist == pytest.approx(-TOUCHING, abs=1e-12)
     F = plant.forces()[0]
     assert F @ along / (F @ out) == pytest.approx(-0.4, rel=0.01)
 
@@ -154,10 +155,10 @@ def test_a_push_shorter_than_a_period_gives_the_momentum_that_it_has(biped, gait
 
     def spin(t):
         x = run(t)
-        placed(plant, x[:5], x[5:10], Own.of(x[10:15]))
-        mujoco().mj_forward(plant.model, plant.data)
-        mujoco().mj_subtreeVel(plant.model, plant.data)
-        return -plant.data.subtree_angmom[0, 1]  # about -y, counter-clockwise in (x, z)
+        placed(plant, x[:5], x[5:10], x[10:15])
+        mujoco().mj_forward(plant.engine.model, plant.engine.data)
+        mujoco().mj_subtreeVel(plant.engine.model, plant.engine.data)
+        return -plant.engine.data.subtree_angmom[0, 1]  # about -y, counter-clockwise in (x, z)
 
     assert spin(3e-3) - spin(1e-3) == pytest.approx(500.0 * 0.2e-3, rel=1e-3)
     assert np.any(run.arcs[0].read["zeta"] == 500.0)

@@ -59,10 +59,8 @@ class WalkEnv(gymnasium.Env[Any, Any]):
         render_mode: str | None = None,
         **values: Any,
     ):
-        self.stage, self.render_mode = (
-            Stage(LearnerTask.of(scenario, condition, **values), 1),
-            render_mode,
-        )
+        task, self.render_mode = LearnerTask.of(scenario, condition, **values), render_mode
+        self.stage = Stage(task, 1, render_mode is not None)
         self.observation_space, self.action_space = spaces_of(self.stage)
         self.picture = Picture(self.stage) if render_mode else None
 

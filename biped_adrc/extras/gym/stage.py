@@ -38,10 +38,10 @@ class Stage:
     """N walks. Raises InputError for a task that cannot be walked.
 
     needs (N, 4): 1 where all single supports that are over are feasible, else 0; largest |F_T| / F_N and least
-    F_N [N] of the mean force; largest torque [N m]. feet (N, 2): places of the stance feet [m].
+    F_N [N] of the mean force; largest torque [N m]. feet (N, 2): places of the stance feet [m], where `drawn`.
     """
 
-    def __init__(self, task: LearnerTask, count: int):
+    def __init__(self, task: LearnerTask, count: int, drawn: bool = False):
         self.stepper = Stepper(task.scenario, count, self._walker, limits(task.scenario))
         self.scene = self.stepper.scene
         self.limits = task.limits(self.scene)
@@ -54,7 +54,7 @@ class Stage:
         )
         self.needs = np.zeros((count, 4))
         self.seeds, self._seen = np.zeros(count, dtype=np.int64), np.zeros(0)
-        self.feet, self.steps = np.zeros((count, 2)), np.zeros(count)
+        self.drawn, self.feet, self.steps = drawn, np.zeros((count, 2)), np.zeros(count)
         self.begin(0, self.task.scenario.run.seed)  # what is wrong is said here
         self.stepper.codes[:] = -1
 
@@ -105,10 +105,11 @@ class Stage:
         """
         if not self._seen.size:
             self._seen = self.stepper.read(learner_view)
-            step = self._seen[:, self.first + 1].copy()
-            for i in np.flatnonzero((self.steps > 0.0) & (self.steps != step)):
-                self.feet[i] -= self.plant.swing_foot(self._seen[i, : self.plant.n])
-            self.steps = step
+            step = self._seen[:, self.first + 1]
+            if self.drawn and (changed := self.steps != step).any():
+                for i in np.flatnonzero(changed & (self.steps > 0.0)):
+                    self.feet[i] -= self.plant.swing_foot(self._seen[i, : self.plant.n])
+                self.steps = step.copy()
         return self._seen
 
     def observations(self) -> Array:

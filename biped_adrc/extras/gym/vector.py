@@ -48,7 +48,8 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
     ):
         check_count(num_envs, f"num_envs is {num_envs}")
         self.num_envs, self.render_mode = num_envs, render_mode
-        self.stage = Stage(LearnerTask.of(scenario, condition, **values), num_envs)
+        task = LearnerTask.of(scenario, condition, **values)
+        self.stage = Stage(task, num_envs, render_mode is not None)
         self.single_observation_space, self.single_action_space = spaces_of(self.stage)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)

@@ -90,9 +90,6 @@ class Replay(Shown):
     window: float
     """[s] after a touchdown that count as contact."""
 
-    def __repr__(self) -> str:
-        return f"Replay({self.scenario.controller.name}: {self.signals!r})"
-
     @property
     def remarks(self) -> tuple[str, ...]:
         """Sentences on what was converted, left out or resampled."""

@@ -65,10 +65,6 @@ class ReplaySignals(Shown):
     def __post_init__(self) -> None:
         freeze(self, *(f.name for f in fields(self)))
 
-    def __repr__(self) -> str:
-        ends = f"{self.t[0]:.4g} to {self.t[-1]:.4g} s"
-        return f"ReplaySignals({len(self.t)} samples, {ends}, n = {self.q.shape[1]}, p = {self.u.shape[1]})"
-
     @property
     def xi_contact(self) -> Array:
         """(K, p) the part of xi^ - xi_nominal within the window after a touchdown [rad/s^2]."""

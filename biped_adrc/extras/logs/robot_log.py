@@ -72,10 +72,6 @@ class RobotLog(Shown):
         names = [f"row {k}" for k in range(1, self.t.size + 1)]
         check_rows(self.t, self.step, self.q, self.u, self.rates, names)
 
-    def __repr__(self) -> str:
-        K, n = self.q.shape
-        return f"RobotLog({K} rows, {self.t[0]:.4g} to {self.t[-1]:.4g} s, n = {n}, p = {self.u.shape[1]})"
-
     @property
     def rates(self) -> Array:
         """v (K, n) [rad/s], zero where no rate was measured."""

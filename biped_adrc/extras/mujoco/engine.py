@@ -22,7 +22,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 
@@ -34,27 +33,6 @@ from biped_adrc.model.biped import Biped
 
 INTEGRATORS = {"rk4": "mjINT_RK4", "leapfrog": "mjINT_EULER"}
 """MuJoCo's method behind each name."""
-
-
-class Own(NamedTuple):
-    """What the plant keeps beside (q, q')."""
-
-    since: float
-    """Time of the last touchdown [s]."""
-    base: Array
-    """Place of the trunk (x, z) (2,) [m]."""
-    speed: Array
-    """Its velocity (2,) [m/s]."""
-    rest: Array = np.zeros(0)
-    """Of steps of the ground (3,) [1, m, m] and of motors with lag (p,) [N m]; empty without."""
-
-    @classmethod
-    def of(cls, own: Array) -> Own:
-        return cls(own[0], own[1:3], own[3:5], own[5:])
-
-    def numbers(self) -> Array:
-        """In one row."""
-        return np.array([self.since, *self.base, *self.speed, *self.rest])
 
 
 Move = Callable[[MuJoCoModel, MuJoCoData, int], None]
@@ -70,7 +48,7 @@ def leapfrog(model: MuJoCoModel, data: MuJoCoData, steps: int, move: Move | None
 
 
 class MuJoCoEngine:
-    """A model with one work space, whose arrays are looked up once. Not to be shared between threads.
+    """A model with one work space, whose arrays are looked up once. Neither is to be shared between threads.
 
     h [s]: longest step. integrator: one of INTEGRATORS, for which the model has to be made. lag [s]: tau.
     """
@@ -79,12 +57,12 @@ class MuJoCoEngine:
         self,
         biped: Biped,
         model: MuJoCoModel,
-        data: MuJoCoData,
         h: float,
         integrator: str,
         lag: float = 0.0,
     ):
-        self.biped, self.model, self.data, self.h, self.lag = biped, model, data, h, lag
+        self.biped, self.model, self.h, self.lag = biped, model, h, lag
+        self.data = data = mujoco().MjData(model)
         self.step = leapfrog if integrator == "leapfrog" else mujoco().mj_step
         self.kinematics = mujoco().mj_kinematics
         self.options, self.warnings = model.opt, data.warning.number

@@ -26,18 +26,18 @@ import warnings
 from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from threading import Lock, get_ident
+from threading import get_ident
 
 import numpy as np
 
 from biped_adrc.closed_loop.stepping_plant import Contact, Feet, Load, Moved
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
-from biped_adrc.core.checks import Checked, NonNegativeFloat, check_fields
-from biped_adrc.core.errors import InputError, check_count, check_positive
+from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat, PositiveInt
+from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import check_ends
-from biped_adrc.core.types import Array, Indices, MuJoCoData, MuJoCoModel, relabelled
-from biped_adrc.extras.mujoco.engine import INTEGRATORS, MuJoCoEngine, Own
+from biped_adrc.core.types import Array, Indices, MuJoCoModel, relabelled
+from biped_adrc.extras.mujoco.engine import INTEGRATORS, MuJoCoEngine
 from biped_adrc.extras.mujoco.robot import PLANES, compiled, floating_mjcf, mujoco
 from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.hybrid.status import Status
@@ -48,7 +48,6 @@ TOUCHING = 1e-6
 """How deep the stance foot is in the ground at the start [m]: no last bit decides whether it touches."""
 DEEPEST = 1e-4
 """How deep the swing foot may be in the ground at the start [m]."""
-_MAKING = Lock()
 
 
 @dataclass(frozen=True)
@@ -70,27 +69,21 @@ class MuJoCoPlant(Checked, Shown):
     biped: Biped
     ground: SoftGround = SoftGround()  # noqa: RUF009
     slope: float = 0.0
-    h: float = 2e-4
-    touchdown_force: float = 50.0
-    ahead: float = 0.1
-    flight_height: float = 0.02
+    h: PositiveFloat = 2e-4
+    touchdown_force: PositiveFloat = 50.0
+    ahead: PositiveFloat = 0.1
+    flight_height: PositiveFloat = 0.02
     fall_height: float = 0.35
     max_step_time: float = 2.0
     integrator: str = "rk4"
     lag: NonNegativeFloat = 0.0
     ground_steps: tuple[StepDown | StepUp, ...] = ()
-    first_step: int = 1
+    first_step: PositiveInt = 1
     model: MuJoCoModel = field(init=False, repr=False, compare=False)
-    data: MuJoCoData = field(init=False, repr=False, compare=False)
-    """The engine's work space; what it holds is set anew at each call."""
 
     def __post_init__(self) -> None:
-        check_fields(self)
-        for name in ("h", "touchdown_force", "ahead", "flight_height"):
-            check_positive(getattr(self, name), f"{name} of the plant is {getattr(self, name)}")
         check_slope(self.slope)
         check_steps(self.ground_steps)
-        check_count(self.first_step, f"the plant begins in single support {self.first_step}")
         check_ends(self.max_step_time, self.fall_height, math.inf, math.inf)
         if self.biped.p == 0:
             raise InputError(
@@ -110,7 +103,6 @@ class MuJoCoPlant(Checked, Shown):
         model = compiled(floating_mjcf(self.biped, self.ground, self.slope, self.h, planes))
         model.opt.integrator = getattr(mujoco().mjtIntegrator, INTEGRATORS[self.integrator])
         object.__setattr__(self, "model", model)
-        object.__setattr__(self, "data", mujoco().MjData(model))
 
     @property
     def n(self) -> int:
@@ -159,16 +151,10 @@ class MuJoCoPlant(Checked, Shown):
         work space would end the process.
         """
         engines: dict[int, MuJoCoEngine] = vars(self).setdefault("_engines", {})
-        if (result := engines.get(get_ident())) is not None:
-            return result
-        with _MAKING:
-            model, data = self.model, self.data
-            if engines:  # the first is around `model` and `data`, others around copies
-                model = copy(model)
-                data = mujoco().MjData(model)
+        if get_ident() not in engines:
             numbers = self.h, self.integrator, self.lag
-            engine = engines[get_ident()] = MuJoCoEngine(self.biped, model, data, *numbers)
-        return engine
+            engines[get_ident()] = MuJoCoEngine(self.biped, copy(self.model), *numbers)
+        return engines[get_ident()]
 
     def lagging(self, lag: float) -> MuJoCoPlant:
         """The same plant, whose motors have this lag [s]."""
@@ -211,9 +197,9 @@ class MuJoCoPlant(Checked, Shown):
                 f"{1e3 * DEEPEST:g} mm; start from a state after an impact on this slope, {self.slope:g} rad"
             )
         steps = [float(self.first_step), 0.0, 0.0] if self.ground_steps else []
-        rest = [*steps, *np.zeros(self.p if self.lag > 0.0 else 0)]
-        own = Own(t, base - TOUCHING * np.array(self.out), speed, np.array(rest))
-        return np.concatenate((q, v, own.numbers()))
+        place = base - TOUCHING * np.array(self.out)
+        lagging = np.zeros(self.p if self.lag > 0.0 else 0)
+        return np.concatenate((q, v, (t, *place, *speed, *steps, *lagging)))
 
     def advance(self, t: float, row: Array, u: Array, load: Load | None, until: float) -> Moved:
         """On to `until` [s], u (p,) [N m] asked of the motors; a touchdown and a fall are looked for there."""
@@ -252,7 +238,8 @@ class MuJoCoPlant(Checked, Shown):
     def landed(self, t: float, row: Array) -> Array:
         """The row after a touchdown at t [s], which relabels the coordinates."""
         n = self.n
-        own = Own.of(row[2 * n :])._replace(since=t).numbers()
+        own = row[2 * n :].copy()
+        own[0] = t
         if self.lag > 0.0:
             own[-self.p :] = relabelled(own[-self.p :], self.swap)
         if self.ground_steps:

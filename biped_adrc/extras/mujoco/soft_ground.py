@@ -19,8 +19,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from biped_adrc.core.checks import Checked, numbers
-from biped_adrc.core.errors import InputError, check_positive
+from biped_adrc.core.checks import Checked, PositiveFloat, numbers
+from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown
 
 
@@ -28,22 +28,20 @@ from biped_adrc.core.shown import Shown
 class SoftGround(Checked, Shown):
     """Ground under point feet. Raises InputError for values that no ground has."""
 
-    friction: float = 0.6
+    friction: PositiveFloat = 0.6
     """mu [1]."""
-    time_constant: float = 2e-3
+    time_constant: PositiveFloat = 2e-3
     """T [s]; MuJoCo takes two of its steps for any that is shorter."""
-    damping_ratio: float = 1.0
+    damping_ratio: PositiveFloat = 1.0
     """zeta [1]."""
     impedance: tuple[float, float] = (0.95, 0.99)
     """[1]; 1 would leave no slack at all."""
-    impratio: float = 20.0
+    impratio: PositiveFloat = 20.0
     """Impedance of friction over that of the normal force [1]."""
-    foot_radius: float = 1e-3
+    foot_radius: PositiveFloat = 1e-3
     """[m]; a foot rolls on by the radius times the angle that its leg turns."""
 
     def __post_init__(self) -> None:
-        for name in ("friction", "time_constant", "damping_ratio", "impratio", "foot_radius"):
-            check_positive(getattr(self, name), f"{name} of the ground is {getattr(self, name)}")
         result = numbers(self.impedance, "the impedance of the ground")
         if result.shape != (2,) or not 0.0 < result[0] <= result[1] < 1.0:
             raise InputError(

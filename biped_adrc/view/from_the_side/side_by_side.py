@@ -7,13 +7,14 @@ One `_Panel` for each walk, one `_Errors` for all, put together by `side_by_side
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
 from biped_adrc.view.colours import REACTION, TORQUE
@@ -39,18 +40,20 @@ def side_by_side(
     times (K,) [s]: of the frames. pace: words above. All panels have the height of the tallest robot. Raises
     InputError for walks without a reference.
     """
-    colours = [LINES[i % len(LINES)] for i in range(len(walks))]
-    panels = [
-        _Panel(name, walk, colour, float(times[0]))
-        for (name, walk), colour in zip(walks.items(), colours, strict=True)
-    ]
-    tall = max(draw.HEADROOM * panel.view.height + draw.SOLE for panel in panels)
-    share = 1.0 / len(panels)
-    body = share * WIDTH * tall / SHOWN
+    for walk in walks.values():
+        if not isinstance(walk, Tracked) or walk.walker.plant.p == 0:
+            raise InputError(
+                "a walk without motors has no reference to deviate from; leave 'apart' out"
+            )
+    views = [SideView(WalkScene.of(walk)) for walk in walks.values()]
+    share = 1.0 / len(views)
+    body = share * WIDTH * max(draw.HEADROOM * v.height + draw.SOLE for v in views) / SHOWN
     height = HEAD + body + STRIP
-    figure = draw.blank(WIDTH, height)
-    for k, panel in enumerate(panels):
-        panel.draw(figure.add_axes((k * share, STRIP / height, share, body / height)))
+    figure, panels = draw.blank(WIDTH, height), []
+    for k, (name, walk) in enumerate(walks.items()):
+        axes = figure.add_axes((k * share, STRIP / height, share, body / height))
+        colour, signals = LINES[k % len(LINES)], cast(Tracked, walk).signals
+        panels.append(_Panel(axes, views[k], signals, name, colour, float(times[0])))
     strip = figure.add_axes((0.095, 48 / height, 0.88, (STRIP - 60) / height))
     errors = _Errors(strip, panels, times)
     _legend(figure, pace, height)
@@ -69,25 +72,17 @@ class _Panel:
     colour: of its name and its error. start [s]: from when the largest error counts.
     """
 
-    def __init__(self, name: str, walk: Recorded, colour: str, start: float) -> None:
-        if not isinstance(walk, Tracked) or walk.walker.plant.p == 0:
-            raise InputError(
-                "a walk without motors has no reference to deviate from; leave 'apart' out"
-            )
-        scene = WalkScene.of(walk)
-        self.name, self.colour, self.signals = name, colour, walk.signals
-        self.view = SideView(scene)
-        self.ending, self.start = ending(scene.trajectory), start
-
-    def draw(self, axes: Axes) -> None:
-        """Make all artists that `show` moves, on the panel's axes."""
+    def __init__(
+        self, axes: Axes, view: SideView, s: Signals, name: str, colour: str, start: float
+    ) -> None:
+        self.axes, self.view, self.signals, self.colour, self.start = axes, view, s, colour, start
+        self.ending = ending(view.scene.trajectory)
         axes.set_axis_off()
-        draw.ground(axes, [self.view])
-        self.axes = axes
-        self.walk = draw.DrawnWalk(axes, self.view, 1.0, 2)
-        self.title = axes.text(0.04, 0.99, self.name, fontsize=15, color=self.colour, weight="bold")
+        draw.ground(axes, [view])
+        self.walk = draw.DrawnWalk(axes, view, 1.0, 2)
+        title = axes.text(0.04, 0.99, name, fontsize=15, color=colour, weight="bold")
         self.text = axes.text(0.04, 0.915, "", fontsize=11)
-        for text in (self.title, self.text):
+        for text in (title, self.text):
             text.set(transform=axes.transAxes, verticalalignment="top", zorder=90, parse_math=False)
 
     def show(self, t: float) -> None:

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from biped_adrc.core.types import Array
-from biped_adrc.hybrid.trajectory import Arc, hermite
+from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.view.placement import (
     WalkScene,
     check_frames,
@@ -105,17 +105,15 @@ def _nodes(scene: WalkScene, arc: Arc, fps: float) -> Array:
     edges = scene.walker.switching_times(arc.mode)
     inside = [t for t in (*frames, *edges, *contact_changes(scene, arc)) if start < t < end]
     nodes = np.unique([start, *inside, end])
-    q, v = _states(arc, nodes, scene.biped.n)
     for _ in range(HALVINGS):
-        middles = 0.5 * (nodes[:-1] + nodes[1:])
+        q, v = _states(arc, nodes, scene.biped.n)
+        h, middles = np.diff(nodes)[:, np.newaxis], 0.5 * (nodes[:-1] + nodes[1:])
+        guess = 0.5 * (q[:-1] + q[1:]) + h * (v[:-1] - v[1:]) / 8.0  # the cubic in the middle
         result, _ = _states(arc, middles, scene.biped.n)
-        ends = zip(nodes, nodes[1:], q, q[1:], v, v[1:], middles, strict=False)
-        guess = np.array([hermite(*row) for row in ends]).reshape(result.shape)
         rough = np.max(np.abs(guess - result), axis=1, initial=0.0) > TOLERANCE
         if not rough.any():
             break
         nodes = np.sort(np.append(nodes, middles[rough]))
-        q, v = _states(arc, nodes, scene.biped.n)
     return nodes
 
 

@@ -38,16 +38,10 @@ def cells_figure(shares: Mapping[tuple[str, str], tuple[int, int]]) -> Figure:
     rows, columns = _names(shares)
     counts = [[shares.get((row, column)) for column in columns] for row in rows]
     values = np.array([[math.nan if x is None else x[0] / x[1] for x in row] for row in counts])
+    texts = [["" if x is None else f"{x[0]} of {x[1]}" for x in row] for row in counts]
     with new_figure(2.2 + 1.1 * len(columns), 0.8 + 0.3 * len(rows)) as figure:
-        axes = figure.subplots()
-        edges = [np.arange(len(names) + 1) - 0.5 for names in (columns, rows)]
-        axes.pcolormesh(
-            *edges, 0.6 + 0.4 * values, cmap="gray", vmin=0.0, vmax=1.0, ec="black", lw=0.4
-        )
-        for (y, x), share in np.ndenumerate(values):
-            if math.isfinite(share):
-                k, n = counts[y][x]  # type: ignore[misc]
-                axes.text(x, y, f"{k} of {n}", ha="center", va="center", fontsize=7)
+        axes, grey = figure.subplots(), Normalize(-1.5, 1.0)  # from 0.6 to white
+        _cells(axes, values, texts, "gray", grey, "black")
         named_cells(axes, [literal(x) for x in rows], [literal(x) for x in columns], 20)
         return figure
 
@@ -81,9 +75,6 @@ def dots_figure(numbers: Numbers, title: str, reference: float | None = None) ->
                 lw=1.0,
                 label=literal(name) or None,
             )
-        left, right = axes.get_xlim()
-        if right < 1.01 * left:  # a single number
-            axes.set_xlim(0.5 * left, 2.0 * right)
         axes.set_yticks(range(len(rows)), [literal(row) for row in rows])
         axes.set_ylim(len(rows) - 0.5, -0.5)
         label(axes, title, "")
@@ -121,7 +112,10 @@ def map_figure(
             if k >= len(means):
                 axes.set_axis_off()
                 continue
-            image = _panel(axes, means[k], norm)
+            m = means[k]
+            texts = [[f"{x:.2g}" if np.isfinite(x) else "" for x in row] for row in m]
+            axes.set_facecolor("#DDDDDD")  # where there is no number
+            image = _cells(axes, m, texts if m.size <= WRITTEN else (), "cividis", norm, "white")
             _ticks(axes, xs[1], ys[1])
             below, left = k + columns >= len(means), k % columns == 0
             words = literal(list(shown)[k])
@@ -184,22 +178,20 @@ def _means(
     return np.where(count > 0, total / np.maximum(count, 1), np.nan).reshape(shape)
 
 
-def _panel(axes: Axes, means: Array, norm: Normalize) -> Any:
-    """Draw one panel: grey where there is no number, the numbers themselves where they fit."""
-    axes.set_facecolor("#DDDDDD")
-    image = axes.pcolormesh(means, cmap="cividis", norm=norm, ec="white", lw=0.3)
-    if means.size <= WRITTEN:
-        for (j, i), value in np.ndenumerate(means):
-            if np.isfinite(value):
-                color = "white" if norm(value) < 0.5 else "black"
-                axes.annotate(
-                    f"{value:.2g}",
-                    (i + 0.5, j + 0.5),
-                    ha="center",
-                    va="center",
-                    color=color,
-                    size=6,
-                )
+def _cells(
+    axes: Axes,
+    values: Array,
+    texts: Sequence[Sequence[str]],
+    colours: str,
+    norm: Normalize,
+    edge: str,
+) -> Any:
+    """Draw a table of values as colours, cell (i, j) at x = j, y = i, with their texts on them."""
+    edges = [np.arange(count + 1) - 0.5 for count in reversed(values.shape)]
+    image = axes.pcolormesh(*edges, values, cmap=colours, norm=norm, ec=edge, lw=0.3)
+    for (y, x), text in np.ndenumerate(texts):
+        colour = "white" if norm(values[y, x]) < 0.5 else "black"
+        axes.text(x, y, text, ha="center", va="center", color=colour, size=6.5)
     axes.grid(False)
     return image
 
@@ -208,7 +200,7 @@ def _ticks(axes: Axes, x: Sequence[str], y: Sequence[str]) -> None:
     """Name the cells of both axes, at most twelve or so of each."""
     for set_ticks, names, rotation in ((axes.set_xticks, x, 45), (axes.set_yticks, y, 0)):
         places = range(0, len(names), -(-len(names) // 12))
-        set_ticks([k + 0.5 for k in places], [names[k] for k in places], rotation=rotation)
+        set_ticks(list(places), [names[k] for k in places], rotation=rotation)
 
 
 def _names(found: Mapping[tuple[str, str], Any]) -> tuple[list[str], list[str]]:
