@@ -33,8 +33,7 @@ from biped_adrc.core.checks import PositiveFloat
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import derived
 from biped_adrc.core.types import Array, Indices, relabelled
-from biped_adrc.observers.base import Estimate
-from biped_adrc.observers.chain import whole
+from biped_adrc.observers.base import Estimate, whole
 
 HIGHEST = 10
 """Largest order: beyond it coefficients cover more than ten decades and the line gets no better."""

@@ -27,7 +27,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.control.across_contact import ContactWindow
+from biped_adrc.control.around import ContactWindow
 from biped_adrc.control.base import Measurement, nested
 from biped_adrc.control.outer_loop import tracked_constraint
 from biped_adrc.control.tracking import body_of

@@ -25,8 +25,13 @@ from typing import ClassVar
 import numpy as np
 
 from biped_adrc.control.base import Measurement, measured
-from biped_adrc.control.observing import ObservingController
-from biped_adrc.control.tracking import TABLE_II, Gains, body_of, tracking_torque
+from biped_adrc.control.tracking import (
+    TABLE_II,
+    Gains,
+    ObservingController,
+    body_of,
+    tracking_torque,
+)
 from biped_adrc.core.linear import solve_positive
 from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import Reference, ReferencePoint

@@ -21,8 +21,13 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from biped_adrc.control.base import Measurement, measured
-from biped_adrc.control.observing import ObservingController
-from biped_adrc.control.tracking import TABLE_II, Gains, orthogonal_to, rate_error_change
+from biped_adrc.control.tracking import (
+    TABLE_II,
+    Gains,
+    ObservingController,
+    orthogonal_to,
+    rate_error_change,
+)
 from biped_adrc.core.linear import solve
 from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import Reference, ReferencePoint

@@ -10,7 +10,7 @@ Its error obeys (19) with the poles chosen. States are scaled by w, the geometri
 z_k = x_k / w^(k-1), and the gains are the coefficients of the polynomial of the poles divided by w. The
 injection is written l (y - x1^), never l y - l x1^: with gains up to 1e29 that form is lost in round-off.
 
-In discrete time it has the current form of `chain`, whose L places the eigenvalues of (I - L C) Phi at exp(s T)
+In discrete time it has the current form of `base`, whose L places the eigenvalues of (I - L C) Phi at exp(s T)
 by Ackermann's formula. The held-measurement observer with the same poles is unstable at 1 kHz; this form is
 stable there.
 
@@ -31,9 +31,9 @@ import numpy as np
 from biped_adrc.core.errors import InputError, check_positive
 from biped_adrc.core.part import derived
 from biped_adrc.core.types import Array
-from biped_adrc.observers.base import ErrorSystem
-from biped_adrc.observers.chain import (
+from biped_adrc.observers.base import (
     ChainObserver,
+    ErrorSystem,
     SampledChain,
     equal_poles,
     mean_bandwidth,

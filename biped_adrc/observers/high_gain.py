@@ -25,7 +25,7 @@ from biped_adrc.core.checks import numbers
 from biped_adrc.core.errors import InputError, check_positive
 from biped_adrc.core.part import derived
 from biped_adrc.core.types import Array
-from biped_adrc.observers.chain import whole
+from biped_adrc.observers.base import whole
 from biped_adrc.observers.gpi import InjectedChain
 
 

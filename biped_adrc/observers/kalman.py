@@ -29,7 +29,7 @@ from scipy.linalg import solve_discrete_are
 from biped_adrc.core.errors import check_positive
 from biped_adrc.core.part import derived
 from biped_adrc.core.types import Array
-from biped_adrc.observers.chain import SampledChain, whole
+from biped_adrc.observers.base import SampledChain, whole
 from biped_adrc.observers.gpi import InjectedChain
 
 

@@ -34,10 +34,10 @@ from typing import ClassVar
 import numpy as np
 
 from biped_adrc.core.types import Array, Indices, relabelled
-from biped_adrc.observers.base import ResetPolicy
-from biped_adrc.observers.chain import (
+from biped_adrc.observers.base import (
     MOST_POLES,
     ChainObserver,
+    ResetPolicy,
     equal_poles,
     mean_bandwidth,
     stable_poles,

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.control.across_contact import AcrossContact
+from biped_adrc.control.around import AcrossContact
 from biped_adrc.control.base import Controller
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.core.errors import InputError

@@ -9,7 +9,7 @@ import numpy as np
 
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance, Sum, Windowed
-from biped_adrc.disturbances.link import OnLink
+from biped_adrc.disturbances.force import OnLink
 from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.push import RANDOM, Push
 from biped_adrc.scenario.records import Misfit, all_taken

@@ -11,8 +11,7 @@ from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.core.errors import InputError
 from biped_adrc.engine.simulate import run_compiled
-from biped_adrc.hardware.detectors import ByForce, ByKinematics, Told
-from biped_adrc.hardware.touchdown import Look, belief_of
+from biped_adrc.hardware.touchdown import ByForce, ByKinematics, Look, Told, belief_of
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import RunOptions
 
