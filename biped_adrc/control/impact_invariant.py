@@ -61,7 +61,6 @@ class ImpactInvariant(ContactWindow):
     innovation: bool = False
 
     def __post_init__(self) -> None:
-        super().__post_init__()
         for name in ("rates", "innovation"):
             check_part(getattr(self, name), f"{name} of ImpactInvariant", bool)
         tracked_constraint(

@@ -59,12 +59,6 @@ class OnLink(Disturbance):
     at: tuple[float, float] | None = setup(None)
 
     def __post_init__(self) -> None:
-        if not isinstance(self.wave, Windowed):
-            raise InputError(
-                f"the wave on link '{self.link}' is a {type(self.wave).__name__}, expected a TorquePulse, "
-                "TorqueStep, TorqueSine, TorqueNoise or another Windowed; add up several OnLink for a sum"
-            )
-        super().__post_init__()
         if len(self.wave.amplitude) != 3:
             raise InputError(
                 f"the wave on link '{self.link}' has the amplitude {self.wave.amplitude}, expected three "
@@ -114,7 +108,6 @@ class HipForce(Disturbance):
     steps: tuple[int, int] | None = setup(None)
 
     def __post_init__(self) -> None:
-        super().__post_init__()
         if len(self.force) != 2 or not all(math.isfinite(f) for f in self.force):
             raise InputError(
                 f"the force on the hip is {self.force}, expected two finite numbers (F_x, F_z) [N]"

@@ -59,21 +59,18 @@ class Lines(Windowed):
 
 @dataclass(frozen=True)
 class RecordedTorque(Disturbance):
-    """times (K,) [s] that increase, torques (K, n) [N m]. Read a file with `read`.
+    """times (K,) [s] of the recording's own clock, which increase, torques (K, n) [N m]. Read a file with
+    `read`.
 
-    start [s]: where time 0 of the recording is, after the start of single support `step`, with which it then
-    ends at the latest; without `step`, after the start of the run. Raises InputError for numbers that are not
-    finite, times that do not increase, and a recording that begins before 0.
+    start [s]: where time 0 of the recording is, after the start of single support `step`, from 1, with which it
+    then ends at the latest; without `step`, after the start of the run. Raises InputError for numbers that are
+    not finite, times that do not increase, and a recording that begins before 0.
     """
 
     times: Array
-    """(K,) [s], of the recording's own clock."""
     torques: Array
-    """(K, n) [N m]."""
     step: PositiveInt | None = None
-    """Single support, counted from 1."""
     start: float = 0.0
-    """[s] from the start of that step, or of the run."""
 
     def __post_init__(self) -> None:
         times = read_only(numbers(self.times, "the times of the recording"))

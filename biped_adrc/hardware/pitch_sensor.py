@@ -26,19 +26,16 @@ from biped_adrc.hardware.sensors import Sensors, normals, seeded
 
 @dataclass(frozen=True)
 class PitchSensor(Sensor):
-    """bias: b [rad]. drift: d [rad/s]. noise: standard deviation of the angle at a tick [rad], by `seed`.
+    """bias: b [rad]. drift: d [rad/s]. noise: standard deviation of the angle at a tick [rad], by `seed`,
+    a whole number from 0.
 
     Raises InputError for numbers that are not finite or a noise that is negative.
     """
 
     bias: FiniteFloat = 0.0
-    """[rad]"""
     drift: FiniteFloat = 0.0
-    """[rad/s]"""
     noise: NonNegativeFloat = 0.0
-    """[rad]"""
     seed: NonNegativeInt = 0
-    """A whole number from 0."""
 
     @property
     def noisy(self) -> bool:

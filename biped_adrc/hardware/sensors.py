@@ -33,6 +33,7 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.hardware.sensing import Sensor
 
+VELOCITIES = ("differences", "measured", "gyro")
 CountsFloat = Annotated[float, Range("at least 1 count", lambda x: 1.0 <= x < math.inf)]
 
 
@@ -41,10 +42,11 @@ class Sensors(Shown, Sensor):
     """counts: of the joints' encoders per revolution, None for exact angles.
 
     pitch_resolution [rad]: of the unactuated pitch; None: as the joints'.
-    noise, pitch_noise [rad], rate_noise [rad/s]: standard deviations, drawn anew at every tick.
+    noise, pitch_noise [rad], rate_noise [rad/s] of rates that are measured: standard deviations, drawn anew at
+    every tick.
     velocity: "differences" of the angles, "measured", or "gyro": differences, but for the pitch's own rate.
     filter_time [s]: time constant of the differences' low-pass, 0 for none.
-    seed: of the noise. Raises InputError for what is negative or not finite.
+    seed: of the noise, a whole number from 0. Raises InputError for what is negative or not finite.
 
     >>> sensors = ba.Sensors(counts=10000, noise=1e-5, seed=1)
     >>> timing = ba.SampledTime(1e-3)
@@ -54,21 +56,13 @@ class Sensors(Shown, Sensor):
     """
 
     counts: CountsFloat | None = None
-    """Per revolution."""
     pitch_resolution: NonNegativeFloat | None = None
-    """[rad]"""
     noise: NonNegativeFloat = 0.0
-    """[rad]"""
     pitch_noise: NonNegativeFloat = 0.0
-    """[rad]"""
     rate_noise: NonNegativeFloat = 0.0
-    """[rad/s], of rates that are measured."""
     velocity: str = "differences"
-    """One of `VELOCITIES`."""
     filter_time: NonNegativeFloat = 0.0
-    """[s]"""
     seed: NonNegativeInt = 0
-    """A whole number from 0."""
 
     def __post_init__(self) -> None:
         if self.velocity not in VELOCITIES:
@@ -172,10 +166,6 @@ class SampledSensors(Sensor):
     def rounded(self, y: Array) -> Array:
         """The nearest count to y (n,) [rad], as an angle (n,) [rad]; y itself where angles are exact."""
         return np.where(self.rounds > 0, self.resolution * np.floor(y / self.resolution + 0.5), y)
-
-
-VELOCITIES = ("differences", "measured", "gyro")
-"""How rates are had, see `Sensors.velocity`."""
 
 
 M_1, M_2 = 4294967087.0, 4294944443.0

@@ -134,22 +134,18 @@ ProbabilityFloat = Annotated[float, Range("0 to 1", lambda x: 0.0 <= x <= 1.0)]
 
 @dataclass(frozen=True)
 class Told(Shown, Touchdown):
-    """The true touchdown, told `late` seconds after it, and errors that are asked for.
+    """The true touchdown, told `late` [s] after it, and errors that are asked for.
 
-    missed [1]: probability that a touchdown is never told, by `seed`. false_at: (step, time [s]) of one notice
-    without a touchdown, at the first tick so long after the step began; shortly before its end it is an early
-    one. A touchdown that leaves the labels right, as after a missed or an early one, is not told. Raises
+    missed [1]: probability that a touchdown is never told, by `seed`, a whole number from 0. false_at: (step,
+    time [s]) of one notice without a touchdown, at the first tick so long after the step began; shortly before
+    its end it is an early one. A touchdown that leaves the labels right, as after a missed or an early one, is not told. Raises
     InputError for a time that is negative and a probability that is none.
     """
 
     late: NonNegativeFloat = 0.0
-    """[s]"""
     missed: ProbabilityFloat = 0.0
-    """[1]"""
     false_at: tuple[int, float] | None = setup(None)
-    """Step, and time in it [s]."""
     seed: NonNegativeInt = setup(0)
-    """A whole number from 0."""
 
     def __post_init__(self) -> None:
         if (at := self.false_at) is None:
@@ -210,11 +206,8 @@ class Gated(Shown, Touchdown):
     """
 
     ahead: FiniteFloat = 0.1
-    """[m]"""
     after: NonNegativeFloat = 0.1
-    """[s]"""
     slope: FiniteFloat = 0.0
-    """[rad]"""
 
     @derived
     def tangent(self) -> float:
@@ -242,7 +235,6 @@ class ByKinematics(Gated):
     """
 
     height: FiniteFloat = 0.0
-    """[m]"""
 
     size = 1
 
@@ -255,8 +247,8 @@ class ByKinematics(Gated):
 
 @dataclass(frozen=True)
 class ByForce(Gated):
-    """The controller's swing foot, free before (below `off`), carries more than `on`, and never below `off`
-    for `debounce` seconds; noticed `delay` seconds later. A switch is one with its threshold and delay.
+    """The controller's swing foot, free before (below `off` [N]), carries more than `on` [N], and never below
+    `off` for `debounce` [s]; noticed `delay` [s] later. A switch is one with its threshold and delay.
 
     Raises InputError unless 0 <= off <= on.
 
@@ -268,13 +260,9 @@ class ByForce(Gated):
     """
 
     on: FiniteFloat = 50.0
-    """[N]"""
     off: NonNegativeFloat = 20.0
-    """[N]"""
     debounce: NonNegativeFloat = 0.0
-    """[s]"""
     delay: NonNegativeFloat = 0.0
-    """[s]"""
 
     def __post_init__(self) -> None:
         if self.off > self.on:
