@@ -138,8 +138,8 @@ class Told(Shown, Touchdown):
 
     missed [1]: probability that a touchdown is never told, by `seed`, a whole number from 0. false_at: (step,
     time [s]) of one notice without a touchdown, at the first tick so long after the step began; shortly before
-    its end it is an early one. A touchdown that leaves the labels right, as after a missed or an early one, is not told. Raises
-    InputError for a time that is negative and a probability that is none.
+    its end it is an early one. A touchdown that leaves the labels right, as after a missed or an early one, is
+    not told. Raises InputError for a time that is negative and a probability that is none.
     """
 
     late: NonNegativeFloat = 0.0

@@ -20,14 +20,6 @@ has condition number 3e29; scaled it has 5e6. LEAD integrators lie between distu
 an acceleration to an angle, one from a force to a momentum. `ChainObserver` has start, estimates and reset,
 which do not depend on how the gains were chosen; a leaf (`gpi`, `high_gain`, `kalman`, `momentum`) adds its
 flow.
-
-In discrete time a chain has its *current* (filtered) form,
-
-    Z <- Phi Z + Gamma input         prediction over one period T
-    Z <- Z + L (y - Z_1)             correction at the tick
-
-Phi is the Taylor matrix of a chain of integrators in states z_k = x_k T^(k-1), Phi_ij = 1/(j - i)!, and
-Gamma = T^2 (1/2, 1, 0, ...), or T (1, 0, ...) with one integrator in front.
 """
 
 from __future__ import annotations
@@ -36,13 +28,12 @@ from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
-from math import factorial
 from typing import ClassVar, NamedTuple
 
 import numpy as np
 
 from biped_adrc.core.errors import InputError, check_positive
-from biped_adrc.core.part import Part, derived
+from biped_adrc.core.part import Part
 from biped_adrc.core.shown import one_line
 from biped_adrc.core.types import Array, Indices, relabelled
 
@@ -289,38 +280,3 @@ class ChainObserver(Observer):
         if policy is ResetPolicy.MEASURED:
             Z[0], Z[1] = y, dy / self.scale
         return Z.ravel()
-
-
-@dataclass(frozen=True)
-class SampledChain(ChainObserver):
-    """The module's discrete form for one period T [s]; `scale` is 1/T. A leaf says what L is."""
-
-    period: float
-
-    @derived
-    def Phi(self) -> Array:
-        """(k, k), dimensionless."""
-        k = range(self.order)
-        return np.array([[1.0 / factorial(j - i) if j >= i else 0.0 for j in k] for i in k])
-
-    @derived
-    def Gamma(self) -> Array:
-        """(k,) [s^2], or [s] for one integrator."""
-        Gamma, lead = np.zeros(self.order), self.LEAD
-        Gamma[:lead] = [self.period**lead / factorial(lead - i) for i in range(lead)]
-        return Gamma
-
-    @property
-    @abstractmethod
-    def L(self) -> Array:
-        """(k,), dimensionless."""
-
-    def correct(self, z: Array, y: Array) -> Array:
-        """z at the sample instant with the measurement y (p,) taken in."""
-        Z = z.reshape(self.order, -1)
-        return np.ravel(Z + np.outer(self.L, y - Z[0]))
-
-    def predict(self, z: Array, input: Array) -> Array:
-        """z one period later under a constant input (p,)."""
-        Z = z.reshape(self.order, -1)
-        return np.ravel(self.Phi @ Z + np.outer(self.Gamma, input))

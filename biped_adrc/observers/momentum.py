@@ -43,7 +43,7 @@ from biped_adrc.observers.base import (
     stable_poles,
     whole,
 )
-from biped_adrc.observers.gpi import InjectedChain, SampledGPIObserver
+from biped_adrc.observers.gpi import InjectedChain, SampledChain
 
 
 class MomentumChain(ChainObserver):
@@ -103,11 +103,12 @@ class MomentumObserver(MomentumChain, InjectedChain):
 
         "Current" means that an estimate at a tick uses the measurement of that same tick.
         """
-        return SampledMomentumObserver.from_poles(self.poles, period)
+        chain = super().sampled(period)
+        return SampledMomentumObserver(chain.m, chain.scale, self, period)
 
 
 @dataclass(frozen=True)
-class SampledMomentumObserver(MomentumChain, SampledGPIObserver):
+class SampledMomentumObserver(MomentumChain, SampledChain):
     """The discrete observer for one sampling period [s]: a chain of integrators with beta in its first row.
 
     beta is held between ticks. Where it changes within a period T this looks like a part of zeta, so that r has
