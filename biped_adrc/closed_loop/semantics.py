@@ -38,7 +38,6 @@ from biped_adrc.hardware.motors import Line
 from biped_adrc.hardware.sample_hold import (
     Held,
     HeldParts,
-    after_impact,
     lagged,
     motor_torque,
     read,
@@ -250,13 +249,14 @@ def after_contact(
     (q, v, s, tail), k = parts(loop, x), loop.held
     reading = q_plus, v_plus
     if k is not None:
-        h, expected = read(k.sizes, tail), v_plus
-        if k.sensors is not None and k.touchdown is None:
-            expected = loop.nominal.impact(*k.reading(h.w, q, v)).v
-        h = after_impact(k, h, loop.swap, q_plus, v_plus, expected)
+        h = read(k.sizes, tail)
+        h = h._replace(line=h.line.relabelled(loop.swap))
         if k.touchdown is not None:
             h = h._replace(b=unnoticed(k, h.b, t))
             return np.concatenate((q_plus, v_plus, s, written(h)))
+        if k.sensors is not None:
+            expected = loop.nominal.impact(*k.reading(h.w, q, v)).v
+            h = h._replace(w=k.sensors.impact(h.w, q_plus, v_plus, expected))
         reading = k.reading(h.w, q_plus, v_plus)
         tail = written(h)
     s = loop.calls.jump(s, loop.measure(t, *reading, after), loop.swap)

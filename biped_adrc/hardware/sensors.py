@@ -98,7 +98,7 @@ class Sensors(Shown, Sensor):
         return SampledSensors(
             np.where(resolution > 0.0, resolution, 1.0),
             np.where(joints, self.noise, self.pitch_noise),
-            np.full(n, float(self.rate_noise)),
+            float(self.rate_noise),
             share,
             float(period),
             gyro.astype(int),
@@ -115,8 +115,8 @@ class SampledSensors(Sensor):
     """(n,) [rad]"""
     noise: Array
     """(n,) [rad]"""
-    rate_noise: Array
-    """(n,) [rad/s]"""
+    rate_noise: float
+    """[rad/s]"""
     share: float
     """1 - exp(-T / tau)."""
     period: float

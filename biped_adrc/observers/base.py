@@ -70,15 +70,6 @@ class ResetPolicy(Enum):
     MODEL = "model"
     """As at the start: x1^, x2^ measured, xi^ from the nominal model, higher derivatives zero."""
 
-    @classmethod
-    def named(cls, name: str | ResetPolicy) -> ResetPolicy:
-        """The policy by name. Raises InputError with the names there are."""
-        try:
-            return cls(name)
-        except ValueError:
-            names = [policy.value for policy in cls]
-            raise InputError(f"reset policy '{name}' is unknown; choose one of {names}") from None
-
 
 class ErrorSystem(NamedTuple):
     """Coordinates in which a linear observer's error obeys e' = A e + b (q_b'' - kappa u).

@@ -108,7 +108,7 @@ def _values(
     settings = {name: x for name, x in settings.items() if x is not None}
     gains = {name: x for name in GAINS if (x := getattr(c, name)) is not None}
     values = {**c.own, **settings, **gains, "solve_theta": c.solve_theta}
-    values["reset"] = ResetPolicy.named(o.reset)
+    values["reset"] = ResetPolicy(o.reset)
     used = {*accepted, *(f"observer.{name}" for name in accepted)}
     if "gains" in accepted and gains:
         usual = accepted["gains"].default
