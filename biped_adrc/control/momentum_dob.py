@@ -12,7 +12,7 @@ what is left.
 De Luca, Albu-Schaeffer, Haddadin, Hirzinger, IROS 2006; Chen, Ballance, Gawthrop, O'Reilly, IEEE Trans.
 Industrial Electronics 47(4), 2000; Sariyildiz, Oboe, Ohnishi, IEEE Trans. Industrial Electronics 67(3), 2020.
 
-At impact the momentum jumps, about another foot; r is relabelled and kept, see `MomentumChain.reset`.
+At impact the momentum jumps, about another foot; r is relabelled and kept, see `ChainObserver.reset`.
 
 Measurement and input of the observer are of all n coordinates, where those of ADRC are of the p joints.
 """

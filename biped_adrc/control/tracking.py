@@ -132,13 +132,17 @@ def solved_acceleration(r: ReferencePoint, terms: Reduction, f: Array) -> Array:
     >>> ba.solved_acceleration(r, terms, np.zeros(4)).shape
     (4,)
     """
-    p = len(f)
-    H_b, H_N = r.H[:, :p], r.H[:, p:]
     return solve(
-        np.eye(p) - H_b - H_N @ terms.A_N,
-        r.drift + f + H_N @ terms.a_N,
+        output_matrix(r, terms),
+        r.drift + f + r.H[:, len(f) :] @ terms.a_N,
         "I - H_b - H_N A_N, by which the reference is tracked from this state,",
     )
+
+
+def output_matrix(r: ReferencePoint, terms: Reduction) -> Array:
+    """M = I - H_b - H_N A_N (p, p), by which y = q_b - q_d has y'' = M q_b'' - drift - H_N a_N."""
+    p = len(r.q_d)
+    return np.eye(p) - r.H[:, :p] - r.H[:, p:] @ terms.A_N
 
 
 def printed_acceleration(r: ReferencePoint, f: Array) -> Array:

@@ -197,10 +197,7 @@ def uniforms(r: Array, count: int) -> tuple[Array, Array]:
         x0, x1, x2, y0, y1, y2 = x1, x2, x, y1, y2, y
         z = modulo(x - y, M_1)
         u[i] = np.where(z > 0.0, z, M_1) / (M_1 + 1.0)
-    after = np.zeros(6)
-    after[0], after[1], after[2] = x0, x1, x2
-    after[3], after[4], after[5] = y0, y1, y2
-    return after, u
+    return np.array([x0, x1, x2, y0, y1, y2]), u
 
 
 def normals(r: Array, count: int) -> tuple[Array, Array]:

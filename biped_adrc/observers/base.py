@@ -211,11 +211,6 @@ def check_chain(order: int, scale: float, what: str) -> None:
         )
 
 
-def scaled_polynomial(poles: Sequence[complex], scale: float) -> Array:
-    """Coefficients (k,) behind the first, 1, of the polynomial of poles (k,) [rad/s] over scale [rad/s]."""
-    return np.ascontiguousarray(np.real(np.poly(np.array(poles) / scale))[1:])
-
-
 @dataclass(frozen=True)
 class ChainObserver(Observer):
     """m extended states; z is Z (LEAD + m, p) row by row. Leaves add their own flow, or correct and predict.
@@ -262,12 +257,21 @@ class ChainObserver(Observer):
     def reset(
         self, z: Array, policy: ResetPolicy, swap: Indices, y: Array, dy: Array, xi: Array
     ) -> Array:
-        """z after impact; MEASURED keeps xi^ and its derivatives, relabelled."""
+        """z after impact; MEASURED keeps xi^ and its derivatives, relabelled.
+
+        With one integrator xi^ is a force, which the impact does not end, so MODEL keeps it too, and only its
+        derivatives become zero. Coordinates behind the p joints keep their place.
+        """
         if policy is ResetPolicy.NONE:
             return z
-        if policy is ResetPolicy.MODEL:
+        if policy is ResetPolicy.MODEL and self.LEAD > 1:
             return self.initial_state(y, dy, xi)
-        Z = relabelled(z.reshape(self.order, -1), swap)
-        if policy is ResetPolicy.MEASURED:
-            Z[0], Z[1] = y, dy / self.scale
+        Z, p = z.reshape(self.order, -1), len(swap)
+        Z = np.concatenate((relabelled(Z[:, :p], swap), Z[:, p:]), axis=1)
+        if policy is not ResetPolicy.RELABEL:
+            Z[0] = y
+            if self.LEAD > 1:
+                Z[1] = dy / self.scale
+        if policy is ResetPolicy.MODEL:
+            Z[2:] = 0.0
         return Z.ravel()

@@ -42,7 +42,6 @@ from biped_adrc.observers.base import (
     ErrorSystem,
     equal_poles,
     mean_bandwidth,
-    scaled_polynomial,
     stable_poles,
     whole,
 )
@@ -67,7 +66,7 @@ class InjectedChain(ChainObserver):
     @derived
     def scaled_gains(self) -> Array:
         """l_(m+1)/w, l_m/w^2, ... (m + 2,), dimensionless: the polynomial of the poles over w has them."""
-        return scaled_polynomial(self.poles, self.scale)
+        return np.ascontiguousarray(np.real(np.poly(np.array(self.poles) / self.scale))[1:])
 
     @property
     def gains(self) -> Array:

@@ -31,13 +31,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-
-from biped_adrc.core.types import Array, Indices, relabelled
 from biped_adrc.observers.base import (
     MOST_POLES,
-    ChainObserver,
-    ResetPolicy,
     equal_poles,
     mean_bandwidth,
     stable_poles,
@@ -46,41 +41,15 @@ from biped_adrc.observers.base import (
 from biped_adrc.observers.gpi import InjectedChain, SampledChain
 
 
-class MomentumChain(ChainObserver):
-    """What both forms of the observer share: one integrator from the force to the momentum, and the reset.
+@dataclass(frozen=True)
+class MomentumObserver(InjectedChain):
+    """The observer in continuous time. Make it with `from_poles` or `from_bandwidth`.
 
-    A controller around it has to feed it with momentum and force of all n coordinates: `control.momentum_dob`.
+    Its flow takes y = pi (n,), the momentum [kg m^2/s], and input = beta (n,), the known force [N m], of all n
+    coordinates, as `control.momentum_dob` has them.
     """
 
     LEAD: ClassVar[int] = 1
-
-    def reset(
-        self, z: Array, policy: ResetPolicy, swap: Indices, y: Array, dy: Array, xi: Array
-    ) -> Array:
-        """z after impact; the impact does not end the force that r estimates, so every policy keeps r.
-
-        NONE changes nothing. The others relabel the p joints by swap (p,), and the coordinates behind them keep
-        their place; MEASURED and MODEL also set pi^ to y, the momentum after impact, and MODEL sets the
-        derivatives of r to zero.
-        """
-        if policy is ResetPolicy.NONE:
-            return z
-        Z, p = z.reshape(self.order, -1), len(swap)
-        Z = np.concatenate((relabelled(Z[:, :p], swap), Z[:, p:]), axis=1)
-        if policy is not ResetPolicy.RELABEL:
-            Z[0] = y
-        if policy is ResetPolicy.MODEL:
-            Z[2:] = 0.0
-        return Z.ravel()
-
-
-@dataclass(frozen=True)
-class MomentumObserver(MomentumChain, InjectedChain):
-    """The observer in continuous time. Make it with `from_poles` or `from_bandwidth`.
-
-    Its flow takes y = pi (n,), the momentum [kg m^2/s], and input = beta (n,), the known force [N m].
-    """
-
     poles: tuple[complex, ...] = ()
 
     @classmethod
@@ -108,9 +77,11 @@ class MomentumObserver(MomentumChain, InjectedChain):
 
 
 @dataclass(frozen=True)
-class SampledMomentumObserver(MomentumChain, SampledChain):
+class SampledMomentumObserver(SampledChain):
     """The discrete observer for one sampling period [s]: a chain of integrators with beta in its first row.
 
     beta is held between ticks. Where it changes within a period T this looks like a part of zeta, so that r has
     an error of about (T / 2) dbeta/dt; for a constant beta it has none.
     """
+
+    LEAD: ClassVar[int] = 1

@@ -168,7 +168,7 @@ PARTS_OF_CONTROL = {"OuterLoop", "ObservingController", "AbsentController"}
 PARTS_OF_CONTROL |= {"Around", "AcrossContact", "ContactWindow", "DoubleSupport"}
 BASES = {
     ba.Controller: ("control", PARTS_OF_CONTROL),
-    ba.Observer: ("observers", {"ChainObserver", "SampledChain", "InjectedChain", "MomentumChain"}),
+    ba.Observer: ("observers", {"ChainObserver", "InjectedChain"}),
     ba.Disturbance: (
         "disturbances",
         {"Windowed", "WindowedTorque", "Lines", "HeldRows", "AbsentDisturbance"},
