@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.disturbances.link import OnLink
+from biped_adrc.disturbances.force import OnLink
 
 TORQUE = [20.0, 20.0, 20.0, 20.0, 0.0]
 STEP = 0.4164

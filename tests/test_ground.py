@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 import biped_adrc as ba
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.control.reference_reset import ReferenceReset
-from biped_adrc.disturbances.hip_force import HipForce
+from biped_adrc.disturbances.force import HipForce
 from biped_adrc.gait.constraint import continued
 from biped_adrc.model.ground import StepDown
 

@@ -36,14 +36,9 @@ class Bounds(NamedTuple):
         peak = robot.description.peak_torque if robot.p else math.inf
         return cls(TURN, read_only(speed * robot.speed_limits), torque * peak)
 
-    def hold(self, q: Array, v: Array) -> Array:
-        """Whether angles q [rad] and rates v [rad/s], (n,) or (K, n), are within; not so for NaN."""
-        within: Array = np.all((np.abs(q) <= self.farthest) & (np.abs(v) <= self.fastest), axis=-1)
-        return within
-
     def check(self, t: float, q: Array, v: Array) -> None:
         """Raise RanAwayError for an angle of q (n,) [rad] or a rate of v (n,) [rad/s] at t [s] beyond them."""
-        if self.hold(q, v):
+        if np.all((np.abs(q) <= self.farthest) & (np.abs(v) <= self.fastest)):
             return
         i, j = int(np.argmax(np.abs(q))), int(np.argmax(np.abs(v) / self.fastest))
         if abs(q[i]) > self.farthest:

@@ -11,9 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.closed_loop.noticing import estimated
 from biped_adrc.closed_loop.protocols import Loop, Mode
-from biped_adrc.closed_loop.semantics import instant, parts, unknown
+from biped_adrc.closed_loop.semantics import estimated, instant, parts, unknown
 from biped_adrc.control.base import Measurement
 from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import ReferencePoint

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, Protocol
 from biped_adrc.control.base import Measurement
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.hardware.sample_hold import HeldParts
-from biped_adrc.model.reduction import BodyTerms, Reduction
+from biped_adrc.model.reduction import Reduction
 from biped_adrc.observers.base import Estimate
 
 
@@ -31,7 +31,9 @@ class Plant(Protocol):
     """What moves: n coordinates, of which the first p have motors. q [rad], v [rad/s] and forces
     [N m] are (n,).
 
-    Enough for the model of a plant that moves by itself; a walker needs a `WalkingPlant`.
+    Enough for the model of a plant that moves by itself. A walker stands on the ground with one foot (pinned)
+    and strikes it with the other: it needs the methods of `model.biped.Biped` that
+    `engine.mechanics.PlanarRobot` has, too.
     """
 
     @property
@@ -47,43 +49,6 @@ class Plant(Protocol):
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
         """q'' (n,) [rad/s^2] under the generalised force B_s u + zeta (n,) [N m]; joint friction included."""
-
-
-class AfterImpact(Protocol):
-    """What an impact leaves behind; `model.contact.Impact` is one, its symbolic twin another."""
-
-    @property
-    def q(self) -> Array:
-        """Angles after relabelling (n,) [rad]."""
-
-    @property
-    def v(self) -> Array:
-        """Rates after impact and relabelling (n,) [rad/s]."""
-
-
-class WalkingPlant(Plant, Protocol):
-    """A plant that stands on the ground with one foot (pinned) and strikes it with the other.
-
-    Points and forces are (x, z): x along the horizontal in the direction of walking, z up.
-    """
-
-    def body_terms(self, q: Array, v: Array) -> BodyTerms:
-        """G, C' q' (n,) [N m], and the ground's force as F_a q'' + F_0 (2,) [N]."""
-
-    def impact(self, q: Array, v: Array) -> AfterImpact:
-        """The plastic impact (7) from q (n,) [rad], v (n,) [rad/s], then the relabelling (8)."""
-
-    def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
-        """Force of the ground on the stance foot (2,) [N] for q'' = a, without forces from outside."""
-
-    def momentum(self, q: Array, v: Array) -> Array:
-        """Linear momentum m v_com (2,) [N s] of the whole robot."""
-
-    def swing_foot(self, q: Array) -> Array:
-        """Position (x, z) of the swing foot from the stance foot (2,) [m]."""
-
-    def hip(self, q: Array) -> Array:
-        """Position (x, z) of the hip from the stance foot (2,) [m]."""
 
 
 class ControlLaw(NamedTuple):
@@ -111,7 +76,7 @@ class Loop(Protocol):
 
     @property
     def plant(self) -> Any:
-        """What moves: a `Plant`; a `WalkingPlant` where there are impacts."""
+        """What moves: a `Plant`; a `Biped` or `PlanarRobot` where there are impacts."""
 
     @property
     def nominal(self) -> Any:

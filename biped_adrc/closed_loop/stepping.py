@@ -18,9 +18,8 @@ from typing import Any, cast
 
 import numpy as np
 
-from biped_adrc.closed_loop.noticing import estimated
 from biped_adrc.closed_loop.protocols import Mode
-from biped_adrc.closed_loop.semantics import after_contact, parts, torque_held
+from biped_adrc.closed_loop.semantics import after_contact, estimated, parts, torque_held
 from biped_adrc.closed_loop.stepping_plant import (
     Contact,
     LaggingPlant,

@@ -33,7 +33,7 @@ from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.gait.reference import Reference, check_point
 from biped_adrc.hardware import sample_hold as held
 from biped_adrc.hardware.motors import Motors
-from biped_adrc.hardware.sample_hold import Held, HeldParts
+from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.hybrid.system import Clock, HybridSystem, Relaxing
@@ -117,23 +117,14 @@ class ClosedLoop(HybridSystem, Generic[P]):
             method = getattr(law, name)
 
             def after(s: Array, m: Measurement, *more: Array) -> Array:
-                result = method(s, m, *more)
+                result = method(s, m, *map(frozen, more))
                 return s if result is s else frozen(returned(result, s.shape, law, name, finite))
 
             return after
 
-        def driven(name: str, finite: bool = True) -> Callable[..., Array]:
-            after = kept(name, finite)
-            return lambda s, m, u: after(s, m, frozen(u))
-
-        return ControlLaw(
-            law.output,
-            driven("flow", finite=False),
-            kept("jump"),
-            kept("correct"),
-            driven("predict"),
-            law.estimate,
-        )
+        jump, correct, predict = map(kept, ("jump", "correct", "predict"))
+        flow = kept("flow", finite=False)
+        return ControlLaw(law.output, flow, jump, correct, predict, law.estimate)
 
     @property
     def sampled(self) -> bool:
@@ -216,11 +207,6 @@ class ClosedLoop(HybridSystem, Generic[P]):
     def split_state(self, x: Array) -> tuple[Array, Array, Array]:
         """q (n,) [rad], v (n,) [rad/s] and s of x (nx,)."""
         return semantics.parts(self, x)[:3]
-
-    def held_at(self, x: Array) -> Held:
-        """What x (nx,) holds between sample instants, by name. In sampled time only."""
-        assert self.held is not None
-        return held.read(self.held.sizes, x[len(x) - self.behind :])
 
     def initial_state(self, q: Array, v: Array, mode: Mode | None = None) -> Array:
         """x (nx,) at the start of a single support in q (n,) [rad], v (n,) [rad/s].

@@ -33,8 +33,7 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from biped_adrc.control.base import Controller, Measurement, measured
-from biped_adrc.control.output_adrc import output_matrix
-from biped_adrc.control.tracking import body_of
+from biped_adrc.control.tracking import body_of, output_matrix
 from biped_adrc.core.checks import PositiveFloat
 from biped_adrc.core.errors import NotFiniteError
 from biped_adrc.core.linear import solve

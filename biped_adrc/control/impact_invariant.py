@@ -27,12 +27,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.control.across_contact import ContactWindow
+from biped_adrc.control.around import ContactWindow
 from biped_adrc.control.base import Measurement, nested
 from biped_adrc.control.outer_loop import tracked_constraint
 from biped_adrc.control.tracking import body_of
 from biped_adrc.core.checks import check_part
-from biped_adrc.core.errors import InputError
 from biped_adrc.core.linear import solve_positive
 from biped_adrc.core.part import derived
 from biped_adrc.core.types import Array
@@ -61,20 +60,16 @@ class ImpactInvariant(ContactWindow):
     innovation: bool = False
 
     def __post_init__(self) -> None:
-        super().__post_init__()
         for name in ("rates", "innovation"):
             check_part(getattr(self, name), f"{name} of ImpactInvariant", bool)
         tracked_constraint(
             self.inner, "a touchdown is expected by the phase of a virtual constraint"
         )
-        inside, name = list(nested(self.inner)), type(self.inner).__name__
+        inside = list(nested(self.inner))
         if not all(c._writes("projected_output") for c in inside):
-            raise InputError(
-                f"{name} has no rate error that could be projected; expected a controller that writes "
-                "projected_output, such as NPDController or ADRCController"
-            )
+            self.inner._has_no("rate error that could be projected")
         if self.innovation and not all(c._writes("projected_correct") for c in inside):
-            raise InputError(f"{name} has no observer; expected innovation = False, or one with it")
+            self.inner._has_no("innovation that could be projected")
 
     @derived
     def phase(self) -> tuple[Array, float]:

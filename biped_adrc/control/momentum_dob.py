@@ -12,7 +12,7 @@ what is left.
 De Luca, Albu-Schaeffer, Haddadin, Hirzinger, IROS 2006; Chen, Ballance, Gawthrop, O'Reilly, IEEE Trans.
 Industrial Electronics 47(4), 2000; Sariyildiz, Oboe, Ohnishi, IEEE Trans. Industrial Electronics 67(3), 2020.
 
-At impact the momentum jumps, about another foot; r is relabelled and kept, see `MomentumChain.reset`.
+At impact the momentum jumps, about another foot; r is relabelled and kept, see `ChainObserver.reset`.
 
 Measurement and input of the observer are of all n coordinates, where those of ADRC are of the p joints.
 """
@@ -25,8 +25,13 @@ from typing import ClassVar
 import numpy as np
 
 from biped_adrc.control.base import Measurement, measured
-from biped_adrc.control.observing import ObservingController
-from biped_adrc.control.tracking import TABLE_II, Gains, body_of, tracking_torque
+from biped_adrc.control.tracking import (
+    TABLE_II,
+    Gains,
+    ObservingController,
+    body_of,
+    tracking_torque,
+)
 from biped_adrc.core.linear import solve_positive
 from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import Reference, ReferencePoint

@@ -37,9 +37,8 @@ class NPDController(Controller):
     solve_theta: bool = True
 
     def output(self, s: Array, m: Measurement) -> Array:
-        r = self.reference(m.t, m.q, m.v)
-        return tracking_torque(self.gains, r, measured(m), m.terms, self.solve_theta)
+        return self.projected_output(s, m, None)
 
-    def projected_output(self, s: Array, m: Measurement, a: Array) -> Array:
+    def projected_output(self, s: Array, m: Measurement, a: Array | None) -> Array:
         r = self.reference(m.t, m.q, m.v)
         return tracking_torque(self.gains, r, measured(m), m.terms, self.solve_theta, a)

@@ -83,8 +83,8 @@ class OuterLoop(Around):
     def initial_state(self, m: Measurement) -> Array:
         z = self.inner.initial_state(m)
         s = np.concatenate((z, self.own_start(reference_in_force(self.inner, z), m)))
-        core = innermost(self, s)
-        return np.concatenate((core.initial_state(m), s[core_size(self, s) :]))
+        core, end = innermost(self, s)
+        return np.concatenate((core.initial_state(m), s[end:]))
 
     def flow(self, s: Array, m: Measurement, u: Array) -> Array:
         z, w = self.parts(s)
@@ -103,7 +103,7 @@ class OuterLoop(Around):
         z, w = self.parts(s)
         z = self.inner.jump(z, after, swap)
         state = np.concatenate((z, self.own_jump(w, reference_in_force(self.inner, z), after)))
-        end, core = core_size(self, s), innermost(self, state)
+        core, end = innermost(self, state)
         return np.concatenate((core.jump(s[:end], after, swap), state[end:]))
 
     def error_system(self) -> ErrorSystem | None:
@@ -132,7 +132,8 @@ def tracked_constraint(controller: Controller, why: str = OF_A_LOOP) -> VirtualC
 
 def own_reference(controller: Controller | None) -> Any:
     """The field `reference` of the controller inside all others (field `inner`); None where it has none."""
-    return next((c.reference for c in nested(controller) if hasattr(c, "reference")), None)
+    each = (getattr(c, "reference", None) for c in nested(controller))
+    return next((h for h in each if h is not None), None)
 
 
 def tracking(controller: Controller, reference: Constraint) -> Controller:
@@ -155,21 +156,17 @@ def reference_in_force(controller: Controller, s: Array) -> Constraint:
     return own_reference(controller) or tracked_constraint(controller)
 
 
-def core_size(controller: Controller, s: Array) -> int:
-    """How many numbers of s (size,), its first ones, are the state of the controller inside all outer loops."""
-    size = len(s)
-    while isinstance(controller, OuterLoop):
-        size, controller = size - controller.own_size, controller.inner
-    return size
+def innermost(loop: OuterLoop, s: Array) -> tuple[Controller, int]:
+    """The controller inside all outer loops, tracking what is in force in the state s (size,), and how many
+    numbers of s, its first ones, are its own.
 
-
-def innermost(loop: OuterLoop, s: Array) -> Controller:
-    """The controller inside all outer loops, tracking what is in force in the state s (size,).
-
-    An observer of outputs starts from the error of that, not of h alone.
+    An observer of outputs starts from the error of what is in force, not of h alone.
     """
-    core = next(c for c in nested(loop) if not isinstance(c, OuterLoop))
-    return core if own_reference(core) is None else tracking(core, reference_in_force(loop, s))
+    core: Controller = loop
+    size = len(s)
+    while isinstance(core, OuterLoop):
+        size, core = size - core.own_size, core.inner
+    return tracking(core, reference_in_force(loop, s)), size
 
 
 def with_correction(controller: Controller, correction: Correction) -> Controller:
@@ -179,5 +176,4 @@ def with_correction(controller: Controller, correction: Correction) -> Controlle
     """
     if isinstance(controller, OuterLoop):
         return with_fields(controller, inner=with_correction(controller.inner, correction))
-    h = own_reference(controller) or tracked_constraint(controller)
-    return tracking(controller, CorrectedConstraint(h, correction))
+    return tracking(controller, CorrectedConstraint(own_reference(controller), correction))

@@ -18,23 +18,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import numpy as np
-
 from biped_adrc.control.base import Measurement, measured
-from biped_adrc.control.observing import ObservingController
-from biped_adrc.control.tracking import TABLE_II, Gains, orthogonal_to, rate_error_change
+from biped_adrc.control.tracking import (
+    TABLE_II,
+    Gains,
+    ObservingController,
+    orthogonal_to,
+    output_matrix,
+    rate_error_change,
+)
 from biped_adrc.core.linear import solve
 from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import Reference, ReferencePoint
-from biped_adrc.model.reduction import Reduction
 from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
 from biped_adrc.observers.gpi import GPIObserver
-
-
-def output_matrix(r: ReferencePoint, terms: Reduction) -> Array:
-    """M (p, p), y'' = M q_b'' - ..."""
-    p = len(r.q_d)
-    return np.eye(p) - r.H[:, :p] - r.H[:, p:] @ terms.A_N
 
 
 @dataclass(frozen=True)

@@ -28,12 +28,9 @@ from biped_adrc.control.around import Around
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import derived
-from biped_adrc.core.timing import LONGEST_DELAY
+from biped_adrc.core.timing import LONGEST_DELAY, WHOLE
 from biped_adrc.core.types import Array, Indices, relabelled
 from biped_adrc.observers.base import Estimate
-
-WHOLE = 1e-9
-"""A prediction that is longer than whole periods by less than this fraction of one is of whole periods."""
 
 
 def weights(d: float, period: float) -> tuple[Array, Array]:

@@ -1,8 +1,9 @@
-"""What (20) and (28) share: the acceleration asked for, with or without the loop through Theta''.
+"""What controllers share that track a reference: the acceleration asked for, and an observer that is the state.
 
     u = kappa^-1 (a - xi),   a = q_d'' + f,   f = -K_d (x2 - q_d') - K_p (x1 - q_d)
 
-They differ in where x1, x2 and xi come from: an observer in (20), the measurement and the model in (28).
+is shared by (20) and (28). They differ in where x1, x2 and xi come from: an observer in (20), the measurement
+and the model in (28).
 
 q_d'' = drift + H q'' contains q'' and so, through the model, the torque. With the unactuated rows
 q_N'' = A_N q_b'' + a_N of (12) and q_b'' = a,
@@ -10,23 +11,35 @@ q_N'' = A_N q_b'' + a_N of (12) and q_b'' = a,
     (I - H_b - H_N A_N) a = drift + f + H_N a_N
 
 is solved for a. As printed, (20) and (28) drop H q''.
+
+ADRC, its output form and DOB have an observer that is their whole state:
+
+    u = torque(r, x^, m),   z' = flow(z, y, input)          in continuous time
+    z <- correct(z, y),     z <- predict(z, input)          at a tick
+
+r is the point of the reference, x^ the observer's estimate. An `ObservingController` says what its observer
+measures, y, what its input is, and the torque; observer and reference may be any. `adrc` measures the joints,
+`output_adrc` the output y = q_b - q_d, `momentum_dob` the momentum. All else, resets and time bases included,
+is here once.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from abc import abstractmethod
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
-from biped_adrc.control.base import Measurement
-from biped_adrc.core.checks import numbers
+from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.core.checks import check_part, numbers
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.linear import solve, solve_positive
 from biped_adrc.core.shown import Shown
-from biped_adrc.core.types import Array, frozen
-from biped_adrc.gait.reference import ReferencePoint
+from biped_adrc.core.types import Array, Indices, frozen
+from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.model.reduction import BodyTerms, Reduction
-from biped_adrc.observers.base import Estimate
+from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
 
 HIGHEST = 1e15
 """Of a gain [1/s^2], [1/s]: beyond it products of gains and poles have no place among the floats."""
@@ -119,13 +132,17 @@ def solved_acceleration(r: ReferencePoint, terms: Reduction, f: Array) -> Array:
     >>> ba.solved_acceleration(r, terms, np.zeros(4)).shape
     (4,)
     """
-    p = len(f)
-    H_b, H_N = r.H[:, :p], r.H[:, p:]
     return solve(
-        np.eye(p) - H_b - H_N @ terms.A_N,
-        r.drift + f + H_N @ terms.a_N,
+        output_matrix(r, terms),
+        r.drift + f + r.H[:, len(f) :] @ terms.a_N,
         "I - H_b - H_N A_N, by which the reference is tracked from this state,",
     )
+
+
+def output_matrix(r: ReferencePoint, terms: Reduction) -> Array:
+    """M = I - H_b - H_N A_N (p, p), by which y = q_b - q_d has y'' = M q_b'' - drift - H_N a_N."""
+    p = len(r.q_d)
+    return np.eye(p) - r.H[:, :p] - r.H[:, p:] @ terms.A_N
 
 
 def printed_acceleration(r: ReferencePoint, f: Array) -> Array:
@@ -149,3 +166,90 @@ def body_of(m: Measurement) -> BodyTerms:
             "needs_body = True, or the Measurement body=biped.body_terms(q, v)"
         )
     return m.body
+
+
+class ObservingController(Controller):
+    """Base of the controllers whose state is an observer's.
+
+    reference: what is tracked. gains: K_p [1/s^2], K_d [1/s] on the estimates. reset: the observer's,
+    at impact.
+
+    >>> controller = ba.ADRCController(gait.constraint)
+    >>> isinstance(controller, ba.ObservingController), controller.observer.m
+    (True, 7)
+    """
+
+    reference: Reference
+    observer: Observer
+    gains: Gains
+    reset: ResetPolicy
+
+    @abstractmethod
+    def measured_output(self, m: Measurement) -> Estimate:
+        """y and y', and the disturbance that the nominal model expects."""
+
+    @abstractmethod
+    def observer_input(self, m: Measurement, u: Array) -> Array:
+        """The observer's input under the torque u (p,)."""
+
+    @abstractmethod
+    def torque(
+        self, r: ReferencePoint, x: Estimate, m: Measurement, a: Array | None = None
+    ) -> Array:
+        """u (p,) [N m] for the estimates x, where a is given blind to changes of the rates along it (n, 2)."""
+
+    @abstractmethod
+    def output_change(self, m: Measurement, a: Array) -> Array:
+        """Change of y' when the rates change by a (n, 2), such as per unit of each contact impulse."""
+
+    def joint_estimate(self, x: Estimate, m: Measurement) -> Estimate:
+        """The estimates x as estimates of the joints, each (p,); they are, where y is q_b."""
+        return x
+
+    def point(self, m: Measurement) -> ReferencePoint:
+        """The reference at a measurement."""
+        return self.reference(m.t, m.q, m.v)
+
+    def estimated(self, s: Array) -> Estimate:
+        """The observer's estimates. Raises InputError for an observer that returns something else."""
+        x = self.observer.estimate(s)
+        check_part(x, f"what {type(self.observer).__name__}.estimate returned", Estimate)
+        return x
+
+    def output(self, s: Array, m: Measurement) -> Array:
+        return self.torque(self.point(m), self.estimated(s), m)
+
+    def projected_output(self, s: Array, m: Measurement, a: Array) -> Array:
+        return self.torque(self.point(m), self.estimated(s), m, a)
+
+    def initial_state(self, m: Measurement) -> Array:
+        return self.observer.initial_state(*self.measured_output(m))
+
+    def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
+        return self.observer.reset(s, self.reset, swap, *self.measured_output(after))
+
+    def flow(self, s: Array, m: Measurement, u: Array) -> Array:
+        return self.observer.flow(s, self.measured_output(m).position, self.observer_input(m, u))
+
+    def correct(self, s: Array, m: Measurement) -> Array:
+        return self.observer.correct(s, self.measured_output(m).position)
+
+    def projected_correct(self, s: Array, m: Measurement, a: Array) -> Array:
+        estimate, y = self.observer.estimate(s).position, self.measured_output(m).position
+        P = orthogonal_to(self.output_change(m, a))
+        return self.observer.correct(s, estimate + P @ (y - estimate))
+
+    def predict(self, s: Array, m: Measurement, u: Array) -> Array:
+        return self.observer.predict(s, self.observer_input(m, u))
+
+    def estimate(self, s: Array, m: Measurement) -> Estimate:
+        return self.joint_estimate(self.estimated(s), m)
+
+    def sampled(self, period: float) -> Self:
+        sampled: Self = replace(self, observer=self.observer.sampled(period))  # type: ignore[type-var]
+        return sampled
+
+    def continuous(self) -> Self:
+        if type(self.observer).flow is Observer.flow:
+            self._only_sampled()
+        return self

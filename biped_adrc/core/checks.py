@@ -60,6 +60,7 @@ SUCH_AS = {
     "SampledTime": "SampledTime(1e-3)",
     "Scenario": "Scenario('NPD'); a Walker walks with walk(walker, gait)",
     "VirtualConstraint": "gait.constraint",
+    "Windowed": "a TorquePulse; add up several OnLink for a sum",
     "Walker": "Walker(biped, controller); a Scenario walks with walk_scenario",
 }
 """An example of each, for the sentence only."""

@@ -23,6 +23,8 @@ of units.
 """
 LONGEST_DELAY = 100
 """Largest computation delay accepted, in periods; more torques on their way are a mistake of units."""
+WHOLE = 1e-9
+"""A delay that differs from whole periods by less than this fraction of one is of whole periods."""
 SAME_INSTANT = 1e-9
 """[s]: times that differ by less are one but for round-off, in both engines."""
 

@@ -131,9 +131,6 @@ class Sum(Disturbance):
         for part in self.parts:
             part.check_size(n)
 
-    def switching_times(self, step: int, t_start: float) -> tuple[float, ...]:
-        return tuple(s for part in self.parts for s in part.switching_times(step, t_start))
-
 
 def summands(disturbance: Disturbance) -> tuple[Disturbance, ...]:
     """The parts of a sum, or the disturbance itself."""
@@ -144,8 +141,8 @@ def summands(disturbance: Disturbance) -> tuple[Disturbance, ...]:
 class Windowed(Disturbance):
     """A torque between `start` and `stop` [s].
 
-    amplitude (n,) [N m] acts on q1..qN, actuated or not. With `step` the window counts from the start of
-    that single support and closes at its end at the latest; without, from the start of the run. The base of
+    amplitude (n,) [N m] acts on q1..qN, actuated or not. With `step`, from 1, the window counts from the start
+    of that single support and closes at its end at the latest; without, from the start of the run. The base of
     pulse, step, sine and noise, which write `torque` in the window.
 
     Raises InputError for an amplitude that is not one row of finite numbers, a window that is empty or begins
@@ -154,11 +151,8 @@ class Windowed(Disturbance):
 
     amplitude: Array
     step: PositiveInt | None = setup(None)
-    """Single support, counted from 1."""
     start: float = 0.0
-    """[s] from the start of that step, or of the run."""
     stop: float = math.inf
-    """[s], counted as `start`; the torque is zero from then on."""
 
     def __post_init__(self) -> None:
         amplitude = numbers(self.amplitude, "torque amplitude")

@@ -1,12 +1,19 @@
-"""Torques from a recording: straight lines between its rows, zero before the first and from the last on.
+"""Torques from rows of numbers: a recording, with straight lines between its rows, and what a hand did.
 
     zeta_i(t) = zeta_ij + (s - t_j) (zeta_i,j+1 - zeta_ij) / (t_j+1 - t_j),   t_j <= s < t_j+1,   s = t - start
 
-A corner at a row is no switching time: a step of integration may go across it, since zeta does not jump there.
-Where it does jump, at the first row and at the last, none does.
+of a recording, zero before its first row and from the last on. A corner at a row is no switching time: a step
+of integration may go across it, since zeta does not jump there. Where it does jump, at the first row and at
+the last, none does.
 
-A recording may have thousands of rows, while machine code has arrays of a fixed length. So it is cut into terms
-of `PIECES` straight pieces each, of which one acts at a time; all of them share one machine code.
+    zeta(t) = tau_k + J(q)' F_k,     t_k <= t - t_start < t_k+1
+
+of a hand: torques on the coordinates, and a force on a point of a link, held from row to row in one single
+support, whose end is the end of the last row. It is what a page on which a walk is pushed writes down
+(`extras.play`): one row for each sample in which the hand changed. Rows jump, so each is a switching time.
+
+Both may have thousands of rows, while machine code has arrays of a fixed length. So they are cut into terms
+of `PIECES` rows each, which share one machine code; of a recording one acts at a time.
 """
 
 from __future__ import annotations
@@ -18,16 +25,18 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from biped_adrc.core.checks import PositiveInt, check_part, numbers
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import CsvTable, reading
 from biped_adrc.core.types import Array, read_only
-from biped_adrc.disturbances.base import Disturbance, Windowed
+from biped_adrc.disturbances.base import Disturbance, Sum, Windowed
+from biped_adrc.disturbances.force import OnLink
 from biped_adrc.model.biped import Biped
 
 PIECES = 16
-"""Straight pieces in one term of a recording."""
+"""Rows of a hand, or straight pieces of a recording, in one term."""
 
 
 @dataclass(frozen=True)
@@ -50,21 +59,18 @@ class Lines(Windowed):
 
 @dataclass(frozen=True)
 class RecordedTorque(Disturbance):
-    """times (K,) [s] that increase, torques (K, n) [N m]. Read a file with `read`.
+    """times (K,) [s] of the recording's own clock, which increase, torques (K, n) [N m]. Read a file with
+    `read`.
 
-    start [s]: where time 0 of the recording is, after the start of single support `step`, with which it then
-    ends at the latest; without `step`, after the start of the run. Raises InputError for numbers that are not
-    finite, times that do not increase, and a recording that begins before 0.
+    start [s]: where time 0 of the recording is, after the start of single support `step`, from 1, with which it
+    then ends at the latest; without `step`, after the start of the run. Raises InputError for numbers that are
+    not finite, times that do not increase, and a recording that begins before 0.
     """
 
     times: Array
-    """(K,) [s], of the recording's own clock."""
     torques: Array
-    """(K, n) [N m]."""
     step: PositiveInt | None = None
-    """Single support, counted from 1."""
     start: float = 0.0
-    """[s] from the start of that step, or of the run."""
 
     def __post_init__(self) -> None:
         times = read_only(numbers(self.times, "the times of the recording"))
@@ -137,3 +143,68 @@ class RecordedTorque(Disturbance):
         slopes[:, : len(t) - 1] = (np.diff(zeta, axis=0) / np.diff(t)[:, np.newaxis]).T
         opens, closes = float(self.start + t[0]), float(self.start + t[-1])
         return Lines(zeta[0], self.step, opens, closes, begin=begin, width=width, slopes=slopes)
+
+
+@dataclass(frozen=True)
+class HeldRows(Windowed):
+    """One term of a hand, in its window; amplitude is its first row.
+
+    times (PIECES,) [s]: of its rows, counted as `start`. jumps (size, PIECES): what each of them adds.
+    """
+
+    times: Array = field(kw_only=True)
+    jumps: Array = field(kw_only=True)
+
+    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        past = 1.0 * (t >= t_start + self.times)
+        return self.amplitude + self.jumps @ past
+
+    @property
+    def switches(self) -> tuple[tuple[int, float], ...]:
+        ends = {self.start, *self.times.tolist(), self.stop}
+        return tuple((self.step or 0, float(s)) for s in sorted(ends) if np.isfinite(s))
+
+
+def by_hand(
+    biped: Biped,
+    step: int,
+    times: ArrayLike,
+    torques: ArrayLike = (),
+    on: str | None = None,
+    point: tuple[float, float] = (0.0, 0.0),
+    forces: ArrayLike = (),
+) -> Disturbance:
+    """What a hand did in single support `step`: torques (K, n) [N m] from times (K,) [s] on, counted in it, and
+    forces (K, 2) [N] on `point` (x, z) [m] of the link `on`.
+
+    Raises InputError for rows that are not as many as times, and times that do not increase from 0.
+    """
+    t = numbers(times, "the times of the hand")
+    if t.ndim != 1 or not len(t) or t[0] < 0.0 or np.any(np.diff(t) <= 0.0):
+        raise InputError(f"the times of the hand are {t}, expected numbers that increase from 0")
+    result = list[Disturbance](_terms("torques", torques, t, step, biped.n))
+    if on is not None:
+        pieces = _terms("forces", forces, t, step, 2, moment=1)
+        result += [OnLink(biped, on, piece, (point[0], point[1])) for piece in pieces]
+    return Sum(tuple(result))
+
+
+def _terms(
+    what: str, rows: ArrayLike, t: Array, step: int, size: int, moment: int = 0
+) -> list[HeldRows]:
+    """Rows (K, size) in terms of PIECES, with so many zeros behind each; none of no rows."""
+    y = numbers(rows, f"the {what} of the hand")
+    if not y.size:
+        return []
+    if y.shape != (len(t), size) or not np.all(np.isfinite([*y.ravel(), *t])):
+        raise InputError(
+            f"the {what} of the hand have shape {y.shape}, expected finite numbers ({len(t)}, {size})"
+        )
+    y, windows = np.pad(y, ((0, 0), (0, moment))), list[HeldRows]()
+    for first, last in pairwise([*range(0, len(t), PIECES), len(t)]):
+        at, jumps = np.full(PIECES, np.inf), np.zeros((size + moment, PIECES))
+        at[: last - first] = t[first:last]
+        jumps[:, 1 : last - first] = np.diff(y[first:last], axis=0).T
+        stop = float(t[last]) if last < len(t) else np.inf
+        windows.append(HeldRows(y[first], step, float(t[first]), stop, times=at, jumps=jumps))
+    return windows

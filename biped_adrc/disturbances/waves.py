@@ -137,10 +137,11 @@ class TorqueSine(Windowed):
 
 @dataclass(frozen=True)
 class TorqueNoise(Windowed):
-    """Root mean square `amplitude` (n,) [N m], flat up to `bandwidth` [Hz], different on every coordinate.
+    """Root mean square `amplitude` (n,) [N m], different on every coordinate.
 
-    The same seed gives the same noise. sines: K, their number per coordinate; the more, the closer
-    to a normal distribution, and the slower to evaluate.
+    The spectrum is flat up to `bandwidth` [Hz] and zero above it. The same seed, of frequencies and phases,
+    gives the same noise. sines: K, their number per coordinate; the more, the closer to a normal distribution,
+    and the slower to evaluate.
     Raises InputError for a bandwidth or a number that is not positive, or a seed that is no whole number >= 0.
 
     >>> noise = ba.TorqueNoise([2.0, 2.0, 2.0, 2.0, 0.0], bandwidth=20.0, seed=1)
@@ -149,11 +150,8 @@ class TorqueNoise(Windowed):
     """
 
     bandwidth: PositiveFloat = field(kw_only=True)
-    """[Hz]; the spectrum is flat below it, and zero above."""
     seed: NonNegativeInt = field(kw_only=True, metadata=SETUP)
-    """Of frequencies and phases; trials of a study have seeds of their own."""
     sines: PositiveInt = field(default=32, kw_only=True)
-    """K, per coordinate."""
 
     @derived
     def drawn(self) -> tuple[Array, Array]:

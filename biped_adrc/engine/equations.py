@@ -31,7 +31,7 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike
 
-from biped_adrc.closed_loop import exponential_form, noticing, semantics
+from biped_adrc.closed_loop import exponential_form, semantics
 from biped_adrc.closed_loop.exponential_form import ErrorForm
 from biped_adrc.closed_loop.protocols import ControlLaw, Mode
 from biped_adrc.control.base import Controller, Measurement
@@ -312,7 +312,7 @@ class Equations:
         x = at.does(semantics.tick)
         q, v, s, tail = semantics.parts(at.loop, x)
         m = at.loop.measure(at.t, q, v, at.mode)
-        result = at.trace(noticing.estimated)(at.loop, s, tail, m, at.mode)
+        result = at.trace(semantics.estimated)(at.loop, s, tail, m, at.mode)
         xi = np.zeros(self.make.robot.p) if result is None else result
         return self.function(at.inp, x, xi, at.lost)
 

@@ -1,4 +1,4 @@
-"""The planar robot on symbols: a `closed_loop.protocols.WalkingPlant` with the numbers of `PlantArrays`.
+"""The planar robot on symbols: a plant of `closed_loop.protocols` with the numbers of `PlantArrays`.
 
 D_s, Omega, positions and forces are those of `model.planar`, whose functions run on numbers and
 symbols alike. In double support q_e = (q_s, p_e), and with J_m the row of m p_com

@@ -3,7 +3,7 @@
     u = u_c + torque,    zeta = zeta_w + J(q)' force
 
 u_c and zeta_w are those of the walker; torque (p,) [N m] adds to the motors', force (2,) [N] acts on the origin
-of the trunk (`control.added_torque`, `disturbances.added_force`). A sample goes from one sample instant to the
+of the trunk (`control.around`, `disturbances.force`). A sample goes from one sample instant to the
 next; where an impact restarts the clock, it ends there.
 
 A `CompiledWalk` lies in memory, and the kernel `samples` moves many of them in one call. A `PythonWalk` is
@@ -23,12 +23,12 @@ from biped_adrc.closed_loop.instant_signals import step_reading
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.control.added_torque import AddedTorque
+from biped_adrc.control.around import AddedTorque
 from biped_adrc.core.checks import handing_out
 from biped_adrc.core.errors import RaisedError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
-from biped_adrc.disturbances.added_force import AddedForce
+from biped_adrc.disturbances.force import AddedForce
 from biped_adrc.engine.compiled_signals import Reading, reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.equations import WalkerNumbers

@@ -23,10 +23,8 @@ import numpy as np
 
 from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat
 from biped_adrc.core.shown import Shown
+from biped_adrc.core.timing import WHOLE
 from biped_adrc.core.types import Array, Indices, relabelled
-
-WHOLE = 1e-9
-"""A delay that differs from whole periods by less than this fraction is one of whole periods."""
 
 
 class Line(NamedTuple):

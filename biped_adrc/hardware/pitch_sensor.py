@@ -19,6 +19,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from biped_adrc.core.checks import FiniteFloat, NonNegativeFloat, NonNegativeInt
+from biped_adrc.core.part import setup
 from biped_adrc.core.types import Array
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.sensors import Sensors, normals, seeded
@@ -26,19 +27,16 @@ from biped_adrc.hardware.sensors import Sensors, normals, seeded
 
 @dataclass(frozen=True)
 class PitchSensor(Sensor):
-    """bias: b [rad]. drift: d [rad/s]. noise: standard deviation of the angle at a tick [rad], by `seed`.
+    """bias: b [rad]. drift: d [rad/s]. noise: standard deviation of the angle at a tick [rad], by `seed`,
+    a whole number from 0.
 
     Raises InputError for numbers that are not finite or a noise that is negative.
     """
 
     bias: FiniteFloat = 0.0
-    """[rad]"""
     drift: FiniteFloat = 0.0
-    """[rad/s]"""
     noise: NonNegativeFloat = 0.0
-    """[rad]"""
-    seed: NonNegativeInt = 0
-    """A whole number from 0."""
+    seed: NonNegativeInt = setup(0)
 
     @property
     def noisy(self) -> bool:
@@ -58,22 +56,17 @@ class PitchSensor(Sensor):
         return own
 
     def sampled(self, n: int, p: int, period: float) -> SampledPitchSensor:
-        d, r = float(self.drift), seeded(self.seed) if self.noisy else np.zeros(0)
-        return SampledPitchSensor(d * period, d, float(self.bias), float(self.noise), r)
+        r = seeded(self.seed) if self.noisy else np.zeros(0)
+        return SampledPitchSensor(self, float(self.drift * period), r)
 
 
 @dataclass(frozen=True)
 class SampledPitchSensor(Sensor):
     """`PitchSensor` with ticks every T: the module's equations."""
 
-    tick: float
-    """d T [rad]."""
-    drift: float
-    """d [rad/s]."""
-    bias: float
-    """b [rad]."""
-    noise: float
-    """[rad]"""
+    of: PitchSensor
+    turn: float
+    """d T [rad], by which the angle drifts in a period."""
     random: Array
     """r at the start of a run: (6,), or none without noise."""
 
@@ -82,16 +75,16 @@ class SampledPitchSensor(Sensor):
         return 3 + len(self.random)
 
     def start(self, q: Array, v: Array) -> Array:
-        at = np.array([q[-1] + self.bias, v[-1] + self.drift, self.bias])
+        at = np.array([q[-1] + self.of.bias, v[-1] + self.of.drift, self.of.bias])
         return np.concatenate((at, self.random))
 
     def sense(self, w: Array, q: Array, v: Array) -> Array:
         r, g = normals(w[3:], 1) if len(self.random) > 0 else (w[3:], np.zeros(1))
-        off = np.array([w[2] + self.tick])
-        return np.concatenate((q[-1:] + w[2] + self.noise * g, v[-1:] + self.drift, off, r))
+        off = np.array([w[2] + self.turn])
+        return np.concatenate((q[-1:] + w[2] + self.of.noise * g, v[-1:] + self.of.drift, off, r))
 
     def impact(self, w: Array, q: Array, v: Array, v_model: Array) -> Array:
-        return np.concatenate((w[:1], v[-1:] + self.drift, w[2:]))
+        return np.concatenate((w[:1], v[-1:] + self.of.drift, w[2:]))
 
     def reading(self, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
         return np.concatenate((q[:-1], w[:1])), np.concatenate((v[:-1], w[1:2]))

@@ -7,8 +7,9 @@ sensors' state, the rest the line of torques on their way to the motors; each is
 walker has no such part. u_m alone flows.
 
 The walker's state is one vector, since integrators, stored runs and machine code know vectors alone. Here its
-tail is taken apart (`read`) and put together (`written`), and what happens to all parts at the start, between
-ticks and at an impact is said once; `closed_loop.walker` does so for a tick, where the controller comes in.
+tail is taken apart (`read`) and put together (`written`), and what happens to all parts at the start and
+between ticks is said once; `closed_loop.semantics` does so for a tick and an impact, where the controller comes
+in.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ import numpy as np
 
 from biped_adrc.core.checks import returned
 from biped_adrc.core.timing import SampledTime
-from biped_adrc.core.types import Array, Indices, frozen
+from biped_adrc.core.types import Array, frozen
 from biped_adrc.hardware.motors import IDEAL, Line, Motors, TorqueLine, whole_and_part
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import HEAD, Belief, Touchdown, numbers_of
@@ -44,7 +45,7 @@ class HeldSizes(NamedTuple):
     """1 when the controller knows the delay."""
     own: int
     """Numbers that the plant keeps for itself."""
-    told: int = 0
+    told: int
     """Numbers in b."""
 
     @property
@@ -61,7 +62,7 @@ class HeldParts(NamedTuple):
     """Sampled for its robot and period."""
     motors: TorqueLine
     sizes: HeldSizes
-    touchdown: Touchdown | None = None
+    touchdown: Touchdown | None
 
     def sense(self, w: Array, q: Array, v: Array) -> Array:
         """w of the sensors after a tick at q (n,) [rad], v (n,) [rad/s]."""
@@ -89,10 +90,10 @@ def held_parameters(
     n: int,
     p: int,
     timing: SampledTime,
-    sensors: Sensor | None = None,
-    motors: Motors | None = None,
-    own: int = 0,
-    touchdown: Touchdown | None = None,
+    sensors: Sensor | None,
+    motors: Motors | None,
+    own: int,
+    touchdown: Touchdown | None,
 ) -> HeldParts:
     """What a walker's tail is laid out by, and the numbers of its parts.
 
@@ -102,18 +103,12 @@ def held_parameters(
     motors, period = IDEAL if motors is None else motors, timing.period
     sampled = None if sensors is None else sensors.sampled(n, p, period)
     queue, fraction = whole_and_part(timing.delay, period)
-    sizes = HeldSizes(
-        n,
-        p,
-        0 if sampled is None else sampled.size,
-        queue,
-        int(motors.lag > 0.0),
-        int(fraction > 0.0),
-        int(motors.rate_limit is not None),
-        int(timing.delay_known and timing.delay > 0.0),
-        own,
-        0 if touchdown is None else HEAD + touchdown.size,
-    )
+    sensed = 0 if sampled is None else sampled.size
+    told = 0 if touchdown is None else HEAD + touchdown.size
+    lag, waiting = int(motors.lag > 0.0), int(fraction > 0.0)
+    rate = int(motors.rate_limit is not None)
+    known = int(timing.delay_known and timing.delay > 0.0)
+    sizes = HeldSizes(n, p, sensed, queue, lag, waiting, rate, known, own, told)
     return frozen(HeldParts(sampled, motors.sampled(period, fraction), sizes, touchdown))
 
 
@@ -170,17 +165,3 @@ def _tried(sensors: Sensor, q: Array, v: Array) -> Array:
     for x in sensors.reading(frozen(w), q, v):
         returned(x, q.shape, sensors, "reading")
     return w
-
-
-def after_impact(
-    k: HeldParts, held: Held, swap: Indices, q: Array, v: Array, v_model: Array
-) -> Held:
-    """What is held after an impact to (q, v), each (n,); swap (p,) relabels the joints.
-
-    v_model (n,) [rad/s]: the rate that the controller expects by its nominal model. Sensors show no impact to a
-    controller that has yet to notice it.
-    """
-    w = held.w
-    if k.sensors is not None and k.touchdown is None:
-        w = k.sensors.impact(w, q, v, v_model)
-    return Held(w, held.line.relabelled(swap), held.own, held.b)

@@ -33,6 +33,7 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.hardware.sensing import Sensor
 
+VELOCITIES = ("differences", "measured", "gyro")
 CountsFloat = Annotated[float, Range("at least 1 count", lambda x: 1.0 <= x < math.inf)]
 
 
@@ -41,10 +42,11 @@ class Sensors(Shown, Sensor):
     """counts: of the joints' encoders per revolution, None for exact angles.
 
     pitch_resolution [rad]: of the unactuated pitch; None: as the joints'.
-    noise, pitch_noise [rad], rate_noise [rad/s]: standard deviations, drawn anew at every tick.
+    noise, pitch_noise [rad], rate_noise [rad/s] of rates that are measured: standard deviations, drawn anew at
+    every tick.
     velocity: "differences" of the angles, "measured", or "gyro": differences, but for the pitch's own rate.
     filter_time [s]: time constant of the differences' low-pass, 0 for none.
-    seed: of the noise. Raises InputError for what is negative or not finite.
+    seed: of the noise, a whole number from 0. Raises InputError for what is negative or not finite.
 
     >>> sensors = ba.Sensors(counts=10000, noise=1e-5, seed=1)
     >>> timing = ba.SampledTime(1e-3)
@@ -54,21 +56,13 @@ class Sensors(Shown, Sensor):
     """
 
     counts: CountsFloat | None = None
-    """Per revolution."""
     pitch_resolution: NonNegativeFloat | None = None
-    """[rad]"""
     noise: NonNegativeFloat = 0.0
-    """[rad]"""
     pitch_noise: NonNegativeFloat = 0.0
-    """[rad]"""
     rate_noise: NonNegativeFloat = 0.0
-    """[rad/s], of rates that are measured."""
     velocity: str = "differences"
-    """One of `VELOCITIES`."""
     filter_time: NonNegativeFloat = 0.0
-    """[s]"""
     seed: NonNegativeInt = 0
-    """A whole number from 0."""
 
     def __post_init__(self) -> None:
         if self.velocity not in VELOCITIES:
@@ -104,7 +98,7 @@ class Sensors(Shown, Sensor):
         return SampledSensors(
             np.where(resolution > 0.0, resolution, 1.0),
             np.where(joints, self.noise, self.pitch_noise),
-            np.full(n, float(self.rate_noise)),
+            float(self.rate_noise),
             share,
             float(period),
             gyro.astype(int),
@@ -121,8 +115,8 @@ class SampledSensors(Sensor):
     """(n,) [rad]"""
     noise: Array
     """(n,) [rad]"""
-    rate_noise: Array
-    """(n,) [rad/s]"""
+    rate_noise: float
+    """[rad/s]"""
     share: float
     """1 - exp(-T / tau)."""
     period: float
@@ -174,10 +168,6 @@ class SampledSensors(Sensor):
         return np.where(self.rounds > 0, self.resolution * np.floor(y / self.resolution + 0.5), y)
 
 
-VELOCITIES = ("differences", "measured", "gyro")
-"""How rates are had, see `Sensors.velocity`."""
-
-
 M_1, M_2 = 4294967087.0, 4294944443.0
 SIZE = 6
 """Numbers in a state r."""
@@ -207,10 +197,7 @@ def uniforms(r: Array, count: int) -> tuple[Array, Array]:
         x0, x1, x2, y0, y1, y2 = x1, x2, x, y1, y2, y
         z = modulo(x - y, M_1)
         u[i] = np.where(z > 0.0, z, M_1) / (M_1 + 1.0)
-    after = np.zeros(6)
-    after[0], after[1], after[2] = x0, x1, x2
-    after[3], after[4], after[5] = y0, y1, y2
-    return after, u
+    return np.array([x0, x1, x2, y0, y1, y2]), u
 
 
 def normals(r: Array, count: int) -> tuple[Array, Array]:

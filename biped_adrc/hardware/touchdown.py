@@ -13,19 +13,34 @@ A touchdown and a notice each turn `other`. So a notice before its touchdown is 
 that is not noticed before the next one leaves the labels right again and the belief two steps behind. Both
 engines run these methods, which are pure functions; randomness is a part of d.
 
-Leaves are in `detectors`: one has errors that are asked for, the others go by the measured angles, or
-by the force on the foot that the controller takes for the swing foot.
+Told with errors that are asked for, at the first tick at t >= t_touchdown + late, with probability 1 - missed:
+d is (waits, due, done, r), whether a touchdown waits to be told and when it is due [s], whether the
+false notice has been given, and the state r of the random numbers (`hardware.sensors`).
+
+Noticed by the swing foot, by where the measured angles say it is, or by its force; both have a gate on the
+phase, which is told by how far the swing foot is ahead:
+
+    ByKinematics   z + tan(slope) x < height, and lower than at the tick before
+    ByForce        free: F < off; then loaded: F > on, until F < off; noticed after debounce and delay
 """
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
-from typing import ClassVar, NamedTuple
+from dataclasses import dataclass
+from numbers import Real
+from typing import Annotated, ClassVar, NamedTuple
 
 import numpy as np
 
-from biped_adrc.core.checks import Checked
+from biped_adrc.core.checks import Checked, FiniteFloat, NonNegativeFloat, NonNegativeInt, Range
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.part import derived, setup
+from biped_adrc.core.shown import Shown
+from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array
+from biped_adrc.hardware.sensors import seeded, uniforms
 
 HEAD = 3
 """Numbers in b before d."""
@@ -112,3 +127,162 @@ def belief_of(b: Array) -> Belief:
 def numbers_of(belief: Belief) -> Array:
     """b of its parts, the inverse of `belief_of`."""
     return np.concatenate((np.array([belief.other, belief.step, belief.start]), belief.d))
+
+
+ProbabilityFloat = Annotated[float, Range("0 to 1", lambda x: 0.0 <= x <= 1.0)]
+
+
+@dataclass(frozen=True)
+class Told(Shown, Touchdown):
+    """The true touchdown, told `late` [s] after it, and errors that are asked for.
+
+    missed [1]: probability that a touchdown is never told, by `seed`, a whole number from 0. false_at: (step,
+    time [s]) of one notice without a touchdown, at the first tick so long after the step began; shortly before
+    its end it is an early one. A touchdown that leaves the labels right, as after a missed or an early one, is
+    not told. Raises InputError for a time that is negative and a probability that is none.
+    """
+
+    late: NonNegativeFloat = 0.0
+    missed: ProbabilityFloat = 0.0
+    false_at: tuple[int, float] | None = setup(None)
+    seed: NonNegativeInt = setup(0)
+
+    def __post_init__(self) -> None:
+        if (at := self.false_at) is None:
+            return
+        fits = isinstance(at, tuple | list) and len(at) == 2 and isinstance(at[0], int)
+        if not (fits and isinstance(at[1], Real) and at[0] >= 1 and 0.0 <= at[1] < math.inf):
+            raise InputError(
+                f"false_at is {at}, expected a step and a time in it [s], such as (2, 0.3)"
+            )
+
+    @property
+    def noisy(self) -> bool:
+        return self.missed > 0.0
+
+    @derived
+    def random(self) -> Array:
+        """r at the start of a run: (6,), or none where no touchdown is missed."""
+        return seeded(self.seed) if self.noisy else np.zeros(0)
+
+    @derived
+    def false(self) -> Array:
+        """Step, and time in it [s], of the false notice (2,); step 0 for none."""
+        return np.array((0, 0.0) if self.false_at is None else self.false_at, dtype=float)
+
+    @property
+    def size(self) -> int:
+        return 3 + len(self.random)
+
+    def start(self) -> Array:
+        return np.concatenate((np.zeros(2), [float(self.false_at is None)], self.random))
+
+    def touchdown(self, d: Array, other: float, t: float) -> Array:
+        """It is told late, if the labels differ now and it is not missed."""
+        missed, r = 0.0, d[3:]
+        if len(r) > 0:
+            r, u = uniforms(r, 1)
+            missed = 1.0 * (u[0] < self.missed)
+        waits = np.where(other > 0.5, 1.0 - missed, 0.0)
+        return np.concatenate((np.array([waits, t + self.late, d[2]]), r))
+
+    def notice(self, d: Array, look: Look) -> tuple[Array, float]:
+        """When it is due and the labels still differ; and once at the false time."""
+        due = 1.0 * (d[0] * look.other > 0.5) * (look.t >= d[1] - SAME_INSTANT)
+        at_step = 1.0 * (abs(look.step - self.false[0]) < 0.5) * (d[2] < 0.5)
+        false = at_step * (look.age >= self.false[1] - SAME_INSTANT)
+        fires = np.maximum(due, false)
+        left = np.array([d[0] * (1.0 - fires), d[1], np.maximum(d[2], false)])
+        return np.concatenate((left, d[3:])), fires
+
+
+@dataclass(frozen=True)
+class Gated(Shown, Touchdown):
+    """Base of the leaves with a gate on the phase, which is told by how far the swing foot is ahead.
+
+    ahead [m]: the controller's swing foot is more than that in front of its stance foot. after [s]: so long
+    after the last notice no other comes. slope [rad]: of the ground as the controller takes it, positive
+    downhill. Raises InputError for numbers that are not finite or a time that is negative.
+    """
+
+    ahead: FiniteFloat = 0.1
+    after: NonNegativeFloat = 0.1
+    slope: FiniteFloat = 0.0
+
+    @derived
+    def tangent(self) -> float:
+        """tan(slope) [1]."""
+        return math.tan(self.slope)
+
+    def gate(self, look: Look) -> float:
+        """1 where a touchdown may come: the swing foot is ahead and the last notice long ago; else 0."""
+        ahead = 1.0 * (look.foot[0] > self.ahead)
+        return ahead * (look.t_step >= self.after - SAME_INSTANT)
+
+
+@dataclass(frozen=True)
+class ByKinematics(Gated):
+    """The swing foot, by the controller's model at the measured angles, comes below `height` [m].
+
+    Above zero it is early, by height / speed of the foot but for a tick; a step of the ground, which no angle
+    shows, makes it late or early too.
+
+    >>> detector = ba.ByKinematics(height=0.002)
+    >>> timing = ba.SampledTime(1e-3, restart=False)
+    >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=timing, touchdown=detector)
+    >>> ba.walk(walker, gait, impacts=2).impacts
+    2
+    """
+
+    height: FiniteFloat = 0.0
+
+    size = 1
+
+    def notice(self, d: Array, look: Look) -> tuple[Array, float]:
+        """d = (height before,) [m]: below the height, lower than at the tick before, and the gate open."""
+        height = look.foot[1] + self.tangent * look.foot[0]
+        low = 1.0 * (height < self.height) * (height < d[0])
+        return np.array([height]), low * self.gate(look)
+
+
+@dataclass(frozen=True)
+class ByForce(Gated):
+    """The controller's swing foot, free before (below `off` [N]), carries more than `on` [N], and never below
+    `off` for `debounce` [s]; noticed `delay` [s] later. A switch is one with its threshold and delay.
+
+    Raises InputError unless 0 <= off <= on.
+
+    >>> detector = ba.ByForce(on=80.0, off=30.0, delay=2e-3)
+    >>> timing = ba.SampledTime(1e-3, restart=False)
+    >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=timing, touchdown=detector)
+    >>> ba.walk(walker, gait, impacts=2).impacts
+    2
+    """
+
+    on: FiniteFloat = 50.0
+    off: NonNegativeFloat = 20.0
+    debounce: NonNegativeFloat = 0.0
+    delay: NonNegativeFloat = 0.0
+
+    def __post_init__(self) -> None:
+        if self.off > self.on:
+            raise InputError(
+                f"the touchdown's forces are off = {self.off} N and on = {self.on} N, expected 0 <= off <= on"
+            )
+
+    size = 5
+    needs_force = True
+
+    def notice(self, d: Array, look: Look) -> tuple[Array, float]:
+        """d = (free, loaded, since, waits, due): a free foot is loaded for long enough, then the delay."""
+        t = look.t
+        free = np.maximum(d[0], 1.0 * (look.force < self.off))
+        stays = d[1] * (look.force >= self.off)
+        loaded = np.maximum(stays, 1.0 * (look.force > self.on) * free * self.gate(look))
+        since = np.where(d[1] > 0.5, d[2], t)
+        sure = loaded * (t - since >= self.debounce - SAME_INSTANT) * (1.0 - d[3])
+        due = np.where(sure > 0.5, t + self.delay, d[4])
+        waits = np.maximum(d[3], sure)
+        fires = waits * (t >= due - SAME_INSTANT)
+        left = 1.0 - fires
+        return np.array([free * left, loaded * left, since, waits * left, due]), fires

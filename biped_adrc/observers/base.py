@@ -8,20 +8,34 @@
 for the observers under ADRC; those under DOB see the momentum and the known force of all n coordinates.
 States are flat vectors passed in and handed back; an observer holds only numbers. So one observer object may
 serve many walks at once, and an integrator may evaluate a step twice. The engine turns the methods into machine
-code. `control.observing` puts an observer under a controller, `analysis.observer` chooses its poles and
+code. `control.tracking` puts an observer under a controller, `analysis.observer` chooses its poles and
 judges it alone.
+
+All observers of the package share a chain of integrators per coordinate in scaled states,
+
+    x_k = z_k scale^(k-1), k = 1..m+2,
+
+with x1 position, x2 velocity, x3 disturbance and its derivatives. In x itself the observer matrix of Table I
+has condition number 3e29; scaled it has 5e6. LEAD integrators lie between disturbance and measurement: two from
+an acceleration to an angle, one from a force to a momentum. `ChainObserver` has start, estimates and reset,
+which do not depend on how the gains were chosen; a leaf (`gpi`, `high_gain`, `kalman`, `momentum`) adds its
+flow.
 """
 
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
 from enum import Enum
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
-from biped_adrc.core.errors import InputError
+import numpy as np
+
+from biped_adrc.core.errors import InputError, check_count, check_positive
 from biped_adrc.core.part import Part
 from biped_adrc.core.shown import one_line
-from biped_adrc.core.types import Array, Indices
+from biped_adrc.core.types import Array, Indices, relabelled
 
 
 class Estimate(NamedTuple):
@@ -55,15 +69,6 @@ class ResetPolicy(Enum):
     """As relabel, with x1^ and x2^ from the measurement after impact."""
     MODEL = "model"
     """As at the start: x1^, x2^ measured, xi^ from the nominal model, higher derivatives zero."""
-
-    @classmethod
-    def named(cls, name: str | ResetPolicy) -> ResetPolicy:
-        """The policy by name. Raises InputError with the names there are."""
-        try:
-            return cls(name)
-        except ValueError:
-            names = [policy.value for policy in cls]
-            raise InputError(f"reset policy '{name}' is unknown; choose one of {names}") from None
 
 
 class ErrorSystem(NamedTuple):
@@ -136,3 +141,128 @@ class Observer(Part):
     def _continuous(self) -> InputError:
         """The error for what is asked of an observer in sampled time alone."""
         return InputError(f"{type(self).__name__} works in continuous time; call sampled(period)")
+
+
+MOST_POLES = 20
+"""States per joint: with more, round-off places the poles, and machine code of a step takes minutes to make."""
+SLOWEST, FASTEST = 1e-6, 1e9
+"""[rad/s]: beyond these bandwidths products of the gains have no place among the floats."""
+
+
+# -- what is asked of poles ----------------------------------------------------------------------
+def stable_poles(poles: Sequence[complex], what: str) -> tuple[complex, ...]:
+    """Two poles [rad/s] or more with negative real parts, complex ones in conjugate pairs.
+
+    Without pairs the gains would not be real. `what` has them. Raises InputError, with the pole that is wrong.
+    """
+    try:
+        numbers = tuple(complex(pole) for pole in poles)
+    except (TypeError, ValueError):
+        raise InputError(
+            f"the poles of {what} are {poles!r}, expected a sequence of numbers [rad/s] as (-300, -400)"
+        ) from None
+    check_chain(len(numbers), 1.0, what)
+    if len(numbers) < 2:
+        raise InputError(f"{what} needs at least 2 poles, found {len(numbers)}")
+    for pole in numbers:
+        if not np.isfinite(pole) or pole.real >= 0:
+            raise InputError(
+                f"observer pole {_show(pole)} rad/s is not stable; every real part must be < 0"
+            )
+        if numbers.count(pole) != numbers.count(pole.conjugate()):
+            raise InputError(f"observer pole {_show(pole)} rad/s has no conjugate beside it")
+        check_chain(2, abs(pole), what)
+    return numbers
+
+
+def equal_poles(bandwidth: float, number: int) -> tuple[complex, ...]:
+    """That many poles at -bandwidth [rad/s]. Raises InputError unless both are positive, and not too many."""
+    check_positive(bandwidth, f"observer bandwidth is {bandwidth} rad/s")
+    check_count(number, f"an observer has {number!r} poles")
+    check_chain(number, bandwidth, "an observer")
+    return (complex(-bandwidth),) * number
+
+
+def mean_bandwidth(poles: Sequence[complex]) -> float:
+    """Geometric mean of the poles [rad/s]."""
+    return float(np.exp(np.mean(np.log(np.abs(poles)))))
+
+
+def _show(pole: complex) -> str:
+    return f"{pole.real:g}" if pole.imag == 0 else f"{pole:g}"
+
+
+def check_chain(order: int, scale: float, what: str) -> None:
+    """Raise InputError for more than MOST_POLES states per joint, or a bandwidth out of reach [rad/s]."""
+    if order > MOST_POLES:
+        raise InputError(f"{what} has {order} poles, expected at most {MOST_POLES}")
+    if not SLOWEST <= scale <= FASTEST:
+        raise InputError(
+            f"{what} has a bandwidth of {scale:g} rad/s, expected {SLOWEST:g} to {FASTEST:g} rad/s"
+        )
+
+
+@dataclass(frozen=True)
+class ChainObserver(Observer):
+    """m extended states; z is Z (LEAD + m, p) row by row. Leaves add their own flow, or correct and predict.
+
+    scale [rad/s] is near the bandwidth, so that the scaled states have numbers of one size.
+
+    >>> observer = ba.GPIObserver.from_bandwidth(300.0, m=2)
+    >>> isinstance(observer, ba.ChainObserver), observer.order
+    (True, 4)
+    """
+
+    LEAD: ClassVar[int] = 2
+    """Integrators between disturbance and measurement."""
+    m: int
+    scale: float
+
+    def __post_init__(self) -> None:
+        check_chain(self.order, self.scale, type(self).__name__)
+
+    @property
+    def order(self) -> int:
+        """LEAD + m, states per coordinate."""
+        return self.LEAD + self.m
+
+    def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
+        """z that agrees with y, dy and xi, each (p,); higher derivatives are zero."""
+        Z = np.zeros((self.order, len(y)))
+        Z[0] = y
+        if self.LEAD > 1:
+            Z[1] = dy / self.scale
+        if self.m > 0:
+            Z[self.LEAD] = xi / self.scale**self.LEAD
+        return Z.ravel()
+
+    def estimate(self, z: Array) -> Estimate:
+        """x1^, x2^ and xi^ in z, each (p,); xi^ = 0 for m = 0, x2^ = 0 for one integrator."""
+        Z = z.reshape(self.order, -1)
+        none = np.zeros(Z.shape[1])
+        velocity = Z[1] * self.scale if self.LEAD > 1 else none
+        return Estimate(
+            Z[0], velocity, Z[self.LEAD] * self.scale**self.LEAD if self.m > 0 else none
+        )
+
+    def reset(
+        self, z: Array, policy: ResetPolicy, swap: Indices, y: Array, dy: Array, xi: Array
+    ) -> Array:
+        """z after impact; MEASURED keeps xi^ and its derivatives, relabelled.
+
+        With one integrator xi^ is a force, which the impact does not end, so MODEL keeps it too, and only its
+        derivatives become zero. Coordinates behind the p joints keep their place.
+        """
+        if policy is ResetPolicy.NONE:
+            return z
+        if policy is ResetPolicy.MODEL and self.LEAD > 1:
+            return self.initial_state(y, dy, xi)
+        Z, p = z.reshape(self.order, -1), len(swap)
+        Z = np.concatenate((relabelled(Z[:, :p], swap), Z[:, p:]), axis=1)
+        if policy is not ResetPolicy.RELABEL:
+            Z[0] = y
+            if self.LEAD > 1:
+                Z[1] = dy / self.scale
+        if policy is ResetPolicy.MODEL:
+            Z[2:] = 0.0
+        return Z.ravel()

@@ -10,9 +10,15 @@ Its error obeys (19) with the poles chosen. States are scaled by w, the geometri
 z_k = x_k / w^(k-1), and the gains are the coefficients of the polynomial of the poles divided by w. The
 injection is written l (y - x1^), never l y - l x1^: with gains up to 1e29 that form is lost in round-off.
 
-In discrete time it has the current form of `chain`, whose L places the eigenvalues of (I - L C) Phi at exp(s T)
-by Ackermann's formula. The held-measurement observer with the same poles is unstable at 1 kHz; this form is
-stable there.
+In discrete time it has its *current* (filtered) form,
+
+    Z <- Phi Z + Gamma input         prediction over one period T
+    Z <- Z + L (y - Z_1)             correction at the tick
+
+Phi is the Taylor matrix of a chain of integrators in states z_k = x_k T^(k-1), Phi_ij = 1/(j - i)!, and
+Gamma = T^2 (1/2, 1, 0, ...), or T (1, 0, ...) with one integrator in front. L places the eigenvalues of
+(I - L C) Phi at exp(s T) by Ackermann's formula. The held-measurement observer with the same poles is unstable
+at 1 kHz; this form is stable there.
 
 m = 0 estimates position and velocity alone, m = 1 is the linear extended state observer, and m extended states
 follow a disturbance that is a polynomial of degree m - 1 in time without a steady error. `high_gain` and
@@ -23,21 +29,19 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Self
+from dataclasses import dataclass, field
+from math import factorial
 
 import numpy as np
 
 from biped_adrc.core.errors import InputError, check_positive, check_whole
-from biped_adrc.core.part import derived
+from biped_adrc.core.part import SETUP, derived
 from biped_adrc.core.types import Array
-from biped_adrc.observers.base import ErrorSystem
-from biped_adrc.observers.chain import (
+from biped_adrc.observers.base import (
     ChainObserver,
-    SampledChain,
+    ErrorSystem,
     equal_poles,
     mean_bandwidth,
-    scaled_polynomial,
     stable_poles,
 )
 
@@ -61,7 +65,7 @@ class InjectedChain(ChainObserver):
     @derived
     def scaled_gains(self) -> Array:
         """l_(m+1)/w, l_m/w^2, ... (m + 2,), dimensionless: the polynomial of the poles over w has them."""
-        return scaled_polynomial(self.poles, self.scale)
+        return np.ascontiguousarray(np.real(np.poly(np.array(self.poles) / self.scale))[1:])
 
     @property
     def gains(self) -> Array:
@@ -76,9 +80,24 @@ class InjectedChain(ChainObserver):
         dZ[self.LEAD - 1] += input / w ** (self.LEAD - 1)
         return dZ.ravel()
 
-    def sampled(self, period: float) -> ChainObserver:
-        """The current (filtered) discrete observer with poles exp(s T)."""
-        return SampledGPIObserver.from_poles(self.poles, period)
+    def sampled(self, period: float) -> SampledChain:
+        """The current (filtered) discrete observer for ticks every `period` [s]."""
+        check_positive(period, f"the sampling period is {period} s")
+        return SampledChain(self.m, 1.0 / period, self, period)
+
+    def sampled_gains(self, Phi: Array, period: float) -> Array:
+        """L (k,), dimensionless, by Ackermann's formula: poles at exp(s T)."""
+        k = self.order
+        N = Phi - np.eye(k)
+        roots = np.exp(np.array(self.poles) * period)
+        p_of_Phi = np.eye(k, dtype=complex)
+        for root in roots:  # factors (1 - root) I + N: no cancellation for real roots in (0, 1)
+            p_of_Phi = p_of_Phi @ ((1.0 - root) * np.eye(k) + N)
+        rows = [Phi[0]]
+        for _ in range(k - 1):
+            rows.append(rows[-1] @ Phi)
+        last = np.linalg.solve(np.array(rows), np.eye(k)[-1])
+        return np.ascontiguousarray(np.real(p_of_Phi @ last))
 
     def error_system(self) -> ErrorSystem:
         """(19) in scaled states: e' = A e + b (q_b'' - kappa u)."""
@@ -121,32 +140,38 @@ class GPIObserver(InjectedChain):
 
 
 @dataclass(frozen=True)
-class SampledGPIObserver(SampledChain):
-    """The discrete observer for one period T [s]; `scale` is 1/T, so that Phi has no T in it."""
+class SampledChain(ChainObserver):
+    """The module's discrete form of an observer for one period T [s]; `scale` is 1/T, so that Phi has no T in
+    it.
+    """
 
-    poles: tuple[complex, ...]
+    continuous: InjectedChain = field(metadata=SETUP)
+    period: float
 
-    @classmethod
-    def from_poles(cls, poles: Sequence[complex], period: float) -> Self:
-        """Poles s [rad/s] of the continuous observer, as those of GPIObserver, and the period T [s].
+    @derived
+    def Phi(self) -> Array:
+        """(k, k), dimensionless."""
+        k = range(self.order)
+        return np.array([[1.0 / factorial(j - i) if j >= i else 0.0 for j in k] for i in k])
 
-        Raises InputError.
-        """
-        poles = stable_poles(poles, "a discrete observer")
-        check_positive(period, f"the sampling period is {period} s")
-        return cls(len(poles) - cls.LEAD, 1.0 / period, period, poles)
+    @derived
+    def Gamma(self) -> Array:
+        """(k,) [s^2], or [s] for one integrator."""
+        Gamma, lead = np.zeros(self.order), self.LEAD
+        Gamma[:lead] = [self.period**lead / factorial(lead - i) for i in range(lead)]
+        return Gamma
 
     @derived
     def L(self) -> Array:
-        """(m + 2,), dimensionless, by Ackermann's formula."""
-        k, Phi = self.order, self.Phi
-        N = Phi - np.eye(k)
-        roots = np.exp(np.array(self.poles) * self.period)
-        p_of_Phi = np.eye(k, dtype=complex)
-        for root in roots:  # factors (1 - root) I + N: no cancellation for real roots in (0, 1)
-            p_of_Phi = p_of_Phi @ ((1.0 - root) * np.eye(k) + N)
-        rows = [Phi[0]]
-        for _ in range(k - 1):
-            rows.append(rows[-1] @ Phi)
-        last = np.linalg.solve(np.array(rows), np.eye(k)[-1])
-        return np.ascontiguousarray(np.real(p_of_Phi @ last))
+        """(k,), dimensionless."""
+        return self.continuous.sampled_gains(self.Phi, self.period)
+
+    def correct(self, z: Array, y: Array) -> Array:
+        """z at the sample instant with the measurement y (p,) taken in."""
+        Z = z.reshape(self.order, -1)
+        return np.ravel(Z + np.outer(self.L, y - Z[0]))
+
+    def predict(self, z: Array, input: Array) -> Array:
+        """z one period later under a constant input (p,)."""
+        Z = z.reshape(self.order, -1)
+        return np.ravel(self.Phi @ Z + np.outer(self.Gamma, input))

@@ -27,9 +27,7 @@ import numpy as np
 from scipy.linalg import solve_discrete_are
 
 from biped_adrc.core.errors import check_positive, check_whole
-from biped_adrc.core.part import derived
 from biped_adrc.core.types import Array
-from biped_adrc.observers.chain import SampledChain
 from biped_adrc.observers.gpi import InjectedChain
 
 
@@ -64,29 +62,16 @@ class KalmanObserver(InjectedChain):
         angles = np.pi * (0.5 + (np.arange(k) + 0.5) / k)
         return tuple(complex(pole) for pole in self.scale * np.exp(1j * angles))
 
-    def sampled(self, period: float) -> SampledKalmanObserver:
-        """The steady-state filter for ticks every `period` [s]."""
-        check_positive(period, f"the sampling period is {period} s")
-        return SampledKalmanObserver(self.m, 1.0 / period, period, self)
-
-
-@dataclass(frozen=True)
-class SampledKalmanObserver(SampledChain):
-    """The discrete filter for one period T [s]; `scale` is 1/T. Made by `KalmanObserver.sampled`."""
-
-    continuous: KalmanObserver
-
-    @derived
-    def L(self) -> Array:
-        """(m + 2,), dimensionless.
+    def sampled_gains(self, Phi: Array, period: float) -> Array:
+        """L (m + 2,) of the steady-state filter, dimensionless.
 
         The Riccati equation is solved with Q / R in scaled states: in physical ones its numbers cover so many
         decades that the solver fails.
         """
-        k, T = self.order, self.period
-        R = self.continuous.measurement / T
-        Q = accumulated(k) * self.continuous.intensity * T ** (2 * k - 1) / R
-        P = solve_discrete_are(self.Phi.T, np.eye(1, k).T, Q, np.ones((1, 1)))
+        k, T = self.order, period
+        R = self.measurement / T
+        Q = accumulated(k) * self.intensity * T ** (2 * k - 1) / R
+        P = solve_discrete_are(Phi.T, np.eye(1, k).T, Q, np.ones((1, 1)))
         return P[:, 0] / (P[0, 0] + 1.0)
 
 

@@ -31,54 +31,23 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-
-from biped_adrc.core.types import Array, Indices, relabelled
-from biped_adrc.observers.base import ResetPolicy
-from biped_adrc.observers.chain import (
-    ChainObserver,
+from biped_adrc.observers.base import (
     equal_poles,
     mean_bandwidth,
     stable_poles,
 )
-from biped_adrc.observers.gpi import InjectedChain, SampledGPIObserver
-
-
-class MomentumChain(ChainObserver):
-    """What both forms of the observer share: one integrator from the force to the momentum, and the reset.
-
-    A controller around it has to feed it with momentum and force of all n coordinates: `control.momentum_dob`.
-    """
-
-    LEAD: ClassVar[int] = 1
-
-    def reset(
-        self, z: Array, policy: ResetPolicy, swap: Indices, y: Array, dy: Array, xi: Array
-    ) -> Array:
-        """z after impact; the impact does not end the force that r estimates, so every policy keeps r.
-
-        NONE changes nothing. The others relabel the p joints by swap (p,), and the coordinates behind them keep
-        their place; MEASURED and MODEL also set pi^ to y, the momentum after impact, and MODEL sets the
-        derivatives of r to zero.
-        """
-        if policy is ResetPolicy.NONE:
-            return z
-        Z, p = z.reshape(self.order, -1), len(swap)
-        Z = np.concatenate((relabelled(Z[:, :p], swap), Z[:, p:]), axis=1)
-        if policy is not ResetPolicy.RELABEL:
-            Z[0] = y
-        if policy is ResetPolicy.MODEL:
-            Z[2:] = 0.0
-        return Z.ravel()
+from biped_adrc.observers.gpi import InjectedChain, SampledChain
 
 
 @dataclass(frozen=True)
-class MomentumObserver(MomentumChain, InjectedChain):
+class MomentumObserver(InjectedChain):
     """The observer in continuous time. Make it with `from_poles` or `from_bandwidth`.
 
-    Its flow takes y = pi (n,), the momentum [kg m^2/s], and input = beta (n,), the known force [N m].
+    Its flow takes y = pi (n,), the momentum [kg m^2/s], and input = beta (n,), the known force [N m], of all n
+    coordinates, as `control.momentum_dob` has them.
     """
 
+    LEAD: ClassVar[int] = 1
     poles: tuple[complex, ...] = ()
 
     @classmethod
@@ -100,13 +69,16 @@ class MomentumObserver(MomentumChain, InjectedChain):
 
         "Current" means that an estimate at a tick uses the measurement of that same tick.
         """
-        return SampledMomentumObserver.from_poles(self.poles, period)
+        chain = super().sampled(period)
+        return SampledMomentumObserver(chain.m, chain.scale, self, period)
 
 
 @dataclass(frozen=True)
-class SampledMomentumObserver(MomentumChain, SampledGPIObserver):
+class SampledMomentumObserver(SampledChain):
     """The discrete observer for one sampling period [s]: a chain of integrators with beta in its first row.
 
     beta is held between ticks. Where it changes within a period T this looks like a part of zeta, so that r has
     an error of about (T / 2) dbeta/dt; for a constant beta it has none.
     """
+
+    LEAD: ClassVar[int] = 1

@@ -26,7 +26,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.core.timing import ContinuousTime, SampledTime
 from biped_adrc.core.types import Array, frozen
 from biped_adrc.disturbances.base import Disturbance, Sum, Windowed
-from biped_adrc.disturbances.link import OnLink
+from biped_adrc.disturbances.force import OnLink
 from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.gait import Gait, load_gait

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from biped_adrc.control.across_contact import AcrossContact
+from biped_adrc.control.around import AcrossContact
 from biped_adrc.control.base import Controller
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.gait.gait import Gait
@@ -105,7 +105,7 @@ def _values(
     settings = {name: x for name, x in settings.items() if x is not None}
     gains = {name: x for name in GAINS if (x := getattr(c, name)) is not None}
     values = {**c.own, **settings, **gains, "solve_theta": c.solve_theta}
-    values["reset"] = ResetPolicy.named(o.reset)
+    values["reset"] = ResetPolicy(o.reset)
     used = {*accepted, *(f"observer.{name}" for name in accepted)}
     if "gains" in accepted and gains:
         usual = accepted["gains"].default

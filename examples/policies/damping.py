@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 import biped_adrc as ba
-from biped_adrc.control.across_contact import ContactWindow
+from biped_adrc.control.around import ContactWindow
 
 
 @dataclass(frozen=True)

@@ -36,7 +36,6 @@ from biped_adrc.hardware.motors import Line, Motors, TorqueLine, whole_and_part
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import Look, Touchdown
 from biped_adrc.hybrid.integrators import OneStepMethod
-from biped_adrc.observers.momentum import MomentumChain
 
 PERIOD, SWAP = 1e-3, np.array([1, 0, 3, 2])
 SLOW = ba.GPIObserver.from_bandwidth(20.0)
@@ -435,7 +434,7 @@ def estimator(observer, steps):
     calls += [("reset", (other, policy, SWAP, y, dy, xi)) for policy in ba.ResetPolicy]
     for name, rest in [*calls, ("initial_state", (y, dy, xi)), ("estimate", (other,))]:
         agree(lambda o, *rest: getattr(o, name)(*rest), observer, *rest)  # noqa: B023
-    around = MomentumDOBController if isinstance(observer, MomentumChain) else ba.ADRCController
+    around = MomentumDOBController if observer.LEAD == 1 else ba.ADRCController
     for policy in ba.ResetPolicy:
         law = around(gait().constraint, observer, reset=policy)
         for m, random in measurements(3):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.control.across_contact import Hold
+from biped_adrc.control.around import Hold
 from biped_adrc.control.impact_invariant import ImpactInvariant
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_adrc import OutputADRCController

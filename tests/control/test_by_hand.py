@@ -5,7 +5,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.core.errors import InputError
-from biped_adrc.disturbances.by_hand import PIECES, by_hand
+from biped_adrc.disturbances.recorded import PIECES, by_hand
 
 
 def test_rows_are_held_from_their_times_on_in_one_single_support(biped):

@@ -13,14 +13,14 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.control.added_torque import AddedTorque
+from biped_adrc.control.around import AddedTorque
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.control.passive import Passive
 from biped_adrc.control.pd_gravity import JointGains
 from biped_adrc.control.stride import TORSO_LEAN, StrideGains
 from biped_adrc.core.errors import InputError
-from biped_adrc.disturbances.added_force import AddedForce
+from biped_adrc.disturbances.force import AddedForce
 from biped_adrc.gait.bspline import BSpline
 from biped_adrc.gait.constraint import CorrectedConstraint, continued
 from biped_adrc.gait.curves import Curve
@@ -168,7 +168,7 @@ PARTS_OF_CONTROL = {"OuterLoop", "ObservingController", "AbsentController"}
 PARTS_OF_CONTROL |= {"Around", "AcrossContact", "ContactWindow", "DoubleSupport"}
 BASES = {
     ba.Controller: ("control", PARTS_OF_CONTROL),
-    ba.Observer: ("observers", {"ChainObserver", "SampledChain", "InjectedChain", "MomentumChain"}),
+    ba.Observer: ("observers", {"ChainObserver", "InjectedChain"}),
     ba.Disturbance: (
         "disturbances",
         {"Windowed", "WindowedTorque", "Lines", "HeldRows", "AbsentDisturbance"},

@@ -11,8 +11,7 @@ import biped_adrc as ba
 from biped_adrc.control.passive import Passive
 from biped_adrc.core.errors import InputError
 from biped_adrc.disturbances.base import Sum
-from biped_adrc.disturbances.hip_force import HipForce
-from biped_adrc.disturbances.link import OnLink
+from biped_adrc.disturbances.force import HipForce, OnLink
 from biped_adrc.disturbances.recorded import RecordedTorque
 from biped_adrc.disturbances.waves import TorqueNoise
 from biped_adrc.engine.compiled_push import term_code

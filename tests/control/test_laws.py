@@ -12,8 +12,7 @@ from biped_adrc.control.output_adrc import OutputADRCController
 from biped_adrc.core.part import derived
 from biped_adrc.engine.structure import structure
 from biped_adrc.gait.reference import Reference
-from biped_adrc.observers.base import Estimate
-from biped_adrc.observers.chain import ChainObserver
+from biped_adrc.observers.base import ChainObserver, Estimate
 
 
 @dataclass(frozen=True)

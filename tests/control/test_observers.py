@@ -117,8 +117,6 @@ def test_reset_policies():
     model = observer.estimate(reset("model").ravel())
     assert model.disturbance == pytest.approx(xi)
     assert not np.any(reset("model")[3])
-    with pytest.raises(InputError, match=r"'sometimes'.*relabel"):
-        ba.ResetPolicy.named("sometimes")
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from biped_adrc.control.outer_loop import reference_in_force
 from biped_adrc.control.reference_reset import ReferenceReset, ResetPolynomial, reset_coefficients
 from biped_adrc.control.stride import TORSO_LEAN, StrideGains, StridePI, bump
 from biped_adrc.core.errors import GaitError, InputError
-from biped_adrc.disturbances.hip_force import HipForce
+from biped_adrc.disturbances.force import HipForce
 from biped_adrc.gait.bspline import BSpline
 from biped_adrc.gait.reference import TimeReference
 

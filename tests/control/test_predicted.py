@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.control.across_contact import Hold
+from biped_adrc.control.around import Hold
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.friction_feedforward import FrictionFeedforward
 from biped_adrc.control.momentum_dob import MomentumDOBController

@@ -26,7 +26,6 @@ from biped_adrc.extras.export.computer import Computer
 from biped_adrc.extras.export.loaded import ExportedController
 from biped_adrc.extras.export.source import source_of
 from biped_adrc.hybrid.simulator import simulate
-from biped_adrc.observers.momentum import MomentumChain
 from tests.control.conforms import PERIOD, gait, heavy, robot
 from tests.control.test_conformance import ROWS, UNNAMED, made
 
@@ -84,7 +83,7 @@ def walker_of(kind, thing, hardware):
     if kind in ("controller", "contact", "around"):
         law = thing
     elif kind == "observer":
-        around = MomentumDOBController if isinstance(thing, MomentumChain) else ba.ADRCController
+        around = MomentumDOBController if thing.LEAD == 1 else ba.ADRCController
         law = around(gait().constraint, thing)
     elif kind == "reference":
         law = ba.NPDController(thing)

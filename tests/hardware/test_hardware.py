@@ -10,7 +10,6 @@ import biped_adrc as ba
 from biped_adrc.closed_loop import semantics
 from biped_adrc.hardware.motors import Line, Motors, TorqueLine
 from biped_adrc.hardware.pitch_sensor import PitchSensor
-from biped_adrc.hardware.sample_hold import motor_torque
 from biped_adrc.hardware.sensors import Sensors
 
 T = 1e-3
@@ -146,7 +145,7 @@ def test_in_a_walk_torques_act_late_by_the_delay(biped, gait, delay):
     x0 = walker.initial_state(q, v)
     arc = ba.simulate(walker, x0, ba.Mode(), ba.RK4(0.2e-3), t_end=0.02).arcs[0]
     for t, x in zip(arc.t, arc.x, strict=True):
-        u = motor_torque(walker.held_at(x).line)
+        u = semantics.torque_held(walker.held, x[-walker.behind :])
         since = t - delay
         near = abs(since / T - round(since / T)) < 1e-6
         if since > 0 and not near:
@@ -169,7 +168,7 @@ def test_lag_is_an_exponential_between_ticks(biped, gait, engine, tau):
     arc = run.arcs[0]
     late = np.maximum(arc.t - 1.5e-3, 0.0)
     expected = (1.0 - np.exp(-late / tau))[:, None] * [10.0, -20.0, 5.0, 0.0]
-    found = np.array([motor_torque(walker.held_at(x).line) for x in arc.x])
+    found = np.array([semantics.torque_held(walker.held, x[-walker.behind :]) for x in arc.x])
     assert np.max(np.abs(found - expected)) < 1e-11
 
 

@@ -8,8 +8,8 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.engine.program import structure_of
 from biped_adrc.engine.structure import structure
-from biped_adrc.hardware.detectors import ByKinematics, Told
 from biped_adrc.hardware.sensing import Sensor
+from biped_adrc.hardware.touchdown import ByKinematics, Told
 
 CLOCK = ba.SampledTime(1e-3, restart=False)
 

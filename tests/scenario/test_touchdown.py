@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.hardware.detectors import ByForce, ByKinematics, Told
+from biped_adrc.hardware.touchdown import ByForce, ByKinematics, Told
 from biped_adrc.scenario.build import build
 from biped_adrc.studies.run import run_trial
 

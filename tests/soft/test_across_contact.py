@@ -3,7 +3,7 @@
 import numpy as np
 
 import biped_adrc as ba
-from biped_adrc.control.across_contact import Hold
+from biped_adrc.control.around import Hold
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.soft_ground import SoftGround
 

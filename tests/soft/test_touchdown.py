@@ -10,7 +10,7 @@ from biped_adrc.analysis.touchdowns import touchdowns
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.engine.on_plant import CompiledLoop
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
-from biped_adrc.hardware.detectors import ByForce, ByKinematics, Told
+from biped_adrc.hardware.touchdown import ByForce, ByKinematics, Told
 
 from .loops import loop_on, run_of
 

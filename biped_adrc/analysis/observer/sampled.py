@@ -8,7 +8,7 @@ With T the period, the torque held between sample instants and acting (j + f) T 
 
 where alpha changes from a_(k-j-1) to a_(k-j) at t_k + f T, and
 
-    Z <- Z + L (e + n - Z_1),  a = -F Z,  Z <- Phi Z + Gamma a       as `SampledGPIObserver`
+    Z <- Z + L (e + n - Z_1),  a = -F Z,  Z <- Phi Z + Gamma a       as `SampledChain`
 
 X = (e, T e', Z, torques on their way) obeys X <- X + M X + B (xi, n). M is formed without its unit matrix: at
 short periods all eigenvalues gather at 1, and what distinguishes them would be lost in round-off.
@@ -32,7 +32,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.hardware.motors import whole_and_part
-from biped_adrc.observers.gpi import GPIObserver, SampledGPIObserver
+from biped_adrc.observers.gpi import GPIObserver
 
 SHORTEST, LONGEST = 1e-6, 0.1
 """[s]: periods among which the largest stable one is looked for."""
@@ -94,7 +94,7 @@ class SampledLoop:
         rows = np.eye(size + 2)
         e, rate, xi, n = rows[[0, 1, size, size + 1]]
         Z, line = rows[2 : 2 + k], rows[2 + k : size]
-        o = SampledGPIObserver.from_poles(self.observer.poles, T)
+        o = self.observer.sampled(T)
         correction = np.outer(o.L, e + n - Z[0])
         Z_k = Z + correction
         K_p, K_d = first_gains(self.gains)

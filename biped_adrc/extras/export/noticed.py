@@ -1,4 +1,4 @@
-"""Sensors on a computer whose touchdowns are noticed at sample instants, as `closed_loop.noticing` has it.
+"""Sensors on a computer whose touchdowns are noticed at sample instants, as `closed_loop.semantics` has it.
 
 A touchdown that is noticed comes with the measurement of that instant. It is seen in the old labels
 first, so that rates go on; these are relabelled, and the sample instant that follows at once reads

@@ -14,9 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.closed_loop.noticing import labelled, noticed
 from biped_adrc.closed_loop.protocols import Loop, Mode
-from biped_adrc.closed_loop.semantics import parts
+from biped_adrc.closed_loop.semantics import labelled, noticed, parts
 from biped_adrc.control.base import Measurement
 from biped_adrc.core.types import Array
 from biped_adrc.gait.reference import ReferencePoint

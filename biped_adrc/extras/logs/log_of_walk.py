@@ -7,8 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from biped_adrc.closed_loop.noticing import turned
-from biped_adrc.closed_loop.semantics import parts
+from biped_adrc.closed_loop.semantics import parts, turned
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.timing import SAME_INSTANT, SampledTime

@@ -1,0 +1,164 @@
+"""A force and a moment on a point of the robot: zeta = J(q)' (F_x, F_z, M), with J of that point.
+
+The force has the world's axes, not the link's. It enters the unactuated row too, so no tracking loop rejects it
+(Westervelt, Grizzle, Canudas de Wit, IEEE CDC 2003): the speed of walking changes, and an outer loop such as
+`control.stride` has to bring it back. The force of the ground is m (p_com'' - g) - F. J is that of the plant: a
+plant with model errors has other geometry than the nominal robot, and the push acts on what walks.
+
+`OnLink` has (F_x, F_z, M) of a wave: a pulse, a step, a sine, noise, or any other `Windowed` of amplitude (3,).
+The wave is a function of time that knows nothing of links: its `torque` gives three numbers in place of n
+torques, which are multiplied by J(q)'. So every wave of the package, and one of the user's own, pushes a link.
+
+`HipForce` is constant on the hip; F_x < 0 pulls backwards. `AddedForce` comes from elsewhere, such as a hand
+or a learner: F is a parameter, as the torque of `control.around.AddedTorque`, its maker writes another one
+before each sample, and nothing is compiled.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.part import SETUP, derived, setup
+from biped_adrc.core.types import Array, freeze
+from biped_adrc.disturbances.base import Disturbance, Windowed
+from biped_adrc.model.biped import Biped
+from biped_adrc.model.planar import (
+    LinkPoint,
+    hip_point,
+    jacobian,
+    link_point,
+    turned,
+    wrench_torque,
+)
+
+AT_REST = np.zeros(3), np.zeros(3)
+"""What a wave is given for q and q', each (3,): it is a function of time."""
+
+
+@dataclass(frozen=True)
+class OnLink(Disturbance):
+    """`wave` with amplitude (F_x, F_z, M) [N, N, N m] on `link` of `biped`, the plant.
+
+    at: the point (x, z) [m] in the link's frame, as its URDF has it; its origin without. M is counter-clockwise
+    with x to the right and z up. A link of the leg that the URDF draws as the stance leg is the
+    stance leg's in every single support: the push changes legs at each impact, since coordinates do.
+    Raises InputError for a wave that has not three amplitudes, ModelError for a link that the robot has not.
+
+    >>> push = ba.OnLink(biped, "torso", ba.TorquePulse([50.0, 0.0, 0.0], step=3, stop=0.1))
+    >>> push.net_force(1.0, 3, 0.95)
+    array([50.,  0.])
+    """
+
+    biped: Biped
+    link: str = field(metadata=SETUP)
+    wave: Windowed
+    at: tuple[float, float] | None = setup(None)
+
+    def __post_init__(self) -> None:
+        if len(self.wave.amplitude) != 3:
+            raise InputError(
+                f"the wave on link '{self.link}' has the amplitude {self.wave.amplitude}, expected three "
+                "numbers (F_x, F_z, M) [N, N, N m]"
+            )
+        if self.at is not None and not (len(self.at) == 2 and all(map(math.isfinite, self.at))):
+            raise InputError(
+                f"the point on link '{self.link}' is {self.at}, expected two finite numbers (x, z) [m]"
+            )
+        _ = self.point
+
+    @derived
+    def point(self) -> LinkPoint:
+        """Where it acts, in closed form: p(q) (2,) [m] and its Jacobian."""
+        return link_point(self.biped, self.link, self.at)
+
+    @property
+    def switches(self) -> tuple[tuple[int, float], ...]:
+        return self.wave.switches
+
+    def acts(self, t: float, step: int, t_start: float) -> float:
+        return self.wave.acts(t, step, t_start)
+
+    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        """J(q)' (F_x, F_z, M) (n,) [N m]."""
+        return wrench_torque(self.point, q, self.wave.torque(t, step, t_start, *AT_REST))
+
+    def resultant(self, t: float, step: int, t_start: float) -> Array:
+        return self.wave.torque(t, step, t_start, *AT_REST)[:2]
+
+
+@dataclass(frozen=True)
+class HipForce(Disturbance):
+    """F = force (F_x, F_z) [N] on the hip of `biped`, the plant.
+
+    steps: the first and the last single support (from 1) in which it acts; all of them without. It switches at
+    impacts alone, so integrators have no times to stop at.
+    Raises InputError for a force that is not two finite numbers, or steps that do not count up from 1.
+
+    >>> push = ba.HipForce(biped, (20.0, 0.0), steps=(4, 6))
+    >>> push.net_force(2.0, 4, 1.9)
+    array([20.,  0.])
+    """
+
+    biped: Biped
+    force: tuple[float, float]
+    steps: tuple[int, int] | None = setup(None)
+
+    def __post_init__(self) -> None:
+        if len(self.force) != 2 or not all(math.isfinite(f) for f in self.force):
+            raise InputError(
+                f"the force on the hip is {self.force}, expected two finite numbers (F_x, F_z) [N]"
+            )
+        if self.steps is not None and not 1 <= self.steps[0] <= self.steps[1]:
+            raise InputError(
+                f"the force on the hip acts in steps {self.steps}, expected (first, last) with "
+                "1 <= first <= last"
+            )
+
+    @derived
+    def hip(self) -> LinkPoint:
+        """J in closed form."""
+        return hip_point(self.biped)
+
+    @derived
+    def span(self) -> tuple[float, float]:
+        """The first and the last single support, infinite for no last one."""
+        first, last = self.steps or (0, math.inf)
+        return float(first), float(last)
+
+    def acts(self, t: float, step: int, t_start: float) -> float:
+        """1 from the first to the last single support, else 0, whatever the time in them."""
+        first, last = self.span
+        return 1.0 * (step >= first) * (step <= last)
+
+    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        """zeta = J(q)' F (n,) [N m]; no moment acts."""
+        return wrench_torque(self.hip, q, np.array([*self.force, 0.0]))
+
+    def resultant(self, t: float, step: int, t_start: float) -> Array:
+        return 1.0 * np.array(self.force)
+
+
+@dataclass(frozen=True)
+class AddedForce(Disturbance):
+    """The module's F = `force` (2,) [N] at `point`; nothing is computed while it is zero."""
+
+    force: Array
+    point: LinkPoint
+
+    def __post_init__(self) -> None:
+        freeze(self, "force")
+
+    def acts(self, t: float, step: int, t_start: float) -> float:
+        return 1.0 * (self.force[0] ** 2 + self.force[1] ** 2)
+
+    def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
+        k = self.point
+        zeta: Array = self.force @ jacobian(k, turned(k, q), k.re, k.im)
+        return zeta
+
+    def resultant(self, t: float, step: int, t_start: float) -> Array:
+        return 1.0 * self.force
