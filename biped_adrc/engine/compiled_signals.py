@@ -93,9 +93,10 @@ def compiled_readings(
         walker, first.t[0], first.x[0], first.mode, lambda s, m: reference(m.t, m.q, m.v)
     )
     shapes = [np.shape(part) for part in example]
-    inp = np.vstack([_inputs(walker, arc) for arc in trajectory.arcs])
-    out = np.empty((len(inp), sum(map(prod, shapes))))
-    pointer_call(code, "observe", K, inp, out)
+    lengths = [len(arc.t) for arc in trajectory.arcs]
+    out = np.empty((sum(lengths), sum(map(prod, shapes))))
+    for arc, rows in zip(trajectory.arcs, np.split(out, np.cumsum(lengths)[:-1]), strict=True):
+        pointer_call(code, "observe", K, _inputs(walker, arc), rows)
     return InstantSignals(*parts_of(out, shapes))
 
 
