@@ -23,8 +23,7 @@ from biped_adrc.gait.curves import Polynomial as PolynomialCurve
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.gait.zero_orbits import ZeroOrbits
 from biped_adrc.paper.poincare import return_map_samples
-from biped_adrc.scenario.cycle import find_cycle, gait_cycle
-from biped_adrc.scenario.run import known_cycle
+from biped_adrc.scenario.cycle import find_cycle, gait_cycle, known_cycle
 from biped_adrc.scenario.scenario import Scenario
 
 LARGEST = 1e-6  # relative

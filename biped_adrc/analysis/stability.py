@@ -23,6 +23,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 
 import numpy as np
+from scipy.linalg import eig
 
 from biped_adrc.analysis.certificate import Certificate, certificates
 from biped_adrc.analysis.return_map import (
@@ -167,7 +168,7 @@ def _farthest(cost: Array) -> float:
     """
     if cost.shape[0] != cost.shape[1]:
         return float("inf")
-    # `simulate` reads this module, and SciPy's optimisers take long to load
+    # SciPy's optimisers take long to load
     from scipy.optimize import linear_sum_assignment
 
     return float(np.max(cost[linear_sum_assignment(cost)]))
@@ -199,8 +200,6 @@ def noise_of_differences(P: ReturnMap, step: StepDerivative) -> Array:
 
         |y_i x_i| |delta lambda_i| <= |y_i f-| (3 tau / d |x_i|_1 + r |dt/ds| |x_i|)
     """
-    from scipy.linalg import eig
-
     values, left, right = eig(step.jacobian, left=True, right=True)
     y, size = left.conj().T, np.abs(right)
     late = 3.0 * (XTOL + XRTOL * step.duration) / P.difference * np.sum(size, axis=0)
