@@ -14,7 +14,9 @@ OBJECTS = 200_000
 def main() -> None:
     """Import the command, which takes its time, and run it."""
     gc.set_threshold(OBJECTS)
-    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")  # it looks for them in all packages
+    os.environ.setdefault(
+        "PYDANTIC_DISABLE_PLUGINS", "__all__"
+    )  # it looks for them in all packages
     codes: list[int] = []
     atexit.register(_leave, codes)  # before all else, so that it is the last to be called
     try:

@@ -68,7 +68,7 @@ def _spelled(key: Hashable) -> str:
     if isinstance(key, tuple):
         return f"({','.join(map(_spelled, key))})"
     if isinstance(key, type | types.FunctionType):
-        home = key.__module__.partition(".")[0]
+        home = str(key.__module__).partition(".")[0]
         own = home == "biped_adrc" and vars(sys.modules[key.__module__])[key.__qualname__] is key
         if own or home in ("builtins", "enum", "numpy"):
             return f"{key.__module__}.{key.__qualname__}"
