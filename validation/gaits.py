@@ -40,8 +40,7 @@ from biped_adrc.gait.recipe import design_recipe_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped
-from biped_adrc.scenario.cycle import gait_cycle
-from biped_adrc.scenario.run import known_cycle
+from biped_adrc.scenario.cycle import gait_cycle, known_cycle
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.walk import walk
 from validation.passive import simplest

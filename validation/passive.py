@@ -26,7 +26,7 @@ from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.hybrid.system import Guard, HybridSystem
 from biped_adrc.model.biped import Biped
-from biped_adrc.scenario.run import known_cycle
+from biped_adrc.scenario.cycle import known_cycle
 from validation.row import Row, published
 
 CLOSED = "closed form"

@@ -22,6 +22,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.linalg import eig
 
 from biped_adrc.analysis.certificate import Certificate, certificates
 from biped_adrc.analysis.return_map import (
@@ -129,7 +130,7 @@ def _farthest(one: ComplexArray, other: ComplexArray, noise: Array | float) -> f
     A distance is divided by the largest of the absolute tolerance, the relative one, and noise (k,), what
     errors of computing may do to each of `other`.
     """
-    # `simulate` reads this module, and SciPy's optimisers take long to load
+    # SciPy's optimisers take long to load
     from scipy.optimize import linear_sum_assignment
 
     a, b = one[:, np.newaxis], other[np.newaxis]
@@ -150,8 +151,6 @@ def noise_of_differences(P: ReturnMap, step: StepDerivative) -> Array:
 
         |y_i x_i| |delta lambda_i| <= |y_i f-| (3 tau / d |x_i|_1 + r |dt/ds| |x_i|)
     """
-    from scipy.linalg import eig
-
     values, left, right = eig(step.jacobian, left=True, right=True)
     y, size = left.conj().T, np.abs(right)
     late = 3.0 * (XTOL + XRTOL * step.duration) / P.difference * np.sum(size, axis=0)

@@ -22,9 +22,10 @@ from biped_adrc.core.types import Array
 
 def _lapack() -> Any:
     """SciPy's module of LAPACK, which SciPy finds later under its own name."""
-    name, package = "scipy.linalg._flapack", find_spec("scipy")
-    folders: Any = package and package.submodule_search_locations
-    spec: Any = PathFinder.find_spec(name, [f"{folder}/linalg" for folder in folders])
+    name = "scipy.linalg._flapack"
+    scipy: Any = find_spec("scipy")
+    folders = [f"{folder}/linalg" for folder in scipy.submodule_search_locations]
+    spec: Any = PathFinder.find_spec(name, folders)
     if name not in sys.modules:
         sys.modules[name] = module_from_spec(spec)
         spec.loader.exec_module(sys.modules[name])

@@ -34,6 +34,7 @@ from biped_adrc.engine.ir import generated
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.program import Program
+from biped_adrc.engine.run import COMPILED
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, Vector, floats
 from biped_adrc.engine.tracer import run
@@ -83,6 +84,8 @@ def compiled_readings(
     nx = trajectory.arcs[0].x.shape[1]
     try:
         program = Program.of(walker, walker.controller_size(nx))
+        if trajectory.settings.get("engine") != COMPILED:
+            _ = program.machine  # NotCompiled where the controller runs in Python
         code = reading_code("observe", signals_at, program, reference)
         numbers = SignalNumbers(program.numbers, reference)
     except (NotCompiled, ModelError):
@@ -93,9 +96,10 @@ def compiled_readings(
         walker, first.t[0], first.x[0], first.mode, lambda s, m: reference(m.t, m.q, m.v)
     )
     shapes = tuple(np.shape(part) for part in example)
-    inp = np.vstack([_inputs(walker, arc) for arc in trajectory.arcs])
-    out = np.empty((len(inp), sum(map(prod, shapes))))
-    pointer_call(code, "observe", K, inp, out)
+    lengths = [len(arc.t) for arc in trajectory.arcs]
+    out = np.empty((sum(lengths), sum(map(prod, shapes))))
+    for arc, rows in zip(trajectory.arcs, np.split(out, np.cumsum(lengths)[:-1]), strict=True):
+        pointer_call(code, "observe", K, _inputs(walker, arc), rows)
     return InstantSignals(*parts_of(out, shapes))
 
 

@@ -23,15 +23,7 @@ from collections.abc import Callable, Hashable, Mapping, Sequence
 import casadi as ca
 
 from biped_adrc.engine.equations import SymbolicFunction
-from biped_adrc.engine.machine import (
-    LoadedCode,
-    ModuleText,
-    hash_of,
-    keep,
-    load,
-    load_or_compile,
-    stored,
-)
+from biped_adrc.engine.machine import LoadedCode, ModuleText, keep, load, load_or_compile, stored
 from biped_adrc.engine.structure import Unchanged, lasting, reaching
 from biped_adrc.engine.symbols import NotCompiled
 
@@ -231,9 +223,8 @@ def _from_disk(
     key: Hashable, names: Sequence[str], text: Callable[[], ModuleText], reached: list[Unchanged]
 ) -> LoadedCode:
     """As `in_memory`; nothing is traced where another process left code for the same structure."""
-    structure = lasting(key)
-    link = "" if structure is None else hash_of(structure)
-    there = stored(link)
+    link = lasting(key)
+    there = stored(link) if link else None
     code = None if there is None else load(there.decode(), names)
     if code is None:
         code = load_or_compile(text(), names)

@@ -70,10 +70,11 @@ def run_made(
     ticks = longest / period if period > 0.0 else 0.0
     # of a single support of 1 s, two nodes at each sample instant; with too few the arc is made again
     room = 64 + min(100_000, int(longest / plan.number("h") / every + 2.0 * ticks))
+    rows = np.empty((room, 1 + 2 * plan.nx))
 
     def fly(t: float, x: Array, mode: Mode, fired: str | None) -> FlownArc:
         run = plan.start(x, t, mode.step, mode.start, options.t_end, fired is not None)
-        arc = flown(run, mode, every, room)
+        arc = flown(run, mode, every, rows)
         error = compiled.raised(run)
         return arc if error is None else _ended_by(error, arc.arc)
 
@@ -135,12 +136,12 @@ def compiled_plant(walker: Walker) -> Walker:
     return replace(walker, plant=plant, model=model, controller=controller)
 
 
-def flown(run: CompiledRun, mode: Mode, every: int, room: int) -> FlownArc:
+def flown(run: CompiledRun, mode: Mode, every: int, rows: Array) -> FlownArc:
     """A run to its end or the first event, with the impact there.
 
-    every: each so many-th step is kept. room: nodes to make room for at first.
+    every: each so many-th step is kept. rows: as of `CompiledRun.arc`.
     """
-    code, t, x, dx = run.arc(every, room)
+    code, t, x, dx = run.arc(every, rows)
     x_minus, event, outcome = run.x.copy(), None, None
     if code == STRUCK:
         code = run.land()

@@ -22,6 +22,7 @@ import numpy as np
 from biped_adrc.core.checks import LIBRARIES, is_users
 from biped_adrc.core.part import content, is_part
 from biped_adrc.core.versions import numerical_versions
+from biped_adrc.engine.machine import hash_of
 from biped_adrc.engine.symbols import HIDDEN, NotCompiled
 
 
@@ -54,13 +55,13 @@ def structure(tree: Any, exact: bool = False) -> Hashable:
     return type(tree), tree, structure(inside, True) if inside else None
 
 
-def lasting(key: Hashable) -> str | None:
-    """A structure as text, the same in every process that has the same versions; None for one with classes or
+def lasting(key: Hashable) -> str:
+    """Name for a structure, the same in every process of the same versions; empty for one with classes or
     functions of the user's, or where one of this package's functions was replaced in this process."""
     try:
-        return None if _replaced() else f"{_spelled(key)} {sorted(numerical_versions().items())}"
+        return "" if _replaced() else hash_of(_spelled(key), str(numerical_versions()))
     except LookupError:
-        return None
+        return ""
 
 
 def _spelled(key: Hashable) -> str:
@@ -68,7 +69,7 @@ def _spelled(key: Hashable) -> str:
     if isinstance(key, tuple):
         return f"({','.join(map(_spelled, key))})"
     if isinstance(key, type | types.FunctionType):
-        home = key.__module__.partition(".")[0]
+        home = str(key.__module__).partition(".")[0]
         own = home == "biped_adrc" and vars(sys.modules[key.__module__])[key.__qualname__] is key
         if own or home in ("builtins", "enum", "numpy"):
             return f"{key.__module__}.{key.__qualname__}"
@@ -80,14 +81,12 @@ def _spelled(key: Hashable) -> str:
 def _replaced() -> bool:
     """Whether a function or method of this package is the user's in this process."""
     for name, module in list(sys.modules.items()):
-        if name.startswith("biped_adrc."):
-            types_in = (x for x in vars(module).values() if isinstance(x, type))
-            classes = (x for x in types_in if x.__module__ == name)
-            for x in chain(*(vars(home).values() for home in (module, *classes))):
-                if isinstance(x, types.FunctionType) and x.__globals__ is not vars(module):
-                    at = x.__globals__
-                    if changes(at.get("__name__"), at.get("__file__")):
-                        return True
+        inside = list(vars(module).values()) if name.startswith("biped_adrc.") else []
+        classes = (x for x in inside if isinstance(x, type) and x.__module__ == name)
+        for x in chain(inside, *(vars(kind).values() for kind in classes)):
+            home = x.__globals__ if isinstance(x, types.FunctionType) else vars(module)
+            if home is not vars(module) and changes(home["__name__"], home.get("__file__")):
+                return True
     return False
 
 

@@ -10,26 +10,18 @@ from the stored state, and a walk starts just after its impact.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import replace
 from types import NoneType
 
-from biped_adrc.analysis.return_map import ReturnMap
-from biped_adrc.analysis.stability import SETTLES, Cycle
-from biped_adrc.analysis.variational import periodic_orbit
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller
-from biped_adrc.control.passive import Passive
 from biped_adrc.core.checks import check_part
-from biped_adrc.core.types import Array
 from biped_adrc.engine.on_plant import walk_on
 from biped_adrc.engine.run import COMPILED
-from biped_adrc.gait.published import passive_cycle
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod, Stiff
 from biped_adrc.hybrid.simulator import Progress
-from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, plant_step, soft_loop, start
 from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.scenario import FREE, Scenario
@@ -48,11 +40,6 @@ METHODS: dict[str, Callable[..., OneStepMethod]] = {
     "adaptive": Adaptive,
     "stiff": Stiff,
 }
-
-
-LIGHT_FEET = 5e-4
-"""Half width of central differences of the return map P for robots without motors [rad, rad/s]: wider than
-usual, since light feet leave a round-off of 1e-10 in P."""
 
 
 def method_of(s: Scenario, walker: Walker) -> OneStepMethod:
@@ -97,30 +84,6 @@ def halved(s: Scenario, walker: Walker | None = None) -> Scenario:
     return s.replace(run={"h": 0.5 * h, "fine": None if fine is None else 0.5 * fine})
 
 
-def known_cycle(biped: Biped, slope: float | None = None) -> Cycle:
-    """The stored cycle of a robot without motors, on its own slope or another one [rad] nearby.
-
-    Raises GaitError when none is stored, SimulationError when the robot does not come to a first impact.
-    """
-    known = passive_cycle(biped)
-    angle = known.slope if slope is None else slope
-    walker = Walker(biped, Passive(), slope=angle, max_step_time=known.max_step_time)
-    P = ReturnMap(walker, Adaptive(1e-12, 1e-12), difference=LIGHT_FEET, pitch=math.pi)
-    start = walker.initial_state(known.q_plus, known.v_plus)
-    return Cycle(P, P.next_impact(walker, start, Mode()).x_minus)
-
-
-def cycle_start(biped: Biped, slope: float) -> tuple[Array, Array]:
-    """(q, v), each (n,) [rad, rad/s], just after the impact of the cycle on a slope [rad].
-
-    Raises SimulationError where Newton's method finds no cycle.
-    """
-    cycle, n = known_cycle(biped, slope), biped.n
-    orbit, _ = periodic_orbit(cycle.P, cycle.guess, SETTLES)
-    after = biped.impact(orbit.x_minus[:n], orbit.x_minus[n:])
-    return after.q, after.v
-
-
 def walk_scenario(
     s: Scenario,
     progress: Progress | None = None,
@@ -145,7 +108,12 @@ def walk_scenario(
     kept = s if controller is None else None
     if controller is not None:
         walker = replace(walker, controller=controller)
-    begin = start(s, scene) if scene.gait else cycle_start(scene.biped, walker.slope)
+    if scene.gait:
+        begin = start(s, scene)
+    else:
+        from biped_adrc.scenario.cycle import cycle_start
+
+        begin = cycle_start(scene.biped, walker.slope)
     if (loop := soft_loop(s, walker)) is not None:
         run = walk_on(loop, walker, begin, Mode(s.run.first_step), s.run.impacts, progress)
         return Walk(walker, scene.gait, run, kept)

@@ -135,21 +135,20 @@ class CompiledRun:
         where = self.numbers if KINDS[name] == "float" else self.cells
         where[PLACES[name]] = value
 
-    def arc(self, every: int = 1, room: int = 1024) -> ArcNodes:
+    def arc(self, every: int, rows: Array) -> ArcNodes:
         """March to the first event, or to run["t_end"] [s].
 
-        every: each so many-th step is kept as a node. room: rows for nodes; where they do not suffice, the arc
-        is marched again with twice as many.
+        every: each so many-th step is kept as a node. rows (room, 1 + 2 nx), C-contiguous: overwritten with the
+        nodes; where they do not suffice, the arc is marched again with twice as many new ones.
         """
         nx, self["every"], self["count"] = self.nx, every, 0
         while True:
-            rows = np.empty((room, 1 + 2 * nx))
-            self["nodes"], self["room"] = rows.ctypes.data, room
+            self["nodes"], self["room"] = rows.ctypes.data, len(rows)
             code = kernels().go_on(self.address)
             if code != FULL:
                 rows = rows[: int(self["count"])]
                 return ArcNodes(code, rows[:, 0], rows[:, 1 : 1 + nx], rows[:, 1 + nx :])
-            room *= 2
+            rows = np.empty((2 * len(rows), 1 + 2 * nx))
 
     def land(self) -> int:
         """x+ in place of x- after an arc that has STRUCK; a status."""
