@@ -71,12 +71,13 @@ class Part {
     stops.forEach(([at, normal]) => style.addColorStop(at, this.colour(normal)));
     return style;
   }
-  fill(points, style) {
+  // polygons of so many corners as one path, which has no seams
+  fill(points, style, corners = points.length) {
     const places = points.map((point) => this.pixel(point)), { pen } = this;
     if (places.includes(null)) return;
     pen.fillStyle = style;
     pen.beginPath();
-    places.forEach((place) => pen.lineTo(...place));
+    places.forEach((place, k) => (k % corners ? pen.lineTo(...place) : pen.moveTo(...place)));
     pen.fill();
   }
   // both ends and the rectangle between them; the light changes across
@@ -104,19 +105,14 @@ class Part {
     pen.arc(...at, rim[0] - at[0], 0, 2 * Math.PI);
     pen.fill();
   }
-  // the sides of a box that are seen, or all triangles of a flat mesh as one path, which has no seams
+  // the sides of a box that are seen, or all triangles of a flat mesh
   faces() {
-    const { geometry: { type, index, attributes: { normal } }, pen } = this, box = type === "BoxGeometry", size = box ? 6 : index.count;
+    const { geometry: { type, index, attributes: { normal } } } = this, box = type === "BoxGeometry", size = box ? 6 : index.count;
     for (let k = 0; k < index.count; k += size) {
       const first = index.array[k], view = this.view(this.vertex(first));
       const out = box ? new THREE.Vector3().fromBufferAttribute(normal, first).transformDirection(this.m) : view;
       if (out.dot(view) < FLAT) continue;
-      const places = Array.from(index.array.slice(k, k + size), (i) => this.pixel(this.vertex(i)));
-      if (places.includes(null)) continue;
-      pen.fillStyle = this.colour(out);
-      pen.beginPath();
-      places.forEach((place, j) => (j % 3 ? pen.lineTo(...place) : pen.moveTo(...place)));
-      pen.fill();
+      this.fill(Array.from(index.array.slice(k, k + size), (i) => this.vertex(i)), this.colour(out), 3);
     }
   }
   // pairs of points; most begin where the one before ends
