@@ -12,22 +12,23 @@ const sum = (point, ...terms) => terms.reduce((p, [s, direction]) => p.addScaled
 class Painter {
   constructor(place) {
     this.domElement = document.createElement("canvas");
-    this.pen = this.domElement.getContext("2d", { alpha: false, willReadFrequently: true });
+    // offscreen: its pictures go to the screen without those of the page
+    this.pen = this.domElement.transferControlToOffscreen().getContext("2d", { alpha: false, willReadFrequently: true });
     this.layers = new Map(); // nodes whose parts are painted before all others, with a number for their order
     place.append(this.domElement);
   }
   setPixelRatio(ratio) { this.ratio = ratio; }
   setSize(w, h) {
-    const { domElement: canvas, ratio } = this;
+    const { domElement: { style }, pen: { canvas }, ratio } = this;
     Object.assign(canvas, { width: Math.round(w * ratio), height: Math.round(h * ratio) });
-    Object.assign(canvas.style, { display: "block", width: w + "px", height: h + "px" });
+    Object.assign(style, { display: "block", width: w + "px", height: h + "px" });
   }
   render(scene, camera) {
     const { pen, layers } = this, parts = [];
     scene.updateMatrixWorld();
     pen.globalAlpha = 1;
     pen.fillStyle = "#fff";
-    pen.fillRect(0, 0, this.domElement.width, this.domElement.height);
+    pen.fillRect(0, 0, pen.canvas.width, pen.canvas.height);
     const collect = (node, above) => {
       if (!node.visible) return;
       const layer = layers.has(node) ? layers.get(node) : above;
@@ -112,7 +113,7 @@ class Part {
       const first = index.array[k], view = this.view(this.vertex(first));
       const out = box ? new THREE.Vector3().fromBufferAttribute(normal, first).transformDirection(this.m) : view;
       if (out.dot(view) < FLAT) continue;
-      this.fill(Array.from(index.array.slice(k, k + size), (i) => this.vertex(i)), this.colour(out), 3);
+      this.fill(Array.from(index.array.slice(k, k + size), (i) => this.vertex(i)), box ? this.colour(out) : this.material.color.getStyle(), 3);
     }
   }
   // pairs of points; most begin where the one before ends
