@@ -225,6 +225,7 @@ return was;
 
 # -- the picture ---------------------------------------------------------------------------------------
 PAINTED = """
+play.begin("ADRC", null); // with the legs apart
 showFrame(play.frame());
 viewer.render();
 const pen = viewer.renderer.pen, box = pane.getBoundingClientRect();

@@ -1,5 +1,5 @@
 // The mouse or a finger: a drag that begins on the robot pulls it by a spring, another one turns the camera.
-const ray = new MeshCat.THREE.Raycaster();
+const ray = new THREE.Raycaster();
 const AROUND = [[0, 0], [8, 0], [-8, 0], [0, 8], [0, -8], [6, 6], [-6, 6], [6, -6], [-6, -6]]; // [px] that a pointer may miss by
 const parts = new Map(scene.links.map(([path, link]) => [node(path), link]));
 let selected = null, pull = null;
@@ -10,7 +10,8 @@ function aim({ clientX, clientY }) {
   ray.setFromCamera({ x: 2 * x - 1, y: 1 - 2 * y }, viewer.camera);
 }
 
-// the link under the pointer or just beside it, and the point of it (x, z) [m] in its frame; null for none
+// the link under the pointer or just beside it, and the point of it (x, z) [m] in its frame and in the plane of the
+// walk; null for none
 function pick({ clientX, clientY }) {
   viewer.scene.updateMatrixWorld(true);
   for (const [dx, dy] of AROUND) {
@@ -19,8 +20,8 @@ function pick({ clientX, clientY }) {
     if (!hit) continue;
     let part = hit.object;
     while (!parts.has(part)) part = part.parent;
-    const at = part.parent.worldToLocal(hit.point.clone());
-    return { link: parts.get(part), at: [at.x, at.z] };
+    const at = part.parent.worldToLocal(hit.point.clone()), place = roots[0].worldToLocal(hit.point);
+    return { link: parts.get(part), at: [at.x, at.z], place: [place.x, place.z] };
   }
   return null;
 }
@@ -32,14 +33,6 @@ function pointed(event) {
   const to = roots[0].worldToLocal(ray.ray.origin.clone().add(ray.ray.direction));
   const along = to.sub(from), s = -from.y / along.y;
   return Number.isFinite(s) ? [from.x + s * along.x, from.z + s * along.z] : null;
-}
-
-// where a point of a link is in the plane of the walk (x, z) [m]
-function placeOf({ link, at: [x, z] }) {
-  viewer.scene.updateMatrixWorld(true);
-  const [part] = [...parts].find(([, name]) => name === link);
-  const p = roots[0].worldToLocal(part.parent.localToWorld(new MeshCat.THREE.Vector3(x, 0, z)));
-  return [p.x, p.z];
 }
 
 function select(found) {
@@ -56,8 +49,8 @@ function select(found) {
 // the anchor goes as the pointer goes: wherever the drag began, the spring is slack there
 function sendPull(event) {
   const at = pointed(event);
-  pull.event = { clientX: event.clientX, clientY: event.clientY };
-  if (at) send({ do: "pull", link: pull.link, at: pull.at, anchor: [at[0] + pull.away[0], at[1] + pull.away[1]] });
+  pull.event = event;
+  if (at) send({ do: "pull", link: pull.link, at: pull.at, anchor: at.map((y, k) => y + pull.away[k]) });
 }
 // the camera goes along with the robot, and the pointer with the camera
 function keepPulling() {
@@ -80,8 +73,7 @@ pane.addEventListener("pointerdown", (event) => {
   event.preventDefault();
   select(found);
   pane.setPointerCapture(event.pointerId);
-  const [x, z] = placeOf(found);
-  pull = { ...found, away: [x - at[0], z - at[1]], event: null };
+  pull = { ...found, away: found.place.map((y, k) => y - at[k]) };
   sendPull(event);
 }, true);
 pane.addEventListener("contextmenu", (event) => event.preventDefault());

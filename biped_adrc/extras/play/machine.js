@@ -25,8 +25,8 @@ async function startMachine() {
     nextafter, exp2: (x) => 2 ** x,
   };
   for (const { name } of WebAssembly.Module.imports(module)) if (!(name in env)) env[name] = Math[name];
-  machine.calls = (await WebAssembly.instantiate(module, { env })).exports;
-  numbers.functions.forEach((name, k) => table.set(k + 1, machine.calls[name]));
+  await WebAssembly.instantiate(module, { env });
+  machine.calls = Object.fromEntries(numbers.functions.map((name, k) => [name, table.get(k + 1)]));
   for (const [name, walk] of Object.entries(numbers.walks)) kinds[name] = walk.variants.map((one) => new Kind(one));
 }
 // a vector in the module's memory

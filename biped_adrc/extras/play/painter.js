@@ -1,147 +1,131 @@
 "use strict";
-// Meshcat's scene by the pen of a canvas, the farthest part first: where no graphics processor is, WebGL takes ten
-// times as long. It takes the place of the viewer's renderer, and knows the shapes that `view.meshcat.objects` makes.
+// Meshcat's scene by the pen of a canvas, the farthest part first: where there is no graphics processor, WebGL takes
+// ten times as long. It takes the place of the viewer's renderer, and knows the shapes of `view.meshcat.objects`.
 const { THREE } = MeshCat;
-const LIGHT = new THREE.Vector3(-0.5, 0.65, 0.6).normalize(); // towards it, in the camera's frame
-const AMBIENT = 0.55, DIRECT = 0.5; // shares of a colour
-const ROUND = Array.from({ length: 24 }, (_, k) => [Math.cos(k * Math.PI / 12), Math.sin(k * Math.PI / 12)]);
-const ACROSS = [-1, -0.8, -0.4, 0, 0.4, 0.8, 1]; // places on a cylinder, where the gradient of its light has stops
-const CORNERS = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => [k & 1, k >> 1 & 1, k >> 2].map((b) => b - 0.5));
-const SIDES = [[0, 1], [1, 2], [2, 0]].flatMap(([i, j]) => [-0.5, 0.5].map((side) => {
-  const there = CORNERS.filter((c) => c[3 - i - j] === side).sort((a, b) => a[i] - b[i] || a[j] - b[j]);
-  return [there[0], there[1], there[3], there[2]]; // around the side
-}));
+const LIGHT = new THREE.Vector3(-0.5, 0.65, 0.6).normalize(); // towards it, in the frame of the camera
+const AMBIENT = 0.6, DIRECT = 0.55; // shares of a colour
+const TURNS = Array.from({ length: 24 }, (_, k) => [Math.cos(k * Math.PI / 12), Math.sin(k * Math.PI / 12)]);
+const STOPS = [-1, -0.8, -0.4, 0, 0.4, 0.8, 1]; // places across a cylinder where its light is computed
+const FLAT = 1e-3; // cosine of a direction that lies in the picture
+const sum = (point, ...terms) => terms.reduce((p, [s, direction]) => p.addScaledVector(direction, s), point.clone());
 
 class Painter {
   constructor(place) {
     this.domElement = document.createElement("canvas");
-    this.pen = this.domElement.getContext("2d", { alpha: false, willReadFrequently: true });
-    this.layers = new Map(); // nodes whose parts are painted before the others, with a number for the order
+    // offscreen: its pictures go to the screen without those of the page
+    this.pen = this.domElement.transferControlToOffscreen().getContext("2d", { alpha: false, willReadFrequently: true });
+    this.layers = new Map(); // nodes whose parts are painted before all others, with a number for their order
     place.append(this.domElement);
   }
   setPixelRatio(ratio) { this.ratio = ratio; }
   setSize(w, h) {
-    const { domElement: canvas, ratio } = this;
+    const { domElement: { style }, pen: { canvas }, ratio } = this;
     Object.assign(canvas, { width: Math.round(w * ratio), height: Math.round(h * ratio) });
-    Object.assign(canvas.style, { display: "block", width: w + "px", height: h + "px" });
+    Object.assign(style, { display: "block", width: w + "px", height: h + "px" });
   }
   render(scene, camera) {
-    const { pen, domElement: { width, height } } = this, parts = [];
+    const { pen, layers } = this, parts = [];
     scene.updateMatrixWorld();
     pen.globalAlpha = 1;
     pen.fillStyle = "#fff";
-    pen.fillRect(0, 0, width, height);
-    const collect = (object, before) => {
-      if (!object.visible) return;
-      const layer = this.layers.has(object) ? this.layers.get(object) : before;
-      if (object.isMesh || object.isLine) parts.push(new Part(object, layer, camera, width, height));
-      object.children.forEach((child) => collect(child, layer));
+    pen.fillRect(0, 0, pen.canvas.width, pen.canvas.height);
+    const collect = (node, above) => {
+      if (!node.visible) return;
+      const layer = layers.has(node) ? layers.get(node) : above;
+      if (node.isMesh || node.isLine) parts.push(new Part(node, layer, camera, pen));
+      node.children.forEach((child) => collect(child, layer));
     };
-    collect(scene, 9);
-    parts.sort((a, b) => a.layer - b.layer || a.depth - b.depth).forEach((part) => part.paint(pen));
+    collect(scene, Infinity);
+    parts.sort((a, b) => (a.layer === b.layer ? a.depth - b.depth : a.layer - b.layer)).forEach((part) => part.paint());
   }
 }
 
-// one shape in the camera's frame
+// one shape, in the frame of the camera
 class Part {
-  constructor(object, layer, camera, width, height) {
-    const { geometry: { type, parameters } } = object, { matrixWorldInverse, projectionMatrix: { elements } } = camera;
-    Object.assign(this, { object, layer, type, parameters, width, height, p: elements, flat: camera.isOrthographicCamera });
-    this.m = new THREE.Matrix4().multiplyMatrices(matrixWorldInverse, object.matrixWorld);
-    this.middle = new THREE.Vector3().setFromMatrixPosition(this.m);
-    const [radius] = this.radii = type === "SphereGeometry" ? [parameters.radius] : [0, 0];
-    if (type === "CylinderGeometry") this.radii = [parameters.radiusBottom, parameters.radiusTop];
-    const [x, y, z] = this.m.elements;
-    this.scale = Math.hypot(x, y, z);
-    this.depth = this.middle.z + this.scale * Math.max(...this.radii, radius); // nearer is more
+  constructor({ matrixWorld, geometry, material }, layer, camera, pen) {
+    const m = new THREE.Matrix4().multiplyMatrices(camera.matrixWorldInverse, matrixWorld), { parameters: size = {} } = geometry;
+    Object.assign(this, { geometry, material, layer, pen, size, m, p: camera.projectionMatrix.elements, flat: camera.isOrthographicCamera });
+    this.middle = new THREE.Vector3().setFromMatrixPosition(m);
+    this.radii = [size.radiusBottom, size.radiusTop, size.radius].map((r) => (r || 0) * Math.hypot(...m.elements.slice(0, 3)));
+    this.depth = this.middle.z + Math.max(...this.radii); // nearer is more
   }
-  paint(pen) {
-    const { material } = this.object;
-    pen.globalAlpha = material.opacity;
-    if (this.object.isLine) this.line(pen, material);
-    else if (this.type === "SphereGeometry") this.ball(pen);
-    else if (this.type === "CylinderGeometry") this.cylinder(pen);
-    else if (this.type === "BoxGeometry") this.box(pen);
-    else this.mesh(pen);
+  paint() {
+    const kinds = { SphereGeometry: "ball", CylinderGeometry: "cylinder" };
+    this.pen.globalAlpha = this.material.opacity;
+    this[this.material.isLineBasicMaterial ? "line" : kinds[this.geometry.type] || "faces"]();
   }
-  // [px] of a point of the camera's frame; null behind the camera
+  // [px] of a point; null behind the camera
   pixel({ x, y, z }) {
-    const { p, width, height } = this, w = p[11] * z + p[15];
+    const { p, pen: { canvas: { width, height } } } = this, w = p[11] * z + p[15];
     return w > 0 ? [0.5 * width * (1 + (p[0] * x + p[8] * z + p[12]) / w), 0.5 * height * (1 - (p[5] * y + p[9] * z + p[13]) / w)] : null;
   }
-  at(x, y, z) { return new THREE.Vector3(x, y, z).applyMatrix4(this.m); }
+  vertex(k) { return new THREE.Vector3().fromBufferAttribute(this.geometry.attributes.position, k).applyMatrix4(this.m); }
+  // from a point towards the camera
   view(point) { return this.flat ? new THREE.Vector3(0, 0, 1) : point.clone().negate().normalize(); }
   colour(normal) {
-    const { color, emissive } = this.object.material, light = AMBIENT + DIRECT * Math.max(0, normal.dot(LIGHT));
-    const of = (name) => Math.min(255, Math.round(255 * (light * color[name] + (emissive ? emissive[name] : 0))));
-    return "rgb(" + of("r") + "," + of("g") + "," + of("b") + ")";
+    const { color, emissive } = this.material, light = AMBIENT + DIRECT * Math.max(0, normal.dot(LIGHT));
+    return "rgb(" + ["r", "g", "b"].map((c) => Math.round(255 * (light * color[c] + emissive[c]))) + ")";
   }
-  fill(pen, points, style) {
-    const places = points.map((point) => this.pixel(point));
+  gradient(kind, places, stops) {
+    if (places.flat().includes(null)) return null;
+    const style = this.pen["create" + kind + "Gradient"](...places.flat());
+    stops.forEach(([at, normal]) => style.addColorStop(at, this.colour(normal)));
+    return style;
+  }
+  // polygons of so many corners as one path, which has no seams
+  fill(points, style, corners = points.length) {
+    const places = points.map((point) => this.pixel(point)), { pen } = this;
     if (places.includes(null)) return;
     pen.fillStyle = style;
     pen.beginPath();
-    places.forEach(([x, y]) => pen.lineTo(x, y));
+    places.forEach((place, k) => (k % corners ? pen.lineTo(...place) : pen.moveTo(...place)));
     pen.fill();
   }
-  cylinder(pen) {
-    const { parameters: { height }, radii, scale } = this, ends = [this.at(0, -height / 2, 0), this.at(0, height / 2, 0)];
-    const axis = ends[1].clone().sub(ends[0]).normalize(), view = this.view(this.middle);
-    const side = axis.clone().cross(view);
-    if (side.length() < 1e-6) side.set(1, 0, 0);
-    side.normalize();
-    const front = side.clone().cross(axis), place = (end, c, s) => ends[end].clone().addScaledVector(side, c * scale * radii[end]).addScaledVector(front, s * scale * radii[end]);
-    const thick = radii[0] > radii[1] ? 0 : 1, [from, to] = [place(thick, -1, 0), place(thick, 1, 0)].map((point) => this.pixel(point));
-    if (!from || !to) return;
-    const style = pen.createLinearGradient(...from, ...to);
-    for (const s of ACROSS) style.addColorStop(0.5 + 0.5 * s, this.colour(side.clone().multiplyScalar(s).addScaledVector(front, Math.sqrt(1 - s * s))));
-    this.fill(pen, [place(0, -1, 0), place(1, -1, 0), place(1, 1, 0), place(0, 1, 0)], style);
-    const slant = axis.dot(view), near = slant > 0 ? 1 : 0;
-    if (Math.abs(slant) < 1e-3) return;
-    this.fill(pen, ROUND.map(([c, s]) => place(1 - near, c, s)), style);
-    this.fill(pen, ROUND.map(([c, s]) => place(near, c, s)), this.colour(near ? axis : axis.clone().negate()));
+  // both ends and the rectangle between them; the light changes across
+  cylinder() {
+    const { size: { height }, radii, middle, m } = this, axis = new THREE.Vector3(0, 1, 0).transformDirection(m), view = this.view(middle);
+    const side = axis.clone().cross(view), slant = axis.dot(view), long = 0.5 * height * new THREE.Vector3(m.elements[4], m.elements[5], m.elements[6]).length();
+    if (side.length() < FLAT) side.set(1, 0, 0);
+    const front = side.normalize().clone().cross(axis);
+    const rim = (end, c, s) => sum(middle, [end ? long : -long, axis], [c * radii[end], side], [s * radii[end], front]);
+    const thick = Number(radii[1] > radii[0]), near = Number(slant > 0), across = [-1, 1].map((s) => this.pixel(rim(thick, s, 0)));
+    const style = this.gradient("Linear", across, STOPS.map((s) => [0.5 + 0.5 * s, sum(front, [-1, front], [s, side], [Math.sqrt(1 - s * s), front])]));
+    if (!style) return;
+    this.fill([rim(0, -1, 0), rim(1, -1, 0), rim(1, 1, 0), rim(0, 1, 0)], style);
+    if (Math.abs(slant) < FLAT) return;
+    this.fill(TURNS.map(([c, s]) => rim(1 - near, c, s)), style);
+    this.fill(TURNS.map(([c, s]) => rim(near, c, s)), this.colour(axis.multiplyScalar(near ? 1 : -1)));
   }
-  ball(pen) {
-    const r = this.scale * this.radii[0], { middle } = this, edge = middle.clone(), spot = middle.clone().addScaledVector(LIGHT, r);
-    edge.x += r;
-    const [at, rim, bright] = [middle, edge, spot].map((point) => this.pixel(point));
-    if (!at || !rim || !bright) return;
-    const style = pen.createRadialGradient(...bright, 0, ...at, rim[0] - at[0]);
-    for (const s of [0, 0.25, 0.5, 0.75, 1]) style.addColorStop(s, this.colour(LIGHT.clone().multiplyScalar(Math.cos(s * Math.PI / 2))));
+  ball() {
+    const { middle, pen, radii } = this, [r] = radii.slice(-1), spot = this.pixel(sum(middle, [r, LIGHT]));
+    const [at, rim] = [middle, sum(middle, [r, new THREE.Vector3(1, 0, 0)])].map((point) => this.pixel(point));
+    const style = at && this.gradient("Radial", [spot, 0, at, rim[0] - at[0]], [0, 0.25, 0.5, 0.75, 1].map((s) => [s, LIGHT.clone().multiplyScalar(1 - s * s)]));
+    if (!style) return;
     pen.fillStyle = style;
     pen.beginPath();
     pen.arc(...at, rim[0] - at[0], 0, 2 * Math.PI);
     pen.fill();
   }
-  box(pen) {
-    const { width, height, depth } = this.parameters;
-    for (const corners of SIDES) {
-      const points = corners.map(([x, y, z]) => this.at(x * width, y * height, z * depth));
-      const normal = points[1].clone().sub(points[0]).cross(points[3].clone().sub(points[0])).normalize();
-      const middle = points[0].clone().add(points[2]).multiplyScalar(0.5);
-      if (normal.dot(middle.clone().sub(this.middle)) < 0) normal.negate();
-      if (normal.dot(this.view(middle)) > 1e-6) this.fill(pen, points, this.colour(normal));
+  // the sides of a box that are seen, or all triangles of a flat mesh
+  faces() {
+    const { geometry: { type, index, attributes: { normal } } } = this, box = type === "BoxGeometry", size = box ? 6 : index.count;
+    for (let k = 0; k < index.count; k += size) {
+      const first = index.array[k], view = this.view(this.vertex(first));
+      const out = box ? new THREE.Vector3().fromBufferAttribute(normal, first).transformDirection(this.m) : view;
+      if (out.dot(view) < FLAT) continue;
+      this.fill(Array.from(index.array.slice(k, k + size), (i) => this.vertex(i)), box ? this.colour(out) : this.material.color.getStyle(), 3);
     }
   }
-  // all triangles as one path, which has no seams
-  mesh(pen) {
-    const { index, attributes: { position: { array } } } = this.object.geometry;
-    const points = Array.from(index.array, (k) => this.pixel(this.at(...array.subarray(3 * k, 3 * k + 3))));
-    pen.fillStyle = this.colour(LIGHT);
-    pen.beginPath();
-    points.forEach((point, k) => point && (k % 3 ? pen.lineTo(...point) : pen.moveTo(...point)));
-    pen.fill();
-  }
   // pairs of points; most begin where the one before ends
-  line(pen, { color }) {
-    const { drawRange, attributes: { position: { array, count } } } = this.object.geometry;
-    pen.strokeStyle = color.getStyle();
+  line() {
+    const { geometry: { drawRange, attributes: { position: { array, count } } }, material, pen } = this;
+    pen.strokeStyle = material.color.getStyle();
     pen.lineWidth = 1;
     pen.beginPath();
-    for (let k = 0; k < 3 * Math.min(drawRange.count, count); k += 3) {
-      if (k > 0 && k % 2 === 0 && array[k] === array[k - 3] && array[k + 2] === array[k - 1]) continue;
-      const point = this.pixel(this.at(array[k], array[k + 1], array[k + 2]));
-      if (point) (k % 2 ? pen.lineTo(...point) : pen.moveTo(...point));
+    for (let k = 0; k < Math.min(drawRange.count, count); k += 1) {
+      if (k > 0 && k % 2 === 0 && array[3 * k] === array[3 * k - 3] && array[3 * k + 2] === array[3 * k - 1]) continue;
+      const place = this.pixel(this.vertex(k));
+      if (place) (k % 2 ? pen.lineTo(...place) : pen.moveTo(...place));
     }
     pen.stroke();
   }

@@ -3,7 +3,9 @@ const KEPT_SECONDS = 60, SPANS = [0.2, 0.5, 1, 2, 4, 8, 16, 30]; // [s] kept and
 let span = 4, hovered = null; // [s]; where the pointer is, as a share of the width
 // slower than half of its pace fewer, so that time is drawn larger
 const shown = () => span * Math.min(1, 2 * rate);
-const COLOURS = { walk: "#0072b2", other: "#d55e00", ghost: "#666666", limit: "#000000" };
+const STYLES = { // colour, width [px] and dashes of lines
+  walk: ["#0072b2", 2, []], other: ["#d55e00", 2, [5, 3]], ghost: ["#666666", 1.5, [2, 3]], limit: ["#000", 1, [6, 4]], zero: ["#bbb", 1, []],
+};
 const past = { walk: [], ghost: [] }; // rows of signals of either, in order of time
 let joint = 0;
 
@@ -39,19 +41,11 @@ function remember(message) {
   }
 }
 
-const visible = { walk: [], ghost: [] }; // of the rows those that are shown
-function show(end) {
-  for (const [whose, rows] of Object.entries(past)) {
-    const first = rows.findLastIndex(({ t }) => t < end - shown()) + 1, last = rows.findLastIndex(({ t }) => t <= end) + 1;
-    visible[whose] = rows.slice(first, last);
-  }
+// values of one line up to the end [s]: pairs (t, y), y null where there is none
+function valuesOf(plot, [whose, value], end) {
+  const rows = past[whose], first = rows.findLastIndex(({ t }) => t < end - shown()) + 1, last = rows.findLastIndex(({ t }) => t <= end) + 1;
+  return rows.slice(first, last).map((row) => [row.t, value(row)]).map(([t, y]) => [t, y === null ? null : plot.scale * y]);
 }
-
-// values of one line: pairs (t, y), y null where there is none
-const valuesOf = (plot, [whose, value]) => visible[whose].map((row) => {
-  const y = value(row);
-  return [row.t, y === null ? null : plot.scale * y];
-});
 
 // the least of 1, 2, 5 times a power of ten that is not below x
 function ceiling(x) {
@@ -59,7 +53,7 @@ function ceiling(x) {
   return power * [1, 2, 5, 10].find((m) => m * power >= x * (1 - 1e-9));
 }
 
-function draw(plot) {
+function draw(plot, end) {
   const canvas = element(plot.canvas), ratio = devicePixelRatio || 1;
   const w = canvas.clientWidth, h = canvas.clientHeight;
   if (canvas.width !== Math.round(w * ratio)) canvas.width = Math.round(w * ratio);
@@ -67,13 +61,15 @@ function draw(plot) {
   const pen = canvas.getContext("2d", { willReadFrequently: true });
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   pen.clearRect(0, 0, w, h);
-  const end = page.last.t, lines = plot.lines.map((line) => valuesOf(plot, line));
+  const lines = plot.lines.map((line) => valuesOf(plot, line, end));
   const sizes = lines.flat().map(([, y]) => Math.abs(y || 0)).filter(Number.isFinite);
   const limits = plot.limits ? plot.limits() : [], least = Math.max(plot.least, limits.length ? limits.at(-1) : 0);
-  const top = Math.min(ceiling(sizes.reduce((a, b) => Math.max(a, b), least)), plot.most ? plot.most() : Infinity);
+  const top = Math.min(ceiling(sizes.reduce((a, b) => Math.max(a, b), least)), plot.most());
   const low = plot.canvas === "plot-ground" ? 0 : -top;
   const at = (t, y) => [w * (1 - (end - t) / shown()), 4 + (h - 8) * (top - Math.max(-9 * top, Math.min(y, 9 * top))) / (top - low)];
-  axes(pen, limits, w, top, low, at);
+  const across = (y, style) => stroke(pen, [[end - shown(), y], [end, y]], style, at);
+  across(0, "zero");
+  limits.filter((y) => y >= low && y <= top).forEach((y) => across(y, "limit"));
   lines.forEach((line, k) => stroke(pen, line, plot.lines[k][2], at));
   const scale = (low < 0 ? ", ±" : ", to ") + top + plot.unit;
   element(plot.canvas + "-scale").textContent = hovered === null ? scale : readings(lines, end - (1 - hovered) * shown()) + plot.unit;
@@ -85,38 +81,17 @@ function readings(lines, t) {
   return " at " + t.toFixed(3) + " s: " + found.map(([, y]) => Number(y.toPrecision(3))).join(", ");
 }
 
-function axes(pen, limits, w, top, low, at) {
-  pen.strokeStyle = "#bbb";
-  pen.lineWidth = 1;
-  pen.setLineDash([]);
-  const [, zero] = at(0, 0);
-  pen.strokeRect(0, zero, w, 0);
-  pen.strokeStyle = COLOURS.limit;
-  pen.setLineDash([6, 4]);
-  for (const limit of limits.filter((y) => y >= low && y <= top)) {
-    pen.strokeRect(0, at(0, limit)[1], w, 0);
-  }
-}
-
-function stroke(pen, line, colour, at) {
-  pen.strokeStyle = COLOURS[colour];
-  pen.lineWidth = colour === "ghost" ? 1.5 : 2;
-  pen.setLineDash({ walk: [], other: [5, 3], ghost: [2, 3] }[colour]);
+function stroke(pen, line, style, at) {
+  const [colour, width, dashes] = STYLES[style];
+  Object.assign(pen, { strokeStyle: colour, lineWidth: width });
+  pen.setLineDash(dashes);
   pen.beginPath();
-  let drawn = false;
-  for (const [t, y] of line) {
-    if (y === null) drawn = false;
-    else {
-      pen[drawn ? "lineTo" : "moveTo"](...at(t, y));
-      drawn = true;
-    }
-  }
+  line.forEach(([t, y], k) => y !== null && (k > 0 && line[k - 1][1] !== null ? pen.lineTo(...at(t, y)) : pen.moveTo(...at(t, y))));
   pen.stroke();
 }
 function drawPlots(end) {
   element("shown").textContent = ", last " + Number(shown().toPrecision(2)) + " s";
-  show(end);
-  PLOTS.forEach(draw);
+  PLOTS.forEach((plot) => draw(plot, end));
 }
 element("plots").addEventListener("pointermove", (event) => {
   const box = event.target.getBoundingClientRect();

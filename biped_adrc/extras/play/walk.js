@@ -50,25 +50,16 @@ const hand = {
 };
 // acting: where the hand holds the robot, its force and the spring's other end; null for none
 function drawHand(acting) {
-  node(scene.hand.line).visible = acting !== null && acting.anchor !== null;
-  if (acting === null) {
-    hand.arrow.show(0, 0, 0, 0);
-    element("force").hidden = true;
-    return;
-  }
-  const [x, z] = acting.at, [fx, fz] = acting.force;
+  const text = element("force"), { at: [x, z], force: [fx, fz], anchor } = acting || { at: [0, 0], force: [0, 0], anchor: null };
   hand.arrow.show(x, z, fx, fz);
-  if (acting.anchor) hand.line.fill([{ x, z }, { x: acting.anchor[0], z: acting.anchor[1] }]);
-  label(element("force"), x, z, Math.hypot(fx, fz).toFixed(0) + " N");
-}
-
-// a text beside a point (x, z) [m] of the walk's plane
-function label(text, x, z, words) {
-  const at = roots[0].localToWorld(new MeshCat.THREE.Vector3(x, 0, z)).project(viewer.camera);
+  node(scene.hand.line).visible = anchor !== null;
+  if (anchor) hand.line.fill([{ x, z }, { x: anchor[0], z: anchor[1] }]);
+  text.hidden = acting === null;
+  if (text.hidden) return;
+  const at = roots[0].localToWorld(new THREE.Vector3(x, 0, z)).project(viewer.camera);
   text.style.left = 0.5 * (at.x + 1) * pane.clientWidth + 14 + "px";
   text.style.top = 0.5 * (1 - at.y) * pane.clientHeight - 28 + "px";
-  text.textContent = words;
-  text.hidden = false;
+  text.textContent = Math.hypot(fx, fz).toFixed(0) + " N";
 }
 
 function drawWalks(message) {

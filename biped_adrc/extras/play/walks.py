@@ -69,8 +69,8 @@ class PageWalk:
     """State (nx,)."""
 
     @classmethod
-    def of(cls, name: str, s: Scenario) -> Self:
-        """Raises InputError, with the name, for a scenario that a page cannot walk."""
+    def of(cls, name: str, s: Scenario, scene: RobotAndGait | None = None) -> Self:
+        """scene: where it is at hand. Raises InputError, with the name, for what a page cannot walk."""
         plant, fine = s.ground.plant, s.run.fine
         if plant != RIGID:
             raise InputError(f"the walk '{name}' is on plant '{plant}'; a page takes '{RIGID}'")
@@ -78,11 +78,12 @@ class PageWalk:
             raise InputError(
                 f"the walk '{name}' has run.fine = {fine:g} s; leave it out: a page takes steps of one length"
             )
-        scene = RobotAndGait.of(s)
-        scene.walked  # noqa: B018  # a robot without motors is refused
         rubbed = s.replace({"hardware.friction": True, "errors.friction": 0.0})
-        if any(map(np.any, scene.biped.friction_coefficients)):
-            scene = RobotAndGait.of(rubbed)
+        if scene is None:
+            scene = RobotAndGait.of(s)
+            scene.walked  # noqa: B018  # a robot without motors is refused
+            if any(map(np.any, scene.biped.friction_coefficients)):
+                scene = RobotAndGait.of(rubbed)
         walker = build(rubbed if scene.biped.friction else s, scene)
         if not isinstance(walker.timing, SampledTime):
             raise InputError(
@@ -191,7 +192,7 @@ def variants(name: str, s: Scenario, samples: int) -> list[PageWalk]:
     period = result[0].timing.period
     for delay in (0.0, *((k + 0.5) * period for k in range(samples))) if samples else ():
         try:
-            one = PageWalk.of(name, s.replace({DELAY: delay}))
+            one = PageWalk.of(name, s.replace({DELAY: delay}), result[0].scene)
         except InputError:
             continue  # of a part that takes no delay
         if one.delays not in [x.delays for x in result]:

@@ -2,11 +2,11 @@
 
 It is made from the same text as the machine code: the loops of `engine.kernels` as numba gives them to LLVM,
 and the functions as `engine.ir` writes them. LLVM makes an object file, whose functions call each other by
-their numbers already; what it lacks to be a module that a browser starts are the names of those that are
-called from outside, which `_with_exports` adds.
+their numbers already, and which a browser starts as it is. Those that are called from outside stand in its
+table of functions, in the order of the constant `called`, from 1 on.
 
-What the module does not have it imports from `env`: its memory, the table of the functions that the loops call
-by address (their number in that table), the stack's end, and `sin`, `pow` and the like.
+What the module does not have it imports from `env`: its memory, that table, the stack's end, and `sin`, `pow`
+and the like.
 
 `web_walkers` makes it, and the numbers of each walker. In place of an address a block has a function's number
 in `WebWalkers.functions`, from 1 on. Walkers of the same structure share their functions.
@@ -14,7 +14,7 @@ in `WebWalkers.functions`, from 1 on. Walkers of the same structure share their 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence, Set
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import chain
@@ -50,7 +50,7 @@ class WebWalkers(NamedTuple):
     code: bytes
     """The module."""
     functions: tuple[str, ...]
-    """Names in the module of those that are called by their number, from 1 on."""
+    """Names of those that are called by their number, from 1 on: LOOPS, and those of the walkers."""
     walkers: tuple[WebWalker, ...]
 
 
@@ -59,9 +59,10 @@ def web_walkers(walkers: Sequence[CompiledWalker], reference: Reference) -> WebW
 
     Raises InputError for the exponential method, whose product with matrices has another form.
     """
-    laws = _Laws({}, {}, [])
+    laws = _Laws({}, {}, [*LOOPS])
     modules = [_walker(one, reference, laws) for one in walkers]
-    return WebWalkers(web_module(laws.texts), tuple(laws.functions), tuple(modules))
+    code = web_module(laws.texts, laws.functions)
+    return WebWalkers(code, tuple(laws.functions), tuple(modules))
 
 
 class _Laws(NamedTuple):
@@ -116,48 +117,46 @@ TARGET = "wasm32-unknown-unknown"
 """LLVM's name of what a browser runs."""
 LOOPS = ("go_on", "land", "look")
 """The units of the kernels that a page calls."""
-CUSTOM, EXPORTS, LATER = 0, 7, (9, 10, 11, 12)
-"""Sections of WebAssembly: those of the linker, the names of functions, and those that stand behind it."""
-SYMBOLS, FUNCTION, DATA, SECTION, UNDEFINED, NAMED = 8, 0, 1, 3, 0x10, 0x40
-"""In the linker's section: its table of symbols, the kinds of these that are read, and their flags."""
 
 
-def web_module(laws: Mapping[str, str]) -> bytes:
+def web_module(laws: Mapping[str, str], called: Sequence[str] = LOOPS) -> bytes:
     """The loops and these functions as WebAssembly; those of a walker are text for LLVM, by a name for them.
 
-    A page finds the functions of LOOPS by their names, and function `f` of the text `name` as `name.f`. The
+    called: names of functions in the order of their numbers; function `f` of the text `name` is `name.f`. The
     module is kept on the disk.
     """
     own = Path(__file__).read_text(encoding="utf-8")
-    key = key_of("\0".join((TARGET, loops(), own, *chain(*laws.items()))))
+    key = key_of("\0".join((TARGET, loops(), own, *called, *chain(*laws.items()))))
     code = stored(key)
     if code is None:
-        code = _linked(laws)
+        code = _linked(laws, called)
         keep(key, code)
     return code
 
 
-def _linked(laws: Mapping[str, str]) -> bytes:
+def _linked(laws: Mapping[str, str], called: Sequence[str]) -> bytes:
     """Link the laws, by name, and the loops into one module of WebAssembly."""
     binding.initialize_all_targets()
     binding.initialize_all_asmprinters()
     machine = binding.Target.from_triple(TARGET).create_target_machine(opt=3)
     module = _parsed(loops(), machine)
-    called = {*LOOPS}
     for name, text in laws.items():
         modules = _parsed(text, machine)
         for function in _defined(modules):
             function.name = f"{name}.{function.name}"
-            called.add(function.name)
         module.link_in(modules)
     for function in _defined(module):
         if function.name not in called:
             function.linkage = "internal"
+    names = ", ".join(f'ptr @"{name}"' for name in called)
+    table = f"@called = constant [{len(called)} x ptr] [{names}]"
+    heads = (f'declare void @"{name}"()' for name in called)
+    module.link_in(_parsed("\n".join((table, *heads)), machine))
     module.verify()
     tuning = binding.create_pipeline_tuning_options(speed_level=3)
     builder = binding.create_pass_builder(machine, tuning)
     builder.getModulePassManager().run(module, builder)
-    return _with_exports(machine.emit_object(module), called)
+    return machine.emit_object(module)
 
 
 def _parsed(text: str, machine: Any) -> Any:
@@ -170,82 +169,3 @@ def _parsed(text: str, machine: Any) -> Any:
 def _defined(module: Any) -> list[Any]:
     """The functions that a module has, not only names."""
     return [function for function in module.functions if not function.is_declaration]
-
-
-def _with_exports(code: bytes, called: Set[str]) -> bytes:
-    """An object file with the names of these functions, and without what is only for a linker."""
-    head, sections = code[:8], list(_sections(code))
-    linking = next(body for kind, body in sections if kind == CUSTOM and _named(body) == "linking")
-    places = {name: k for name, k in _functions(linking) if name in called}
-    names = b"".join(_text(name) + bytes([FUNCTION]) + _number(k) for name, k in places.items())
-    kept = [(kind, body) for kind, body in sections if kind != CUSTOM]
-    exports = (EXPORTS, _number(len(places)) + names)
-    before = [part for part in kept if part[0] not in LATER]
-    after = [part for part in kept if part[0] in LATER]
-    return head + b"".join(
-        bytes([kind]) + _number(len(body)) + body for kind, body in (*before, exports, *after)
-    )
-
-
-def _sections(code: bytes) -> Iterator[tuple[int, bytes]]:
-    """(kind, body) of each section behind the eight bytes of the head."""
-    at = 8
-    while at < len(code):
-        kind, (size, begin) = code[at], _read(code, at + 1)
-        at = begin + size
-        yield kind, code[begin:at]
-
-
-def _functions(linking: bytes) -> Iterator[tuple[str, int]]:
-    """(name, number) of each function in the linker's table of symbols."""
-    at = 1 + len("linking") + 1  # and the version
-    while linking[at] != SYMBOLS:
-        size, begin = _read(linking, at + 1)
-        at = begin + size
-    _, at = _read(linking, at + 1)
-    count, at = _read(linking, at)
-    for _ in range(count):
-        kind = linking[at]
-        flags, at = _read(linking, at + 1)
-        number, name = 0, ""
-        if kind != DATA:
-            number, at = _read(linking, at)
-        if kind != SECTION and (kind == DATA or not flags & UNDEFINED or flags & NAMED):
-            size, at = _read(linking, at)
-            name, at = linking[at : at + size].decode(), at + size
-        if kind == DATA and not flags & UNDEFINED:
-            for _ in range(3):  # where it is
-                _, at = _read(linking, at)
-        if kind == FUNCTION:
-            yield name, number
-
-
-def _named(body: bytes) -> str:
-    """The name of a section of the linker."""
-    size, at = _read(body, 0)
-    return body[at : at + size].decode()
-
-
-def _text(name: str) -> bytes:
-    """A name as WebAssembly has it."""
-    return _number(len(name.encode())) + name.encode()
-
-
-def _number(k: int) -> bytes:
-    """A whole number as WebAssembly has it (LEB128)."""
-    out = bytearray()
-    while True:
-        out.append(k & 0x7F | (0x80 if k > 0x7F else 0))
-        k >>= 7
-        if not k:
-            return bytes(out)
-
-
-def _read(data: bytes, at: int) -> tuple[int, int]:
-    """The number at a place, and the place behind it."""
-    k = shift = 0
-    while True:
-        byte = data[at]
-        k, shift, at = k | (byte & 0x7F) << shift, shift + 7, at + 1
-        if byte < 0x80:
-            return k, at
