@@ -7,7 +7,7 @@ import biped_adrc as ba
 from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.core.errors import InputError, SimulationError
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
-from biped_adrc.paper.regression import regress_multipliers
+from biped_adrc.paper.poincare import regress_multipliers
 from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.run import execute
 from biped_adrc.scenario.scenario import Scenario

@@ -68,8 +68,8 @@ def study(
 
 def _print(done: Results) -> None:
     """Print the table, what a search chose, and why some walks could not be made."""
+    from biped_adrc.studies.build import NO_WALK
     from biped_adrc.studies.page import chosen, headings, texts
-    from biped_adrc.studies.parameters import NO_WALK
 
     shown = Table(*headings(done))
     for line in done.table():

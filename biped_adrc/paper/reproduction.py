@@ -23,8 +23,7 @@ from biped_adrc.core.files import check_folder, check_place, plain, write_text
 from biped_adrc.core.processes import TaskProgress, run_tasks
 from biped_adrc.core.versions import versions
 from biped_adrc.observers.gpi import TABLE_I
-from biped_adrc.paper.figures import push_window
-from biped_adrc.paper.pictures import draw_all
+from biped_adrc.paper.figures import draw_all, push_window
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.runs import tasks as planned_tasks
 from biped_adrc.paper.scenarios import Plan

@@ -26,14 +26,9 @@ from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.paper import scenarios
 from biped_adrc.paper.members import member_outcomes, member_walk
 from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
-from biped_adrc.paper.poincare import (
-    PoincareResult,
-    poincare,
-    poincare_twice,
-    return_map_samples,
-)
+from biped_adrc.paper.poincare import PoincareResult, poincare_twice, return_map_samples
 from biped_adrc.paper.push_map import push_map
-from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Plan, with_values
+from biped_adrc.paper.scenarios import CONTROLLERS, Plan
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.outcome import Outcome
@@ -101,10 +96,9 @@ def engines(one: Scenario, other: Scenario) -> float:
 
 # -- cycles, starts and closed forms ---------------------------------------------------------------
 def cycle(run: Scenario, with_states: bool) -> PoincareResult | str:
-    """A walking cycle at 1 ms and half of it, or why none is found, in words."""
+    """A walking cycle at two steps, or why none is found, in words."""
     try:
-        half = poincare(with_values(run, h=0.5 * COARSE), with_states)
-        return replace(poincare(with_values(run, h=COARSE), with_states), half=half)
+        return poincare_twice(run, with_states)
     except BipedError as error:
         return str(error)
 

@@ -19,7 +19,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from biped_adrc.core.errors import optional
-from biped_adrc.studies.parameters import Values
+from biped_adrc.studies.build import Values
 from biped_adrc.studies.search import Candidate, Search, Variable, Walks, judged, ranked
 
 FIRST_PART = 0.4

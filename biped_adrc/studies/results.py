@@ -18,8 +18,8 @@ from biped_adrc.analysis.statistics import Interval, Paired, median, paired, sha
 from biped_adrc.core.errors import optional
 from biped_adrc.core.files import output_path, replacing
 from biped_adrc.core.shown import Shown
+from biped_adrc.studies.build import NO_WALK
 from biped_adrc.studies.measure import is_counted, is_made
-from biped_adrc.studies.parameters import NO_WALK
 from biped_adrc.studies.run import COLUMNS
 from biped_adrc.studies.search import Candidate
 from biped_adrc.studies.store import Result, opened

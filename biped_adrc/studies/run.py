@@ -2,7 +2,11 @@
 
 Nothing raises: values that do not fit give a row with the status REFUSED, a controller that raises one with
 RAISED, so that one bad trial of a study spoils no other. A number that does not exist is None and never NaN,
-which JSON and SQL do not have. What is counted in a walk is in `study.counted`.
+which JSON and SQL do not have.
+
+A walk is counted at its nodes, or in the table of a compiled walk. On the rigid plant it is judged by its
+certificate, on soft ground by how far its feet slip (`analysis.feasibility`). There a friction is what the
+ground gave, so it is never above that of the ground, and the impulses of an impact are among the forces.
 
 `run_trials` is the function that `study.runner` hands to workers. The meaning of the columns is in
 columns.toml.
@@ -17,29 +21,36 @@ from itertools import pairwise
 from threading import Lock
 from typing import Any
 
-from biped_adrc.analysis.certificate import REASONS, supports
+import numpy as np
+
+from biped_adrc.analysis.certificate import IMPULSE, REASONS, supports
+from biped_adrc.analysis.contact_errors import contact_errors
 from biped_adrc.analysis.feasibility import Feasibility, outcome_of
 from biped_adrc.analysis.ground_force import Nodes
+from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.files import packaged
-from biped_adrc.engine.batch import BatchWalk, left_by, run_case
+from biped_adrc.core.types import Array
+from biped_adrc.engine.batch import BatchWalk, Case, left_by, run_case
 from biped_adrc.engine.on_plant import walk_on
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import limits
 from biped_adrc.scenario.recording import Walk
-from biped_adrc.studies.build import Trial, trial_of
-from biped_adrc.studies.counted import WalkRow, counted, counted_in
-from biped_adrc.studies.parameters import NO_WALK, RAISED, REFUSED, Record, scenario_of
+from biped_adrc.studies.build import NO_WALK, RAISED, REFUSED, Record, Trial, scenario_of, trial_of
 
 COLUMNS: Mapping[str, str] = packaged("biped_adrc.studies", "columns.toml")
 """The columns of a row and what each means, with units."""
 WORDS = ("status", "detail", "outcome", "engine")
 """Columns that hold text."""
+WalkRow = dict[str, float | int | str | None]
+"""Results by column name."""
+OF_FEASIBILITY = ("feasible_impacts", "mean_normal_force", "mean_friction", "scuffing")
+"""Columns that `Feasibility` has under the same names."""
 AT_ONCE = 160
 """Impacts of the walks that are judged together: the nodes of a walk take some 80 kB for each."""
 _PREPARING = Lock()
-"""Held while walkers are built or their plants are used: threads of a process share robots and compiled code."""
+"""Held while walkers are made or plants are used: threads of a process share robots and compiled code."""
 
 
 def run_trial(record: Record) -> WalkRow:
@@ -70,13 +81,12 @@ def run_trials(records: Sequence[Record]) -> list[WalkRow]:
 
 def _run_of(t: Trial) -> Callable[[], BatchWalk]:
     """The function that carries a trial out, in any thread."""
-    return run_case(t.case) if t.loop is None else partial(_on_other_ground, t)
+    return run_case(t.case) if t.loop is None else partial(_on_other_ground, t.case, t.loop)
 
 
-def _on_other_ground(t: Trial) -> BatchWalk:
+def _on_other_ground(c: Case, loop: SteppingLoop) -> BatchWalk:
     """The walk on another plant than the rigid one."""
-    c = t.case
-    run = walk_on(t.loop, c.walker, (c.q, c.v), c.mode, c.impacts)
+    run = walk_on(loop, c.walker, (c.q, c.v), c.mode, c.impacts)
     return left_by(c, run, str(run.settings["engine"]))
 
 
@@ -123,6 +133,67 @@ def _by_table(t: Trial, walked: BatchWalk, limits: Limits) -> WalkRow:
         after = plant.momentum(x[: plant.n], x[plant.n : 2 * plant.n])
     result = supports(walker, n, k, walked.impacts, after)
     return counted(n, Feasibility(walked.status, result, k, walked.impacts))
+
+
+def counted(n: Nodes, found: Feasibility, soft: bool = False) -> WalkRow:
+    """Errors, torques, work and feasibility of a walk; soft: whether it was made on soft ground.
+
+    Root mean squares are over nodes and joints.
+    """
+    held = np.flatnonzero(np.diff(n.t) > 0.0)
+    error, u, turned = (np.take(x, held, axis=0) for x in (n.error, n.u, np.diff(n.q_b, axis=0)))
+    outcome, judged = found.outcome, set(REASONS) - {IMPULSE if soft else "slip"}
+    return {
+        "peak_error": _largest(n.error),
+        "rms_error": _rms(error),
+        "peak_torque": _largest(n.u),
+        "rms_torque": _rms(u),
+        "work": float(np.sum(np.abs(u) * np.abs(turned))),
+        "net_work": float(np.sum(u * turned)),
+        "outcome": outcome,
+        "feasible": int(outcome == "feasible"),
+        "but_impact": int(outcome == "but_impact"),
+        **{f"bad_{name}": int(name in found.reasons) for name in judged},
+        **{name: getattr(found, name) for name in OF_FEASIBILITY},
+        "impulse_ratio": found.impulse_ratio if found.touchdowns and not soft else None,
+    }
+
+
+def counted_in(walk: Walk, limits: Limits) -> WalkRow:
+    """As `counted`, of a walk with all its nodes; what its feet did on soft ground, and when touchdowns were
+    noticed.
+    """
+    return {
+        **counted(Nodes.of(walk.signals), walk.feasible_within(limits), walk.soft),
+        **(_on_the_ground(walk) if walk.soft else {}),
+        **({} if walk.walker.touchdown is None else walk.touchdowns.rates._asdict()),
+    }
+
+
+def _on_the_ground(walk: Walk) -> WalkRow:
+    """The errors that touchdowns and pushes leave, and what the feet did, of the step in which it was largest.
+
+    The latter is missing on a plant that does not say it.
+    """
+    row, steps = contact_errors(walk.signals)._asdict(), walk.soft_steps
+    if not steps:
+        return row
+    return row | {
+        "slip": max(max(step.slip) for step in steps),
+        "flight": max(step.flight for step in steps),
+        "double_support": max(step.double_support for step in steps),
+        "penetration": max(step.depth for step in steps),
+    }
+
+
+def _largest(x: Array) -> float:
+    """Largest absolute value, 0 of nothing."""
+    return float(np.max(np.abs(x), initial=0.0))
+
+
+def _rms(x: Array) -> float:
+    """Root of the mean square, 0 of nothing."""
+    return math.sqrt(float(np.mean(x**2))) if x.size else 0.0
 
 
 def ended(t: Trial, walked: BatchWalk) -> WalkRow:

@@ -20,7 +20,7 @@ from biped_adrc.core.errors import InputError, SimulationError, optional
 from biped_adrc.core.processes import cores, processes, stop
 from biped_adrc.core.types import DaskClient
 from biped_adrc.core.versions import differences, numerical_versions
-from biped_adrc.studies.parameters import CRASHED, RAISED, Record
+from biped_adrc.studies.build import CRASHED, RAISED, Record
 from biped_adrc.studies.store import Store
 from biped_adrc.studies.study import Point
 

@@ -18,10 +18,9 @@ from typing import Any, NamedTuple
 from pydantic import Field, model_validator
 
 from biped_adrc.scenario.scenario import field_of
-from biped_adrc.studies.measure import Limit, Measure, Objective, Row
-from biped_adrc.studies.parameters import Values
+from biped_adrc.studies.build import Values
+from biped_adrc.studies.measure import Limit, Measure, Objective, Row, numbers_without_walk
 from biped_adrc.studies.space import Part, Range, Seeds, each, read_list, read_range, table
-from biped_adrc.studies.without_walk import numbers_without_walk
 
 Walks = Sequence[tuple[str, Row]]
 """Walks of a candidate: the name of the condition of each, and its row."""

@@ -15,7 +15,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 from biped_adrc.scenario.dotted import flat
 from biped_adrc.scenario.records import Misfit
 from biped_adrc.scenario.scenario import MOST_SEED, field_of
-from biped_adrc.studies.parameters import read
+from biped_adrc.studies.build import read
 
 MOST = 1_000_000
 """Most levels of a field, samples, and seeds."""
