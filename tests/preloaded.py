@@ -25,7 +25,7 @@ THREADS = "OPENBLAS_NUM_THREADS"
 """One while importing, as OpenBLAS starts its threads when it is loaded; a command is told nothing of it."""
 
 IMPORTED_LATE = ("matplotlib.pyplot", "matplotlib.backends.backend_svg", "qpsolvers")
-"""What commands import inside of functions (but pyarrow, which starts a thread)."""
+"""What commands import inside of functions."""
 
 ERRORS = ("error", None, Warning, None, 0)
 """The filter that `-W error` puts in front of the interpreter's own."""

@@ -22,6 +22,7 @@ from rich.table import Table
 
 from biped_adrc.cli.app import EXIT_INTERRUPTED, app, console, say
 from biped_adrc.cli.options import options
+from biped_adrc.core.files import output_path
 
 if TYPE_CHECKING:
     from biped_adrc.studies.results import Results
@@ -43,9 +44,9 @@ def study(
 
     result = read_study(study)
     if table is not None:
-        from biped_adrc.studies.results import check_table
+        from biped_adrc.studies.results import TABLES
 
-        check_table(table)
+        output_path(table, TABLES)
     if dry_run:
         result.rehearse()
         most = "at most " if result.search else ""

@@ -69,9 +69,14 @@ def push_window(s: Signals) -> tuple[float, float] | None:
     return float(t[0]), float(t[-1])
 
 
-def draw_all(r: Results, out: Path, workers: int | None = None) -> dict[str, str]:
-    """Write every figure to `out` as .png and .svg; returns the SVG text by name, for the report."""
-    named = pictures(r)
+def draw_all(
+    r: Results, walks: Mapping[str, Walk], out: Path, workers: int | None = None
+) -> dict[str, str]:
+    """Write every figure to `out` as .png and .svg; returns the SVG text by name, for the report.
+
+    walks: the pushed ones, by controller.
+    """
+    named = pictures(r, {c: walk.signals for c, walk in walks.items()})
     drawn = run_tasks(list(named.values()), workers)
     result = {}
     for name, picture in zip(named, drawn, strict=True):
@@ -82,14 +87,13 @@ def draw_all(r: Results, out: Path, workers: int | None = None) -> dict[str, str
     return result
 
 
-def pictures(r: Results) -> dict[str, Task[tuple[bytes, bytes]]]:
+def pictures(r: Results, signals: Mapping[str, Signals]) -> dict[str, Task[tuple[bytes, bytes]]]:
     """The figures of the paper and beyond, by file name, each as a task that draws it.
 
     figure1 (the robot), figure4 to figure6 (the pushed walks) are those of the paper; the others show what it
     does not: the disturbance estimate, the ground's force, energies, multipliers, the return map, and the map
     of pushes.
     """
-    signals, cells = {c: r.headline[c].signals for c in CONTROLLERS}, r.cells
     npd, adrc, window = signals["NPD"], signals["ADRC"], push_window(signals["NPD"])
     magnitudes = {c: r.multipliers[c].orbit.multipliers for c in CONTROLLERS if c in r.multipliers}
     mu = Biped.load("rabbit", r.plan.preset).description.friction_coefficient
@@ -107,7 +111,7 @@ def pictures(r: Results) -> dict[str, Task[tuple[bytes, bytes]]]:
         "return_map": (figures.return_map_figure, *r.returns["map"]),
     }
     for preset in r.plan.presets if r.plan.full else ():
-        rows = [cell.row() for cell in cells if cell.push.preset == preset]
+        rows = [cell.row() for cell in r.cells if cell.push.preset == preset]
         inputs[f"push_map_{preset}"] = (push_map_figure, rows)
     return {name: Task(name, rendered, arguments) for name, arguments in inputs.items()}
 

@@ -183,11 +183,6 @@ def quotient(pair: tuple[float, float]) -> float:
     return pair[0] / pair[1]
 
 
-def number_of(found: AtTwoSteps) -> AtTwoSteps:
-    """A scenario that is its own number."""
-    return found
-
-
 def item(name: str, found: Mapping[str, float]) -> float:
     """A number by its name."""
     return found[name]

@@ -63,8 +63,8 @@ def reproduce(
     walks = {c: replay(head.outcome.run, head.trajectory) for c, head in r.headline.items()}
     for c, walk in walks.items():
         walk.save(out / f"walk-{c.lower()}.npz")
-    pictures = draw_all(r, out, workers)
-    animation = _animate(walks, r)
+    pictures = draw_all(r, walks, out, workers)
+    animation = _animate(walks)
     write_text(out / "walk.html", animation)
     summary["wall_time_s"] = time.perf_counter() - started
     write_report(out / "report.html", summary, pictures, animation)
@@ -122,7 +122,7 @@ def _settings(plan: Plan) -> dict[str, object]:
     }
 
 
-def _animate(walks: dict[str, Walk], r: Results) -> str:
+def _animate(walks: dict[str, Walk]) -> str:
     """The animation of both headline runs as one HTML page, with the window of the push marked."""
-    window = push_window(r.headline["NPD"].signals)
+    window = push_window(walks["NPD"].signals)
     return animation_html(walks, Look("ADRC", [] if window is None else [(*window, "push")]))

@@ -15,7 +15,6 @@ import numpy as np
 from scipy.optimize import brentq
 
 from biped_adrc.analysis.observer.loop import ObserverLoop
-from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.processes import Task
 from biped_adrc.core.types import relabelled
@@ -62,14 +61,12 @@ def twice(run: Scenario) -> Outcome:
 
 @dataclass(frozen=True)
 class Headline:
-    """A pushed run with all that is drawn of it."""
+    """A pushed run with its nodes, of which it is drawn."""
 
     outcome: Outcome
     """Its figures of merit, with those at half of the step in `half`, and at a quarter in the half of that."""
     trajectory: Trajectory
     """Its nodes, as `sparse` keeps them."""
-    signals: Signals
-    """Errors, torques, forces and energies at the nodes."""
     laws: Mapping[str, float]
     """What `physical_laws.walk_laws` found."""
 
@@ -77,10 +74,10 @@ class Headline:
 def headline(run: Scenario) -> Headline:
     """A pushed run that is kept; at a quarter of the step only the single supports from the push on."""
     walk, half = sparse(walk_scenario(run)), halved(run)
-    quarter = execute(scenarios.from_the_push(halved(half)))
+    quarter = execute(scenarios.with_values(halved(half), first_step=run.pushes[0].step, impacts=2))
     at_half = replace(sparse(walk_scenario(half), 0.5 * NODE_DISTANCE).outcome, half=quarter)
     outcome = replace(walk.outcome, half=at_half)
-    return Headline(outcome, walk.trajectory, walk.signals, walk_laws(walk))
+    return Headline(outcome, walk.trajectory, walk_laws(walk))
 
 
 def engines(one: Scenario, other: Scenario) -> float:

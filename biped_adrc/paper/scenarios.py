@@ -18,7 +18,6 @@ from typing import Any
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import packaged
 from biped_adrc.engine.run import PINOCCHIO
-from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.scenario import Scenario
 
@@ -147,11 +146,6 @@ def pushed_steps(run: Scenario) -> set[int]:
     return {push.step + k for push in run.pushes for k in (0, 1)}
 
 
-def from_the_push(run: Scenario) -> Scenario:
-    """The run from the pushed step on, on its orbit, for two impacts."""
-    return with_values(run, first_step=run.pushes[0].step, impacts=2)
-
-
 def plain(controller: str, preset: str, **values: Any) -> Scenario:
     """A walk with RK4, at the step of its controller."""
     h = STEPS[controller][0]
@@ -259,16 +253,6 @@ def multiplier_runs(plan: Plan) -> dict[str, Scenario]:
 def starting(controller: str, preset: str, speed: float) -> Scenario:
     """A walk that starts with `speed` times the gait's rates after the impact."""
     return loose(controller, preset, COARSE, start_speed=speed - 1.0, impacts=3)
-
-
-def sampled_walk(preset: str, h: float, period: float | None = None) -> Scenario:
-    """One step under NPD, in continuous time or with a period [s]; h: integration step [s]."""
-    return scenario("NPD", preset, impacts=1, period=period, h=h)
-
-
-def scaled_observer(preset: str, factor: float) -> Scenario:
-    """ADRC with the poles of Table I times a factor."""
-    return scenario("ADRC", preset, poles=tuple(factor * pole for pole in TABLE_I))
 
 
 @dataclass(frozen=True)

@@ -58,10 +58,11 @@ def claims() -> Iterator[Claim]:
     for name, said in texts().items():
         if name in ("preface", "words", "notes"):
             continue
-        rooms = {"scenarios": m, "metric": m, "variant": m, "values": v}
-        keys = {**said, "metric": said.get("measure", "number_of")}
+        functions = {"scenarios": m, "measure": m, "variant": m, "values": v}
         result: dict[str, Any] = {
-            key: _function(room, keys[key]) for key, room in rooms.items() if key in keys
+            "metric" if key == "measure" else key: _function(room, said[key])
+            for key, room in functions.items()
+            if key in said
         }
         if "round_off" in said:
             result["round_off"] = _number(said["round_off"])

@@ -95,8 +95,8 @@ class Claim:
     """What is claimed."""
     limit: Limit
     """That the number has to keep."""
-    metric: Callable[[Any], AtTwoSteps | float]
-    """The number of one scenario."""
+    metric: Callable[[Any], AtTwoSteps | float] = lambda x: x
+    """The number of one scenario, which may be its own."""
     scenarios: Callable[[Results], Mapping[str, Any]] = lambda _: {}
     """What was computed of each scenario, by its name for a reader; none where no run can decide."""
     variant: Callable[[str, Any], str] = lambda name, _: name

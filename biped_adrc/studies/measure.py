@@ -76,9 +76,9 @@ class Measure(Part):
     """Walks that count with their number; all others rank worst."""
 
     @property
-    def less_is_better(self) -> bool:
-        """The direction in which walks are ranked."""
-        return True
+    def sign(self) -> float:
+        """1 where less is better, -1 where more is."""
+        return 1.0
 
     @property
     def words(self) -> str:
@@ -89,7 +89,7 @@ class Measure(Part):
     @property
     def worst(self) -> float:
         """The number of a walk that ranks worst."""
-        return math.inf if self.less_is_better else -math.inf
+        return self.sign * math.inf
 
     def number(self, row: Row) -> float:
         """The number of a walk, infinite where it ranks worst."""
@@ -104,15 +104,15 @@ class Measure(Part):
         if self.column in known:
             x = known[self.column]
             return self.worst if x is None else x
-        every = [self.number(row) for name, row in walks if self.condition in (None, name)]
-        numbers: Array = np.array(every)
+        numbers: Array = np.array(
+            [self.number(row) for name, row in walks if self.condition in (None, name)]
+        )
         if self.over == "mean":
             return float(numbers.mean())
         if self.over == "median":
             return float(np.median(numbers))
-        sign = 1.0 if self.less_is_better else -1.0
         p = 1.0 if self.over == "worst" else float(self.over)
-        return sign * float(np.quantile(sign * numbers, p, method="inverted_cdf"))
+        return self.sign * float(np.quantile(self.sign * numbers, p, method="inverted_cdf"))
 
 
 class Objective(Measure):
@@ -121,8 +121,8 @@ class Objective(Measure):
     goal: Literal["minimise", "maximise"] = "minimise"
 
     @property
-    def less_is_better(self) -> bool:
-        return self.goal == "minimise"
+    def sign(self) -> float:
+        return 1.0 if self.goal == "minimise" else -1.0
 
 
 class Limit(Measure):
@@ -140,8 +140,8 @@ class Limit(Measure):
         return self
 
     @property
-    def less_is_better(self) -> bool:
-        return self.most is not None
+    def sign(self) -> float:
+        return -1.0 if self.most is None else 1.0
 
     @property
     def bound(self) -> float:
@@ -151,13 +151,12 @@ class Limit(Measure):
     @property
     def sentence(self) -> str:
         """ "mean feasible at least 0.9"."""
-        return f"{self.words} at {'most' if self.less_is_better else 'least'} {self.bound:g}"
+        return f"{self.words} at {'least' if self.most is None else 'most'} {self.bound:g}"
 
     def excess(self, x: float) -> float:
         """By how much x misses the limit, as a share of its bound; 0 where the limit is kept."""
-        beyond = x - self.bound if self.less_is_better else self.bound - x
         scale = abs(self.bound) if abs(self.bound) > SMALLEST_SCALE else 1.0
-        return min(max(beyond / scale, 0.0), MOST_EXCESS)
+        return min(max(self.sign * (x - self.bound) / scale, 0.0), MOST_EXCESS)
 
 
 @lru_cache(maxsize=128)

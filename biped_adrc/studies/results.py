@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from biped_adrc.analysis.statistics import Interval, Paired, median, paired, share
-from biped_adrc.core.errors import optional
 from biped_adrc.core.files import output_path, replacing
 from biped_adrc.core.shown import Shown
 from biped_adrc.studies.build import NO_WALK
@@ -29,7 +28,7 @@ SET, CANDIDATE, SETTING = "set", "candidate", "setting"
 """Names under which the set of walks, the candidate and which of the two settings of a test stand."""
 CHOSEN, BEFORE = "chosen", "before"
 """The settings that are walked on the test set: what the search chose, and the case as it was."""
-KINDS = (".csv", ".parquet")
+TABLES = (".csv",)
 """Suffixes of tables that can be written."""
 
 
@@ -136,32 +135,15 @@ class Results(Shown):
             return store.statuses()
 
     def export(self, path: Path) -> None:
-        """Write all rows as CSV or Parquet, by the suffix of `path`. Raises InputError, OutputError."""
-        check_table(path)
+        """Write all rows as CSV, one after the other. Raises InputError for another suffix, and OutputError."""
         names = {name: None for row in self.rows() for name in row}
-        if path.suffix.lower() == ".csv":
-            with replacing(path) as made, open(made, "w", newline="", encoding="utf-8") as file:
-                writer = csv.DictWriter(file, names)
-                writer.writeheader()
-                writer.writerows(self.rows())
-            return
-        import pyarrow
-        from pyarrow import parquet
-
-        rows = list(self.rows())
-        columns = {name: [row.get(name) for row in rows] for name in names}
-        for name, x in columns.items():
-            if any(isinstance(one, str) for one in x):  # one type in a column
-                columns[name] = [None if one is None else str(one) for one in x]
-        with replacing(path) as made:
-            parquet.write_table(pyarrow.table(columns), made)
-
-
-def check_table(path: Path) -> None:
-    """Raises InputError for a kind of table that cannot be written, or Parquet without pyarrow installed."""
-    if output_path(path, KINDS).suffix.lower() == ".parquet":
-        with optional("study", "Parquet needs pyarrow, which is not installed"):
-            import pyarrow  # noqa: F401
+        with (
+            replacing(output_path(path, TABLES)) as made,
+            open(made, "w", newline="", encoding="utf-8") as file,
+        ):
+            writer = csv.DictWriter(file, names)
+            writer.writeheader()
+            writer.writerows(self.rows())
 
 
 def _name(at: Mapping[str, Any]) -> str:

@@ -48,7 +48,7 @@ WalkRow = dict[str, float | int | str | None]
 OF_FEASIBILITY = ("feasible_impacts", "mean_normal_force", "mean_friction", "scuffing")
 """Columns that `Feasibility` has under the same names."""
 AT_ONCE = 160
-"""Impacts of the walks that are judged together: the nodes of a walk take some 80 kB for each."""
+"""Impacts of the walks that are in memory together: the nodes of a walk take some 80 kB for each."""
 _PREPARING = Lock()
 """Held while walkers are made or plants are used: threads of a process share robots and compiled code."""
 
@@ -61,20 +61,22 @@ def run_trial(record: Record) -> WalkRow:
 def run_trials(records: Sequence[Record]) -> list[WalkRow]:
     """A row for each trial, in their order: the function that workers run.
 
-    All trials take a step before the first one takes the next, walking and judging only as many as memory holds
-    well: so a processor finds the code of a step in its cache, and takes a fifth less time than trial by trial.
+    All trials take a step before the first one takes the next, as many as memory holds well: so a processor
+    finds the code of a step in its cache, and takes a fifth less time than trial by trial.
     """
     with _PREPARING:
         trials = _each(trial_of, [_attempt(scenario_of, record) for record in records])
-        runs, rows = _each(_run_of, trials), list[WalkRow]()
     impacts = (t.case.impacts for t in trials if isinstance(t, Trial))
-    size = max(1, AT_ONCE // max(impacts, default=1))
-    for i in range(0, len(runs), size):
-        walks = _each(lambda run: run(), runs[i : i + size])
+    size, rows = max(1, AT_ONCE // max(impacts, default=1)), list[WalkRow]()
+    for i in range(0, len(trials), size):
+        some = trials[i : i + size]
+        with _PREPARING:
+            runs = _each(_run_of, some)
+        walks = _each(lambda run: run(), runs)
         with _PREPARING:
             rows += [
                 _row(walk if isinstance(walk, dict) else measured(trial, walk))
-                for trial, walk in zip(trials[i : i + size], walks, strict=True)
+                for trial, walk in zip(some, walks, strict=True)
             ]
     return rows
 

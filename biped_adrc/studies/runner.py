@@ -97,7 +97,7 @@ class Crew:
             stop(self.executor)
 
     def start(self) -> None:
-        """Start the executor."""
+        """Start the executor, if it is none of the user's."""
         if isinstance(self.workers, Executor):
             self.executor: Executor = self.workers
         elif self.cluster is None:

@@ -195,6 +195,5 @@ def judged(
 
 def ranked(search: Search, found: Sequence[Candidate]) -> list[Candidate]:
     """The walked candidates, best first: by what they miss, by the objective, by number."""
-    sign = 1.0 if search.objective.less_is_better else -1.0
-    walked = [c for c in found if c.walked]
+    walked, sign = [c for c in found if c.walked], search.objective.sign
     return sorted(walked, key=lambda c: (sum(c.missed), sign * c.objective, c.number))
