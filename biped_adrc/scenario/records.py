@@ -187,7 +187,7 @@ class Record(BaseModel):
 
         What was registered in this process is written as module:Class, by which any other process finds it.
         """
-        usual = type(self).model_construct() if usual is None else usual
+        usual = defaults(type(self)) if usual is None else usual
         result = {}
         for name, info in type(self).model_fields.items():
             x, before = getattr(self, name), getattr(usual, name)
@@ -219,6 +219,12 @@ class Record(BaseModel):
 
     def __hash__(self) -> int:
         return hash(repr(sorted(self.dotted().items())))
+
+
+@lru_cache
+def defaults(cls: type[Record]) -> Record:
+    """The record of all defaults, made once: pydantic copies each of them deeply."""
+    return cls.model_construct()
 
 
 def plain(x: Any) -> Any:
