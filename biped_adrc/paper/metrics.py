@@ -108,7 +108,7 @@ def of_orbit(of: Callable[[PeriodicOrbit], float], found: PoincareResult | str) 
     """A number of a cycle at both steps; NaN where none was found."""
     if isinstance(found, str):
         return AtTwoSteps(math.nan, math.nan)
-    return at_two(lambda x: of(x.orbit), found)
+    return AtTwoSteps(of(found.orbit), of(found.half))
 
 
 def largest_multiplier(found: PoincareResult | str) -> AtTwoSteps:

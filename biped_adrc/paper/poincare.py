@@ -12,8 +12,7 @@ condition number are returned with the eigenvalues, and `warning` says what they
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -34,60 +33,49 @@ from biped_adrc.scenario.scenario import Scenario
 class PoincareResult(Shown):
     """A fixed point with its multipliers, and delta^2 of the zero dynamics beside them."""
 
-    controller: str
-    preset: str
-    reset: str
-    """What the observer does at impact, as in a scenario."""
-    with_states: bool
-    """Whether the controller's states belong to the state of the return map."""
+    run: Scenario
+    """The walk whose return map was taken."""
     orbit: PeriodicOrbit
+    """At a step of 1 ms."""
+    half: PeriodicOrbit
+    """At half of it."""
     delta_squared: float
-    half: PoincareResult | None = None
-    """The same at half the integration step."""
 
     @property
     def gap(self) -> float:
-        """Largest change of a multiplier's magnitude when the step is halved; infinite where it was not."""
-        if self.half is None:
-            return math.inf
-        one, other = (np.sort(np.abs(r.orbit.multipliers)) for r in (self, self.half))
+        """Largest change of a multiplier's magnitude when the step is halved."""
+        one, other = (np.sort(np.abs(x.multipliers)) for x in (self.orbit, self.half))
         return float(np.max(np.abs(one - other)))
 
     def record(self) -> dict[str, Any]:
         """The result as values that JSON holds, for summary.json."""
-        half = None if self.half is None else np.abs(self.half.orbit.multipliers).tolist()
         return {
-            **{name: getattr(self, name) for name in ("controller", "preset", "reset")},
+            "controller": self.run.controller.name,
+            "preset": self.run.robot.preset,
+            "reset": self.run.controller.observer.reset,
             "coordinates": len(self.orbit.multipliers),
             "magnitudes": np.abs(self.orbit.multipliers).tolist(),
             "x_minus": self.orbit.x_minus[:10].tolist(),
             "residual": self.orbit.residual,
             "delta_squared": self.delta_squared,
             "stable": self.orbit.stable,
-            "magnitudes_at_half_the_step": half,
+            "magnitudes_at_half_the_step": np.abs(self.half.multipliers).tolist(),
         }
 
 
-def poincare_twice(run: Scenario, with_states: bool = True) -> PoincareResult:
-    """As `poincare` at a step of 1 ms, and once more at half of it."""
-    steps = (run.replace(run={"h": h}) for h in (COARSE, 0.5 * COARSE))
-    result, half = (poincare(step, with_states) for step in steps)
-    return replace(result, half=half)
-
-
-def poincare(run: Scenario, with_states: bool) -> PoincareResult:
+def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
     """Fixed point by Newton's method and multipliers by central differences, without disturbances.
 
     with_states: whether the controller's states belong to the state of the return map.
     """
-    cycle, scene = gait_map(run, with_states), RobotAndGait.of(run)
-    P, guess = cycle.P, cycle.guess
-    biped, gait = scene.biped, scene.walked
-    # an observer in continuous time settles to about 1e-8 between impacts, so the residual may too
-    orbit = P.fixed_point(guess if with_states else guess[: 2 * biped.n])
-    delta2 = ZeroDynamics.of(biped, gait.constraint).delta ** 2
-    law = run.controller
-    return PoincareResult(law.name, biped.preset, law.observer.reset, with_states, orbit, delta2)
+    scene, orbits = RobotAndGait.of(run), list[PeriodicOrbit]()
+    for h in (COARSE, 0.5 * COARSE):
+        cycle = gait_map(run.replace(run={"h": h}), with_states)
+        guess = cycle.guess if with_states else cycle.guess[: 2 * scene.biped.n]
+        # an observer in continuous time settles to about 1e-8 between impacts, so the residual may too
+        orbits.append(cycle.P.fixed_point(guess))
+    delta = ZeroDynamics.of(scene.biped, scene.walked.constraint).delta
+    return PoincareResult(run, *orbits, delta**2)
 
 
 RANK = 1e-8

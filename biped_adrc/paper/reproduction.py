@@ -87,7 +87,12 @@ def judgement(r: Results) -> dict[str, Any]:
         "claims": of_claims,
         "findings": [row.finding for row in of_claims if row.finding],
         "notes": list(texts()["notes"].values()),
-        "settings": _settings(plan),
+        "settings": {
+            **{name: getattr(plan, name) for name in ("preset", "presets", "full", "quick")},
+            "pushes": [push.in_words() for push in plan.pushes],
+            "Table I, observer eigenvalues [rad/s]": list(TABLE_I),
+            "Table II": {"K_p": TABLE_II.K_p, "K_d": TABLE_II.K_d},
+        },
         "tables": tables(r),
         "members": [o for part in r.members.values() for o in part],
         "multipliers": {name: result.record() for name, result in r.multipliers.items()},
@@ -110,16 +115,6 @@ def probe(out: Path) -> None:
     for path in out.iterdir():
         if path.suffix in WRITTEN:
             check_place(path)
-
-
-def _settings(plan: Plan) -> dict[str, object]:
-    """What was asked for, and the constants of the paper that all runs use."""
-    return {
-        **{name: getattr(plan, name) for name in ("preset", "presets", "full", "quick")},
-        "pushes": [push.in_words() for push in plan.pushes],
-        "Table I, observer eigenvalues [rad/s]": list(TABLE_I),
-        "Table II": {"K_p": TABLE_II.K_p, "K_d": TABLE_II.K_d},
-    }
 
 
 def _animate(walks: dict[str, Walk]) -> str:

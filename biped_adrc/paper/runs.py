@@ -25,7 +25,7 @@ from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.paper import scenarios
 from biped_adrc.paper.members import member_outcomes, member_walk
 from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
-from biped_adrc.paper.poincare import PoincareResult, poincare_twice, return_map_samples
+from biped_adrc.paper.poincare import PoincareResult, poincare, return_map_samples
 from biped_adrc.paper.push_map import push_map
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
 from biped_adrc.paper.verdict import AtTwoSteps
@@ -95,7 +95,7 @@ def engines(one: Scenario, other: Scenario) -> float:
 def cycle(run: Scenario, with_states: bool) -> PoincareResult | str:
     """A walking cycle at two steps, or why none is found, in words."""
     try:
-        return poincare_twice(run, with_states)
+        return poincare(run, with_states)
     except BipedError as error:
         return str(error)
 
@@ -243,7 +243,7 @@ def tasks(plan: Plan) -> dict[str, Task[object]]:
     for name, (run, with_states) in scenarios.cycle_runs(plan).items():
         add("cycles", name, cycle, run, with_states)
     for name, run in scenarios.multiplier_runs(plan).items():
-        add("multipliers", name, poincare_twice, run)
+        add("multipliers", name, poincare, run)
     add("orders", plan.presets[0], orders, plan.presets[0])
     add("returns", "map", return_map_samples, scenarios.multiplier_runs(plan)["NPD"])
     return result

@@ -110,12 +110,10 @@ class Plan:
         late = "the map of pushes, but for late pushes of 150 N m"
         if not self.quick:
             return (f"{late} (--full)",)
-        multipliers = "the multipliers of ADRC, its observer's states included"
-        presets = f"presets other than {self.preset}"
         return (
             late,
-            multipliers,
-            presets,
+            "the multipliers of ADRC, its observer's states included",
+            f"presets other than {self.preset}",
             "(20) as printed",
             "the observer's resets at impact compared",
         )
@@ -244,10 +242,9 @@ def cycle_runs(plan: Plan) -> dict[str, tuple[Scenario, bool]]:
 def multiplier_runs(plan: Plan) -> dict[str, Scenario]:
     """The cycles with all multipliers, by controller (and what the observer's states become at impact)."""
     npd, adrc = (scenario(c, plan.preset) for c in CONTROLLERS)
-    more = (
-        {} if plan.quick else {"ADRC": adrc, "ADRC measured": with_values(adrc, reset="measured")}
-    )
-    return {"NPD": npd, **more}
+    if plan.quick:
+        return {"NPD": npd}
+    return {"NPD": npd, "ADRC": adrc, "ADRC measured": with_values(adrc, reset="measured")}
 
 
 def starting(controller: str, preset: str, speed: float) -> Scenario:

@@ -59,12 +59,6 @@ class Variable(Part):
         """The first choice, or the middle of the range."""
         return self.choices[0] if self.range is None else self.range.at(0.5)
 
-    def holds(self, x: object) -> bool:
-        """Whether x is among its values."""
-        if self.range is None:
-            return x in self.choices
-        return isinstance(x, float | int) and self.range.low <= x <= self.range.high
-
     def acts(self, values: Values) -> bool:
         """Whether it has an effect beside these values of a scenario."""
         return all(
