@@ -68,14 +68,15 @@ def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
 
     with_states: whether the controller's states belong to the state of the return map.
     """
-    scene, orbits = RobotAndGait.of(run), list[PeriodicOrbit]()
-    for h in (COARSE, 0.5 * COARSE):
+    scene = RobotAndGait.of(run)
+
+    def orbit(h: float) -> PeriodicOrbit:
         cycle = gait_map(run.replace(run={"h": h}), with_states)
-        guess = cycle.guess if with_states else cycle.guess[: 2 * scene.biped.n]
         # an observer in continuous time settles to about 1e-8 between impacts, so the residual may too
-        orbits.append(cycle.P.fixed_point(guess))
+        return cycle.P.fixed_point(cycle.guess if with_states else cycle.guess[: 2 * scene.biped.n])
+
     delta = ZeroDynamics.of(scene.biped, scene.walked.constraint).delta
-    return PoincareResult(run, *orbits, delta**2)
+    return PoincareResult(run, orbit(COARSE), orbit(0.5 * COARSE), delta**2)
 
 
 RANK = 1e-8
