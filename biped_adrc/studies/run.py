@@ -108,11 +108,22 @@ def _attempt(step: Callable[[Any], Any], x: Any) -> Any:
 
 
 def measured(t: Trial, walked: BatchWalk) -> WalkRow:
-    """The row of a walk that has been carried out.
+    """The row of a walk that has been carried out: how it ended, how fast it was, and what is counted in it.
 
     The cost of transport, work / (weight x distance), is None without forward motion.
     """
-    s, walker, run, row = t.scenario, t.case.walker, walked.trajectory, ended(t, walked)
+    s, walker, run, status = t.scenario, t.case.walker, walked.trajectory, walked.status.name
+    row: WalkRow = {
+        "status": status,
+        "detail": walked.detail,
+        "survived": None if status in NO_WALK else int(walked.status is Status.COMPLETED),
+        "impacts": walked.impacts,
+        "t_end": walked.t_end,
+        "engine": walked.engine,
+        **_pace(t, walked),
+    }
+    if status not in NO_WALK:
+        row |= {"outcome": outcome_of(walked.status, REASONS), "feasible": 0, "but_impact": 0}
     if run is not None:
         result = counted_in(Walk(walker, t.scene.walked, run, s), limits(s))
     elif walked.table is not None:
@@ -196,22 +207,6 @@ def _largest(x: Array) -> float:
 def _rms(x: Array) -> float:
     """Root of the mean square, 0 of nothing."""
     return math.sqrt(float(np.mean(x**2))) if x.size else 0.0
-
-
-def ended(t: Trial, walked: BatchWalk) -> WalkRow:
-    """How a walk ended, and how fast it was."""
-    status = walked.status.name
-    row: WalkRow = {
-        "status": status,
-        "detail": walked.detail,
-        "survived": None if status in NO_WALK else int(walked.status is Status.COMPLETED),
-        "impacts": walked.impacts,
-        "t_end": walked.t_end,
-        "engine": walked.engine,
-    }
-    if status not in NO_WALK:
-        row |= {"outcome": outcome_of(walked.status, REASONS), "feasible": 0, "but_impact": 0}
-    return row | _pace(t, walked)
 
 
 def _pace(t: Trial, walked: BatchWalk) -> WalkRow:
