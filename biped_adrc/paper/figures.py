@@ -76,7 +76,7 @@ def draw_all(
 
     walks: the pushed ones, by controller.
     """
-    named = pictures(r, {c: walk.signals for c, walk in walks.items()})
+    named = pictures(r, {c: walks[c].signals for c in CONTROLLERS})
     drawn = run_tasks(list(named.values()), workers)
     result = {}
     for name, picture in zip(named, drawn, strict=True):
