@@ -72,19 +72,11 @@ def cell(npd, adrc, doubtful=False, onset=0.1):
 
 def cycle(*sizes, change=0.0):
     """A walking cycle with these multipliers, which the step changes by so much."""
-    one, half = (
-        SimpleNamespace(
-            orbit=SimpleNamespace(
-                multipliers=np.array(sizes) + moved, x_minus=X_STAR, stable=sizes[0] < 1.0
-            ),
-            delta_squared=0.694,
-            record=dict,
-            gap=change,
-        )
+    orbit, half = (
+        SimpleNamespace(multipliers=np.array(sizes) + moved, x_minus=X_STAR, stable=sizes[0] < 1.0)
         for moved in (0.0, change)
     )
-    one.half = half
-    return one
+    return SimpleNamespace(orbit=orbit, half=half, delta_squared=0.694, record=dict, gap=change)
 
 
 def head(controller, peak=None, **more):

@@ -7,8 +7,7 @@ import biped_adrc as ba
 from biped_adrc.core.errors import InputError, SimulationError
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.gait.zero_orbits import ZeroOrbits
-from biped_adrc.paper.poincare import return_map_samples
-from biped_adrc.paper.regression import regress_multipliers
+from biped_adrc.paper.poincare import regress_multipliers, return_map_samples
 from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario

@@ -78,7 +78,7 @@ def test_a_member_carried_out_is_what_it_says():
     assert ratio.at_half < 1e-4 < 0.05 < adrc.peak.over(npd.peak).at_half
     assert ratio.converged()
     for one in (npd, adrc):  # made at two steps, not twice at one
-        assert one.peak.change > 0.0
+        assert one.peak.gap() > 0.0
         assert one.broken == (0.0, 0.0)
 
 

@@ -37,9 +37,9 @@ def study(
             f"{result.name}: {most}{result.count} walks, over {', '.join(result.axes) or 'no grid'}"
         )
         return
+    from biped_adrc.studies.build import NO_WALK
     from biped_adrc.studies.carry import study as carry_out
     from biped_adrc.studies.page import chosen, headings, texts, write_page
-    from biped_adrc.studies.parameters import NO_WALK
     from biped_adrc.studies.runner import Progress
 
     try:

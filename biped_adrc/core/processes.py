@@ -30,7 +30,7 @@ MOST_WORKERS = 1024
 """Of one machine; more are a mistake, which would take its memory."""
 SAFE_PATH = "PYTHONSAFEPATH"
 """Environment variable: the working directory is not put first on the path."""
-PRELOADED = ("biped_adrc.paper.runs", "biped_adrc.paper.pictures", "biped_adrc.engine.batch")
+PRELOADED = ("biped_adrc.paper.runs", "biped_adrc.paper.figures", "biped_adrc.engine.batch")
 """Modules that the processes of `run_tasks` share."""
 
 

@@ -27,8 +27,6 @@ from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.recording import Outcome
 
-AGREE = 0.01
-"""Largest relative difference of two values that agree."""
 NEGLIGIBLE = 1e-6
 """[rad]: a smaller tracking error is none, whatever its digits."""
 PEAK_RESOLUTION = 1e-9
@@ -47,19 +45,6 @@ class Quantity(NamedTuple):
     resolution: float = 0.0
     """Values nearer than this agree."""
 
-    def gap(self, o: Outcome) -> float:
-        """Its relative change when every step is halved."""
-        assert o.half is not None
-        return gap(self.of(o), self.of(o.half), self.resolution)
-
-
-def gap(value: float, at_half: float, resolution: float) -> float:
-    """Relative change from one step to half of it; 0 within the resolution, infinite where not finite."""
-    if abs(value - at_half) <= resolution:
-        return 0.0
-    change = AtTwoSteps(value, at_half).change
-    return math.inf if math.isnan(change) else change
-
 
 def _of_supports(of: Callable[[Feasibility], float]) -> Callable[[Outcome], float]:
     """A number of the judged steps; 0 where no window is long enough to say, and for a ratio at its pole."""
@@ -76,21 +61,20 @@ def _last(name: str) -> Callable[[Outcome], float]:
     return lambda o: float(getattr(o.certificates[-1], name)) if o.certificates else 0.0
 
 
-QUANTITIES = {
-    "peak error": Quantity(lambda o: o.peak_error, PEAK_RESOLUTION),
-    "rms error": Quantity(lambda o: o.rms_error, RMS_RESOLUTION),
-    "peak torque": Quantity(lambda o: o.peak_torque),
-    "longest step": Quantity(lambda o: float(np.max(o.durations, initial=0.0))),
-    "shortest step": Quantity(lambda o: float(np.min(o.durations, initial=math.inf))),
-    "joint work of the last step [J]": Quantity(_last("joint_work"), 1e-6),
-    "energy lost at the last impact [J]": Quantity(_last("energy_lost"), 1e-6),
-    "least mean F_N": Quantity(_of_supports(lambda f: f.mean_normal_force)),
-    "largest mean friction, with its pole at F_N = 0": Quantity(
-        _of_supports(lambda f: f.mean_friction if f.mean_normal_force > 0.0 else 0.0)
-    ),
-    "impulse ratio": Quantity(_of_supports(lambda f: f.impulse_ratio)),
-}
-"""The figures of merit that are compared, by name."""
+QUANTITIES = (
+    Quantity(lambda o: o.peak_error, PEAK_RESOLUTION),
+    Quantity(lambda o: o.rms_error, RMS_RESOLUTION),
+    Quantity(lambda o: o.peak_torque),
+    Quantity(lambda o: float(np.max(o.durations, initial=0.0))),
+    Quantity(lambda o: float(np.min(o.durations, initial=math.inf))),
+    Quantity(_last("joint_work"), 1e-6),  # [J]
+    Quantity(_last("energy_lost"), 1e-6),  # [J]
+    Quantity(_of_supports(lambda f: f.mean_normal_force)),
+    # friction has its pole at F_N = 0
+    Quantity(_of_supports(lambda f: f.mean_friction if f.mean_normal_force > 0.0 else 0.0)),
+    Quantity(_of_supports(lambda f: f.impulse_ratio)),
+)
+"""The figures of merit that are compared."""
 
 
 def largest_gap(o: Outcome) -> float:
@@ -99,14 +83,12 @@ def largest_gap(o: Outcome) -> float:
     Infinite where the two runs end differently; "feasible" and "not feasible" are different endings. A run that
     falls before its last impact has no figures of merit: only its ending has to be the same.
     """
-    if _ending(o) != _ending(o.half):
+    assert o.half is not None
+    one, half = ((x.status, x.impacts, x.feasibility.outcome) for x in (o, o.half))
+    if one != half:
         return math.inf
-    return float(np.max([q.gap(o) for q in QUANTITIES.values()])) if o.walked else 0.0
-
-
-def _ending(o: Outcome | None) -> tuple[str, int, str] | None:
-    """Status, impacts and feasibility of a run."""
-    return None if o is None else (o.status, o.impacts, o.feasibility.outcome)
+    gaps = (AtTwoSteps(q.of(o), q.of(o.half)).gap(q.resolution) for q in QUANTITIES)
+    return max(gaps) if o.walked else 0.0
 
 
 WalkEnd = tuple[float, str, int]
@@ -120,7 +102,8 @@ def error_text(end: WalkEnd, half: WalkEnd) -> str:
     if end[1:] != half[1:]:
         ends = f"at half the step the walk ends as {half[1]} after {half[2]} impacts"
         return f"{text}; {ends}: shorten the step"
-    if gap(*errors, PEAK_RESOLUTION) <= AGREE or max(errors) < NEGLIGIBLE:
+    errors = AtTwoSteps(end[0], half[0])
+    if errors.converged(PEAK_RESOLUTION) or max(errors) < NEGLIGIBLE:
         return text
     return f"{text}, the step decides it: shorten it"
 

@@ -1,23 +1,31 @@
-"""The figures that are drawn of any stored walk, by name: what the command `plot` draws.
+"""The figures of any stored walk by name, which the command `plot` draws, and those of the reproduction.
 
-Decides which signals a figure gets and where the window of the push is; the drawing is in `view.plots.figures`.
-matplotlib is imported when something is drawn, since importing it takes longer than a walk.
+Decides which signals a figure gets and where the window of the push is; the drawing is in `view`. Drawing
+takes longer than some of the runs, so each figure of the reproduction is a task of `processes`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
-from typing import TYPE_CHECKING
+from pathlib import Path
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.errors import InputError
+from biped_adrc.core.files import write_bytes
+from biped_adrc.core.processes import Task, run_tasks
+from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
+from biped_adrc.model.biped import Biped
+from biped_adrc.paper.results import Results
+from biped_adrc.paper.scenarios import CONTROLLERS
 from biped_adrc.scenario.recording import Walk
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from biped_adrc.view.from_the_side.robot_figure import robot_figure
+from biped_adrc.view.plots import figures
+from biped_adrc.view.plots.push_map import push_map_figure
+from biped_adrc.view.style import literal, render
 
 NAMES = ("tracking", "disturbance", "ground", "energy", "phase", "comparison")
 """Figures that can be asked for."""
@@ -28,9 +36,6 @@ def draw(name: str, walks: Mapping[str, Walk]) -> Figure:
 
     Raises InputError for an unknown name, no walk, or a robot without motors where the figure shows motors.
     """
-    from biped_adrc.view.plots import figures
-    from biped_adrc.view.style import literal
-
     if name not in NAMES:
         raise InputError(f"there is no figure '{name}'; choose one of {list(NAMES)}")
     if not walks:
@@ -62,3 +67,63 @@ def push_window(s: Signals) -> tuple[float, float] | None:
         return None
     t = s.t[pushed & (s.step == s.step[pushed][0])]
     return float(t[0]), float(t[-1])
+
+
+def draw_all(
+    r: Results, walks: Mapping[str, Walk], out: Path, workers: int | None = None
+) -> dict[str, bytes]:
+    """Write every figure to `out` as .png and .svg; returns the SVG by name, for the report.
+
+    walks: the pushed ones, by controller.
+    """
+    named = pictures(r, {c: walks[c].signals for c in CONTROLLERS})
+    drawn = run_tasks(list(named.values()), workers)
+    result = {}
+    for name, picture in zip(named, drawn, strict=True):
+        png, svg = picture.value
+        write_bytes(out / f"{name}.png", png)
+        write_bytes(out / f"{name}.svg", svg)
+        result[name] = svg
+    return result
+
+
+def pictures(r: Results, signals: Mapping[str, Signals]) -> dict[str, Task[tuple[bytes, bytes]]]:
+    """The figures of the paper and beyond, by file name, each as a task that draws it.
+
+    figure1 (the robot), figure4 to figure6 (the pushed walks) are those of the paper; the others show what it
+    does not: the disturbance estimate, the ground's force, energies, multipliers, the return map, and the map
+    of pushes.
+    """
+    npd, adrc, window = signals["NPD"], signals["ADRC"], push_window(signals["NPD"])
+    magnitudes = {c: r.multipliers[c].orbit.multipliers for c in CONTROLLERS if c in r.multipliers}
+    mu = Biped.load("rabbit", r.plan.preset).description.friction_coefficient
+    pushed = "ADRC under the push"
+    inputs: dict[str, tuple[object, ...]] = {
+        "figure1": (draw_robot, r.plan.preset),
+        "figure4": (figures.tracking_figure, npd, "NPD under the push", window),
+        "figure5": (figures.tracking_figure, adrc, pushed, window),
+        "figure6": (figures.phase_figure, signals),
+        "comparison": (figures.comparison_figure, signals, window),
+        "disturbance": (figures.disturbance_figure, adrc, pushed, window),
+        "ground": (figures.ground_figure, adrc, pushed, mu, 0.0, window),
+        "energy": (figures.energy_figure, adrc, pushed, window),
+        "multipliers": (figures.multiplier_figure, magnitudes, PUBLISHED_MULTIPLIERS),
+        "return_map": (figures.return_map_figure, *r.returns["map"]),
+    }
+    for preset in r.plan.presets if r.plan.full else ():
+        rows = [cell.row() for cell in r.cells if cell.push.preset == preset]
+        inputs[f"push_map_{preset}"] = (push_map_figure, rows)
+    return {name: Task(name, rendered, arguments) for name, arguments in inputs.items()}
+
+
+def draw_robot(preset: str) -> Figure:
+    """Figure 1: the robot of this preset with its coordinates."""
+    return robot_figure(Biped.load("rabbit", preset))
+
+
+def rendered(draw: Callable[..., Figure], *arguments: object) -> tuple[bytes, bytes]:
+    """A figure as PNG and as SVG, laid out by the first so that both are alike."""
+    figure = draw(*arguments)
+    png = render(figure, "png")
+    figure.set_layout_engine("none")
+    return png, render(figure, "svg")

@@ -145,18 +145,16 @@ def limits_broken(f: Feasibility) -> float:
 
 def member_walk(member: Member, controller: str, **values: Any) -> MemberWalk:
     """A member carried out under a controller at both steps; values: of the scenario, in place of its own."""
-    usual = replace(member, amplitude=0.0, onset=0.0, joints=("q1",), rise=0.0)
-    (numbers, why), (at_half, _) = (
-        _at(member, usual, controller, share, values) for share in (1.0, 0.5)
-    )
+    (numbers, why), (at_half, _) = (_at(member, controller, x, values) for x in (1.0, 0.5))
     return MemberWalk._make((*map(AtTwoSteps, numbers, at_half), why))
 
 
 def _at(
-    member: Member, usual: Member, controller: str, share: float, values: Mapping[str, Any]
+    member: Member, controller: str, share: float, values: Mapping[str, Any]
 ) -> tuple[tuple[float, ...], Mapping[str, str]]:
     """The numbers of `member_walk` at one step, and what is not feasible."""
     run = member.run(controller, **values)
+    usual = replace(member, amplitude=0.0, onset=0.0, joints=("q1",), rise=0.0)
     walks = pieces(run, member.start == "zero", share)
     one, other = track(walks[0]), undisturbed(usual, controller, share)
     complete = sum(len(walk.trajectory.events(FOOT_STRIKE)) for walk in walks) == run.run.impacts

@@ -108,7 +108,7 @@ def of_orbit(of: Callable[[PeriodicOrbit], float], found: PoincareResult | str) 
     """A number of a cycle at both steps; NaN where none was found."""
     if isinstance(found, str):
         return AtTwoSteps(math.nan, math.nan)
-    return at_two(lambda x: of(x.orbit), found)
+    return AtTwoSteps(of(found.orbit), of(found.half))
 
 
 def largest_multiplier(found: PoincareResult | str) -> AtTwoSteps:
@@ -181,11 +181,6 @@ def adrc_counts(cell: PushCell) -> float:
 def quotient(pair: tuple[float, float]) -> float:
     """The first over the second."""
     return pair[0] / pair[1]
-
-
-def number_of(found: AtTwoSteps) -> AtTwoSteps:
-    """A scenario that is its own number."""
-    return found
 
 
 def item(name: str, found: Mapping[str, float]) -> float:

@@ -35,7 +35,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.reduction import reduce
 from biped_adrc.model.robot_import.import_checks import largest_gaps
 from biped_adrc.observers.gpi import TABLE_I, GPIObserver
-from biped_adrc.paper.scenarios import pushed_steps, sampled_walk, scaled_observer
+from biped_adrc.paper.scenarios import pushed_steps, scenario
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.run import walk_scenario
@@ -134,7 +134,7 @@ def sampling_order(preset: str, periods: tuple[float, ...] = (2e-3, 1e-3, 5e-4))
     """
 
     def end(h: float, period: float | None = None) -> Array:
-        run = walk_scenario(sampled_walk(preset, h, period))
+        run = walk_scenario(scenario("NPD", preset, impacts=1, period=period, h=h))
         return run.trajectory.before(FOOT_STRIKE)[-1][:10]
 
     exact = end(2.5e-4)
@@ -148,7 +148,7 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
     Over 0.1 s of walking with the poles of Table I times `factor`. Longer steps do not resolve the fast joints
     of a robot without rotors.
     """
-    run = scaled_observer(preset, factor)
+    run = scenario("ADRC", preset, poles=tuple(factor * pole for pole in TABLE_I))
     scene = RobotAndGait.of(run)
     walker = build(run, scene)
     x0 = walker.initial_state(*scene.walked.start(scene.biped))

@@ -1,22 +1,28 @@
 """The stability test of the reproduction: fixed point, multipliers by central differences, delta^2.
 
-A `PoincareResult` at two steps says how far the multipliers are from converged; `regression_of` is the paper's
-own test beside it, and `return_map_samples` the map in Theta' for its figure.
+A `PoincareResult` at two steps says how far the multipliers are from converged; `return_map_samples` is the map
+in Theta' for its figure. The paper's own test is linear regression (26), (27) through the sampled states:
+
+    x-(k + 1) - x* = Phi (x-(k) - x*)
+
+x-(k) is the state before impact k of one walk. Ten states are regressed on a section of nine dimensions, and a
+walk that converges along one direction excites one direction: Phi is not determined by such data. So rank and
+condition number are returned with the eigenvalues, and `warning` says what they are worth.
 """
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from biped_adrc.analysis.return_map import PeriodicOrbit
+from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
-from biped_adrc.paper.regression import Regression, regress_multipliers
+from biped_adrc.paper.scenarios import COARSE
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.cycle import gait_map
 from biped_adrc.scenario.recording import Outcome
@@ -27,45 +33,34 @@ from biped_adrc.scenario.scenario import Scenario
 class PoincareResult(Shown):
     """A fixed point with its multipliers, and delta^2 of the zero dynamics beside them."""
 
-    controller: str
-    preset: str
-    reset: str
-    """What the observer does at impact, as in a scenario."""
-    with_states: bool
-    """Whether the controller's states belong to the state of the return map."""
+    run: Scenario
+    """The walk whose return map was taken."""
     orbit: PeriodicOrbit
+    """At a step of 1 ms."""
+    half: PeriodicOrbit
+    """At half of it."""
     delta_squared: float
-    half: PoincareResult | None = None
-    """The same at half the integration step."""
 
     @property
     def gap(self) -> float:
-        """Largest change of a multiplier's magnitude when the step is halved; infinite where it was not."""
-        if self.half is None:
-            return math.inf
-        one, other = (np.sort(np.abs(r.orbit.multipliers)) for r in (self, self.half))
+        """Largest change of a multiplier's magnitude when the step is halved."""
+        one, other = (np.sort(np.abs(x.multipliers)) for x in (self.orbit, self.half))
         return float(np.max(np.abs(one - other)))
 
     def record(self) -> dict[str, Any]:
         """The result as values that JSON holds, for summary.json."""
-        half = None if self.half is None else np.abs(self.half.orbit.multipliers).tolist()
         return {
-            **{name: getattr(self, name) for name in ("controller", "preset", "reset")},
+            "controller": self.run.controller.name,
+            "preset": self.run.robot.preset,
+            "reset": self.run.controller.observer.reset,
             "coordinates": len(self.orbit.multipliers),
             "magnitudes": np.abs(self.orbit.multipliers).tolist(),
             "x_minus": self.orbit.x_minus[:10].tolist(),
             "residual": self.orbit.residual,
             "delta_squared": self.delta_squared,
             "stable": self.orbit.stable,
-            "magnitudes_at_half_the_step": half,
+            "magnitudes_at_half_the_step": np.abs(self.half.multipliers).tolist(),
         }
-
-
-def poincare_twice(run: Scenario) -> PoincareResult:
-    """As `poincare` at the step of the scenario (by default 1 ms), and once more at half of it."""
-    h = run.run.h or 1e-3
-    result = poincare(run.replace(run={"h": h}))
-    return replace(result, half=poincare(run.replace(run={"h": 0.5 * h})))
 
 
 def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
@@ -73,15 +68,66 @@ def poincare(run: Scenario, with_states: bool = True) -> PoincareResult:
 
     with_states: whether the controller's states belong to the state of the return map.
     """
-    cycle = gait_map(run.replace(run={"h": run.run.h or 1e-3, "method": None}), with_states)
-    P, guess = cycle.P, cycle.guess
     scene = RobotAndGait.of(run)
-    biped, gait = scene.biped, scene.walked
-    # an observer in continuous time settles to about 1e-8 between impacts, so the residual may too
-    orbit = P.fixed_point(guess if with_states else guess[: 2 * biped.n])
-    delta2 = ZeroDynamics.of(biped, gait.constraint).delta ** 2
-    law = run.controller
-    return PoincareResult(law.name, biped.preset, law.observer.reset, with_states, orbit, delta2)
+
+    def orbit(h: float) -> PeriodicOrbit:
+        cycle = gait_map(run.replace(run={"h": h}), with_states)
+        # an observer in continuous time settles to about 1e-8 between impacts, so the residual may too
+        return cycle.P.fixed_point(cycle.guess if with_states else cycle.guess[: 2 * scene.biped.n])
+
+    delta = ZeroDynamics.of(scene.biped, scene.walked.constraint).delta
+    return PoincareResult(run, orbit(COARSE), orbit(0.5 * COARSE), delta**2)
+
+
+RANK = 1e-8
+"""Relative size below which a direction does not count for the rank."""
+
+
+@dataclass(frozen=True)
+class Regression(Shown):
+    """Phi of (27), its eigenvalues, and how well the data determine it."""
+
+    Phi: Array
+    """(n, n), mixed units of the states."""
+    magnitudes: Array
+    """|eigenvalues| (n,), the largest first."""
+    rank: int
+    """Number of directions that the samples span."""
+    condition: float
+    """Condition number of the samples; infinite if they do not span all directions."""
+    samples: int
+    """Number of states before impact."""
+
+    @property
+    def warning(self) -> str:
+        """Why Phi is not to be trusted, in words; empty when the data determine it."""
+        n = self.Phi.shape[0]
+        if self.rank >= n and self.condition < 1e8:
+            return ""
+        return (
+            f"the {self.samples} sampled states span {self.rank} of {n} directions (condition "
+            f"{self.condition:.1e}); the section itself has {n - 1}. The eigenvalues of this regression "
+            "are no multipliers: use central differences of the return map"
+        )
+
+
+def regress_multipliers(x_minus: Array, x_star: Array) -> Regression:
+    """(27) from states before impact (k, n) [rad, rad/s] and the fixed point (n,).
+
+    Directions below RANK of the largest do not count for the rank. Raises InputError for fewer than three
+    samples.
+    """
+    if x_minus.ndim != 2 or x_minus.shape[0] < 3:
+        raise InputError(f"found samples of shape {x_minus.shape}, expected (k, n) with k >= 3")
+    chi = x_minus - x_star
+    before, after = chi[:-1], chi[1:]
+    result, _, _, singular = np.linalg.lstsq(before, after, rcond=None)
+    solution = np.asarray(result, dtype=np.float64)
+    magnitudes = np.sort(np.abs(np.linalg.eigvals(solution.T)))[::-1]
+    rank = int(np.sum(singular > RANK * singular[0]))
+    smallest = float(singular[-1]) if len(singular) == x_minus.shape[1] else 0.0
+    condition = float(singular[0]) / smallest if smallest > 0 else float("inf")
+    return Regression(solution.T, magnitudes, rank, condition, len(x_minus))
 
 
 def regression_of(outcome: Outcome) -> Regression:

@@ -23,8 +23,7 @@ from biped_adrc.core.files import check_folder, check_place, plain, write_text
 from biped_adrc.core.processes import TaskProgress, run_tasks
 from biped_adrc.core.versions import versions
 from biped_adrc.observers.gpi import TABLE_I
-from biped_adrc.paper.figures import push_window
-from biped_adrc.paper.pictures import draw_all
+from biped_adrc.paper.figures import draw_all, push_window
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.runs import tasks as planned_tasks
 from biped_adrc.paper.scenarios import Plan
@@ -64,8 +63,8 @@ def reproduce(
     walks = {c: replay(head.outcome.run, head.trajectory) for c, head in r.headline.items()}
     for c, walk in walks.items():
         walk.save(out / f"walk-{c.lower()}.npz")
-    pictures = draw_all(r, out, workers)
-    animation = _animate(walks, r)
+    pictures = draw_all(r, walks, out, workers)
+    animation = _animate(walks)
     write_text(out / "walk.html", animation)
     summary["wall_time_s"] = time.perf_counter() - started
     write_text(out / "report.html", report_html(summary, pictures, animation))
@@ -88,7 +87,12 @@ def judgement(r: Results) -> dict[str, Any]:
         "claims": of_claims,
         "findings": [row.finding for row in of_claims if row.finding],
         "notes": list(texts()["notes"].values()),
-        "settings": _settings(plan),
+        "settings": {
+            **{name: getattr(plan, name) for name in ("preset", "presets", "full", "quick")},
+            "pushes": [push.in_words() for push in plan.pushes],
+            "Table I, observer eigenvalues [rad/s]": list(TABLE_I),
+            "Table II": {"K_p": TABLE_II.K_p, "K_d": TABLE_II.K_d},
+        },
         "tables": tables(r),
         "members": [o for part in r.members.values() for o in part],
         "multipliers": {name: result.record() for name, result in r.multipliers.items()},
@@ -113,17 +117,7 @@ def probe(out: Path) -> None:
             check_place(path)
 
 
-def _settings(plan: Plan) -> dict[str, object]:
-    """What was asked for, and the constants of the paper that all runs use."""
-    return {
-        **{name: getattr(plan, name) for name in ("preset", "presets", "full", "quick")},
-        "pushes": [push.in_words() for push in plan.pushes],
-        "Table I, observer eigenvalues [rad/s]": list(TABLE_I),
-        "Table II": {"K_p": TABLE_II.K_p, "K_d": TABLE_II.K_d},
-    }
-
-
-def _animate(walks: dict[str, Walk], r: Results) -> str:
+def _animate(walks: dict[str, Walk]) -> str:
     """The animation of both headline runs as one HTML page, with the window of the push marked."""
-    window = push_window(r.headline["NPD"].signals)
+    window = push_window(walks["NPD"].signals)
     return animation_html(walks, marks=[] if window is None else [(*window, "push")])

@@ -12,9 +12,8 @@ from typing import Any
 
 from biped_adrc.core.types import Array
 from biped_adrc.paper.members import MemberOutcome
-from biped_adrc.paper.poincare import PoincareResult, regression_of
+from biped_adrc.paper.poincare import PoincareResult, Regression, regression_of
 from biped_adrc.paper.push_map import PushCell
-from biped_adrc.paper.regression import Regression
 from biped_adrc.paper.runs import Headline, Order, Start
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
 from biped_adrc.scenario.recording import Outcome

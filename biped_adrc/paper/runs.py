@@ -15,7 +15,6 @@ import numpy as np
 from scipy.optimize import brentq
 
 from biped_adrc.analysis.observer.loop import ObserverLoop
-from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.processes import Task
 from biped_adrc.core.types import relabelled
@@ -25,14 +24,9 @@ from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.paper import scenarios
 from biped_adrc.paper.members import member_outcomes, member_walk
 from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
-from biped_adrc.paper.poincare import (
-    PoincareResult,
-    poincare,
-    poincare_twice,
-    return_map_samples,
-)
+from biped_adrc.paper.poincare import PoincareResult, poincare, return_map_samples
 from biped_adrc.paper.push_map import push_map
-from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Plan, with_values
+from biped_adrc.paper.scenarios import CONTROLLERS, Plan
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.recording import Outcome, Walk
@@ -65,14 +59,12 @@ def twice(run: Scenario) -> Outcome:
 
 @dataclass(frozen=True)
 class Headline:
-    """A pushed run with all that is drawn of it."""
+    """A pushed run with its nodes, of which it is drawn."""
 
     outcome: Outcome
     """Its figures of merit, with those at half of the step in `half`, and at a quarter in the half of that."""
     trajectory: Trajectory
     """Its nodes, as `sparse` keeps them."""
-    signals: Signals
-    """Errors, torques, forces and energies at the nodes."""
     laws: Mapping[str, float]
     """What `physical_laws.walk_laws` found."""
 
@@ -80,10 +72,12 @@ class Headline:
 def headline(run: Scenario) -> Headline:
     """A pushed run that is kept; at a quarter of the step only the single supports from the push on."""
     walk, half = sparse(walk_scenario(run)), halved(run)
-    quarter = walk_scenario(scenarios.from_the_push(halved(half))).outcome
+    quarter = walk_scenario(
+        scenarios.with_values(halved(half), first_step=run.pushes[0].step, impacts=2)
+    ).outcome
     at_half = replace(sparse(walk_scenario(half), 0.5 * NODE_DISTANCE).outcome, half=quarter)
     outcome = replace(walk.outcome, half=at_half)
-    return Headline(outcome, walk.trajectory, walk.signals, walk_laws(walk))
+    return Headline(outcome, walk.trajectory, walk_laws(walk))
 
 
 def engines(one: Scenario, other: Scenario) -> float:
@@ -99,10 +93,9 @@ def engines(one: Scenario, other: Scenario) -> float:
 
 # -- cycles, starts and closed forms ---------------------------------------------------------------
 def cycle(run: Scenario, with_states: bool) -> PoincareResult | str:
-    """A walking cycle at 1 ms and half of it, or why none is found, in words."""
+    """A walking cycle at two steps, or why none is found, in words."""
     try:
-        half = poincare(with_values(run, h=0.5 * COARSE), with_states)
-        return replace(poincare(with_values(run, h=COARSE), with_states), half=half)
+        return poincare(run, with_states)
     except BipedError as error:
         return str(error)
 
@@ -251,7 +244,7 @@ def tasks(plan: Plan) -> dict[str, Task[object]]:
     for name, (run, with_states) in scenarios.cycle_runs(plan).items():
         add("cycles", name, cycle, run, with_states)
     for name, run in scenarios.multiplier_runs(plan).items():
-        add("multipliers", name, poincare_twice, run)
+        add("multipliers", name, poincare, run)
     add("orders", plan.presets[0], orders, plan.presets[0])
     add("returns", "map", return_map_samples, scenarios.multiplier_runs(plan)["NPD"])
     return result

@@ -18,7 +18,6 @@ from typing import Any
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import packaged
 from biped_adrc.engine.run import PINOCCHIO
-from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.scenario import Scenario
 
@@ -111,12 +110,10 @@ class Plan:
         late = "the map of pushes, but for late pushes of 150 N m"
         if not self.quick:
             return (f"{late} (--full)",)
-        multipliers = "the multipliers of ADRC, its observer's states included"
-        presets = f"presets other than {self.preset}"
         return (
             late,
-            multipliers,
-            presets,
+            "the multipliers of ADRC, its observer's states included",
+            f"presets other than {self.preset}",
             "(20) as printed",
             "the observer's resets at impact compared",
         )
@@ -145,11 +142,6 @@ def with_values(run: Scenario, **values: Any) -> Scenario:
 def pushed_steps(run: Scenario) -> set[int]:
     """The single supports in which a push acts, and those after."""
     return {push.step + k for push in run.pushes for k in (0, 1)}
-
-
-def from_the_push(run: Scenario) -> Scenario:
-    """The run from the pushed step on, on its orbit, for two impacts."""
-    return with_values(run, first_step=run.pushes[0].step, impacts=2)
 
 
 def plain(controller: str, preset: str, **values: Any) -> Scenario:
@@ -250,25 +242,14 @@ def cycle_runs(plan: Plan) -> dict[str, tuple[Scenario, bool]]:
 def multiplier_runs(plan: Plan) -> dict[str, Scenario]:
     """The cycles with all multipliers, by controller (and what the observer's states become at impact)."""
     npd, adrc = (scenario(c, plan.preset) for c in CONTROLLERS)
-    more = (
-        {} if plan.quick else {"ADRC": adrc, "ADRC measured": with_values(adrc, reset="measured")}
-    )
-    return {"NPD": npd, **more}
+    if plan.quick:
+        return {"NPD": npd}
+    return {"NPD": npd, "ADRC": adrc, "ADRC measured": with_values(adrc, reset="measured")}
 
 
 def starting(controller: str, preset: str, speed: float) -> Scenario:
     """A walk that starts with `speed` times the gait's rates after the impact."""
     return loose(controller, preset, COARSE, start_speed=speed - 1.0, impacts=3)
-
-
-def sampled_walk(preset: str, h: float, period: float | None = None) -> Scenario:
-    """One step under NPD, in continuous time or with a period [s]; h: integration step [s]."""
-    return scenario("NPD", preset, impacts=1, period=period, h=h)
-
-
-def scaled_observer(preset: str, factor: float) -> Scenario:
-    """ADRC with the poles of Table I times a factor."""
-    return scenario("ADRC", preset, poles=tuple(factor * pole for pole in TABLE_I))
 
 
 @dataclass(frozen=True)

@@ -26,11 +26,11 @@ import numpy as np
 from biped_adrc.core.verdict import Check, at_least, at_most, below, between
 from biped_adrc.paper import metrics as m
 from biped_adrc.paper import values as v
-from biped_adrc.paper.convergence import AGREE, largest_gap, observed_order
+from biped_adrc.paper.convergence import largest_gap, observed_order
 from biped_adrc.paper.physical_laws import work_identity
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.scenarios import CONTROLLERS, KINDS, declared
-from biped_adrc.paper.verdict import Claim, Limit, Row, claim_checks, row_of, texts
+from biped_adrc.paper.verdict import AGREE, Claim, Limit, Row, claim_checks, row_of, texts
 
 
 def limit(text: str) -> Limit:
@@ -58,10 +58,11 @@ def claims() -> Iterator[Claim]:
     for name, said in texts().items():
         if name in ("preface", "words", "notes"):
             continue
-        rooms = {"scenarios": m, "metric": m, "variant": m, "values": v}
-        keys = {**said, "metric": said.get("measure", "number_of")}
+        functions = {"scenarios": m, "measure": m, "variant": m, "values": v}
         result: dict[str, Any] = {
-            key: _function(room, keys[key]) for key, room in rooms.items() if key in keys
+            "metric" if key == "measure" else key: _function(room, said[key])
+            for key, room in functions.items()
+            if key in said
         }
         if "round_off" in said:
             result["round_off"] = _number(said["round_off"])

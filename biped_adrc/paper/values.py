@@ -14,8 +14,8 @@ from biped_adrc.core.types import Array
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper import metrics as m
+from biped_adrc.paper.poincare import regress_multipliers
 from biped_adrc.paper.push_map import LOST
-from biped_adrc.paper.regression import regress_multipliers
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.scenarios import CONTROLLERS, declared
 from biped_adrc.paper.verdict import Extremes

@@ -35,7 +35,7 @@ REPLICATED, DEPENDS, CONTRADICTED = "replicated", "depends", "contradicted"
 NOT_TESTABLE = "not testable"
 CLAIM = "claim"
 """Kind of a statement of the paper, which is judged over all its cases."""
-CONVERGED, ROUND_OFF = 0.01, 1e-9
+AGREE, ROUND_OFF = 0.01, 1e-9
 """A number moves by less than this share when the step is halved, or by less than this [rad], [s], [1]."""
 SHOWN = 8
 """Variants on which a claim may depend that are named."""
@@ -49,22 +49,19 @@ class AtTwoSteps(NamedTuple):
     value: float
     at_half: float
 
-    @property
-    def change(self) -> float:
-        """|value - at_half| / |at_half|; NaN where one of them is not finite."""
-        if not (math.isfinite(self.value) and math.isfinite(self.at_half)):
-            return math.nan
-        gap = abs(self.value - self.at_half)
-        return gap / abs(self.at_half) if self.at_half else (0.0 if gap == 0.0 else math.inf)
+    def gap(self, resolution: float = 0.0) -> float:
+        """|value - at_half| / |at_half|; 0 within the resolution, infinite where one of them is not finite."""
+        gap, size = abs(self.value - self.at_half), abs(self.at_half)
+        if gap <= resolution:
+            return 0.0
+        return gap / size if size and math.isfinite(gap) else math.inf
 
     def converged(self, round_off: float = ROUND_OFF) -> bool:
-        """Whether halving the step moves it by at most the share `CONVERGED`, or at most by `round_off`.
+        """Whether halving the step moves it by at most the share `AGREE`, or at most by `round_off`.
 
         Infinite at both steps counts as converged; NaN at either, such as of a search that failed, does not.
         """
-        if self.value == self.at_half:
-            return True
-        return self.change <= CONVERGED or abs(self.value - self.at_half) <= round_off
+        return self.value == self.at_half or self.gap(round_off) <= AGREE
 
     def over(self, other: AtTwoSteps) -> AtTwoSteps:
         """One over the other at either step; infinite over zero."""
@@ -98,8 +95,8 @@ class Claim:
     """What is claimed."""
     limit: Limit
     """That the number has to keep."""
-    metric: Callable[[Any], AtTwoSteps | float]
-    """The number of one scenario."""
+    metric: Callable[[Any], AtTwoSteps | float] = lambda x: x
+    """The number of one scenario, which may be its own."""
     scenarios: Callable[[Results], Mapping[str, Any]] = lambda _: {}
     """What was computed of each scenario, by its name for a reader; none where no run can decide."""
     variant: Callable[[str, Any], str] = lambda name, _: name

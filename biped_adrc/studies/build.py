@@ -1,4 +1,9 @@
-"""From a scenario to a walker that is ready to run, and what the numbers of a study depend on besides values.
+"""What a study knows of a scenario: its values by dotted name, its walker, and what else decides its numbers.
+
+    hardware.period               "1.5 ms"    0.0015    [s]
+    controller.observer.order     1           1
+    hardware.torque_limit         "none"      None      no limit
+    start.v5                      0.1         0.1       [rad/s]
 
 Robots and gaits are loaded once per process. A study may name files (a robot's TOML and URDF, a gait) and
 classes of the user: their contents are hashed into the versions of its results.
@@ -9,10 +14,10 @@ from __future__ import annotations
 import hashlib
 import inspect
 import tomllib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Mode
@@ -23,7 +28,30 @@ from biped_adrc.scenario.build import RobotAndGait, build, soft_loop, start
 from biped_adrc.scenario.registry import find, is_own
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import GaitRecord, RobotRecord, Scenario, field_of
-from biped_adrc.studies.parameters import PLANT, SUFFIXES
+
+Values = Mapping[str, Any]
+"""Values of a scenario by dotted name, in SI units."""
+Record = Mapping[str, object]
+"""The values of one walk as JSON has them: what a worker receives."""
+
+REFUSED, RAISED, CRASHED = "REFUSED", "RAISED", "CRASHED"
+"""Statuses that are no result of a walk: its values do not fit together, its function raised, its worker
+died."""
+NO_WALK = (REFUSED, RAISED, CRASHED)
+"""All of them; such rows count neither as a success nor as a fall."""
+SEED, PLANT = "run.seed", "ground.plant"
+"""Names of values that a study treats apart."""
+SUFFIXES = {"robot.name": ".toml", "gait.name": ".json"}
+"""By value, the suffix of a file in place of a registered name."""
+
+
+def scenario_of(values: Record) -> Scenario:
+    """The scenario of values by name; where they say nothing of sampling, it is sampled at 1 kHz, ideally.
+
+    A row counts at sample instants, so each walk needs some. Raises InputError for values that do not fit
+    together.
+    """
+    return Scenario(**{"hardware.profile": "ideal", **values})
 
 
 def versions_of(values: Iterable[tuple[str, object]]) -> dict[str, str]:

@@ -20,7 +20,7 @@ from typing import Any
 
 from biped_adrc.core.errors import InputError
 from biped_adrc.scenario.scenario import write_scenario
-from biped_adrc.studies.parameters import SEED, Values, scenario_of
+from biped_adrc.studies.build import SEED, Values, scenario_of
 from biped_adrc.studies.proposals import optuna_library, searched
 from biped_adrc.studies.results import BEFORE, CANDIDATE, CHOSEN, SET, SETTING, Choice, Results
 from biped_adrc.studies.run import run_trials

@@ -1,23 +1,32 @@
 """One number of many walks, from a column of their rows: what a search minimises, limits, and a page shows.
 
+Some columns need no walk: numbers of the linear loop of a scenario without seed and condition, in some 40 ms;
+on soft ground those of the rigid plant, which is linearised.
+
 A walk that is not feasible (the impact at most aside), or has no number in the column, ranks worst: it counts
 as plus infinity where less is better and as minus infinity where more is better, and is never left out.
 """
 
 from __future__ import annotations
 
+import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from functools import lru_cache
 from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 
+from biped_adrc.analysis.loops.specification import Specification
+from biped_adrc.core.errors import BipedError
 from biped_adrc.core.types import Array
+from biped_adrc.scenario.cycle import specification_of
 from biped_adrc.scenario.dotted import unknown
+from biped_adrc.scenario.scenario import GroundRecord
+from biped_adrc.studies.build import Values, scenario_of, scene_of
 from biped_adrc.studies.run import COLUMNS, WORDS
 from biped_adrc.studies.space import Part
-from biped_adrc.studies.without_walk import WITHOUT_WALK
 
 OF_ALL = ("survived", "feasible", "but_impact", "impacts", "feasible_impacts", "distance")
 """Columns that every walk has, however it ended."""
@@ -25,6 +34,8 @@ SMALLEST_SCALE = 1e-12
 """Of a limit: below this a bound counts as 0, and what is beyond it is not divided by it."""
 MOST_EXCESS = 1e6
 """Of a limit that is missed: more counts as this, so that sums are finite."""
+WITHOUT_WALK = ("stable", "delay_margin", "disk_margin", "ripple")
+"""Such columns: numbers of a `Specification`."""
 MEASURED = (*(name for name in COLUMNS if name not in WORDS), *WITHOUT_WALK)
 """Columns with numbers, of walks and of linear loops."""
 
@@ -65,9 +76,9 @@ class Measure(Part):
     """Walks that count with their number; all others rank worst."""
 
     @property
-    def less_is_better(self) -> bool:
-        """The direction in which walks are ranked."""
-        return True
+    def sign(self) -> float:
+        """1 where less is better, -1 where more is."""
+        return 1.0
 
     @property
     def words(self) -> str:
@@ -78,7 +89,7 @@ class Measure(Part):
     @property
     def worst(self) -> float:
         """The number of a walk that ranks worst."""
-        return math.inf if self.less_is_better else -math.inf
+        return self.sign * math.inf
 
     def number(self, row: Row) -> float:
         """The number of a walk, infinite where it ranks worst."""
@@ -93,15 +104,15 @@ class Measure(Part):
         if self.column in known:
             x = known[self.column]
             return self.worst if x is None else x
-        every = [self.number(row) for name, row in walks if self.condition in (None, name)]
-        numbers: Array = np.array(every)
+        numbers: Array = np.array(
+            [self.number(row) for name, row in walks if self.condition in (None, name)]
+        )
         if self.over == "mean":
             return float(numbers.mean())
         if self.over == "median":
             return float(np.median(numbers))
-        sign = 1.0 if self.less_is_better else -1.0
         p = 1.0 if self.over == "worst" else float(self.over)
-        return sign * float(np.quantile(sign * numbers, p, method="inverted_cdf"))
+        return self.sign * float(np.quantile(self.sign * numbers, p, method="inverted_cdf"))
 
 
 class Objective(Measure):
@@ -110,8 +121,8 @@ class Objective(Measure):
     goal: Literal["minimise", "maximise"] = "minimise"
 
     @property
-    def less_is_better(self) -> bool:
-        return self.goal == "minimise"
+    def sign(self) -> float:
+        return 1.0 if self.goal == "minimise" else -1.0
 
 
 class Limit(Measure):
@@ -129,8 +140,8 @@ class Limit(Measure):
         return self
 
     @property
-    def less_is_better(self) -> bool:
-        return self.most is not None
+    def sign(self) -> float:
+        return -1.0 if self.most is None else 1.0
 
     @property
     def bound(self) -> float:
@@ -140,10 +151,35 @@ class Limit(Measure):
     @property
     def sentence(self) -> str:
         """ "mean feasible at least 0.9"."""
-        return f"{self.words} at {'most' if self.less_is_better else 'least'} {self.bound:g}"
+        return f"{self.words} at {'least' if self.most is None else 'most'} {self.bound:g}"
 
     def excess(self, x: float) -> float:
         """By how much x misses the limit, as a share of its bound; 0 where the limit is kept."""
-        beyond = x - self.bound if self.less_is_better else self.bound - x
         scale = abs(self.bound) if abs(self.bound) > SMALLEST_SCALE else 1.0
-        return min(max(beyond / scale, 0.0), MOST_EXCESS)
+        return min(max(self.sign * (x - self.bound) / scale, 0.0), MOST_EXCESS)
+
+
+@lru_cache(maxsize=128)
+def _specification(text: str) -> Specification:
+    """Of the values of a scenario as JSON, kept for its columns before and after its walks.
+
+    Raises InputError.
+    """
+    s = scenario_of(json.loads(text))
+    g = s.ground
+    s = s.replace(ground=GroundRecord(slope=g.slope, drop=g.drop, drop_step=g.drop_step, rms=g.rms))
+    return specification_of(s, scene_of(s))
+
+
+def numbers_without_walk(columns: Iterable[str], values: Values) -> dict[str, float | None]:
+    """Those of the columns that need no walk, for a candidate with these values of a scenario.
+
+    None where there is no finite number, or where the values do not fit together.
+    """
+    computed = [name for name in columns if name in WITHOUT_WALK]
+    text = json.dumps(values, sort_keys=True)
+    try:
+        result = {name: float(getattr(_specification(text), name)) for name in computed}
+    except BipedError:
+        return dict.fromkeys(computed)
+    return {name: x if math.isfinite(x) else None for name, x in result.items()}

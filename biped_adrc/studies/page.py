@@ -119,7 +119,7 @@ def _figures(found: Results) -> Iterator[tuple[str, Figure]]:
             for name, x in found.choices.items()
         }
         title = f"{measure.words}, first set of walks"
-        yield "Where did the search lead?", path_figure(paths, title, measure.less_is_better)
+        yield "Where did the search lead?", path_figure(paths, title, measure.sign > 0.0)
 
 
 def _map(found: Results, numbers: Sequence[Sequence[float]], title: str, log: bool) -> Figure:

@@ -19,7 +19,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from biped_adrc.core.errors import optional
-from biped_adrc.studies.parameters import Values
+from biped_adrc.studies.build import Values
 from biped_adrc.studies.search import Candidate, Search, Variable, Walks, judged, ranked
 
 FIRST_PART = 0.4
@@ -113,8 +113,7 @@ class _Proposals:
         """A number by which candidates have their order."""
         if any(c.missed) or not c.walked:
             return MISSED * (1.0 + sum(c.missed) + (not c.walked))
-        sign = 1.0 if self.search.objective.less_is_better else -1.0
-        return min(sign * c.objective, MISSED)
+        return min(self.search.objective.sign * c.objective, MISSED)
 
     def refine(self, found: Sequence[Candidate]) -> None:
         """Go on with CMA-ES, once TPE's part of the budget is spent and where there is something to refine."""

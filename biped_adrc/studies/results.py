@@ -18,8 +18,8 @@ from biped_adrc.analysis.statistics import Interval, Paired, median, paired, sha
 from biped_adrc.core.errors import optional
 from biped_adrc.core.files import output_path, replacing
 from biped_adrc.core.shown import Shown
+from biped_adrc.studies.build import NO_WALK
 from biped_adrc.studies.measure import is_counted, is_made
-from biped_adrc.studies.parameters import NO_WALK
 from biped_adrc.studies.run import COLUMNS
 from biped_adrc.studies.search import Candidate
 from biped_adrc.studies.store import Result, opened
@@ -29,7 +29,7 @@ SET, CANDIDATE, SETTING = "set", "candidate", "setting"
 """Names under which the set of walks, the candidate and which of the two settings of a test stand."""
 CHOSEN, BEFORE = "chosen", "before"
 """The settings that are walked on the test set: what the search chose, and the case as it was."""
-KINDS = (".csv", ".parquet")
+TABLES = (".csv", ".parquet")
 """Suffixes of tables that can be written."""
 
 
@@ -159,7 +159,7 @@ class Results(Shown):
 
 def check_table(path: Path) -> None:
     """Raises InputError for a kind of table that cannot be written, or Parquet without pyarrow installed."""
-    if output_path(path, KINDS).suffix.lower() == ".parquet":
+    if output_path(path, TABLES).suffix.lower() == ".parquet":
         with optional("study", "Parquet needs pyarrow, which is not installed"):
             import pyarrow  # noqa: F401
 

@@ -2,7 +2,11 @@
 
 Nothing raises: values that do not fit give a row with the status REFUSED, a controller that raises one with
 RAISED, so that one bad trial of a study spoils no other. A number that does not exist is None and never NaN,
-which JSON and SQL do not have. What is counted in a walk is in `study.counted`.
+which JSON and SQL do not have.
+
+A walk is counted at its nodes, or in the table of a compiled walk. On the rigid plant it is judged by its
+certificate, on soft ground by how far its feet slip (`analysis.feasibility`). There a friction is what the
+ground gave, so it is never above that of the ground, and the impulses of an impact are among the forces.
 
 `run_trials` is the function that `study.runner` hands to workers. The meaning of the columns is in
 columns.toml.
@@ -17,28 +21,34 @@ from itertools import pairwise
 from threading import Lock
 from typing import Any
 
-from biped_adrc.analysis.certificate import REASONS, supports
+import numpy as np
+
+from biped_adrc.analysis.certificate import IMPULSE, REASONS, supports
 from biped_adrc.analysis.feasibility import Feasibility, outcome_of
 from biped_adrc.analysis.ground_force import Nodes
+from biped_adrc.analysis.soft_steps import contact_errors
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.files import packaged
+from biped_adrc.core.types import Array
 from biped_adrc.engine.batch import BatchWalk, Case, left_by, run_case
 from biped_adrc.engine.on_plant import walk_on
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import limits
 from biped_adrc.scenario.recording import Walk
-from biped_adrc.studies.build import Trial, trial_of
-from biped_adrc.studies.counted import WalkRow, counted, counted_in
-from biped_adrc.studies.parameters import NO_WALK, RAISED, REFUSED, Record, scenario_of
+from biped_adrc.studies.build import NO_WALK, RAISED, REFUSED, Record, Trial, scenario_of, trial_of
 
 COLUMNS: Mapping[str, str] = packaged("biped_adrc.studies", "columns.toml")
 """The columns of a row and what each means, with units."""
 WORDS = ("status", "detail", "outcome", "engine")
 """Columns that hold text."""
+WalkRow = dict[str, float | int | str | None]
+"""Results by column name."""
+OF_FEASIBILITY = ("feasible_impacts", "mean_normal_force", "mean_friction", "scuffing")
+"""Columns that `Feasibility` has under the same names."""
 AT_ONCE = 160
-"""Impacts of the walks that are judged together: the nodes of a walk take some 80 kB for each."""
+"""Impacts of the walks that are in memory together: the nodes of a walk take some 80 kB for each."""
 _PREPARING = Lock()
 """Held while walkers are built or plants used: threads of a process share robots and compiled code."""
 
@@ -51,20 +61,22 @@ def run_trial(record: Record) -> WalkRow:
 def run_trials(records: Sequence[Record]) -> list[WalkRow]:
     """A row for each trial, in their order: the function that workers run.
 
-    All trials take a step before the first one takes the next, walking and judging only as many as memory holds
-    well: so a processor finds the code of a step in its cache, and takes a fifth less time than trial by trial.
+    All trials take a step before the first one takes the next, as many as memory holds well: so a processor
+    finds the code of a step in its cache, and takes a fifth less time than trial by trial.
     """
     with _PREPARING:
         trials = _each(trial_of, [_attempt(scenario_of, record) for record in records])
-        runs, rows = _each(_run_of, trials), list[WalkRow]()
     impacts = (t.case.impacts for t in trials if isinstance(t, Trial))
-    size = max(1, AT_ONCE // max(impacts, default=1))
-    for i in range(0, len(runs), size):
-        walks = _each(lambda run: run(), runs[i : i + size])
+    size, rows = max(1, AT_ONCE // max(impacts, default=1)), list[WalkRow]()
+    for i in range(0, len(trials), size):
+        some = trials[i : i + size]
+        with _PREPARING:
+            runs = _each(_run_of, some)
+        walks = _each(lambda run: run(), runs)
         with _PREPARING:
             rows += [
                 _row(walk if isinstance(walk, dict) else measured(trial, walk))
-                for trial, walk in zip(trials[i : i + size], walks, strict=True)
+                for trial, walk in zip(some, walks, strict=True)
             ]
     return rows
 
@@ -96,11 +108,22 @@ def _attempt(step: Callable[[Any], Any], x: Any) -> Any:
 
 
 def measured(t: Trial, walked: BatchWalk) -> WalkRow:
-    """The row of a walk that has been carried out.
+    """The row of a walk that has been carried out: how it ended, how fast it was, and what is counted in it.
 
     The cost of transport, work / (weight x distance), is None without forward motion.
     """
-    s, walker, run, row = t.scenario, t.case.walker, walked.trajectory, ended(t, walked)
+    s, walker, run, status = t.scenario, t.case.walker, walked.trajectory, walked.status.name
+    row: WalkRow = {
+        "status": status,
+        "detail": walked.detail,
+        "survived": None if status in NO_WALK else int(walked.status is Status.COMPLETED),
+        "impacts": walked.impacts,
+        "t_end": walked.t_end,
+        "engine": walked.engine,
+        **_pace(t, walked),
+    }
+    if status not in NO_WALK:
+        row |= {"outcome": outcome_of(walked.status, REASONS), "feasible": 0, "but_impact": 0}
     if run is not None:
         result = counted_in(Walk(walker, t.scene.walked, run, s), limits(s))
     elif walked.table is not None:
@@ -125,20 +148,65 @@ def _by_table(t: Trial, walked: BatchWalk, limits: Limits) -> WalkRow:
     return counted(n, Feasibility(walked.status, result, k, walked.impacts))
 
 
-def ended(t: Trial, walked: BatchWalk) -> WalkRow:
-    """How a walk ended, and how fast it was."""
-    status = walked.status.name
-    row: WalkRow = {
-        "status": status,
-        "detail": walked.detail,
-        "survived": None if status in NO_WALK else int(walked.status is Status.COMPLETED),
-        "impacts": walked.impacts,
-        "t_end": walked.t_end,
-        "engine": walked.engine,
+def counted(n: Nodes, found: Feasibility, soft: bool = False) -> WalkRow:
+    """Errors, torques, work and feasibility of a walk; soft: whether it was made on soft ground.
+
+    Root mean squares are over nodes and joints.
+    """
+    held = np.flatnonzero(np.diff(n.t) > 0.0)
+    error, u, turned = (np.take(x, held, axis=0) for x in (n.error, n.u, np.diff(n.q_b, axis=0)))
+    outcome, judged = found.outcome, set(REASONS) - {IMPULSE if soft else "slip"}
+    return {
+        "peak_error": _largest(n.error),
+        "rms_error": _rms(error),
+        "peak_torque": _largest(n.u),
+        "rms_torque": _rms(u),
+        "work": float(np.sum(np.abs(u) * np.abs(turned))),
+        "net_work": float(np.sum(u * turned)),
+        "outcome": outcome,
+        "feasible": int(outcome == "feasible"),
+        "but_impact": int(outcome == "but_impact"),
+        **{f"bad_{name}": int(name in found.reasons) for name in judged},
+        **{name: getattr(found, name) for name in OF_FEASIBILITY},
+        "impulse_ratio": found.impulse_ratio if found.touchdowns and not soft else None,
     }
-    if status not in NO_WALK:
-        row |= {"outcome": outcome_of(walked.status, REASONS), "feasible": 0, "but_impact": 0}
-    return row | _pace(t, walked)
+
+
+def counted_in(walk: Walk, limits: Limits) -> WalkRow:
+    """As `counted`, of a walk with all its nodes; what its feet did on soft ground, and when touchdowns were
+    noticed.
+    """
+    return {
+        **counted(Nodes.of(walk.signals), walk.feasible_within(limits), walk.soft),
+        **(_on_the_ground(walk) if walk.soft else {}),
+        **({} if walk.walker.touchdown is None else walk.touchdowns.rates._asdict()),
+    }
+
+
+def _on_the_ground(walk: Walk) -> WalkRow:
+    """The errors that touchdowns and pushes leave, and what the feet did, of the step in which it was largest.
+
+    The latter is missing on a plant that does not say it.
+    """
+    row, steps = contact_errors(walk.signals)._asdict(), walk.soft_steps
+    if not steps:
+        return row
+    return row | {
+        "slip": max(max(step.slip) for step in steps),
+        "flight": max(step.flight for step in steps),
+        "double_support": max(step.double_support for step in steps),
+        "penetration": max(step.depth for step in steps),
+    }
+
+
+def _largest(x: Array) -> float:
+    """Largest absolute value, 0 of nothing."""
+    return float(np.max(np.abs(x), initial=0.0))
+
+
+def _rms(x: Array) -> float:
+    """Root of the mean square, 0 of nothing."""
+    return math.sqrt(float(np.mean(x**2))) if x.size else 0.0
 
 
 def _pace(t: Trial, walked: BatchWalk) -> WalkRow:

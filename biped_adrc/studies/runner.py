@@ -20,7 +20,7 @@ from biped_adrc.core.errors import InputError, SimulationError, optional
 from biped_adrc.core.processes import cores, processes, stop
 from biped_adrc.core.types import DaskClient
 from biped_adrc.core.versions import differences, numerical_versions
-from biped_adrc.studies.parameters import CRASHED, RAISED, Record
+from biped_adrc.studies.build import CRASHED, RAISED, Record
 from biped_adrc.studies.store import Store
 from biped_adrc.studies.study import Point
 
@@ -92,24 +92,25 @@ class Crew:
 
     def __exit__(self, kind: object, *_: object) -> None:
         if self.cluster is not None:
-            _client_of(self.executor).close(timeout=2)
+            self.client.close(timeout=2)
         elif self.executor is not self.workers:
             stop(self.executor)
 
     def start(self) -> None:
-        """Start the executor."""
+        """Start the executor, if it is none of the user's."""
         if isinstance(self.workers, Executor):
             self.executor: Executor = self.workers
         elif self.cluster is None:
             self.executor = processes(self.workers, PRELOADED)
         else:
-            self.executor = dask(self.cluster)
+            self.client = dask(self.cluster)
+            self.executor = self.client.get_executor(pure=False)
 
     @property
     def count(self) -> int:
         """How many chunks are walked at the same time."""
         if self.cluster is not None:
-            return max(1, sum(_client_of(self.executor).nthreads().values()))
+            return max(1, sum(self.client.nthreads().values()))
         return int(getattr(self.executor, "_max_workers", None) or cores())
 
     def renew(self) -> None:
@@ -122,8 +123,8 @@ class Crew:
         self.start()
 
 
-def dask(address: str) -> Executor:
-    """The workers of a Dask scheduler as an executor.
+def dask(address: str) -> DaskClient:
+    """The client of a Dask scheduler.
 
     Raises InputError where none answers, it has no workers, or they have other versions than this machine.
     """
@@ -148,13 +149,7 @@ def dask(address: str) -> Executor:
                     f"worker {worker} of the scheduler at {address} would give other numbers: {text}"
                 )
         stack.pop_all()
-    executor: Executor = client.get_executor(pure=False)
-    return executor
-
-
-def _client_of(executor: Executor) -> DaskClient:
-    """The client behind Dask's executor."""
-    return vars(executor)["_client"]
+    return client
 
 
 @dataclass

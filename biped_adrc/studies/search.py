@@ -18,10 +18,9 @@ from typing import Any, NamedTuple
 from pydantic import Field, model_validator
 
 from biped_adrc.scenario.scenario import field_of
-from biped_adrc.studies.measure import Limit, Measure, Objective, Row
-from biped_adrc.studies.parameters import Values
+from biped_adrc.studies.build import Values
+from biped_adrc.studies.measure import Limit, Measure, Objective, Row, numbers_without_walk
 from biped_adrc.studies.space import Part, Range, Seeds, each, read_list, read_range, table
-from biped_adrc.studies.without_walk import numbers_without_walk
 
 Walks = Sequence[tuple[str, Row]]
 """Walks of a candidate: the name of the condition of each, and its row."""
@@ -59,12 +58,6 @@ class Variable(Part):
     def middle(self) -> Any:
         """The first choice, or the middle of the range."""
         return self.choices[0] if self.range is None else self.range.at(0.5)
-
-    def holds(self, x: object) -> bool:
-        """Whether x is among its values."""
-        if self.range is None:
-            return x in self.choices
-        return isinstance(x, float | int) and self.range.low <= x <= self.range.high
 
     def acts(self, values: Values) -> bool:
         """Whether it has an effect beside these values of a scenario."""
@@ -196,6 +189,5 @@ def judged(
 
 def ranked(search: Search, found: Sequence[Candidate]) -> list[Candidate]:
     """The walked candidates, best first: by what they miss, by the objective, by number."""
-    sign = 1.0 if search.objective.less_is_better else -1.0
-    walked = [c for c in found if c.walked]
+    walked, sign = [c for c in found if c.walked], search.objective.sign
     return sorted(walked, key=lambda c: (sum(c.missed), sign * c.objective, c.number))

@@ -26,14 +26,6 @@ APPLICATION = 0x62614453
 """SQLite's application_id, by which a results file is told from other databases."""
 RESULTS = "results.sqlite"
 """Name of the file in the folder of a study."""
-CANNOT_WRITE = (
-    sqlite3.SQLITE_BUSY,
-    sqlite3.SQLITE_FULL,
-    sqlite3.SQLITE_READONLY,
-    sqlite3.SQLITE_IOERR,
-    sqlite3.SQLITE_CANTOPEN,
-)
-"""Error codes of a file that cannot be written."""
 SCHEMA = """
 CREATE TABLE study (name TEXT, hash TEXT, study TEXT, versions TEXT);
 CREATE TABLE walks (place INTEGER PRIMARY KEY, at TEXT, record TEXT, row TEXT, status TEXT);
@@ -136,8 +128,7 @@ def _errors(path: Path) -> Iterator[None]:
     try:
         yield
     except (sqlite3.Error, OSError, ValueError) as error:
-        code = getattr(error, "sqlite_errorcode", 0) & 0xFF
-        if isinstance(error, OSError) or code in CANNOT_WRITE:
+        if isinstance(error, OSError | sqlite3.OperationalError):
             raise OutputError(
                 f"cannot write the results file '{path}': {error}; what was finished is kept, and the same "
                 "command goes on"

@@ -34,9 +34,8 @@ from biped_adrc.core.files import reading
 from biped_adrc.core.versions import numerical_versions, packages
 from biped_adrc.scenario.dotted import unknown
 from biped_adrc.scenario.scenario import read_scenario
-from biped_adrc.studies.build import trial_of, versions_of
+from biped_adrc.studies.build import SEED, Record, scenario_of, trial_of, versions_of
 from biped_adrc.studies.measure import Column, Limit, Measure, Objective
-from biped_adrc.studies.parameters import SEED, Record, scenario_of
 from biped_adrc.studies.search import Search, Variable, WalkSets
 from biped_adrc.studies.space import Draw, Grid, Part, Seeds, Sets, Values, problem
 

@@ -5,8 +5,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.scenario.build import limits
-from biped_adrc.studies.counted import counted_in
-from biped_adrc.studies.run import run_trial
+from biped_adrc.studies.run import counted_in, run_trial
 
 PULL = {"shape": "sine", "link": "torso", "force": 40.0, "step": 2, "duration": 0.3}
 PULSE = {**PULL, "shape": "pulse"}

@@ -12,7 +12,7 @@ import biped_adrc as ba
 from biped_adrc.analysis.statistics import median, paired, share
 from biped_adrc.core.errors import InputError
 from biped_adrc.scenario.scenario import write_scenario
-from biped_adrc.studies.parameters import scenario_of
+from biped_adrc.studies.build import scenario_of
 from biped_adrc.studies.space import Draw, Levels
 from biped_adrc.studies.study import read_study
 from biped_adrc.view.plots.study import cut
