@@ -85,15 +85,12 @@ class WalkVectorEnv(VectorEnv[Array, Array, Any]):
     def step(self, actions: Array) -> tuple[Array, Array, Flags, Flags, dict[str, Any]]:
         """One sample of each walk under actions (N, p) [1]; those that had ended begin anew."""
         stage, again = self.stage, self.over
-        resting = again.any()
         stage.move(finite_numbers("action", actions, (self.num_envs, stage.plant.p)))
-        if resting:
-            for i in np.flatnonzero(again):
-                self._begin(int(i), None)
+        for i in np.flatnonzero(again):
+            self._begin(int(i), None)
         fallen, late = stage.ended()
         rewards = stage.rewards()
-        if resting:
-            rewards[again] = 0.0
+        rewards[again] = 0.0
         self.over = fallen | late
         return stage.observations(), rewards, fallen, late, self._infos()
 

@@ -93,7 +93,8 @@ def add_robot(node: SceneNode, biped: Biped, opacity: float) -> None:
             for i, R in enumerate(spokes(biped) if any(visual.origin) else [np.eye(3)]):
                 part = here[f"visual_{k}" if i == 0 else f"visual_{k}_spoke_{i}"]
                 part.set_object(_shape(visual), paint(visual.rgba, opacity * visual.rgba[3]))
-                part.set_transform(placed(R=R) @ visual_transform(visual))
+                upright = UPRIGHT if visual.shape == "cylinder" else np.eye(3)
+                part.set_transform(placed(R=R) @ placed(visual.origin, upright))
 
 
 def _shape(visual: Visual) -> object:
@@ -105,13 +106,8 @@ def _shape(visual: Visual) -> object:
     return shapes.Cylinder(visual.size[1], visual.size[0])
 
 
-def visual_transform(visual: Visual) -> Array:
-    """Placement (4, 4) of a primitive in its link; a URDF cylinder lies along z, Meshcat's along y."""
-    return placed(visual.origin, UPRIGHT if visual.shape == "cylinder" else np.eye(3))
-
-
 UPRIGHT = turn((1.0, 0.0, 0.0), 0.5 * math.pi)
-"""(3, 3): turns y, the axis of Meshcat's cylinders, to z."""
+"""(3, 3): turns y, the axis of Meshcat's cylinders, to z, that of the URDF's."""
 
 
 def leg_visuals(biped: Biped) -> list[list[str]]:
