@@ -53,8 +53,6 @@ class PeriodicOrbit(Shown):
     """Eigenvalues of dP/ds, the largest magnitude first; dimensionless."""
     residual: float
     """max |P(s) - s| [rad, rad/s]."""
-    iterations: int
-    """Steps of Newton's method."""
 
     @property
     def stable(self) -> bool:
@@ -199,7 +197,7 @@ class ReturnMap(Shown):
         """
         s = self.project(np.asarray(guess, dtype=float))
         J, s_J, previous = self.jacobian(s), s, np.inf
-        for iteration in range(1, MOST_ITERATIONS + 1):
+        for _ in range(MOST_ITERATIONS):
             gap = self(s) - s
             residual = float(np.max(np.abs(gap)))
             done = residual < tolerance
@@ -207,7 +205,7 @@ class ReturnMap(Shown):
             if stale and (done or residual > _CHORD * previous):
                 J, s_J = self.jacobian(s), s
             if done:
-                return PeriodicOrbit(self.lift(s), sorted_eigenvalues(J), residual, iteration)
+                return PeriodicOrbit(self.lift(s), sorted_eigenvalues(J), residual)
             s, previous = s + newton_step(J, gap), residual
         raise not_converged(residual, tolerance)
 

@@ -5,9 +5,7 @@
     depth        of a foot point below the ground
 
 Times are of the readings (`closed_loop.feet`), each of which stands for half the way to its neighbours, so
-that single support, double support and flight add up to the duration. The force of a touchdown begins
-within one step h of the engine, of which half is counted: impulses are off by up to h F / 2 there, of first
-order, and of second order everywhere else.
+that single support, double support and flight add up to the duration.
 
 `contact_errors` keeps the error that a touchdown leaves and the error that a push causes apart:
 
@@ -67,8 +65,6 @@ class SoftStep(Shown):
     """Largest penetration [m]."""
     friction_used: float
     """Largest |F_T| / F_N of a foot with F_N > 20 N [1]."""
-    impulse: tuple[float, float]
-    """Of the ground on the robot (x, z) [N s]."""
 
     @property
     def single_support(self) -> float:
@@ -150,7 +146,6 @@ def step_of(
         slip=_pair(w @ (slips * speed)),
         depth=float(max(0.0, np.max(level * out[1] - r.place @ out))),
         friction_used=float(np.max(used)),
-        impulse=_pair(w @ r.force.sum(axis=1)),
     )
 
 

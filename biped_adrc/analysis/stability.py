@@ -206,8 +206,6 @@ class Cycle(Shown):
 class CycleStability(Shown):
     """The fixed point of a return map and its multipliers by every method that applies."""
 
-    cycle: Cycle
-    """The return map, and the state from which the fixed point was found."""
     orbit: PeriodicOrbit
     """The fixed point, its residual, and its multipliers."""
     table: StabilityTable
@@ -233,9 +231,9 @@ def cycle_stability(cycle: Cycle) -> CycleStability:
     if len(cycle.guess) > 2 * P.walker.plant.n:
         guess = cycle.guess if P.controller_states else cycle.guess[: 2 * P.walker.plant.n]
         orbit = P.fixed_point(guess)
-        return CycleStability(cycle, orbit, StabilityTable(orbit.multipliers))
+        return CycleStability(orbit, StabilityTable(orbit.multipliers))
     orbit, step = periodic_orbit(P, cycle.guess, SETTLES)
-    return CycleStability(cycle, orbit, stability_table(P, step))
+    return CycleStability(orbit, stability_table(P, step))
 
 
 def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = None) -> Certificate:

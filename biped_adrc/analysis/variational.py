@@ -222,11 +222,11 @@ def periodic_orbit(
     come back, SingularError when a multiplier is 1.
     """
     s = P.project(np.asarray(guess, dtype=float))
-    for iteration in range(1, MOST_ITERATIONS + 1):
+    for _ in range(MOST_ITERATIONS):
         step = differentiate_step(P, s)
         gap = step.image - s
         residual = float(np.max(np.abs(gap)))
         if residual < tolerance:
-            return PeriodicOrbit(P.lift(s), step.multipliers, residual, iteration), step
+            return PeriodicOrbit(P.lift(s), step.multipliers, residual), step
         s = s + newton_step(step.jacobian, gap)
     raise not_converged(residual, tolerance)

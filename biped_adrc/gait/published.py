@@ -28,10 +28,6 @@ from biped_adrc.model.biped import Biped
 class PassiveCycle:
     """A walking cycle of a robot without motors, as published; n coordinates."""
 
-    robot: str
-    preset: str
-    source: str
-    """Publication that the numbers are from."""
     slope: float
     """Slope of the ground [rad], positive downhill."""
     max_step_time: float
@@ -59,9 +55,6 @@ def passive_cycle(biped: Biped) -> PassiveCycle:
     with reading("cycle", path, GaitError):
         data = tomllib.loads(path.read_text(encoding="utf-8"))
         return PassiveCycle(
-            robot,
-            preset,
-            str(data["source"]),
             float(data["slope"]),
             float(data["max_step_time"]),
             finite_vector(data, "q_plus", biped.n),

@@ -67,4 +67,4 @@ def test_meters_of_recorded_nodes_are_those_of_readings_at_the_nodes(biped, gait
     run = run_of(loop, gait, impacts=1)
     again = recorded_steps(with_readings(loop, run), 0.6, ground_axes(0.0))
     assert again == soft_steps(loop, run, 1e-3)
-    assert sum(again[0].impulse) > 1.0
+    assert again[0].friction_used > 0.0

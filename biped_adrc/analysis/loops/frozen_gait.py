@@ -51,7 +51,6 @@ class FrozenPoint:
 class FrozenGait(Shown):
     """The points of a gait. Make it by `of`, once for all candidates on this robot and gait."""
 
-    gait: Gait
     points: tuple[FrozenPoint, ...]
     period: float
     """Of the orbit: time of one step [s]."""
@@ -80,9 +79,7 @@ class FrozenGait(Shown):
         nodes = [int(np.argmin(np.abs(time - phase * orbit.period))) for phase in phases]
         points = (_point(robots, float(time[k]), orbit.q[k], orbit.v[k], orbit.a[k]) for k in nodes)
         height = float(plant.hip(orbit.q[nodes[0]])[1])
-        return cls(
-            gait, tuple(points), orbit.period, float(np.sqrt(plant.description.gravity / height))
-        )
+        return cls(tuple(points), orbit.period, float(np.sqrt(plant.description.gravity / height)))
 
 
 def _robots(plant: Biped, spread: float) -> Iterator[Biped]:

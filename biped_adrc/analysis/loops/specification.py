@@ -67,8 +67,6 @@ class Specification(Shown):
     """By phase and by robot; the first robot is the plant."""
     shares: tuple[float, ...]
     """Of the phases: time since the step began, over that of a step [1]."""
-    period: float
-    """Of the gait: time of a step [s]."""
     errors: Array
     """Standard deviations (2 n,) [rad, rad/s] of the sensors' errors of (q, q')."""
 
@@ -147,6 +145,4 @@ def specification(walker: Walker, gait: Gait | FrozenGait) -> Specification:
     n, exact = walker.plant.n, np.zeros(2 * walker.plant.n)
     sensors = walker.sensors
     errors = exact if sensors is None else sensors.errors(n, walker.plant.p, exact)
-    return Specification(
-        loops, tuple(at.t / gait.period for at in gait.points), gait.period, errors
-    )
+    return Specification(loops, tuple(at.t / gait.period for at in gait.points), errors)

@@ -105,8 +105,14 @@ class ObserverReport(OnHardware):
     # -- words ---------------------------------------------------------------------------------------
     @property
     def name(self) -> str:
-        """The observer in words."""
-        return observer_name(self.observer)
+        """The observer in words: Table I, or m and the poles [rad/s]."""
+        poles, m = self.observer.poles, self.observer.m
+        if poles == GPIObserver.from_poles().poles:
+            return "Table I"
+        if all(pole == poles[0] for pole in poles):
+            return f"m = {m} at {-poles[0].real:g} rad/s"
+        slow, fast = (f(abs(pole) for pole in poles) for f in (min, max))
+        return f"m = {m} with poles of {slow:g} to {fast:g} rad/s"
 
     @property
     def verdict(self) -> str:
@@ -304,14 +310,3 @@ def worst_inertia(biped: Biped, gait: Gait) -> float:
     return float(
         max(np.max(np.linalg.norm(biped.reduction(q, still).kappa_inverse, axis=1)) for q in along)
     )
-
-
-def observer_name(observer: GPIObserver) -> str:
-    """The observer for a heading: Table I, or m and the poles [rad/s]."""
-    if observer.poles == GPIObserver.from_poles().poles:
-        return "Table I"
-    first = observer.poles[0]
-    if all(pole == first for pole in observer.poles):
-        return f"m = {observer.m} at {-first.real:g} rad/s"
-    slow, fast = (f(abs(pole) for pole in observer.poles) for f in (min, max))
-    return f"m = {observer.m} with poles of {slow:g} to {fast:g} rad/s"

@@ -162,17 +162,14 @@ class GaitRequest(Checked, Shown):
 
     def in_words(self) -> str:
         """What is asked, for messages and the provenance, such as "0.8 m/s, a slope of 0.05 rad"."""
-        parts = ["the given pre-impact state"] if self.through is not None else []
-        parts += [f"{self.speed:g} m/s"] if self.speed is not None else []
-        parts += [f"a step of {self.step:g} m"] if self.step is not None else []
-        parts += [f"a slope of {self.slope:g} rad"] if self.slope else []
-        return ", ".join(parts)
+        state = ["the given pre-impact state"] if self.through else []
+        return ", ".join(state + self._said("{:g} m/s", "a step of {:g} m", "a slope of {:g} rad"))
 
     def name(self) -> str:
         """Name of the gait, such as "v0.8-s0.5", which is also that of its file."""
-        if self.through is not None:
-            return "through"
-        parts = [f"v{self.speed:g}"] if self.speed is not None else []
-        parts += [f"s{self.step:g}"] if self.step is not None else []
-        parts += [f"slope{self.slope:g}"] if self.slope else []
-        return "-".join(parts)
+        return "through" if self.through else "-".join(self._said("v{:g}", "s{:g}", "slope{:g}"))
+
+    def _said(self, *forms: str) -> list[str]:
+        """Speed, step and slope, where they are asked for, in these forms."""
+        numbers = zip(forms, (self.speed, self.step, self.slope or None), strict=True)
+        return [form.format(x) for form, x in numbers if x is not None]
