@@ -23,10 +23,9 @@ from threading import get_ident
 
 import numpy as np
 
-from biped_adrc.closed_loop.protocols import Mode
+from biped_adrc.closed_loop.protocols import Load, Mode
 from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.stepping_plant import Load
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_biped import Call, CompiledBiped, compiled_references

@@ -13,8 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.closed_loop.exponential_form import ErrorForm
-from biped_adrc.closed_loop.walker import LEAST_STEP, Walker
+from biped_adrc.closed_loop.walker import LEAST_STEP, ErrorForm, Walker
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_push import push_of

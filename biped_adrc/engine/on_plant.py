@@ -15,14 +15,14 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.closed_loop.feet import with_readings
-from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.stepping_plant import (
+from biped_adrc.closed_loop.protocols import (
     LaggingPlant,
     OnFeet,
     SteppingPlant,
     UnevenPlant,
     lag_of,
 )
+from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.timing import SampledTime

@@ -17,8 +17,8 @@ from typing import TypeVar
 
 import numpy as np
 
+from biped_adrc.closed_loop.protocols import SteppingPlant
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.stepping_plant import SteppingPlant
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.core.errors import InputError
