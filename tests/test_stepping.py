@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
+from biped_adrc.closed_loop.protocols import Contact, Moved
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.stepping_plant import Contact, Moved
 from biped_adrc.core.errors import InputError, RaisedError
 from biped_adrc.engine.on_plant import CompiledLoop
 from biped_adrc.gait.reference import TimeReference

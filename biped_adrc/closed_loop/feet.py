@@ -16,8 +16,8 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+from biped_adrc.closed_loop.protocols import Load, OnFeet
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.stepping_plant import Load, OnFeet
 from biped_adrc.core.errors import InputError, check_positive
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, freeze

@@ -3,7 +3,7 @@
     x = (q, q', s, own, held)       own: numbers that the plant needs to go on
 
 There is no x' = f(x) and there are no event functions: the plant is asked to advance to the next sample instant
-or edge of a disturbance and reports its touchdowns (`closed_loop.stepping_plant` defines what it has to give).
+or edge of a disturbance and reports its touchdowns (`closed_loop.protocols` defines what it has to give).
 What acts from outside is taken in the middle of such a stretch. Sample instants, sensors, motors and controller
 are those of every closed loop, so a controller is tested unchanged on a plant of another kind. Torque,
 disturbance and estimate are recorded at both ends of every stretch, since they cannot be computed again from
@@ -18,27 +18,28 @@ from typing import Any, cast
 
 import numpy as np
 
-from biped_adrc.closed_loop.protocols import Mode
-from biped_adrc.closed_loop.semantics import after_contact, estimated, parts, torque_held
-from biped_adrc.closed_loop.stepping_plant import (
+from biped_adrc.closed_loop.protocols import (
     Contact,
     LaggingPlant,
     Load,
+    Mode,
     Moved,
+    OnFeet,
     SteppingPlant,
-    advanced,
-    check_swap,
-    started,
 )
+from biped_adrc.closed_loop.semantics import after_contact, estimated, parts, torque_held
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.core.checks import handing_out, numbers, returned
 from biped_adrc.core.errors import InputError, NotFiniteError
 from biped_adrc.core.timing import SampledTime
-from biped_adrc.core.types import Array, Indices, frozen
+from biped_adrc.core.types import Array, Indices, frozen, read_only
 from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.system import FoundEvent, Mover
 from biped_adrc.hybrid.trajectory import Arc, Event, Record, Trajectory
+
+ROUND_OFF = 1e-9
+"""Largest difference [s] between a plant's own clock and the time that it was to reach."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +70,7 @@ class SteppingLoop(ClosedLoop[Any]):
         super().__post_init__()
         check_swap(self.plant)
         felt = self.touchdown is not None and self.touchdown.needs_force
-        if felt and not hasattr(self.plant, "footing"):
+        if felt and not isinstance(self.plant, OnFeet):
             raise InputError(
                 f"{type(self.plant).__name__} does not say what its feet carry (footing), and "
                 f"{type(self.touchdown).__name__} goes by that; give another touchdown, such as ByKinematics()"
@@ -236,6 +237,55 @@ class SteppingLoop(ClosedLoop[Any]):
         x_plus = after_contact(self, t, x, row[:n], row[n : 2 * n], after)
         x_plus = self.with_plant(x_plus, row)
         return FoundEvent(Event(name, t, x, x_plus), (x_plus, after))
+
+
+def check_swap(plant: SteppingPlant) -> None:
+    """Raise InputError for a relabelling that is none of p motors."""
+    swap = np.asarray(plant.swap)
+    if swap.dtype.kind != "i" or sorted(swap - plant.p * (swap >= plant.p)) != [*range(plant.p)]:
+        raise InputError(
+            f"{type(plant).__name__}.swap is {plant.swap!r}, expected an array of int with each of the numbers "
+            f"0 to {plant.p - 1} once, plus {plant.p} where an angle changes its sign"
+        )
+
+
+def started(plant: SteppingPlant, t: float, q: Array, v: Array, own: int | None) -> Array:
+    """The row that `plant.start` gives at t [s] for q (n,) [rad], v (n,) [rad/s], checked.
+
+    own: how many numbers of its own are expected; None accepts any. Raises InputError where the
+    plant starts elsewhere.
+    """
+    found = plant.start(t, read_only(q), read_only(v))
+    shape = None if own is None else (2 * len(q) + own,)
+    row = returned(found, shape, plant, "start", finite=False).copy()
+    if not np.array_equal(row[: 2 * len(q)], (*q, *v)):
+        raise InputError(
+            f"{type(plant).__name__}.start gives {row}, expected a row that begins with the q = {q}, v = {v} "
+            "that it was given"
+        )
+    return row
+
+
+def advanced(
+    plant: SteppingPlant, t: float, row: Array, u: Array, load: Load | None, until: float
+) -> Moved:
+    """What `plant.advance` gives, its row checked and copied, its time `until` [s] without round-off.
+
+    Raises InputError for what breaks the contract.
+    """
+    moved = plant.advance(t, row, u, load, until)
+    if type(moved) is not Moved or type(moved.contacts) is not tuple:
+        raise InputError(
+            f"{type(plant).__name__}.advance gives {moved!r:.60}, expected a Moved(t, row, contacts, after)"
+        )
+    end, found, contacts, after = moved
+    if not (at_end := abs(end - until) <= ROUND_OFF) and not (contacts and t < end < until):
+        here = f"a contact at {end} s, expected after {t} s, not after {until} s"
+        here = here if contacts else f"{end} s without a contact, expected {until} s"
+        raise InputError(f"{type(plant).__name__}.advance came to {here}")
+    found = returned(found, row.shape, plant, "advance", finite=False).copy()
+    found.setflags(write=False)
+    return Moved(until if at_end else end, found, contacts, after)
 
 
 def together(contacts: tuple[Contact, ...]) -> Contact:

@@ -19,8 +19,7 @@ from functools import lru_cache
 import numpy as np
 
 from biped_adrc.closed_loop import semantics
-from biped_adrc.closed_loop.exponential_form import ErrorForm
-from biped_adrc.closed_loop.walker import LEAST_STEP, Mode, Walker
+from biped_adrc.closed_loop.walker import LEAST_STEP, ErrorForm, Mode, Walker
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_push import push_of

@@ -31,9 +31,9 @@ import casadi as ca
 import numpy as np
 from numpy.typing import ArrayLike
 
-from biped_adrc.closed_loop import exponential_form, semantics
-from biped_adrc.closed_loop.exponential_form import ErrorForm
+from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.protocols import ControlLaw, Mode
+from biped_adrc.closed_loop.walker import ErrorForm, remainder
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.engine.kernels.record import OUTSIDE
@@ -366,5 +366,5 @@ class Equations:
         at = self.at()
         w, E = self._coordinates(at.x)
         form = self._split(at.trace)
-        N = at.trace(exponential_form.remainder)(at.loop, form, at.t, w, E, at.mode)
+        N = at.trace(remainder)(at.loop, form, at.t, w, E, at.mode)
         return self.function(at.inp, *N, at.lost)

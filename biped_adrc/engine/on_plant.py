@@ -28,9 +28,7 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.closed_loop.feet import with_readings
-from biped_adrc.closed_loop.semantics import parts
-from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.stepping_plant import (
+from biped_adrc.closed_loop.protocols import (
     LaggingPlant,
     Load,
     OnFeet,
@@ -38,6 +36,8 @@ from biped_adrc.closed_loop.stepping_plant import (
     UnevenPlant,
     lag_of,
 )
+from biped_adrc.closed_loop.semantics import parts
+from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.core.timing import SampledTime

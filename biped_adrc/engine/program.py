@@ -18,9 +18,8 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from biped_adrc.closed_loop.exponential_form import ErrorForm
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.closed_loop.walker import ErrorForm, Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers, WalkerStructure

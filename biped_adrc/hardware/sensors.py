@@ -169,13 +169,11 @@ class SampledSensors(Sensor):
 
 
 M_1, M_2 = 4294967087.0, 4294944443.0
-SIZE = 6
-"""Numbers in a state r."""
 
 
 def seeded(seed: int) -> Array:
     """r (6,), as different for neighbouring seeds as for any others."""
-    words = np.random.SeedSequence(seed).generate_state(SIZE, np.uint32).astype(float)
+    words = np.random.SeedSequence(seed).generate_state(6, np.uint32).astype(float)
     r: Array = 1.0 + words % np.repeat([M_1 - 1.0, M_2 - 1.0], 3)
     return r
 

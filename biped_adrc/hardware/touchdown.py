@@ -113,11 +113,6 @@ class Touchdown(Checked, ABC):
     def notice(self, d: Array, look: Look) -> tuple[Array, float]:
         """d (size,) after a tick, and 1 where a touchdown is noticed, else 0."""
 
-    @property
-    def noisy(self) -> bool:
-        """Whether anything is random."""
-        return False
-
 
 def belief_of(b: Array) -> Belief:
     """The parts of b."""
@@ -156,14 +151,10 @@ class Told(Shown, Touchdown):
                 f"false_at is {at}, expected a step and a time in it [s], such as (2, 0.3)"
             )
 
-    @property
-    def noisy(self) -> bool:
-        return self.missed > 0.0
-
     @derived
     def random(self) -> Array:
         """r at the start of a run: (6,), or none where no touchdown is missed."""
-        return seeded(self.seed) if self.noisy else np.zeros(0)
+        return seeded(self.seed) if self.missed > 0.0 else np.zeros(0)
 
     @derived
     def false(self) -> Array:

@@ -161,7 +161,6 @@ def stable_poles(poles: Sequence[complex], what: str) -> tuple[complex, ...]:
         raise InputError(
             f"the poles of {what} are {poles!r}, expected a sequence of numbers [rad/s] as (-300, -400)"
         ) from None
-    check_chain(len(numbers), 1.0, what)
     if len(numbers) < 2:
         raise InputError(f"{what} needs at least 2 poles, found {len(numbers)}")
     for pole in numbers:
@@ -171,7 +170,7 @@ def stable_poles(poles: Sequence[complex], what: str) -> tuple[complex, ...]:
             )
         if numbers.count(pole) != numbers.count(pole.conjugate()):
             raise InputError(f"observer pole {_show(pole)} rad/s has no conjugate beside it")
-        check_chain(2, abs(pole), what)
+        check_chain(len(numbers), abs(pole), what)
     return numbers
 
 

@@ -18,8 +18,8 @@ from typing import Any, cast
 
 import numpy as np
 
+from biped_adrc.closed_loop.protocols import SteppingPlant
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.stepping_plant import SteppingPlant
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.core.errors import InputError

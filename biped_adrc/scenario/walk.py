@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from biped_adrc.closed_loop.stepping_plant import SteppingPlant
+from biped_adrc.closed_loop.protocols import SteppingPlant
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.core.checks import check_part, handing_out, numbers
 from biped_adrc.core.errors import InputError, check_count

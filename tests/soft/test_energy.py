@@ -9,8 +9,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.closed_loop.feet import readings
-from biped_adrc.closed_loop.protocols import Mode
-from biped_adrc.closed_loop.stepping_plant import Load
+from biped_adrc.closed_loop.protocols import Load, Mode
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
 from biped_adrc.hybrid.simulator import RunOptions

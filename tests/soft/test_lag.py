@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.closed_loop.protocols import Mode
+from biped_adrc.closed_loop.protocols import Load, Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.stepping_plant import Load
 from biped_adrc.core.errors import InputError
 from biped_adrc.engine.on_plant import CompiledLoop, stepping_loop
 from biped_adrc.extras.mujoco.mjcf import mjcf

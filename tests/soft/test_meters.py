@@ -10,8 +10,8 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.analysis.soft_steps import soft_steps, step_of, weights
 from biped_adrc.closed_loop.feet import Readings, readings, with_readings
+from biped_adrc.closed_loop.protocols import Load
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.stepping_plant import Load
 from biped_adrc.core.errors import InputError
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.closed_loop.stepping_plant import Load
+from biped_adrc.closed_loop.protocols import Load
 from biped_adrc.core.errors import InputError
 from biped_adrc.extras.mujoco import robot as mujoco_robot
 from biped_adrc.extras.mujoco.plant import TOUCHING, MuJoCoPlant

@@ -25,7 +25,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from biped_adrc.closed_loop.stepping_plant import Load
+from biped_adrc.closed_loop.protocols import Load
 from biped_adrc.core.types import Array, Indices, MuJoCoData, MuJoCoModel
 from biped_adrc.extras.mujoco.robot import PLANES, mujoco
 from biped_adrc.hybrid.integrators import StepFailed

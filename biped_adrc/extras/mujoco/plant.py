@@ -30,7 +30,7 @@ from threading import get_ident
 
 import numpy as np
 
-from biped_adrc.closed_loop.stepping_plant import Contact, Feet, Load, Moved
+from biped_adrc.closed_loop.protocols import Contact, Feet, Load, Moved
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
 from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat, PositiveInt
 from biped_adrc.core.errors import InputError
