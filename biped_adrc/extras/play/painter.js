@@ -22,13 +22,13 @@ class Painter {
     const { domElement: { style }, pen: { canvas }, ratio } = this;
     Object.assign(canvas, { width: Math.round(w * ratio), height: Math.round(h * ratio) });
     Object.assign(style, { display: "block", width: w + "px", height: h + "px" });
+    this.blank(); // another size has made it black
   }
+  blank() { Object.assign(this.pen, { globalAlpha: 1, fillStyle: "#fff" }).fillRect(0, 0, this.pen.canvas.width, this.pen.canvas.height); }
   render(scene, camera) {
     const { pen, layers } = this, parts = [];
     scene.updateMatrixWorld();
-    pen.globalAlpha = 1;
-    pen.fillStyle = "#fff";
-    pen.fillRect(0, 0, pen.canvas.width, pen.canvas.height);
+    this.blank();
     const collect = (node, above) => {
       if (!node.visible) return;
       const layer = layers.has(node) ? layers.get(node) : above;
