@@ -40,7 +40,6 @@ PARTS: dict[str, Maker] = {
     "other coordinates": frost_urdf.sense_rows,
     **{f"multipliers, {x}": partial(gaits.robot_rows, x) for x in gaits.ROBOTS if x != "rabbit"},
     "design identified": partial(design_rows, "identified", 0.7),
-    "design tac2003": partial(design_rows, "tac2003", 1.1),
 }
 
 

@@ -78,7 +78,6 @@ def walked(biped, gait, controller, engine):
 
 TRACKING = {
     "ADRC": lambda h, o: ba.ADRCController(h, o),
-    "ADRC output": lambda h, o: OutputADRCController(h, o),
     "delayed, output": lambda h, o: Delayed(OutputADRCController(h, o), 1e-3),
     "DOB": lambda h, o: MomentumDOBController(h),
 }

@@ -10,9 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
-from typer.testing import CliRunner
 
-from biped_adrc.cli import app
 from biped_adrc.core.errors import InputError
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Event
@@ -26,6 +24,7 @@ from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.from_the_side.stick_figures import strip
 from biped_adrc.view.placement import WalkScene, ending
 from biped_adrc.view.style import new_figure, style
+from tests.commands import command
 
 
 def test_lines_are_the_limbs(biped: Biped, walks: dict[str, Walk]) -> None:
@@ -161,8 +160,5 @@ def test_the_run_is_drawn_solid_and_its_ghost_behind(
         "biped_adrc.view.export.export", lambda path, walks, clip: drawn.extend(walks)
     )
     runs = [str(walk.save(tmp_path / f"{name}.npz")) for name, walk in walks.items()]
-    done = CliRunner().invoke(
-        app, ["animate", runs[0], "--ghost", runs[1], "-o", str(tmp_path / "a.html")]
-    )
-    assert done.exit_code == 0, done.output
+    command("animate", runs[0], "--ghost", runs[1], "-o", tmp_path / "a.html")
     assert drawn == [*walks][::-1]
