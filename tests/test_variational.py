@@ -28,10 +28,7 @@ from biped_adrc.analysis.variational import (
 )
 from biped_adrc.core.errors import InputError
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
-from biped_adrc.model.derivatives import (
-    acceleration_derivatives,
-    impact_derivatives,
-)
+from biped_adrc.model.derivatives import acceleration_derivatives, impact_derivatives
 from biped_adrc.scenario.cycle import find_cycle
 
 EXACT = ba.Adaptive(1e-10, 1e-10)

@@ -14,13 +14,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.gait.gait import gait_names
 from biped_adrc.model.robots.robot_toml import robot_names
 from validation import __main__ as command
-from validation import (
-    frost_urdf,
-    gaits,
-    passive,
-    rabbit,
-    three_link,
-)
+from validation import frost_urdf, gaits, passive, rabbit, three_link
 from validation.groups import Group, Maker, group_named, groups
 from validation.rabbit import SPEEDS, design_rows
 from validation.row import COLUMNS, PRESETS, Measure, Row, at_most

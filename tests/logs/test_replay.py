@@ -35,8 +35,6 @@ def asked(walk, log=None):
     ids=lambda values: "-".join(f"{x}" for x in values.values()),
 )
 def test_the_torque_asked_for_is_the_one_that_the_walk_had(walked, values):
-    if "plant" in values:
-        pytest.importorskip("mujoco")
     x = asked(walked(**values))
     later = x.step > 1  # the first state of an observer behind encoders is the true one
     assert len(np.unique(x.step[later])) == 2
@@ -123,7 +121,6 @@ def test_the_estimate_converges_to_the_pulse_as_the_bandwidth_grows(walked):
 
 
 def test_in_mujoco_the_pulse_is_found_beside_the_contact(walked):
-    pytest.importorskip("mujoco")
     soft, rigid = (
         walked(**{"hardware.period": 1e-3, "run.impacts": 2, "ground.plant": x})
         for x in ("mujoco", "rigid")

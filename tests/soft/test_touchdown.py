@@ -14,7 +14,6 @@ from biped_adrc.hardware.detectors import ByForce, ByKinematics, Told
 
 from .loops import loop_on, run_of
 
-pytest.importorskip("mujoco")
 T = 1e-3
 
 

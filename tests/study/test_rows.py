@@ -56,7 +56,6 @@ if __name__ == "__main__":
 
 @pytest.mark.filterwarnings("ignore")
 def test_a_dask_cluster_makes_the_same_rows_and_names_what_kills_its_workers(tmp_path, expected):
-    pytest.importorskip("distributed")
     env = {**os.environ, "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "0"}
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
     line = [sys.executable, "-c", SCHEDULER, str(FOLDER)]
