@@ -263,14 +263,15 @@ def test_what_a_law_has_around_it_is_part_of_it(biped, gait):
 
 
 # -- what is refused, and what is used instead -----------------------------------------------------
-def test_a_method_that_does_not_fit_is_refused_as_in_python(biped, gait):
+def test_a_method_that_does_not_fit_is_refused(biped, gait):
     for walker in (
         ba.Walker(biped, npd(gait)),
         ba.Walker(biped, adrc(gait), timing=ba.SampledTime(1e-3)),
     ):
         x0 = walker.initial_state(*gait.start(biped))
-        with pytest.raises(InputError, match="exponential method needs"):
-            simulate(walker, x0, Mode(), ba.Exponential(), t_end=1.0)
+        for engine in ("compiled", "pinocchio"):
+            with pytest.raises(InputError, match="needs a controller in continuous time whose obs"):
+                simulate_by(engine, walker, x0, Mode(), ba.Exponential(), t_end=1.0)
     with pytest.raises(InputError, match="positive duration"):
         simulate(walker, x0, Mode(), ba.RK4(), t_end=0.0)
     with pytest.raises(InputError, match="finite numbers"):
