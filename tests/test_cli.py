@@ -5,18 +5,13 @@ import sys
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
 
 import biped_adrc as ba
-from biped_adrc.cli import app
 from biped_adrc.core.errors import InputError
 from biped_adrc.gait.bspline import BSpline
 from biped_adrc.scenario.push import Push, parse_push
 
-
-def inside(*arguments):
-    """The command in this process."""
-    return CliRunner().invoke(app, list(arguments))
+from .commands import command
 
 
 def test_the_command_in_a_fresh_interpreter(tmp_path):
@@ -28,32 +23,14 @@ def test_the_command_in_a_fresh_interpreter(tmp_path):
     assert "COMPLETED" in done.stdout
 
 
-def test_walk_store_and_animate(tmp_path):
-    run, page = tmp_path / "run.npz", tmp_path / "walk.html"
-    done = inside(
-        "simulate", "--controller", "npd", "--impacts", "2", "--push", "q1,q2=10@1:0.1-0.2",
-        "-o", str(run),
-    )  # fmt: skip
-    assert done.exit_code == 0, done.output
-    assert "COMPLETED" in done.stdout
-    assert "least and largest mean over 5 ms" in done.stdout
-    settings = ba.load_walk(run).trajectory.settings
-    assert settings["scenario"]["pushes"][0]["torque"] == 10.0
-    assert "pin" in settings["versions"]
-    done = inside("animate", str(run), "-o", str(page))
-    assert done.exit_code == 0, done.output
-    assert page.stat().st_size > 100_000
-
-
 def test_multipliers_of_a_robot_without_motors():
-    done = inside("poincare", "--robot", "compass")
-    assert done.exit_code == 0, done.output
-    table = {line[:29].strip(): line[29:].split() for line in done.stdout.splitlines()}
+    printed = command("poincare", "--robot", "compass")
+    table = {line[:29].strip(): line[29:].split() for line in printed.splitlines()}
     assert table["variational equation"] == table["central differences"]
     assert [float(x) for x in table["variational equation"]] == pytest.approx(
         [0.5799523, 0.5799523, 0.1315726], abs=1e-7
     )
-    assert "Trust the variational equation: the cycle is stable" in done.stdout
+    assert "Trust the variational equation: the cycle is stable" in printed
 
 
 def test_pushes_from_text():
@@ -74,9 +51,11 @@ def test_pushes_from_text():
 
 
 def test_a_gait_is_designed_of_the_curve_that_is_named(tmp_path):
-    common, out = ("gait", "design", "--speed", "0.7", "--set", "nodes=12"), tmp_path / "local.json"
-    done = inside(*common, "--set", "curve=bspline", "-o", str(out))
-    assert done.exit_code == 0
+    out = tmp_path / "local.json"
+    command(
+        *["gait", "design", "--speed", "0.7", "--set", "nodes=12", "--set", "curve=bspline", "-o"],
+        out,
+    )
     gait = ba.load_gait(out, ba.Biped.load("rabbit"))
     assert isinstance(gait.constraint.curve, BSpline)
     assert gait.provenance["curves"].startswith("bspline, degree 6")

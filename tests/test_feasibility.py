@@ -90,10 +90,6 @@ def test_friction_is_judged_in_the_mean_and_on_both_sides(walker):
     for sign in (-1.0, 1.0):
         s = judged(walker, t, np.full(len(t), 100.0), F_T=np.full(len(t), 70.0 * sign))
         assert list(s.infeasible()) == ["friction"]
-        slips = handmade(walker, t, np.full(len(t), 100.0), np.where(t < 0.1, 0.0, 70.0 * sign))
-        first = first_violation(walker, slips, KNOWN, 0)
-        assert first.t == pytest.approx(0.1 + 5e-3 * 60.0 / 70.0, abs=2 * H)
-        assert "friction" in first.what
         assert s.mean_friction == pytest.approx(0.7)
         assert not replace(s, friction_limit=0.8).infeasible()
     chatter = 90.0 * np.sign(np.sin(2.0 * np.pi * 1e3 * (t + 0.25 * H)))
@@ -282,12 +278,10 @@ def test_what_the_model_does_not_know_is_matched_and_unmatched(biped, gait):
     assert np.max(np.abs(s.xi_unmatched)) > 0.5
 
 
-def test_where_only_the_impulse_asks_for_more_it_is_feasible_but_for_the_impact():
+def test_where_only_the_impulse_asks_for_more_it_is_feasible_but_for_the_impact(bare, published):
     """By the impulse of (7) at x-, against a friction a little below and above what it asks for."""
-    biped = ba.Biped.load("rabbit", "identified-bare")
-    own = ba.load_gait("published", biped)
-    walk = ba.walk(ba.Walker(biped, ba.NPDController(own.constraint)), own, impacts=2)
-    asks = abs(np.divide(*biped.impact(own.q_minus, own.v_minus).impulse))
+    walk = ba.walk(ba.Walker(bare, ba.NPDController(published.constraint)), published, impacts=2)
+    asks = abs(np.divide(*bare.impact(published.q_minus, published.v_minus).impulse))
     assert asks > 0.6
     assert walk.feasibility.impulse_ratio == pytest.approx(asks, rel=1e-6)
     for share, outcome, impacts in ((0.999, "but_impact", 0), (1.001, "feasible", 2)):

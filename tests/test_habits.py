@@ -1,8 +1,9 @@
-"""The version, the citation, the changelog and the hooks say the same as the package and the Makefile."""
+"""Version, citation and changelog say the same as the package; the page on architecture has every room."""
 
 from __future__ import annotations
 
 import datetime
+import importlib
 import re
 import subprocess
 import sys
@@ -82,3 +83,17 @@ def test_the_citation_is_of_this_version_and_of_the_paper():
         "Cortes-Romero",
         "Tovar",
     ]
+
+
+# -- rooms ------------------------------------------------------------------------------------------
+def rooms():
+    """Folders with modules."""
+    found = {p.parent.name for p in (ROOT / "biped_adrc").glob("*/__init__.py")}
+    return found | {"validation"}
+
+
+def test_every_room_is_in_the_contract_and_in_the_list_of_the_page(monkeypatch):
+    monkeypatch.syspath_prepend(str(ROOT / "docs"))
+    drawn = importlib.import_module("draw_architecture")
+    layered = {name for row in drawn.layers() for name in row}
+    assert layered == rooms() == set(drawn.WORDS)

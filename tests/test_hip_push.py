@@ -11,11 +11,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.control.stride import StrideGains
 from validation.forced_steps import forced_walk, stopping_force
-from validation.hip_push import (
-    STANCE_KNEE,
-    HipCase,
-    PushedWalk,
-)
+from validation.hip_push import STANCE_KNEE, HipCase, PushedWalk
 
 STEPS = 3
 """Of the tests."""

@@ -19,7 +19,7 @@ def state(biped):
 
 @pytest.mark.parametrize("preset", ["identified", "identified-bare", "tac2003"])
 def test_they_hold(preset):
-    found = model_laws(preset, samples=20)
+    found = model_laws(preset, samples=300)
     assert len(found) == 9
     assert [name for name, x in found.items() if not x <= 1e-12] == []
 

@@ -80,16 +80,6 @@ run.impacts = 1
 [grid]
 controller.K_p = [5000.0]
 """
-SEARCH = """
-name = "s"
-base = {controller.name = "LESO"}
-[search]
-budget = 10
-generation = 4
-variables = {controller.observer.bandwidth = {from = 50, to = 500}}
-objective = {column = "rms_error"}
-walks = {search = {seeds = [0]}, choice = {seeds = [10]}, test = {seeds = [20]}}
-"""
 
 COMMANDS = [
     ("simulate --preset foo", 3, "no preset 'foo'"),
@@ -115,7 +105,6 @@ COMMANDS = [
     ("study study.toml -o afile/below", 3, "is a file"),
     ("study /dev/full -o out", 3, "not a regular file"),
     ("study pipe.toml -o out", 3, "not a regular file"),
-    (f"study search.toml -o {LONG}", 5, "too long"),
     ("reproduce --out afile", 3, "is a file"),
     (f"gait design --speeds 0.5 -o {LONG}", 5, "too long"),
     ("gait import zero.json", 3, "no name of a file"),
@@ -163,7 +152,6 @@ def here(tmp_path, monkeypatch, gait):
     monkeypatch.chdir(tmp_path)
     Path("afile").write_text("kept")
     Path("study.toml").write_text(STUDY)
-    Path("search.toml").write_text(SEARCH)
     gait.save("zero.json")
     record = json.loads(Path("zero.json").read_text())
     Path("zero.json").write_text(json.dumps(record | {"name": "a\0b"}))

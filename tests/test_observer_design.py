@@ -8,17 +8,14 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import biped_adrc as ba
 from biped_adrc.analysis.observer.choice import count_error, recommend
 from biped_adrc.analysis.observer.impact import ImpactStates, impact_peak, orbit_impact
 from biped_adrc.analysis.observer.loop import ObserverLoop
 from biped_adrc.analysis.observer.report import observer_report
-from biped_adrc.analysis.observer.sampled import (
-    SampledLoop,
-    largest_delay,
-    largest_period,
-)
+from biped_adrc.analysis.observer.sampled import SampledLoop, largest_delay, largest_period
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.delayed import Delayed, pade
 from biped_adrc.hardware.motors import IDEAL, Line, whole_and_part
@@ -215,18 +212,15 @@ def test_approximant_is_of_order_2k(k):
 
 def test_line_hands_out_what_went_in_a_delay_before():
     line = Delayed(Asks(), 0.1, 6)
-    h, w, one = 1e-3, 7.0, asking(np.ones(1))
+    w, one = 7.0, asking(np.ones(1))
     R = line.initial_state(one).reshape(6, 1)
     assert line.output(R.ravel(), one)[0] == pytest.approx(1.0)
-    for i in range(2000):
-        t = i * h
-        asked = [np.array([math.cos(w * (t + c * h))]) for c in (0.0, 0.5, 1.0)]
-        a = line_flow(line, R, asked[0])
-        b = line_flow(line, R + 0.5 * h * a, asked[1])
-        c = line_flow(line, R + 0.5 * h * b, asked[1])
-        d = line_flow(line, R + h * c, asked[2])
-        R = R + h / 6.0 * (a + 2.0 * b + 2.0 * c + d)
-    assert line.output(R.ravel(), one)[0] == pytest.approx(math.cos(w * (2.0 - 0.1)), abs=1e-8)
+
+    def flow(t, R):
+        return line_flow(line, R.reshape(6, 1), np.array([math.cos(w * t)])).ravel()
+
+    R = solve_ivp(flow, (0.0, 2.0), R.ravel(), rtol=1e-10, atol=1e-10).y[:, -1]
+    assert line.output(R, one)[0] == pytest.approx(math.cos(w * (2.0 - 0.1)), abs=1e-8)
 
 
 def test_known_feeds_what_acts_and_hidden_what_was_asked(bare, published):
@@ -265,12 +259,11 @@ def late(biped, gait, observer_, share, order=4, limit=None):
     return walk.trajectory.status, np.array([np.max(np.abs(error)) for error in steps])
 
 
-@pytest.mark.parametrize("observer_", [FIRST, TABLE_I], ids=["m = 1", "table 1"])
-def test_robot_tracks_below_the_margin_and_diverges_above(biped, gait, observer_):
-    (below, errors), (_, finer) = (late(biped, gait, observer_, 0.95, order) for order in (4, 6))
+def test_robot_tracks_below_the_margin_and_diverges_above(biped, gait):
+    (below, errors), (_, finer) = (late(biped, gait, FIRST, 0.95, order) for order in (4, 6))
     assert below is ba.Status.COMPLETED
     assert np.max(errors[-2:]) < 3.0 * errors[1]
-    assert late(biped, gait, observer_, 1.05)[0] is ba.Status.RAN_AWAY
+    assert late(biped, gait, FIRST, 1.05)[0] is ba.Status.RAN_AWAY
     np.testing.assert_allclose(errors, finer, atol=1e-6)
 
 

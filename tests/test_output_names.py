@@ -11,23 +11,17 @@ from pathlib import Path
 
 import pytest
 from rich.table import Table
-from typer.testing import CliRunner
 
 import biped_adrc as ba
-from biped_adrc.cli import app, main
+from biped_adrc.cli import main
 from biped_adrc.cli.app import Terminal
 from biped_adrc.core.errors import InputError, OutputError
 from biped_adrc.core.files import data_folder, one_line, output_path, write_text
 from biped_adrc.hybrid.storage import load, save
 
+from .commands import command
+
 WALK = ("simulate", "--engine", "compiled", "--controller", "NPD", "--impacts", "1")
-
-
-def command(*arguments: str) -> str:
-    """What a command prints; it raises what it raises."""
-    done = CliRunner().invoke(app, arguments, catch_exceptions=False)
-    assert done.exit_code == 0, done.output
-    return done.output
 
 
 @pytest.fixture(scope="session")

@@ -7,12 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from biped_adrc.gait.constraint import continued
-from biped_adrc.paper.push_map import (
-    Fate,
-    PushCell,
-    counts,
-    push_map,
-)
+from biped_adrc.paper.push_map import Fate, PushCell, counts, push_map
 from biped_adrc.paper.scenarios import MapPush
 from biped_adrc.scenario.run import walk_scenario
 

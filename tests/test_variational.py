@@ -25,10 +25,7 @@ from biped_adrc.analysis.variational import (
     torque_derivative,
 )
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
-from biped_adrc.model.derivatives import (
-    acceleration_derivatives,
-    impact_derivatives,
-)
+from biped_adrc.model.derivatives import acceleration_derivatives, impact_derivatives
 from biped_adrc.scenario.cycle import gait_cycle
 
 EXACT = ba.Adaptive(1e-10, 1e-10)

@@ -1,4 +1,5 @@
-"""Checks of the reproduction on made-up results; what breaks one reaches the summary and the exit code."""
+"""Checks of the reproduction at their limits and on made-up results; what breaks one reaches summary and
+exit code; what is planned."""
 
 import json
 import math
@@ -12,10 +13,14 @@ from typer.testing import CliRunner
 
 from biped_adrc.cli.app import EXIT_CHECK_FAILED, app
 from biped_adrc.cli.reproduce import lines
+from biped_adrc.core import errors
 from biped_adrc.core.processes import Timed
+from biped_adrc.core.verdict import at_least, at_most, below, between
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.paper import reproduction
 from biped_adrc.paper.results import Results
+from biped_adrc.paper.runs import tasks
+from biped_adrc.paper.scenarios import Plan, base_runs
 from biped_adrc.paper.table import checks
 from biped_adrc.paper.verdict import AtTwoSteps
 
@@ -151,3 +156,47 @@ def test_one_broken_claim_reaches_summary_and_exit_code(stubbed, tmp_path, ratio
     assert ("does not hold" in done.output) is not holds
     assert summary["tally"] in done.output
     assert len(lines(summary, tmp_path)) <= (10 if holds else 15)
+
+
+# -- checks at their limits -------------------------------------------------------------------------
+@pytest.mark.parametrize(
+    ("check", "inside", "outside"),
+    [
+        (lambda x: at_most("x", "law", x, 2.0), (1.9, 2.0, -math.inf), (2.1, math.inf, math.nan)),
+        (lambda x: at_least("x", "law", x, 2.0), (2.1, 2.0, math.inf), (1.9, -math.inf, math.nan)),
+        (lambda x: below("x", "law", x, 2.0), (1.9, -math.inf), (2.0, 2.1, math.inf, math.nan)),
+        (lambda x: between("x", "law", x, 1.0, 2.0), (1.0, 1.5, 2.0), (0.9, 2.1, math.nan)),
+    ],
+)
+def test_a_check_holds_up_to_its_limit(check, inside, outside):
+    assert [check(x).holds for x in inside] == [True] * len(inside)
+    assert [check(x).holds for x in outside] == [False] * len(outside)
+
+
+def test_errors_have_the_exit_codes_of_the_help():
+    codes = {"BipedError": 3, "InputError": 3, "GaitError": 3, "ModelError": 3, "OutputError": 5}
+    assert {name: getattr(errors, name).exit_code for name in codes} == codes
+
+
+# -- what is planned --------------------------------------------------------------------------------
+def test_a_quick_plan_leaves_out_what_it_says() -> None:
+    whole, quick = tasks(Plan()), tasks(Plan(quick=True))
+    assert set(quick) < set(whole)
+    missing = set(whole) - set(quick)
+    assert {"multipliers/ADRC", "multipliers/ADRC measured"} <= missing
+    assert not [name for name in quick if name.startswith(("runs/reset", "runs/as printed"))]
+    assert not [name for name in quick if "tac2003" in name or "bare" in name]
+    assert {"headline/NPD", "headline/ADRC", "multipliers/NPD"} <= set(quick)
+    assert len(Plan(quick=True).left_out) == 5
+    assert len(Plan().left_out) == 1
+    full = [task for name, task in tasks(Plan(full=True)).items() if name.startswith("map/")]
+    assert sum(len(task.arguments[0]) for task in full) == 2400
+
+
+def test_both_controllers_are_run_alike() -> None:
+    runs = base_runs(Plan())
+    for name, run in runs.items():
+        if name.endswith(" NPD"):
+            other = runs[f"{name.removesuffix('NPD')}ADRC"]
+            assert (other.pushes, other.errors) == (run.pushes, run.errors)
+            assert other.run.impacts == run.run.impacts

@@ -14,13 +14,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.gait.gait import gait_names
 from biped_adrc.model.robots.robot_toml import robot_names
 from validation import __main__ as command
-from validation import (
-    frost_urdf,
-    gaits,
-    passive,
-    rabbit,
-    three_link,
-)
+from validation import frost_urdf, gaits, passive, rabbit, three_link
 from validation.groups import Group, Maker, group_named, groups
 from validation.rabbit import SPEEDS, design_rows
 from validation.row import COLUMNS, PRESETS, Measure, Row, at_most
@@ -40,7 +34,6 @@ PARTS: dict[str, Maker] = {
     "other coordinates": frost_urdf.sense_rows,
     **{f"multipliers, {x}": partial(gaits.robot_rows, x) for x in gaits.ROBOTS if x != "rabbit"},
     "design identified": partial(design_rows, "identified", 0.7),
-    "design tac2003": partial(design_rows, "tac2003", 1.1),
 }
 
 

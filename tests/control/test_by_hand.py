@@ -25,19 +25,6 @@ def test_rows_are_held_from_their_times_on_in_one_single_support(biped):
     assert {s for _, s in hand.switches} == {*times}
 
 
-def test_both_engines_walk_under_it():
-    push = {"shape": "hand", "step": 1, "times": [0.1, 0.101, 0.2], "on": "torso"}
-    push |= {"point": [0.0, 0.3], "forces": [[20.0, 0.0], [-30.0, 10.0], [0.0, 0.0]]}
-    push |= {"torques": [[5.0, 0.0, 0.0, 0.0, 0.0], [0.0] * 5, [0.0, 0.0, 9.0, 0.0, 0.0]]}
-    s = ba.Scenario("NPD", hardware="ideal", pushes=[push], run={"impacts": 1})
-    one, other = (
-        ba.walk_scenario(s.replace({"run.engine": engine})) for engine in ("compiled", "pinocchio")
-    )
-    assert one.trajectory.settings["engine"] == "compiled"
-    end = [walk.trajectory.arcs[0].x[-1] for walk in (one, other)]
-    assert end[0] == pytest.approx(end[1], abs=1e-9)
-
-
 @pytest.mark.parametrize(
     ("rows", "said"),
     [

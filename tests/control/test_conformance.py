@@ -16,7 +16,6 @@ import biped_adrc as ba
 from biped_adrc.control.around import AddedTorque
 from biped_adrc.control.momentum_dob import MomentumDOBController
 from biped_adrc.control.output_adrc import OutputADRCController
-from biped_adrc.control.passive import Passive
 from biped_adrc.control.pd_gravity import JointGains
 from biped_adrc.control.stride import TORSO_LEAN, StrideGains
 from biped_adrc.core.errors import InputError
@@ -37,6 +36,7 @@ from biped_adrc.scenario.registry import find, names
 from .conforms import PERIOD, SLOW, conforms, gait, heavy, loop_compiles, outputs, robot, written
 
 A = [30.0, -20.0, 5.0, 0.0, 1.0]
+HELD, PULLED = [A, np.zeros(5)], [[9.0, 1.0], [0.0, 0.0]]
 THREE = (-90.0, -60 + 20j, -60 - 20j)
 
 # -- rows: how a thing of the registry is made --------------------------------------------------
@@ -48,7 +48,6 @@ ROWS = {
         "super twisting": lambda make, h: [make(h)],
         "ADRC": lambda make, h: [
             make(h),
-            make(h, ba.GPIObserver.from_bandwidth(500.0), reset=ba.ResetPolicy.MEASURED),
             make(h, ba.GPIObserver.from_bandwidth(300.0, 0), ba.Gains([4e3, 5e3, 6e3, 7e3], 50.0)),
         ],
         "ADRC output": lambda make, h: [make(h, SLOW, reset=ba.ResetPolicy.MEASURED)],
@@ -112,17 +111,7 @@ ROWS = {
             make(A, step=2, start=0.1, stop=0.3, bandwidth=10.0, seed=1, sines=4)
         ],
         "recorded": lambda make: [make(written("t,q1,q5\n0,1,2\n.1,3,-4\n.7,0,0"), robot(), 2)],
-        "hand": lambda make: [
-            make(
-                robot(),
-                2,
-                [0.1, 0.2],
-                [A, np.zeros(5)],
-                "torso",
-                (0.0, 0.3),
-                [[9.0, 1.0], [0.0, 0.0]],
-            )
-        ],
+        "hand": lambda make: [make(robot(), 2, [0.1, 0.2], HELD, "torso", (0.0, 0.3), PULLED)],
         "hip force": lambda make: [make(robot(), (-3.0, 1.0), steps=(2, 3))],
     },
     "curve": {
@@ -134,11 +123,7 @@ ROWS = {
     },
 }
 UNNAMED = {
-    "virtual constraint": lambda h: [
-        h,
-        continued(h),
-        with_curve(h, BSpline(h.curve.coefficients)),
-    ],
+    "virtual constraint": lambda h: [continued(with_curve(h, BSpline(h.curve.coefficients)))],
     "corrected constraint": lambda h: [
         CorrectedConstraint(h, leaning),
         CorrectedConstraint(CorrectedConstraint(continued(h), leaning), leaning),
@@ -146,10 +131,7 @@ UNNAMED = {
     "time": lambda h: [TimeReference(swung)],
     "linear outputs": lambda h: [outputs(h), LinearOutputs(ABSOLUTE, h)],
     "outputs of a function": lambda h: [FunctionOutputs(bent)],
-    "added torque": lambda h: [
-        AddedTorque(Passive(), np.array([3.0, -2.0, 1.0, 0.5])),
-        AddedTorque(ba.ADRCController(h), np.full(4, 2.0)),
-    ],
+    "added torque": lambda h: [AddedTorque(ba.ADRCController(h), np.full(4, 2.0))],
     "added force": lambda h: [
         AddedForce(np.array([20.0, -5.0]), link_point(robot(), robot().description.trunk))
     ],

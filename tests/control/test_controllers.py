@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.analysis.observer.loop import ObserverLoop
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.control.tracking import Gains
 from biped_adrc.core.errors import InputError
@@ -36,14 +35,6 @@ def test_tracking_error_on_a_held_joint_is_the_corrected_transfer_function():
     simulated, corrected, printed = held_joint(t_end=1.5, h=5e-4)
     assert simulated == pytest.approx(corrected, rel=1e-3)
     assert abs(simulated / printed - 1.0) > 0.03
-
-
-def test_transfer_function_without_extended_states():
-    """m = 0: xi^ = 0, and e_q is the sum of both terms of (23) by hand."""
-    observer, s = ba.GPIObserver.from_poles((-30.0, -40.0)), 5j
-    chi = (s + 30) * (s + 40)
-    expected = (50 * s + 5000 + 50 * 70 + chi) / (s**2 + 50 * s + 5000) / chi
-    assert ObserverLoop(observer).tracking_error(np.array([5.0]))[0] == pytest.approx(expected)
 
 
 def test_disturbance_estimate_follows_the_push(biped, gait):

@@ -233,11 +233,10 @@ def test_noise_repeats_by_its_seed_only():
 @pytest.mark.parametrize(
     "ground", [(StepUp(2, 0.01), StepDown(3, 0.01)), uneven_ground(2, 4e-3, 4)]
 )
-@pytest.mark.parametrize("engine", ["pinocchio", "compiled"])
-def test_the_foot_strikes_the_ground_where_it_is(bare, published, ground, engine):
+def test_the_foot_strikes_the_ground_where_it_is(bare, published, ground):
     law = ba.ReferenceReset(ba.NPDController(continued(published.constraint)))
     walker = ba.Walker(bare, law, ground_steps=ground)
-    walk = ba.walk(walker, published, 5, ba.RK4(2e-3), engine=engine)
+    walk = ba.walk(walker, published, 5, ba.RK4(2e-3))
     assert walk.trajectory.status.ok
     feet = [bare.swing_foot(e.x_minus[:5]) for e in walk.trajectory.events("foot_strike")]
     expected = [-sum(g.drop for g in ground if g.step == step) for step in range(1, 6)]

@@ -31,11 +31,6 @@ def test_table_one_is_what_the_paper_prints():
     assert np.linalg.cond(observer.error_system().A) < 1e7
 
 
-def test_gains_are_the_coefficients_of_the_polynomial():
-    observer = GPIObserver.from_poles((-2.0, -3.0, -5.0))
-    assert observer.gains == pytest.approx([10.0, 31.0, 30.0])
-
-
 class DoubleIntegrator(HybridSystem):
     """q'' = u + xi(t), observed; u is known."""
 

@@ -128,23 +128,6 @@ def test_a_start_without_numbers_ends_its_own_run(plain):
     assert walked[1].impacts == 0
 
 
-def test_what_each_run_leaves(mixed):
-    walked = dict(zip(mixed, simulate_many(mixed.values()), strict=True))
-    completed = {name for name, w in walked.items() if w.status is ba.Status.COMPLETED}
-    assert completed == {*mixed} - {"falls", "nan", "stalls"}
-    assert walked["falls"].status is ba.Status.FELL
-    assert walked["nan"].status is ba.Status.NOT_FINITE
-    assert walked["stalls"].status is ba.Status.STALLED
-    assert {n for n, w in walked.items() if w.engine != "compiled"} == {"python"}
-    for w in walked.values():
-        assert np.all(np.isfinite(w.final_state))
-    late, plain = walked["late"], walked["plain"]
-    assert np.allclose(late.durations, plain.durations, rtol=0.0, atol=1e-12)
-    assert np.allclose(late.times, plain.times + 0.7, rtol=0.0, atol=1e-12)
-    assert walked["stalls"].durations.shape == (0,)
-    assert walked["stalls"].x_minus.shape == (0, 10)
-
-
 @pytest.mark.parametrize("at_once", [False, True])
 def test_a_controller_that_raises_ends_its_own_run(plain, npd, at_once):
     ends = {

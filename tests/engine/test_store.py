@@ -8,13 +8,7 @@ import numpy as np
 import pytest
 
 from biped_adrc.engine import machine
-from biped_adrc.engine.machine import (
-    VARIABLE,
-    ModuleText,
-    compiled,
-    load_or_compile,
-    stored,
-)
+from biped_adrc.engine.machine import VARIABLE, ModuleText, compiled, load_or_compile, stored
 
 TEXT = """
 define void @f(ptr %K, ptr %inp, ptr %out) {

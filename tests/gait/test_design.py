@@ -17,7 +17,6 @@ from biped_adrc.gait.gait import Gait, load_gait, onto_section
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.planar import PlanarTree, ground_reaction, point, turned
 
 
 def speed_of(gait: Gait, biped: Biped) -> float:
@@ -36,21 +35,6 @@ def level() -> DesignedGait:
 @pytest.fixture(scope="module")
 def downhill() -> DesignedGait:
     return design_gait("rabbit", 0.7, preset="identified-bare", slope=0.06)
-
-
-# -- the planar tree -------------------------------------------------------------------------------
-@pytest.mark.parametrize("robot", ["rabbit", "compass"])
-def test_planar_tree_has_pinocchio_s_mass_com_acceleration_and_hip(robot: str) -> None:
-    biped = Biped.load(robot)
-    tree = PlanarTree.of(biped)
-    rng = np.random.default_rng(5)
-    q, v, a = rng.normal(size=(3, biped.n))
-    K = tree.K
-    assert K.mass == pytest.approx(biped.mass, rel=1e-12)
-    force = ground_reaction(tree, K, q, v, a)
-    np.testing.assert_allclose(force, biped.ground_reaction(q, v, a), rtol=1e-9, atol=1e-9)
-    hip = point(turned(tree, q), K.hip_re, K.hip_im)
-    np.testing.assert_allclose(hip, biped.hip(q), atol=1e-12)
 
 
 # -- gaits on level ground and downhill ----------------------------------------------------------------
@@ -133,8 +117,6 @@ def test_stored_gaits_have_their_speed_and_keep_the_limits(preset: str) -> None:
 
 
 # -- bad input -------------------------------------------------------------------------------------
-
-
 def test_what_stands_in_the_way_is_named() -> None:
     weak = StepLimits(torque=8.0, clearance=None)
     with pytest.raises(GaitError, match=r"would have to give: .*torque limit"):

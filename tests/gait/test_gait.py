@@ -14,7 +14,6 @@ from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.curves import Bezier, Polynomial
 from biped_adrc.gait.gait import onto_section
 from biped_adrc.gait.published import X_STAR
-from biped_adrc.gait.zero_dynamics import ZeroDynamics
 
 
 @pytest.mark.parametrize("kind", [Bezier, Polynomial])
@@ -64,28 +63,6 @@ def test_curves_that_are_no_curves():
             Bezier(bad)
     with pytest.raises(GaitError, match="two different ends"):
         ba.VirtualConstraint(Bezier(np.zeros((4, 3))), np.ones(5), 1.0, 1.0)
-
-
-def test_quadrature_predicts_the_simulated_step(any_biped):
-    """sigma at impact, the period and the torques, against a simulation that knows no zero dynamics."""
-    b = any_biped
-    g = ba.load_gait("published", b)
-    zero = ZeroDynamics.of(b, g.constraint)
-    sigma = zero.sigma_minus
-    made = ba.walk(ba.Walker(b, ba.NPDController(g.constraint)), g, 2, ba.RK4(5e-4))
-    x = made.trajectory.before("foot_strike")[-1]
-    assert b.angular_momentum(x[:5], x[5:10]) == pytest.approx(sigma, rel=1e-8)
-    orbit = zero.orbit(sigma * zero.delta)
-    last = made.certificates[-1]
-    assert orbit.period == pytest.approx(last.duration, abs=1e-8)
-    assert orbit.period == pytest.approx(g.period, abs=1e-12)
-    at = made.trajectory.arcs[-1].t[0] + orbit.period * 0.5
-    x_mid = made.trajectory(float(at))
-    u_mid = made.walker.instant(float(at), x_mid, ba.Mode()).u
-    theta = float(b.phase @ x_mid[:5])
-    order = np.argsort(orbit.theta)
-    found = [np.interp(theta, orbit.theta[order], orbit.u[order, j]) for j in range(4)]
-    assert u_mid == pytest.approx(found, abs=0.5)
 
 
 def test_published_gait_closes_on_the_published_state(any_biped):

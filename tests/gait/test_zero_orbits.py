@@ -8,12 +8,10 @@ import math
 import numpy as np
 import pytest
 from scipy.special import ellipkinc
-from typer.testing import CliRunner
 
 import biped_adrc as ba
 from biped_adrc.analysis.certificate import certificates
 from biped_adrc.analysis.zero_report import zero_report
-from biped_adrc.cli import app
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.gait.curves import Polynomial
 from biped_adrc.gait.zero_domain import DomainLimits, domain
@@ -225,13 +223,3 @@ def test_report_says_what_does_not_hold(bare, published):
     assert "the impact leaves the constraint" in zero_report(bare, recipe.constraint).text()
     with pytest.raises(GaitError, match=r"above the ground of slope 0\.1 rad"):
         zero_report(bare, published.constraint, DomainLimits(slope=0.1))
-
-
-def test_command(tmp_path):
-    out = tmp_path / "zero.svg"
-    words = ["gait", "show", "published", "--preset", "tac2003", "--set", "torque=150"]
-    done = CliRunner().invoke(app, [*words, "--plot", str(out)])
-    assert done.exit_code == 0, done.output
-    assert "delta^2         0.706694" in done.output
-    assert "(torque at Theta" in done.output
-    assert out.read_text().startswith("<?xml")

@@ -42,12 +42,6 @@ def test_gymnasium_finds_no_fault(values):
 
 CASES = {
     "RABBIT": {"condition": "RABBIT pushed", **SLOW},
-    "a touchdown to be noticed": {
-        "condition": "uneven ground",
-        "controller": "NPD",
-        "hardware.touchdown": "told",
-        "hardware.delay": 0.0015,
-    },
     "MuJoCo": {"ground.plant": "mujoco", "hardware.period": 7e-4, **SLOW},  # sums of 0.7 ms round
 }
 

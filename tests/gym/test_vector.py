@@ -51,16 +51,6 @@ def test_each_walk_is_that_of_one_environment_bit_for_bit(values):
     assert again >= count
 
 
-def test_how_many_they_are_changes_no_bit():
-    actions = np.random.default_rng(1).uniform(-0.3, 0.3, (200, 4))
-    rows = []
-    for count in (1, 7):
-        envs = made(count, condition="sine on joints")
-        envs.reset(seed=[5] + [None] * (count - 1))
-        rows.append([envs.step(np.tile(a, (count, 1)))[0][0] for a in actions])
-    assert np.array_equal(*rows)
-
-
 def test_what_is_no_vector_is_refused():
     envs = made(2)
     envs.reset(seed=0)

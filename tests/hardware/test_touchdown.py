@@ -24,9 +24,9 @@ def walker(biped, gait, touchdown, controller=ba.NPDController, **more):
     return ba.Walker(biped, controller(gait.constraint), touchdown=touchdown, **more)
 
 
-def run(system, gait, t_end, engine=run_compiled, h=1e-3):
+def run(system, gait, t_end):
     x0 = system.initial_state(*gait.start(system.plant))
-    return engine(system, x0, Mode(), ba.RK4(h), RunOptions(t_end))
+    return run_compiled(system, x0, Mode(), ba.RK4(1e-3), RunOptions(t_end))
 
 
 def low_order(constraint):

@@ -26,21 +26,6 @@ class Pendulum(HybridSystem):
         return (Guard("bottom", lambda t, x: x[0], lambda t, x: (x, mode)),)
 
 
-class Swing(HybridSystem):
-    """The biped hanging from its stance foot, without torque."""
-
-    def __init__(self, biped):
-        self.biped = biped
-
-    def flow(self, t, x, mode):
-        n = self.biped.n
-        return np.concatenate((x[n:], self.biped.acceleration(x[:n], x[n:], np.zeros(n))))
-
-    def energy(self, x):
-        n = self.biped.n
-        return self.biped.kinetic_energy(x[:n], x[n:]) + self.biped.potential_energy(x[:n])
-
-
 def order(errors, steps):
     return float(np.polyfit(np.log(steps), np.log(errors), 1)[0])
 
@@ -97,28 +82,6 @@ def test_what_relaxes_in_a_step_is_exact_and_the_motion_of_order_four(tau):
         assert 3.7 < order(errors, steps) < 4.3
     between = runs[-1](0.3 * steps[-1])[2]
     assert system.Y - 0.4 <= between <= system.U + 0.4  # dense output hardly overshoots
-
-
-def test_energy_of_a_free_swing(biped):
-    """Drift per simulated second falls with the tolerance, and is small in absolute terms."""
-    system, x0 = Swing(biped), np.concatenate(([0.2, 0.5, -0.3, -0.4, 3.3], np.zeros(5)))
-    drifts = {}
-    scale = abs(system.energy(x0)) + 1.0
-    for method in (
-        RK4(2e-3),
-        RK4(1e-3),
-        Adaptive(1e-7, 1e-7),
-        Adaptive(1e-10, 1e-10),
-        Stiff(1e-8, 1e-8),
-    ):
-        run = simulate(system, x0, 0, method, t_end=1.0)
-        drifts[method.label] = abs(system.energy(run.final_state) - system.energy(x0)) / scale
-    coarse, fine, loose, tight, stiff = drifts.values()
-    assert fine < 1e-6
-    assert fine < coarse
-    assert tight < 1e-9
-    assert tight <= loose
-    assert stiff < 1e-5
 
 
 @pytest.mark.parametrize("h", [0.3, 5.0])

@@ -5,7 +5,6 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
-from biped_adrc.core.errors import InputError
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.simulator import simulate
 from biped_adrc.observers.gpi import TABLE_I
@@ -97,16 +96,3 @@ def test_one_step_of_walking_at_table_one(biped, gait, plant, push, limit):
     assert abs(walker.clearance(found.x_minus[:5], 1)) < 1e-12
     x_plus, _ = walker.strike(found.t, found.x_minus, ba.Mode())
     assert np.array_equal(found.x_plus, x_plus)
-
-
-REFUSED = {
-    "no observer": lambda b, c: ba.Walker(b, ba.NPDController(c)),
-    "acts at ticks": lambda b, c: ba.Walker(b, ba.ADRCController(c), timing=ba.SampledTime(1e-3)),
-}
-
-
-@pytest.mark.parametrize("name", list(REFUSED))
-def test_a_walker_without_the_coordinates_is_refused(biped, gait, name):
-    walker = REFUSED[name](biped, gait.constraint)
-    with pytest.raises(InputError, match="needs a controller in continuous time whose observer"):
-        ba.walk(walker, gait, 1, Exponential(1e-3))

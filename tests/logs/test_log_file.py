@@ -6,10 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import biped_adrc as ba
-from biped_adrc.cli import app
 from biped_adrc.core.errors import InputError
 from biped_adrc.extras.logs.log_file import write_log
 
@@ -130,20 +128,3 @@ def test_damage_is_named_with_its_place(lines, read, kind):
     change, said = DAMAGE[kind]
     with pytest.raises(InputError, match=f"log.csv.*{said}"):
         read(change(lines))
-
-
-def command(*words):
-    return CliRunner().invoke(app, [*words])
-
-
-def test_the_commands_write_a_log_and_replay_it(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    walk = ("simulate", "--controller", "LESO", "--period", "1e-3", "--impacts", "1")
-    assert command(*walk, "--log", "walk").exit_code == 0
-    assert command("replay", "walk.csv", "--controller", "DOB", "--out", "out").exit_code == 0
-    assert sorted(x.name for x in (tmp_path / "out").iterdir()) == [
-        *("replay.csv", "replay.svg", "steps.txt"),
-    ]
-    table = (tmp_path / "out" / "replay.csv").read_text(encoding="utf-8").splitlines()
-    assert table[0].startswith("t [s],step,in contact,u asked 1 [N m]")
-    assert len(table) == len((tmp_path / "walk.csv").read_text(encoding="utf-8").splitlines())

@@ -55,9 +55,6 @@ class Lawless(ba.Controller):
 class Shove(ba.TorquePulse):
     """A pulse by another name."""
 
-
-class NoController:
-    pass
 '''
 
 

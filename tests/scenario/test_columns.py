@@ -6,10 +6,9 @@ import csv
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import biped_adrc as ba
-from biped_adrc.cli import app
+from tests.commands import command
 
 
 @pytest.fixture(scope="module")
@@ -66,12 +65,8 @@ def test_a_fall_has_its_event(biped, gait):
 
 def test_the_command_writes_it_and_reads_a_step_of_it(biped, gait, tmp_path):
     path, out = tmp_path / "step.csv", tmp_path / "gait.json"
-    done = CliRunner().invoke(
-        app, ["simulate", "--controller", "NPD", "--impacts", "1", "-o", str(path)]
-    )
-    assert done.exit_code == 0, done.exception
+    command("simulate", "--controller", "NPD", "--impacts", "1", "-o", path)
     assert list(tmp_path.iterdir()) == [path]
-    done = CliRunner().invoke(app, ["gait", "import", str(path), "-o", str(out)])
-    assert done.exit_code == 0, done.exception
+    command("gait", "import", path, "-o", out)
     fitted = ba.load_gait(out, biped).constraint.curve.coefficients
     assert np.allclose(fitted, gait.constraint.curve.coefficients, atol=1e-6)

@@ -11,15 +11,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import biped_adrc as ba
 from biped_adrc.analysis.signals import Signals
-from biped_adrc.cli import app
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import data_folder
 from biped_adrc.hybrid.storage import load, load_beside, save
 from biped_adrc.scenario.stored import Reader, Writer
+from tests.commands import command
 
 FAST = {"run.engine": "compiled", "run.impacts": 1}
 
@@ -99,8 +98,7 @@ def test_neither_the_folder_nor_the_urdf_matters(tmp_path: Path, monkeypatch) ->
     shutil.rmtree(tmp_path / "own")
     (tmp_path / "gait.json").unlink()
     same(walk, ba.load_walk(path))
-    done = CliRunner().invoke(app, ["plot", str(path), "-o", "figure.png"], catch_exceptions=False)
-    assert done.exit_code == 0
+    command("plot", path, "-o", "figure.png")
 
 
 def stored(own: str, period: float | None = 1e-3) -> ba.Walk:
@@ -124,8 +122,7 @@ def test_an_own_controller_is_read_without_it(
     assert again.plot().axes
     again.animate(tmp_path / "walk.html")
     for out in ("again.html", "figure.png"):
-        line = ["animate" if out.endswith("html") else "plot", "mine.npz", "-o", out]
-        assert CliRunner().invoke(app, line, catch_exceptions=False).exit_code == 0
+        command("animate" if out.endswith("html") else "plot", "mine.npz", "-o", out)
     assert own not in sys.modules
     with pytest.raises(InputError, match=rf"cannot go on without '{own}:Mine'; walk it again"):
         ba.walk(again.walker, again.gait, 1)
@@ -159,13 +156,6 @@ def test_a_file_makes_nothing_but_parts_of_a_walker(change, biped, gait, tmp_pat
         ba.load_walk(path)
 
 
-@pytest.fixture(scope="module")
-def sound(tmp_path_factory) -> Path:
-    """A run of two steps, whole."""
-    s = ba.Scenario("NPD", run={"engine": "compiled", "impacts": 2})
-    return ba.walk_scenario(s).save(tmp_path_factory.mktemp("sound") / "a.npz")
-
-
 def test_plain_values_come_back() -> None:
     values = {
         "a": (1, [2.5, None]),
@@ -182,25 +172,3 @@ def test_plain_values_come_back() -> None:
         np.testing.assert_array_equal(again[name], x) if isinstance(x, np.ndarray) else None
         assert isinstance(x, np.ndarray) or again[name] == x
     assert again["g"].shape == (0, 4)
-
-
-@pytest.mark.parametrize(
-    ("name", "change", "said"),
-    [
-        (
-            "x0",
-            lambda x: np.where(np.arange(x.size).reshape(x.shape) == 7, np.nan, x),
-            "arc 0 has NaN",
-        ),
-        ("x1", lambda x: x.astype(complex), "arc 1 has what is no floating point"),
-        ("t1", lambda t: t - 0.2, "the times of arc 1 do not ascend"),
-        ("t1", lambda t: np.append(t[:-1], 1e12), "the times of arc 1 do not ascend"),
-    ],
-)
-def test_what_is_no_number_and_goes_back_in_time_is_refused(sound, tmp_path, name, change, said):
-    with np.load(sound) as data:
-        arrays = dict(data)
-    arrays[name] = change(arrays[name])
-    np.savez(tmp_path / "a.npz", **arrays)
-    with pytest.raises(InputError, match=re.escape(said)):
-        ba.load_walk(tmp_path / "a.npz")

@@ -28,8 +28,6 @@ def test_values_come_by_name():
 
 @pytest.mark.parametrize("plant", ["rigid", "mujoco"])
 def test_a_walk_says_when_its_controller_noticed(plant, tmp_path):
-    if plant == "mujoco":
-        pytest.importorskip("mujoco")
     walk = ba.walk_scenario(
         ba.Scenario(hardware={"touchdown": {"name": "told", "late": 4e-3}}, ground=plant, **USUAL)
     )
@@ -46,8 +44,6 @@ def test_a_walk_says_when_its_controller_noticed(plant, tmp_path):
 @pytest.mark.parametrize("plant", ["rigid", "mujoco"])
 def test_a_row_of_a_study_says_how_touchdowns_were_noticed(plant):
     """Step 1 is noticed early, step 2 late by 4 ms to the next tick, step 3 waits when the walk ends."""
-    if plant == "mujoco":
-        pytest.importorskip("mujoco")
     values = {
         **USUAL,
         "run.impacts": 3,

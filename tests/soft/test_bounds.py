@@ -16,6 +16,7 @@ from biped_adrc.extras.mujoco.engine import MuJoCoEngine
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.hybrid.integrators import StepFailed
 from biped_adrc.hybrid.simulator import RunOptions
+from tests.test_numerics import all_finite
 
 from .loops import TICK, run_of
 
@@ -32,10 +33,6 @@ class Explodes(ba.Controller):
 @pytest.fixture(scope="module")
 def plant(biped):
     return MuJoCoPlant(biped)
-
-
-def all_finite(found):
-    return all(np.all(np.isfinite(arc.x)) and np.all(np.isfinite(arc.dx)) for arc in found.arcs)
 
 
 @pytest.mark.parametrize("made", LOOPS)

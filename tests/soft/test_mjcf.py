@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 import biped_adrc as ba
-from biped_adrc.cli import app
 from biped_adrc.core.errors import InputError, OutputError
 from biped_adrc.extras.mujoco.mjcf import mjcf, write_mjcf
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
@@ -65,16 +63,6 @@ def test_the_start_of_a_gait_is_a_keyframe_on_the_ground(biped, gait):
     apart = data.body("right_foot").xpos - data.body("left_foot").xpos
     np.testing.assert_allclose(apart[[0, 2]], biped.swing_foot(q), atol=1e-12)
     np.testing.assert_array_equal(data.qvel[plant.engine.angles], v)
-
-
-def test_the_command_writes_it(tmp_path):
-    path = tmp_path / "rabbit.xml"
-    line = ["robot", "export", "rabbit", "--mjcf", str(path), "--gait", "published"]
-    line += ["--set", "ground.slope=0"]
-    done = CliRunner().invoke(app, line, catch_exceptions=False)
-    assert done.exit_code == 0
-    assert f"written to {path}" in done.output.replace("\n", "")
-    assert mujoco().MjModel.from_xml_path(str(path)).nkey == 1
 
 
 def test_what_cannot_be_written_is_refused(biped, gait, tmp_path):

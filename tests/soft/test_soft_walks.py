@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from biped_adrc.control.across_contact import Hold
 
 import biped_adrc as ba
 from biped_adrc.analysis.signals import accelerations
@@ -136,3 +137,21 @@ def test_a_stretch_no_longer_than_round_off_gives_no_acceleration():
     arcs = [Arc(None, t[k:], np.zeros((6 - k, 2)), dx[k:]) for k in (0, 2)]
     found = [accelerations(arc, 1) for arc in arcs]
     assert [x[:, 0].tolist() for x in found] == [[7.0, 7.0, 7.0, 7.0, 9.0, 9.0], [9.0] * 4]
+
+
+# -- an observer that knows of contact --------------------------------------------------------------
+PUSH = ba.TorquePulse([30.0, 30.0, 30.0, 30.0, 0.0], step=2, start=0.1, stop=0.3)
+
+
+def test_held_after_touchdown_an_observer_of_low_order_leaves_a_quarter_of_npds_error(biped, gait):
+    """From the push's onset to 50 ms after its end; not held it leaves more than half of it."""
+    h, plant, found = gait.constraint, MuJoCoPlant(biped, SoftGround(friction=0.8)), []
+    slow = ba.ADRCController(h, ba.GPIObserver.from_bandwidth(500.0))
+    for controller in (ba.NPDController(h), Hold(slow, 0.015)):
+        run = run_of(loop_on(plant, controller, disturbance=PUSH), gait, impacts=2)
+        assert run.status is ba.Status.COMPLETED
+        arc = run.arcs[1]
+        late = arc.x[(arc.t > arc.mode.start + 0.1) & (arc.t < arc.mode.start + 0.35)]
+        found.append(max(np.max(np.abs(x[:4] - h(0.0, x[:5], x[5:10]).q_d)) for x in late))
+    npd, held = found
+    assert 0.2 * npd < held < 0.26 * npd

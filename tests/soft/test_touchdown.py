@@ -14,7 +14,6 @@ from biped_adrc.hardware.touchdown import ByForce, ByKinematics, Told
 
 from .loops import loop_on, run_of
 
-pytest.importorskip("mujoco")
 T = 1e-3
 
 
@@ -62,13 +61,6 @@ def test_noticed_at_once_is_ideal_knowledge(plant, gait):
     assert len(ideal.events("foot_strike")) == 2
     np.testing.assert_allclose(told.final_state[:10], ideal.final_state[:10], atol=1e-9)
     np.testing.assert_allclose(told.final_state[-4:], ideal.final_state[-4:], atol=1e-6)
-
-
-def test_debounce_and_delay_add_up(plant, gait):
-    loop, run = walked(plant, gait, ByForce(debounce=2e-3, delay=3e-3), t_end=0.9)
-    found = touchdowns(loop, run)
-    assert len(found.t) == 2
-    np.testing.assert_allclose(found.late, 5e-3, atol=1e-9)
 
 
 def test_in_the_window_the_recorded_torque_is_the_old_law_s(plant, gait):

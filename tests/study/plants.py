@@ -124,7 +124,6 @@ def main(kind, folder, pause):
         print(p.done, flush=True)
 
     ba.study(study, folder, ThreadPoolExecutor(2), function=function, progress=progress)
-    print("end", flush=True)
 
 
 if __name__ == "__main__":

@@ -12,14 +12,13 @@ from pathlib import Path
 import numpy as np
 import plants
 import pytest
-from typer.testing import CliRunner
 
 import biped_adrc as ba
-from biped_adrc.cli import app
 from biped_adrc.core.errors import InputError, SimulationError
 from biped_adrc.core.files import data_folder
 from biped_adrc.studies import runner
 from biped_adrc.studies.store import RESULTS
+from tests.commands import command
 
 FOLDER = Path(plants.__file__).parent
 
@@ -57,7 +56,6 @@ if __name__ == "__main__":
 
 @pytest.mark.filterwarnings("ignore")
 def test_a_dask_cluster_makes_the_same_rows_and_names_what_kills_its_workers(tmp_path, expected):
-    pytest.importorskip("distributed")
     env = {**os.environ, "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "0"}
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
     line = [sys.executable, "-c", SCHEDULER, str(FOLDER)]
@@ -136,23 +134,21 @@ def test_rows_that_are_none_have_the_reason(tmp_path, function, message):
 
 @pytest.mark.parametrize("kind", ["rows", "costs"])
 def test_a_study_that_is_killed_goes_on_to_the_same_rows(tmp_path, started, kind):
-    """Three kills at random moments, one by Ctrl-C, of a study and of a search."""
+    """A kill and a Ctrl-C at random moments, of a study and of a search."""
     script, random = FOLDER / "plants.py", np.random.default_rng(38)
     out = tmp_path / "killed"
-    for by in (signal.SIGKILL, signal.SIGINT, signal.SIGKILL):
+    for by in (signal.SIGKILL, signal.SIGINT):
         process = started(sys.executable, str(script), kind, str(out), "0.05")
         process.stdout.readline()  # it has begun
         time.sleep(random.uniform(0.1, 0.4))
         process.send_signal(by)
         assert process.wait() == -by
-    for folder in (out, tmp_path / "whole"):
-        ended = started(sys.executable, str(script), kind, str(folder), "0.05")
-        assert ended.communicate()[0].split()[-1] == "end"
     study, function = plants.slowly(kind, 0.05)
-    found, whole = (
-        list(plants.carried(study, folder, function).results())
-        for folder in (out, tmp_path / "whole")
-    )
+    with ThreadPoolExecutor(8) as pool:
+        found, whole = (
+            list(plants.carried(study, folder, function, pool).results())
+            for folder in (out, tmp_path / "whole")
+        )
     assert found == whole
     assert len(found) >= 47
 
@@ -227,17 +223,14 @@ def test_the_command_walks_writes_and_goes_on(tmp_path):
         'grid = { hardware.period = ["1 ms", "2 ms"] }\n'
         '[cases]\nADRC = { controller.name = "ADRC" }\nNPD = { controller.name = "NPD" }\n'
     )
-    line = ["study", str(path), "-o", str(out), "--workers", "1"]
-    dry = CliRunner().invoke(app, [*line, "--dry-run"])
-    assert dry.output.strip() == "a <b> $x$: 8 walks, over hardware.period"
+    line = ["study", path, "-o", out, "--workers", "1"]
+    assert command(*line, "--dry-run").strip() == "a <b> $x$: 8 walks, over hardware.period"
     assert not out.exists()
-    done = CliRunner().invoke(app, [*line, "--table", str(table)])
-    assert done.exit_code == 0, done.output
+    command(*line, "--table", table)
     assert {p.name for p in out.iterdir()} == {"results.sqlite", "study.html"}
     assert len(table.read_text().splitlines()) == 9
     page = (out / "study.html").read_text()
     assert "a &lt;b&gt; $x$" in page
     assert page.count("<figure>") == 5
-    again = CliRunner().invoke(app, line)
-    assert again.exit_code == 0, again.output
+    command(*line)
     assert (out / "study.html").read_text() == page

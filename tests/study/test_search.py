@@ -7,10 +7,8 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import plants
 import pytest
-from typer.testing import CliRunner
 
 import biped_adrc as ba
-from biped_adrc.cli import app
 from biped_adrc.core.errors import InputError
 from biped_adrc.scenario.cycle import specified
 from biped_adrc.scenario.scenario import read_scenario
@@ -20,6 +18,7 @@ from biped_adrc.studies.measure import Limit, Objective, numbers_without_walk
 from biped_adrc.studies.proposals import searched
 from biped_adrc.studies.search import Candidate, ranked
 from biped_adrc.studies.study import read_study
+from tests.commands import command
 
 INF = math.inf
 
@@ -196,16 +195,11 @@ def test_the_command_searches_and_simulate_takes_what_it_wrote(tmp_path):
     path, out = tmp_path / "walks.toml", tmp_path / "out"
     path.write_text(WALKS)
 
-    def said(*line):
-        done = CliRunner().invoke(app, line)
-        assert done.exit_code == 0, done.output
-        return done.output.strip()
-
-    line = ["study", str(path), "--out", str(out), "--workers", "1"]
-    assert said(*line, "--dry-run") == "walks: at most 7 walks, over no grid"
-    said(*line)
+    line = ["study", path, "--out", out, "--workers", "1"]
+    assert command(*line, "--dry-run").strip() == "walks: at most 7 walks, over no grid"
+    command(*line)
     assert (out / "study.html").read_text().count("<figure>") == 4
-    best = said("simulate", "--scenario", str(out / "chosen.toml"), "--impacts", "2")
+    best = command("simulate", "--scenario", out / "chosen.toml", "--impacts", "2")
     assert "2 impacts" in best
     with ThreadPoolExecutor(1) as pool:
         found = ba.study(path, out, pool)

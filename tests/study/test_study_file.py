@@ -6,6 +6,7 @@ import sys
 
 import numpy as np
 import plants
+import pyarrow.parquet as parquet
 import pytest
 
 import biped_adrc as ba
@@ -249,7 +250,6 @@ def test_there_is_no_interval_over_declared_walks(tmp_path):
 
 
 def test_tables_come_back_to_the_last_bit(tmp_path):
-    parquet = pytest.importorskip("pyarrow.parquet")
     tables = TABLE | {"grid": {"run.impacts": [1, 2], "hardware.period": [1e-3, 1 / 900]}}
     found = plants.carried(tables, tmp_path, rows)
     expected = list(found.rows())

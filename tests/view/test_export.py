@@ -1,8 +1,12 @@
-"""Moving pictures and strips: where they draw the robot, how long they last, that they repeat."""
+"""Moving pictures and strips: where they draw the robot, how long they last, that they repeat; notebooks."""
 
 from __future__ import annotations
 
+import base64
+import html
 import io
+import pickle
+import re
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -10,9 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
-from typer.testing import CliRunner
 
-from biped_adrc.cli import app
 from biped_adrc.core.errors import InputError
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.trajectory import Event
@@ -22,8 +24,10 @@ from biped_adrc.view.export import export
 from biped_adrc.view.from_the_side.moving_picture import encoded, write_moving_picture
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.from_the_side.stick_figures import strip
+from biped_adrc.view.meshcat.view import animation_html
 from biped_adrc.view.placement import Clip, WalkScene, ending
 from biped_adrc.view.style import new_figure
+from tests.commands import command
 
 
 def test_lines_are_the_limbs(biped: Biped, walks: dict[str, Walk]) -> None:
@@ -157,8 +161,26 @@ def test_the_run_is_drawn_solid_and_its_ghost_behind(
         "biped_adrc.view.export.export", lambda path, walks, clip: drawn.extend(walks)
     )
     runs = [str(walk.save(tmp_path / f"{name}.npz")) for name, walk in walks.items()]
-    done = CliRunner().invoke(
-        app, ["animate", runs[0], "--ghost", runs[1], "-o", str(tmp_path / "a.html")]
-    )
-    assert done.exit_code == 0, done.output
+    command("animate", runs[0], "--ghost", runs[1], "-o", tmp_path / "a.html")
     assert drawn == [*walks][::-1]
+
+
+# -- notebooks --------------------------------------------------------------------------------------
+def test_a_walk_shows_its_animation_and_its_figures(walks: dict[str, Walk]) -> None:
+    shown = walks["ADRC"]._repr_html_()
+    frame = re.search(r'<iframe[^>]*sandbox="allow-scripts"[^>]*srcdoc="([^"]*)"', shown)
+    assert frame is not None
+    assert html.unescape(frame.group(1)) == animation_html({"ADRC": walks["ADRC"]})
+    pictures = re.findall(r'src="data:image/png;base64,([^"]*)"', shown)
+    assert [base64.b64decode(p)[:4] for p in pictures] == [b"\x89PNG"]
+    assert shown.startswith("<p>ADRC: 3 impacts. COMPLETED")
+
+
+def test_a_trajectory_without_a_robot_says_what_to_do(walks: dict[str, Walk], tmp_path) -> None:
+    bare = replace(walks["NPD"].trajectory, viewer=None)
+    assert bare._repr_html_() is None
+    with pytest.raises(InputError, match=r"biped_adrc\.walk"):
+        bare.animate(tmp_path / "walk.html")
+    sent = pickle.loads(pickle.dumps(walks["NPD"].trajectory))
+    assert sent.viewer is None
+    assert sent.t_end == bare.t_end

@@ -66,6 +66,7 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chrome]:
     path.write_text(page(FIRST, WALKS, samples=0), encoding="utf-8")
     with chromium() as started:
         started.get(path.as_uri())
+        started.set_window_size(500, 400)  # what is drawn is not looked at
         started.implicitly_wait(60)
         started.find_element("css selector", "#sliders input")
         yield started
@@ -78,7 +79,7 @@ def test_every_controller_that_is_traced_is_here() -> None:
 
 @pytest.mark.parametrize("name", WALKS)
 def test_what_a_hand_did_is_walked_again(browser: Chrome, tmp_path: Path, name: str) -> None:
-    found = browser.execute_script(HAND, name, 2.0)
+    found = browser.execute_script(HAND, name, 1.2)
     path = tmp_path / "by_hand.toml"
     path.write_text(found["text"], encoding="utf-8")
     run = ba.walk_scenario(read_scenario(path)).trajectory

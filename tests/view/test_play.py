@@ -14,10 +14,8 @@ from selenium.webdriver import Chrome
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
-from typer.testing import CliRunner
 
 import biped_adrc as ba
-from biped_adrc.cli import app
 from biped_adrc.core.errors import BipedError, InputError, OutputError
 from biped_adrc.extras.play.page import FIRST, page, revised, tour
 from biped_adrc.extras.play.walks import MOST, SPRING, PageWalk
@@ -27,6 +25,7 @@ from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.scenario import read_scenario
 from biped_adrc.view.meshcat.frames import pose
 from biped_adrc.view.placement import WalkScene
+from tests.commands import command
 
 from .browser import chromium, console, requested
 
@@ -127,20 +126,27 @@ def is_drawn(walk: ba.Walk, t: float, found: dict[str, Any]) -> None:
     assert row["friction"] == pytest.approx(abs(F_T) / F_N, rel=1e-6)
 
 
+@pytest.fixture(scope="module")
+def walked(started: Chrome, path: Path) -> dict[str, Any]:
+    """What a hand did, and what was drawn at its end."""
+    opened(started, path)
+    found: dict[str, Any] = started.execute_script(WALKED)
+    return found
+
+
 def test_what_is_drawn_and_plotted_is_what_the_finished_walk_has(
-    browser: Chrome, tmp_path: Path
+    walked: dict[str, Any], tmp_path: Path
 ) -> None:
-    found, file = browser.execute_script(WALKED), tmp_path / "by_hand.toml"
-    file.write_text(found["text"], encoding="utf-8")
-    is_drawn(ba.walk_scenario(read_scenario(file)), found["t"], found["frame"]["walks"][0])
+    file = tmp_path / "by_hand.toml"
+    file.write_text(walked["text"], encoding="utf-8")
+    is_drawn(ba.walk_scenario(read_scenario(file)), walked["t"], walked["frame"]["walks"][0])
 
 
-def test_the_spring_pulls_towards_the_hand_and_not_more_than_it_may(browser: Chrome) -> None:
-    found = browser.execute_script(WALKED)
+def test_the_spring_pulls_towards_the_hand_and_not_more_than_it_may(walked: dict[str, Any]) -> None:
     plant = RobotAndGait.of(FIRST).biped
     n, k = plant.n, link_point(plant, "torso", (0.0, 0.3))
     largest = 0.0
-    for row in np.array(found["springs"]):
+    for row in np.array(walked["springs"]):
         q, v, (foot, anchor, place, force) = row[:n], row[n : 2 * n], row[2 * n :].reshape(4, 2)
         t = turned(k, q)
         p = foot + point(t, k.re, k.im)
@@ -488,14 +494,14 @@ def test_the_command_writes_a_page_or_opens_one(monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr("webbrowser.open", lambda url: shown.append(url))
     words = ["play", "--ghost", "NPID", "--set", "controller.K_p=900"]
     for more in (["-o", "own.html"], []):
-        done = CliRunner().invoke(app, words + more, catch_exceptions=False)
+        printed = command(*words, *more)
         path, scenario, others = asked[-1]
-        assert f"written to {path}" in done.output
+        assert f"written to {path}" in printed
         assert (scenario.controller.K_p, scenario.hardware.period) == (900.0, 1e-3)
         assert next(iter(others)) == "NPID"
     assert asked[0][0] == Path("own.html")
     assert shown == [path.as_uri()]
-    assert "no browser could be opened" in done.output
+    assert "no browser could be opened" in printed
 
 
 def test_the_name_is_looked_at_before_anything_is_made(

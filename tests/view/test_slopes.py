@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,7 +15,6 @@ from biped_adrc.gait.constraint import continued
 from biped_adrc.gait.published import passive_cycle
 from biped_adrc.model.ground import StepDown
 from biped_adrc.scenario.recording import Walk
-from biped_adrc.scenario.stored import load_walk
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.placement import WalkScene, link_placements
 from biped_adrc.view.plots.over_time import friction_cone
@@ -153,13 +151,7 @@ def test_a_passive_walk_is_its_cycle_on_other_slopes_too() -> None:
     assert -x[0, 1] == pytest.approx(after / math.cos(2.0 * ALPHA), rel=1e-7)
 
 
-def test_a_passive_walk_is_stored_and_others_are_refused(
-    walks: dict[str, Walk], tmp_path: Path
-) -> None:
-    walk = walks["compass"]
-    walk.save(tmp_path / "walk.npz")
-    again = load_walk(tmp_path / "walk.npz")
-    np.testing.assert_array_equal(again.signals.potential, walk.signals.potential)
+def test_passive_walks_that_are_none_are_refused() -> None:
     with pytest.raises(InputError, match="'passive' does not fit robot 'rabbit' with 4 motors"):
         ba.walk_scenario(ba.Scenario("passive"))
     with pytest.raises(SimulationError, match="no return"):
