@@ -211,7 +211,7 @@ def test_what_is_stored_cannot_be_written_to(biped, gait):
     kept += [c.phase, c.curve.coefficients, c.curve.stacked, gains.K_p]
     kept += [biped.B, biped.phase, biped.R, biped.swap, *biped.friction_coefficients]
     told = ba.Scenario(
-        "NPD", run={"impacts": 1}, hardware={"period": 1e-3, "touchdown": {"name": "told"}}
+        "NPD", run={"impacts": 1}, hardware={"period": 1e-3, "touchdown": {"name": "faulty"}}
     )
     found = ba.walk_scenario(told)
     kept += [*vars(found.signals).values(), found.outcome.x_minus, found.outcome.durations]

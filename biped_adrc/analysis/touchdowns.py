@@ -97,13 +97,14 @@ def matched(impacts: Array, found: Array) -> Noticed:
 def notices(loop: ClosedLoop[Any], run: Trajectory) -> Array:
     """Times [s] at which a controller took a touchdown for noticed, right or wrong. Raises as `touchdowns`."""
     k = loop.held
-    if k is None or k.sizes.told == 0:
+    if k is None or k.sizes.belief == 0:
         raise InputError(
-            "the controller of this walk is told of touchdowns at once; give touchdown=, such as Told(0.005)"
+            "the controller of this walk knows touchdowns at once; give touchdown=, such as "
+            "FaultyTouchdown(0.005)"
         )
     x = np.vstack([arc.x for arc in run.arcs])
     first = x.shape[1] - loop.behind + k.sizes.own
-    began = belief_of(x[:, first : first + k.sizes.told].T)
+    began = belief_of(x[:, first : first + k.sizes.belief].T)
     step, start = np.asarray(began.step, dtype=float), np.asarray(began.start)
     at_once = step[0] > run.arcs[0].mode.step and start[0] == run.arcs[0].t[0]
     times: Array = start[np.append(at_once, np.diff(step) > 0.0)]

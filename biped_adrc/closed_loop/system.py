@@ -96,7 +96,7 @@ class ClosedLoop(HybridSystem, Generic[P]):
     - torque_limit [N m]: saturates every motor; the observer is fed the torque applied, not the one
       asked for.
     - sensors, motors: between controller and plant; in sampled time only.
-    - touchdown: how the controller is told of one, in sampled time with restart=False; None: at once.
+    - touchdown: how the controller notices one, in sampled time with restart=False; None: at once.
     - runaway_speed, runaway_torque [1]: the run ends as run away beyond so many times the speed
       limits of the URDF, or the peak torque of the robot's record; infinite for no end. A joint
       that turns by more than a whole turn ends it, too.

@@ -1,7 +1,7 @@
 """What goes around any controller: a controller that calls the one inside.
 
-A leaf writes the methods that differ. It names no class of controllers, so that every one that compiles still
-does. `friction_feedforward` and `predicted` serve all the time, as does a torque a from elsewhere, such as a
+A subclass writes the methods that differ. It names no class of controllers, so that every one that compiles
+still does. `friction_feedforward` and `predicted` serve all the time, as does a torque a from elsewhere, such as a
 learner's, beside u_i that the controller inside asks for:
 
     u = u_i + a
@@ -45,7 +45,7 @@ from biped_adrc.observers.base import Estimate
 
 @dataclass(frozen=True)
 class Around(Controller):
-    """Base of what is around `inner`: all that a leaf does not write is that of the controller inside."""
+    """Base of what is around `inner`: all that a subclass does not write is that of the controller inside."""
 
     inner: Controller
 

@@ -9,7 +9,7 @@ both time bases. `u` handed to `flow` and `predict` is the torque applied, after
 At a sample instant `output` comes between `correct` and `predict`: the torque uses the measurement of this
 instant, and the observer inside is told that torque and no other, so it does not wind up at a limit.
 
-A leaf is a frozen dataclass that writes these methods. Python calls them, and the engine turns them into
+A controller is a frozen dataclass that writes these methods. Python calls them, and the engine turns them into
 machine code (`biped_adrc.core.part`).
 """
 

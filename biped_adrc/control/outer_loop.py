@@ -57,11 +57,11 @@ class OuterLoop(Around):
         """
 
     def own_flow(self, w: Array) -> Array:
-        """w' (own_size,) in continuous time; zero unless a leaf says otherwise."""
+        """w' (own_size,) in continuous time; zero unless a subclass says otherwise."""
         return np.zeros(self.own_size)
 
     def own_correct(self, w: Array, m: Measurement) -> Array:
-        """w (own_size,) at a sample instant, unchanged unless a leaf says otherwise."""
+        """w (own_size,) at a sample instant, unchanged unless a subclass says otherwise."""
         return w
 
     def parts(self, s: Array) -> tuple[Array, Array]:

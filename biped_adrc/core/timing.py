@@ -3,7 +3,7 @@
 `ContinuousTime` is the paper's setting: torque is a function of the state at every stage of the
 integrator. `SampledTime` is a computer: it measures at sample instants (ticks), its torque begins
 to act after a computation delay and is then held until the next one arrives. Timing is a field of
-`Walker`; leaves of `control` and `observers` have methods for either base.
+`Walker`; classes of `control` and `observers` have methods for either base.
 """
 
 from __future__ import annotations

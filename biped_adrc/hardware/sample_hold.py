@@ -45,14 +45,14 @@ class HeldSizes(NamedTuple):
     """1 when the controller knows the delay."""
     own: int
     """Numbers that the plant keeps for itself."""
-    told: int
+    belief: int
     """Numbers in b."""
 
     @property
     def total(self) -> int:
         """Numbers held."""
         torques = self.queue + self.lag + self.waiting + 1
-        return self.own + self.told + self.sensors + self.p * torques
+        return self.own + self.belief + self.sensors + self.p * torques
 
 
 class HeldParts(NamedTuple):
@@ -104,11 +104,11 @@ def held_parameters(
     sampled = None if sensors is None else sensors.sampled(n, p, period)
     queue, fraction = whole_and_part(timing.delay, period)
     sensed = 0 if sampled is None else sampled.size
-    told = 0 if touchdown is None else HEAD + touchdown.size
+    belief = 0 if touchdown is None else HEAD + touchdown.size
     lag, waiting = int(motors.lag > 0.0), int(fraction > 0.0)
     rate = int(motors.rate_limit is not None)
     known = int(timing.delay_known and timing.delay > 0.0)
-    sizes = HeldSizes(n, p, sensed, queue, lag, waiting, rate, known, own, told)
+    sizes = HeldSizes(n, p, sensed, queue, lag, waiting, rate, known, own, belief)
     return frozen(HeldParts(sampled, motors.sampled(period, fraction), sizes, touchdown))
 
 
@@ -116,7 +116,7 @@ def read(k: HeldSizes, tail: Array) -> Held:
     """The parts of what follows the controller's state: tail (total,), as views."""
     at, parts = 0, []
     of_line = (k.queue * k.p, k.lag * k.p, k.waiting * k.p, k.p)
-    for size in (k.own, k.told, k.sensors, *of_line):
+    for size in (k.own, k.belief, k.sensors, *of_line):
         parts.append(tail[at : at + size])
         at += size
     own, b, w, *line = parts
@@ -153,7 +153,7 @@ def at_start(k: HeldParts, q: Array, v: Array, support: tuple[int, float]) -> Ar
     if k.touchdown is not None:
         d = returned(k.touchdown.start(), (k.touchdown.size,), k.touchdown, "start")
         b = numbers_of(Belief(0.0, *support, d))
-    rest = np.zeros(sizes.total - sizes.own - sizes.told - sizes.sensors)
+    rest = np.zeros(sizes.total - sizes.own - sizes.belief - sizes.sensors)
     return np.concatenate((np.zeros(sizes.own), b, w, rest))
 
 

@@ -1,4 +1,4 @@
-"""How a controller is told of a touchdown: late, early, not at all, or of one that was none.
+"""How a controller notices a touchdown: late, early, not at all, or one that was none.
 
     d <- touchdown(d, other, t)               at a true touchdown
     (d, fires) = notice(d, look)              at a tick, fires 0 or 1
@@ -13,12 +13,12 @@ A touchdown and a notice each turn `other`. So a notice before its touchdown is 
 that is not noticed before the next one leaves the labels right again and the belief two steps behind. Both
 engines run these methods, which are pure functions; randomness is a part of d.
 
-Told with errors that are asked for, at the first tick at t >= t_touchdown + late, with probability 1 - missed:
-d is (waits, due, done, r), whether a touchdown waits to be told and when it is due [s], whether the
-false notice has been given, and the state r of the random numbers (`hardware.sensors`).
+`FaultyTouchdown` knows the true touchdown and makes errors: it fires at the first tick at t >= t_touchdown +
+late, with probability 1 - missed. d is (waits, due, done, r): whether a touchdown waits to be noticed and when
+that is due [s], whether the false notice has been, and the state r of the random numbers (`hardware.sensors`).
 
-Noticed by the swing foot, by where the measured angles say it is, or by its force; both have a gate on the
-phase, which is told by how far the swing foot is ahead:
+The others look at the swing foot: where the measured angles say it is, or its force. Both have a gate on the
+phase, that is on how far the swing foot is ahead:
 
     ByKinematics   z + tan(slope) x < height, and lower than at the tick before
     ByForce        free: F < off; then loaded: F > on, until F < off; noticed after debounce and delay
@@ -56,11 +56,11 @@ class Belief(NamedTuple):
     start: float
     """Time of the last notice [s]."""
     d: Array
-    """The leaf's own state (size,)."""
+    """The detector's own state (size,)."""
 
 
 class Look(NamedTuple):
-    """What a leaf may look at, at a tick."""
+    """What a detector may look at, at a tick."""
 
     t: float
     """[s]"""
@@ -79,7 +79,7 @@ class Look(NamedTuple):
 
 
 class Touchdown(Checked, ABC):
-    """Base of all leaves: frozen dataclasses that `notice` touchdowns; one with a memory has a `size` too.
+    """Base of all detectors: frozen dataclasses that `notice` touchdowns; one with a memory has a `size` too.
 
     >>> @dataclass(frozen=True)
     ... class Low(ba.Touchdown):
@@ -128,13 +128,13 @@ ProbabilityFloat = Annotated[float, Range("0 to 1", lambda x: 0.0 <= x <= 1.0)]
 
 
 @dataclass(frozen=True)
-class Told(Shown, Touchdown):
-    """The true touchdown, told `late` [s] after it, and errors that are asked for.
+class FaultyTouchdown(Shown, Touchdown):
+    """The true touchdown, noticed `late` [s] after it, with misses and false ones.
 
-    missed [1]: probability that a touchdown is never told, by `seed`, a whole number from 0. false_at: (step,
-    time [s]) of one notice without a touchdown, at the first tick so long after the step began; shortly before
+    missed [1]: probability that a touchdown is never noticed, by `seed`, a whole number from 0. false_at:
+    (step, time [s]) of one notice without a touchdown, at the first tick so long after the step began; shortly before
     its end it is an early one. A touchdown that leaves the labels right, as after a missed or an early one, is
-    not told. Raises InputError for a time that is negative and a probability that is none.
+    not noticed. Raises InputError for a time that is negative and a probability that is none.
     """
 
     late: NonNegativeFloat = 0.0
@@ -169,7 +169,7 @@ class Told(Shown, Touchdown):
         return np.concatenate((np.zeros(2), [float(self.false_at is None)], self.random))
 
     def touchdown(self, d: Array, other: float, t: float) -> Array:
-        """It is told late, if the labels differ now and it is not missed."""
+        """It is noticed late, if the labels differ now and it is not missed."""
         missed, r = 0.0, d[3:]
         if len(r) > 0:
             r, u = uniforms(r, 1)
@@ -189,7 +189,7 @@ class Told(Shown, Touchdown):
 
 @dataclass(frozen=True)
 class Gated(Shown, Touchdown):
-    """Base of the leaves with a gate on the phase, which is told by how far the swing foot is ahead.
+    """Base of the detectors with a gate on the phase: on how far the swing foot is ahead.
 
     ahead [m]: the controller's swing foot is more than that in front of its stance foot. after [s]: so long
     after the last notice no other comes. slope [rad]: of the ground as the controller takes it, positive

@@ -55,7 +55,7 @@ TABLE_I = tuple(-180.0 * 1.8**k for k in range(9))
 
 @dataclass(frozen=True)
 class InjectedChain(ChainObserver):
-    """(17) with any gains: what its leaves share, whose `poles` say how they were chosen."""
+    """(17) with any gains: what its subclasses share, whose `poles` say how they were chosen."""
 
     @property
     @abstractmethod

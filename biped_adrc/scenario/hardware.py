@@ -46,7 +46,7 @@ class TouchdownRecord(OpenRecord):
     """How the controller notices touchdowns, with parameters."""
 
     name: str | None = field(None, kind="touchdown")
-    """Of the registry ('told', 'force', 'kinematics'), or module:Class; by default at once."""
+    """Of the registry ('faulty', 'force', 'kinematics'), or module:Class; by default at once."""
 
 
 class HardwareRecord(Record):

@@ -227,7 +227,7 @@ class Walk(Shown):
 
     @cached_property
     def touchdowns(self) -> Noticed:
-        """When the controller noticed each touchdown. Raises InputError where it is told at once."""
+        """When the controller noticed each touchdown. Raises InputError where it knows at once."""
         return touchdowns(self.walker, self.trajectory)
 
     @cached_property

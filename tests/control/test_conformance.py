@@ -95,7 +95,7 @@ ROWS = {
         ],
     },
     "touchdown": {
-        "told": lambda make: [make(4e-3), make(missed=0.5, seed=2), make(false_at=(1, 0.2))],
+        "faulty": lambda make: [make(4e-3), make(missed=0.5, seed=2), make(false_at=(1, 0.2))],
         "force": lambda make: [make(), make(debounce=2e-3, delay=1e-3, on=30.0)],
         "kinematics": lambda make: [make(), make(height=5e-3, ahead=0.0, slope=0.01)],
     },

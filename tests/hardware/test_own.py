@@ -9,7 +9,7 @@ import biped_adrc as ba
 from biped_adrc.engine.program import structure_of
 from biped_adrc.engine.structure import structure
 from biped_adrc.hardware.sensing import Sensor
-from biped_adrc.hardware.touchdown import ByKinematics, Told
+from biped_adrc.hardware.touchdown import ByKinematics, FaultyTouchdown
 
 CLOCK = ba.SampledTime(1e-3, restart=False)
 
@@ -111,9 +111,9 @@ def test_other_numbers_compile_nothing(biped, gait):
         x = walker.initial_state(*gait.start(biped))
         return structure(structure_of(walker, walker.controller_size(x)))
 
-    noisy, told = ba.Sensors(8192, noise=1e-4, seed=1) + Slow(), Told(missed=0.1, seed=1)
+    noisy, told = ba.Sensors(8192, noise=1e-4, seed=1) + Slow(), FaultyTouchdown(missed=0.1, seed=1)
     other = ba.Sensors(4096.5, noise=1e-3, filter_time=1e-3, seed=2) + Slow(100.0)
     usual = key(noisy, told)
-    assert usual == key(other, Told(0.01, 0.2, (3, 0.2), 5))
+    assert usual == key(other, FaultyTouchdown(0.01, 0.2, (3, 0.2), 5))
     assert usual == key(noisy, replace(told, seed=4))
     assert usual != key(noisy, ByKinematics())

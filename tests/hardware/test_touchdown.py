@@ -12,7 +12,7 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.core.errors import InputError
 from biped_adrc.engine.simulate import run_compiled
 from biped_adrc.hardware.sample_hold import read
-from biped_adrc.hardware.touchdown import ByForce, ByKinematics, Look, Told, belief_of
+from biped_adrc.hardware.touchdown import ByForce, ByKinematics, FaultyTouchdown, Look, belief_of
 from biped_adrc.hybrid.simulator import RunOptions
 
 T = 1e-3
@@ -60,7 +60,7 @@ def by_hand(system, t, x):
 def test_while_a_touchdown_is_unnoticed_the_law_acts_in_the_labels_before_it(
     biped, gait, controller
 ):
-    system = walker(biped, gait, Told(late=0.0065), controller)
+    system = walker(biped, gait, FaultyTouchdown(late=0.0065), controller)
     walked = run(system, gait, 0.43)
     (event,) = walked.events("foot_strike")
     arc = walked.arcs[1]
@@ -77,7 +77,7 @@ def test_while_a_touchdown_is_unnoticed_the_law_acts_in_the_labels_before_it(
 
 
 def test_noticed_at_the_first_tick_the_controller_jumps_and_acts_there(biped, gait):
-    system = walker(biped, gait, Told(), low_order)
+    system = walker(biped, gait, FaultyTouchdown(), low_order)
     walked = run(system, gait, 0.43)
     (event,) = walked.events("foot_strike")
     arc = walked.arcs[1]
@@ -97,7 +97,7 @@ SENSORS = ba.Sensors(counts=2**18)
 
 
 def test_two_touchdowns_of_which_none_is_noticed_leave_the_labels_right(biped, gait):
-    system = walker(biped, gait, Told(missed=1.0))
+    system = walker(biped, gait, FaultyTouchdown(missed=1.0))
     walked = run(system, gait, 0.42)
     (event,) = walked.events("foot_strike")
     assert beliefs(system, event.x_minus)[:3] == (0.0, 1.0, 0.0)
@@ -136,20 +136,20 @@ def test_late_early_missed_and_false_by_what_comes_first(struck, notices, late, 
 
 
 def test_a_false_notice_comes_once_and_an_early_one_is_counted_as_early(biped, gait):
-    early = walker(biped, gait, Told(false_at=(1, 0.4105)))
+    early = walker(biped, gait, FaultyTouchdown(false_at=(1, 0.4105)))
     found = touchdowns(early, run(early, gait, 0.9))
     assert found.rates.early_share == 0.5
     assert found.late[0] == pytest.approx(0.411 - found.t[0], abs=1e-9)
     assert len(found.false) == 0
-    false = walker(biped, gait, Told(false_at=(1, 0.1)))
+    false = walker(biped, gait, FaultyTouchdown(false_at=(1, 0.1)))
     walked = run(false, gait, 0.12)
     np.testing.assert_allclose(touchdowns(false, walked).false, [0.1], atol=1e-9)
-    at_once = walker(biped, gait, Told(false_at=(1, 0.0)))
+    at_once = walker(biped, gait, FaultyTouchdown(false_at=(1, 0.0)))
     np.testing.assert_array_equal(touchdowns(at_once, run(at_once, gait, 5e-3)).false, [0.0])
 
 
 def test_missed_ones_come_with_their_probability():
-    leaf = Told(missed=0.2, seed=3)
+    leaf = FaultyTouchdown(missed=0.2, seed=3)
     d, waits = leaf.start(), []
     for k in range(2000):
         d = leaf.touchdown(d, 1.0, float(k))
@@ -225,7 +225,7 @@ def test_by_force_of_a_push_is_newton_s_law(biped, gait):
 
 def test_encoders_go_through_a_late_notice_without_a_jump(biped, gait):
     """What they show of an unnoticed touchdown is in the old labels, so the angles go on."""
-    system = walker(biped, gait, Told(late=5e-3), sensors=SENSORS)
+    system = walker(biped, gait, FaultyTouchdown(late=5e-3), sensors=SENSORS)
     walked = run(system, gait, 0.43)
     (event,) = walked.events("foot_strike")
     w = [held_at(system, x).w for x in (event.x_minus, event.x_plus)]
@@ -247,12 +247,12 @@ def test_encoders_go_through_a_late_notice_without_a_jump(biped, gait):
 def test_what_does_not_fit_is_refused(biped, gait):
     for timing in (ba.SampledTime(T), ba.ContinuousTime()):
         with pytest.raises(InputError, match="restart=False"):
-            walker(biped, gait, Told(), timing=timing)
+            walker(biped, gait, FaultyTouchdown(), timing=timing)
     for make in (
-        lambda: Told(late=-1e-3),
-        lambda: Told(missed=1.5),
-        lambda: Told(false_at=(0, 0.1)),
-        lambda: Told(false_at="ab"),
+        lambda: FaultyTouchdown(late=-1e-3),
+        lambda: FaultyTouchdown(missed=1.5),
+        lambda: FaultyTouchdown(false_at=(0, 0.1)),
+        lambda: FaultyTouchdown(false_at="ab"),
         lambda: ByForce(on=10.0),
         lambda: ByForce(delay=np.nan),
         lambda: ByKinematics(height=np.nan),

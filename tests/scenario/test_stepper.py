@@ -11,7 +11,7 @@ from biped_adrc.core.errors import InputError
 
 NPD = ba.Scenario("NPD", hardware={"period": 1e-3}, run={"impacts": 2})
 TOUCHDOWN = NPD.replace(
-    hardware={"profile": "rabbit", "touchdown": {"name": "told"}, "delay": 0.0015}
+    hardware={"profile": "rabbit", "touchdown": {"name": "faulty"}, "delay": 0.0015}
 )
 IN_PYTHON = NPD.replace(controller="CLF-QP", run={"impacts": 1})
 WAITING = NPD.replace(ground="mujoco", hardware={"delay": 0.0004}, run={"impacts": 1})

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.hardware.touchdown import ByForce, ByKinematics, Told
+from biped_adrc.hardware.touchdown import ByForce, ByKinematics, FaultyTouchdown
 from biped_adrc.scenario.build import build
 from biped_adrc.studies.run import run_trial
 
@@ -20,7 +20,7 @@ def made(name, **own):
 
 
 def test_values_come_by_name():
-    assert made("told", late=5e-3) == Told(5e-3, seed=made("told").seed)
+    assert made("faulty", late=5e-3) == FaultyTouchdown(5e-3, seed=made("faulty").seed)
     assert made("Force", delay=2e-3, on=40.0) == ByForce(on=40.0, delay=2e-3)
     assert made("kinematics", height=1e-3) == ByKinematics(height=1e-3)
     assert build(ba.Scenario(**USUAL)).touchdown is None
@@ -29,7 +29,7 @@ def test_values_come_by_name():
 @pytest.mark.parametrize("plant", ["rigid", "mujoco"])
 def test_a_walk_says_when_its_controller_noticed(plant, tmp_path):
     walk = ba.walk_scenario(
-        ba.Scenario(hardware={"touchdown": {"name": "told", "late": 4e-3}}, ground=plant, **USUAL)
+        ba.Scenario(hardware={"touchdown": {"name": "faulty", "late": 4e-3}}, ground=plant, **USUAL)
     )
     found = walk.touchdowns
     assert len(found.t) == 2
@@ -47,7 +47,7 @@ def test_a_row_of_a_study_says_how_touchdowns_were_noticed(plant):
     values = {
         **USUAL,
         "run.impacts": 3,
-        "hardware.touchdown.name": "told",
+        "hardware.touchdown.name": "faulty",
         "hardware.touchdown.late": 4e-3,
         "hardware.touchdown.false_at": [1, 0.4105],
         "ground.plant": plant,

@@ -10,7 +10,7 @@ from biped_adrc.analysis.touchdowns import touchdowns
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.engine.on_plant import CompiledLoop
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
-from biped_adrc.hardware.touchdown import ByForce, ByKinematics, Told
+from biped_adrc.hardware.touchdown import ByForce, ByKinematics, FaultyTouchdown
 
 from .loops import loop_on, run_of
 
@@ -34,7 +34,7 @@ def walked(plant, gait, touchdown, kind=CompiledLoop, t_end=0.43, controller=low
 
 
 LEAVES = (
-    Told(late=3e-3),
+    FaultyTouchdown(late=3e-3),
     ByForce(debounce=2e-3, delay=1e-3),
     ByKinematics(height=3e-3),
 )
@@ -57,14 +57,16 @@ def test_compiled_as_in_python(plant, gait, leaf):
 
 def test_noticed_at_once_is_ideal_knowledge(plant, gait):
     """Touchdowns on soft ground are at ticks, so the same tick that follows one notices it."""
-    (_, ideal), (_, told) = (walked(plant, gait, leaf, t_end=0.9) for leaf in (None, Told()))
+    (_, ideal), (_, told) = (
+        walked(plant, gait, leaf, t_end=0.9) for leaf in (None, FaultyTouchdown())
+    )
     assert len(ideal.events("foot_strike")) == 2
     np.testing.assert_allclose(told.final_state[:10], ideal.final_state[:10], atol=1e-9)
     np.testing.assert_allclose(told.final_state[-4:], ideal.final_state[-4:], atol=1e-6)
 
 
 def test_in_the_window_the_recorded_torque_is_the_old_law_s(plant, gait):
-    loop, run = walked(plant, gait, Told(late=4e-3), controller=ba.NPDController)
+    loop, run = walked(plant, gait, FaultyTouchdown(late=4e-3), controller=ba.NPDController)
     (event,) = run.events("foot_strike")
     arc, biped = run.arcs[1], plant.biped
     for k in np.flatnonzero(arc.t[:-1] < event.t + 3.5e-3):

@@ -27,7 +27,7 @@ WALKS: dict[str, dict[str, Any]] = {
     "ADRC": {"controller": "ADRC", "ground.slope": 0.01},
     "ADRC output": {"controller": "ADRC output", "controller.observer": SLOW["controller.observer"]}
     | {"hardware.delay": 4e-4, "hardware.delay_known": True},
-    "LESO": {"controller": "LESO", "hardware.touchdown": {"name": "told", "late": 2e-3}},
+    "LESO": {"controller": "LESO", "hardware.touchdown": {"name": "faulty", "late": 2e-3}},
     "ADRC assisted": {"controller": "ADRC assisted", "hardware.touchdown": "force"},
     "DOB": {"controller": "DOB", "hardware.touchdown": "kinematics"},
     "stride PI": {"controller": {"name": "stride PI", "inner": "NPD"}, "hardware.delay": 2e-3},

@@ -64,7 +64,7 @@ def _row(walker: Walker, arc: Arc, k: int, end: int) -> LoggedRow:
     held = walker.held
     assert held is not None
     h, step, other = read(held.sizes, tail), float(arc.mode.step), 0.0
-    if held.sizes.told > 0:
+    if held.sizes.belief > 0:
         b = belief_of(h.b)
         step, other = float(b.step), b.other
     q, v = held.reading(h.w, *turned(walker, other, q, v))
