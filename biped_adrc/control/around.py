@@ -1,8 +1,8 @@
 """What goes around any controller: a controller that calls the one inside.
 
 A subclass writes the methods that differ. It names no class of controllers, so that every one that compiles
-still does. `friction_feedforward` and `predicted` serve all the time, as does a torque a from elsewhere, such as a
-learner's, beside u_i that the controller inside asks for:
+still does. `friction_feedforward` and `predicted` serve all the time, as does a torque a from elsewhere, such
+as a learner's, beside u_i that the controller inside asks for:
 
     u = u_i + a
 

@@ -132,9 +132,9 @@ class FaultyTouchdown(Shown, Touchdown):
     """The true touchdown, noticed `late` [s] after it, with misses and false ones.
 
     missed [1]: probability that a touchdown is never noticed, by `seed`, a whole number from 0. false_at:
-    (step, time [s]) of one notice without a touchdown, at the first tick so long after the step began; shortly before
-    its end it is an early one. A touchdown that leaves the labels right, as after a missed or an early one, is
-    not noticed. Raises InputError for a time that is negative and a probability that is none.
+    (step, time [s]) of one notice without a touchdown, at the first tick so long after the step began; shortly
+    before its end it is an early one. A touchdown that leaves the labels right, as after a missed or an early
+    one, is not noticed. Raises InputError for a time that is negative and a probability that is none.
     """
 
     late: NonNegativeFloat = 0.0
