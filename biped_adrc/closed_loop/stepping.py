@@ -140,8 +140,8 @@ class SteppingLoop(ClosedLoop[Any]):
         return x
 
     def row(self, x: Array) -> Array:
-        """The plant's row (2 n + k,) in x (nx,)."""
-        return np.concatenate((x[: 2 * self.plant.n], x[self.own_places]))
+        """The plant's row (2 n + k,) in x (nx,), read-only."""
+        return frozen(np.concatenate((x[: 2 * self.plant.n], x[self.own_places])))
 
     def mover(self, fired: str | None) -> Mover:
         """One function for all arcs; the plant does not need to know what fired."""
@@ -161,20 +161,18 @@ class SteppingLoop(ClosedLoop[Any]):
         """
         n, (near, slow), u = self.plant.n, self.squares, x[-self.plant.p :]
         xi, row = self.estimated(t, x, mode), record.rows[-1] if record.rows else self.row(x)
-        for given in (u, row):
-            given.setflags(write=False)
+        u.setflags(write=False)
         load = None if self.disturbance is None else self.push(0.5 * (t + until), row, mode)
-        moved = advanced(self.plant, t, row, u, load, until)
+        end, after, contacts, landed = advanced(self.plant, t, row, u, load, until)
         record.begin(t, row, x, xi, mode)
-        row = moved.row
-        q = row[:n]
+        row, q = after, after[:n]
         if not (q.dot(q) < near and row.dot(row) < slow):  # two products test all of them
             if not np.all(np.isfinite(row)):
                 raise NotFiniteError(f"the state of the plant is not finite after t = {t:.6g} s")
-            self.bounds.check(moved.t, q, row[n : 2 * n])
-        record.point(moved.t, row, mode)
+            self.bounds.check(end, q, row[n : 2 * n])
+        record.point(end, row, mode)
         x = self.with_plant(x, row)
-        return moved.t, x, self.found(x, mode, moved) if moved.contacts else None
+        return end, x, self.found(end, x, mode, contacts, landed) if contacts else None
 
     def load(self, t: float, row: Array, mode: Mode) -> Load:
         """What acts from outside in a row of the plant at t [s], read-only."""
@@ -218,17 +216,21 @@ class SteppingLoop(ClosedLoop[Any]):
         forces = plant.footing(row, torque_held(k, tail), self.load(t, row, mode)).force
         return float(forces[0, 1]), float(forces[1, 1])
 
-    def found(self, x: Array, mode: Mode, moved: Moved) -> FoundEvent:
-        """The event of the contacts at which the plant came to x (nx,), with the controller's jump.
+    def found(
+        self, t: float, x: Array, mode: Mode, contacts: tuple[Contact, ...], row: Array | None
+    ) -> FoundEvent:
+        """The event of the contacts at t [s], x (nx,) the state just before and `row` (2 n + k,) the plant's
+        after, with the controller's jump.
 
         A contact with a status ends the run. Raises NotFiniteError for an impulse or a state after
         it that is not finite.
         """
-        t, (name, impulse, ends) = moved.t, together(moved.contacts)
+        name, impulse, ends = together(contacts)
         if ends is not None:
             return FoundEvent(Event(name, t, x, None), None, ends)
         n = self.plant.n
-        row = returned(moved.after, moved.row.shape, self.plant, "advance", finite=False)
+        size = (2 * n + self.held.sizes.own,) if self.held else None
+        row = returned(row, size, self.plant, "advance", finite=False)
         if not np.all(np.isfinite([*row, *impulse])):
             raise NotFiniteError(
                 f"{name} at t = {t:.6g} s: its impulse or the state after it is not finite"
@@ -268,7 +270,7 @@ def started(plant: SteppingPlant, t: float, q: Array, v: Array, own: int | None)
 
 def advanced(
     plant: SteppingPlant, t: float, row: Array, u: Array, load: Load | None, until: float
-) -> Moved:
+) -> tuple[float, Array, tuple[Contact, ...], Array | None]:
     """What `plant.advance` gives, its row checked and copied, its time `until` [s] without round-off.
 
     Raises InputError for what breaks the contract.
@@ -285,7 +287,7 @@ def advanced(
         raise InputError(f"{type(plant).__name__}.advance came to {here}")
     found = returned(found, row.shape, plant, "advance", finite=False).copy()
     found.setflags(write=False)
-    return Moved(until if at_end else end, found, contacts, after)
+    return until if at_end else end, found, contacts, after
 
 
 def together(contacts: tuple[Contact, ...]) -> Contact:
