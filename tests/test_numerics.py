@@ -40,7 +40,6 @@ def test_a_walk_that_explodes_has_run_away(tmp_path, engine, controller, push):
     assert max(np.max(np.abs(arc.x[:, 5:10])) for arc in run.arcs) <= 20.0 * 50.0
     outcome = made.outcome
     assert not outcome.walked
-    assert "shorten the step" in outcome.message
     assert math.isfinite(outcome.peak_error)
     assert math.isfinite(outcome.peak_torque)
     made.save(tmp_path / "run.npz")

@@ -81,7 +81,7 @@ def rippled(values):
     )
     spec = specified(walker, gait)
     exact = replace(walker, sensors=walker.sensors.smooth())
-    end = 0.9 * spec.period
+    end = 0.9 * gait.period
     difference = torques(walker, gait, end) - torques(exact, gait, end)
     return spec.ripple, float(np.max(np.std(difference, axis=0)))
 

@@ -204,7 +204,7 @@ def test_what_does_not_fit_is_refused(biped, gait, h):
         lambda: ImpactInvariant(PDGravityController(h)),
         lambda: Hold(ba.NPDController(h), -0.01),
         lambda: Hold(h),
-        lambda: build(ba.Scenario({"name": "LESO", "contact": {"name": "hold"}})),
+        lambda: ba.walk_scenario(ba.Scenario({"name": "LESO", "contact": {"name": "hold"}})),
         lambda: build(
             ba.Scenario({"name": "LESO", "contact": {"name": "hodl"}}, hardware={"period": PERIOD})
         ),
