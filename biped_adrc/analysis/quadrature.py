@@ -1,4 +1,4 @@
-"""Integrals and peaks, from the stored nodes of a walk.
+"""Integrals and peaks of signals, from the stored nodes of a walk.
 
 Nodes are unevenly spaced, and a repeated time marks a jump, at an impact or a sample instant: the
 signal has a left and a right value there. So the functions work piece by piece between jumps.

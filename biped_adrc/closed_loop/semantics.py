@@ -3,17 +3,20 @@
     q'' = f(q, q') + D_s^-1 (B_s u + zeta)        between impacts   (10)
     (q, q')+ = R Delta(q-, q'-)                   at an impact      (10)
 
-State: x = (q, q', s) in continuous time and x = (q, q', s, held) in sampled time. s is the state of
-the controller (observer included); `held` is the tail that `hardware.sample_hold` lays out:
-sensors, torques on their way to the motors. The controller's terms come from the nominal
+State: x = (q, q', s) in continuous time and x = (q, q', s, held) in sampled time. s is the state of the
+controller (observer included); `held` are the numbers behind it that do not change between sample instants, in
+the order of `hardware.sample_hold`: those of the sensors, torques on their way to the motors. zeta (n,) [N m]
+is the disturbance, Delta the impact map, R exchanges the legs. The controller's terms come from the nominal
 model, the motion from the plant, and the two may differ.
 
-A controller that has to notice touchdowns has a belief b = (other, step, start, d) of `hardware.touchdown`:
+With a part of `hardware.touchdown` the controller detects touchdowns itself. It has a belief b = (other, step,
+start, d): other is 1 while its names of the legs differ from the plant's, else 0; step is the number of
+touchdowns noticed, start the time of the last one [s], d the memory of the detector.
 
-    touchdown at the plant     other <- 1 - other               controller, sensors and motors are told nothing
-    tick                       (q, q')_b = (R q + r, R q') where other, else (q, q')
-                               sense, notice; where it fires: other <- 1 - other, step + 1, start <- t, jump
-                               torque of the law in these labels, then back in the plant's
+    true touchdown    other <- 1 - other; controller, sensors and motors learn nothing of it
+    sample instant    sensors measure (q, q') by the controller's names: (R q + r, R q') while other is 1
+                      where the detector fires: other <- 1 - other, step + 1, start <- t, the controller jumps
+                      the torque [N m] is computed by these names, then exchanged for the plant's
 
 These pure functions are the only place where the closed loop is defined. On NumPy arrays
 `closed_loop.system.ClosedLoop` calls them (`Walker`, `SteppingLoop`); on symbols
@@ -224,10 +227,10 @@ def unknown(loop: Loop, terms: Reduction, a: Array, u: Array, zeta: Array) -> Ar
 
 
 def strike(loop: Loop, t: float, x: Array, after: Mode) -> Array:
-    """x+ after impact, relabelling and the controller's jump, for x- at t [s].
+    """x+ (nx,) after impact, relabelling and the controller's jump, for x- = x (nx,) at t [s].
 
-    `after` is the single support that begins. The impact map of the plant may be wrong by
-    `loop.gain`.
+    after: the single support that begins. loop.gain (n,) [1] is the relative error of the impact map: v+
+    becomes (1 + gain) v+.
     """
     q, v = parts(loop, x)[:2]
     impact = loop.plant.impact(q, v)

@@ -1,4 +1,4 @@
-"""A policy across contact: what no impulse of the striking foot can change, and nothing else, is fed back.
+"""Near a touchdown, removes from the feedback error the part that an impulse of the striking foot can change.
 
     a = (D - J_m' J_m / m)^-1 (J' - J_m' / m)          q'+ - q'- = a F for an impulse F of the ground (2,)
     N = change of a quantity under q' + a F            (., 2)
@@ -6,13 +6,15 @@
 
 a (n, 2) is (7) for a foot whose place has the Jacobian J, the other foot being free: J = J_2 of the swing foot
 before touchdown, and 0 after, when the foot that has struck is the one that coordinates are counted from. J_m
-is the Jacobian of m p_com. Within `window` T of a touchdown,
+is the Jacobian of m p_com. F is in N s, a in rad/s per N s. While a touchdown is less than T [s] away (field
+`window`),
 
     rates        the controller's rate error e' = q_b' - q_d' is P e', N = a_b - H a
     innovation   that of the observer, y - y^, is P (y - y^), N of what it looks at: a_b, a_b - H a, or D a
 
 with H of q_d'' = drift + H q'': q_d' of a virtual constraint follows the measured rates and jumps with them.
-A touchdown has been told (t_step < T), or is expected: |Theta- - Theta| < T |Theta'|, by the phase.
+The last touchdown was less than T ago (t_step < T), or the next one is expected in less than T by the phase:
+|Theta- - Theta| < T |Theta'|.
 
 The projection of the rate error is that of Yang and Posa, Impact invariant control with applications to
 bipedal locomotion, IROS 2021 (arXiv 2103.06907), and Autonomous Robots 49(35), 2025 (arXiv 2303.00817), shown

@@ -233,7 +233,10 @@ def spoken(part: object) -> str:
 
 @contextmanager
 def handing_out() -> Iterator[None]:
-    """Raises RaisedError, with class, method and line, in place of what a user's code raises in the block."""
+    """Context that turns an exception of the user's code into a RaisedError with class, method and line.
+
+    Other exceptions pass unchanged.
+    """
     try:
         yield
     except BipedError:

@@ -136,7 +136,10 @@ def walk_on(
 
 
 def as_walked(loop: SteppingLoop, run: Trajectory) -> Trajectory:
-    """A run of the loop with states as of the walker, and with what its feet did beside them."""
+    """The run of a loop in the layout of a walker's states: without the plant's own numbers.
+
+    A plant with feet has their forces [N], places [m] and velocities [m/s] recorded beside the states.
+    """
     if isinstance(loop.plant, OnFeet):
         run = with_readings(loop, run)
     arcs = tuple(_as_rigid(loop, arc) for arc in run.arcs)

@@ -1,8 +1,9 @@
-"""One-step methods: RK4, and SciPy's Dormand-Prince 8(5, 3) and Radau IIA, which run in Python alone.
+"""One-step methods of integration: RK4, and two solvers of SciPy's.
 
-`hybrid.march` takes the steps of RK4 itself, and those of `exponential`. A `Solver` yields its steps between
-two breaks; a step gives its own state at any time inside it (`at`), to the accuracy of the method, for the
-events.
+`RK4` has a fixed step [s]. `Adaptive` is SciPy's DOP853, `Stiff` its Radau IIA, both with step control; they
+are `Solver`s, which run in Python and not in the compiled engine. A `Solver` yields its steps between two times
+at which the flow is not smooth, such as sample instants and impacts; `Step.at(t)` gives the state inside a
+step, so that events can be located. `hybrid.march` itself computes the steps of `RK4` and of `exponential`.
 """
 
 from __future__ import annotations

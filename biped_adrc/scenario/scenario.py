@@ -323,9 +323,10 @@ def scenario_lines(s: Scenario) -> list[str]:
 
 
 def value_of(name: str, x: object) -> Any:
-    """A value as the scenario takes it: a number in SI units, also from text, a name as all processes know it.
+    """Reads and checks a value x for the scenario's field with this dotted name.
 
-    Raises InputError for an unknown name and a value out of its range.
+    A text such as "2 ms" becomes a number in SI units, a class registered in this process its module:Class.
+    Raises InputError for an unknown field, and for a value that the field does not take.
     """
     what = field_of(name)
     try:

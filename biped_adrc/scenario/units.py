@@ -1,8 +1,9 @@
-"""Numbers with units in text: "1.5 ms", "30 N m", "300 rad/s".
+"""Reads a number with its unit from text: "1.5 ms", "30 N m", "300 rad/s".
 
-A unit is a product of powers, "kg m^2/s^2"; each symbol may carry an SI prefix, and what follows a slash
-divides. An angle has a dimension of its own here, so that a frequency [Hz] cannot be taken for an angular rate
-[rad/s], a factor of 2 pi that no check of SI would find.
+    quantity(text, unit) -> the number in `unit`         in_si(text) -> the number in SI units
+
+A unit is a product of powers, "kg m^2/s^2"; each symbol may carry an SI prefix, and a slash divides by what
+follows it. The radian counts as a dimension, so that Hz and rad/s, which differ by 2 pi, are never confused.
 """
 
 from __future__ import annotations

@@ -162,7 +162,7 @@ class Study(Part):
         return {**result, **(packages(["optuna", "cmaes"]) if self.search else {})}
 
     def _values(self) -> Iterator[tuple[str, object]]:
-        """Names and values that any walk uses, apart from numbers of ranges."""
+        """Yields (name, value) for each value that at least one walk uses; not those drawn from a range."""
         for values in (self.base, *self.cases.values(), *self.conditions.values()):
             yield from values.items()
         yield from ((name, x) for name, levels in self.grid.items() for x in levels)

@@ -1,17 +1,19 @@
-"""What a controller and its observer make of a log, sample by sample.
+"""Replays a log through a controller and its observer, sample by sample.
 
-At row k, in the order of `closed_loop.semantics.tick`, with the log's torque in place of the controller's own:
+At row k, with measurement m_k, in the order of `closed_loop.semantics.tick`; the log's torque u_k [N m] acts in
+place of the controller's own:
 
     a touchdown:   s <- jump(s, m_k)
-    y_k - y^_k     of s, before it has seen y_k
+    y_k - y^_k     the observer's error, before its state s is corrected by the measured output y_k
     s <- correct(s, m_k),   xi^_k = estimate(s),   output(s, m_k) is what it would have asked for
     s <- predict(s, m_k, u_k)                      u_k is what acted
 
-Beyond the nominal model the estimate is a torque on the joints, kappa^-1 (xi^ - xi_nominal). What of it lies
-within `window` [s] of a touchdown counts as contact, the rest as error of the model and torques from outside.
+xi^ - xi_nominal [rad/s^2] is the part of the estimate that the nominal model does not explain; kappa^-1 times
+it is a torque on the joints [N m]. Less than `window` [s] after a touchdown it counts as contact, at other
+times as error of the model and torques from outside.
 
-Rates that the log does not have are differences of its angles, through the low-pass of `hardware.sensors`, and
-go through the nominal impact (7) at a touchdown, as there.
+Rates that the log does not have are differences of its angles behind the low-pass of `hardware.sensors`; at a
+touchdown the nominal impact (7) resets them.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""A gait from samples of one step over time, as optimisers write them: t (K,), q (K, n), and perhaps q' (K, n).
+"""A gait from samples of one step: t (K,) [s], q (K, n) [rad], and optionally q' (K, n) [rad/s].
 
-The step runs from just after an impact to just before the next. Over Theta = c q every actuated joint is fitted
-with a Bezier curve by least squares. Its two ends are not fitted but set, so that the gait closes and is
-hybrid-invariant:
+The first sample is just after an impact, the last one just before the next. A Bezier curve h(Theta), Theta = c
+q, is fitted to each actuated joint, q_b = h(Theta), by least squares. Value and slope at both ends of the curve
+are prescribed and not fitted, so that the gait closes and is hybrid-invariant; R exchanges the legs:
 
     h(1) = q_b(K),  h(0) = (R q(K))_b,  dh/dTheta(1): of the samples,  dh/dTheta(0): after the impact
 

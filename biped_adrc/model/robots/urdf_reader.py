@@ -245,7 +245,7 @@ def _turns(
 
 
 def _origin(element: ET.Element, where: str, R: Array) -> tuple[Vector, Array]:
-    """Place [m] and rotation (3, 3) of an <origin> in axes turned by R.
+    """Position R xyz [m] and rotation R R_rpy (3, 3) of an <origin>; R (3, 3) turns the axes that it is in.
 
     rpy turns about the fixed axes x, y, z in this order. Round-off of pi in rpy is set to zero, so
     that turns by right angles stay exact.

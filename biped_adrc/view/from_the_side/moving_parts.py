@@ -1,9 +1,9 @@
-"""The parts of a moving picture from the side: ground, walks, and the times of the frames.
+"""Parts of an animation in the x-z plane: ground, walks, and the times of the frames.
 
-A `DrawnWalk` makes its artists on an Axes once and has a method `show`, which moves them to what they are at
-t [s]; `moving_picture` and `side_by_side` put the parts together. The robot and forces of walk k are drawn in
-the layers 10 k to 10 k + 9, so that one walk is in front of another as a whole; trails and ground are
-behind all of them.
+`DrawnWalk` makes the artists of one walk on an Axes once; its method `show` sets their positions and colours
+for the time t [s]. The modules `moving_picture` and `side_by_side` put the parts together. Matplotlib draws
+walk k with zorder 10 k to 10 k + 9, so that one walk is in front of another as a whole, and ground and trails
+behind all walks.
 """
 
 from __future__ import annotations

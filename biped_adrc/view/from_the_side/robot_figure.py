@@ -130,7 +130,7 @@ def _ray(axes: Axes, start: Array, end: Array, colour: str = GREY, width: float 
 
 
 def _hip_angles(axes: Axes, biped: Biped, q: Array) -> None:
-    """q5 from the vertical to the torso, q1 and q2 from the torso to the thighs, Theta from the
+    """Draws q5 from the vertical to the torso, q1 and q2 from the torso to the thighs, Theta from the
     vertical to p_e.
 
     The vertical and the line to p_e are dashed; each angle has a radius of its own, so that no two

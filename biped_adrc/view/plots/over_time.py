@@ -98,7 +98,7 @@ def joint_name(s: Signals, i: int) -> str:
 
 
 def angles(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
-    """All coordinates q (K, n) [rad] over time [s], with motors or without."""
+    """Draws all coordinates q (K, n) [rad] over time [s]; push: (start, stop) [s], shaded."""
     curves(axes, s, s.q, "q")
     return finished(axes, "angle [rad]", push)
 
