@@ -51,8 +51,8 @@ class Impact(NamedTuple):
 
     @property
     def old_foot_velocity(self) -> Array:
-        """Velocity (x, z) (2,) [m/s] of the old support foot just after the impact; z > 0 where it lifts
-        off.""" return self.v_e[-2:]
+        """Velocity (x, z) (2,) [m/s] of the old support foot just after impact; z > 0 where it lifts off."""
+        return self.v_e[-2:]
 
     @property
     def impulse_ratio(self) -> float:
