@@ -233,6 +233,19 @@ def _from_disk(
     return code
 
 
+def text_by(key: Hashable, text: Callable[[], str]) -> str:
+    """A text that is made from a structure; from the disk where another process has made it for the same."""
+    link = lasting(("text", key))
+    there = stored(link) if link else None
+    if there is not None:
+        return there.decode()
+    with reaching() as reached:
+        result = text()
+    if link and not reached:
+        keep(link, result.encode())
+    return result
+
+
 def module_text(functions: dict[str, SymbolicFunction]) -> str:
     """A module of functions, by name. Raises InputError for an operation that has no line here."""
     return "\n".join([DECLARATIONS, *(function_text(name, f) for name, f in functions.items())])

@@ -23,7 +23,7 @@ from biped_adrc.closed_loop.walker import ErrorForm, Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers, WalkerStructure
-from biped_adrc.engine.ir import generated, module_text
+from biped_adrc.engine.ir import generated, module_text, text_by
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.mechanics import RobotData, RobotStructure, robot_of
 from biped_adrc.engine.structure import structure
@@ -92,7 +92,11 @@ class Program:
 
     def text(self) -> str:
         """What `machine` is made from, in LLVM's language."""
-        return module_text({name: self._traced(name) for name in self.names})
+        functions = self.names
+        return text_by(
+            (*functions, self.key),
+            lambda: module_text({name: self._traced(name) for name in functions}),
+        )
 
     def _traced(self, name: str) -> SymbolicFunction:
         with located(name):

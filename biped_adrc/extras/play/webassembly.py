@@ -27,11 +27,12 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.engine.compiled_push import term_text
 from biped_adrc.engine.compiled_signals import SignalNumbers, observe
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.ir import module_text
+from biped_adrc.engine.ir import module_text, text_by
 from biped_adrc.engine.kernels.load import loops
 from biped_adrc.engine.kernels.record import PART, PLACES
 from biped_adrc.engine.kernels.run_plan import Functions, RunPlan
 from biped_adrc.engine.machine import keep, key_of, stored
+from biped_adrc.engine.structure import structure
 from biped_adrc.gait.reference import Reference
 
 
@@ -97,8 +98,10 @@ def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker
     signals = SignalNumbers(program.numbers, reference)
 
     own = laws.of(program.address("flow"), program.text)
+    key = "observe", program.key, structure(reference)
+    read = partial(observe, program.make, signals)
     seen = laws.of(
-        -program.address("flow"), lambda: module_text({"observe": observe(program.make, signals)})
+        -program.address("flow"), lambda: text_by(key, lambda: module_text({"observe": read()}))
     )
     cells = one.plan.cells.copy()
     for name in Functions._fields:
@@ -107,7 +110,8 @@ def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker
     terms = one.walker.disturbance.terms if one.walker.disturbance else ()
     for k, term in enumerate(terms):
         part = cells[one.plan.places["parts"] + PART * k :][:PART]
-        push = laws.of(int(part[0]), partial(term_text, term, one.walker.plant.n))
+        n, key = one.walker.plant.n, ("term", one.walker.plant.n, structure(term))
+        push = laws.of(int(part[0]), partial(text_by, key, partial(term_text, term, n)))
         part[0] = laws.number(f"{push}.torque")
         part[2] = laws.number(f"{push}.resultant") if part[2] else 0
     return WebWalker(replace(one.plan, cells=cells), laws.number(f"{seen}.observe"))
