@@ -5,8 +5,9 @@
 
 State: x = (q, q', s) in continuous time and x = (q, q', s, held) in sampled time. s is the state of the
 controller (observer included); `held` are the numbers behind it that do not change between sample instants, in
-the order of `hardware.sample_hold`: those of the sensors, torques on their way to the motors. zeta (n,) [N m]
-is the disturbance, Delta the impact map, R exchanges the legs. The controller's terms come from the nominal
+the order of `hardware.sample_hold`: those of the sensors, torques on their way to the motors. f = -D_s^-1
+Omega, zeta (n,) [N m] is the disturbance, Delta the impact map. Relabelling exchanges the legs: q becomes
+R q + r, with the robot's offset r (n,) [rad], and q' becomes R q'. The controller's terms come from the nominal
 model, the motion from the plant, and the two may differ.
 
 With a part of `hardware.touchdown` the controller detects touchdowns itself. It has a belief b = (other, step,

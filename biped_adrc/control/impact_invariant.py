@@ -4,15 +4,17 @@
     N = change of a quantity under q' + a F            (., 2)
     P = 1 - N (N' N)^-1 N'                             P N = 0
 
-a (n, 2) is (7) for a foot whose place has the Jacobian J, the other foot being free: J = J_2 of the swing foot
-before touchdown, and 0 after, when the foot that has struck is the one that coordinates are counted from. J_m
-is the Jacobian of m p_com. F is in N s, a in rad/s per N s. While a touchdown is less than T [s] away (field
-`window`),
+a (n, 2) [rad/s per N s] follows from the impact (7) where only the foot with the Jacobian J strikes and the
+other one is free: J = J_2 of the swing foot before touchdown, and 0 after, when the foot that has struck is the
+one that coordinates are counted from. m [kg] is the robot's mass, J_m the Jacobian of m p_com, t_step [s] the
+time since the last touchdown, H the matrix of q_d'' = drift + H q''. While a touchdown is less than T [s] away
+(field `window`),
 
-    rates        the controller's rate error e' = q_b' - q_d' is P e', N = a_b - H a
-    innovation   that of the observer, y - y^, is P (y - y^), N of what it looks at: a_b, a_b - H a, or D a
+    rates        the controller's rate error e' = q_b' - q_d' is P e', N = a_b - H a innovation   that of the
+    observer, y - y^, is P (y - y^); N is a_b for an observer of the joints, a_b - H a for
+                 one of their error, D a for one of the momentum D q'
 
-with H of q_d'' = drift + H q'': q_d' of a virtual constraint follows the measured rates and jumps with them.
+since q_d' of a virtual constraint follows the measured rates and jumps with them.
 The last touchdown was less than T ago (t_step < T), or the next one is expected in less than T by the phase:
 |Theta- - Theta| < T |Theta'|.
 

@@ -233,9 +233,10 @@ def spoken(part: object) -> str:
 
 @contextmanager
 def handing_out() -> Iterator[None]:
-    """Context that turns an exception of the user's code into a RaisedError with class, method and line.
+    """Context that replaces an exception of the user's code by a RaisedError.
 
-    Other exceptions pass unchanged.
+    Its text gives class, method, file and line of the user's code. A BipedError, and what no code of the user's
+    raised, pass unchanged.
     """
     try:
         yield

@@ -136,9 +136,10 @@ def walk_on(
 
 
 def as_walked(loop: SteppingLoop, run: Trajectory) -> Trajectory:
-    """The run of a loop in the layout of a walker's states: without the plant's own numbers.
+    """Converts a run of `loop` to the layout of a walker's states, (q, q', s, held).
 
-    A plant with feet has their forces [N], places [m] and velocities [m/s] recorded beside the states.
+    The plant's own numbers are removed, but for the torque of lagging motors, which moves to where a walker has
+    it. Of a plant with feet, forces [N], places [m] and velocities [m/s] of both feet are recorded besides.
     """
     if isinstance(loop.plant, OnFeet):
         run = with_readings(loop, run)

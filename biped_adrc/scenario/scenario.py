@@ -323,9 +323,9 @@ def scenario_lines(s: Scenario) -> list[str]:
 
 
 def value_of(name: str, x: object) -> Any:
-    """Reads and checks a value x for the scenario's field with this dotted name.
+    """Reads and checks a value x for the scenario's field `name`, a dotted name such as "run.h".
 
-    A text such as "2 ms" becomes a number in SI units, a class registered in this process its module:Class.
+    "2 ms" becomes a number in SI units; a class registered in this process becomes the text "module:Class".
     Raises InputError for an unknown field, and for a value that the field does not take.
     """
     what = field_of(name)

@@ -245,7 +245,9 @@ def _turns(
 
 
 def _origin(element: ET.Element, where: str, R: Array) -> tuple[Vector, Array]:
-    """Position R xyz [m] and rotation R R_rpy (3, 3) of an <origin>; R (3, 3) turns the axes that it is in.
+    """Position R xyz [m] and rotation R R_rpy (3, 3) of the <origin> of `element`.
+
+    R (3, 3): from the axes of the element to those asked for. where: place in the file, for errors.
 
     rpy turns about the fixed axes x, y, z in this order. Round-off of pi in rpy is set to zero, so
     that turns by right angles stay exact.
