@@ -10,9 +10,9 @@ one that coordinates are counted from. m [kg] is the robot's mass, J_m the Jacob
 time since the last touchdown, H the matrix of q_d'' = drift + H q''. While a touchdown is less than T [s] away
 (field `window`),
 
-    rates        the controller's rate error e' = q_b' - q_d' is P e', N = a_b - H a innovation   that of the
-    observer, y - y^, is P (y - y^); N is a_b for an observer of the joints, a_b - H a for
-                 one of their error, D a for one of the momentum D q'
+    rates        the controller's rate error e' = q_b' - q_d' is P e', N = a_b - H a
+    innovation   that of the observer, y - y^, is P (y - y^); N is a_b for an observer of the joints, a_b - H a
+                 for one of their error, D a for one of the momentum D q'
 
 since q_d' of a virtual constraint follows the measured rates and jumps with them.
 The last touchdown was less than T ago (t_step < T), or the next one is expected in less than T by the phase:
