@@ -4,8 +4,9 @@
     (q, q')+ = R Delta(q-, q'-)                   at an impact      (10)
 
 State: x = (q, q', s) in continuous time and x = (q, q', s, held) in sampled time. s is the state of the
-controller (observer included); `held` are the numbers behind it that do not change between sample instants, in
-the order of `hardware.sample_hold`: those of the sensors, torques on their way to the motors. f = -D_s^-1
+controller (observer included); `held` is the last part of x, in
+the order of `hardware.sample_hold`: numbers of the sensors, the belief b below, torques on their way to the
+motors. They change at sample instants and impacts alone, but for the torque of lagging motors. f = -D_s^-1
 Omega, zeta (n,) [N m] is the disturbance, Delta the impact map. Relabelling exchanges the legs: q becomes
 R q + r, with the robot's offset r (n,) [rad], and q' becomes R q'. The controller's terms come from the nominal
 model, the motion from the plant, and the two may differ.

@@ -233,10 +233,10 @@ def spoken(part: object) -> str:
 
 @contextmanager
 def handing_out() -> Iterator[None]:
-    """Context that replaces an exception of the user's code by a RaisedError.
+    """Context that raises an exception of the user's code again as a RaisedError.
 
-    Its text gives class, method, file and line of the user's code. A BipedError, and what no code of the user's
-    raised, pass unchanged.
+    Its text gives class, method, file and line of the user's code. A BipedError, and an exception that did not
+    come from the user's code, pass unchanged.
     """
     try:
         yield

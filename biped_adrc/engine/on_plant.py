@@ -119,9 +119,10 @@ def walk_on(
     impacts: int,
     progress: Progress | None = None,
 ) -> Trajectory:
-    """The walk of `stepping_loop` from (q, v), each (n,), for some impacts; states as of the walker.
+    """Simulates a loop of `stepping_loop` from (q, v), each (n,) [rad, rad/s], until `impacts` impacts.
 
-    Raises InputError for a start that is none.
+    The states of the result have the walker's layout, (q, q', s, held). Raises InputError where (q, v) cannot
+    be a start.
     """
     assert isinstance(loop.timing, SampledTime)
     x0 = loop.initial_state(*start, mode)

@@ -386,7 +386,7 @@ class Biped(Shown):
         return self.tree.with_inertials(inertials)
 
     def _links(self, body: str) -> tuple[str, ...]:
-        """Links of a body: the class's links of the record ("thigh"), or the one link of that name."""
+        """The links that `body` names: a group in the robot's record ("thigh" for both), or a single link."""
         if body in self.description.links:
             return self.description.links[body]
         if body in self.tree.links:

@@ -190,8 +190,8 @@ class LinkMotion:
         return total
 
     def about(self, point: Array, joints: Iterable[int] | None = None) -> float:
-        """L [kg m^2/s] about a point (x, z) [m] of the links that move with `joints`; None takes all
-        of them.
+        """L [kg m^2/s] about a point (x, z) [m] of the links that move with `joints`, Pinocchio's numbers of
+        joints; None takes all.
         """
         h = self.momentum(joints)
         return -float((h.angular - np.cross([point[0], 0.0, point[1]], h.linear))[1])

@@ -311,7 +311,7 @@ def write_scenario(path: Path, s: Scenario, comment: str = "") -> None:
 
 
 def scenario_lines(s: Scenario) -> list[str]:
-    """The values of a scenario that differ from the defaults, and whom it is of, as lines of TOML."""
+    """Lines of TOML: the names of controller and robot, then the values that differ from the defaults."""
     record = {"controller.name": s.controller.name, "robot.name": s.robot.name}
     pushes = s.record().pop("pushes", [])
     values = record | flat({k: x for k, x in s.record().items() if k != "pushes"})

@@ -2,8 +2,9 @@
 
     quantity(text, unit) -> the number in `unit`         in_si(text) -> the number in SI units
 
-A unit is a product of powers, "kg m^2/s^2"; each symbol may carry an SI prefix, and a slash divides by what
-follows it. The radian counts as a dimension, so that Hz and rad/s, which differ by 2 pi, are never confused.
+A unit is a product of powers, "kg m^2/s^2"; each symbol may carry an SI prefix, and a slash divides by all
+symbols up to the next slash: "N/m s" is N/(m s). The radian counts as a dimension, so that Hz and rad/s, which
+differ by 2 pi, are never confused.
 """
 
 from __future__ import annotations

@@ -154,7 +154,7 @@ class Study(Part):
 
     @property
     def versions(self) -> dict[str, str]:
-        """Versions of all that decides the numbers: packages, files and classes that it names.
+        """By name the versions of packages, and hashes of the files and classes, that the study's walks use.
 
         Raises InputError for a class that cannot be imported.
         """

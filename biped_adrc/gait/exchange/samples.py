@@ -1,10 +1,11 @@
 """A gait from samples of one step: t (K,) [s], q (K, n) [rad], and optionally q' (K, n) [rad/s].
 
-The first sample is just after an impact, the last one just before the next. A Bezier curve h(Theta), Theta = c
-q, is fitted to each actuated joint, q_b = h(Theta), by least squares. Value and slope at both ends of the curve
-are prescribed and not fitted, so that the gait closes and is hybrid-invariant; R exchanges the legs:
+The first sample is just after an impact, the last one just before the next. For each actuated joint a Bezier
+curve q_b = h(Theta), Theta = c q, is fitted by least squares. Value and slope at both ends of the step, Theta+
+at its start and Theta- at its end, are prescribed and not fitted, so that the gait closes and is
+hybrid-invariant; R q + r are the angles after relabelling:
 
-    h(1) = q_b(K),  h(0) = (R q(K))_b,  dh/dTheta(1): of the samples,  dh/dTheta(0): after the impact
+    h(Theta-) = q_b(K),  h(Theta+) = (R q(K) + r)_b,  h'(Theta-): of the samples,  h'(Theta+): after the impact
 
 The orbit and its period then come from the zero dynamics of the robot.
 """

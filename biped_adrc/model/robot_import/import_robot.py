@@ -302,10 +302,10 @@ def _motors(
 def _torque(
     reading: UrdfContents, actuated: tuple[str, ...], hints: Hints
 ) -> tuple[float, tuple[str, ...]]:
-    """The torque limit of all motors [N m], and a sentence where it was found in the URDF.
+    """The torque limit of all motors [N m]: that of the hints, else the least one in the URDF.
 
-    The weakest motor's limit counts for all; 1 for a robot without motors, as a record needs a
-    number. Raises ModelError where a motor has none.
+    Beside it, where it is from the URDF, a sentence that says of which motor. It is 1 for a robot without
+    motors, as a record needs a number. Raises ModelError where a motor has none.
     """
     if hints.torque is not None or not actuated:
         return (1.0 if hints.torque is None else hints.torque), ()

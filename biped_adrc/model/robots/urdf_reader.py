@@ -221,9 +221,9 @@ def _ends(joint: ET.Element, file: str) -> tuple[str, str]:
 def _turns(
     links: list[str], joints: list[ET.Element], ends: list[tuple[str, str]], file: str
 ) -> dict[str, Array]:
-    """Rotation R (3, 3) of every link at zero angles, from the root down.
+    """By link the rotation R (3, 3) at zero angles, from the link's axes to those of the root.
 
-    Raises ModelError unless the links form one tree.
+    ends: (parent, child) of each joint. Raises ModelError unless the links form one tree.
     """
     parents = Counter(child for _, child in ends)
     roots = [link for link in links if link not in parents]
