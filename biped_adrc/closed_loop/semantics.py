@@ -4,18 +4,18 @@
     (q, q')+ = R Delta(q-, q'-)                   at an impact      (10)
 
 State: x = (q, q', s) in continuous time and x = (q, q', s, held) in sampled time. s is the state of the
-controller (observer included); `held` is the last part of x, in
-the order of `hardware.sample_hold`: numbers of the sensors, the belief b below, torques on their way to the
-motors. They change at sample instants and impacts alone, but for the torque of lagging motors. f = -D_s^-1
-Omega, zeta (n,) [N m] is the disturbance, Delta the impact map. Relabelling exchanges the legs: q becomes
-R q + r, with the robot's offset r (n,) [rad], and q' becomes R q'. The controller's terms come from the nominal
-model, the motion from the plant, and the two may differ.
+controller (observer included); `held` = (own, b, w, torques on their way, u), as in `hardware.sample_hold`; it
+changes at sample instants and impacts only, with two exceptions: torques of lagging motors flow, and after a
+delay of a fraction of a period u changes in between. f = -D_s^-1 Omega, zeta (n,) [N m] is the disturbance,
+Delta the impact map. Relabelling exchanges the legs: q becomes R q + r, with the robot's offset r (n,) [rad],
+and q' becomes R q'. The controller's terms come from the nominal model, the motion from the plant, and the two
+may differ.
 
 With a part of `hardware.touchdown` the controller detects touchdowns itself. It has a belief b = (other, step,
 start, d): other is 1 while its names of the legs differ from the plant's, else 0; step is the number of
 touchdowns noticed, start the time of the last one [s], d the memory of the detector.
 
-    true touchdown    other <- 1 - other; controller, sensors and motors learn nothing of it
+    true touchdown    other <- 1 - other, and d may change; controller, sensors and motors learn nothing of it
     sample instant    sensors measure (q, q') by the controller's names: (R q + r, R q') while other is 1
                       where the detector fires: other <- 1 - other, step + 1, start <- t, the controller jumps
                       the torque [N m] is computed by these names, then exchanged for the plant's

@@ -4,11 +4,11 @@
     N = change of a quantity under q' + a F            (., 2)
     P = 1 - N (N' N)^-1 N'                             P N = 0
 
-J', N' are transposes, q', e' rates, D is D_s; N has the change of the rate error, or of the innovation, for
-each N s of F. a (n, 2) [rad/s per N s] follows from the impact (7) where only the foot with the Jacobian J
-strikes and the other one is free: J = J_2 of the swing foot before touchdown, and 0 after, when the foot that
-has struck is the one that coordinates are counted from. m [kg] is the robot's mass, J_m the Jacobian of m
-p_com, t_step [s] the time since the last touchdown, H the matrix of q_d'' = drift + H q''. While a touchdown is
+F (2,) [N s] is the foot's impulse, a (n, 2) the change of q' for each N s of it, N the change of what is
+projected; J', N' are transposes, q', e' rates, D is D_s. a follows from the impact (7) where only the foot with
+the Jacobian J strikes. J is J_2 of the swing foot before touchdown. After it J = 0: the foot that struck is the
+support then, and q does not contain its place. J_m is the Jacobian of m p_com, m [kg] the robot's mass, t_step
+[s] the time since the last touchdown, H the matrix of q_d'' = drift + H q''. While a touchdown is
 less than T [s] away (field `window`),
 
     rates        the controller's rate error e' = q_b' - q_d' is P e', N = a_b - H a

@@ -3,8 +3,8 @@
 At row k, with measurement m_k, in the order of `closed_loop.semantics.tick`; the log's torque u_k [N m] acts in
 place of the controller's own:
 
-    a touchdown:   s <- jump(s, m), m measured before the sensors take in row k
-    y_k - y^_k     the observer's error, before its state s is corrected by the measured output y_k
+    a touchdown:   s <- jump(s, m+), m+ with the angles of row k and the rates just after the nominal impact (7)
+    y_k - y^_k     the observer's error [rad], before its state s is corrected by row k
     s <- correct(s, m_k),   xi^_k = estimate(s),   output(s, m_k) is what it would have asked for
     s <- predict(s, m_k, u_k)                      u_k is what acted
 

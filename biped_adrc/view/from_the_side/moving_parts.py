@@ -1,4 +1,4 @@
-"""Parts of an animation in the x-z plane: ground, walks, and the times of the frames.
+"""Parts of an animation in the x-z plane: ground and walks, and the pixels of frames at given times.
 
 `DrawnWalk` makes the artists of one walk on an Axes once; its method `show` sets their positions and colours
 for the time t [s]. The modules `moving_picture` and `side_by_side` put the parts together. Matplotlib draws
