@@ -14,7 +14,6 @@ from collections.abc import Callable, Hashable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from enum import Enum
-from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -81,12 +80,12 @@ def _spelled(key: Hashable) -> str:
 def _replaced() -> bool:
     """Whether a function or method of this package is the user's in this process."""
     for name, module in list(sys.modules.items()):
-        inside = list(vars(module).values()) if name.startswith("biped_adrc.") else []
-        classes = (x for x in inside if isinstance(x, type) and x.__module__ == name)
-        for x in chain(inside, *(vars(kind).values() for kind in classes)):
-            home = x.__globals__ if isinstance(x, types.FunctionType) else vars(module)
-            if home is not vars(module) and changes(home["__name__"], home.get("__file__")):
-                return True
+        for x in list(vars(module).values()) if name.startswith("biped_adrc.") else ():
+            own = isinstance(x, type) and x.__module__ == name
+            for member in vars(x).values() if own else (x,):
+                home = member.__globals__ if type(member) is types.FunctionType else vars(module)
+                if home is not vars(module) and changes(home["__name__"], home.get("__file__")):
+                    return True
     return False
 
 
