@@ -40,6 +40,7 @@ from biped_adrc.model.robots.symmetry import twins
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, limits, start
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario, scenario_lines
+from biped_adrc.studies.build import scene_of
 from biped_adrc.view.meshcat.objects import visual_links
 from biped_adrc.view.placement import exchanged, joint_values
 
@@ -80,10 +81,10 @@ class PageWalk:
             )
         rubbed = s.replace({"hardware.friction": True, "errors.friction": 0.0})
         if scene is None:
-            scene = RobotAndGait.of(s)
+            scene = scene_of(s)
             scene.walked  # noqa: B018  # a robot without motors is refused
             if any(map(np.any, scene.biped.friction_coefficients)):
-                scene = RobotAndGait.of(rubbed)
+                scene = scene_of(rubbed)
         walker = build(rubbed if scene.biped.friction else s, scene)
         if not isinstance(walker.timing, SampledTime):
             raise InputError(
