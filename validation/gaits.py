@@ -132,6 +132,8 @@ def cycle_of(robot: str) -> Cycle:
     if robot == "simplest":
         cycle = simplest(1e-4)
         return replace(cycle, P=replace(cycle.P, difference=2e-4))
+    if robot == "rabbit":
+        return gait_cycle(Scenario("NPD"))
     return designed_three_link() if robot == "three_link" else known_cycle(Biped.load(robot))
 
 
