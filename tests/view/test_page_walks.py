@@ -79,7 +79,7 @@ def test_every_controller_that_is_traced_is_here() -> None:
 
 @pytest.mark.parametrize("name", WALKS)
 def test_what_a_hand_did_is_walked_again(browser: Chrome, tmp_path: Path, name: str) -> None:
-    found = browser.execute_script(HAND, name, 1.2)
+    found = browser.execute_script(HAND, name, 2.0)
     path = tmp_path / "by_hand.toml"
     path.write_text(found["text"], encoding="utf-8")
     run = ba.walk_scenario(read_scenario(path)).trajectory
