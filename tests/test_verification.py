@@ -32,7 +32,7 @@ PARTS: dict[str, Maker] = {
     "Table I": rabbit.poles_row,
     "x* identified": partial(rabbit.fixed_point_rows, "identified"),
     "other coordinates": frost_urdf.sense_rows,
-    **{f"multipliers, {x}": partial(gaits.robot_rows, x) for x in gaits.ROBOTS if x != "rabbit"},
+    **{f"multipliers, {x}": partial(gaits.robot_rows, x) for x in gaits.ROBOTS},
     "design identified": partial(design_rows, "identified", 0.7),
 }
 
