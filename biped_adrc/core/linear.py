@@ -10,6 +10,7 @@ SciPy's module of LAPACK is loaded alone, as the package around it takes a third
 from __future__ import annotations
 
 import sys
+from importlib import import_module
 from importlib.machinery import PathFinder
 from importlib.util import find_spec, module_from_spec
 from typing import Any
@@ -21,11 +22,13 @@ from biped_adrc.core.types import Array
 
 
 def _lapack() -> Any:
-    """SciPy's module of LAPACK, which SciPy finds later under its own name."""
+    """SciPy's module of LAPACK alone, or by way of SciPy where it lies elsewhere."""
     name = "scipy.linalg._flapack"
     scipy: Any = find_spec("scipy")
     folders = [f"{folder}/linalg" for folder in scipy.submodule_search_locations]
     spec: Any = PathFinder.find_spec(name, folders)
+    if spec is None:
+        return import_module("scipy.linalg.lapack")
     if name not in sys.modules:
         sys.modules[name] = module_from_spec(spec)
         spec.loader.exec_module(sys.modules[name])
