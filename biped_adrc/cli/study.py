@@ -10,6 +10,7 @@ import typer
 
 from biped_adrc.cli.app import EXIT_INTERRUPTED, app, bar, console, say, say_table
 from biped_adrc.cli.options import options
+from biped_adrc.core.errors import SimulationError
 
 
 @app.command()
@@ -33,9 +34,8 @@ def study(
     if dry_run:
         result.rehearse()
         most = "at most " if result.search else ""
-        say(
-            f"{result.name}: {most}{result.count} walks, over {', '.join(result.axes) or 'no grid'}"
-        )
+        over = f", over {', '.join(result.axes)}" if result.axes else ""
+        say(f"{result.name}: {most}{result.count} walks{over}")
         return
     from biped_adrc.studies.build import NO_WALK
     from biped_adrc.studies.carry import study as carry_out
@@ -59,7 +59,8 @@ def study(
     say_table(headings(done), (texts(line, short=True) for line in done.table()))
     for name, words in chosen(done).items():
         say(f"{name}: {words}")
-    for status, (count, detail) in done.statuses().items():
+    statuses = done.statuses()
+    for status, (count, detail) in statuses.items():
         if status in NO_WALK:
             say(f"{count} {status}, such as: {detail}")
     written = [write_page(done)]
@@ -67,3 +68,5 @@ def study(
         done.export(table)
         written.append(table)
     say(f"written to {', '.join(map(str, written))}")
+    if statuses.keys() <= {*NO_WALK}:
+        raise SimulationError("no walk of this study could be made")

@@ -325,7 +325,8 @@ class Walk(Shown):
         """Open the animation in the browser: a page in the temporary folder, with no server behind it."""
         path = Path(tempfile.mkdtemp(prefix="biped-adrc-")) / "walk.html"
         self.animate(path)
-        webbrowser.open(path.as_uri())
+        if not webbrowser.open(path.as_uri()):
+            print(f"no browser could be opened here: open {path} in one")
 
     def save(self, path: Path | str, settings: Mapping[str, object] | None = None) -> Path:
         """Write the run (.npz) with robot, gait, controller and torques inside; `load_walk` reads it anywhere.

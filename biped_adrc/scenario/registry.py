@@ -212,7 +212,7 @@ def construct(
         name = f"{place}.{missing[0]}".lstrip(".")
         raise InputError(
             f"{what}, which has to make a {kind.__name__}, needs {', '.join(missing)}; give {name}; it gets "
-            f"by themselves {sorted(values)}"
+            f"by itself {sorted(values)}"
         )
     try:
         made = make(**{name: x for name, x in values.items() if name in names})

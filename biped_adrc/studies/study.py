@@ -261,7 +261,8 @@ def _problem(error: Any) -> str:
     """One thing that is wrong in a file; an unknown key with the nearest ones."""
     if error["type"] != "extra_forbidden":
         return problem(error)
-    parts = (Study, Search, WalkSets, Variable, Objective, Limit)
+    inside = (Search, WalkSets, Variable, Objective, Limit)
+    parts = (Study,) if len(error["loc"]) == 1 else inside
     known = sorted({name for part in parts for name in part.model_fields})
     text = unknown(str(error["loc"][-1]), known).replace("name;", "key;")
     return f"{'.'.join(map(str, error['loc']))}: {text}"

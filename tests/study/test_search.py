@@ -9,7 +9,7 @@ import plants
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.core.errors import InputError
+from biped_adrc.core.errors import InputError, SimulationError
 from biped_adrc.scenario.cycle import specified
 from biped_adrc.scenario.scenario import read_scenario
 from biped_adrc.studies import search as search_room
@@ -196,7 +196,7 @@ def test_the_command_searches_and_simulate_takes_what_it_wrote(tmp_path):
     path.write_text(WALKS)
 
     line = ["study", path, "--out", out, "--workers", "1"]
-    assert command(*line, "--dry-run").strip() == "walks: at most 7 walks, over no grid"
+    assert command(*line, "--dry-run").strip() == "walks: at most 7 walks"
     command(*line)
     assert (out / "study.html").read_text().count("<figure>") == 4
     best = command("simulate", "--scenario", out / "chosen.toml", "--impacts", "2")
@@ -211,3 +211,13 @@ def test_the_command_searches_and_simulate_takes_what_it_wrote(tmp_path):
     )
     expected = [row["rms_error"] if row["feasible"] else INF for row in rows]
     assert [c.objective for c in found.choices[""].candidates[1:]] == expected
+
+
+def test_a_study_without_any_walk_ends_with_an_exit_code(tmp_path, monkeypatch):
+    text = "import biped_adrc as ba\n\n\nclass Bad(ba.Controller):\n    output = 3\n"
+    (tmp_path / "without.py").write_text(text)
+    (tmp_path / "s.toml").write_text('name = "s"\nbase = {controller.name = "without:Bad"}\n')
+    monkeypatch.syspath_prepend(tmp_path)
+    line = ["study", str(tmp_path / "s.toml"), "--out", str(tmp_path / "out"), "--workers", "1"]
+    with pytest.raises(SimulationError, match="no walk of this study"):
+        command(*line)
