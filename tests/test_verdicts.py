@@ -120,7 +120,7 @@ def stubbed(monkeypatch):
             "tables": lambda *_: {},
             "replay": lambda *_: SimpleNamespace(save=lambda _: None),
             "draw_all": lambda *_: {},
-            "_animate": lambda *_: "",
+            "headline_animation": lambda *_: "",
         }
         for name, value in replaced.items():
             monkeypatch.setattr(reproduction, name, value)

@@ -26,7 +26,7 @@ from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper.figures import draw_all, push_window
 from biped_adrc.paper.results import Results
 from biped_adrc.paper.runs import tasks as planned_tasks
-from biped_adrc.paper.scenarios import Plan
+from biped_adrc.paper.scenarios import CONTROLLERS, Plan
 from biped_adrc.paper.table import checks, rows
 from biped_adrc.paper.tables import tables
 from biped_adrc.paper.verdict import tally, texts
@@ -64,7 +64,7 @@ def reproduce(
     for c, walk in walks.items():
         walk.save(out / f"walk-{c.lower()}.npz")
     pictures = draw_all(r, walks, out, workers)
-    animation = _animate(walks)
+    animation = headline_animation(walks)
     write_text(out / "walk.html", animation)
     summary["wall_time_s"] = time.perf_counter() - started
     write_text(out / "report.html", report_html(summary, pictures, animation))
@@ -117,7 +117,8 @@ def probe(out: Path) -> None:
             check_place(path)
 
 
-def _animate(walks: dict[str, Walk]) -> str:
-    """The animation of both headline runs as one HTML page, with the window of the push marked."""
+def headline_animation(walks: dict[str, Walk]) -> str:
+    """The animation of both headline runs as one HTML page, ADRC solid, with the window of the push marked."""
     window = push_window(walks["NPD"].signals)
-    return animation_html(walks, marks=[] if window is None else [(*window, "push")])
+    in_order = {c: walks[c] for c in CONTROLLERS}  # the last is solid
+    return animation_html(in_order, marks=[] if window is None else [(*window, "push")])
