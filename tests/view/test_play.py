@@ -216,6 +216,7 @@ while (play.walking[0].walks) play.sample();
     moved = """
 for (let k = 0; k < 100; k += 1) play.sample();
 showFrame(play.frame());
+describe(page.last); // the timeline's end, which the page writes some 80 ms later
 const line = element("timeline"), was = page.last.t;
 line.value = arguments[0]; line.dispatchEvent(new Event("input"));
 return was;
