@@ -38,6 +38,7 @@ REASONS = {
     "torque": "peak_torque",
     "scuffing": "scuffing",
     "slip": "slip",
+    "stones": "missed_stone",
     IMPULSE: "impulse_ratio",
 }
 """Why a single support is not feasible, the keys of `Support.infeasible`, and by which of its numbers."""
@@ -59,6 +60,8 @@ class Support(Shown):
     """How deep the swing foot is below the lower of the footholds, away from the ends of the step [m]."""
     slip: float
     """Largest distance that a foot slips on soft ground [m]; 0 on the rigid plant."""
+    missed_stone: float
+    """By how much the foot lands off its stone [m], 0 on it and where there is none."""
     peak_torque: float
     """Largest |u_i| [N m]."""
     impulse_ratio: float
@@ -130,7 +133,7 @@ def keeps(name: str, x: Any, k: KnownLimits) -> Any:
         return x > 0.0
     if name == "friction":
         return (x <= cone) | (x == math.inf)
-    return x <= {"torque": k.torque, "scuffing": 0.0, "slip": SLIP, IMPULSE: cone}[name]
+    return x <= {"torque": k.torque, "scuffing": 0.0, "slip": SLIP, "stones": 0.0, IMPULSE: cone}[name]
 
 
 def violation(name: str, x: float, k: KnownLimits) -> str:
@@ -142,6 +145,7 @@ def violation(name: str, x: float, k: KnownLimits) -> str:
         "torque": f"torque {x:.4g} N m > {k.torque:g}",
         "scuffing": f"the swing foot scuffs by {x:.2g} m",
         "slip": f"a foot slips by {1e3 * x:.2g} mm > {1e3 * SLIP:g}",
+        "stones": f"the foot lands {1e3 * x:.2g} mm beyond the edge of its stone",
         IMPULSE: f"the impulse at impact asks for friction {ratio_text(x)} > {k.friction:g}",
     }[name]
 
@@ -163,6 +167,7 @@ def series(
         "friction": (means.t, means.of, ratios(means.F, -np.inf)),
         "torque": (n.t, of, np.max(np.abs(n.u), axis=1, initial=0.0)),
         "scuffing": (n.t, of, depths(walker, n, impacts)),
+        "stones": (n.t[last], np.arange(len(first)), missed_stones(walker, n, impacts)),
         IMPULSE: (n.t[last], np.arange(len(first)), impulses),
     }
 
@@ -200,6 +205,17 @@ def supports(
     }
     rows = zip(*(x.tolist() for x in columns.values()), strict=True)
     return tuple(Support(**dict(zip(columns, row, strict=True)), **limits) for row in rows)
+
+
+def missed_stones(walker: Walker, n: Nodes, impacts: int) -> Array:
+    """By how much each single support (M,) lands off its stone [m]; 0 where it did not end in an impact."""
+    first, last, _ = n.supports
+    missed = np.zeros(len(first))
+    if walker.stones is not None:
+        for k in range(min(impacts, len(first))):
+            length = n.swing_foot[last[k], 0] / math.cos(walker.slope)
+            missed[k] = walker.stones.missed(int(n.step[first[k]]), float(length))
+    return missed
 
 
 def depths(walker: Walker, n: Nodes, impacts: int) -> Array:

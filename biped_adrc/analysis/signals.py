@@ -16,6 +16,7 @@ then holds all that the pinned model does not know: the touchdown's force, a foo
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from functools import partial
 
 import numpy as np
 
@@ -23,12 +24,11 @@ from biped_adrc.analysis.quadrature import largest
 from biped_adrc.closed_loop.feet import NAMES
 from biped_adrc.closed_loop.instant_signals import InstantSignals, signals_at
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.control.base import Measurement
-from biped_adrc.control.outer_loop import OuterLoop, reference_in_force
+from biped_adrc.control.outer_loop import OuterLoop, tracked_point
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array, freeze
-from biped_adrc.gait.reference import Reference, ReferencePoint
+from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.reduction import disturbance_parts, unknown_force
 
@@ -127,30 +127,25 @@ class Signals(Shown):
 def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Signals:
     """The signals of a walk; `reference` gives q_d (usually the controller's own).
 
-    Where outer loops correct the reference, q_d is the corrected one, in NumPy. For any other compiled
-    run, and for a long one, they are computed in compiled code where that is possible.
+    Where outer loops correct the reference, q_d is the corrected one. Of a compiled run, and of a long one,
+    they are computed in compiled code where that is possible.
     """
     many = sum(len(arc.t) for arc in trajectory.arcs) >= LONG
     compiled = trajectory.settings.get("engine") == "compiled"
-    if (compiled or many) and not isinstance(walker.law, OuterLoop):
+    tracked = walker.law if isinstance(walker.law, OuterLoop) else reference
+    if compiled or many:
         from biped_adrc.engine.compiled_signals import compiled_readings
 
-        result = compiled_readings(walker, trajectory, reference)
+        result = compiled_readings(walker, trajectory, tracked)
         if result is not None:
             return signals_of(walker, trajectory, result)
-    return signals_of(walker, trajectory, readings(walker, trajectory, reference))
+    return signals_of(walker, trajectory, readings(walker, trajectory, tracked))
 
 
-def readings(walker: Walker, trajectory: Trajectory, reference: Reference) -> InstantSignals:
+def readings(walker: Walker, trajectory: Trajectory, reference: Reference | OuterLoop) -> InstantSignals:
     """What is read off the closed loop at all nodes of a walk, in NumPy; arrays (K, ...)."""
-
-    def tracked(s: Array, m: Measurement) -> ReferencePoint:
-        law = walker.law
-        r = reference_in_force(law, s) if isinstance(law, OuterLoop) else reference
-        return r(m.t, m.q, m.v)
-
     rows = [
-        signals_at(walker, float(t), x, arc.mode, tracked)
+        signals_at(walker, float(t), x, arc.mode, partial(tracked_point, reference))
         for arc in trajectory.arcs
         for t, x in zip(arc.seen, arc.x, strict=True)
     ]

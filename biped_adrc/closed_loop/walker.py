@@ -43,7 +43,7 @@ from biped_adrc.core.types import Array, Indices, read_only
 from biped_adrc.hybrid.status import Status
 from biped_adrc.hybrid.system import Guard, Split
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.ground import StepDown, StepUp, check_slope, check_steps, drop_of
+from biped_adrc.model.ground import StepDown, StepUp, Stones, check_slope, check_steps, drop_of
 
 
 @dataclass(frozen=True)
@@ -105,6 +105,7 @@ class Walker(ClosedLoop[Biped]):
       0.
     - max_step_time [s]: a longer single support ends as stalled.
     - slope [rad]: of the ground, positive downhill. ground_steps: where it falls or rises by steps.
+    - stones: where feet may land, for the certificate of a step; the controller is told apart.
     - impact_gain (n,) [1]: v+ = (1 + gain) v+ of (7), an error of the impact model; empty for none.
 
     >>> walker = ba.Walker(biped, ba.NPDController(gait.constraint), timing=ba.SampledTime(1e-3))
@@ -119,6 +120,7 @@ class Walker(ClosedLoop[Biped]):
     slope: float = 0.0
     ground_steps: tuple[StepDown | StepUp, ...] = ()
     impact_gain: tuple[float, ...] = ()
+    stones: Stones | None = None
 
     def __post_init__(self) -> None:
         """Raise InputError for values that do not fit together; see the class."""

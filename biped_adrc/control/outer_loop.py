@@ -25,6 +25,7 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.core.part import with_fields
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.gait.constraint import CorrectedConstraint, Correction, VirtualConstraint
+from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.observers.base import ErrorSystem, Estimate
 
 Constraint = VirtualConstraint | CorrectedConstraint
@@ -154,6 +155,12 @@ def reference_in_force(controller: Controller, s: Array) -> Constraint:
             reference_in_force(controller.inner, z), controller.correction(w)
         )
     return own_reference(controller) or tracked_constraint(controller)
+
+
+def tracked_point(h: Reference | OuterLoop, s: Array, m: Measurement) -> ReferencePoint:
+    """The point at the measurement m of a reference, or of what an outer loop with state s has in force."""
+    r = reference_in_force(h, s) if isinstance(h, OuterLoop) else h
+    return r(m.t, m.q, m.v)
 
 
 def innermost(loop: OuterLoop, s: Array) -> tuple[Controller, int]:

@@ -219,11 +219,12 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
         return lambda: walked
     if case.curve is None:
         return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts)
-    if not walker.sampled or walker.touchdown is not None or isinstance(walker.law, OuterLoop):
+    if not walker.sampled or walker.touchdown is not None:
         return lambda: left_by(
             case, run_made(compiled, x, case.mode, case.method, case.options), COMPILED
         )
-    read = reading_code("judged", step_reading, compiled.program, case.curve).addresses["judged"]
+    curve = walker.law if isinstance(walker.law, OuterLoop) else case.curve
+    read = reading_code("judged", step_reading, compiled.program, curve).addresses["judged"]
     return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts, read)
 
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import prod
-from operator import call
 from typing import NamedTuple
 
 import numpy as np
@@ -19,6 +18,7 @@ import numpy as np
 from biped_adrc.closed_loop.instant_signals import InstantSignals, signals_at
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Measurement
+from biped_adrc.control.outer_loop import OuterLoop, tracked_point
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_biped import parts_of, pointer_call
@@ -47,7 +47,7 @@ class SignalNumbers(NamedTuple):
 
     walker: WalkerNumbers
     """All numbers of the walker."""
-    h: Reference
+    h: Reference | OuterLoop
 
 
 Reading = Callable[..., tuple[Array, ...]]
@@ -67,13 +67,13 @@ def observe(
     at = equations.at()
 
     def tracked(s: Array, m: Measurement) -> ReferencePoint:
-        return run(at.trace, call, numbers.h, m.t, m.q, m.v)
+        return run(at.trace, tracked_point, numbers.h, s, m)
 
     return equations.function(at.inp, *at.does(read, tracked))
 
 
 def compiled_readings(
-    walker: Walker, trajectory: Trajectory, reference: Reference
+    walker: Walker, trajectory: Trajectory, reference: Reference | OuterLoop
 ) -> InstantSignals | None:
     """All signals at all N nodes of a run, N rows of each; None where a part has no compiled form.
 
@@ -93,7 +93,7 @@ def compiled_readings(
     K = np.array([*floats(numbers), 0.0])
     first = trajectory.arcs[0]
     example = signals_at(
-        walker, first.t[0], first.x[0], first.mode, lambda s, m: reference(m.t, m.q, m.v)
+        walker, first.t[0], first.x[0], first.mode, lambda s, m: tracked_point(reference, s, m)
     )
     shapes = tuple(np.shape(part) for part in example)
     lengths = [len(arc.t) for arc in trajectory.arcs]
@@ -115,7 +115,7 @@ def _inputs(walker: Walker, arc: Arc) -> Array:
     return np.hstack((*head, x, zeta, np.zeros((len(t), OUTSIDE))))
 
 
-def reading_code(name: str, read: Reading, program: Program, curve: Reference) -> LoadedCode:
+def reading_code(name: str, read: Reading, program: Program, curve: Reference | OuterLoop) -> LoadedCode:
     """Machine code of what `read` says of a walker that errs from this curve, a function of this name as
     `observe`.
 

@@ -91,11 +91,7 @@ class VirtualConstraint(Reference):
         inside = s if self.fade is None else np.minimum(np.maximum(s, 0.0), 1.0)
         h, dh, ddh = self.curve(inside)
         if self.fade is not None:
-            y, l = s - inside, self.fade  # noqa: E741
-            left = np.exp(-abs(y) / l)
-            h = h + y * dh + (l * abs(y) - l * l * (1.0 - left)) * ddh
-            dh = dh + np.sign(y) * l * (1.0 - left) * ddh
-            ddh = left * ddh
+            h, dh, ddh = past_end(s - inside, self.fade, h, dh, ddh)
         return h, self.rate * dh, self.rate * self.rate * ddh
 
     def __call__(self, t: float, q: Array, v: Array) -> ReferencePoint:
@@ -112,6 +108,15 @@ class VirtualConstraint(Reference):
         if self.fade is not None:
             return np.array([self.h(float(x))[0] for x in theta])
         return self.curve.over(self.rate * (theta - self.theta_plus))
+
+
+def past_end(
+    y: float, l: float, h: Array, dh: Array, ddh: Array  # noqa: E741
+) -> tuple[Array, Array, Array]:
+    """The module's continuation at a distance y past an end of fade l, from h, h', h'' (p,) at that end."""
+    left = np.exp(-abs(y) / l)
+    h = h + y * dh + (l * abs(y) - l * l * (1.0 - left)) * ddh
+    return h, dh + np.sign(y) * l * (1.0 - left) * ddh, left * ddh
 
 
 def continued(h: VirtualConstraint) -> VirtualConstraint:

@@ -1,4 +1,4 @@
-"""The ground: axes along and out of a slope, steps down and up, and random uneven ground.
+"""The ground: axes along and out of a slope, steps down and up, random ones, and stones.
 
 The slope is constant and tilts the whole ground; a positive one goes downhill in the walking
 direction. Steps are counted in single supports from 1: `StepDown(3, 0.02)` lowers the ground on
@@ -74,6 +74,32 @@ class StepUp(GroundStep):
     """
 
 
+@dataclass(frozen=True)
+class Stones(Checked):
+    """Where feet may land: single support k, from 1, is to be `lengths[k - 1]` [m] long.
+
+    A foot that lands further than `tolerance` [m] from its stone makes the step infeasible. Behind the last stone
+    the ground is whole. Heights of stones are steps of the ground. Raises InputError for a length that is not
+    positive.
+
+    >>> Stones((0.3, 0.5)).missed(2, 0.54).__round__(3)
+    0.015
+    """
+
+    lengths: tuple[float, ...]
+    tolerance: PositiveFloat = 0.025
+
+    def __post_init__(self) -> None:
+        if not all(math.isfinite(L) and L > 0.0 for L in self.lengths):
+            raise InputError(f"the stones are at steps of {self.lengths} m, expected positive numbers")
+
+    def missed(self, step: int, length: float) -> float:
+        """By how much [m] single support `step` of this length [m] misses its stone; 0 where it does not."""
+        if step > len(self.lengths):
+            return 0.0
+        return max(abs(length - self.lengths[step - 1]) - self.tolerance, 0.0)
+
+
 def check_steps(steps: object) -> None:
     """Raise InputError unless these are steps of the ground, in a tuple."""
     if not isinstance(steps, tuple) or not all(isinstance(x, StepDown | StepUp) for x in steps):
@@ -85,6 +111,14 @@ def check_steps(steps: object) -> None:
 def drop_of(steps: tuple[StepDown | StepUp, ...], number: int) -> float:
     """How far these steps lower the ground on which single support `number` ends [m]."""
     return sum((d.drop for d in steps if d.step == number), 0.0)
+
+
+def random_steps(seed: int, height: float, steps: int) -> tuple[StepDown | StepUp, ...]:
+    """A step down or up in each single support from 1 to `steps`, uniform within `height` [m] either way.
+
+    The same seed gives the same ground.
+    """
+    return _stepped(np.random.default_rng(seed).uniform(-height, height, steps))
 
 
 def uneven_ground(seed: int, rms: float, steps: int) -> tuple[StepDown | StepUp, ...]:
@@ -101,9 +135,13 @@ def uneven_ground(seed: int, rms: float, steps: int) -> tuple[StepDown | StepUp,
     [1, 2, 3]
     """
     heights = np.concatenate(([0.0], np.random.default_rng(seed).normal(0.0, rms, steps)))
-    drops = ((k + 1, float(drop)) for k, drop in enumerate(-np.diff(heights)))
+    return _stepped(-np.diff(heights))
+
+
+def _stepped(drops: Array) -> tuple[StepDown | StepUp, ...]:
+    """Steps down and up by `drops` [m], one for each single support from 1 on."""
     return tuple(
         StepDown(step, drop) if drop > 0.0 else StepUp(step, -drop)
-        for step, drop in drops
+        for step, drop in enumerate(drops.tolist(), 1)
         if drop != 0.0
     )

@@ -36,7 +36,7 @@ from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.ground import StepDown, StepUp, uneven_ground
+from biped_adrc.model.ground import StepDown, StepUp, Stones, random_steps, uneven_ground
 from biped_adrc.model.model_errors import ModelErrors, impact_error
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.controllers import controller
@@ -131,10 +131,10 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
     plant = plant_of(s, biped)
     width, hardware = s.errors.impact_width, s.hardware
     gain = impact_error(drawn(s, "impact"), width, biped.n if width else 0)
-    ideal = hardware.touchdown.name is None
+    ideal, course = hardware.touchdown.name is None, stones(s)
     return Walker(
         plant,
-        controller(s, gait, biped),
+        controller(s, gait, biped, course.lengths if course else ()),
         disturbances(s, biped, gait.period, plant),
         ContinuousTime()
         if hardware.period is None
@@ -150,6 +150,7 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
         else None,
         touchdown=touchdown(s, gait),
         impact_gain=tuple(gain.tolist()),
+        stones=course,
         runaway_speed=s.run.runaway_speed,
         runaway_torque=s.run.runaway_torque,
     )
@@ -289,14 +290,29 @@ def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
 def ground(s: Scenario) -> tuple[StepDown | StepUp, ...]:
     """Changes of the ground's height: uneven ground, and a step down (or up) at `drop_step`; () if level.
 
-    `rms`: random heights [m], drawn for all steps of the walk. `drop`: depth [m], negative for a step up.
+    `rms`: random heights [m], drawn for all steps of the walk. `step_height`: largest of the random steps [m].
+    `drop`: depth [m], negative for a step up.
     """
     g, last = s.ground, s.run.first_step + s.run.impacts - 1
     steps = uneven_ground(drawn(s, "ground"), g.rms, last) if g.rms > 0.0 else ()
+    if g.step_height > 0.0:
+        steps += random_steps(drawn(s, "ground"), g.step_height, last)
     if g.drop == 0.0:
         return steps
     edge = StepDown(g.drop_step, g.drop) if g.drop > 0.0 else StepUp(g.drop_step, -g.drop)
     return (*steps, edge)
+
+
+def stones(s: Scenario) -> Stones | None:
+    """The stones of a scenario, given or drawn, one for each single support and the one after; None without."""
+    g = s.ground
+    if g.stones is not None:
+        return Stones(g.stones, g.stone_tolerance)
+    if g.stone_range is None:
+        return None
+    count = s.run.first_step + s.run.impacts
+    lengths = np.random.default_rng(drawn(s, "stones")).uniform(*g.stone_range, count)
+    return Stones(tuple(lengths.tolist()), g.stone_tolerance)
 
 
 # -- pushes ----------------------------------------------------------------------------------------

@@ -3,7 +3,7 @@
     reference, gait, biped, outputs (y = q_b - h)   of gait and robot
     gains                                           of K_p and K_d
     observer                                        of the record `observer`
-    reset, solve_theta, torque_limit                the scenario's values of these names
+    reset, solve_theta, torque_limit, stones        the scenario's values of these names
     inner                                           of an outer loop: the controller of the record `inner`
     everything else                                 the record's own values
 
@@ -35,15 +35,19 @@ from biped_adrc.scenario.scenario import ControllerRecord, ObserverRecord, Scena
 Values = dict[str, Any]
 AROUND = ("contact", "prediction", "feedforward", "inner", "name")
 """Values of a controller's record that its constructor does not take."""
-CONTEXT = ("biped", "gait", "reference", "outputs", "torque_limit", "gains", "inner")
+CONTEXT = ("biped", "gait", "reference", "outputs", "torque_limit", "stones", "gains", "inner")
 """Arguments of constructors that come from elsewhere in a scenario."""
 GAINS = ("K_p", "K_d")
 MAKER = "from_"
 """An observer is made by its constructor, or by a class method whose name begins with this."""
 
 
-def controller(s: Scenario, gait: Gait, biped: Biped) -> Controller:
+def controller(
+    s: Scenario, gait: Gait, biped: Biped, stones: tuple[float, ...] = ()
+) -> Controller:
     """The controller of a scenario on this gait, with the robot `biped` as its model.
+
+    stones: lengths of the steps to the stones [m].
 
     Raises InputError for a class that is not there or lacks something, and a value that nothing takes.
     """
@@ -54,6 +58,7 @@ def controller(s: Scenario, gait: Gait, biped: Biped) -> Controller:
         "reference": h,
         "outputs": LinearOutputs(rows, h),
         "torque_limit": s.hardware.torque_limit,
+        "stones": stones,
     }
     return _made("controller", s.controller, known)
 

@@ -139,6 +139,24 @@ class GroundRecord(OpenRecord):
     """Single support in which it falls."""
     rms: float = field(0.0, "m", ge=0, le=0.1)
     """Unevenness, drawn."""
+    step_height: float = field(0.0, "m", ge=0, le=0.1)
+    """Each single support ends on ground up to so much higher or lower, drawn."""
+    stones: tuple[float, ...] | None = field(None, "m")
+    """Lengths of the steps to the stones."""
+    stone_range: tuple[float, ...] | None = field(None, "m")
+    """In place of stones: the least and the largest length, between which all are drawn."""
+    stone_tolerance: float = field(0.025, "m", gt=0, le=1)
+    """Distance from the middle of a stone at which a foot still lands on it."""
+
+    @model_validator(mode="after")
+    def _stones_once(self) -> Self:
+        """Raise Misfit for stones that are told twice, and for a range that is none."""
+        ends = self.stone_range
+        if ends is not None and self.stones is not None:
+            raise Misfit("stone_range", "is given beside stones; leave one of them out")
+        if ends is not None and not (len(ends) == 2 and 0.0 < ends[0] <= ends[1]):
+            raise Misfit("stone_range", f"is {ends}, expected the least and the largest length [m]")
+        return self
 
 
 class ErrorRecord(Record):
@@ -354,14 +372,15 @@ def field_of(name: str) -> Described:
 
 DRAWN = (
     *("start", "onset", "joints", "noise", "sensors", "model", "impact", "ground", "sensor"),
-    "touchdown",
+    *("touchdown", "stones"),
 )
 """What is random in a walk. The place in this list selects the stream, so new names go to its end.
 
 start: offsets of coordinates and speed. onset: time of a push. joints: factors of a push on random joints.
 noise: a push that is noise. sensors: noise of encoders. model: errors of masses, centres, inertias and
 friction. impact: error of the impact map. ground: heights of uneven ground. sensor: noise of the one that is
-named by `sensor`, apart from that of the encoders. touchdown: which ones are missed.
+named by `sensor`, apart from that of the encoders. touchdown: which ones are missed. stones:
+their places.
 """
 
 

@@ -1,0 +1,157 @@
+"""Design of a family of gaits: a library of gaits by speed and step length, and two fits.
+
+    library    one gait for each pair of speed and step length, by `optimise`, with limits that leave a reserve
+    curves     coefficients and Theta of the library as polynomials of degree 4 in (v, L)
+    steps      2 W, J and delta^2 of random steps of the family, by quadrature, as polynomials of degree 3
+
+A step of the family goes from the member that ended the step before to another one (`control.footstep`); along it
+the work of gravity W and J are integrals over Theta (`gait.zero_dynamics`), with no simulation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from biped_adrc.control.footstep import StepCurve, step_reset
+from biped_adrc.core.errors import GaitError
+from biped_adrc.core.types import Array
+from biped_adrc.gait.constraint import VirtualConstraint
+from biped_adrc.gait.design.optimise import optimise
+from biped_adrc.gait.design.request import GaitRequest, StepLimits
+from biped_adrc.gait.family import DECISION, GaitFamily, PolynomialMap, StepMap
+from biped_adrc.gait.gait import Gait
+from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration, gauss_nodes
+from biped_adrc.model.biped import Biped
+
+RESERVE = StepLimits(friction=0.42, impulse_friction=0.45, clearance=0.08, lift_off=0.5)
+"""Limits of the library: a step between two members asks for more friction than the members do. The foot comes down
+steeply, so that uneven ground changes the end of a step little."""
+CURVES, STEPS = 4, 3
+"""Degrees of the polynomials."""
+SAMPLES = 1200
+"""Random steps to which `StepMap` is fitted."""
+NODES = 16
+"""Gauss nodes of each part of a step."""
+
+
+@dataclass(frozen=True)
+class _OnCurve:
+    """Any curve of Theta as a constraint, for `configuration`."""
+
+    phase: Array
+    h: Callable[[float], tuple[Array, Array, Array]]
+
+
+def library(
+    biped: Biped,
+    speeds: Sequence[float],
+    lengths: Sequence[float],
+    limits: StepLimits = RESERVE,
+    done: Callable[[str], None] = lambda text: None,
+) -> list[tuple[float, float, Gait]]:
+    """Speed [m/s], step length [m] and the gait of least torque, for each pair that has one.
+
+    done: is told each pair in words. Raises GaitError where fewer pairs have a gait than the fit needs.
+    """
+    gaits = []
+    for v in speeds:
+        for L in lengths:
+            try:
+                gait = optimise(biped, GaitRequest(v, L, limits=limits)).gait
+            except GaitError as error:
+                done(f"{v:g} m/s, {L:g} m: none, {error}")
+                continue
+            gaits.append((v, L, gait))
+            done(f"{v:g} m/s, {L:g} m: {gait.period:.3f} s")
+    least = (CURVES + 1) * (CURVES + 2) // 2
+    if len(gaits) < least or len(set(speeds)) <= CURVES or len(set(lengths)) <= CURVES:
+        raise GaitError(
+            f"{len(gaits)} of {len(speeds)} x {len(lengths)} pairs of speed and step length have a gait; a family "
+            f"needs at least {least}, of {CURVES + 1} speeds and {CURVES + 1} lengths"
+        )
+    return gaits
+
+
+def design_family(
+    name: str, biped: Biped, gaits: Sequence[tuple[float, float, Gait]], seed: int = 0
+) -> GaitFamily:
+    """The family through a library of gaits, as `library` returns it; seed: of the random steps.
+
+    Raises GaitError where a member that was designed has no periodic walk in the family.
+    """
+    mu = np.array([(v, L) for v, L, _ in gaits])
+    constraints = [gait.constraint for _, _, gait in gaits]
+    y = [(*c.curve.coefficients.ravel(), c.theta_plus, c.theta_minus) for c in constraints]
+    curves = PolynomialMap.fit(mu, np.array(y), CURVES)
+    empty = PolynomialMap(((0,),), np.zeros((1, 1)), np.zeros(1), np.ones(1))
+    family = GaitFamily(
+        name,
+        biped.description.name,
+        biped.preset,
+        curves,
+        StepMap(empty, empty),
+        constraints[0].phase,
+        mu.min(axis=0),
+        mu.max(axis=0),
+        provenance=dict(gaits[0][2].provenance),
+    )
+    members = tuple(_member(biped, v, L, family.member(v, L)) for v, L, _ in gaits)
+    return with_steps(biped, family, members, seed)
+
+
+def with_steps(biped: Biped, family: GaitFamily, members: tuple[tuple[float, ...], ...], seed: int) -> GaitFamily:
+    """The family with its `StepMap`, from random steps, and with the numbers of its members."""
+    random, low, high = np.random.default_rng(seed), family.low, family.high
+    ends = random.uniform((*low, *low), (*high, *high), (SAMPLES, 4))
+    steps = np.array([step_integrals(biped, family, *x) for x in ends])
+    v, before, end, L = ends.T
+    to_impact = PolynomialMap.fit(np.column_stack((v, end, before, L)), steps[:, 3:], STEPS)
+    to_decision = PolynomialMap.fit(np.column_stack((v, before, L)), steps[:, :3], STEPS)
+    return replace(family, steps=StepMap(to_impact, to_decision), members=members)
+
+
+def step_integrals(
+    biped: Biped, family: GaitFamily, v: float, before: float, end: float, L: float
+) -> tuple[float, float, float, float, float]:
+    """delta^2, 2 W', J' up to the decision, 2 W, J from there on, of a step of length L [m].
+
+    It follows a step of the member (v [m/s], before [m]) and ends on the member (end [m/s], L).
+    """
+    c, p = family.phase, biped.p
+    h = family.member(v, before)
+    q, dq, _ = configuration(h, h.theta_minus)
+    v_minus = np.sign(h.theta_minus - h.theta_plus) * dq
+    impact = biped.impact(q, v_minus)
+    q_plus, dq_plus = impact.q, impact.v
+    delta = biped.angular_momentum(q_plus, dq_plus) / biped.angular_momentum(q, v_minus)
+    plus, mu = float(c @ q_plus), np.array((v, L))
+    reset = step_reset(family, mu, plus, dq_plus[:p] / float(c @ dq_plus), q_plus[:p])
+    curve = _OnCurve(c, StepCurve(family, v, end, L, plus, reset))
+    decision = plus + DECISION * (family.curve(mu)[2] - plus)
+    minus = family.curve(np.array((end, L)))[2]
+    first, last = _integrals(biped, curve, plus, decision), _integrals(biped, curve, decision, minus)
+    return delta**2, *first, *last
+
+
+def _integrals(biped: Biped, curve: _OnCurve, start: float, end: float) -> tuple[float, float]:
+    """2 W = -2 int G_N I dTheta [kg^2 m^4/s^2] and J = int I dTheta [kg m^2] from start to end [rad]."""
+    s, weights, _ = gauss_nodes(NODES)
+    W = J = 0.0
+    for theta, weight in zip(start + (end - start) * s, (end - start) * weights, strict=True):
+        q, dq, _ = configuration(curve, float(theta))  # type: ignore[arg-type]
+        inertia = float(biped.inertia(q)[-1] @ dq)
+        W -= weight * inertia * float(biped.gravity(q)[-1])
+        J += weight * inertia
+    return 2.0 * W, J
+
+
+def _member(biped: Biped, v: float, L: float, h: VirtualConstraint) -> tuple[float, ...]:
+    """Of a member: speed, step length, largest friction, peak torque [N m], least F_N [N] of its periodic step."""
+    zero = ZeroDynamics.of(biped, h)
+    orbit = zero.orbit(zero.delta * zero.sigma_minus)
+    F_T, F_N = orbit.ground_reaction.T
+    numbers = np.max(np.abs(F_T) / F_N), np.max(np.abs(orbit.u)), np.min(F_N)
+    return (v, L, *(round(float(x), 3) for x in numbers))

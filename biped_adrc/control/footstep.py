@@ -1,0 +1,231 @@
+"""The next footstep, decided in each step: which member of a family of gaits ends it.
+
+    h = f + R + b(s) (g - f),   f, g: members (v-, L) and (v+, L) of the family,   R: reset to the state after impact
+
+v- is the speed whose member ended the step before, so that a step begins on its curve; L is the length of the step,
+of the next stone where there are stones. b rises from 0 at the decision (`gait.family`) to 1. Until the decision v+
+is computed anew at each sample instant, from y = sigma^2 and from the estimate r of what acts on the unactuated row:
+
+    y_next(v+) = y_0 + pole (..),   in detail   y_next(v+) = y_free + (1 - pole / delta^2) (y_0 - y_free)
+
+with y_0 the cycle's y at the speed that is wanted, and y_free what comes next at the speed that keeps y_0 under r.
+An error of y at one decision is then `pole` times as large at the next. y_next is kept within that of two speeds,
+above which the ground has to pull and below which the walk stalls. The linear map from step to step is that of
+H-LIP (Xiong, Ames, arXiv 2101.09588), in the angular momentum about the contact (Gong, Grizzle, arXiv 2008.10763).
+
+r comes from a momentum observer with two poles at -omega, sigma' = -G_N + r; no torque of a joint enters that row.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Self
+
+import numpy as np
+
+from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.control.outer_loop import Constraint, OuterLoop, tracked_constraint
+from biped_adrc.control.reference_reset import ResetPolynomial, reset_coefficients
+from biped_adrc.control.tracking import body_of
+from biped_adrc.core.checks import PositiveFloat
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.part import derived, with_fields
+from biped_adrc.core.types import Array
+from biped_adrc.gait.constraint import Correction, VirtualConstraint
+from biped_adrc.gait.family import DECISION, GaitFamily, load_family
+from biped_adrc.gait.gait import Gait
+from biped_adrc.model.biped import Biped
+
+SETTLED = 0.9
+"""Share of a step, in Theta, from which its member is the last one."""
+SLOWEST, FASTEST = 0.5, 1.1
+"""Of the speeds between whose cycles y at the next decision is kept: the first and the last [m/s]."""
+
+
+def blend(s: float) -> tuple[float, float, float]:
+    """b, db/ds, d2b/ds2 at s: 0 up to DECISION, 1 from SETTLED on, three derivatives continuous."""
+    k = 1.0 / (SETTLED - DECISION)
+    x = np.minimum(np.maximum(k * (s - DECISION), 0.0), 1.0)
+    z = x * (1.0 - x)
+    b = x**4 * (35.0 - 84.0 * x + 70.0 * x**2 - 20.0 * x**3)
+    return b, 140.0 * k * z**3, 420.0 * k * k * z**2 * (1.0 - 2.0 * x)
+
+
+@dataclass(frozen=True)
+class StepCurve:
+    """h of one step, the module's first equation; with `base`, c = h - base."""
+
+    family: GaitFamily
+    begin: float
+    """v- [m/s]."""
+    end: float
+    """v+ [m/s]."""
+    L: float
+    """[m]."""
+    plus: float
+    """Theta where the step began [rad]."""
+    reset: Array
+    """Of `ResetPolynomial` (2, p)."""
+    base: VirtualConstraint | None = None
+
+    def __call__(self, theta: float) -> tuple[Array, Array, Array]:
+        """h or c, and two derivatives by Theta, each (p,)."""
+        mu = np.array((self.begin, self.L))
+        minus = self.family.curve(mu)[2]
+        rate = 1.0 / (minus - self.plus)
+        f, df, ddf = self.family.h(mu, self.plus, theta)
+        g, dg, ddg = self.family.h(np.array((self.end, self.L)), self.plus, theta)
+        b, db, ddb = blend(rate * (theta - self.plus))
+        c, dc, ddc = ResetPolynomial(self.reset, minus, -rate)(theta)
+        d, dd, ddd, db, ddb = g - f, dg - df, ddg - ddf, rate * db, rate * rate * ddb
+        h = f + c + b * d
+        dh, ddh = df + dc + b * dd + db * d, ddf + ddc + b * ddd + 2.0 * db * dd + ddb * d
+        if self.base is None:
+            return h, dh, ddh
+        h_0, dh_0, ddh_0 = self.base.h(theta)
+        return h - h_0, dh - dh_0, ddh - ddh_0
+
+
+def step_reset(
+    family: GaitFamily, mu: Array, theta: float, slope: Array, q_b: Array
+) -> Array:
+    """Coefficients (2, p) with which a step along mu begins at q_b (p,) [rad] and dq_b/dTheta = slope (p,)."""
+    h, dh, _ = family.h(mu, theta, theta)
+    return reset_coefficients(1.0, -1.0 / (family.curve(mu)[2] - theta), q_b - h, slope - dh)
+
+
+@dataclass(frozen=True)
+class Footstep(OuterLoop):
+    """The module's controller around `inner`; its state is (v-, v+, L, L before, sigma^, r, Theta+, reset).
+
+    speed: that is kept [m/s]. step: length of the steps where there are no stones [m]. stones: lengths of the
+    steps [m], the first one first. pole: of the error of y from step to step. bandwidth: omega [rad/s].
+    Sampled time. Raises GaitError for a speed or a stone that no member reaches.
+
+    >>> controller = ba.Footstep.on_gait(ba.NPDController(gait.constraint), gait, biped, step=0.3)
+    >>> force, clock = ba.HipForce(biped, (-12.0, 0.0), steps=(3, 99)), ba.SampledTime(1e-3)
+    >>> walker = ba.Walker(biped, controller, force, timing=clock, torque_limit=150.0)
+    >>> ba.walk(walker, gait, impacts=8).feasibility.status.name
+    'COMPLETED'
+    """
+
+    family: GaitFamily
+    speed: PositiveFloat
+    step: PositiveFloat
+    stones: tuple[float, ...] = ()
+    pole: float = 0.35
+    bandwidth: PositiveFloat = 20.0
+    period: float = 1e-3
+
+    needs_body = True
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self.family.check(self.speed, self.step)
+        for k, L in enumerate(self.stones, 1):
+            try:
+                self.family.check(self.speed, L)
+            except InputError as error:
+                raise InputError(f"stone {k} is out of reach: {error}") from None
+
+    @classmethod
+    def on_gait(
+        cls,
+        inner: Controller,
+        gait: Gait,
+        biped: Biped,
+        family: str | Path = "flat",
+        speed: float | None = None,
+        step: float | None = None,
+        stones: Sequence[float] = (),
+        pole: float = 0.35,
+        bandwidth: float = 20.0,
+    ) -> Footstep:
+        """Around `inner`, with a stored family; speed [m/s] and step [m] are the gait's where they are None."""
+        length = float(np.hypot(*biped.swing_foot(gait.q_minus)))
+        speed = length / gait.period if speed is None else speed
+        lengths = tuple(map(float, stones))
+        known = load_family(family, biped)
+        return cls(inner, known, speed, length if step is None else step, lengths, pole, bandwidth)
+
+    def sampled(self, period: float) -> Self:
+        return with_fields(self, inner=self.inner.sampled(period), period=period)
+
+    def continuous(self) -> Self:
+        self._only_sampled()
+
+    @derived
+    def gain(self) -> float:
+        """1 - pole / delta^2."""
+        delta2 = self.family.steps.to_decision(np.array((self.speed, self.step, self.step)))[0]
+        return float(1.0 - self.pole / delta2)
+
+    @derived
+    def base(self) -> VirtualConstraint:
+        """The constraint of the controller inside, whose place the family's takes."""
+        return tracked_constraint(self.inner)
+
+    @property
+    def own_size(self) -> int:
+        return 7 + 2 * (len(self.family.phase) - 1)
+
+    def correction(self, w: Array) -> Correction:
+        return StepCurve(self.family, w[0], w[1], w[2], w[6], w[7:].reshape(2, -1), self.base)
+
+    def length(self, step: int) -> float:
+        """L [m] of a single support: of its stone, or the usual one."""
+        L = self.step
+        for k, stone in enumerate(self.stones, 1):
+            L = np.where(abs(step - k) < 0.5, stone, L)
+        return L
+
+    def begun(self, v: float, before: float, r: float, m: Measurement) -> Array:
+        """w of a step that begins at m on the member v [m/s], after one of length `before` [m]."""
+        c, L = self.family.phase, self.length(m.step)
+        mu, theta, dtheta = np.array((v, L)), c @ m.q, c @ m.v
+        forwards = dtheta * (self.family.curve(mu)[2] - theta) > 0.0
+        slope = m.v_b / np.where(forwards, dtheta, 1.0)
+        reset = np.where(forwards, step_reset(self.family, mu, theta, slope, m.q_b).ravel(), 0.0)
+        own = np.array((v, v, L, before, m.terms.D[-1] @ m.v, r, theta))
+        return np.concatenate((own, reset))
+
+    def own_start(self, h: Constraint, m: Measurement) -> Array:
+        return self.begun(self.speed, self.step, 0.0, m)
+
+    def own_jump(self, w: Array, h: Constraint, after: Measurement) -> Array:
+        return self.begun(w[1], w[2], w[5], after)
+
+    def own_correct(self, w: Array, m: Measurement) -> Array:
+        T, omega, sigma = self.period, self.bandwidth, m.terms.D[-1] @ m.v
+        e = sigma - w[4]
+        r = w[5] + T * omega**2 * e
+        sigma_hat = w[4] + T * (w[5] - body_of(m).G[-1] + 2.0 * omega * e)
+        minus = self.family.curve(np.array((w[0], w[2])))[2]
+        early = (self.family.phase @ m.q - w[6]) / (minus - w[6]) < DECISION
+        end = np.where(early, self.decision(w, sigma**2, r, m.step), w[1])
+        return np.concatenate((np.array((w[0], end, w[2], w[3], sigma_hat, r, w[6])), w[7:]))
+
+    def decision(self, w: Array, y: float, r: float, step: int) -> float:
+        """v+ [m/s] from y [kg^2 m^4/s^2] and r [N m] in the single support `step`, the module's equation."""
+        steps, ahead = self.family.steps, self.length(step + 1)
+        begin, L = np.array((w[0], w[3])), w[2]
+
+        def following(v: float) -> float:
+            return steps.next_square(y, begin, np.array((v, L)), ahead, r)
+
+        y_0 = steps.cycle_square(self.speed, ahead)
+        free = following(self.zero(lambda v: steps.cycle_square(v, ahead, r) - y_0))
+        goal = free + self.gain * (y_0 - free)
+        low, high = (steps.cycle_square(v, ahead) for v in (SLOWEST, FASTEST))
+        goal = np.minimum(np.maximum(goal, low), high)
+        return self.zero(lambda v: following(v) - goal)
+
+    def zero(self, f: Callable[[float], float]) -> float:
+        """The speed [m/s] of the family where f is 0, by the parabola through three speeds; else the nearer end."""
+        low, high = self.family.low[0], self.family.high[0]
+        f_0, f_1, f_2 = f(low), f(0.5 * (low + high)), f(high)
+        b, c = 4.0 * f_1 - 3.0 * f_0 - f_2, 2.0 * (f_0 + f_2 - 2.0 * f_1)
+        root = np.sqrt(np.maximum(b * b - 4.0 * c * f_0, 1e-6))
+        return low + (high - low) * np.minimum(np.maximum(-2.0 * f_0 / (b + root), 0.0), 1.0)

@@ -1,0 +1,212 @@
+"""A family of gaits: one smooth map from (speed, step length) to a virtual constraint, and what its steps do.
+
+    (alpha, Theta-) = polynomial in (v, L),   h(Theta) = Bezier of alpha at s = (Theta - Theta+) / (Theta- - Theta+)
+
+The map is fitted to a library of designed gaits (`analysis.family_design`). Theta+ is where a step begins, so that a
+step can begin behind one of another length. With sigma the angular momentum about the stance foot, y = sigma^2 at
+the *decision* (a share DECISION of the step) goes from step to step by
+
+    y_next = delta^2 (y + 2 W + 2 r J) + 2 W' + 2 r J',   J = int I dTheta
+
+where r is a constant torque from outside on the unactuated row, W and J are of the way from the decision to the
+impact, W' and J' of the way from there to the next decision. `StepMap` has them as polynomials too.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from itertools import product
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+
+from biped_adrc.core.errors import GaitError
+from biped_adrc.core.files import data_folder, output_path, reading, write_text
+from biped_adrc.core.part import SETUP, Part, setup
+from biped_adrc.core.types import Array, freeze
+from biped_adrc.gait.constraint import FADE, VirtualConstraint, past_end
+from biped_adrc.gait.curves import Bezier, bernstein_to_power
+from biped_adrc.model.biped import Biped
+
+FORMAT = "biped_adrc family 1"
+"""First entry of a family's file."""
+DECISION = 0.35
+"""Share of a step, in Theta, at which the controller decides on the member that ends it."""
+
+
+@dataclass(frozen=True)
+class PolynomialMap(Part):
+    """y(x) = sum_k c_k prod_i z_i^e_ki with z = (x - centre) / scale; x (d,), y (m,)."""
+
+    powers: tuple[tuple[int, ...], ...]
+    """e (K, d)."""
+    coefficients: Array
+    """c (K, m)."""
+    centre: Array
+    """(d,)."""
+    scale: Array
+    """(d,)."""
+
+    def __post_init__(self) -> None:
+        freeze(self, "coefficients", "centre", "scale")
+
+    def __call__(self, x: Array) -> Array:
+        """y (m,) at x (d,)."""
+        z = (x - self.centre) / self.scale
+        terms = []
+        for exponents in self.powers:
+            term = 1.0
+            for z_i, e in zip(z, exponents, strict=True):
+                term = term * z_i**e if e else term
+            terms.append(term)
+        return np.array(terms) @ self.coefficients
+
+    @classmethod
+    def fit(cls, x: Array, y: Array, degree: int) -> Self:
+        """The least-squares fit to points x (N, d), y (N, m), with all monomials up to a degree."""
+        low, high = x.min(axis=0), x.max(axis=0)
+        powers = tuple(e for e in product(range(degree + 1), repeat=x.shape[1]) if sum(e) <= degree)
+        monomials = cls(powers, np.eye(len(powers)), 0.5 * (low + high), 0.5 * (high - low))
+        c = np.linalg.lstsq(np.array([monomials(row) for row in x]), y, rcond=None)[0]
+        return cls(powers, c, monomials.centre, monomials.scale)
+
+
+@dataclass(frozen=True)
+class StepMap(Part):
+    """The module's map of y = sigma^2 from decision to decision."""
+
+    to_impact: PolynomialMap
+    """(v at the start, v at the end, L of the step before, L) -> 2 W [kg^2 m^4/s^2], J [kg m^2]."""
+    to_decision: PolynomialMap
+    """(v, L, L of the next step) -> delta^2 of the impact, 2 W', J'."""
+
+    def next_square(self, y: float, begin: Array, end: Array, ahead: float, r: float) -> float:
+        """y [kg^2 m^4/s^2] at the next decision.
+
+        begin: (v at the start, L of the step before). end: (v, L) of the step. ahead: L of the next step [m]. r:
+        torque on the unactuated row [N m].
+        """
+        W, J = self.to_impact(np.array((begin[0], end[0], begin[1], end[1])))
+        delta2, W_next, J_next = self.to_decision(np.array((end[0], end[1], ahead)))
+        return delta2 * (y + W + 2.0 * r * J) + W_next + 2.0 * r * J_next
+
+    def cycle_square(self, v: float, L: float, r: float = 0.0) -> float:
+        """y of the periodic walk of the member (v, L) under r: the fixed point of `next_square`."""
+        mu = np.array((v, L))
+        return self.next_square(0.0, mu, mu, L, r) / (1.0 - self.to_decision(np.array((v, L, L)))[0])
+
+
+@dataclass(frozen=True)
+class GaitFamily(Part):
+    """Gaits of one robot by mu = (speed [m/s], step length [m]) between `low` and `high`.
+
+    Raises GaitError for a member outside of them.
+    """
+
+    name: str
+    robot: str
+    preset: str
+    """Robot and preset that it was made for."""
+    curves: PolynomialMap
+    """mu -> alpha (p, M + 1) flat, Theta+ of the periodic gait, Theta- [rad]."""
+    steps: StepMap
+    phase: Array
+    """c (n,) of Theta = c q."""
+    low: Array
+    """Least (speed, step length) (2,)."""
+    high: Array
+    """Largest (speed, step length) (2,)."""
+    members: tuple[tuple[float, ...], ...] = setup(())
+    """Of each member at a design: speed, step length, friction, peak torque [N m], least F_N [N]."""
+    provenance: Mapping[str, object] = field(default_factory=dict, metadata=SETUP)
+
+    def __post_init__(self) -> None:
+        freeze(self, "phase", "low", "high")
+
+    def curve(self, mu: Array) -> tuple[Array, float, float]:
+        """alpha (p, M + 1) [rad], Theta+ and Theta- [rad] of the member mu."""
+        y = self.curves(mu)
+        return y[:-2].reshape(len(self.phase) - 1, -1), y[-2], y[-1]
+
+    def h(self, mu: Array, plus: float, theta: float) -> tuple[Array, Array, Array]:
+        """h [rad], dh/dTheta, d2h/dTheta2 (p,) at theta [rad] of a step along mu that began at plus [rad]."""
+        alpha, _, minus = self.curve(mu)
+        a, rate = alpha @ bernstein_to_power(alpha.shape[1] - 1), 1.0 / (minus - plus)
+        k, s = np.arange(a.shape[1]), rate * (theta - plus)
+        x = np.minimum(np.maximum(s, 0.0), 1.0)
+        dh, ddh = a[:, 1:] @ (k[1:] * x ** k[:-1]), a[:, 2:] @ (k[2:] * k[1:-1] * x ** k[:-2])
+        h, dh, ddh = past_end(s - x, FADE, a @ x**k, dh, ddh)
+        return h, rate * dh, rate * rate * ddh
+
+    def member(self, speed: float, step: float) -> VirtualConstraint:
+        """The constraint of a speed [m/s] and a step length [m]. Raises GaitError outside of the range."""
+        self.check(speed, step)
+        alpha, plus, minus = self.curve(np.array((speed, step)))
+        return VirtualConstraint(Bezier(alpha), self.phase, float(plus), float(minus))
+
+    def check(self, speed: float, step: float) -> None:
+        """Raise GaitError, with the nearest member, for a speed [m/s] or step length [m] out of range."""
+        mu = np.array((speed, step))
+        near = np.minimum(np.maximum(mu, self.low), self.high)
+        if not np.all(np.abs(mu - near) <= 1e-9):
+            raise GaitError(
+                f"family '{self.name}' has no member of {speed:g} m/s with a step of {step:g} m; the nearest has "
+                f"{near[0]:g} m/s and {near[1]:g} m"
+            )
+
+    def save(self, path: Path | str) -> None:
+        """Write the JSON file. Raises InputError for a name that does not end in .json, and OutputError."""
+        record = {"format": FORMAT, **_plain(self)}
+        lines = [f'  "{key}": {json.dumps(value)}' for key, value in record.items()]
+        write_text(output_path(Path(path), (".json",)), "{\n" + ",\n".join(lines) + "\n}\n")
+
+
+def _plain(x: Any) -> Any:
+    """A family and its parts as what JSON can hold."""
+    if isinstance(x, Part):
+        return {f.name: _plain(getattr(x, f.name)) for f in fields(x)}  # type: ignore[arg-type]
+    return x.tolist() if isinstance(x, np.ndarray) else dict(x) if isinstance(x, Mapping) else x
+
+
+def load_family(family: str | Path, biped: Biped) -> GaitFamily:
+    """A stored family by name for this robot and preset, or by the path of its .json file.
+
+    Raises GaitError for one that is not there, is damaged, or was made for another robot.
+    """
+    robot, preset = biped.description.name, biped.preset
+    path = Path(family)
+    folder = data_folder("gaits") / robot / "families"
+    if path.suffix.lower() != ".json":
+        path = folder / f"{family}-{preset}.json"
+    known = sorted(file.stem for file in folder.glob("*.json"))
+    if not path.is_file():
+        raise GaitError(
+            f"there is no family '{family}' for robot '{robot}', preset '{preset}'; stored are {known}, and "
+            "biped-adrc gait design --speeds --steps makes one"
+        )
+    with reading("family file", path, GaitError):
+        result = _from_record(json.loads(path.read_text(encoding="utf-8")))
+    if (result.robot, result.preset) != (robot, preset):
+        raise GaitError(
+            f"family '{result.name}' was made for robot '{result.robot}', preset '{result.preset}', and this is "
+            f"'{robot}', '{preset}'"
+        )
+    return result
+
+
+def _from_record(record: dict[str, Any]) -> GaitFamily:
+    """The family in a file that was read. Raises GaitError, or KeyError and TypeError for damaged entries."""
+    if record.pop("format") != FORMAT:
+        raise GaitError(f"it is no family, whose format is '{FORMAT}'")
+
+    def polynomial(x: Mapping[str, Any]) -> PolynomialMap:
+        arrays = (np.array(x[name], dtype=float) for name in ("coefficients", "centre", "scale"))
+        return PolynomialMap(tuple(map(tuple, x["powers"])), *arrays)
+
+    record["curves"] = polynomial(record["curves"])
+    record["steps"] = StepMap(**{name: polynomial(x) for name, x in record["steps"].items()})
+    record["members"] = tuple(map(tuple, record["members"]))
+    return GaitFamily(**record)
