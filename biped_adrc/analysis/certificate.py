@@ -133,7 +133,9 @@ def keeps(name: str, x: Any, k: KnownLimits) -> Any:
         return x > 0.0
     if name == "friction":
         return (x <= cone) | (x == math.inf)
-    return x <= {"torque": k.torque, "scuffing": 0.0, "slip": SLIP, "stones": 0.0, IMPULSE: cone}[name]
+    return (
+        x <= {"torque": k.torque, "scuffing": 0.0, "slip": SLIP, "stones": 0.0, IMPULSE: cone}[name]
+    )
 
 
 def violation(name: str, x: float, k: KnownLimits) -> str:

@@ -4,8 +4,8 @@
     curves     coefficients and Theta of the library as polynomials of degree 4 in (v, L)
     steps      2 W, J and delta^2 of random steps of the family, by quadrature, as polynomials of degree 3
 
-A step of the family goes from the member that ended the step before to another one (`control.footstep`); along it
-the work of gravity W and J are integrals over Theta (`gait.zero_dynamics`), with no simulation.
+A step of the family goes from the member that ended the step before to another one (`control.footstep`).
+Along it W, the work of gravity, and J are integrals over Theta (`gait.zero_dynamics`), without a simulation.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration, gauss_nod
 from biped_adrc.model.biped import Biped
 
 RESERVE = StepLimits(friction=0.42, impulse_friction=0.45, clearance=0.08, lift_off=0.5)
-"""Limits of the library: a step between two members asks for more friction than the members do. The foot comes down
-steeply, so that uneven ground changes the end of a step little."""
+"""Limits of the library. A step between two members asks for more friction than the members do; the foot comes
+down steeply, so that uneven ground changes the end of a step little."""
 CURVES, STEPS = 4, 3
 """Degrees of the polynomials."""
 SAMPLES = 1200
@@ -54,9 +54,14 @@ def library(
 ) -> list[tuple[float, float, Gait]]:
     """Speed [m/s], step length [m] and the gait of least torque, for each pair that has one.
 
-    done: is told each pair in words. Raises GaitError where fewer pairs have a gait than the fit needs.
+    done: is called with each pair in words. Raises GaitError where fewer pairs have a gait than the fit needs.
     """
-    gaits = []
+    least, gaits = (CURVES + 1) * (CURVES + 2) // 2, []
+    if min(len(set(speeds)), len(set(lengths))) <= CURVES:
+        raise GaitError(
+            f"the family has {len(set(speeds))} speeds and {len(set(lengths))} lengths, expected at least "
+            f"{CURVES + 1} of both"
+        )
     for v in speeds:
         for L in lengths:
             try:
@@ -66,11 +71,10 @@ def library(
                 continue
             gaits.append((v, L, gait))
             done(f"{v:g} m/s, {L:g} m: {gait.period:.3f} s")
-    least = (CURVES + 1) * (CURVES + 2) // 2
-    if len(gaits) < least or len(set(speeds)) <= CURVES or len(set(lengths)) <= CURVES:
+    if len(gaits) < least:
         raise GaitError(
-            f"{len(gaits)} of {len(speeds)} x {len(lengths)} pairs of speed and step length have a gait; a family "
-            f"needs at least {least}, of {CURVES + 1} speeds and {CURVES + 1} lengths"
+            f"{len(gaits)} of {len(speeds)} x {len(lengths)} pairs of speed and step length have a gait; "
+            f"a family needs at least {least}"
         )
     return gaits
 
@@ -102,7 +106,9 @@ def design_family(
     return with_steps(biped, family, members, seed)
 
 
-def with_steps(biped: Biped, family: GaitFamily, members: tuple[tuple[float, ...], ...], seed: int) -> GaitFamily:
+def with_steps(
+    biped: Biped, family: GaitFamily, members: tuple[tuple[float, ...], ...], seed: int
+) -> GaitFamily:
     """The family with its `StepMap`, from random steps, and with the numbers of its members."""
     random, low, high = np.random.default_rng(seed), family.low, family.high
     ends = random.uniform((*low, *low), (*high, *high), (SAMPLES, 4))
@@ -132,7 +138,10 @@ def step_integrals(
     curve = _OnCurve(c, StepCurve(family, v, end, L, plus, reset))
     decision = plus + DECISION * (family.curve(mu)[2] - plus)
     minus = family.curve(np.array((end, L)))[2]
-    first, last = _integrals(biped, curve, plus, decision), _integrals(biped, curve, decision, minus)
+    first, last = (
+        _integrals(biped, curve, plus, decision),
+        _integrals(biped, curve, decision, minus),
+    )
     return delta**2, *first, *last
 
 
@@ -149,7 +158,7 @@ def _integrals(biped: Biped, curve: _OnCurve, start: float, end: float) -> tuple
 
 
 def _member(biped: Biped, v: float, L: float, h: VirtualConstraint) -> tuple[float, ...]:
-    """Of a member: speed, step length, largest friction, peak torque [N m], least F_N [N] of its periodic step."""
+    """Of the periodic step of a member: speed, step length, friction, peak torque [N m], least F_N [N]."""
     zero = ZeroDynamics.of(biped, h)
     orbit = zero.orbit(zero.delta * zero.sigma_minus)
     F_T, F_N = orbit.ground_reaction.T

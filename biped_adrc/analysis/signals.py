@@ -142,7 +142,9 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
     return signals_of(walker, trajectory, readings(walker, trajectory, tracked))
 
 
-def readings(walker: Walker, trajectory: Trajectory, reference: Reference | OuterLoop) -> InstantSignals:
+def readings(
+    walker: Walker, trajectory: Trajectory, reference: Reference | OuterLoop
+) -> InstantSignals:
     """What is read off the closed loop at all nodes of a walk, in NumPy; arrays (K, ...)."""
     rows = [
         signals_at(walker, float(t), x, arc.mode, partial(tracked_point, reference))

@@ -32,6 +32,7 @@ from biped_adrc.core.files import check_folder
 
 if TYPE_CHECKING:
     from biped_adrc.analysis.gait_design import DesignedGait
+    from biped_adrc.gait.design.request import StepLimits
     from biped_adrc.model.biped import Biped
 
 gait_app = typer.Typer(
@@ -60,6 +61,7 @@ def gait_design(
     speed: float | None = None,
     step: float | None = None,
     speeds: str | None = None,
+    steps: str | None = None,
     robot: str = "rabbit",
     preset: str | None = None,
     slope: float = 0.0,
@@ -74,6 +76,9 @@ def gait_design(
     of_limits = [text for text in sets or () if text.startswith("limits.")]
     c = with_sets(Curves, [text for text in sets or () if text not in of_limits])
     limits = with_sets(StepLimits, [text.removeprefix("limits.") for text in of_limits])
+    if steps is not None:
+        _family(Biped.load(robot, preset), speeds, steps, limits if of_limits else None, out)
+        return
     if speeds is None:
         out = target(out, GAITS, inputs(robot))
     elif speed is not None or step is not None:
@@ -106,7 +111,7 @@ def _library(biped: Biped, speeds: str, how: dict[str, Any], out: Path) -> None:
     """Design a gait for every speed, each from a cold start, and store those that were found in a folder."""
     check_folder(out)
     rows, missed = [], []
-    for speed in _speeds(speeds):
+    for speed in _numbers(speeds):
         try:
             result = _design(biped, speed, None, **how)
         except GaitError as error:
@@ -133,8 +138,24 @@ def _library(biped: Biped, speeds: str, how: dict[str, Any], out: Path) -> None:
         raise GaitError("; ".join(missed))
 
 
-def _speeds(text: str) -> tuple[float, ...]:
-    """Speeds [m/s] from "0.4,0.5" or "0.4:1.1:0.1", the last one counted where it is met. Raises InputError."""
+def _family(
+    biped: Biped, speeds: str | None, steps: str, limits: StepLimits | None, out: Path | None
+) -> None:
+    """Design a gait for every pair of speed and step length, and store the family through them in a file."""
+    from biped_adrc.analysis.family_design import RESERVE, design_family, library
+
+    if speeds is None:
+        raise InputError("--steps is given without --speeds; a family needs both")
+    path = target(out or Path("family.json"), GAITS)
+    gaits = library(biped, _numbers(speeds), _numbers(steps), limits or RESERVE, done=say)
+    with console.status("fitting the family"):
+        family = design_family(path.stem.removesuffix(f"-{biped.preset}"), biped, gaits)
+    family.save(path)
+    say_written(path)
+
+
+def _numbers(text: str) -> tuple[float, ...]:
+    """Speeds [m/s], or lengths [m], from "0.4,0.5" or "0.4:1.1:0.1", the last one counted where it is met. Raises InputError."""
     try:
         if ":" in text:
             first, last, by = (float(word) for word in text.split(":"))
@@ -145,7 +166,7 @@ def _speeds(text: str) -> tuple[float, ...]:
         return tuple(float(word) for word in text.split(","))
     except ValueError:
         raise InputError(
-            f"speeds are '{text}', expected numbers as '0.4,0.5,0.6' or FIRST:LAST:STEP as '0.4:1.1:0.1' [m/s]"
+            f"found '{text}', expected numbers as '0.4,0.5,0.6' or FIRST:LAST:STEP as '0.4:1.1:0.1'"
         ) from None
 
 

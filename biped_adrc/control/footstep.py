@@ -1,19 +1,21 @@
 """The next footstep, decided in each step: which member of a family of gaits ends it.
 
-    h = f + R + b(s) (g - f),   f, g: members (v-, L) and (v+, L) of the family,   R: reset to the state after impact
+    h = f + R + b(s) (g - f),   f, g: members (v-, L) and (v+, L) of the family,   R: reset after impact
 
-v- is the speed whose member ended the step before, so that a step begins on its curve; L is the length of the step,
-of the next stone where there are stones. b rises from 0 at the decision (`gait.family`) to 1. Until the decision v+
-is computed anew at each sample instant, from y = sigma^2 and from the estimate r of what acts on the unactuated row:
+v- is the speed of the member on which the step before ended, so that a step begins on its curve. L is the
+length of the step, to the next stone where there are stones. b rises from 0 at the decision (`gait.family`)
+to 1 at SETTLED. Until the decision v+ is computed anew at each sample instant, from y = sigma^2 and from the
+estimate r of what acts on the unactuated row:
 
-    y_next(v+) = y_0 + pole (..),   in detail   y_next(v+) = y_free + (1 - pole / delta^2) (y_0 - y_free)
+    y_next(v+) = y_free + (1 - pole / delta^2) (y_0 - y_free)
 
-with y_0 the cycle's y at the speed that is wanted, and y_free what comes next at the speed that keeps y_0 under r.
-An error of y at one decision is then `pole` times as large at the next. y_next is kept within that of two speeds,
-above which the ground has to pull and below which the walk stalls. The linear map from step to step is that of
-H-LIP (Xiong, Ames, arXiv 2101.09588), in the angular momentum about the contact (Gong, Grizzle, arXiv 2008.10763).
+with y_0 the y of the cycle at the wanted speed, and y_free what comes next at the speed that keeps y_0 under
+r. An error of y at one decision is then `pole` times as large at the next. y_next is kept between those of
+the cycles at SLOWEST, below which the walk may stall, and at FASTEST. The map from step to step is used as in
+H-LIP (Xiong, Ames, arXiv 2101.09588), with the angular momentum about the contact as its state (Gong,
+Grizzle, arXiv 2008.10763).
 
-r comes from a momentum observer with two poles at -omega, sigma' = -G_N + r; no torque of a joint enters that row.
+r comes from a momentum observer with both poles at -omega, sigma' = -G_N + r: no joint's torque is in that row.
 """
 
 from __future__ import annotations
@@ -88,10 +90,11 @@ class StepCurve:
         return h - h_0, dh - dh_0, ddh - ddh_0
 
 
-def step_reset(
-    family: GaitFamily, mu: Array, theta: float, slope: Array, q_b: Array
-) -> Array:
-    """Coefficients (2, p) with which a step along mu begins at q_b (p,) [rad] and dq_b/dTheta = slope (p,)."""
+def step_reset(family: GaitFamily, mu: Array, theta: float, slope: Array, q_b: Array) -> Array:
+    """Coefficients (2, p) of the reset with which a step along mu begins in the state after impact.
+
+    theta: Theta+ [rad]. slope: dq_b/dTheta (p,). q_b: (p,) [rad].
+    """
     h, dh, _ = family.h(mu, theta, theta)
     return reset_coefficients(1.0, -1.0 / (family.curve(mu)[2] - theta), q_b - h, slope - dh)
 
@@ -176,15 +179,15 @@ class Footstep(OuterLoop):
 
     def length(self, step: int) -> float:
         """L [m] of a single support: of its stone, or the usual one."""
-        L = self.step
+        L: float = self.step
         for k, stone in enumerate(self.stones, 1):
-            L = np.where(abs(step - k) < 0.5, stone, L)
+            L = np.where(abs(step - k) < 0.5, stone, L)  # type: ignore[assignment]
         return L
 
     def begun(self, v: float, before: float, r: float, m: Measurement) -> Array:
         """w of a step that begins at m on the member v [m/s], after one of length `before` [m]."""
         c, L = self.family.phase, self.length(m.step)
-        mu, theta, dtheta = np.array((v, L)), c @ m.q, c @ m.v
+        mu, theta, dtheta = np.array((v, L)), float(c @ m.q), float(c @ m.v)
         forwards = dtheta * (self.family.curve(mu)[2] - theta) > 0.0
         slope = m.v_b / np.where(forwards, dtheta, 1.0)
         reset = np.where(forwards, step_reset(self.family, mu, theta, slope, m.q_b).ravel(), 0.0)
@@ -223,7 +226,10 @@ class Footstep(OuterLoop):
         return self.zero(lambda v: following(v) - goal)
 
     def zero(self, f: Callable[[float], float]) -> float:
-        """The speed [m/s] of the family where f is 0, by the parabola through three speeds; else the nearer end."""
+        """The speed [m/s] of the family where f is 0, by a parabola through three speeds.
+
+        Where it is 0 nowhere, the end of the range that is nearer to it.
+        """
         low, high = self.family.low[0], self.family.high[0]
         f_0, f_1, f_2 = f(low), f(0.5 * (low + high)), f(high)
         b, c = 4.0 * f_1 - 3.0 * f_0 - f_2, 2.0 * (f_0 + f_2 - 2.0 * f_1)

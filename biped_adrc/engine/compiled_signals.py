@@ -115,7 +115,9 @@ def _inputs(walker: Walker, arc: Arc) -> Array:
     return np.hstack((*head, x, zeta, np.zeros((len(t), OUTSIDE))))
 
 
-def reading_code(name: str, read: Reading, program: Program, curve: Reference | OuterLoop) -> LoadedCode:
+def reading_code(
+    name: str, read: Reading, program: Program, curve: Reference | OuterLoop
+) -> LoadedCode:
     """Machine code of what `read` says of a walker that errs from this curve, a function of this name as
     `observe`.
 

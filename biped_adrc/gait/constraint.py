@@ -110,13 +110,11 @@ class VirtualConstraint(Reference):
         return self.curve.over(self.rate * (theta - self.theta_plus))
 
 
-def past_end(
-    y: float, l: float, h: Array, dh: Array, ddh: Array  # noqa: E741
-) -> tuple[Array, Array, Array]:
-    """The module's continuation at a distance y past an end of fade l, from h, h', h'' (p,) at that end."""
-    left = np.exp(-abs(y) / l)
-    h = h + y * dh + (l * abs(y) - l * l * (1.0 - left)) * ddh
-    return h, dh + np.sign(y) * l * (1.0 - left) * ddh, left * ddh
+def past_end(y: float, fade: float, h: Array, dh: Array, ddh: Array) -> tuple[Array, Array, Array]:
+    """The continuation at a distance y in s past an end, with l = fade, from h, h', h'' (p,) at that end."""
+    left = np.exp(-abs(y) / fade)
+    h = h + y * dh + (fade * abs(y) - fade * fade * (1.0 - left)) * ddh
+    return h, dh + np.sign(y) * fade * (1.0 - left) * ddh, left * ddh
 
 
 def continued(h: VirtualConstraint) -> VirtualConstraint:

@@ -1,10 +1,10 @@
 """A family of gaits: one smooth map from (speed, step length) to a virtual constraint, and what its steps do.
 
-    (alpha, Theta-) = polynomial in (v, L),   h(Theta) = Bezier of alpha at s = (Theta - Theta+) / (Theta- - Theta+)
+    (alpha, Theta-) = polynomials in (v, L),   h = Bezier of alpha at s = (Theta - Theta+) / (Theta- - Theta+)
 
-The map is fitted to a library of designed gaits (`analysis.family_design`). Theta+ is where a step begins, so that a
-step can begin behind one of another length. With sigma the angular momentum about the stance foot, y = sigma^2 at
-the *decision* (a share DECISION of the step) goes from step to step by
+The map is fitted to a library of designed gaits (`analysis.family_design`). Theta+ is where a step begins, so
+that a step may follow one of another length. With sigma the angular momentum about the stance foot,
+y = sigma^2 at the *decision*, a share DECISION of the step, goes from step to step by
 
     y_next = delta^2 (y + 2 W + 2 r J) + 2 W' + 2 r J',   J = int I dTheta
 
@@ -86,8 +86,8 @@ class StepMap(Part):
     def next_square(self, y: float, begin: Array, end: Array, ahead: float, r: float) -> float:
         """y [kg^2 m^4/s^2] at the next decision.
 
-        begin: (v at the start, L of the step before). end: (v, L) of the step. ahead: L of the next step [m]. r:
-        torque on the unactuated row [N m].
+        begin: (v at the start, L of the step before). end: (v, L) of the step. ahead: L of the next step
+        [m]. r: torque on the unactuated row [N m].
         """
         W, J = self.to_impact(np.array((begin[0], end[0], begin[1], end[1])))
         delta2, W_next, J_next = self.to_decision(np.array((end[0], end[1], ahead)))
@@ -96,7 +96,9 @@ class StepMap(Part):
     def cycle_square(self, v: float, L: float, r: float = 0.0) -> float:
         """y of the periodic walk of the member (v, L) under r: the fixed point of `next_square`."""
         mu = np.array((v, L))
-        return self.next_square(0.0, mu, mu, L, r) / (1.0 - self.to_decision(np.array((v, L, L)))[0])
+        return self.next_square(0.0, mu, mu, L, r) / (
+            1.0 - self.to_decision(np.array((v, L, L)))[0]
+        )
 
 
 @dataclass(frozen=True)
@@ -153,8 +155,8 @@ class GaitFamily(Part):
         near = np.minimum(np.maximum(mu, self.low), self.high)
         if not np.all(np.abs(mu - near) <= 1e-9):
             raise GaitError(
-                f"family '{self.name}' has no member of {speed:g} m/s with a step of {step:g} m; the nearest has "
-                f"{near[0]:g} m/s and {near[1]:g} m"
+                f"family '{self.name}' has no member of {speed:g} m/s with a step of {step:g} m; the nearest "
+                f"has {near[0]:g} m/s and {near[1]:g} m"
             )
 
     def save(self, path: Path | str) -> None:
@@ -191,8 +193,8 @@ def load_family(family: str | Path, biped: Biped) -> GaitFamily:
         result = _from_record(json.loads(path.read_text(encoding="utf-8")))
     if (result.robot, result.preset) != (robot, preset):
         raise GaitError(
-            f"family '{result.name}' was made for robot '{result.robot}', preset '{result.preset}', and this is "
-            f"'{robot}', '{preset}'"
+            f"family '{result.name}' was made for robot '{result.robot}', preset '{result.preset}', and "
+            f"this is '{robot}', '{preset}'"
         )
     return result
 

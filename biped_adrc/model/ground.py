@@ -78,9 +78,9 @@ class StepUp(GroundStep):
 class Stones(Checked):
     """Where feet may land: single support k, from 1, is to be `lengths[k - 1]` [m] long.
 
-    A foot that lands further than `tolerance` [m] from its stone makes the step infeasible. Behind the last stone
-    the ground is whole. Heights of stones are steps of the ground. Raises InputError for a length that is not
-    positive.
+    A foot that lands further than `tolerance` [m] from its stone makes the step infeasible. Behind the last
+    stone the ground is whole. Heights of stones are steps of the ground. Raises InputError for a length that
+    is not positive.
 
     >>> Stones((0.3, 0.5)).missed(2, 0.54).__round__(3)
     0.015
@@ -91,7 +91,9 @@ class Stones(Checked):
 
     def __post_init__(self) -> None:
         if not all(math.isfinite(L) and L > 0.0 for L in self.lengths):
-            raise InputError(f"the stones are at steps of {self.lengths} m, expected positive numbers")
+            raise InputError(
+                f"the stones are at steps of {self.lengths} m, expected positive numbers"
+            )
 
     def missed(self, step: int, length: float) -> float:
         """By how much [m] single support `step` of this length [m] misses its stone; 0 where it does not."""

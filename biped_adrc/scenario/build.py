@@ -311,7 +311,8 @@ def stones(s: Scenario) -> Stones | None:
     if g.stone_range is None:
         return None
     count = s.run.first_step + s.run.impacts
-    lengths = np.random.default_rng(drawn(s, "stones")).uniform(*g.stone_range, count)
+    random = np.random.default_rng(drawn(s, "stones"))
+    lengths = random.uniform(g.stone_range[0], g.stone_range[1], count)
     return Stones(tuple(lengths.tolist()), g.stone_tolerance)
 
 

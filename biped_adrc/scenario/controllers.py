@@ -42,9 +42,7 @@ MAKER = "from_"
 """An observer is made by its constructor, or by a class method whose name begins with this."""
 
 
-def controller(
-    s: Scenario, gait: Gait, biped: Biped, stones: tuple[float, ...] = ()
-) -> Controller:
+def controller(s: Scenario, gait: Gait, biped: Biped, stones: tuple[float, ...] = ()) -> Controller:
     """The controller of a scenario on this gait, with the robot `biped` as its model.
 
     stones: lengths of the steps to the stones [m].
