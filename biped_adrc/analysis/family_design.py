@@ -10,7 +10,7 @@ Along it W, the work of gravity, and J are integrals over Theta (`gait.zero_dyna
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -26,11 +26,15 @@ from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration, gauss_nodes
 from biped_adrc.model.biped import Biped
 
-RESERVE = StepLimits(friction=0.42, impulse_friction=0.45, clearance=0.08, lift_off=0.5)
+RESERVE = StepLimits(
+    friction=0.42, impulse_friction=0.45, torque=120.0, clearance=0.08, lift_off=0.5
+)
 """Limits of the library. A step between two members asks for more friction than the members do; the foot comes
 down steeply, so that uneven ground changes the end of a step little."""
 CURVES, STEPS = 4, 3
 """Degrees of the polynomials."""
+OF_LIBRARY = ("method", "curves", "minimised", "limits")
+"""What the provenance of a gait says of all gaits of the library."""
 SAMPLES = 1200
 """Random steps to which `StepMap` is fitted."""
 NODES = 16
@@ -43,6 +47,11 @@ class _OnCurve:
 
     phase: Array
     h: Callable[[float], tuple[Array, Array, Array]]
+
+
+def _configuration(curve: _OnCurve, theta: float) -> tuple[Array, Array, Array]:
+    """`configuration`, on any curve."""
+    return configuration(curve, theta)  # type: ignore[arg-type]
 
 
 def library(
@@ -80,13 +89,18 @@ def library(
 
 
 def design_family(
-    name: str, biped: Biped, gaits: Sequence[tuple[float, float, Gait]], seed: int = 0
+    name: str,
+    biped: Biped,
+    gaits: Sequence[tuple[float, float, Gait]],
+    provenance: Mapping[str, object],
+    seed: int = 0,
 ) -> GaitFamily:
-    """The family through a library of gaits, as `library` returns it; seed: of the random steps.
+    """The family through a library of gaits, as `library` returns it.
 
+    provenance: how the library was made, beside what its gaits say. seed: of the random steps.
     Raises GaitError where a member that was designed has no periodic walk in the family.
     """
-    mu = np.array([(v, L) for v, L, _ in gaits])
+    mu, first = np.array([(v, L) for v, L, _ in gaits]), gaits[0][2].provenance
     constraints = [gait.constraint for _, _, gait in gaits]
     y = [(*c.curve.coefficients.ravel(), c.theta_plus, c.theta_minus) for c in constraints]
     curves = PolynomialMap.fit(mu, np.array(y), CURVES)
@@ -100,7 +114,7 @@ def design_family(
         constraints[0].phase,
         mu.min(axis=0),
         mu.max(axis=0),
-        provenance=dict(gaits[0][2].provenance),
+        provenance={**{k: first[k] for k in OF_LIBRARY}, **provenance},
     )
     members = tuple(_member(biped, v, L, family.member(v, L)) for v, L, _ in gaits)
     return with_steps(biped, family, members, seed)
@@ -111,38 +125,38 @@ def with_steps(
 ) -> GaitFamily:
     """The family with its `StepMap`, from random steps, and with the numbers of its members."""
     random, low, high = np.random.default_rng(seed), family.low, family.high
-    ends = random.uniform((*low, *low), (*high, *high), (SAMPLES, 4))
+    ends = random.uniform((*low, low[1], *low), (*high, high[1], *high), (SAMPLES, 5))
     steps = np.array([step_integrals(biped, family, *x) for x in ends])
-    v, before, end, L = ends.T
-    to_impact = PolynomialMap.fit(np.column_stack((v, end, before, L)), steps[:, 3:], STEPS)
-    to_decision = PolynomialMap.fit(np.column_stack((v, before, L)), steps[:, :3], STEPS)
+    v, before, L, end, ahead = ends.T
+    to_impact = PolynomialMap.fit(np.column_stack((v, end, L, ahead)), steps[:, -2:], STEPS)
+    to_decision = PolynomialMap.fit(np.column_stack((v, before, L, ahead)), steps[:, :-2], STEPS)
     return replace(family, steps=StepMap(to_impact, to_decision), members=members)
 
 
 def step_integrals(
-    biped: Biped, family: GaitFamily, v: float, before: float, end: float, L: float
-) -> tuple[float, float, float, float, float]:
-    """delta^2, 2 W', J' up to the decision, 2 W, J from there on, of a step of length L [m].
+    biped: Biped, family: GaitFamily, v: float, before: float, L: float, end: float, ahead: float
+) -> Array:
+    """delta^2 after a step, 2 W', J' up to the next decision, dq_b/dTheta (p,) there, 2 W, J after it (p + 5,).
 
-    It follows a step of the member (v [m/s], before [m]) and ends on the member (end [m/s], L).
+    The first step is L [m] long, follows one of length `before` [m], and ends on the member (v [m/s], L). The
+    next one begins there and ends on the member (end [m/s], ahead [m]).
     """
-    c, p = family.phase, biped.p
-    h = family.member(v, before)
-    q, dq, _ = configuration(h, h.theta_minus)
-    v_minus = np.sign(h.theta_minus - h.theta_plus) * dq
+    c, p, mu = family.phase, biped.p, np.array((v, L))
+    earlier = family.member(v, before)
+    plus = float(c @ biped.relabel(configuration(earlier, earlier.theta_minus)[0]))
+    minus = family.curve(mu)[2]
+    q, dq, _ = _configuration(_OnCurve(c, lambda theta: family.h(mu, plus, theta)), minus)
+    v_minus = np.sign(minus - plus) * dq
     impact = biped.impact(q, v_minus)
-    q_plus, dq_plus = impact.q, impact.v
-    delta = biped.angular_momentum(q_plus, dq_plus) / biped.angular_momentum(q, v_minus)
-    plus, mu = float(c @ q_plus), np.array((v, L))
-    reset = step_reset(family, mu, plus, dq_plus[:p] / float(c @ dq_plus), q_plus[:p])
-    curve = _OnCurve(c, StepCurve(family, v, end, L, plus, reset))
-    decision = plus + DECISION * (family.curve(mu)[2] - plus)
-    minus = family.curve(np.array((end, L)))[2]
-    first, last = (
-        _integrals(biped, curve, plus, decision),
-        _integrals(biped, curve, decision, minus),
-    )
-    return delta**2, *first, *last
+    delta = biped.angular_momentum(impact.q, impact.v) / biped.angular_momentum(q, v_minus)
+    start = float(c @ impact.q)
+    slope = impact.v[:p] / float(c @ impact.v)
+    reset = step_reset(family, np.array((v, ahead)), start, impact.q[:p], slope)
+    curve = _OnCurve(c, StepCurve(family, v, end, ahead, start, reset))
+    decision = start + DECISION * (family.curve(np.array((v, ahead)))[2] - start)
+    first = _integrals(biped, curve, start, decision)
+    last = _integrals(biped, curve, decision, family.curve(np.array((end, ahead)))[2])
+    return np.array((delta**2, *first, *slope, *last))
 
 
 def _integrals(biped: Biped, curve: _OnCurve, start: float, end: float) -> tuple[float, float]:
@@ -150,7 +164,7 @@ def _integrals(biped: Biped, curve: _OnCurve, start: float, end: float) -> tuple
     s, weights, _ = gauss_nodes(NODES)
     W = J = 0.0
     for theta, weight in zip(start + (end - start) * s, (end - start) * weights, strict=True):
-        q, dq, _ = configuration(curve, float(theta))  # type: ignore[arg-type]
+        q, dq, _ = _configuration(curve, float(theta))
         inertia = float(biped.inertia(q)[-1] @ dq)
         W -= weight * inertia * float(biped.gravity(q)[-1])
         J += weight * inertia

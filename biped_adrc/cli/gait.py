@@ -149,13 +149,14 @@ def _family(
     path = target(out or Path("family.json"), GAITS)
     gaits = library(biped, _numbers(speeds), _numbers(steps), limits or RESERVE, done=say)
     with console.status("fitting the family"):
-        family = design_family(path.stem.removesuffix(f"-{biped.preset}"), biped, gaits)
+        name = path.stem.removesuffix(f"-{biped.preset}")
+        family = design_family(name, biped, gaits, {"command": command()})
     family.save(path)
     say_written(path)
 
 
 def _numbers(text: str) -> tuple[float, ...]:
-    """Speeds [m/s], or lengths [m], from "0.4,0.5" or "0.4:1.1:0.1", the last one counted where it is met. Raises InputError."""
+    """Numbers from "0.4,0.5" or "0.4:1.1:0.1", the last one counted where it is met. Raises InputError."""
     try:
         if ":" in text:
             first, last, by = (float(word) for word in text.split(":"))

@@ -15,7 +15,8 @@ the cycles at SLOWEST, below which the walk may stall, and at FASTEST. The map f
 H-LIP (Xiong, Ames, arXiv 2101.09588), with the angular momentum about the contact as its state (Gong,
 Grizzle, arXiv 2008.10763).
 
-r comes from a momentum observer with both poles at -omega, sigma' = -G_N + r: no joint's torque is in that row.
+sigma and r come from a momentum observer with both poles at -omega, sigma' = -G_N + r: the torques of the
+joints are not in that row.
 """
 
 from __future__ import annotations
@@ -90,13 +91,13 @@ class StepCurve:
         return h - h_0, dh - dh_0, ddh - ddh_0
 
 
-def step_reset(family: GaitFamily, mu: Array, theta: float, slope: Array, q_b: Array) -> Array:
-    """Coefficients (2, p) of the reset with which a step along mu begins in the state after impact.
+def step_reset(family: GaitFamily, mu: Array, plus: float, q_b: Array, slope: Array) -> Array:
+    """Coefficients (2, p) of the reset of a step along mu that begins at q_b (p,) [rad] with dq_b/dTheta = slope.
 
-    theta: Theta+ [rad]. slope: dq_b/dTheta (p,). q_b: (p,) [rad].
+    plus: Theta+ [rad]. slope: (p,).
     """
-    h, dh, _ = family.h(mu, theta, theta)
-    return reset_coefficients(1.0, -1.0 / (family.curve(mu)[2] - theta), q_b - h, slope - dh)
+    h, dh, _ = family.h(mu, plus, plus)
+    return reset_coefficients(1.0, -1.0 / (family.curve(mu)[2] - plus), q_b - h, slope - dh)
 
 
 @dataclass(frozen=True)
@@ -162,8 +163,7 @@ class Footstep(OuterLoop):
     @derived
     def gain(self) -> float:
         """1 - pole / delta^2."""
-        delta2 = self.family.steps.to_decision(np.array((self.speed, self.step, self.step)))[0]
-        return float(1.0 - self.pole / delta2)
+        return float(1.0 - self.pole / self.family.steps.delta_squared(self.speed, self.step))
 
     @derived
     def base(self) -> VirtualConstraint:
@@ -184,30 +184,31 @@ class Footstep(OuterLoop):
             L = np.where(abs(step - k) < 0.5, stone, L)  # type: ignore[assignment]
         return L
 
-    def begun(self, v: float, before: float, r: float, m: Measurement) -> Array:
-        """w of a step that begins at m on the member v [m/s], after one of length `before` [m]."""
-        c, L = self.family.phase, self.length(m.step)
-        mu, theta, dtheta = np.array((v, L)), float(c @ m.q), float(c @ m.v)
-        forwards = dtheta * (self.family.curve(mu)[2] - theta) > 0.0
-        slope = m.v_b / np.where(forwards, dtheta, 1.0)
-        reset = np.where(forwards, step_reset(self.family, mu, theta, slope, m.q_b).ravel(), 0.0)
-        own = np.array((v, v, L, before, m.terms.D[-1] @ m.v, r, theta))
-        return np.concatenate((own, reset))
+    def begun(self, v: float, earlier: float, before: float, r: float, m: Measurement) -> Array:
+        """w of a step that begins at m on the member v [m/s], after steps of length `earlier` and `before` [m].
+
+        The slope after impact is that of the family, since rates measured just after an impact are noisy.
+        """
+        L, plus = self.length(m.step), float(self.family.phase @ m.q)
+        slope = self.family.steps.to_decision(np.array((v, earlier, before, L)))[3:]
+        reset = step_reset(self.family, np.array((v, L)), plus, m.q_b, slope)
+        own = np.array((v, v, L, before, m.terms.D[-1] @ m.v, r, plus))
+        return np.concatenate((own, reset.ravel()))
 
     def own_start(self, h: Constraint, m: Measurement) -> Array:
-        return self.begun(self.speed, self.step, 0.0, m)
+        return self.begun(self.speed, self.step, self.step, 0.0, m)
 
     def own_jump(self, w: Array, h: Constraint, after: Measurement) -> Array:
-        return self.begun(w[1], w[2], w[5], after)
+        return self.begun(w[1], w[3], w[2], w[5], after)
 
     def own_correct(self, w: Array, m: Measurement) -> Array:
-        T, omega, sigma = self.period, self.bandwidth, m.terms.D[-1] @ m.v
-        e = sigma - w[4]
+        T, omega = self.period, self.bandwidth
+        e = m.terms.D[-1] @ m.v - w[4]
         r = w[5] + T * omega**2 * e
         sigma_hat = w[4] + T * (w[5] - body_of(m).G[-1] + 2.0 * omega * e)
         minus = self.family.curve(np.array((w[0], w[2])))[2]
         early = (self.family.phase @ m.q - w[6]) / (minus - w[6]) < DECISION
-        end = np.where(early, self.decision(w, sigma**2, r, m.step), w[1])
+        end = np.where(early, self.decision(w, sigma_hat**2, r, m.step), w[1])
         return np.concatenate((np.array((w[0], end, w[2], w[3], sigma_hat, r, w[6])), w[7:]))
 
     def decision(self, w: Array, y: float, r: float, step: int) -> float:

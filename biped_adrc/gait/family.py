@@ -81,7 +81,8 @@ class StepMap(Part):
     to_impact: PolynomialMap
     """(v at the start, v at the end, L of the step before, L) -> 2 W [kg^2 m^4/s^2], J [kg m^2]."""
     to_decision: PolynomialMap
-    """(v, L, L of the next step) -> delta^2 of the impact, 2 W', J'."""
+    """(v, L of the step before, L, L of the next step) -> delta^2 of the impact, 2 W', J', and dq_b/dTheta (p,)
+    just after the impact."""
 
     def next_square(self, y: float, begin: Array, end: Array, ahead: float, r: float) -> float:
         """y [kg^2 m^4/s^2] at the next decision.
@@ -90,15 +91,19 @@ class StepMap(Part):
         [m]. r: torque on the unactuated row [N m].
         """
         W, J = self.to_impact(np.array((begin[0], end[0], begin[1], end[1])))
-        delta2, W_next, J_next = self.to_decision(np.array((end[0], end[1], ahead)))
+        after = self.to_decision(np.array((end[0], begin[1], end[1], ahead)))
+        delta2, W_next, J_next = after[0], after[1], after[2]
         return delta2 * (y + W + 2.0 * r * J) + W_next + 2.0 * r * J_next
 
     def cycle_square(self, v: float, L: float, r: float = 0.0) -> float:
         """y of the periodic walk of the member (v, L) under r: the fixed point of `next_square`."""
         mu = np.array((v, L))
-        return self.next_square(0.0, mu, mu, L, r) / (
-            1.0 - self.to_decision(np.array((v, L, L)))[0]
-        )
+        return self.next_square(0.0, mu, mu, L, r) / (1.0 - self.delta_squared(v, L))
+
+    def delta_squared(self, v: float, L: float) -> float:
+        """delta^2 of the impact of the periodic walk of the member (v, L)."""
+        result: float = self.to_decision(np.array((v, L, L, L)))[0]
+        return result
 
 
 @dataclass(frozen=True)

@@ -63,6 +63,7 @@ ROWS = {
         "stride PI": lambda make, h: [
             ba.StridePI(ba.NPDController(h), 0.7, 0.3, TORSO_LEAN, StrideGains(-1.0, -0.4))
         ],
+        "footstep": lambda make, h: [make(ba.NPDController(h), gait(), robot(), stones=(0.3, 0.5))],
         "reference reset": lambda make, h: [make(ba.ADRCController(h))],
         "delayed": lambda make, h: [make(ba.ADRCController(h, SLOW), 2e-3)],
         "passive": lambda make, h: [make()],

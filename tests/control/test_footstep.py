@@ -1,0 +1,169 @@
+"""The footstep controller and its family of gaits: the map from step to step, forces, rough ground, stones."""
+
+import numpy as np
+import pytest
+
+import biped_adrc as ba
+from biped_adrc.analysis.family_design import library
+from biped_adrc.core.errors import GaitError, InputError
+from biped_adrc.gait.family import DECISION, PolynomialMap, load_family
+from biped_adrc.model.ground import Stones
+
+CLOCK = ba.SampledTime(1e-3)
+
+
+@pytest.fixture(scope="module")
+def robot():
+    return ba.Biped.load("rabbit")
+
+
+@pytest.fixture(scope="module")
+def slow(robot):
+    return ba.load_gait("v0.6", robot)
+
+
+def walker(robot, gait, disturbance=None, inner=ba.NPDController, **options):
+    law = ba.Footstep.on_gait(inner(gait.constraint), gait, robot, **options)
+    return ba.Walker(robot, law, disturbance, timing=CLOCK, torque_limit=150.0)
+
+
+def decisions(robot, walk):
+    """sigma^2 where each step decides, from the full simulation."""
+    law, found = walk.walker.law, []
+    for arc in walk.trajectory.arcs:
+        w = arc.x[-1][2 * robot.n : 2 * robot.n + law.own_size]
+        minus = law.family.curve(np.array((w[0], w[2])))[2]
+        s = (arc.x[:, : robot.n] @ law.family.phase - w[6]) / (minus - w[6])
+        x = arc.x[int(np.searchsorted(s, DECISION))]
+        found.append(robot.angular_momentum(x[:5], x[5:10]) ** 2)
+    return np.array(found)
+
+
+# -- the family ------------------------------------------------------------------------------------
+def test_fit_of_a_polynomial_is_exact():
+    x = np.random.default_rng(0).uniform((-1.0, 2.0), (3.0, 2.5), (40, 2))
+    y = np.column_stack((x[:, 0] ** 2 * x[:, 1], 1.0 + x[:, 1]))
+    fit = PolynomialMap.fit(x, y, degree=3)
+    assert fit(np.array((0.3, 2.2))) == pytest.approx((0.3**2 * 2.2, 3.2), abs=1e-12)
+
+
+@pytest.mark.parametrize("preset", ["identified", "identified-bare", "tac2003"])
+def test_a_member_ends_at_its_step_length(preset):
+    biped = ba.Biped.load("rabbit", preset)
+    family = load_family("flat", biped)
+    for v in np.linspace(family.low[0], family.high[0], 4):
+        for L in np.linspace(family.low[1], family.high[1], 5):
+            h = family.member(v, L)
+            q_b = h.h(h.theta_minus)[0]
+            q = np.append(q_b, h.theta_minus - h.phase[:-1] @ q_b)
+            x, z = biped.swing_foot(q)
+            assert abs(x - L) < 3e-3
+            assert abs(z) < 3e-3
+
+
+def test_a_family_is_what_was_saved(robot, tmp_path):
+    family = load_family("flat", robot)
+    family.save(tmp_path / "mine.json")
+    again = load_family(tmp_path / "mine.json", robot)
+    mu = np.array((0.7, 0.35))
+    assert np.array_equal(again.curve(mu)[0], family.curve(mu)[0])
+    assert again.steps.cycle_square(0.7, 0.35) == family.steps.cycle_square(0.7, 0.35)
+
+
+def test_mistakes_with_a_family(robot, tmp_path):
+    path = tmp_path / "mine.json"
+    load_family("flat", robot).save(path)
+    with pytest.raises(GaitError, match=r"no family 'steep'.*stored are.*flat-identified"):
+        load_family("steep", robot)
+    with pytest.raises(GaitError, match="preset 'identified', and this is 'rabbit', 'tac2003'"):
+        load_family(path, ba.Biped.load("rabbit", "tac2003"))
+    with pytest.raises(GaitError, match=r"no member of 2 m/s.*the nearest has 1.1 m/s"):
+        load_family("flat", robot).member(2.0, 0.4)
+    with pytest.raises(GaitError, match="2 speeds and 1 lengths, expected at least 5"):
+        library(robot, [0.5, 0.6], [0.3])
+
+
+# -- from step to step -----------------------------------------------------------------------------
+def test_the_map_says_what_the_simulated_robot_does_under_a_force(robot, slow):
+    """sigma^2 at the next decision, by quadratures on the curve and by the whole dynamics, 6 N on the hip."""
+    stones = (0.38, 0.3, 0.45, 0.4, 0.38)
+    push = ba.HipForce(robot, (-6.0, 0.0))
+    walk = ba.walk(walker(robot, slow, push, speed=0.7, step=0.38, stones=stones), slow, 4)
+    law, y = walk.walker.law, decisions(robot, walk)
+    w = [arc.x[-1][10 : 10 + law.own_size] for arc in walk.trajectory.arcs[:4]]
+    for k in (1, 2):
+        begin, end = np.array((w[k][0], w[k][3])), np.array((w[k][1], w[k][2]))
+        predicted = law.family.steps.next_square(y[k], begin, end, w[k + 1][2], w[k][5])
+        assert predicted == pytest.approx(y[k + 1], rel=0.02)
+
+
+@pytest.mark.parametrize("pole", [0.35, 0.5])
+def test_the_error_from_step_to_step_has_the_pole_that_was_asked_for(robot, slow, pole):
+    """Two walks that start at other speeds: their difference of sigma^2 at the decisions."""
+    law = walker(robot, slow, speed=0.65, step=0.38, pole=pole)
+    settled = ba.walk(law, slow, impacts=12).trajectory.arcs[-1].x[0]
+    y = []
+    for scale in (0.99, 1.01):
+        start = settled[:5], scale * settled[5:10]
+        y.append(decisions(robot, ba.walk(law, slow, impacts=4, start=start)))
+    apart = y[1] - y[0]
+    assert apart[1] / apart[0] == pytest.approx(pole, rel=0.05)
+
+
+# -- what it is for --------------------------------------------------------------------------------
+def test_a_force_of_14_newtons_on_the_hip_is_walked_against(robot):
+    gait = ba.load_gait("v0.5", robot)
+    push = ba.HipForce(robot, (-14.4, 0.0), steps=(5, 99))
+    walk = ba.walk(walker(robot, gait, push, step=0.25), gait, impacts=20)
+    assert walk.feasibility.outcome == "feasible"
+    r = walk.trajectory.arcs[-1].x[-1][15]
+    hip = walk.walker.plant.hip(walk.trajectory.arcs[-1].x[-1][:5])[1]
+    assert r == pytest.approx(14.4 * hip, rel=0.1)
+
+
+def test_random_ground(robot, slow):
+    """Each of 25 steps ends up to 20 mm higher or lower."""
+    s = ba.Scenario({"name": "footstep", "speed": 0.65, "step": 0.38, "inner": "NPD"}, gait="v0.6")
+    s = s.replace({"hardware.period": "1 ms", "ground.step_height": "20 mm", "run.seed": 5})
+    walk = ba.walk_scenario(s)
+    drops = [walk.walker.drop(k) for k in range(1, 26)]
+    assert max(map(abs, drops)) > 0.018
+    assert walk.feasibility.outcome == "feasible"
+
+
+@pytest.mark.parametrize("inner", [ba.NPDController, ba.ADRCController])
+def test_random_stones(inner):
+    """In 20 steps of 0.2 to 0.6 m; the verdict includes the stones."""
+    own = {"name": "footstep", "speed": "0.55 m/s", "step": "0.4 m"}
+    own["inner"] = "NPD" if inner is ba.NPDController else "LESO"
+    ground = {"stone_range": (0.2, 0.6)}
+    s = ba.Scenario(own, gait="v0.6", hardware={"period": "1 ms"}, ground=ground)
+    walk = ba.walk_scenario(s.replace({"run.impacts": 20, "run.seed": 3}))
+    assert walk.feasibility.outcome == "feasible"
+    lengths = [c.step_length for c in walk.certificates]
+    assert lengths == pytest.approx(walk.walker.stones.lengths[:20], abs=5e-3)
+    assert np.ptp(lengths) > 0.3
+
+
+def test_a_foot_off_its_stone_is_not_feasible(robot, slow):
+    course = Stones((0.5, 0.44))
+    npd = ba.Walker(robot, ba.NPDController(slow.constraint), stones=course)
+    walk = ba.walk(npd, slow, impacts=3)
+    assert walk.feasibility.reasons["stones"].startswith("step 1: the foot lands 36 mm beyond")
+    assert set(walk.feasibility.reasons) == {"stones"}
+
+
+@pytest.mark.parametrize(
+    ("values", "text"),
+    [
+        ({"controller.speed": "3 m/s"}, "no member of 3 m/s"),
+        ({"ground.stones": (0.3, 0.9)}, "stone 2 is out of reach.*the nearest has .* 0.6 m"),
+        ({"ground.stones": (0.3,), "ground.stone_range": (0.2, 0.3)}, "stone_range"),
+        ({"ground.stone_range": (0.3, 0.2)}, "stone_range"),
+        ({"hardware.period": None}, "sampled time only"),
+    ],
+)
+def test_mistakes_with_footsteps(values, text):
+    usual = {"controller": "footstep", "gait": "v0.6", "hardware.period": "1 ms"}
+    with pytest.raises(InputError, match=text):
+        ba.walk_scenario(ba.Scenario(**usual | values))
