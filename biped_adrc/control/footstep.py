@@ -92,7 +92,7 @@ class StepCurve:
 
 
 def step_reset(family: GaitFamily, mu: Array, plus: float, q_b: Array, slope: Array) -> Array:
-    """Coefficients (2, p) of the reset of a step along mu that begins at q_b (p,) [rad] with dq_b/dTheta = slope.
+    """Coefficients (2, p) of the reset: the step along mu begins at q_b (p,) [rad] with dq_b/dTheta = slope.
 
     plus: Theta+ [rad]. slope: (p,).
     """
