@@ -52,7 +52,7 @@ def observer_command(
     for section in report.sections:
         say_table(section.header, section.rows, section.title)
     if out is not None:
-        from biped_adrc.view.plots.observer_figure import observer_figure
+        from biped_adrc.view.plots.figures import observer_figure
         from biped_adrc.view.style import write_figure
 
         write_figure(out, observer_figure(report))

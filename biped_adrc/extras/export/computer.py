@@ -20,10 +20,9 @@ from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import WalkerNumbers
-from biped_adrc.engine.mechanics import RobotData, robot_of
+from biped_adrc.engine.mechanics import RobotData, RobotStructure, robot_of
 from biped_adrc.engine.program import controller_numbers
 from biped_adrc.engine.tick_derivative import tick_derivative
-from biped_adrc.extras.export.noticed import Noticed
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.hardware.sensing import Sensor
@@ -127,3 +126,43 @@ class Computer:
     def numbers(self) -> WalkerNumbers:
         """All numbers by name; of plant and ground there are none, as the computer knows its model alone."""
         return controller_numbers(self.robot, self.alone)
+
+
+@dataclass(frozen=True)
+class Noticed(Sensor):
+    """`inner` on a robot with this structure. Raises InputError where labels do not exchange in pairs."""
+
+    inner: Sensor
+    robot: RobotStructure
+
+    def __post_init__(self) -> None:
+        R, offset = self.robot.R, self.robot.offset
+        if np.any(np.eye(len(R)) != R @ R) or np.any(R @ offset + offset != 0.0):
+            raise InputError(
+                "the labels of this robot's joints do not exchange in pairs at a touchdown, so what was "
+                "measured has no old labels; leave out touchdown"
+            )
+
+    def sampled(self, n: int, p: int, period: float) -> Noticed:
+        return replace(self, inner=self.inner.sampled(n, p, period))
+
+    @property
+    def size(self) -> int:
+        return self.inner.size + 1
+
+    def start(self, q: Array, v: Array) -> Array:
+        return np.concatenate((self.inner.start(q, v), np.zeros(1)))
+
+    def sense(self, w: Array, q: Array, v: Array) -> Array:
+        after = np.where(w[-1] > 0.5, w[:-1], self.inner.sense(w[:-1], q, v))
+        return np.concatenate((after, np.zeros(1)))
+
+    def impact(self, w: Array, q: Array, v: Array, v_model: Array) -> Array:
+        R = self.robot.R
+        q_old, v_old = R @ q + self.robot.offset, R @ v
+        before = self.inner.sense(w[:-1], q_old, v_old)
+        rates = self.inner.reading(before, q_old, v_old)[1]
+        return np.concatenate((self.inner.impact(before, q, v, R @ rates), np.ones(1)))
+
+    def reading(self, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
+        return self.inner.reading(w[:-1], q, v)

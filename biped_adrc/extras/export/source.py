@@ -21,7 +21,7 @@ from biped_adrc.core.versions import packages
 from biped_adrc.engine.symbols import NotCompiled, floats, paths
 from biped_adrc.extras.export.c_text import Written, c_text, decimal, used_numbers
 from biped_adrc.extras.export.computer import Computer
-from biped_adrc.extras.export.layout import Field, Functions, functions
+from biped_adrc.extras.export.functions import Field, Functions, functions
 
 REALS = {"float64": "double", "float32": "float"}
 """Type of numbers in C, by its name in NumPy."""

@@ -14,5 +14,5 @@ ID = "biped_adrc/Walk-v0"
 gymnasium.register(
     ID,
     entry_point="biped_adrc.extras.gym.env:WalkEnv",
-    vector_entry_point="biped_adrc.extras.gym.vector:WalkVectorEnv",
+    vector_entry_point="biped_adrc.extras.gym.env:WalkVectorEnv",
 )

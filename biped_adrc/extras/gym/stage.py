@@ -6,18 +6,23 @@ as alone, bit for bit.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from biped_adrc.closed_loop.protocols import Loop, Mode
+from biped_adrc.closed_loop.semantics import labelled, noticed, parts
 from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.control.base import Measurement
 from biped_adrc.control.passive import Passive
 from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.extras.gym.task import ADDED, FALLEN_FROM, LearnerTask
-from biped_adrc.extras.gym.view import learner_view
+from biped_adrc.gait.reference import ReferencePoint
+from biped_adrc.hardware.sample_hold import motor_torque, read
 from biped_adrc.scenario.build import RobotAndGait, build, limits
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.stepper import Stepper
@@ -147,3 +152,55 @@ class Stage:
             "peak_torque": rows[:, 3].copy(),
             "status": NAMES[self.stepper.codes],
         }
+
+
+class LearnerView(NamedTuple):
+    """At one sample instant; n coordinates, p motors."""
+
+    q: Array
+    """Angles as measured (n,) [rad]."""
+    v: Array
+    """Rates as measured (n,) [rad/s]."""
+    e: Array
+    """q_b - q_d of what is measured (p,) [rad]."""
+    de: Array
+    """Its rate (p,) [rad/s]."""
+    u: Array
+    """Torque that has acted (p,) [N m]."""
+    at: Array
+    """Time [s], and number of the single support, (2,)."""
+    squares: Array
+    """|q_b - q_d|^2 of the true state [rad^2], and |u|^2 [N^2 m^2], (2,)."""
+
+
+def learner_view(
+    loop: Loop,
+    t: float,
+    x: Array,
+    mode: Mode,
+    reference: Callable[[Array, Measurement], ReferencePoint],
+) -> LearnerView:
+    """What a learner is given in x (nx,) at a sample instant at t [s], before the controller has acted.
+
+    reference(s, m): the point of the reference at a measurement, s the controller's state.
+    """
+    (q, v, s, tail), k, p = parts(loop, x), loop.held, loop.plant.p
+    assert k is not None
+    h = read(k.sizes, tail)
+    true = loop.measure(t, q, v, mode)
+    if k.touchdown is not None:
+        state, _, _, b = noticed(loop, t, s, tail, q, v, mode)
+        line = labelled(loop, b, h.line)
+    else:
+        q_seen, v_seen = k.reading(k.sense(h.w, q, v), q, v)
+        state, line = true._replace(q=q_seen, v=v_seen), h.line
+    r, e, u = reference(s, state), q[:p] - reference(s, true).q_d, motor_torque(h.line)
+    return LearnerView(
+        q=state.q,
+        v=state.v,
+        e=state.q[:p] - r.q_d,
+        de=state.v[:p] - r.dq_d,
+        u=motor_torque(line),
+        at=np.array([t, mode.step]),
+        squares=np.array([e @ e, u @ u]),
+    )

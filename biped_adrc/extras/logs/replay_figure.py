@@ -7,8 +7,9 @@ touchdown is shaded.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from biped_adrc.extras.logs.replay_signals import ReplaySignals
@@ -32,17 +33,14 @@ def replay_figure(x: ReplaySignals, title: str = "") -> Figure:
                 without_observer(axes)
             else:
                 curves(axes, x, values, symbol)
-            _shade(axes, x)
+            look: Any = {
+                "transform": axes.get_xaxis_transform(),
+                "color": GREY,
+                "alpha": 0.2,
+                "lw": 0.0,
+            }
+            axes.fill_between(x.t, 0.0, 1.0, x.in_contact > 0.5, label="contact", **look)
             finished(axes, unit)
         for axes in (beyond, residual):
             axes.set_xlabel("")
         return figure
-
-
-def _shade(axes: Axes, x: ReplaySignals) -> None:
-    """Shade the window of contact after each touchdown."""
-    inside = np.concatenate(([0.0], x.in_contact, [0.0]))
-    edges = np.flatnonzero(np.diff(inside))
-    for first, end in zip(edges[::2], edges[1::2], strict=True):
-        name = "contact" if first == edges[0] else "_"
-        axes.axvspan(x.t[first], x.t[end - 1], color=GREY, alpha=0.2, lw=0.0, label=name)

@@ -33,12 +33,12 @@ EPSILON = 1e-6
 
 
 class Pose(NamedTuple):
-    """All that is drawn at one time."""
+    """Everything that is drawn of a walk at one time."""
 
     joints: Array
     """(J,) values of the moving joints, in the order of the URDF [rad], [m]."""
     rates: Array
-    """(J,) their rates [rad/s], [m/s]."""
+    """(J,) rates of these joints [rad/s], [m/s]."""
     loads: Array
     """(2 + n,): F_T, F_N [N], and the external torque on the drawn joints of q1..qn [N m]."""
     points: Array
@@ -49,18 +49,22 @@ class Pose(NamedTuple):
 
 @dataclass(frozen=True)
 class Frames:
-    """A walk at its nodes, one in each row (K,); a node at an impact is there twice, before and after it."""
+    """A walk sampled at its nodes, one in each row (K,); a node at an impact is there
+    twice, before and after it.
+    """
 
     t: Array
-    """(K,) [s]."""
+    """Times (K,) [s]."""
     arc: Array
     """(K,) index of the single support, from 0."""
     poses: Pose
-    """What is drawn there, with K rows: (K, J), (K, J), (K, 2 + n), (K, 4), (K, 5)."""
+    """The poses at the nodes, as arrays with K rows: (K, J), (K, J), (K, 2 + n), (K, 4), (K, 5)."""
 
     @classmethod
     def of(cls, scene: WalkScene, fps: float) -> Frames:
-        """Sample a walk at `fps` [1/s], which is positive, or finer. Raises InputError for too many frames."""
+        """Sample a walk at `fps` [1/s] or finer, and at all its nodes. Raises InputError for too many
+        frames.
+        """
         check_frames((scene.trajectory.t_end - scene.trajectory.t_start) * fps)
         t, arcs, poses = [], [], []
         for i, arc in enumerate(scene.trajectory.arcs):
@@ -73,10 +77,10 @@ class Frames:
 
 
 def pose(scene: WalkScene, i: int, t: float) -> Pose:
-    """The pose in arc i at t [s].
+    """Pose of the robot in arc i at t [s].
 
-    At the end of the arc it is the state before the impact: the arc after it has one of its own for
-    that time.
+    At the end of the arc it is the state before the impact: the arc after it has a
+    pose of its own for that time.
     """
     arc, biped, foothold = scene.trajectory.arcs[i], scene.biped, scene.foot(i, t)
     n, step = biped.n, arc.mode.step
@@ -98,7 +102,7 @@ def pose(scene: WalkScene, i: int, t: float) -> Pose:
 
 
 def _nodes(scene: WalkScene, arc: Arc, fps: float) -> Array:
-    """Times (K,) [s] of the nodes of one single support."""
+    """Times (K,) [s] at which one single support is sampled; see the module."""
     start, end = float(arc.t[0]), float(arc.t[-1])
     first = scene.trajectory.t_start
     frames = first + np.arange(math.ceil((start - first) * fps), (end - first) * fps) / fps

@@ -40,13 +40,15 @@ from biped_adrc.view.placement import (
 )
 
 GHOST = 0.35
-"""Opacity of a ghost."""
+"""Opacity of a ghost (1 is solid)."""
 LANE = 0.4
-"""By how much [m] each ghost walks farther from the camera: faces in one plane would flicker."""
+"""Distance [m] of each ghost from the walk before it, away from the camera: faces in one plane would
+flicker.
+"""
 FPS = 60.0
 """Frames per second of a page."""
 TRACE_POINTS = 20_000
-"""Room for the traces of a walk without samples."""
+"""Points of the traces of a walk that is not sampled beforehand."""
 TALL = 1.6
 """Height [m] of the highest robot that the cameras show from where they are for RABBIT; for higher
 ones they stand back.
@@ -58,11 +60,11 @@ Marks = Sequence[tuple[float, float, str]]
 def animation_html(
     walks: Mapping[str, Recorded], clip: Clip | None = None, marks: Marks = ()
 ) -> str:
-    """The walks, overlaid, as one page that needs no server and no network; the same walks give the same text.
+    """Text of a page that shows the walks overlaid, without server or network; equal walks give equal text.
 
     walks: name -> walk, one or more; the last is drawn opaque and followed by the camera, the others are
-    translucent. clip: frames per second and camera. marks: shown beside the clock. Raises InputError for too
-    many frames.
+    translucent. clip: frames per second and camera. marks: texts beside the clock, with their times.
+    Raises InputError for too many frames.
     """
     clip = Clip() if clip is None else clip
     scenes = {name: WalkScene.of(walks[name]) for name in [*walks][-1:] + [*walks][:-1]}
@@ -72,7 +74,7 @@ def animation_html(
 
 
 def _packed(frames: Frames) -> dict[str, str]:
-    """The samples in base64: times as float64, the rest as float32, which is finer than a pixel."""
+    """Encode the samples in base64: times as float64, the rest as float32, which is finer than a pixel."""
     others = {"arc": frames.arc, **frames.poses._asdict()}
     packed = {"t": frames.t} | {name: x.astype(np.float32) for name, x in others.items()}
     return {name: base64.b64encode(x.tobytes()).decode("ascii") for name, x in packed.items()}
@@ -85,12 +87,11 @@ def scene_settings(
     frames: Mapping[str, Frames] | None = None,
     marks: Marks = (),
 ) -> dict[str, object]:
-    """What scene.js and player.js are told: Meshcat's commands and, by walk, the paths of what moves.
+    """The settings that scene.js and player.js read: Meshcat's commands and, by walk, the paths of what moves.
 
-    scenes: the solid walk first. frames: the samples of each walk, for a page; that of `play`
-    has none.
+    scenes: the solid walk first. frames: the samples of each walk, for a page; that of `play` has none.
 
-        walks       for each walk what `_add_walk` says, its name, its end [s] and how it ended
+        walks       for each walk the entry of `_add_walk`, its name, its end [s] and how it ended
         follow      the node, of the first walk, that the camera follows
         marks       (start, stop, text); fps [1/s]; start, end [s] of the slider
         view        the camera at the start; views: commands, position and target [m] of each
@@ -129,18 +130,15 @@ def scene_settings(
 def _add_walk(
     robot: draw.SceneNode, path: str, scene: WalkScene, opacity: float, room: int
 ) -> dict[str, object]:
-    """Draw one walk below the node `robot`, and say where its parts are: the entry of this walk for player.js.
+    """Draw one walk below the node `robot`; returns its entry for player.js, with the paths of its parts.
 
     path: of the node `robot`. opacity: 0 to 1. room: points of a trace.
 
-        joints        path, type, axis and origin [m] of each moving joint, in the order of the
-        samples
-        legs          paths of the parts of either leg; colours: of stance and swing leg,
-        0xRRGGBB
+        joints        path, type, axis and origin [m] of each moving joint, in the order of the samples
+        legs          paths of the parts of either leg; colours: of stance and swing leg, 0xRRGGBB
         rings, arrows, traces, footprints    paths of these; arrows of stance foot and other foot
         supports      number, stance leg (0 or 1) and foothold x, z [m] of each single support
-        fall          tan(slope); ground: its level below the footholds [m]; head: length of an
-        arrow's head [m]
+        fall          tan(slope); ground: its level below the footholds [m]; head: length of an arrow's head [m]
         metres_per_newton, longest, metres_per_newton_metre    scales of arrow and rings
     """
     biped, depth = scene.biped, draw.sole(scene.biped)
@@ -188,9 +186,9 @@ def _add_walk(
 
 
 def _add_ring(robot: draw.SceneNode, biped: Biped, name: str, opacity: float) -> str:
-    """Draw the ring of a joint and give its path.
+    """Draw the ring that shows the external torque on a joint; returns the path of its node.
 
-    The ring of the unactuated torso is at its COM: at its joint it would cover those of the hips.
+    The ring of the unactuated torso is at its centre of mass: at its joint it would cover those of the hips.
     """
     joint = next(joint for joint in biped.tree.joints if joint.name == name)
     inertial = biped.tree.links[joint.child].inertial
@@ -202,7 +200,7 @@ def _add_ring(robot: draw.SceneNode, biped: Biped, name: str, opacity: float) ->
 
 
 def captions(scenes: Mapping[str, WalkScene]) -> list[tuple[str, str]]:
-    """The legend as pairs (colour, text); the colour is empty for plain text."""
+    """The legend of a page as pairs (colour, text); the colour is empty for plain text."""
     solid, *ghosts = scenes
     biped = scenes[solid].biped
     newtons = 0.1 * biped.weight / WEIGHT_LENGTH

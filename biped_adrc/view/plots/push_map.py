@@ -25,17 +25,16 @@ FATES: dict[str, tuple[str, str, str]] = {
     "ended": ("ends otherwise: singular, diverged, stalled", "#CC79A7", "\\\\\\"),
     "marginal": ("the step of the method decides", "#56B4E9", "++"),
 }
-"""Word -> text of the legend, colour, hatch; the hatches tell them apart in a print in grey too."""
+"""Outcome of a walk -> text of the legend, colour, hatch; the hatches tell them apart in a grey print too."""
 
 
 def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
-    """One panel for each torque limit; a cell for each onset and (pattern, amplitude), NPD upper left,
-    ADRC lower right.
+    """Draw which pushes each controller survives: a panel for each torque limit, a cell for each push.
 
-    rows: "onset_ms" [ms], "amplitude" [N m], "pattern", "torque_limit" [N m] or None for unlimited,
-    "npd_word" and "adrc_word" of `FATES`. Panels go from unlimited torque to the highest limit,
-    rows of cells are in the order of the data. The title of a panel counts the pushes that are
-    feasible, the impact aside.
+    Columns are onsets, rows (pattern, amplitude); the upper left half of a cell is NPD, the lower right half
+    ADRC. rows: "onset_ms" [ms], "amplitude" [N m], "pattern", "torque_limit" [N m] or None for unlimited,
+    "npd_word" and "adrc_word" of `FATES`. Panels go from unlimited torque to the highest limit, rows of cells
+    are in the order of the data. The title of a panel counts the pushes that are feasible, the impact aside.
     """
     limits = sorted({r["torque_limit"] for r in rows}, key=lambda v: (v is not None, v))
     kinds = list(dict.fromkeys((r["pattern"], r["amplitude"]) for r in rows))
@@ -81,6 +80,6 @@ def _cells(
 
 
 def _count(rows: Sequence[PlainRecord]) -> str:
-    """How many pushes leave each controller a walk that is feasible, the impact aside, in words."""
+    """Text that counts, for each controller, the pushes after which the walk is feasible, the impact aside."""
     npd, adrc = (sum(r[f"{c}_word"] in COUNTED for r in rows) for c in ("npd", "adrc"))
     return f"feasible, the impact aside: NPD {npd}, ADRC {adrc} of {len(rows)}"
