@@ -1,11 +1,15 @@
-"""The functions of a robot's computer on symbols, by the lines of `closed_loop.semantics`.
+"""The functions of a robot's computer on symbols, traced from `closed_loop.semantics`, and
+the names of their numbers.
 
     init       (t, q, v)        -> x_c              observer, filter and queue at the start
     step       (t, q, v, x_c)   -> x_c, u, lost     a sample instant; u (p,) [N m] goes to the motors
     touchdown  (t, q, v, x_c)   -> x_c              after an impact, q and v in the labels that begin
 
-x_c = (s, w, queue, waiting, u): the controller's state, and what is held between sample instants.
-lost is not positive where a matrix is singular or a torque beyond the walker's bound.
+x_c = (s, w, queue, waiting, u): the controller's state, and the numbers kept between sample instants. lost is
+not positive where a matrix is singular or a torque beyond the walker's bound.
+
+In C the numbers x_c are fields of a struct. Numbers that no function reads, such as a torque that
+nothing depends on, have no field.
 """
 
 from __future__ import annotations
@@ -36,27 +40,27 @@ from biped_adrc.hardware.motors import Line
 from biped_adrc.hardware.sample_hold import read
 
 HEAD = 4
-"""Inputs before q: t, time of the sample instant before, number and start of the single support."""
+"""Number of inputs before q: t, time of the previous sample instant, number and start of the single support."""
 
 
 @dataclass(frozen=True)
 class Inputs:
-    """The inputs of a function on symbols, and the loop that they are given to."""
+    """The inputs of a function as symbols, and the closed loop that reads them."""
 
     computer: Computer
     size: int
-    """Numbers in s."""
+    """Numbers in the controller's state s."""
 
     @cached_property
     def equations(self) -> Equations:
-        """The computer's parts, with symbols for its numbers."""
+        """Equations of the computer's parts, with a symbol for each of its numbers."""
         held = self.computer.held.sizes
         make = WalkerStructure(self.computer.robot.structure, self.size, held)
         return Equations.of(make, self.computer.numbers)
 
     @cached_property
     def at(self) -> SymbolicInstant:
-        """(t, last, step, start), then x = (q, v, x_c)."""
+        """The sample instant on symbols; its inputs are (t, last, step, start), then x = (q, v, x_c)."""
         inp, trace = Vector("inp", HEAD + self.equations.make.nx), Tracer()
         t, _, mode = inp.take(), inp.take(), Mode(inp.take(), inp.take())
         x = inp.take(self.equations.make.nx)
@@ -64,16 +68,18 @@ class Inputs:
 
     @property
     def parts(self) -> tuple[Array, Array, Array, Array]:
-        """q, v (n,), s, and what is held."""
+        """The parts of x: q and v (n,), the controller's state s, and the numbers kept
+        between sample instants.
+        """
         return semantics.parts(self.at.loop, self.at.x)
 
     def function(self, *parts: object) -> SymbolicFunction:
-        """The function of these inputs, its parts one after the other."""
+        """The function from these inputs to its results `parts`, one after the other."""
         return SymbolicFunction(self.equations.K, self.at.inp.symbol, column(*parts))  # type: ignore[arg-type]
 
 
 def init(computer: Computer) -> SymbolicFunction:
-    """x_c at the start of a single support at (t, q, v); no torque is on its way."""
+    """Trace x_c at the start of a single support at (t, q, v), with no torque in the queue."""
     inputs, k = Inputs(computer, 0), computer.held
     q, v = inputs.parts[:2]
     at = inputs.at
@@ -86,7 +92,7 @@ def init(computer: Computer) -> SymbolicFunction:
 
 
 def step(computer: Computer, size: int) -> SymbolicFunction:
-    """x_c, u (p,) [N m] and lost at a sample instant, for a controller with `size` numbers in s."""
+    """Trace x_c, u (p,) [N m] and lost at a sample instant, for a controller with `size` numbers in s."""
     inputs, k = Inputs(computer, size), computer.held
     n = k.sizes.n
     at = inputs.at._replace(x=_released(inputs))
@@ -96,7 +102,9 @@ def step(computer: Computer, size: int) -> SymbolicFunction:
 
 
 def touchdown(computer: Computer, size: int) -> SymbolicFunction:
-    """x_c after a touchdown; the inputs of the mode are the single support that begins."""
+    """Trace x_c after a touchdown, for a controller with `size` numbers; step and start are
+    of the support that begins.
+    """
     inputs = Inputs(computer, size)
     at, (q, v) = inputs.at, inputs.parts[:2]
     x = at.trace(semantics.after_contact)(at.loop, at.t, at.x, q, v, at.mode)
@@ -104,7 +112,7 @@ def touchdown(computer: Computer, size: int) -> SymbolicFunction:
 
 
 def _released(inputs: Inputs) -> Array:
-    """x in which a torque that waited for a fraction of the period acts once that time is over."""
+    """x in which a torque that waited for a fraction of the period acts, once that time is over."""
     k, at = inputs.computer.held, inputs.at
     if k.sizes.waiting == 0:
         return at.x
@@ -115,7 +123,9 @@ def _released(inputs: Inputs) -> Array:
 
 
 def sent_last(line: Line) -> Array:
-    """The torque (p,) [N m] that was sent at this sample instant, wherever on its way it is."""
+    """The torque (p,) [N m] sent at this sample instant: the end of the queue, else the
+    waiting one, else the acting one.
+    """
     if len(line.queue) > 0:
         return line.queue[len(line.queue) - len(line.u) :]
     return line.waiting if len(line.waiting) > 0 else line.u
@@ -123,7 +133,7 @@ def sent_last(line: Line) -> Array:
 
 @dataclass(frozen=True)
 class Field:
-    """An array of the struct: its name, length, what is in it, and whether it is of doubles always."""
+    """An array of the struct: name, length, description, and whether it is of doubles always."""
 
     name: str
     size: int
@@ -131,30 +141,32 @@ class Field:
     double: bool = False
 
     def __iter__(self) -> Iterator[str]:
-        """Names of its entries."""
+        """Iterate over the names of its entries in C, such as "s[0]"."""
         return iter(f"{self.name}[{i}]" for i in range(self.size))
 
 
 @dataclass(frozen=True)
 class Functions:
-    """The functions of a computer with the names that their numbers have in C."""
+    """The three functions of a computer, with the names in C of their inputs and outputs."""
 
     fields: tuple[Field, ...]
-    """Of the struct, those of x_c."""
+    """Fields of the struct that hold x_c."""
     init: CFunction
     step: CFunction
     touchdown: CFunction
     rates: tuple[int, ...]
-    """Numbers of the rates that `step` or `touchdown` read; `init` reads all."""
+    """Indices of the rates that `step` or `touchdown` read; `init` reads all."""
 
     @property
     def all(self) -> tuple[CFunction, CFunction, CFunction]:
-        """All three."""
+        """init, step and touchdown."""
         return self.init, self.step, self.touchdown
 
 
 def functions(computer: Computer) -> Functions:
-    """Traces the functions of a computer. Raises InputError for a method that cannot be traced."""
+    """Trace the functions of a computer and name their numbers. Raises InputError for a
+    method that cannot be traced.
+    """
     sizes = computer.held.sizes
     first = init(computer)
     size = first.out.shape[0] - sizes.total
@@ -195,7 +207,10 @@ def fields_of(computer: Computer, size: int) -> tuple[Field, ...]:
 
 
 def _live(step: SymbolicFunction, touchdown: SymbolicFunction, n: int, total: int) -> set[int]:
-    """Places in x_c of the numbers that any torque, now or later, depends on."""
+    """Indices in x_c of the numbers on which a torque depends, now or at a later sample.
+
+    n: coordinates. total: numbers in x_c.
+    """
     live, outputs = set[int](), range(total, step.out.shape[0])
     while True:
         kept = sorted(live)
@@ -209,7 +224,7 @@ def _live(step: SymbolicFunction, touchdown: SymbolicFunction, n: int, total: in
 
 
 def _read(function: SymbolicFunction) -> set[int]:
-    """Places of the inputs that a function reads."""
+    """Indices of the inputs that a function reads."""
     f = straight_line(function)
     inputs = (i for i in range(f.n_instructions()) if f.instruction_id(i) == ca.OP_INPUT)
     return {at[1] for at in map(f.instruction_input, inputs) if at[0] == 1}
@@ -218,7 +233,7 @@ def _read(function: SymbolicFunction) -> set[int]:
 def _named(
     function: SymbolicFunction, fields: tuple[Field, ...], n: int, outputs: list[str]
 ) -> CFunction:
-    """A function with its inputs by their names in C; an output without a name is dropped."""
+    """A function with the names of its inputs and `outputs` in C; an output with an empty name is dropped."""
     kept = [i for i, name in enumerate(outputs) if name]
     inputs = [
         *(

@@ -53,16 +53,17 @@ def check_options(options: dict[str, Any] | None) -> None:
 
 
 class WalkEnv(gymnasium.Env[Any, Any]):
-    """One walk.
+    """A walk as an environment.
 
-    - scenario: `biped_adrc.Scenario`, or a condition by name ("nothing" without), on the base of
-      its comparisons. values: fields of the scenario by name, such as plant, gait, push, amplitude.
-    - action: "torques", all of the torque, or "added", beside that of the scenario's controller. For each motor
-      a share of its limit, the scenario's where that is lower [N m]; the motors give no more than that.
+    - scenario: `biped_adrc.Scenario`, or condition: one by name ("nothing" if None), on the base of all
+      conditions. values: fields of the scenario by name, such as plant, gait, push, amplitude.
+    - action: "torques", all of the torque, or "added", beside that of the scenario's controller. For each
+      motor a share of its limit, the scenario's where that is lower [N m]; the motors give no more than that.
     - seconds [s]: longest walk. alive, tracking, effort: weights of the reward (`task.LearnerTask`).
     - render_mode: "rgb_array"; with "human" `gymnasium.make` shows these pictures in a window of pygame's.
 
-    `reset(seed=k)` walks the scenario with seed = k; without a seed another one is drawn. Raises InputError.
+    `reset(seed=k)` walks the scenario with seed = k; without a seed another one is drawn. Raises InputError
+    for a scenario that cannot be walked.
     """
 
     metadata = PICTURES

@@ -1,6 +1,6 @@
-"""The log that a simulated robot's computer would have written: what its controller was given, at its ticks.
+"""The log that the computer of a simulated robot would have written: its measurements at the sample instants.
 
-So a log with known disturbances can be replayed, and what comes out held against what was there.
+So a log with known disturbances can be replayed, and the estimates compared with the true ones.
 """
 
 from __future__ import annotations
@@ -23,9 +23,10 @@ LoggedRow = tuple[float, float, Array, Array, Array]
 
 
 def logged(walk: Walk) -> RobotLog:
-    """The log of a walk in sampled time: angles and rates as the sensors showed them, torques as they acted.
+    """Make the log of a walk in sampled time: angles and rates as measured by the
+    sensors, torques as they acted.
 
-    Single supports and labels are those that the controller took for true. Raises InputError for a walk in
+    Single supports and labels are those of the controller, detected or known. Raises InputError for a walk in
     continuous time, which has no sample instants.
     """
     time = walk.walker.timing
@@ -49,7 +50,9 @@ def logged(walk: Walk) -> RobotLog:
 
 
 def _ticks(arc: Arc, time: SampledTime, start: float) -> list[tuple[int, int]]:
-    """Of each sample instant of an arc: the node just after it, and the node just before the next one."""
+    """For each sample instant of an arc: index of the node just after it, and of the
+    node just before the next one.
+    """
     t, period = arc.t, time.period
     since = t - (t[0] if time.restart else start)
     due = np.abs(since - period * np.round(since / period)) < SAME_INSTANT
@@ -59,7 +62,7 @@ def _ticks(arc: Arc, time: SampledTime, start: float) -> list[tuple[int, int]]:
 
 
 def _row(walker: Walker, arc: Arc, k: int, end: int) -> LoggedRow:
-    """What was sensed at node k, in the labels that the controller believed in; the mean torque until `end`."""
+    """Measurement at node k, in the labels of the controller, and the mean torque until node `end`."""
     q, v, _, tail = parts(walker, arc.x[k])
     held = walker.held
     assert held is not None

@@ -1,8 +1,8 @@
-"""What an observer makes of a log, as a figure over time.
+"""Figure of a replayed log over time.
 
 Three panels: the joint torque beyond the nominal model kappa^-1 (xi^ - xi_nominal) [N m], the residual
-q_b - x1^ [mrad], and the torque asked for over the one in the log [N m]. The window of contact after each
-touchdown is shaded.
+q_b - x1^ [mrad], and the torque of the controller over the one in the log [N m]. The window of contact
+after each touchdown is shaded.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from biped_adrc.view.style import GREY, new_figure
 
 
 def replay_figure(x: ReplaySignals, title: str = "") -> Figure:
-    """The panels, a line for each joint; lines break at touchdowns."""
+    """Draw the three panels, a line for each joint; lines break at touchdowns."""
     with new_figure(8.0, 7.0, title) as figure:
         beyond, residual, torque = figure.subplots(3, 1, sharex=True)
         for k, u in enumerate(x.u.T):

@@ -1,6 +1,6 @@
-"""What a robot's computer wrote down while it walked: t, q, u, and which leg stood, at its sample instants.
+"""The log of a robot's computer during a walk: t, q, u, and which leg stood, at its sample instants.
 
-    row k      q_k, and where there are rates v_k, as sensors showed them at t_k
+    row k      q_k, and where there are rates v_k, as the sensors measured them at t_k
                u_k, the mean torque of the motors from t_k until t_(k+1)
 
 Angles and torques have the labels of the package: they are of stance and swing leg, and change at a touchdown.
@@ -27,16 +27,16 @@ from biped_adrc.core.types import Array, Indices, read_only
 GAP = 0.5
 """Share of the period by which two rows may come too early or too late; beyond it a row is missing."""
 SHORTEST_PERIOD = 1e-5
-"""[s]: rows closer together are in another unit of time."""
+"""Shortest plausible period [s]; with rows closer together the times are in another unit."""
 EVEN = 1e-3
-"""The same share below which a clock counts as even, and rows are taken as they are."""
+"""Largest deviation of the distance of two rows from the period, as a share of it, for an even clock."""
 
 
 @dataclass(frozen=True)
 class RobotLog(Shown):
-    """K rows of n coordinates and p motors.
+    """A log of K rows, with n coordinates and p motors.
 
-    Raises InputError for what is no log, with the row, what was found there and what was expected.
+    Raises InputError for arrays that are no log, with the row, what was found there and what was expected.
     """
 
     t: Array
@@ -52,7 +52,7 @@ class RobotLog(Shown):
     measured: Array | None = None
     """(n,), 1 where v has a measured rate, 0 where none was; None: all of v."""
     remarks: tuple[str, ...] = ()
-    """What was converted, left out or resampled."""
+    """Sentences on what was converted, ignored or resampled."""
 
     def __post_init__(self) -> None:
         """Copy the arrays, and check them; see the class."""
@@ -79,7 +79,7 @@ class RobotLog(Shown):
 
     @property
     def has_rate(self) -> NDArray[np.bool_]:
-        """Of which coordinates the rate was measured (n,)."""
+        """Whether the rate of each coordinate was measured (n,)."""
         return np.asarray(self.measured) > 0.5
 
     @cached_property
@@ -98,9 +98,9 @@ class RobotLog(Shown):
         return bool(np.all(np.abs(self._ways - period) <= EVEN * period))
 
     def resampled(self, period: float) -> RobotLog:
-        """The log on an even clock that starts with every single support, rows `period` [s] apart.
+        """The log on an even clock that starts anew with every single support, rows `period` [s] apart.
 
-        Angles and rates lie on straight lines between rows, torques are means of those that were held.
+        Angles and rates are interpolated linearly between rows, torques are means of those that were held.
         """
         begins = np.flatnonzero(np.diff(self.step)) + 1
         supports = np.split(np.arange(len(self.t)), begins)
@@ -110,7 +110,7 @@ class RobotLog(Shown):
         return replace(self, t=t, step=step, q=q, u=u, v=v, remarks=(*self.remarks, remark))
 
     def _support(self, rows: Indices, period: float) -> tuple[Array, ...]:
-        """t, step, q, u, v of one single support, these rows (K,), on the even clock."""
+        """t, step, q, u, v of one single support on the even clock; rows (K,): its indices."""
         t, u, line = self.t[rows], self.u[rows], (self.q[rows], self.rates[rows])
         at = t[0] + period * np.arange(math.floor((t[-1] - t[0]) / period + EVEN) + 1)
         edges = np.append(t, t[-1] + self.period)
@@ -123,12 +123,13 @@ class RobotLog(Shown):
 
 
 def _between(at: Array, t: Array, x: Array) -> Array:
-    """x (K, k) at the times `at` (M,) [s], on straight lines between t (K,) [s]; (M, k)."""
+    """Interpolate x (K, k), given at t (K,) [s], linearly at the times `at` (M,) [s]; returns (M, k)."""
     return np.column_stack([np.interp(at, t, column) for column in x.T])
 
 
 def check_rows(t: Array, step: Array, q: Array, u: Array, v: Array, names: list[str]) -> None:
-    """Raise InputError for shapes that differ, what is not finite, a gap, a doubled time, milliseconds.
+    """Raise InputError for arrays of different length, numbers that are not finite,
+    and times that are no clock.
 
     Shapes as in `RobotLog`; names (K,): what each row is called, such as "line 7".
     """

@@ -1,16 +1,16 @@
-"""Ground that gives way, in the terms of MuJoCo's contact.
+"""Soft ground, in the terms of MuJoCo's contact model.
 
     a_ref = -b r' - k r,   b = 2 / (d T),   k = d(r) / (d^2 T^2 zeta^2)
 
-is the acceleration that a foot at depth r is driven to: T is `time_constant`, zeta `damping_ratio`
-(solref), d(r) the impedance, which rises from the first to the second value of `impedance`, d (solimp).
-Spring and damper act on an effective mass m of the foot, so that a stiffness in N/m follows from the robot
-and cannot be asked for. A foot that rests at depth r under the force F has
+is the acceleration that a foot at depth r is driven to: T is `time_constant`, zeta `damping_ratio` (solref),
+d(r) the impedance, which rises from the first to the second value of `impedance`, d (solimp). Spring and
+damper act on an effective mass m of the foot, so that a stiffness in N/m follows from the robot and cannot be
+prescribed. A foot that rests at depth r under the force F has
 
     F / r = m (d(r) / d)^2 / ((1 - d(r)) T^2 zeta^2)
 
-since the solver leaves the share 1 - d(r) of a_ref at rest. Friction carries up to mu F_N; below that a
-foot creeps, the less the larger `impratio`.
+since the solver leaves the share 1 - d(r) of a_ref at rest. Friction carries up to mu F_N; below that a foot
+creeps, the less the larger `impratio`.
 
 MuJoCo documentation, "Modeling: Solver parameters".
 """
@@ -26,7 +26,7 @@ from biped_adrc.core.shown import Shown
 
 @dataclass(frozen=True)
 class SoftGround(Checked, Shown):
-    """Ground under point feet. Raises InputError for values that no ground has."""
+    """Soft ground under point feet. Raises InputError for values that no ground has."""
 
     friction: PositiveFloat = 0.6
     """mu [1]."""
@@ -35,11 +35,11 @@ class SoftGround(Checked, Shown):
     damping_ratio: PositiveFloat = 1.0
     """zeta [1]."""
     impedance: tuple[float, float] = (0.95, 0.99)
-    """[1]; 1 would leave no slack at all."""
+    """d(r) at the surface and from 1 mm on [1]; 1 would leave no slack at all."""
     impratio: PositiveFloat = 20.0
     """Impedance of friction over that of the normal force [1]."""
     foot_radius: PositiveFloat = 1e-3
-    """[m]; a foot rolls on by the radius times the angle that its leg turns."""
+    """Radius of the feet [m]; a foot rolls on by the radius times the angle that its leg turns."""
 
     def __post_init__(self) -> None:
         result = numbers(self.impedance, "the impedance of the ground")
