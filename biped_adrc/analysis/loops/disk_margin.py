@@ -22,16 +22,20 @@ from scipy.optimize import minimize
 from biped_adrc.core.types import Array, ComplexArray
 
 BALANCED = 10
-"""Sweeps of Osborne's iteration over all frequencies at once, which says for which of them mu is computed."""
+"""Sweeps of Osborne's iteration, over all frequencies at once; its bounds decide for
+which of them mu is computed.
+"""
 TOP = 50
-"""Matrices of largest norm whose spectral radius says which frequencies cannot have the largest mu."""
+"""Number of matrices of largest norm whose spectral radius excludes frequencies that
+cannot have the largest mu.
+"""
 SMOOTH = (8, 64, 512)
 """Powers p of the norms (sum sigma^p)^(1/p) that stand for sigma_max, one after the other: where two
 singular values meet, sigma_max has no gradient."""
 
 
 def balanced_bound(M: ComplexArray) -> Array:
-    """Upper bounds of mu (F,) of matrices M (F, p, p), by Osborne's scaling: quick, not the least ones."""
+    """Upper bounds of mu (F,) of matrices M (F, p, p), by Osborne's scaling: fast, but not the least ones."""
     p = M.shape[-1]
     a = np.moveaxis(np.abs(M) ** 2, 0, -1) * (1.0 - np.eye(p))[..., np.newaxis]  # (p, p, F)
     d = np.ones((p, len(M)))
@@ -45,7 +49,7 @@ def balanced_bound(M: ComplexArray) -> Array:
 
 
 def structured_value(M: ComplexArray) -> float:
-    """The least upper bound of mu of one matrix M (p, p)."""
+    """Least upper bound of mu over scalings d of one matrix M (p, p)."""
     p = len(M)
     if p == 1:
         return float(abs(M[0, 0]))
@@ -55,7 +59,7 @@ def structured_value(M: ComplexArray) -> float:
         return d[:, np.newaxis] * M / d
 
     def smooth(x: Array, power: float) -> tuple[float, Array]:
-        """log of the norm of this power, and its gradient."""
+        """log of the norm of order `power` at log d = (x, 0), and its gradient (p - 1,)."""
         U, sigma, V = np.linalg.svd(scaled(x))
         weight = (sigma / sigma[0]) ** power
         slope = np.abs(U) ** 2 @ weight - (np.abs(V) ** 2).T @ weight

@@ -26,21 +26,21 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.derivatives import acceleration_derivatives
 
 PHASES = (0.15, 0.4, 0.65, 0.9)
-"""Shares of the step's time at which a loop is looked at [1]; the first is after the impact's transient."""
+"""Shares of the step's time at which a loop is linearised [1]; the first is after the impact's transient."""
 SPREAD = 0.2
-"""Masses and inertias known to this share [1]."""
+"""Uncertainty of masses and inertias, as a share of them [1]."""
 
 
 @dataclass(frozen=True)
 class FrozenPoint:
-    """The orbit at one phase, and (A, B) of each robot there."""
+    """The orbit at one phase, and the linearised dynamics (A, B) of each robot there."""
 
     t: float
     """Time since the step began [s]."""
     q: Array
-    """(n,) [rad]."""
+    """Angles of the orbit (n,) [rad]."""
     v: Array
-    """(n,) [rad/s]."""
+    """Rates of the orbit (n,) [rad/s]."""
     A: Array
     """(robots, 2 n, 2 n): (q, q')' = A (q, q') + B u for small changes."""
     B: Array
@@ -49,11 +49,11 @@ class FrozenPoint:
 
 @dataclass(frozen=True)
 class FrozenGait(Shown):
-    """The points of a gait. Make it by `of`, once for all candidates on this robot and gait."""
+    """A gait linearised at some phases. Make it by `of`, once for all candidates on this robot and gait."""
 
     points: tuple[FrozenPoint, ...]
     period: float
-    """Of the orbit: time of one step [s]."""
+    """Time of one step of the orbit [s]."""
     falling: float
     """sqrt(g / l) [1/s] of a body as high as the hip: the rate at which the robot falls over its foot."""
 
@@ -66,11 +66,11 @@ class FrozenGait(Shown):
         phases: tuple[float, ...] = PHASES,
         spread: float = SPREAD,
     ) -> FrozenGait:
-        """The gait's orbit on `model` (the plant itself when None), linearised for the plant and its
-        like with other inertias.
+        """Linearise the plant, and its like with other inertias, at phases of the gait's orbit.
 
-        Raises GaitError for a gait without a periodic orbit, InputError for a spread that is not
-        between 0 and 1.
+        model: robot on which the orbit is computed, the plant itself when None. phases: shares of
+        the step's time. Raises GaitError for a gait without a periodic orbit, InputError for a
+        spread that is not between 0 and 1.
         """
         check_positive(1.0 - spread, f"the spread of inertias is {spread}")
         orbit = ZeroDynamics.of(plant if model is None else model, gait.constraint).cycle
@@ -83,7 +83,9 @@ class FrozenGait(Shown):
 
 
 def _robots(plant: Biped, spread: float) -> Iterator[Biped]:
-    """The plant; all of it lighter and heavier; trunk heavier and legs lighter, and the other way round."""
+    """Iterate over the plant; all of it lighter and heavier; trunk heavier and legs
+    lighter, and the other way round.
+    """
     yield plant
     if spread == 0.0:
         return
@@ -95,7 +97,9 @@ def _robots(plant: Biped, spread: float) -> Iterator[Biped]:
 
 
 def _point(robots: tuple[Biped, ...], t: float, q: Array, v: Array, a: Array) -> FrozenPoint:
-    """The point with q, v, a (n,) of the orbit, under the force that gives a robot this a."""
+    """Linearise all robots at q, v, a (n,) of the orbit, each under the force that
+    gives it this acceleration a.
+    """
     n, p = robots[0].n, robots[0].p
     A, B = np.zeros((len(robots), 2 * n, 2 * n)), np.zeros((len(robots), 2 * n, p))
     A[:, :n, n:] = np.eye(n)

@@ -1,4 +1,4 @@
-"""What a loop bears and what it costs, before a walk is spent: a specification of a whole candidate.
+"""Robustness and ripple of a candidate's loop, computed before any walk is simulated: its specification.
 
     spec = specification(walker, gait)
     spec.stable, spec.delay_margin, spec.disk_margin, spec.ripple
@@ -8,15 +8,15 @@ motors. Its sampled loop is linearised at some phases of the gait (`walker_loop`
 with other inertias (`frozen_gait`):
 
 - stable: at every phase, with every robot, every mode of the loop decays.
-- delay_margin: the smallest delay in all motors, beside the clock's own and hidden from the controller, with
+- delay_margin: the smallest delay in all motors, beside the clock's own and unknown to the controller, with
   which one of these loops is unstable.
 - disk_margin: the smallest multiloop disk margin of them (`disk_margin`).
 - ripple: rms torque of the encoders' counts and noise over a step, of the motor with most.
 
 The gait's own modes do not count: a robot on a foot without a motor falls, with growth about sqrt(g / l),
-until the next step catches it, and no torque on joints that track a gait changes that. So a mode counts
-where |s| exceeds OWN times that rate, and margins are taken at frequencies above it. What the impact
-does, the multipliers of the return map say (`analysis.return_map`).
+until the next step catches it, and no torque on joints that track a gait changes that. So a mode counts where
+|s| exceeds OWN times that rate, and margins are taken at frequencies above it. The multipliers of the return
+map (`analysis.return_map`) describe the effect of impacts.
 """
 
 from __future__ import annotations
@@ -39,34 +39,34 @@ from biped_adrc.core.types import Array
 from biped_adrc.gait.gait import Gait
 
 OWN = 2.0
-"""A mode with |s| below so many times sqrt(g / l) is the gait's own [1]."""
+"""A mode belongs to the gait itself where |s| is below this many times sqrt(g / l) [1]."""
 MOST_DELAY = 0.05
-"""Largest hidden delay that is looked at [s]."""
+"""Largest unknown delay that is tried [s]."""
 
 
 class Worst(NamedTuple):
-    """The loop in which a mode decays least."""
+    """The mode that decays least, and its loop."""
 
     growth: float
-    """Of that mode [1/s], below 0 where it decays."""
+    """Growth rate of the mode [1/s], below 0 where it decays."""
     share: float
-    """Time since the step began, over that of a step [1]."""
+    """Phase of its loop: time since the step began, over the time of a step [1]."""
     robot: int
-    """Place among the robots; 0 for the plant itself."""
+    """Index of its robot; 0 for the plant itself."""
 
 
 @dataclass(frozen=True)
 class Specification(Shown):
-    """The loops of one candidate, and what they bear. Make it by `specification`.
+    """The loops of one candidate with their margins and ripple. Make it by `specification`.
 
-    Each number is computed when it is asked for, in milliseconds. For an unstable loop the text says
-    "unstable"; its margins are 0 and its ripple is infinite.
+    Each number is computed at its first use, in milliseconds. For an unstable loop the text says "unstable";
+    its margins are 0 and its ripple is infinite.
     """
 
     loops: WalkerLoops
-    """By phase and by robot; the first robot is the plant."""
+    """The loops by phase and by robot; the first robot is the plant."""
     shares: tuple[float, ...]
-    """Of the phases: time since the step began, over that of a step [1]."""
+    """Phases: times since the step began, over the time of a step [1]."""
     errors: Array
     """Standard deviations (2 n,) [rad, rad/s] of the sensors' errors of (q, q')."""
 
@@ -84,7 +84,7 @@ class Specification(Shown):
 
     @cached_property
     def delay_margin(self) -> float:
-        """The smallest hidden delay [s] with which one of the loops is unstable, at most MOST_DELAY."""
+        """The smallest unknown delay [s] with which one of the loops is unstable, at most MOST_DELAY."""
         return self.loops.delay_margin(MOST_DELAY)
 
     @cached_property
@@ -97,7 +97,9 @@ class Specification(Shown):
 
     @cached_property
     def ripple(self) -> float:
-        """rms torque [N m] of the sensors' errors over a step, of the motor with most, on the plant itself."""
+        """rms torque [N m] that the sensors' errors make over a step, of the motor with
+        most, on the plant itself.
+        """
         if not self.stable:
             return math.inf
         plant = (self.loops[i, 0] for i in range(len(self.shares)))
@@ -105,7 +107,9 @@ class Specification(Shown):
         return float(np.sqrt(np.max(np.mean(squares, axis=0))))
 
     def columns(self) -> dict[str, float]:
-        """All of it as numbers by name, none of them NaN: growth [1/s], delay_margin [s], ripple [N m]."""
+        """All numbers by name, none of them NaN: stable [0 or 1], growth [1/s], delay_margin [s],
+        disk_margin [1], ripple [N m].
+        """
         return {
             "stable": float(self.stable),
             "growth": self.worst.growth,
@@ -121,17 +125,17 @@ class Specification(Shown):
             return f"unstable: a mode grows by {growth:.3g} /s {where}"
         more = "more than " if self.delay_margin >= MOST_DELAY else ""
         return (
-            f"stable: bears {more}{1e3 * self.delay_margin:.3g} ms of hidden delay, disk margin "
+            f"stable: bears {more}{1e3 * self.delay_margin:.3g} ms of unknown delay, disk margin "
             f"{self.disk_margin:.3g}, ripple {self.ripple:.3g} N m rms"
         )
 
 
 def specification(walker: Walker, gait: Gait | FrozenGait) -> Specification:
-    """What the sampled loop of a walker bears on a gait, and the ripple of its sensors.
+    """Linearise the sampled loop of a walker on a gait; its margins and ripple follow.
 
-    For many candidates on one robot and gait give a `FrozenGait`, which is made once. Raises InputError for
-    a walker in continuous time or one that has to notice touchdowns, GaitError for a gait without a
-    periodic orbit, NotFiniteError where a method has no finite derivative on the gait.
+    For many candidates on one robot and gait pass a `FrozenGait`, which is made once. Raises InputError for a
+    walker in continuous time or one that detects touchdowns, GaitError for a gait without a periodic orbit,
+    NotFiniteError where a method has no finite derivative on the gait.
     """
     twin = linear_twin(walker)
     assert isinstance(twin.timing, SampledTime)

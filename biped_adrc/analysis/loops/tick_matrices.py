@@ -1,13 +1,12 @@
-"""The tick of a walker at frozen phases of its gait, as matrices.
+"""The sample instant (tick) of a walker at frozen phases of its gait, as matrices.
 
     z+ = Z z + Y (q, q'),     u = C z + E (q, q')                   d z+ / d(z, q, q')
 
-z is all that the walker keeps from tick to tick: controller, observer, sensors with their filter, and the
-torques that the controller knows of. The derivative is taken of the methods themselves
-(`engine.tick_derivative`), so that the path of an encoder's error through Theta and Theta' is in it, and no
-controller has a formula here.
+z is the walker's state from tick to tick: controller, observer, sensors with their filter, and the torques
+that the controller knows of. The derivative is taken of the methods themselves (`engine.tick_derivative`), so
+that the path of an encoder's error through Theta and Theta' is in it, and no controller has a formula here.
 
-Torque and rate limits are left out, and counts are an error that is independent from tick to tick.
+Torque and rate limits are left out, and encoder counts are an error that is independent from tick to tick.
 """
 
 from __future__ import annotations
@@ -27,9 +26,9 @@ from biped_adrc.engine.tick_derivative import tick_derivative
 from biped_adrc.hardware.sample_hold import HeldSizes
 
 TICKS_BEFORE = 2
-"""Ticks before the one that is differentiated: after them every sensor has a difference of its angles."""
+"""Ticks before the one that is differentiated, after which every sensor has a difference of its angles."""
 SAME = 1e-12
-"""Difference of two columns, of largest entry 1, that counts as none."""
+"""Largest difference of two columns that count as equal; their largest entry is 1."""
 
 
 class TickMatrices(NamedTuple):
@@ -46,9 +45,9 @@ class TickMatrices(NamedTuple):
 
 
 def linear_twin(walker: Walker) -> Walker:
-    """The walker without what has no derivative: limits, counts, noise, pushes.
+    """The walker without its parts that have no derivative: limits, counts, noise, pushes.
 
-    Raises InputError for one in continuous time, or that has to notice touchdowns.
+    Raises InputError for a walker in continuous time, or one that detects touchdowns.
     """
     if not isinstance(walker.timing, SampledTime):
         raise InputError(
@@ -69,7 +68,7 @@ def linear_twin(walker: Walker) -> Walker:
 
 
 def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
-    """The tick of a `linear_twin` at points of the gait (phases, ..).
+    """Linearise the tick of a `linear_twin` at points of the gait; the matrices have a leading axis of points.
 
     Raises NotFiniteError as `tick_derivative`.
     """
@@ -92,10 +91,10 @@ def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
 
 
 def _acting(tick: TickMatrices) -> TickMatrices:
-    """Without the numbers of z on which, at all phases, neither the torque nor the rest of z depends.
+    """Drop the numbers of z on which, at all phases, neither the torque nor the rest of z depends.
 
-    Two numbers that act on everything in the same ratio count as one, their sum so weighted: as the old
-    angle of an encoder and the rate of its filter do.
+    Two numbers that act on everything in the same ratio become one, their weighted sum: as the old angle of an
+    encoder and the rate of its filter do.
     """
     Z, Y, C, E = tick
     columns = np.concatenate((*Z, *C)).T
@@ -112,8 +111,9 @@ def _acting(tick: TickMatrices) -> TickMatrices:
 
 
 def _newest(sizes: HeldSizes, end: int) -> slice:
-    """Where in x, of `end` numbers, the torque stands that this tick has sent: at the end of the queue,
-    else where it waits, else where it is asked of the motors.
+    """Slice of x, of `end` numbers, with the torque that this tick has sent.
+
+    It is at the end of the queue, else where it waits, else where it acts on the motors.
     """
     if sizes.queue:
         end -= sizes.p * (1 + sizes.waiting)
@@ -123,7 +123,9 @@ def _newest(sizes: HeldSizes, end: int) -> slice:
 
 
 def _released(sizes: HeldSizes, J: Array) -> Array:
-    """J (nx, nx) once the torque that waits for a part of the period acts, as `semantics.release`."""
+    """J (nx, nx) after the torque that waits for a part of the period has begun to
+    act, as `semantics.release`.
+    """
     if not sizes.waiting:
         return J
     p, J = sizes.p, J.copy()

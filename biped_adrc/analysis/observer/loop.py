@@ -39,7 +39,7 @@ from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.observers.gpi import GPIObserver
 
 GRID = 2000
-"""Number of frequencies of a response, between which crossovers are searched too."""
+"""Number of frequencies of a response; crossovers are searched between them too."""
 
 
 class DelayMargin(NamedTuple):
@@ -48,19 +48,19 @@ class DelayMargin(NamedTuple):
     delay: float
     """[s], infinite when there is none."""
     frequency: float
-    """[rad/s], as the delay infinite."""
+    """Frequency of the root [rad/s], infinite when there is none."""
 
 
 @dataclass(frozen=True)
 class ObserverLoop:
-    """The loop of the first joint in continuous time."""
+    """The loop of the first joint under ADRC in continuous time."""
 
     observer: GPIObserver
     gains: Gains = TABLE_II
 
     @property
     def frequencies(self) -> Array:
-        """Grid (GRID,) [rad/s], from far below the slowest pole to far above the fastest."""
+        """Grid of frequencies (GRID,) [rad/s], from far below the slowest pole to far above the fastest."""
         (K_p, K_d), rates = first_gains(self.gains), np.abs(self.observer.poles)
         slow, fast = min(rates.min(), np.sqrt(K_p)), max(rates.max(), K_d)
         return np.geomspace(0.01 * slow, 100.0 * fast, GRID)
@@ -68,24 +68,24 @@ class ObserverLoop:
     # -- polynomials in s / w, highest power first --------------------------------------------------
     @cached_property
     def _chi(self) -> Array:
-        """chi (m + 3,), from the scaled gains."""
+        """Coefficients of chi (m + 3,), from the scaled gains."""
         return np.concatenate(([1.0], self.observer.scaled_gains))
 
     @cached_property
     def _feedback(self) -> Array:
-        """s^2 + K_d s + K_p (3,)."""
+        """Coefficients of s^2 + K_d s + K_p (3,)."""
         (K_p, K_d), w = first_gains(self.gains), self.observer.scale
         return np.array([1.0, K_d / w, K_p / w**2])
 
     def _Q(self, printed: bool = False) -> Array:
-        """Q (3,), corrected or as printed."""
+        """Coefficients of Q (3,), corrected or as printed."""
         (_, k_d, k_p), (l_1, l_2) = self._feedback, self._chi[1:3]
         factor = 1.0 / self.observer.scale if printed else k_d
         return np.array([1.0, l_1 + k_d, l_2 + k_p + factor * l_1])
 
     @cached_property
     def _P(self) -> Array:
-        """P (m + 2,): the last coefficients of the product."""
+        """Coefficients of P (m + 2,): the last ones of the product."""
         return np.asarray(np.polymul(self._feedback, self._chi)[3:], dtype=float)
 
     # -- frequency responses -------------------------------------------------------------------------
@@ -116,7 +116,9 @@ class ObserverLoop:
         return -self._response(numerator, frequency) * self.observer.scale**2
 
     def gain(self, frequency: Array, known: bool = False) -> ComplexArray:
-        """L (K,), dimensionless, at frequencies (K,) [rad/s]."""
+        """Loop gain L (K,), dimensionless, at frequencies (K,) [rad/s]; known: whether the
+        observer is fed with a(t - d).
+        """
         s = 1j * np.asarray(frequency, dtype=float) / self.observer.scale
         if known:
             return np.polyval(self._feedback[1:], s) / s**2

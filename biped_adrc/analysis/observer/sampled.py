@@ -1,8 +1,6 @@
-"""The linear loop of one joint in sampled time: what is stable, and how an encoder disturbs the
-torque.
+"""The linear loop of one joint in sampled time: its stability, and the torque noise of an encoder.
 
-With T the period, the torque held between sample instants and acting (j + f) T after its instant, 0
-<= f < 1,
+With T the period, the torque held between sample instants and acting (j + f) T after its instant, 0 <= f < 1,
 
     e_(k+1)    = e_k + T e'_k + T^2 (g alpha + xi) / 2,     T e'_(k+1) = T e'_k + T^2 (g alpha + xi)
 
@@ -11,9 +9,11 @@ where alpha changes from a_(k-j-1) to a_(k-j) at t_k + f T, and
     Z <- Z + L (e + n - Z_1),  a = -F Z,  Z <- Phi Z + Gamma a       as `SampledChain`
 
 X = (e, T e', Z, torques on their way) obeys X <- X + M X + B (xi, n). M is formed without its unit matrix: at
-short periods all eigenvalues gather at 1, and what distinguishes them would be lost in round-off.
-The observer is fed with a_k, or, when the delay is known, with the mean of what acts until the next
-sample instant, which is exact for whole periods alone.
+short periods all eigenvalues gather at 1, and what distinguishes them would be lost in round-off. With an
+unknown delay the observer is fed with a_k; with a known one, as the controllers are, with the mean of the
+torque that acts until the next sample instant. For f > 0 the mean has the right effect on the velocity and an
+error f (1 - f) T^2 / 2 per change of the torque in the angle. For fast observers that error can be worse than
+an unknown delay.
 """
 
 from __future__ import annotations
@@ -35,17 +35,17 @@ from biped_adrc.hardware.motors import whole_and_part
 from biped_adrc.observers.gpi import GPIObserver
 
 SHORTEST, LONGEST = 1e-6, 0.1
-"""[s]: periods among which the largest stable one is looked for."""
+"""Range of the periods that are tried for the largest stable one [s]."""
 RATIO = 1.05
 """Ratio of one period of that search to the one before."""
 PARTS, MOST_PERIODS = 20, 50
-"""Parts of a period by which the largest delay is looked for, and how many periods far."""
+"""Steps per period of the search for the largest delay, and its length in periods."""
 HIGHEST = 14
-"""Largest m: with more, round-off moves poles of the discrete observer by more than the loop does."""
+"""Largest m: above it round-off moves the poles of the discrete observer by more than the loop does."""
 
 
 class StepMatrices(NamedTuple):
-    """X <- X + M X + B w and T^2 a = C X + D w of one step, with w = (T^2 xi, n)."""
+    """X <- X + M X + B w and T^2 a = C X + D w over one period, with w = (T^2 xi, n)."""
 
     M: Array
     """(s, s)."""
@@ -59,9 +59,9 @@ class StepMatrices(NamedTuple):
 
 @dataclass(frozen=True)
 class SampledLoop:
-    """The loop of the first joint in sampled time.
+    """The loop of the first joint under ADRC in sampled time.
 
-    Raises InputError for what `SampledTime` refuses, and an m above HIGHEST.
+    Raises InputError for a period or delay that `SampledTime` refuses, and an m above HIGHEST.
     """
 
     observer: GPIObserver
@@ -70,9 +70,9 @@ class SampledLoop:
     """T [s]."""
     gains: Gains = TABLE_II
     delay: float = 0.0
-    """From a sample instant to its torque [s]."""
+    """Delay from a sample instant to its torque [s]."""
     known: bool = False
-    """Whether the observer is fed with what acts rather than with the command."""
+    """Whether the observer is fed with the torque that acts, or with the command."""
     kappa_ratio: float = 1.0
     """g, the robot's kappa over the model's, dimensionless."""
 
@@ -86,7 +86,7 @@ class SampledLoop:
 
     @cached_property
     def step(self) -> StepMatrices:
-        """One step. Every quantity is a row in (X, T^2 xi, n), composed as the equations read."""
+        """Matrices of one period, formed from rows in (X, T^2 xi, n), composed as the equations read."""
         k, T, g = self.observer.order, self.period, self.kappa_ratio
         queue, f = whole_and_part(self.delay, T)
         late = int(f > 0.0)
@@ -117,7 +117,7 @@ class SampledLoop:
 
     @cached_property
     def spectral_radius(self) -> float:
-        """Largest |eigenvalue| of one period, 1 + one of M; below 1 for a stable loop."""
+        """Largest |eigenvalue| over one period; below 1 for a stable loop."""
         return float(np.max(np.abs(1.0 + np.linalg.eigvals(self.step.M))))
 
     @property
@@ -126,7 +126,8 @@ class SampledLoop:
         return self.spectral_radius < 1.0
 
     def rms(self, sigma: float) -> float:
-        """Standard deviation of a [rad/s^2] under independent errors sigma [rad] of the measured angles.
+        """Standard deviation of a [rad/s^2] under independent errors of the measured angles,
+        of deviation sigma [rad].
 
         Exact, by the discrete Lyapunov equation; NaN for an unstable loop, which has none.
         """
@@ -138,10 +139,10 @@ class SampledLoop:
 
 
 def covariance(A: Array, Q: Array) -> Array:
-    """P (s, s) of P = A P A' + Q for a stable A (s, s), as the sum of A^i Q A'^i, doubling its terms.
+    """Solve P = A P A' + Q for P (s, s), with a stable A (s, s), as the sum of A^i Q A'^i, doubling its terms.
 
-    For a matrix Q that is positive semidefinite all terms add up, so nothing is lost where the
-    equation itself is badly conditioned. P has the units of Q, such as [rad^2] for angles.
+    For a matrix Q that is positive semidefinite all terms add up, so nothing is lost where the equation itself
+    is badly conditioned. P has the units of Q, such as [rad^2] for angles.
     """
     P = Q
     while True:
@@ -171,7 +172,7 @@ def largest_delay(loop: SampledLoop) -> float:
 
 
 def last_true(holds: Callable[[float], bool], tried: Iterable[float]) -> float:
-    """Where `holds` ends: between two of the increasing numbers `tried`, by bisection to 1e-6 of it.
+    """Find where `holds` ends: between two of the increasing numbers `tried`, by bisection to 1e-6 of it.
 
     NaN when it does not hold at the first, infinite when it holds at all of them.
     """

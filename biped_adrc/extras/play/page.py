@@ -110,6 +110,8 @@ def page(
     }
     title = f"{scenario.robot.name}, live"
     legend = captions({"walk": scene})[1:]
+    if scenario.hardware.torque_limit is None:
+        legend.append(("", "motors without a torque limit: set hardware.torque_limit for one"))
     return with_viewer("play", given, HERE, title=title, captions=legend, style="play.css")
 
 
