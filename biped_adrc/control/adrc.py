@@ -23,11 +23,10 @@ from biped_adrc.observers.gpi import GPIObserver
 
 @dataclass(frozen=True)
 class ADRCController(ObservingController):
-    """(20) with an observer that is its whole state; Table I and Table II by default.
+    """ADRC, eq. (20), with an observer that is its whole state; Table I and Table II by default.
 
-    gains: K_p [1/s^2], K_d [1/s].
-    solve_theta: solve the loop through Theta'' (default), or drop h' Theta'' as printed.
-    reset: what happens to the observer at impact.
+    gains: K_p [1/s^2], K_d [1/s]. solve_theta: solve the loop through Theta'' (default), or drop h' Theta'' as
+    printed. reset: what happens to the observer at impact.
 
     >>> controller = ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(400.0, m=2))
     >>> ba.walk(ba.Walker(biped, controller), gait, impacts=1).impacts
@@ -41,15 +40,15 @@ class ADRCController(ObservingController):
     reset: ResetPolicy = ResetPolicy.MODEL
 
     def measured_output(self, m: Measurement) -> Estimate:
-        """q_b, q_b' and the nominal model's xi, each (p,)."""
+        """q_b [rad], q_b' [rad/s] and the nominal model's xi [rad/s^2], each (p,)."""
         return measured(m)
 
     def observer_input(self, m: Measurement, u: Array) -> Array:
-        """kappa u (p,) [rad/s^2]."""
+        """Input of the observer for the torque u (p,) [N m]: kappa u (p,) [rad/s^2]."""
         return m.terms.kappa @ u
 
     def output_change(self, m: Measurement, a: Array) -> Array:
-        """Change of q_b' (p, 2)."""
+        """Change of q_b' (p, 2) when the rates change by a (n, 2): its first p rows."""
         return a[: m.terms.kappa.shape[0]]
 
     def torque(

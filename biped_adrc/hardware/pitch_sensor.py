@@ -1,15 +1,16 @@
-"""An inertial sensor on the torso: the unactuated pitch and its rate, with a bias and a drift, in sampled time.
+"""An inertial sensor on the torso: the unactuated pitch and its rate, with a bias
+and a drift, in sampled time.
 
     q_N^ = q_N + b + k d T + white noise,      v_N^ = v_N + d        at the k-th tick
 
-d [rad/s] is the bias of the gyroscope, by which the integrated angle drifts, b [rad] how the sensor sits. It
-is put behind encoders, `Sensors(...) + PitchSensor(...)`, whose joints it leaves alone.
+d [rad/s] is the bias of the gyroscope, by which the integrated angle drifts, b [rad] the mounting error of the
+sensor. It is put behind encoders, `Sensors(...) + PitchSensor(...)`, whose joints it leaves alone.
 
 The state w is (q_N^, v_N^, b + k d T, r), r of the noise. After an impact the rate is read anew, the angle is
-that of the last tick: an impact bends no angle, and its rate jumps.
+that of the last tick: at an impact the rate jumps and the angle does not.
 
-No encoder of a joint measures the pitch, and Theta, by which the gait is timed, contains it. So a bias
-shifts the whole step in phase, and a drift of the angle goes on doing so from step to step.
+No encoder of a joint measures the pitch, and Theta, by which the gait is timed, contains it. So a bias shifts
+the whole step in phase, and a drift of the angle does so more and more from step to step.
 """
 
 from __future__ import annotations
@@ -27,10 +28,11 @@ from biped_adrc.hardware.sensors import Sensors, normals, seeded
 
 @dataclass(frozen=True)
 class PitchSensor(Sensor):
-    """bias: b [rad]. drift: d [rad/s]. noise: standard deviation of the angle at a tick [rad], by `seed`,
-    a whole number from 0.
+    """An inertial sensor of the pitch: bias b [rad], drift d [rad/s], noise: standard
+    deviation of the angle [rad].
 
-    Raises InputError for numbers that are not finite or a noise that is negative.
+    The noise is drawn at each tick, by `seed`, a whole number from 0. Raises InputError for numbers that are
+    not finite or a noise that is negative.
     """
 
     bias: FiniteFloat = 0.0
@@ -62,13 +64,13 @@ class PitchSensor(Sensor):
 
 @dataclass(frozen=True)
 class SampledPitchSensor(Sensor):
-    """`PitchSensor` with ticks every T: the module's equations."""
+    """`PitchSensor` for ticks every T, by the module's equations."""
 
     of: PitchSensor
     turn: float
-    """d T [rad], by which the angle drifts in a period."""
+    """Drift d T of the angle in a period [rad]."""
     random: Array
-    """r at the start of a run: (6,), or none without noise."""
+    """State r of the noise at the start of a run: (6,), or (0,) without noise."""
 
     @property
     def size(self) -> int:

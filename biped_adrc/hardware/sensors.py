@@ -1,11 +1,11 @@
-"""Encoders, in sampled time: what the controller sees of (q, q').
+"""Encoders, in sampled time: the measured (q, q').
 
     y_k = q(t_k) + noise,   q^_k = resolution * round(y_k / resolution)
     v^_k = v^_(k-1) + (1 - exp(-T / tau)) ((q^_k - q^_(k-1)) / T - v^_(k-1))
 
-or, for coordinates whose rate has a sensor of its own, v^_k = q' + noise. At impact velocities jump, and a
-difference across it says nothing: v^ goes through the nominal model's impact (7), and the first tick after it
-keeps that value.
+or, for coordinates whose rate has a sensor of its own, v^_k = q' + noise. At impact velocities jump,
+and a difference across it is useless: v^ goes through the nominal model's impact (7), and the first
+tick after it keeps that value.
 
 The state w is (q^, v^, fresh, r): fresh is 1 where no difference can be taken, r the state of the noise.
 
@@ -16,7 +16,7 @@ The noise is a pure function of its state: MRG32k3a, in doubles that hold whole 
     u_n = ((x_n - y_n) mod m_1) / (m_1 + 1), m_1 in place of 0
 
 L'Ecuyer, Operations Research 47(1), 1999. Normal numbers by Box and Muller. The state is handed in and out, so
-that a run is repeated by repeating its seed, and a tick may be taken again.
+that a run is repeated by repeating its seed, and a tick may be repeated.
 """
 
 from __future__ import annotations
@@ -39,14 +39,14 @@ CountsFloat = Annotated[float, Range("at least 1 count", lambda x: 1.0 <= x < ma
 
 @dataclass(frozen=True)
 class Sensors(Shown, Sensor):
-    """counts: of the joints' encoders per revolution, None for exact angles.
+    """Encoders of the joints and the sensor of the pitch.
 
-    pitch_resolution [rad]: of the unactuated pitch; None: as the joints'.
-    noise, pitch_noise [rad], rate_noise [rad/s] of rates that are measured: standard deviations, drawn anew at
-    every tick.
-    velocity: "differences" of the angles, "measured", or "gyro": differences, but for the pitch's own rate.
-    filter_time [s]: time constant of the differences' low-pass, 0 for none.
-    seed: of the noise, a whole number from 0. Raises InputError for what is negative or not finite.
+    counts: of the joints' encoders per revolution, None for exact angles. pitch_resolution [rad]: of the
+    unactuated pitch; None: as the joints'. noise, pitch_noise [rad], rate_noise [rad/s] of measured rates:
+    standard deviations, drawn anew at every tick. velocity: "differences" of the angles, "measured", or
+    "gyro": differences, but for the pitch's own rate. filter_time [s]: time constant of the differences'
+    low-pass, 0 for none. seed: of the noise, a whole number from 0. Raises InputError for numbers that are
+    negative or not finite.
 
     >>> sensors = ba.Sensors(counts=10000, noise=1e-5, seed=1)
     >>> timing = ba.SampledTime(1e-3)
@@ -72,7 +72,7 @@ class Sensors(Shown, Sensor):
 
     @property
     def noisy(self) -> bool:
-        """Whether anything is random."""
+        """Whether any noise is above 0."""
         return self.noise > 0.0 or self.pitch_noise > 0.0 or self.rate_noise > 0.0
 
     def smooth(self) -> Sensors:
@@ -109,14 +109,14 @@ class Sensors(Shown, Sensor):
 
 @dataclass(frozen=True)
 class SampledSensors(Sensor):
-    """`Sensors` on n coordinates, with ticks every `period` [s]: the module's equations."""
+    """`Sensors` on n coordinates, for ticks every `period` [s], by the module's equations."""
 
     resolution: Array
-    """(n,) [rad]"""
+    """Resolution of the angles (n,) [rad]."""
     noise: Array
-    """(n,) [rad]"""
+    """Standard deviation of the angles' noise (n,) [rad]."""
     rate_noise: float
-    """[rad/s]"""
+    """Standard deviation of the noise of measured rates [rad/s]."""
     share: float
     """1 - exp(-T / tau)."""
     period: float
@@ -126,7 +126,7 @@ class SampledSensors(Sensor):
     rounds: Indices
     """(n,), 1 where angles are counts, else 0."""
     random: Array
-    """r at the start of a run: (6,), or none without noise."""
+    """State r of the noise at the start of a run: (6,), or (0,) without noise."""
 
     @property
     def noisy(self) -> bool:
@@ -160,7 +160,7 @@ class SampledSensors(Sensor):
         return w[:n], w[n : 2 * n]
 
     def anew(self, q: Array, v: Array, r: Array) -> Array:
-        """w in q, v (n,) at the start of a run and after an impact: there no difference can be taken."""
+        """State w in q, v (n,) at the start of a run and after an impact, where no difference can be taken."""
         return np.concatenate((self.rounded(q), v, np.ones(1), r))
 
     def rounded(self, y: Array) -> Array:
@@ -172,21 +172,21 @@ M_1, M_2 = 4294967087.0, 4294944443.0
 
 
 def seeded(seed: int) -> Array:
-    """r (6,), as different for neighbouring seeds as for any others."""
+    """State r (6,) of the random numbers from a seed; neighbouring seeds give independent states."""
     words = np.random.SeedSequence(seed).generate_state(6, np.uint32).astype(float)
     r: Array = 1.0 + words % np.repeat([M_1 - 1.0, M_2 - 1.0], 3)
     return r
 
 
 def modulo(a: float, m: float) -> float:
-    """a mod m for whole numbers |a| < 2^53; a quotient off by one in its last bit is put right afterwards."""
+    """a mod m for whole numbers |a| < 2^53, exact: a quotient that is off by one is corrected afterwards."""
     b = a - np.floor(a / m) * m
     b = np.where(b < 0.0, b + m, b)
     return np.where(b >= m, b - m, b)
 
 
 def uniforms(r: Array, count: int) -> tuple[Array, Array]:
-    """The state after `count` numbers, and these (count,), in (0, 1)."""
+    """Draw `count` numbers in (0, 1); returns the next state (6,) and the numbers (count,)."""
     x0, x1, x2, y0, y1, y2 = r[0], r[1], r[2], r[3], r[4], r[5]
     u = np.zeros(count)
     for i in range(count):
@@ -199,7 +199,9 @@ def uniforms(r: Array, count: int) -> tuple[Array, Array]:
 
 
 def normals(r: Array, count: int) -> tuple[Array, Array]:
-    """The state (6,) after, and `count` independent standard normal numbers (count,), by Box and Muller."""
+    """Draw `count` independent standard normal numbers by Box and Muller; returns the next
+    state (6,) and the numbers.
+    """
     pairs = (count + 1) // 2
     r, u = uniforms(r, 2 * pairs)
     g = np.zeros(2 * pairs)
