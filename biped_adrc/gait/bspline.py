@@ -29,7 +29,8 @@ CUBIC = 3
 
 @dataclass(frozen=True)
 class BSpline(ControlledCurve):
-    """The module's equation; alpha (p, M + 1) [rad], M >= 3, where M counts coefficients and is no degree.
+    """A cubic B-spline h(s), by the module's equation; alpha (p, M + 1) [rad], M >= 3: one
+    less than its coefficients.
 
     Raises GaitError for fewer than 4 coefficients per joint.
     """
@@ -47,16 +48,19 @@ class BSpline(ControlledCurve):
 
 
 def knots(degree: int) -> Array:
-    """t (M + 5,), in [0, 1], the ends four times: so the curve begins and ends in its outer coefficients."""
+    """Knots t (M + 5,) in [0, 1] for M = `degree`, the ends four times: so the curve begins and
+    ends in its outer coefficients.
+    """
     inner = np.linspace(0.0, 1.0, degree - CUBIC + 2)
     return np.concatenate((np.zeros(CUBIC), inner, np.ones(CUBIC)))
 
 
 @lru_cache(maxsize=32)
 def basis(degree: int) -> Array:
-    """(J, M + 1, 4): of the N_k on each piece, the coefficients in powers of s, by de Boor's recursion.
+    """Basis functions N_k as polynomials (J, M + 1, 4): on each piece the coefficients
+    of each N_k in powers of s.
 
-    Cached by the degree, since the knots depend on nothing else.
+    By de Boor's recursion. degree: M. Cached, since the knots depend on nothing else.
     """
     t = knots(degree)
     table = np.zeros((degree - CUBIC + 1, degree + 1, CUBIC + 1))
@@ -71,7 +75,7 @@ def basis(degree: int) -> Array:
 
 
 def _raised(t: Array, N: Array, k: int, d: int) -> Array:
-    """N_k,d (4,), in powers of s, from those of degree d - 1, N (., 4); t are the knots."""
+    """Coefficients (4,) of N_k,d in powers of s, from those of degree d - 1, N (., 4); t are the knots."""
     result = np.zeros(CUBIC + 1)
     for i, sign, at in ((k, 1.0, t[k]), (k + 1, -1.0, t[k + d + 1])):
         width = t[i + d] - t[i]

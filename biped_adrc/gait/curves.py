@@ -6,9 +6,9 @@
 Outside [0, 1] the curve goes on as the polynomial it is, its first or last piece: after a push a step may end
 late, and the reference must not stop there.
 
-Every curve says itself as polynomials by pieces, and all that needs its values, Python, machine code, the zero
-dynamics and the optimisation of gaits, works with these. A curve of another basis is a class with `pieces` and
-the coefficients of a line, `ramp` (`bspline` is one), and a line of the registry.
+Every curve gives its own representation as polynomials by pieces, from which its values are computed in
+Python, machine code, the zero dynamics and the optimisation of gaits. A curve of another basis is a class with
+`pieces` and the coefficients of a straight line, `ramp` (`bspline` is one), and a line of the registry.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class Curve(Shown, ABC):
 
     coefficients: Array
     least: ClassVar[int] = 2
-    """Coefficients that a joint has at least."""
+    """Least number of coefficients of a joint."""
 
     def __post_init__(self) -> None:
         a = read_only(self.coefficients)
@@ -51,15 +51,18 @@ class Curve(Shown, ABC):
 
     @property
     def degree(self) -> int:
-        """M, one less than the coefficients of a joint; for `Bezier` and `Polynomial` the degree itself."""
+        """M, one less than the coefficients of a joint; for `Bezier` and `Polynomial` the
+        degree of the polynomial.
+        """
         return int(self.coefficients.shape[1]) - 1
 
     @property
     @abstractmethod
     def pieces(self) -> tuple[Array, Array]:
-        """Where pieces join inside of (0, 1), (J - 1,), rising, and a (J, p, K) of h(s) = sum_k a_jk s^k.
+        """Breaks (J - 1,) in (0, 1), increasing, where pieces join, and coefficients a (J, p,
+        K) of h(s) = sum_k a_jk s^k.
 
-        All that is computed of a curve comes from this: a new kind of curve need not say its derivatives.
+        Values and derivatives follow from this: a new kind of curve need not define its derivatives.
         """
 
     @classmethod
@@ -73,7 +76,7 @@ class Curve(Shown, ABC):
 
     @property
     def power_coefficients(self) -> Array:
-        """a (p, K) of h(s) = sum_k a_k s^k, for what works with one polynomial: the response of the stride.
+        """Coefficients a (p, K) of h(s) = sum_k a_k s^k, for a curve of one piece.
 
         Raises GaitError for a curve of several pieces.
         """
@@ -87,7 +90,7 @@ class Curve(Shown, ABC):
 
     @derived
     def breaks(self) -> Array:
-        """Where the further pieces begin (J - 1,), rising."""
+        """Places (J - 1,) in (0, 1) where a further piece begins, increasing."""
         return self.pieces[0]
 
     @derived
@@ -102,11 +105,11 @@ class Curve(Shown, ABC):
 
     @derived
     def powers(self) -> NDArray[np.int64]:
-        """The exponents (K,)."""
+        """Exponents (K,) of s."""
         return np.arange(self.stacked.shape[2])
 
     def piece(self, s: float) -> Array:
-        """The stacked coefficients (3 p, K) that hold at s; at a break those of the later piece."""
+        """Stacked coefficients (3 p, K) of the piece at s; at a break those of the later piece."""
         a = self.stacked[0]
         for j in range(len(self.breaks)):
             a = np.where(s >= self.breaks[j], self.stacked[j + 1], a)
@@ -130,9 +133,9 @@ class Curve(Shown, ABC):
 
 @dataclass(frozen=True)
 class Polynomial(Curve):
-    """h(s) = sum_k a_k s^k, a (p, M + 1): for curves from elsewhere, as the paper's gait (b).
+    """A polynomial h(s) = sum_k a_k s^k, a (p, M + 1) [rad]: for imported curves, as the paper's gait (b).
 
-    Gaits are designed of `ControlledCurve`.
+    Gaits are designed with `ControlledCurve`.
     """
 
     @property
@@ -148,16 +151,17 @@ class Polynomial(Curve):
 
 @dataclass(frozen=True)
 class ControlledCurve(Curve):
-    """From its first to its last coefficient, by a basis that adds up to one and is the same from behind.
+    """Base of curves that go from their first to their last coefficient, in a basis that adds up to one.
 
-    Such a curve is designed from its ends: the impact gives both ends and their slopes, and the optimisation
-    moves what lies between. A polynomial in powers has no coefficient that is its end.
+    The basis is symmetric. Such a curve is designed from its ends: the impact gives both ends and
+    their slopes, and the optimisation moves the coefficients between. A polynomial in powers has
+    no coefficient that is its end.
     """
 
     @classmethod
     @abstractmethod
     def abscissae(cls, degree: int) -> Array:
-        """Coefficients (M + 1,) of h(s) = s; the second says how far the slope at an end reaches."""
+        """Coefficients (M + 1,) of h(s) = s; the second is the reach of the slope at an end."""
 
     @classmethod
     def ramp(cls, degree: int, start: float, end: float) -> Array:
@@ -165,10 +169,11 @@ class ControlledCurve(Curve):
 
     @classmethod
     def between(cls, begin: Array, first: Array, last: Array, end: Array, degree: int) -> Array:
-        """Coefficients (p, M + 1) from `begin` to `end` with these first and last slopes dh/ds, each (p,).
+        """Coefficients (p, M + 1) of a curve from `begin` to `end` with slopes dh/ds
+        `first` and `last`, each (p,).
 
-        Those between lie on a straight line. It is what the search for a gait starts from: ends and slopes are
-        those that make the constraint invariant under the impact.
+        Those between lie on a straight line. The search for a gait starts from this curve: with ends and
+        slopes that make the constraint invariant under the impact.
         """
         inner = np.linspace(0.0, 1.0, degree - 1)
         reach = cls.abscissae(degree)[1]
@@ -179,7 +184,8 @@ class ControlledCurve(Curve):
 
 @dataclass(frozen=True)
 class Bezier(ControlledCurve):
-    """h(s) = sum_k alpha_k C(M, k) s^k (1 - s)^(M - k), alpha (p, M + 1) [rad]; the paper's gait (a) is one.
+    """A Bezier curve h(s) = sum_k alpha_k C(M, k) s^k (1 - s)^(M - k), alpha (p, M + 1)
+    [rad], as the paper's gait (a).
 
     h(0) = alpha_0, h(1) = alpha_M, h'(0) = M (alpha_1 - alpha_0), h'(1) = M (alpha_M - alpha_(M-1)). It stays
     within the hull of its coefficients, so bounds on these are bounds on the angles.
@@ -195,7 +201,7 @@ class Bezier(ControlledCurve):
 
 
 def bernstein_to_power(degree: int) -> Array:
-    """T (M + 1, M + 1) with sum_k alpha_k B_k(s) = sum_j (alpha T)_j s^j.
+    """Matrix T (M + 1, M + 1) from Bezier to power coefficients: sum_k alpha_k B_k(s) = sum_j (alpha T)_j s^j.
 
     Its numbers grow with the degree, up to 2^M and more: in powers a curve of degree 20 has lost some digits.
     """
@@ -208,13 +214,13 @@ CURVES: dict[str, Any] = {
     name: entry["home"]
     for name, entry in packaged("biped_adrc.scenario", "registry.toml")["curve"].items()
 }
-"""By name, `module:Class`, or the class itself where it was registered."""
+"""Name of a kind of curve -> `module:Class`, or the class itself if it was registered."""
 
 
 def curve_kind(name: str) -> type[Curve]:
     """The class of a curve by its name in the registry, imported now.
 
-    Raises GaitError with the names there are.
+    Raises GaitError with the known names.
     """
     if name not in CURVES:
         raise GaitError(

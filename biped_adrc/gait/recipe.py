@@ -8,9 +8,9 @@ share s in [0, 1] of a step, from the stance foot, with (x*, z*) the hip and L t
     swing  x = -L + 2 L (c s + (1 - c) (1 - cos(pi s)) / 2), z = H sin(pi s)
     torso  q5 = q5* - B sin(2 pi s)
 
-The pose of x* gives L, x*, z* and q5*. What it leaves open (A, H, c, B) follows from the ratios of hip,
-swing-foot and torso rates at x*; the speed does not. The constraint is not hybrid-invariant: the impact is
-not smooth, as section VII says.
+The pose of x* gives L, x*, z* and q5*. The free parameters (A, H, c, B) follow from the ratios of hip,
+swing-foot and torso rates at x*; the speed does not. The constraint is not hybrid-invariant: the impact
+is not smooth, as section VII says.
 
 `design_recipe_gait` gives the gait with the periodic orbit of its zero dynamics, as if the impact were smooth;
 `validation.gaits.design_recipe_orbit` replaces that orbit by the one of the closed loop.
@@ -34,12 +34,12 @@ HUMAN_STEP = 0.70
 """[m], step length of adults at comfortable speed, about 0.70 m for men and 0.64 m for women (Scientific
 Reports 11, 2021, s41598-021-91633-1, Table 1). Only the fraction depends on it: L comes from x*."""
 SAMPLES = 401
-"""Points over a step at which inverse kinematics is solved for the regression."""
+"""Number of points over a step at which inverse kinematics is solved for the regression."""
 
 
 @dataclass(frozen=True)
 class RecipeParameters:
-    """What section IV leaves free, and the degree of the regression."""
+    """Free parameters of the recipe of section IV, and the degree of the regression."""
 
     step_fraction: float
     """L / HUMAN_STEP, from the pose of x*."""
@@ -52,11 +52,11 @@ class RecipeParameters:
     torso_amplitude: float
     """B [rad], from the rate of the torso at x*."""
     degree: int = 8
-    """Of the polynomials of the regression."""
+    """Degree of the polynomials of the regression."""
 
 
 def fit_to_x_star(biped: Biped) -> RecipeParameters:
-    """The parameters that give the pose of x* and the ratios of its hip, swing-foot and torso rates.
+    """Fit the parameters to the pose of x* and the ratios of its hip, swing-foot and torso rates.
 
     With the hip moving evenly, x' = L s', so z'/x' = -pi A / L at the hip, at the swing foot x2'/x' = 2 c and
     z2'/x' = -pi H / L, and q5'/x' = -2 pi B / L.
@@ -75,9 +75,10 @@ def fit_to_x_star(biped: Biped) -> RecipeParameters:
 
 
 def inverse_kinematics(leg: Array, length: float) -> tuple[float, float]:
-    """Absolute thigh angle and knee angle (backwards, < 0) [rad] for the vector hip to foot (2,) [m].
+    """Absolute thigh angle and knee angle (backwards, < 0) [rad] for the vector `leg`
+    from hip to foot (2,) [m].
 
-    Thigh and shin of equal length; a link of angle a points along (-sin a, cos a).
+    length [m]: of thigh and of shin. A link of angle a points along (-sin a, cos a).
     """
     reach = float(np.hypot(*leg))
     knee = -2.0 * float(np.arccos(reach / (2.0 * length)))
@@ -106,7 +107,7 @@ def joint_trajectories(biped: Biped, p: RecipeParameters, s: Array) -> Array:
 
 
 def regress(theta: Array, joints: Array, degree: int) -> tuple[Polynomial, float]:
-    """Regression of joint angles on the phase: polynomials of s, and the largest residual [rad].
+    """Fit polynomials of s to joint angles over the phase; also returns the largest residual [rad].
 
     theta: phases (K,) [rad]. joints: angles (K, p) [rad]. The polynomials pass exactly through both ends,
 

@@ -2,16 +2,15 @@
 
     D_s(q) q'' + C(q, q') q' + G_s(q) = B_s u + delta + zeta         (1)
 
-q_b (p,) are the actuated joints (for RABBIT: stance hip, swing hip, stance knee, swing knee), q_N
-is the absolute pitch of the torso. Angles are counter-clockwise positive with x to the right and z
-up; a link of absolute angle a points along (-sin a, cos a). zeta is an external generalised force
-and delta what the model has wrong.
+q_b (p,) are the actuated joints (for RABBIT: stance hip, swing hip, stance knee, swing knee), q_N is the
+absolute pitch of the torso. Angles are counter-clockwise positive with x to the right and z up; a link of
+absolute angle a points along (-sin a, cos a). zeta is an external generalised force and delta the model error.
 
-`Biped` joins a robot's record (`model.robots.robot_toml`), its URDF tree and two Pinocchio models made
-from that tree: `pinned` at the stance foot for single support, `floating` for the impact. Every
-method here checks its angles and passes them on to one of the two. Walkers, observers, controllers,
-gait design and the compiled engine all take their numbers from this class. Use it for the plant and
-for the controller's nominal model alike; they are two objects when the model is wrong.
+`Biped` joins a robot's record (`model.robots.robot_toml`), its URDF tree and two Pinocchio models made from
+that tree: `pinned` at the stance foot for single support, `floating` for the impact. Every method here checks
+its angles and calls one of the two. Walkers, observers, controllers, gait design and the compiled engine all
+take their numbers from this class. Use it for the plant and for the controller's nominal model alike; they are
+two objects when the model is wrong.
 """
 
 from __future__ import annotations
@@ -47,8 +46,8 @@ class Biped(Shown):
     """A robot with one set of parameters. Make it with `Biped.load`.
 
     Methods take q (n,) [rad], v = q' (n,) [rad/s] and a = q'' (n,) [rad/s^2] in the order of
-    `description.joints`, and raise InputError for another shape, NotFiniteError for NaN or
-    infinity. Pinocchio's work data inside is overwritten by every call: use one Biped per thread.
+    `description.joints`, and raise InputError for another shape, NotFiniteError for NaN or infinity.
+    Pinocchio's work data inside is overwritten by every call: use one Biped per thread.
 
     >>> biped = ba.Biped.load("rabbit")
     >>> biped.inertia(np.zeros(5)).shape, round(biped.mass, 1)
@@ -74,10 +73,11 @@ class Biped(Shown):
     def load(
         cls, robot: str | Path = "rabbit", preset: str | None = None, friction: bool = False
     ) -> Biped:
-        """A robot by name, or by the path of its robot.toml, with a parameter preset (None: the default one).
+        """Load a robot by name, or by the path of its robot.toml, with a parameter preset
+        (None: the default one).
 
-        friction: add the record's viscous and static joint friction to the dynamics. Raises
-        ModelError for an unknown robot or preset, or a URDF that is not physical.
+        friction: add the record's viscous and static joint friction to the dynamics. Raises ModelError for an
+        unknown robot or preset, or a URDF that is not physical.
         """
         description = load_description(robot)
         record = description.preset(preset)
@@ -88,7 +88,8 @@ class Biped(Shown):
         return biped
 
     def check(self) -> None:
-        """Build both models now; check their numbers, that the legs are alike, and how motors change over.
+        """Build both models, and check their numbers, that both legs are equal, and that
+        motors can be relabelled.
 
         Relabelling at impact is right only for equal legs. Tested at one state: with the base at
         rest the kinetic energy must not change when the legs exchange their roles, nor the distance
@@ -144,7 +145,7 @@ class Biped(Shown):
         return read_only(relabelling(self.tree, self.description.joints, self.description.feet))
 
     def relabel(self, q: Array) -> Array:
-        """R q + r: the configuration q (n,) [rad] in the coordinates of the next single support."""
+        """Relabel the configuration q (n,) [rad] for the next single support: R q + r (n,) [rad]."""
         return self.R @ q + self._offset
 
     @cached_property
@@ -190,7 +191,9 @@ class Biped(Shown):
         return FloatingDynamics(self.tree, self.description, self.armature)
 
     def _stance_chain(self) -> Array:
-        """Row (n,): absolute angle of the stance foot's link as a sum of coordinates."""
+        """Row (n,): absolute angle of the stance foot's link as a sum of coordinates. Raises
+        ModelError for a wrong base.
+        """
         pitch = self.tree.joint_above(self.description.trunk)
         if pitch is None or pitch.name != self.description.unactuated:
             raise ModelError(
@@ -347,8 +350,10 @@ class Biped(Shown):
         return self.floating.extended(self._angles(q))[1]
 
     def impact(self, q: Array, v: Array) -> Impact:
-        """The plastic impact at (q-, q'-) (n,) [rad, rad/s]: Delta (8), Sigma (9), and the state after
-        it, already relabelled. Raises SingularError where (7) is singular.
+        """The plastic impact at (q-, q'-) (n,) [rad, rad/s]: Delta (8), Sigma (9), and the
+        relabelled state after it.
+
+        Raises SingularError where (7) is singular.
         """
         return self.floating.impact(self._angles(q), self._angles(v), self.R, self._offset)
 
@@ -361,9 +366,9 @@ class Biped(Shown):
     ) -> Biped:
         """The robot with masses and inertias multiplied, by class or link name: a plant with `delta` of (1).
 
-        Factors are dimensionless, 1.1 is ten per cent more. `mass` alone leaves the inertias about
-        the COM as they are. friction: None keeps the setting. Raises ModelError for an unknown body
-        or a factor that leaves no mass or inertia.
+        Factors are dimensionless, 1.1 is ten per cent more. `mass` alone leaves the inertias about the COM
+        as they are. friction: None keeps the setting. Raises ModelError for an unknown body or a factor
+        that leaves no mass or inertia.
         """
         check_part(mass, "mass", Mapping, NoneType)
         check_part(inertia, "inertia", Mapping, NoneType)
@@ -386,7 +391,9 @@ class Biped(Shown):
         return self.tree.with_inertials(inertials)
 
     def _links(self, body: str) -> tuple[str, ...]:
-        """The links that `body` names: a group in the robot's record ("thigh" for both), or a single link."""
+        """Links of a body: of a group in the robot's record ("thigh" for both), or a
+        single link. Raises ModelError.
+        """
         if body in self.description.links:
             return self.description.links[body]
         if body in self.tree.links:
@@ -395,4 +402,5 @@ class Biped(Shown):
         raise ModelError(f"robot '{self.description.name}' has no body '{body}'; it has {known}")
 
     def _angles(self, q: Array) -> Array:
+        """q (n,) after a check of its shape and that it is finite."""
         return finite_angles(q, (self.n,))

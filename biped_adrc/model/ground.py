@@ -36,23 +36,24 @@ def check_slope(slope: float) -> None:
 
 @dataclass(frozen=True)
 class GroundStep(Checked):
-    """What a step down and a step up share: the single support that ends on it, and a height [m] > 0."""
+    """Base of a step down and a step up: the single support that ends on it, and its height [m] > 0."""
 
     step: PositiveInt
     """Number of the single support, from 1, that ends on the changed ground."""
     height: PositiveFloat
-    """[m], positive whichever way the step goes."""
+    """Height of the step [m], positive for both directions."""
 
     @property
     def drop(self) -> float:
-        """How far the ground lies below the stance foot where this single support ends [m]; negative
-        for a step up.
+        """Depth of the ground below the stance foot where this single support ends
+        [m]; negative for a step up.
         """
         return self.height if isinstance(self, StepDown) else -self.height
 
 
 class StepDown(GroundStep):
-    """The ground on which single support `step` (from 1) ends lies `height` [m] below its stance foot.
+    """A step down: the ground on which single support `step` (from 1) ends lies `height`
+    [m] below its stance foot.
 
     Raises InputError for a height that is not positive; a step up is a `StepUp`.
 
@@ -64,18 +65,17 @@ class StepDown(GroundStep):
 
 
 class StepUp(GroundStep):
-    """The ground on which single support `step` (from 1) ends lies `height` [m] above its stance foot.
+    """A step up: the ground on which single support `step` (from 1) ends lies `height`
+    [m] above its stance foot.
 
-    The swing foot starts below that level; impact is where it comes down on it after it has been
-    above. The edge of the step is not part of the model, so whether the foot clears it is not
-    checked.
-
-    Raises InputError for a height that is not positive; a step down is a `StepDown`.
+    The swing foot starts below that level; impact is where it comes down on it after it has been above. The
+    edge of the step is not part of the model, so whether the foot clears it is not checked. Raises InputError
+    for a height that is not positive; a step down is a `StepDown`.
     """
 
 
 def check_steps(steps: object) -> None:
-    """Raise InputError unless these are steps of the ground, in a tuple."""
+    """Raise InputError unless `steps` is a tuple of steps of the ground."""
     if not isinstance(steps, tuple) or not all(isinstance(x, StepDown | StepUp) for x in steps):
         raise InputError(
             f"ground_steps is {steps!r:.60}, expected a tuple of steps, such as (StepDown(3, 0.02),), or ()"
@@ -83,18 +83,18 @@ def check_steps(steps: object) -> None:
 
 
 def drop_of(steps: tuple[StepDown | StepUp, ...], number: int) -> float:
-    """How far these steps lower the ground on which single support `number` ends [m]."""
+    """Depth by which these steps lower the ground on which single support `number` ends [m]."""
     return sum((d.drop for d in steps if d.step == number), 0.0)
 
 
 def uneven_ground(seed: int, rms: float, steps: int) -> tuple[StepDown | StepUp, ...]:
-    """Steps up and down whose footholds have heights of mean zero and root mean square `rms` [m].
+    """Make random steps up and down, `steps` of them, with foothold heights of mean zero and
+    root mean square `rms` [m].
 
-    The heights h_1, h_2, ... are independent and normally distributed. The first stance foot is at
-    h_0 = 0, and single support k, for k = 1 to `steps`, ends h_(k-1) - h_k lower than it began.
-    After that the ground is level. The same seed gives the same ground.
-
-    Raises ValueError for an rms, a seed or a number of steps below 0.
+    The heights h_1, h_2, ... are independent and normally distributed. The first stance foot is at h_0 = 0,
+    and single support k, for k = 1 to `steps`, ends h_(k-1) - h_k lower than it began. After that the ground
+    is level. The same seed gives the same ground. Raises ValueError for an rms, a seed or a number of steps
+    below 0.
 
     >>> ground = ba.uneven_ground(seed=1, rms=0.005, steps=20)
     >>> [edge.step for edge in ground[:3]]

@@ -37,7 +37,7 @@ _AWAY = 1e-6  # [m], a foot nearer to its last joint than this is no foot
 
 @dataclass(frozen=True)
 class Anatomy:
-    """Names of the parts of one biped."""
+    """Names of the parts of a biped: feet, hip, joints in order, and its phase variable."""
 
     feet: tuple[str, str]
     """Stance and swing foot."""
@@ -48,11 +48,11 @@ class Anatomy:
     phase: tuple[float, ...]
     """Row c (n,) of Theta = c q, dimensionless; the last entry belongs to the pitch."""
     remarks: tuple[str, ...]
-    """What was guessed, in sentences."""
+    """Sentences on what was guessed."""
 
 
 def anatomy(body: PlanarBase, feet: tuple[str, ...] | None, hip: str | None) -> Anatomy:
-    """The parts of a biped; `feet` (stance, swing) and `hip` are guessed when they are None.
+    """Find the parts of a biped; `feet` (stance, swing) and `hip` are guessed when they are None.
 
     Raises ModelError with the candidates and the option to give when a guess is not certain.
     """
@@ -74,8 +74,8 @@ def anatomy(body: PlanarBase, feet: tuple[str, ...] | None, hip: str | None) -> 
 
 
 def position(tree: Tree, link: str) -> Array:
-    """Place (x, z) of the frame of a link at zero angles (2,) [m]: the sum of the origins, since
-    frames are parallel.
+    """Position (x, z) of the frame of a link at zero angles (2,) [m]: the sum of the
+    origins, as frames are parallel.
     """
     origins = [joint.origin for joint in tree.path_to_root(link)]
     return np.array([math.fsum(o[0] for o in origins), math.fsum(o[2] for o in origins)])
@@ -94,14 +94,15 @@ def _chain(body: PlanarBase, link: str) -> list[Joint]:
 
 # -- feet ------------------------------------------------------------------------------------------
 def _leaves(body: PlanarBase) -> list[str]:
-    """Links at the ends of the tree, in the order of the file."""
+    """Names of the links at the ends of the tree, in the order of the file."""
     tree = body.tree
     ends = (link for link in tree.links if not tree.joints_below(link))
     return [link for link in ends if tree.path_below(link, body.trunk) is not None]
 
 
 def _guessed_feet(body: PlanarBase) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Two feet and a sentence why: the two ends below the most joints, or the two that are called feet.
+    """Guess the two feet: the two ends below the most joints, or the two whose names say
+    foot; also returns the reason.
 
     Raises ModelError where neither rule gives exactly two.
     """
@@ -124,7 +125,7 @@ def _guessed_feet(body: PlanarBase) -> tuple[tuple[str, ...], tuple[str, ...]]:
 
 
 def _checked_feet(body: PlanarBase, feet: tuple[str, ...]) -> tuple[str, str]:
-    """The feet (stance, swing), once they are two links of different legs that move against each other.
+    """The feet (stance, swing), after a check that they are two links that a joint moves against each other.
 
     Raises ModelError that names what is wrong.
     """
@@ -144,7 +145,7 @@ def _checked_feet(body: PlanarBase, feet: tuple[str, ...]) -> tuple[str, str]:
 
 
 def _check_foot(tree: Tree, foot: str) -> None:
-    """A point foot lies away from the joint that moves it. Raises ModelError that says how to add a tip."""
+    """Raise ModelError unless the foot lies away from the joint that moves it, with a hint how to add a tip."""
     last = next(joint for joint in tree.path_to_root(foot) if joint.type == "revolute")
     if math.dist(position(tree, foot), position(tree, last.child)) < _AWAY:
         raise ModelError(
@@ -156,10 +157,10 @@ def _check_foot(tree: Tree, foot: str) -> None:
 
 # -- joints ----------------------------------------------------------------------------------------
 def _in_order(body: PlanarBase, feet: tuple[str, str]) -> tuple[Joint, ...]:
-    """Stance hip, swing hip, stance knee, swing knee, ...; then the joints that belong to no leg alone.
+    """Order the joints: stance hip, swing hip, stance knee, swing knee, ...; then the joints
+    that belong to no leg alone.
 
-    From the trunk outwards, a joint of the stance leg before its twin of the swing leg: the paper's
-    order.
+    From the trunk outwards, a joint of the stance leg before its twin of the swing leg: the paper's order.
     """
     one, other = (_chain(body, foot) for foot in feet)
     pairs = zip_longest((j for j in one if j not in other), (j for j in other if j not in one))
@@ -170,8 +171,10 @@ def _in_order(body: PlanarBase, feet: tuple[str, str]) -> tuple[Joint, ...]:
 
 # -- hip and phase ---------------------------------------------------------------------------------
 def _guessed_hip(tree: Tree, feet: tuple[str, str]) -> tuple[str, str]:
-    """The link whose origin is the hip, and a sentence: where the legs meet, at the first joint of the
-    swing leg. Raises ModelError where the swing foot is fixed to the stance leg.
+    """Guess the link whose origin is the hip, where the legs meet at the first joint of the
+    swing leg; with the reason.
+
+    Raises ModelError where the swing foot is fixed to the stance leg.
     """
     one, other = ([foot, *(j.parent for j in tree.path_to_root(foot))] for foot in feet)
     meet = next(link for link in one if link in other)
@@ -208,7 +211,7 @@ def _keeps_its_origin(tree: Tree, link: str, foot: str) -> bool:
 
 
 def _phase(tree: Tree, foot: str, hip: str, joints: tuple[Joint, ...]) -> Array:
-    """Row c (n,) of Theta: the leg from the foot to the hip, cut into lengths [m] where its links meet."""
+    """Row c (n,) of Theta, from the lengths [m] of the stance leg's links between foot and hip."""
     carriers = {hip, *(joint.parent for joint in tree.path_to_root(hip))}
     points, links = [position(tree, foot)], []
     for joint in tree.path_to_root(foot):

@@ -18,13 +18,13 @@ from biped_adrc.model.robots.symmetry import text_of
 from biped_adrc.model.robots.urdf import Joint, Link, Tree
 
 PLANAR = 1e-4
-"""How far an axis may be out of the plane because rpy was rounded in the file, dimensionless."""
+"""Largest deviation of an axis from the plane, since rpy is rounded in files, dimensionless."""
 _Y = 1
 
 
 @dataclass(frozen=True)
 class PlanarBase:
-    """A tree with its planar base."""
+    """A tree with its planar base of two prismatic joints and the pitch."""
 
     tree: Tree
     base: tuple[str, str]
@@ -34,14 +34,14 @@ class PlanarBase:
     trunk: str
     """Link that the base carries."""
     remarks: tuple[str, ...]
-    """What was found or added, in sentences."""
+    """Sentences on what was found or added."""
 
 
 def on_planar_base(tree: Tree) -> PlanarBase:
-    """The planar tree with the base it has, or with one that is put above its root.
+    """The planar tree with the base it has, or with one added above its root.
 
-    Raises ModelError for joints out of the plane, a base of another kind or with mass, and joints that move
-    no mass.
+    Raises ModelError for joints out of the plane, a base of another kind or with mass,
+    and joints that move no mass.
     """
     tree = replace(tree, joints=tuple(_in_plane(tree, joint) for joint in tree.joints))
     slides = [joint for joint in tree.joints if joint.type == "prismatic"]
@@ -51,7 +51,7 @@ def on_planar_base(tree: Tree) -> PlanarBase:
 
 
 def _in_plane(tree: Tree, joint: Joint) -> Joint:
-    """The joint with its axis rounded to the nearest allowed one. Raises ModelError where none is near."""
+    """The joint with its axis rounded to the nearest allowed one. Raises ModelError if it is not near one."""
     if joint.type == "fixed":
         return joint
     x, _, z = map(abs, joint.axis)
@@ -68,8 +68,9 @@ def _in_plane(tree: Tree, joint: Joint) -> Joint:
 
 
 def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
-    """The base that the URDF has, with its slides in the sense of +x and +z. Raises ModelError where
-    it is incomplete or has mass.
+    """The base that the URDF has, with its slides in the direction of +x and +z.
+
+    Raises ModelError where it is incomplete or has mass.
     """
     turning = [joint for joint in tree.joints if joint.type == "revolute"]
     above = {joint.name: tree.path_to_root(joint.parent) for joint in turning}
@@ -97,7 +98,9 @@ def _own(tree: Tree, slides: list[Joint]) -> PlanarBase:
 
 
 def _added(tree: Tree) -> PlanarBase:
-    """A base above the root link; its pitch turns in the sense of the first revolute joint."""
+    """The tree with a base added above the root link; its pitch turns in the sense of
+    the first revolute joint.
+    """
     root = next(link for link in tree.links if tree.joint_above(link) is None)
     axis = next((j.axis for j in tree.joints if j.type == "revolute"), (0.0, -1.0, 0.0))
     names = ("base_x", "base_z", "base_pitch", "world", "base_x_carriage", "base_z_carriage")
@@ -118,14 +121,14 @@ def _added(tree: Tree) -> PlanarBase:
 
 
 def _free(tree: Tree, name: str) -> str:
-    """`name`, or `name` with underscores where link or joint is called so already."""
+    """`name`, with underscores appended while a link or joint has that name."""
     while name in tree.links or any(joint.name == name for joint in tree.joints):
         name += "_"
     return name
 
 
 def _check_below(on_base: PlanarBase) -> None:
-    """Each joint below the trunk moves some mass, and no name of the stance contact is taken.
+    """Check that each joint below the trunk moves some mass, and that no name of the stance contact is used.
 
     Raises ModelError that names the joint.
     """
@@ -147,7 +150,7 @@ def _check_below(on_base: PlanarBase) -> None:
 
 
 def _mass(tree: Tree, link: str) -> float:
-    """Mass of `link` and all that hangs on it [kg]."""
+    """Mass of `link` and all links below it [kg]."""
     inertial = tree.links[link].inertial
     below = sum(_mass(tree, joint.child) for joint in tree.joints_below(link))
     return below + (0.0 if inertial is None else inertial.mass)

@@ -23,7 +23,9 @@ _EXACT = 1e-9  # largest residual of A R = P A, dimensionless
 
 
 def twins(tree: Tree, feet: tuple[str, str]) -> dict[str, str]:
-    """Each link's twin, paired upwards from the feet; links that are not here are their own twins."""
+    """Each link's twin in the other leg, paired upwards from the feet; links not in the
+    result are their own twins.
+    """
     paired: dict[str, str] = {}
     chains = ([joint.child for joint in tree.path_to_root(foot)] for foot in feet)
     for one, other in zip(*chains, strict=False):
@@ -34,10 +36,10 @@ def twins(tree: Tree, feet: tuple[str, str]) -> dict[str, str]:
 
 
 def absolute_angles(tree: Tree, joints: tuple[str, ...], links: list[str]) -> Array:
-    """Rows (len(links), n), dimensionless: the absolute angle [rad] of each link as a sum of `joints`.
+    """Absolute angle of each link as a sum of `joints`: rows (len(links), n), dimensionless.
 
-    An entry is +1 or -1 for a joint on the link's path to the root, the sign relative to the last
-    joint, which is the pitch; 0 for other joints.
+    An entry is +1 or -1 for a joint on the link's path to the root, the sign relative to the last joint, which
+    is the pitch; 0 for other joints.
     """
     axis = next(joint.axis for joint in tree.joints if joint.name == joints[-1])
     rows = np.zeros((len(links), len(joints)))
@@ -52,8 +54,8 @@ def absolute_angles(tree: Tree, joints: tuple[str, ...], links: list[str]) -> Ar
 def relabelling(tree: Tree, joints: tuple[str, ...], feet: tuple[str, str]) -> Array:
     """R (n, n) of q+ = R q- + r, dimensionless, from A R = P A by least squares.
 
-    Entries within 1e-9 of an integer are rounded. Raises ModelError when no linear map exchanges
-    the legs: the residual is not zero or R R is not the identity.
+    Entries within 1e-9 of an integer are rounded. Raises ModelError when no linear map exchanges the legs: the
+    residual is not zero or R R is not the identity.
     """
     pairs = twins(tree, feet)
     chains = (joint.child for foot in feet for joint in tree.path_to_root(foot))
@@ -73,19 +75,19 @@ def relabelling(tree: Tree, joints: tuple[str, ...], feet: tuple[str, str]) -> A
 
 
 def pairs(tree: Tree, feet: tuple[str, str]) -> tuple[tuple[str, str], ...]:
-    """Links of the stance leg with their twins in the swing leg, from the feet upwards."""
+    """Pairs (link of the stance leg, its twin in the swing leg), from the feet upwards."""
     result = twins(tree, feet)
     stance = [joint.child for joint in tree.path_to_root(feet[0])]
     return tuple((link, result[link]) for link in stance if link in result)
 
 
 def unlike(tree: Tree, feet: tuple[str, str]) -> list[tuple[str, str]]:
-    """Twins that differ in mass, COM or inertia, or in their place on their parent."""
+    """Pairs of twins that differ in mass, COM or inertia, or in their place on their parent."""
     return [(one, other) for one, other in pairs(tree, feet) if not _alike(tree, one, other)]
 
 
 def _alike(tree: Tree, one: str, other: str) -> bool:
-    """Whether two links have the same numbers in the plane, but for round-off."""
+    """Whether two links have the same numbers in the plane, up to round-off."""
     rows = []
     for link in (one, other):
         body = tree.links[link].inertial or Inertial(0.0, (0.0,) * 3, (0.0,) * 6)
@@ -97,6 +99,6 @@ def _alike(tree: Tree, one: str, other: str) -> bool:
 
 
 def text_of(values: tuple[float, ...]) -> str:
-    """One number, or several in parentheses, for a message."""
+    """Text of one number, or of several in parentheses, for a message."""
     text = ", ".join(f"{value:.6g}" for value in values)
     return text if len(values) == 1 else f"({text})"

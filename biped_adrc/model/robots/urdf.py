@@ -1,9 +1,9 @@
-"""A robot as a small tree of links and joints: edits on it, what makes a body physical, writing it as URDF.
+"""A robot as a small tree of links and joints: changes of it, checks of its bodies, and its text as URDF.
 
-Pinocchio's parser accepts negative masses and zero axes and turns a mass it cannot read into 0. So
-a file is read by `urdf_reader`, which checks it; parameters are changed on this tree
-(presets, model errors, re-rooting at a foot), and Pinocchio is given the text that `to_xml` writes.
-All records are frozen: an edit makes a new tree.
+Pinocchio's parser accepts negative masses and zero axes and turns a mass it cannot read into 0. So a file is
+read by `urdf_reader`, which checks it; parameters are changed on this tree (presets, model errors, re-rooting
+at a foot), and Pinocchio gets the text that `to_xml` writes. All records are frozen: a change makes a new
+tree.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 SYMMETRIC = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
 """Symmetric matrix (3, 3) of indices: the inertia matrix from the six MOMENTS."""
 FREE = 1000.0
-"""What stands for no limit in <limit>, where a number is compulsory."""
+"""Number that stands for no limit in <limit>, where one is compulsory."""
 
 
 @dataclass(frozen=True)
@@ -37,11 +37,11 @@ class Inertial:
     """Mass properties of a link, in the axes of its frame."""
 
     mass: float
-    """[kg]."""
+    """Mass [kg]."""
     com: Vector
-    """From the origin of the link's frame [m]."""
+    """COM from the origin of the link's frame [m]."""
     inertia: tuple[float, float, float, float, float, float]
-    """About the COM: xx, xy, xz, yy, yz, zz [kg m^2]."""
+    """Moments about the COM: xx, xy, xz, yy, yz, zz [kg m^2]."""
 
     def scaled(self, kind: str, factor: float) -> Inertial:
         """A copy with "mass", "com" or "inertia" multiplied by a dimensionless factor."""
@@ -70,7 +70,7 @@ class Link:
 
     name: str
     inertial: Inertial | None
-    """None for a frame without mass."""
+    """Mass properties; None for a frame without mass."""
     visuals: tuple[Visual, ...]
     """Shapes to draw; they have no part in contact."""
 
@@ -102,11 +102,11 @@ class Tree(Shown):
     name: str
     """Name of the robot."""
     links: Mapping[str, Link]
-    """By name, in the order of the file."""
+    """Links by name, in the order of the file."""
     joints: tuple[Joint, ...]
-    """In the order of the file."""
+    """Joints in the order of the file."""
     source: str
-    """The file that messages name."""
+    """File named in messages."""
 
     def joint_above(self, link: str) -> Joint | None:
         """The joint whose child is `link`, None at the root."""
@@ -126,13 +126,17 @@ class Tree(Shown):
         return tuple(path)
 
     def path_below(self, link: str, top: str) -> tuple[Joint, ...] | None:
-        """Joints from `link` up to link `top`, the nearest first; None where `link` does not hang on `top`."""
+        """Joints from `link` up to link `top`, the nearest first; None where `link` does not hang
+        below `top`.
+        """
         path = self.path_to_root(link)
         ends = [k for k, joint in enumerate(path) if joint.child == top]
         return path[: ends[0]] if ends else None
 
     def with_inertials(self, inertials: Mapping[str, Inertial]) -> Tree:
-        """The same tree with the inertials of some links replaced. Raises ModelError for what no body has."""
+        """The same tree with the inertials of some links replaced. Raises ModelError for
+        impossible mass properties.
+        """
         links = dict(self.links)
         for name, inertial in inertials.items():
             check_inertial(inertial, f"URDF '{self.source}', link '{name}'")
@@ -168,11 +172,12 @@ def to_xml(tree: Tree) -> str:
 
 
 def _text(*values: float) -> str:
-    """Numbers with 17 digits, which is exact for doubles."""
+    """Text of numbers with 17 digits, which is exact for doubles."""
     return " ".join(f"{value:.17g}" for value in values)
 
 
 def _write_inertial(element: ET.Element, inertial: Inertial) -> None:
+    """Add origin, mass and moments to the element <inertial>."""
     ET.SubElement(element, "origin", xyz=_text(*inertial.com))
     ET.SubElement(element, "mass", value=_text(inertial.mass))
     ET.SubElement(element, "inertia", dict(zip(MOMENTS, map(_text, inertial.inertia), strict=True)))
@@ -190,8 +195,10 @@ def _write_visual(element: ET.Element, visual: Visual, link: str) -> None:
 
 
 def check_inertial(inertial: Inertial, where: str) -> None:
-    """Raise ModelError unless mass and moments are those of a rigid body: positive and finite, and no
-    principal moment above the sum of the other two. Moments are scaled, so that tiny bodies do not underflow.
+    """Raise ModelError unless mass and moments are those of a rigid body.
+
+    They must be positive and finite, and no principal moment above the sum of the other two. Moments are
+    scaled, so that tiny bodies do not underflow.
     """
     J = np.array(inertial.inertia)[SYMMETRIC]
     size = float(np.sum(np.abs(J)))
