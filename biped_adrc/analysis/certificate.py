@@ -66,8 +66,8 @@ class Support(Shown):
     peak_torque: float
     """Largest |u_i| [N m]."""
     impulse_ratio: float
-    """|F_T| / F_N of the impulse at the impact that ends it: infinite where the ground would have had to
-    pull, 0 without an impact.
+    """|F_T| / F_N of the impulse of its impact: infinite where the ground would have
+    had to pull, 0 without one.
     """
     friction_limit: float
     """mu of the friction cone; infinite on soft ground, where friction is the simulator's."""
@@ -96,12 +96,10 @@ class Certificate(Support):
     step_length: float
     """Distance of the footholds along the ground [m]."""
     old_foot_velocity: float
-    """Velocity of the old stance foot after impact, perpendicular to the ground [m/s]; positive when
-    it lifts off.
-    """
+    """Velocity of the old stance foot after impact out of the ground [m/s]; positive when it lifts off."""
     clearance: float
-    """Least height [m] of the swing foot above the ground on which the step ends, without the first
-    and last 3 % of the step. Negative when it scuffs.
+    """Least height [m] of the swing foot, without the first and last 3 % of the step; negative when
+    it scuffs.
     """
     joint_work: float
     """int u' q_b' dt, the net work of the motors [J]."""

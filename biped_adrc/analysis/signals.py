@@ -74,16 +74,15 @@ class Signals(Shown):
     xi_estimate: Array
     """(K, p) estimate of xi [rad/s^2]; NaN without an observer."""
     xi_external: Array
-    """(K, p) the part of xi that the nominal model does not explain, xi - xi_nominal: effects of zeta, matched
-    and unmatched, and errors of the model, friction among them [rad/s^2].
-    """
+    """(K, p) xi - xi_nominal: effects of zeta, matched and unmatched, and errors of the model [rad/s^2]."""
     xi_matched: Array
     """(K, p) kappa xi~_b, the matched part of it, with xi~ of (11): what a motor could cancel [rad/s^2]."""
     xi_nominal: Array
     """(K, p) (14) without xi~: the part of xi that the nominal model knows [rad/s^2]."""
     zeta_estimate: Array
-    """(K, p) kappa^-1 (xi^ - xi_nominal): the joint torque the estimate amounts to beyond the nominal
-    model [N m]; NaN without an observer."""
+    """(K, p) kappa^-1 (xi^ - xi_nominal): estimated joint torque beyond the model [N
+    m]; NaN without an observer.
+    """
     ground_reaction: Array
     """(K, 2), (F_T, F_N) [N], horizontal and vertical on any ground."""
     outside: Array

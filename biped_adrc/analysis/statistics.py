@@ -42,9 +42,7 @@ class Paired(NamedTuple):
     ratio: Interval
     """Median of the ratios, with its interval."""
     p: float
-    """p-value of the sign test: how likely as many ratios on one side of 1 are, were
-    both sides equally likely.
-    """
+    """p-value of the sign test: probability of as many ratios on one side of 1, were both equally likely."""
     pairs: int
     """Number of pairs with a ratio: those without an infinite number on both sides."""
 

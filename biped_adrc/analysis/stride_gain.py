@@ -39,9 +39,7 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 
 BUMP = 64.0 * np.array([0.0, 0.0, 0.0, 1.0, -3.0, 3.0, -1.0])
-"""Coefficients (7,) of b(s) = 64 s^3 (1 - s)^3 in powers of s: zero with two derivatives at both ends,
-so that the correction changes neither begin nor end of a step.
-"""
+"""Coefficients (7,) of b(s) = 64 s^3 (1 - s)^3 in powers of s: zero with two derivatives at both ends."""
 DIFFERENCE = 1e-3
 """Half width of the central differences: in beta [rad], and relative in z."""
 

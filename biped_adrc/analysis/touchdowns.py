@@ -45,9 +45,7 @@ class Noticed(Shown):
     t: Array
     """Times of the touchdowns (N,) [s]."""
     late: Array
-    """Delay of each detection (N,) [s], negative for an early one; NaN where it was
-    missed, or is still to come.
-    """
+    """Delay of each detection (N,) [s], negative for an early one; NaN where it was missed or is to come."""
     false: Array
     """Times of the detections without a touchdown [s]."""
     waits: bool = False

@@ -158,8 +158,7 @@ class StepDerivative(Shown):
     duration: float
     """Duration of the single support [s]."""
     flow_residual: float
-    """max |Phi f(0) - f-| / max |f-|: zero for the exact Phi of a flow that does not depend on time, so it
-    shows a wrong A, a reference in time, and the error of the method."""
+    """max |Phi f(0) - f-| / max |f-|: zero for the exact Phi of a flow that does not depend on time."""
     end_flow: Array
     """f- in section coordinates (2 n - 1,): how the image moves per second that the event is found late."""
     earlier: Array

@@ -30,10 +30,7 @@ from biped_adrc.gait.outputs import OutputPoint, Outputs
 from biped_adrc.model.reduction import Reduction
 
 _SINGULAR = 1e-9
-"""Least reciprocal condition number of the decoupling matrix.
-
-A Jacobian by differences has errors of 1e-11, which must not hide a singular matrix.
-"""
+"""Least reciprocal condition of the decoupling matrix; a Jacobian by differences has errors of 1e-11."""
 
 
 @dataclass(frozen=True)

@@ -25,9 +25,7 @@ T = TypeVar("T")
 T_co = TypeVar("T_co", covariant=True)
 
 TaskProgress = Callable[[int, int, str], None]
-"""A function called after each task with tasks done, tasks in all, and the name of the
-one that has just finished.
-"""
+"""A function called after each task with tasks done, tasks in all, and the name of the one just finished."""
 MOST_WORKERS = 1024
 """Largest number of workers on one machine; more are a mistake, which would take its memory."""
 SAFE_PATH = "PYTHONSAFEPATH"

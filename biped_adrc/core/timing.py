@@ -15,12 +15,7 @@ from biped_adrc.core.checks import check_fields
 from biped_adrc.core.errors import InputError
 
 LONGEST_PERIOD = 0.1
-"""Largest sampling period accepted [s].
-
-A body whose hip is l = 0.8 m high falls over its foot with the time constant sqrt(l / g) = 0.29 s:
-a torque that is held for more than a third of that is no feedback, and a longer period is a mistake
-of units.
-"""
+"""Largest sampling period accepted [s]: a body with the hip 0.8 m high falls with sqrt(l / g) = 0.29 s."""
 LONGEST_DELAY = 100
 """Largest computation delay accepted, in periods; a longer one is a mistake of units."""
 WHOLE = 1e-9

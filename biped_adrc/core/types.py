@@ -20,11 +20,7 @@ ComplexArray = NDArray[np.complex128]
 """Complex array, for eigenvalues and transfer functions."""
 
 PlainRecord = Mapping[str, Any]
-"""Values by name as JSON and TOML have them: text, numbers, truth values, None, lists, records.
-
-For summaries, stored rows and TOML tables, whose keys are stated where they are written. Inside the
-package a dataclass or a NamedTuple is preferred.
-"""
+"""Values by name as JSON and TOML have them: text, numbers, truth values, None, lists, records."""
 
 MuJoCoModel: TypeAlias = Any
 """`mujoco.MjModel`, a compiled robot: MuJoCo is optional."""

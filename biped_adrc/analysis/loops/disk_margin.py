@@ -22,16 +22,11 @@ from scipy.optimize import minimize
 from biped_adrc.core.types import Array, ComplexArray
 
 BALANCED = 10
-"""Sweeps of Osborne's iteration, over all frequencies at once; its bounds decide for
-which of them mu is computed.
-"""
+"""Sweeps of Osborne's iteration, whose bounds decide for which frequencies mu is computed."""
 TOP = 50
-"""Number of matrices of largest norm whose spectral radius excludes frequencies that
-cannot have the largest mu.
-"""
+"""Number of matrices of largest norm whose spectral radius excludes frequencies with smaller mu."""
 SMOOTH = (8, 64, 512)
-"""Powers p of the norms (sum sigma^p)^(1/p) that stand for sigma_max, one after the other: where two
-singular values meet, sigma_max has no gradient."""
+"""Powers p of the norms (sum sigma^p)^(1/p), one after the other, for sigma_max, which is not smooth."""
 
 
 def balanced_bound(M: ComplexArray) -> Array:

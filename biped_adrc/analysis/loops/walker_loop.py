@@ -29,9 +29,7 @@ from biped_adrc.hardware.motors import whole_and_part
 TINY = 1e-12
 """Eigenvalues below this magnitude count as zero: their modes vanish within a period."""
 FREQUENCIES = 100
-"""Number of frequencies, in geometric order, at which the sensitivity is computed,
-beside those of the loop's modes.
-"""
+"""Number of frequencies of the sensitivity, in geometric order, beside those of the loop's modes."""
 
 
 class LoopMatrices(NamedTuple):

@@ -34,10 +34,8 @@ from biped_adrc.control.tracking import Gains
 from biped_adrc.observers.gpi import GPIObserver
 
 SHARE = 0.1
-"""Share of the torque limit that the rms torque of one count may have.
-
-The published gait takes 108 of RABBIT's 150 N m at its peak: the rest holds three
-standard deviations of 15 N m.
+"""Share of the torque limit for the rms torque of one count: a gait of 108 of 150 N m leaves three
+deviations.
 """
 KAPPA_RATIOS = (0.8, 1.0, 1.25)
 """Ratios of the robot's kappa to the model's for which a recommended loop is stable: inertias known to 20 %."""
@@ -76,8 +74,8 @@ class Recommended(NamedTuple):
     bandwidth: float
     """Magnitude of the poles [rad/s]."""
     because: str
-    """The obstacle to a larger bandwidth: "ripple" or "stability"; "" where there is none,
-    or no bandwidth is allowed.
+    """Obstacle to a larger bandwidth: "ripple" or "stability"; "" for none, or where no bandwidth is
+    allowed.
     """
     ripple: float
     """rms torque of one encoder count [N m]."""

@@ -35,9 +35,7 @@ from biped_adrc.observers.gpi import GPIObserver
 DEGREE = 20
 """Degree of the polynomial in time that approximates xi along the orbit."""
 DERIVATIVES = 3
-"""How many derivatives of xi are taken from it. Higher ones, for which the fit is too rough, are set to zero
-before and after impact, and so give no error.
-"""
+"""Number of derivatives of xi taken from it; higher ones, too rough, are zero before and after impact."""
 INSTANTS, LONG = 400, 8.0
 """Number of instants after t = 0 at which the response is computed."""
 

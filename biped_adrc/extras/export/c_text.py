@@ -140,9 +140,7 @@ def in_double(f: ca.Function, angles: Sequence[bool]) -> set[int]:
 
 
 CONSTANT, LINEAR, KNOWN, UNKNOWN = range(4)
-"""Dependence of a value: on constants alone; linear in angles and times; any function of
-these; on other inputs too.
-"""
+"""Dependence of a value: on constants; linear in angles and times; any function of these; on other inputs."""
 
 
 def _degree(code: int, of: list[int]) -> int:

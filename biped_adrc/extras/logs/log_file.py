@@ -38,9 +38,7 @@ MOST_ANGLE = 4.0 * math.pi
 MOST_TORQUE = 100.0
 """Largest plausible torque, as a multiple of the robot's peak torque."""
 STRETCH = 0.01
-"""Length of the intervals over which a rate is compared with its angle [s]: longer than the steps of
-encoder counts, short beside a step.
-"""
+"""Interval over which a rate is compared with its angle [s]: longer than encoder steps, short beside a step."""
 LEAST_MOTION = 0.002
 """Least rms change of an angle in an interval [rad]; with less motion its rate is not checked."""
 RATIOS = 0.5, 2.0

@@ -55,9 +55,7 @@ class ReplaySignals(Shown):
     torque: Array
     """(K, p) torque of the replayed controller, within the torque limit [N m]."""
     residual: Array
-    """(K, p) q_b - x1^ [rad] before the correction by the sample; 0 for observers that do not
-    estimate angles.
-    """
+    """(K, p) q_b - x1^ [rad] before the correction by the sample; 0 for observers without angles."""
     xi_estimate: Array
     """(K, p) xi^ [rad/s^2] after the correction by the sample."""
     xi_nominal: Array

@@ -45,9 +45,7 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import StepDown, StepUp, check_slope, check_steps, drop_of, ground_axes
 
 TOUCHING = 1e-6
-"""Depth of the stance foot in the ground at the start [m], so that round-off does not
-decide whether it touches.
-"""
+"""Depth of the stance foot in the ground at the start [m]: round-off does not decide whether it touches."""
 DEEPEST = 1e-4
 """Largest depth of the swing foot in the ground at the start [m]."""
 

@@ -47,10 +47,7 @@ from biped_adrc.view.placement import exchanged, joint_values
 MOST = {"force": 300.0, "torque": 200.0}
 """Largest force [N] of a hand, about the weight of RABBIT, and largest torque on one coordinate [N m]."""
 SPRING = {"stiffness": 1500.0, "damping": 40.0}
-"""F = k (anchor - p) - d p', at most MOST: k [N/m], d [N s/m].
-
-A force that is held for a period T acts T / 2 late, which takes k T / 2 from the damping: 2 % at 1 kHz.
-"""
+"""F = k (anchor - p) - d p', at most MOST: k [N/m], d [N s/m]; holding it for T takes k T / 2 from d."""
 DELAY, FRICTION = "hardware.delay", "hardware.friction"
 SAME = 1e-9
 """Largest distance [m] between two points that are taken for one."""

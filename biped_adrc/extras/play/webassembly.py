@@ -71,8 +71,8 @@ class _Laws(NamedTuple):
     texts: dict[str, str]
     """Name -> text of functions of walkers in LLVM's language."""
     names: dict[int, str]
-    """Address of one of the functions in this process -> that name; minus the address for
-    the functions of its signals.
+    """Address of a function in this process -> that name; minus the address for the functions of its
+    signals.
     """
     functions: list[str]
     """Names of the functions that are called by their number."""

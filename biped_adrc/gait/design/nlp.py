@@ -38,10 +38,7 @@ from biped_adrc.model.biped import Biped
 SHORTEST = 0.05
 """Shortest step that is searched, as a share of the leg length."""
 PASSED = 0.5
-"""Normalised phase from which the swing foot must be above the ground even where no clearance is required.
-
-Legs without knees scuff in the first half of the step, which is then ignored.
-"""
+"""Phase s from which the swing foot is above the ground even without a clearance: legs without knees scuff."""
 SMOOTH = 1e-2
 """Width of the smoothed |power| of the cost of transport, share of peak torque times 1 rad/s."""
 CALM = 1e-2

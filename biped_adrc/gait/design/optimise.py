@@ -41,8 +41,7 @@ EXACT = 1e-6
 SLOWEST, FASTEST = 0.02, 60.0  # [rad/s], |Theta'|
 """Bounds of the unknown rates."""
 WINDING = 1.5
-"""Largest distance of a Bezier coefficient from the first guess [rad]; angles repeat every 2 pi, so that
-without bounds a leg may wind round."""
+"""Largest distance of a Bezier coefficient from the first guess [rad]; else a leg may wind round by 2 pi."""
 
 
 def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitRequest) -> list[str]:

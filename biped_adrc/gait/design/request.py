@@ -66,8 +66,7 @@ class StepLimits(Checked, Shown):
     normal_force: NonNegativeFloat = 0.1
     """Least F_N, share of the weight."""
     clearance: NonNegativeFloat | None = 0.02
-    """Height of the swing foot in the middle of the step, share of the leg; None lets it scuff in the
-    first half of the step, as it must where legs have no knees."""
+    """Height of the swing foot in mid-step, share of the leg; None: without knees it may scuff at first."""
     lift_off: NonNegativeFloat = 0.02
     """Least vertical speed of the old foot after impact, and of the swing foot before it [m/s]."""
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
@@ -75,12 +74,9 @@ class StepLimits(Checked, Shown):
     multiplier: NonNegativeFloat = 0.95
     """Largest delta^2 of the zero dynamics."""
     slowest: NonNegativeFloat = 0.15
-    """Least |Theta'| in the step, share of that before impact: a walk that nearly stops falls back at a
-    touch."""
+    """Least |Theta'| in the step, share of that before impact: a walk that nearly stops is easily stopped."""
     reserve: NonNegativeFloat = 0.02
-    """Share of friction and torque, and of a quarter of a radian at the ends of ranges, kept as
-    a reserve between the nodes.
-    """
+    """Share of friction, torque, and a quarter radian of ranges that is kept as a reserve between the nodes."""
 
     def of(self, biped: Biped) -> RobotLimits:
         """These limits with the robot's own in place of None. Raises GaitError for a joint

@@ -55,9 +55,9 @@ class Unknowns(NamedTuple, Generic[T]):
     theta: T
     """Theta+ after impact and Theta- before the next one (2,) [rad]."""
     after: T
-    """q_e' (n + 2,) just after an impact at Theta'- = 1 rad/s, before the legs are relabelled [rad/s, m/s].
-
-    The impact map is linear in q', so the rates of the real impact are these times Theta'-."""
+    """q_e' (n + 2,) after an impact at Theta'- = 1 rad/s, not relabelled [rad/s, m/s];
+    it is linear in Theta'-.
+    """
     impulse: T
     """(F_T, F_N) of that impact (2,) [N s]."""
     rate: T

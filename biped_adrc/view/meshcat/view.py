@@ -42,17 +42,13 @@ from biped_adrc.view.placement import (
 GHOST = 0.35
 """Opacity of a ghost (1 is solid)."""
 LANE = 0.4
-"""Distance [m] of each ghost from the walk before it, away from the camera: faces in one plane would
-flicker.
-"""
+"""Distance [m] of each ghost from the walk before it, away from the camera: equal planes would flicker."""
 FPS = 60.0
 """Frames per second of a page."""
 TRACE_POINTS = 20_000
 """Points of the traces of a walk that is not sampled beforehand."""
 TALL = 1.6
-"""Height [m] of the highest robot that the cameras show from where they are for RABBIT; for higher
-ones they stand back.
-"""
+"""Height [m] of the highest robot that the cameras show from where they are for RABBIT."""
 Marks = Sequence[tuple[float, float, str]]
 """(start, stop, text) of what is shown beside the clock, times in [s]."""
 
