@@ -66,7 +66,9 @@ def verdict_of(broken: Collection[str]) -> str:
 
 
 def because(words: str, broken: Mapping[str, str]) -> str:
-    """The text `words`, followed by the reasons in `broken` if there are any."""
+    """The text `words`, followed by the reasons in `broken` if there are any; broken:
+    name in `REASONS` -> text.
+    """
     return f"{words}: {'; '.join(broken.values())}" if broken else words
 
 

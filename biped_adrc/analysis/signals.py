@@ -212,8 +212,8 @@ def footholds(walker: Walker, trajectory: Trajectory) -> Array:
 
 
 def as_recorded(walker: Walker, trajectory: Trajectory, found: InstantSignals) -> InstantSignals:
-    """Replace q'', ground force, momentum and xi in the values of the closed loop by
-    those of the plant that walked.
+    """The signals found from the closed loop, with q'', ground force, momentum and xi of the plant that
+    walked in place of the rigid model's.
 
     On the rigid plant they stay as they are. External forces are added to that of the
     ground, as `InstantSignals` has it.

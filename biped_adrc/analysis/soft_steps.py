@@ -119,7 +119,7 @@ def _slip_time(r: Readings, friction: float, axes: tuple[Array, Array]) -> float
 
 
 def _recorded(arc: Arc) -> Readings:
-    """The readings of the feet that an arc carries; the other fields are empty."""
+    """Readings of the feet that a run has stored at the nodes of an arc; fields without readings stay empty."""
     force, place, speed = (arc.read[name].reshape(-1, 2, 2) for name in NAMES)
     none = np.zeros((len(arc.t), 0))
     return Readings(arc.t, none, none, none, force, place, speed)

@@ -100,7 +100,9 @@ class StabilityTable(Shown):
 
     @property
     def verdict(self) -> str:
-        """One sentence for the method that is not trusted, then which one to trust."""
+        """Text of one or two sentences: why one of the two methods is not to be trusted, if so; whether the
+        cycle is stable by the other, with its largest |lambda|.
+        """
         name = CENTRAL if self.trusted is self.central else VARIATIONAL
         largest, end = np.max(np.abs(self.trusted)), "stable" if self.stable else "not stable"
         last = f"Trust the {name}: the cycle is {end}, the largest |lambda| is {largest:.6f}."

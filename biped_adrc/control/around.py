@@ -122,7 +122,7 @@ class ContactWindow(AcrossContact):
 
     @derived
     def until(self) -> float:
-        """T minus round-off [s]."""
+        """Length of the window [s] less round-off: a tick at its very end is outside."""
         return float(self.window - SAME_INSTANT)
 
 

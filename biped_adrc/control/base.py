@@ -173,7 +173,7 @@ class Controller(Part):
         return None
 
     def _writes(self, name: str) -> bool:
-        """Whether its class writes this method itself."""
+        """Whether the controller's class overrides the method `name` of `Controller`."""
         return getattr(type(self), name) is not getattr(Controller, name)
 
     def _only_sampled(self) -> NoReturn:

@@ -197,7 +197,7 @@ class CLFQPController(Controller):
 
 
 def _least(G: Array, h: Array) -> Array | None:
-    """The z of least |z| with G z <= h; None when there is none."""
+    """The vector z of least |z| that fulfils G z <= h, row by row; None when there is none."""
     from qpsolvers import solve_qp
 
     n = G.shape[1]

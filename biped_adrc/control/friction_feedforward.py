@@ -62,7 +62,7 @@ class FrictionFeedforward(Around):
         return self.share * np.array(self.viscous), self.share * np.array(self.static)
 
     def friction(self, m: Measurement) -> Array:
-        """F (p,) [N m] at the rates of the reference."""
+        """Torque F (p,) [N m] that cancels the share of the joint friction at the rates of the reference."""
         dq_d, (viscous, static) = self.path(m.t, m.q, m.v).dq_d, self.coefficients
         return viscous * dq_d + static * np.tanh(dq_d / STICTION_SPEED)
 

@@ -45,7 +45,10 @@ from biped_adrc.model.reduction import BodyTerms
 
 
 def impulse_response(D: Array, body: BodyTerms, J: Array) -> Array:
-    """a (n, 2) [1/(kg m)] of the module, for the Jacobian J (2, n) [m] of the foot that strikes."""
+    """Changes a (n, 2) [1/(kg m)] of the rates per unit impulse (x, z) on a foot with Jacobian J (2, n) [m].
+
+    D (n, n): inertia matrix; body: terms of the same posture. See the module for the equation.
+    """
     J_m = body.F_a
     about_com = D - J_m.T @ J_m / body.mass
     return solve_positive(
@@ -113,7 +116,9 @@ class ImpactInvariant(ContactWindow):
         return abs(left) < self.until * abs(rate)
 
     def directions(self, m: Measurement) -> Array:
-        """a (n, 2) [1/(kg m)] for the foot that has struck, or is about to."""
+        """Changes a (n, 2) [1/(kg m)] of the rates per unit impulse on the foot that has
+        just struck, or is about to.
+        """
         body = body_of(m)
         J = np.where(self.landed(m), 0.0 * body.J_2, body.J_2)
         return impulse_response(m.terms.D, body, J)

@@ -118,7 +118,9 @@ class NPIDController(Controller):
         return self._filtered(s, m)
 
     def _filtered(self, s: Array, m: Measurement) -> Array:
-        """The slope of the filter's rows, or the rows one period later (3 p,)."""
+        """M Z + b e (3 p,) of the filter, with the error e of this measurement: Z' in continuous time, Z
+        one period later in sampled time.
+        """
         (M, b), e = self.filter, m.q_b - self.reference(m.t, m.q, m.v).q_d
         return (M @ s.reshape(3, -1) + np.outer(b, e)).ravel()
 

@@ -34,7 +34,7 @@ from biped_adrc.observers.base import Estimate
 
 
 def weights(d: float, period: float) -> tuple[Array, Array]:
-    """Weights (N,) in u_v and in u_q of the torques on their way, the oldest first; empty for d = 0.
+    """Weights (N,) of the torques on their way in the means u_v and u_q, the oldest first; empty for d = 0.
 
     d [s]: the delay. period [s]: of the ticks.
     """
@@ -66,7 +66,7 @@ class Predicted(Around):
 
     @derived
     def weights(self) -> tuple[Array, Array]:
-        """Weights of U's rows in u_v and in u_q, each (N,)."""
+        """Weights of the N torques on their way in the means u_v and u_q, each (N,); see `weights`."""
         return weights(self.prediction, self.period or self.prediction)
 
     def parts(self, s: Array, m: Measurement) -> tuple[Array, Array]:

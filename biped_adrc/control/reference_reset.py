@@ -54,8 +54,10 @@ class ResetPolynomial:
 
 
 def reset_coefficients(x: Array | float, rate: float, e: Array, slope: Array) -> Array:
-    """a_0, a_1 (2, p) such that c = e [rad] and dc/dTheta = slope [rad/rad] at this x,
-    where dx/dTheta = rate [1/rad].
+    """Coefficients a_0, a_1 (2, p) of the correction c with c = e [rad] and dc/dTheta =
+    slope [rad/rad] at this x.
+
+    rate: dx/dTheta [1/rad].
     """
     A, B = e / x**3, slope / (rate * x**2)
     return np.vstack((4.0 * A - B, (B - 3.0 * A) / x))

@@ -40,7 +40,7 @@ beta in the middle of the step. A lean forwards and back slows the walk: its gai
 
 
 def bump(s: float) -> tuple[float, float, float]:
-    """b, db/ds and d2b/ds2 at s, all zero outside of [0, 1]; b = 1 in the middle of the step."""
+    """Value b(s) of the module's bump, with db/ds and d2b/ds2; all are zero outside of [0, 1], b(1/2) = 1."""
     w, dw = max(s * (1.0 - s), 0.0), 1.0 - 2.0 * s
     return 64.0 * w**3, 192.0 * w**2 * dw, 384.0 * w * (dw**2 - w)
 
@@ -154,7 +154,7 @@ class StridePI(OuterLoop):
 
     @derived
     def phase(self) -> tuple[float, float]:
-        """Theta+ [rad] and 1 / (Theta- - Theta+) [1/rad]."""
+        """Phase Theta+ [rad] at the start of a step, and 1 / (Theta- - Theta+) [1/rad]."""
         h = tracked_constraint(self.inner)
         return h.theta_plus, 1.0 / (h.theta_minus - h.theta_plus)
 

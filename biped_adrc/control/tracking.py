@@ -148,9 +148,10 @@ def output_matrix(r: ReferencePoint, terms: Reduction) -> Array:
 
 
 def printed_acceleration(r: ReferencePoint, f: Array) -> Array:
-    """Acceleration a (p,) [rad/s^2] as (20) and (28) print it, with h' Theta'' dropped; f (p,): the feedback.
+    """Acceleration a (p,) [rad/s^2] as the paper prints it in (20) and (28), with h' Theta'' left out.
 
-    It saves the solution of a linear system; the error it leaves is a disturbance for the loop.
+    f (p,) [rad/s^2]: the feedback. It saves the solution of a linear system; the error it
+    makes acts as a disturbance.
     """
     return r.drift + f
 

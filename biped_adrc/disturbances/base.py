@@ -178,7 +178,9 @@ class Windowed(Disturbance):
 
     @derived
     def support(self) -> float:
-        """`step` as a number; 0 where the window counts from the start of the run."""
+        """Number of the single support in which the window opens, as a float; 0 where it counts
+        from the start of the run.
+        """
         return float(self.step or 0)
 
     @derived

@@ -174,7 +174,7 @@ def by_hand(
     point: tuple[float, float] = (0.0, 0.0),
     forces: ArrayLike = (),
 ) -> Disturbance:
-    """The forces of a hand in single support `step`, constant from row to row.
+    """Make the disturbance of a hand that pushes in single support `step`, constant from row to row.
 
     times (K,) [s]: of the rows, since the single support began. torques (K, n) [N m]. forces (K, 2) [N]: on
     `point` (x, z) [m] of the link `on`.

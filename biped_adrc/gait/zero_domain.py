@@ -110,10 +110,7 @@ class Margin(NamedTuple):
 
 
 def _margins(orbits: ZeroOrbits, limits: DomainLimits) -> list[Margin]:
-    """All limits of the domain, as margins.
-
-    The model is affine in Theta'^2, so its values at Theta' = 0 and 1 rad/s give both coefficients.
-    """
+    """All limits of the domain, each as a `Margin`."""
     zero = orbits.zero
     rest, moving = ([zero.dynamics(k, rate) for k in range(len(zero.theta))] for rate in (0.0, 1.0))
     u_0, u_1 = (np.array([result[1] for result in rows]) for rows in (rest, moving))

@@ -1,3 +1,1 @@
-"""Parts between controller and robot: encoders and their noise, touchdown detectors,
-delay, rate limit and lag.
-"""
+"""Parts between controller and robot: encoders and their noise, touchdown detectors, delay, rate limit, lag."""

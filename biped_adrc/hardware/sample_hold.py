@@ -158,9 +158,9 @@ def at_start(k: HeldParts, q: Array, v: Array, support: tuple[int, float]) -> Ar
 
 
 def _tried(sensors: Sensor, q: Array, v: Array) -> Array:
-    """State w (size,) of the sensors at the start, after a check of their methods.
+    """Start a user's sensors and call each of their methods once; returns their state w (size,) at the start.
 
-    Raises InputError where the start, or one more sample, gives no such row.
+    Raises InputError where a method returns another shape.
     """
     size = (sensors.size,)
     w = returned(sensors.start(q, v), size, sensors, "start")

@@ -116,12 +116,12 @@ class Touchdown(Checked, ABC):
 
 
 def belief_of(b: Array) -> Belief:
-    """Split b into its parts."""
+    """Split the controller's row of assumptions b (3 + size,) into a `Belief`."""
     return Belief(b[0], b[1], b[2], b[HEAD:])
 
 
 def numbers_of(belief: Belief) -> Array:
-    """Join the parts to b, the inverse of `belief_of`."""
+    """Join a `Belief` to the row b (3 + size,), the inverse of `belief_of`."""
     return np.concatenate((np.array([belief.other, belief.step, belief.start]), belief.d))
 
 
@@ -211,7 +211,9 @@ class Gated(Shown, Touchdown):
         return math.tan(self.slope)
 
     def gate(self, look: Look) -> float:
-        """1 where a touchdown is possible: the swing foot is ahead and the last detection long ago; else 0."""
+        """1 where a touchdown is possible, else 0: the swing foot is ahead by more than `ahead` [m] and the
+        last detection at least `after` [s] ago.
+        """
         ahead = 1.0 * (look.foot[0] > self.ahead)
         return ahead * (look.t_step >= self.after - SAME_INSTANT)
 

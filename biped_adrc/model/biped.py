@@ -7,10 +7,9 @@ absolute pitch of the torso. Angles are counter-clockwise positive with x to the
 absolute angle a points along (-sin a, cos a). zeta is an external generalised force and delta the model error.
 
 `Biped` joins a robot's record (`model.robots.robot_toml`), its URDF tree and two Pinocchio models made from
-that tree: `pinned` at the stance foot for single support, `floating` for the impact. Every method here checks
-its angles and calls one of the two. Walkers, observers, controllers, gait design and the compiled engine all
-take their numbers from this class. Use it for the plant and for the controller's nominal model alike; they are
-two objects when the model is wrong.
+that tree: `pinned` at the stance foot for single support, `floating` for the impact. All rooms above take
+their numbers from this class. Use it for the plant and for the controller's nominal model alike; they are two
+objects when the model is wrong.
 """
 
 from __future__ import annotations
@@ -34,10 +33,9 @@ from biped_adrc.model.physical import check_numbers, check_planar
 from biped_adrc.model.pinned import PinnedDynamics, finite_angles, reroot
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
 from biped_adrc.model.robots.robot_toml import RobotDescription, load_description
-from biped_adrc.model.robots.symmetry import absolute_angles, relabelling, unlike
-from biped_adrc.model.robots.urdf import Inertial, Tree
+from biped_adrc.model.robots.urdf import Inertial, Tree, absolute_angles, relabelling, unlike
 
-STICTION_SPEED = 0.05  # [rad/s], width of the smoothed sign of static friction
+STICTION_SPEED = 0.05
 """Width [rad/s] of the smoothed sign tanh(v / STICTION_SPEED) of static friction."""
 
 
@@ -73,8 +71,7 @@ class Biped(Shown):
     def load(
         cls, robot: str | Path = "rabbit", preset: str | None = None, friction: bool = False
     ) -> Biped:
-        """Load a robot by name, or by the path of its robot.toml, with a parameter preset
-        (None: the default one).
+        """Load a robot by name or by the path of its robot.toml, with a parameter preset (None: its default).
 
         friction: add the record's viscous and static joint friction to the dynamics. Raises ModelError for an
         unknown robot or preset, or a URDF that is not physical.
@@ -88,12 +85,11 @@ class Biped(Shown):
         return biped
 
     def check(self) -> None:
-        """Build both models, and check their numbers, that both legs are equal, and that
-        motors can be relabelled.
+        """Build both models; raise ModelError for wrong numbers, unequal legs or other
+        motors after a relabelling.
 
-        Relabelling at impact is right only for equal legs. Tested at one state: with the base at
-        rest the kinetic energy must not change when the legs exchange their roles, nor the distance
-        between the feet. Raises ModelError.
+        Relabelling at impact is right only for equal legs. Tested at one state: with the base at rest the
+        kinetic energy must not change when the legs exchange their roles, nor the distance between the feet.
         """
         check_planar(self.tree, self.description)
         check_numbers(self)
@@ -330,9 +326,8 @@ class Biped(Shown):
     def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
         """Force of the ground on the stance foot (F_T, F_N) (2,) [N] in single support at (q, q', q'').
 
-        Newton's law for the COM: F = m (p_com'' - g). Torques in joints and pure moments on a link
-        do not enter. External forces on links would; subtract their resultant (as
-        `analysis.signals` does).
+        Newton's law for the COM: F = m (p_com'' - g). Torques in joints and pure moments on a link do not
+        enter. External forces on links would; subtract their resultant (as `analysis.signals` does).
         """
         acceleration = self.pinned.centre_of_mass(self._angles(q), v, a)[2]
         return self.mass * (acceleration + np.array([0.0, self.description.gravity]))
@@ -366,9 +361,9 @@ class Biped(Shown):
     ) -> Biped:
         """The robot with masses and inertias multiplied, by class or link name: a plant with `delta` of (1).
 
-        Factors are dimensionless, 1.1 is ten per cent more. `mass` alone leaves the inertias about the COM
-        as they are. friction: None keeps the setting. Raises ModelError for an unknown body or a factor
-        that leaves no mass or inertia.
+        Factors are dimensionless, 1.1 is ten per cent more. `mass` alone leaves the inertias about
+        the COM as they are. friction: None keeps the setting. Raises ModelError for an unknown body
+        or a factor that leaves no mass.
         """
         check_part(mass, "mass", Mapping, NoneType)
         check_part(inertia, "inertia", Mapping, NoneType)
@@ -391,8 +386,9 @@ class Biped(Shown):
         return self.tree.with_inertials(inertials)
 
     def _links(self, body: str) -> tuple[str, ...]:
-        """Links of a body: of a group in the robot's record ("thigh" for both), or a
-        single link. Raises ModelError.
+        """Names of the links in a group of the robot's record ("thigh" for both), or of one link.
+
+        Raises ModelError for a body the robot does not have.
         """
         if body in self.description.links:
             return self.description.links[body]

@@ -14,8 +14,7 @@ import numpy as np
 
 from biped_adrc.core.errors import ModelError, SingularError
 from biped_adrc.model.robots.robot_toml import RobotDescription
-from biped_adrc.model.robots.symmetry import text_of
-from biped_adrc.model.robots.urdf import Tree, Vector
+from biped_adrc.model.robots.urdf import Tree, Vector, text_of
 
 if TYPE_CHECKING:
     from biped_adrc.model.biped import Biped

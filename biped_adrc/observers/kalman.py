@@ -79,7 +79,11 @@ class KalmanObserver(InjectedChain):
 
 
 def accumulated(order: int) -> Array:
-    """Q (k, k) for W = 1 and T = 1: Q in states scaled by powers of T, without its factor T^(2 k - 1)."""
+    """Covariance Q (k, k) that white noise of intensity W = 1 adds to k = `order`
+    integrators in a period T = 1.
+
+    It is Q in states scaled by powers of T, without its factor T^(2 k - 1).
+    """
     left = [order - i for i in range(1, order + 1)]
     rows = [[1.0 / (factorial(a) * factorial(b) * (a + b + 1)) for b in left] for a in left]
     return np.array(rows)

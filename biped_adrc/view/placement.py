@@ -40,8 +40,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import ground_axes
-from biped_adrc.model.robots.symmetry import twins
-from biped_adrc.model.robots.urdf import Joint, Tree
+from biped_adrc.model.robots.urdf import Joint, Tree, twins
 
 MOST_FRAMES = 200_000
 """Largest number of frames of a page or a moving picture: an hour at 50 in a second."""

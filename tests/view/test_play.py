@@ -23,7 +23,7 @@ from biped_adrc.extras.play.webassembly import web_module
 from biped_adrc.model.planar import jacobian, link_point, point, turned
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.scenario import read_scenario
-from biped_adrc.view.meshcat.frames import pose
+from biped_adrc.view.meshcat.view import pose
 from biped_adrc.view.placement import WalkScene
 from tests.commands import command
 

@@ -2,7 +2,7 @@
 
 One period, for small changes of the state at a phase of the gait:
 
-    z+ = Z z + Y (q, q'),     u = C z + E (q, q')                   the tick, `tick_matrices`
+    z+ = Z z + Y (q, q'),     u = C z + E (q, q')                   the tick, `frozen_gait`
     (q, q', u_m)+ = Phi (q, q', u_m) + Gamma_1 u_(k-j-1) + Gamma_2 u_(k-j)       robot and motors
 
 The delay (j + f) T is the clock's plus an unknown one, the same in all motors; robot and lagging motors are
@@ -21,8 +21,8 @@ import numpy as np
 from scipy.linalg import eig, expm
 from scipy.optimize import brentq
 
-from biped_adrc.analysis.loops.tick_matrices import TickMatrices
-from biped_adrc.analysis.observer.sampled import covariance
+from biped_adrc.analysis.loops.frozen_gait import TickMatrices
+from biped_adrc.analysis.observer.loop import covariance
 from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.hardware.motors import whole_and_part
 

@@ -24,9 +24,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.analysis.observer.loop import ObserverLoop, first_gains
-from biped_adrc.analysis.observer.sampled import (
+from biped_adrc.analysis.observer.loop import (
+    ObserverLoop,
     SampledLoop,
+    first_gains,
     largest_delay,
     last_true,
 )

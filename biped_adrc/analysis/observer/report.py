@@ -28,8 +28,7 @@ from biped_adrc.analysis.observer.choice import (
     without_observer,
 )
 from biped_adrc.analysis.observer.impact import ImpactStates, impact_peak, orbit_impact
-from biped_adrc.analysis.observer.loop import GRID
-from biped_adrc.analysis.observer.sampled import largest_delay, largest_period
+from biped_adrc.analysis.observer.loop import GRID, largest_delay, largest_period
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.core.shown import columns
 from biped_adrc.core.types import Array, ComplexArray

@@ -159,7 +159,7 @@ class Functions:
 
     @property
     def all(self) -> tuple[CFunction, CFunction, CFunction]:
-        """init, step and touchdown."""
+        """The three functions of the exported controller: init, step, touchdown."""
         return self.init, self.step, self.touchdown
 
 

@@ -76,7 +76,9 @@ class Stage:
         return walker if self.task.action == ADDED else replace(walker, controller=Passive())
 
     def _limited(self, s: Scenario) -> Scenario:
-        """The scenario with the torque limit of which actions are shares."""
+        """The scenario with a torque limit, of which actions are shares: its own, or
+        that of the robot's record.
+        """
         return s.replace({"hardware.torque_limit": self.limits.torque})
 
     def _fastest(self) -> Array:

@@ -209,8 +209,10 @@ class MuJoCoPlant(Checked, Shown):
         return np.concatenate((q, v, (t, *place, *speed, *steps, *lagging)))
 
     def advance(self, t: float, row: Array, u: Array, load: Load | None, until: float) -> Moved:
-        """Advance to `until` [s] with u (p,) [N m] commanded to the motors; find a touchdown
-        or the end of the run there.
+        """Move the plant from its state `row` (2 n + k,) at t [s] to `until` [s], with u (p,) [N m] commanded.
+
+        load: push on the body, or None. Returns the new row; a touchdown or the end of the run at `until`
+        comes as contacts, a touchdown with the row after it.
         """
         engine = self.engine
         after = engine.moved(t, row, u, load, until)

@@ -64,7 +64,7 @@ class Slider(NamedTuple):
         return self.low, float(middle), self.high
 
     def tabulated(self) -> Slider:
-        """The slider restricted to a table of round values."""
+        """A copy of the slider that offers a table of round values in place of a range."""
         decades = 10.0 ** np.arange(-9, 9)
         known = np.unique((np.outer(decades, ROUND)).ravel().round(12))
         even = np.linspace(self.low, self.high, 21).round(6)
@@ -145,7 +145,7 @@ def with_forms(
 
 
 def end(one: Slider, x: float, s: Scenario, numbers: Callable[[Scenario], Array]) -> float:
-    """The end x of a slider, moved towards its value until the walk accepts it."""
+    """The end x of a slider's range, moved towards its present value until the walk accepts it."""
     ways = np.geomspace if one.log else np.linspace
     for y in () if one.value is None else ways(x, one.value, CLOSER):
         try:
@@ -166,7 +166,9 @@ def numbers_at(
 
 
 def changing(base: Array, rows: Array) -> list[int]:
-    """Indices of the numbers that change over the rows; none where the base differs in another number."""
+    """Indices of the numbers that differ between the rows; empty where `base` differs
+    from them in any other number.
+    """
     change = np.any(rows != rows[0], axis=0)
     return [] if np.any(base[~change] != rows[0, ~change]) else np.flatnonzero(change).tolist()
 
@@ -181,7 +183,7 @@ def fitted(one: Slider, base: Array, rows: Array) -> dict[int, Form]:
 
 
 def closed(s: Array, y: Array) -> Iterator[tuple[float, float, int]]:
-    """Iterate over the forms (a, b, k) that fit three values y (3,) at s (3,)."""
+    """Iterate over the forms (a, b, k) that pass through three values y (3,) at the slider's values s (3,)."""
     with np.errstate(all="ignore"):
         for k in POWERS if np.all(s > 0.0) else ():
             if np.all(np.abs(y / (y[2] / s[2] ** k * s**k) - 1.0) < EXACT):

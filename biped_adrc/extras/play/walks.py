@@ -36,7 +36,7 @@ from biped_adrc.hardware.motors import whole_and_part
 from biped_adrc.hybrid.constants import STRUCK
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import link_point, point, turned
-from biped_adrc.model.robots.symmetry import twins
+from biped_adrc.model.robots.urdf import twins
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, limits, start
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario, scenario_lines
@@ -123,7 +123,7 @@ class PageWalk:
 
     @cached_property
     def numbers(self) -> Array:
-        """The block of the walk at its start, as floats."""
+        """Numbers of the walk's block (see `names`) at its start, as floats."""
         return self._block(self.code)
 
     @cached_property
@@ -132,7 +132,10 @@ class PageWalk:
         return self.scenario.replace({FRICTION: self.walker.plant.friction})
 
     def at(self, s: Scenario) -> Array:
-        """The block of another scenario, as floats. Raises InputError for a scenario with another structure."""
+        """Numbers of this walk's block, as floats, for another scenario of the same structure.
+
+        Raises InputError for a scenario with another structure.
+        """
         walker = replace(build(s, self.scene), disturbance=self.code.walker.disturbance)
         code = compiled(s, self.scene, walker, self.x)
         if code.program.key != self.code.program.key:
@@ -339,8 +342,9 @@ def link_numbers(plant: Biped, links: list[str]) -> dict[str, Any]:
 
 
 def trunk_of(plant: Biped) -> str:
-    """Name of the trunk, whose origin is the base of the drawn robot. Raises InputError where it is
-    elsewhere.
+    """Name of the trunk, the link whose origin is the floating base of the drawn robot.
+
+    Raises InputError for a robot whose trunk lies elsewhere.
     """
     q = np.random.default_rng(0).standard_normal(plant.n)
     values, trunk = joint_values(plant, q), plant.description.trunk

@@ -168,6 +168,8 @@ class GaitRequest(Checked, Shown):
         return "through" if self.through else "-".join(self._said("v{:g}", "s{:g}", "slope{:g}"))
 
     def _said(self, *forms: str) -> list[str]:
-        """Texts of speed, step and slope in these forms, without those that are free or zero."""
+        """Texts of speed, step and slope, each by its format in `forms`; those that are
+        free or zero are left out.
+        """
         numbers = zip(forms, (self.speed, self.step, self.slope or None), strict=True)
         return [form.format(x) for form, x in numbers if x is not None]

@@ -215,7 +215,7 @@ class SymbolicStep:
         return Node(*ca.vertsplit(stacked, [0, *np.cumsum(sizes).tolist()]))
 
     def sigma(self, q: ca.MX, v: ca.MX) -> ca.MX:
-        """Angular momentum about the stance foot at (q, v), each (n,), divided by sigma_scale."""
+        """Angular momentum about the stance foot at (q, v), each (n,), over `sigma_scale`: dimensionless."""
         return self.pose(q)[0][self.n - 1, :] @ v / self.sigma_scale
 
     def impact(self) -> ca.MX:

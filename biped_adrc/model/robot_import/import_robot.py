@@ -44,12 +44,10 @@ from biped_adrc.core.errors import ModelError, OutputError
 from biped_adrc.core.files import toml_key, toml_value, write_text
 from biped_adrc.core.verdict import Check
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robot_import.anatomy import Anatomy, anatomy
+from biped_adrc.model.robot_import.anatomy import Anatomy, PlanarBase, anatomy, on_planar_base
 from biped_adrc.model.robot_import.import_checks import checks
-from biped_adrc.model.robot_import.planar_base import PlanarBase, on_planar_base
 from biped_adrc.model.robots.robot_toml import GRAVITY, description_of
-from biped_adrc.model.robots.symmetry import pairs
-from biped_adrc.model.robots.urdf import Joint, Link, Tree, Visual, to_xml
+from biped_adrc.model.robots.urdf import Joint, Link, Tree, Visual, pairs, to_xml
 from biped_adrc.model.robots.urdf_reader import UrdfContents, read, tip_of
 
 Colour = tuple[float, float, float, float]

@@ -345,8 +345,8 @@ def torque_sizes(axes: Axes, walks: Mapping[str, Signals]) -> Axes:
     return legend(axes)
 
 
-FEWEST, FLOOR = 400, 1e-12
-"""Number of frequencies of a curve."""
+FREQUENCIES, LEAST = 400, 1e-12
+"""Number of frequencies of a response, and the least value drawn, as a share of the panel's largest."""
 
 
 def observer_figure(report: ObserverReport) -> Figure:
@@ -359,7 +359,7 @@ def observer_figure(report: ObserverReport) -> Figure:
     second panel.
     """
     frequencies, responses = report.loop.frequencies, report.responses
-    grid = np.geomspace(frequencies[0], frequencies[-1], FEWEST)
+    grid = np.geomspace(frequencies[0], frequencies[-1], FREQUENCIES)
     curves = (
         ("e / xi", "|e / xi| [s$^2$]", "error from a disturbance"),
         ("xi^ / xi", "|xi^ / xi|", "estimate of the disturbance"),
@@ -375,7 +375,7 @@ def observer_figure(report: ObserverReport) -> Figure:
                 axes.text(0.5, 0.5, "m = 0 has none", ha="center", transform=axes.transAxes)
                 continue
             axes.loglog(grid, level, label=report.name, color=PALETTE[0], ls=DASHES[0])
-            axes.set_ylim(bottom=max(axes.get_ylim()[0], FLOOR * np.max(level)))
+            axes.set_ylim(bottom=max(axes.get_ylim()[0], LEAST * np.max(level)))
             axes.axvline(np.pi / report.hardware.period, color=GREY, lw=0.8, ls=":")
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center")
         return figure

@@ -170,8 +170,8 @@ def _title(report: ZeroDynamicsReport) -> str:
 
 
 def _walking_order(axes: Axes, theta: Array) -> Axes:
-    """Set the limits of the Theta axis with the start of a step at the left, so that a step runs to
-    the right.
+    """Limit the Theta axis to the phases of a step, turned so that its start is at the left; returns
+    the axes.
     """
     axes.set_xlim(theta[0], theta[-1])
     return axes
