@@ -8,7 +8,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.core.errors import InputError
-from biped_adrc.gait.bspline import BSpline
+from biped_adrc.gait.curves import BSpline
 from biped_adrc.scenario.push import Push, parse_push
 
 from .commands import command

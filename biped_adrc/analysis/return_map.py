@@ -126,7 +126,8 @@ class ReturnMap(Shown):
         return x
 
     def __call__(self, s: Array) -> Array:
-        """P(s) (2 n - 1 + c,) [rad, rad/s].
+        """The return map P: section coordinates before the next impact from those before this one, s
+        (2 n - 1 + c,) [rad, rad/s].
 
         Raises SimulationError, with the status, when the walker does not come back.
         """

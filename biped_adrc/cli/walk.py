@@ -95,7 +95,7 @@ def _walk(
         (full.save if out.suffix.lower() == ".npz" else full.export)(out)
     if log is not None:
         from biped_adrc.extras.logs.log_file import write_log
-        from biped_adrc.extras.logs.log_of_walk import logged
+        from biped_adrc.extras.logs.robot_log import logged
 
         write_log(logged(full), log, full.walker.nominal)
     _print_on_ground(full.soft_steps)

@@ -70,7 +70,7 @@ class Measurement(NamedTuple):
 
 
 def measured(m: Measurement) -> Estimate:
-    """q_b, q_b' from the measurement and xi from the nominal model, each (p,), as an `Estimate`.
+    """The measured q_b, q_b' and the nominal model's xi, each (p,), as an `Estimate`.
 
     It takes the place of an observer's estimates where there is none, and initialises those of an observer.
     """

@@ -64,7 +64,7 @@ class Delayed(Around):
         return math.inf if self.torque_limit is None else float(self.torque_limit)
 
     def parts(self, s: Array, m: Measurement) -> tuple[Array, Array]:
-        """The inner state, and R (k, p): the last k p numbers of s."""
+        """Split the state s into that of the controller inside, and the states R (k, p) [N m] of the delay."""
         size = len(s) - self.order * m.terms.kappa.shape[0]
         return s[:size], s[size:].reshape(self.order, -1)
 

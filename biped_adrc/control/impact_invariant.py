@@ -1,4 +1,4 @@
-"""Removes from the feedback error, near a touchdown, the part that an impulse of the striking foot can change.
+"""Near a touchdown, a feedback error without the part that an impulse of the striking foot can change.
 
     a = (D - J_m' J_m / m)^-1 (J' - J_m' / m)          q'+ - q'- = a F for an impulse F of the ground (2,)
     N = change of a quantity under q' + a F            (., 2)
@@ -84,7 +84,7 @@ class ImpactInvariant(ContactWindow):
 
     @derived
     def phase(self) -> tuple[Array, float]:
-        """c (n,) of Theta = c q [rad], and Theta- [rad]."""
+        """Row c (n,) of the phase Theta = c q, and the phase Theta- [rad] at which a step ends."""
         h = tracked_constraint(self.inner)
         return h.phase, float(h.theta_minus)
 

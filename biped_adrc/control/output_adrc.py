@@ -76,7 +76,11 @@ class OutputADRCController(ObservingController):
         return m.terms.kappa_inverse @ ddq_b
 
     def joint_estimate(self, x: Estimate, m: Measurement) -> Estimate:
-        """Estimates x of the output as estimates of the joints, with q_N'' of the nominal model."""
+        """Convert estimates x of the output y = q_b - q_d and of its disturbance to those
+        of the joints, each (p,).
+
+        The part of q_N'' that does not depend on the torque is that of the nominal model.
+        """
         r, terms = self.point(m), m.terms
         p = len(r.q_d)
         xi = solve(

@@ -70,7 +70,7 @@ class Predicted(Around):
         return weights(self.prediction, self.period or self.prediction)
 
     def parts(self, s: Array, m: Measurement) -> tuple[Array, Array]:
-        """The state of the controller inside, and U (N, p) [N m]."""
+        """Split the state s into that of the controller inside, and the torques on their way U (N, p) [N m]."""
         count, p = len(self.weights[0]), m.terms.kappa.shape[0]
         end = len(s) - count * p
         return s[:end], s[end:].reshape(count, p)

@@ -149,7 +149,7 @@ class StridePI(OuterLoop):
 
     @derived
     def most_I(self) -> float:
-        """Bound on |I| [m/s], such that K_I |I| has the bound of |beta|."""
+        """Bound on the integral |I| [m/s], such that K_I |I| has the bound of |beta|."""
         return self.gains.limit / abs(self.gains.K_I) if self.gains.K_I else math.inf
 
     @derived

@@ -59,7 +59,7 @@ class SuperTwistingController(Controller):
         return 1.1 * self.lipschitz
 
     def sliding(self, r: ReferencePoint, m: Measurement) -> tuple[Array, Array]:
-        """The sliding variable sigma and the rate error e', each (p,) [rad/s]."""
+        """The sliding variable sigma = e' + lambda e and the rate error e' = q_b' - q_d', each (p,) [rad/s]."""
         de = m.v_b - r.dq_d
         return de + self.slope * (m.q_b - r.q_d), de
 

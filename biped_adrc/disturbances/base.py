@@ -101,7 +101,7 @@ class Disturbance(Part):
 
     @property
     def pulls(self) -> bool:
-        """Whether it has an external resultant at all."""
+        """Whether a force acts on the robot as a whole, so that `resultant` may differ from zero."""
         return any(type(term).resultant is not Disturbance.resultant for term in self.terms)
 
     def __add__(self, other: Disturbance) -> Disturbance:

@@ -1,34 +1,32 @@
 """Torques over a window: a pulse, a step, a sine, band-limited noise.
 
-A torque over a window, with vertical edges or edges of finite slope.
+`TorquePulse` is constant over a window, with vertical edges or edges of finite slope:
 
     zeta = amplitude (r(t - start) - r(t - stop)),   r(s) = s / rise between 0 and 1
 
-Its integral is amplitude (stop - start) whatever the rise; without a rise r is the unit step. The pushes of the
-paper have vertical edges. An observer of a disturbance that changes slowly is judged more fairly by edges that
-take some milliseconds, as a push of a hand does.
+Its integral is amplitude (stop - start) whatever the rise; without a rise r is the unit step. The pushes of
+the paper have vertical edges. An observer of a disturbance that changes slowly is judged more fairly by edges
+that take some milliseconds, as a push of a hand does.
 
-A torque that sets in and stays, through all later steps: zeta = amplitude from onset on.
+`TorqueStep` sets in and stays through all later steps: zeta = amplitude from onset on. It stands for a load
+that is picked up, or a friction that nobody modelled. An observer with one extended state (m = 1) finds it
+without a steady error, a PD controller leaves an error that falls with its gains. Joints swap names at impact,
+so a torque on one leg's joints stays with the leg that stands, not with the metal.
 
-A load that is picked up, or a friction that nobody modelled. An observer with one extended state (m = 1) finds
-it without a steady error, a PD controller leaves an error that falls with its gains. Joints swap names at
-impact, so a torque on one leg's joints stays with the leg that stands, not with the metal.
+`TorqueSine` is sinusoidal over a window: zeta = amplitude sin(2 pi f (t - start)). It shows how fast a
+disturbance an observer follows: the estimate of one with a bandwidth w_o lags behind by a phase that grows
+with 2 pi f / w_o. It begins at zero without a jump and ends with one, unless the window holds a whole number
+of half periods.
 
-A sinusoidal torque over a window: zeta = amplitude sin(2 pi f (t - start)).
-
-It shows how fast a disturbance an observer follows: the estimate of one with a bandwidth w_o lags behind by a
-phase that grows with 2 pi f / w_o. It begins at zero without a jump and ends with one, unless the window
-holds a whole number of half periods.
-
-Band-limited noise over a window, without a state: a sum of K sines with random phases.
+`TorqueNoise` is band-limited noise over a window, without a state: a sum of K sines with random phases.
 
     zeta_i = amplitude_i sqrt(2/K) sum_k sin(2 pi f_ik s + phi_ik),   s = t - start
 
 f_ik is drawn evenly from the k-th of K equal parts of (0, bandwidth), so the spectrum is flat, the mean square
 over a long window is amplitude_i^2, and the sum is close to normally distributed (Shinozuka, Deodatis, Applied
-Mechanics Reviews 44(4), 1991). It is smooth and a pure function of time: it asks for no ticks and repeats
-by its seed. White noise drawn at each sample instant would be neither: its effect would depend on the step of
-the integrator.
+Mechanics Reviews 44(4), 1991). It is smooth and a pure function of time: it asks for no ticks and repeats by
+its seed. White noise drawn at each sample instant would be neither: its effect would depend on the step of the
+integrator.
 """
 
 from __future__ import annotations

@@ -91,7 +91,7 @@ class Convention:
 
     @cached_property
     def phase(self) -> Array:
-        """Row c' (n,) of this convention's own phase, c' q' = sense (Theta - paper_phase b) [rad]."""
+        """Row c' (n,) of this convention's own phase: c' q' = sense (Theta - paper_phase b) [rad]."""
         return self.sense * self.paper_phase @ self.to_paper.A + 0.0
 
 

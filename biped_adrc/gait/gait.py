@@ -6,8 +6,8 @@ version control, so keys and order are fixed and numbers have all digits. `load_
 and checks it against the robot (`Gait.check`): shapes, direction, foot on the ground, and closure, that is,
 the relabelled end of the step is its start.
 
-`published`, `recipe` and `design` make gaits, `exchange` imports them; `scenario` walks them, and controllers
-use their constraints as references.
+`published` and `design` make gaits, `exchange` imports them; `scenario` walks them, and controllers use
+their constraints as references.
 """
 
 from __future__ import annotations

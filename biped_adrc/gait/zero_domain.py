@@ -13,8 +13,7 @@ The unilateral contact is what Westervelt, Grizzle, Koditschek (IEEE TAC 48(1), 
 `zero_orbits.ZeroOrbits` gives the return map rho and zeta*; `domain` cuts the interval in which the next step
 is finished by these limits. Used by `analysis.zero_report` and the command line.
 
-    domain(orbits, DomainLimits(friction=0.6))     zeta from 82.3 (V_max) to 484.1 (friction) for the published
-    gait
+    domain(orbits, DomainLimits(friction=0.6))     published gait: zeta from 82.3 (V_max) to 484.1 (friction)
 """
 
 from __future__ import annotations

@@ -123,7 +123,9 @@ class ZeroDynamics(Shown):
 
     @property
     def work(self) -> float:
-        """W = int -G_N I dTheta over the step [kg^2 m^4/s^2], so that (sigma-^2 - sigma+^2) / 2 = W."""
+        """W = int -G_N I dTheta over the step [kg^2 m^4/s^2], by which gravity changes
+        sigma^2 / 2 from start to end.
+        """
         return float(self.weights @ (-self.gravity * self.inertia))
 
     @cached_property
@@ -134,7 +136,9 @@ class ZeroDynamics(Shown):
 
     @property
     def delta(self) -> float:
-        """sigma+ / sigma- across the impact at the end of the step; the same at every speed."""
+        """Ratio sigma+ / sigma- of the angular momenta after and before the impact that ends the
+        step; the same at every speed.
+        """
         impact = self.biped.impact(*self._end)
         after = self.biped.angular_momentum(impact.q, impact.v)
         return after / self.biped.angular_momentum(*self._end)

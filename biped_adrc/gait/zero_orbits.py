@@ -109,33 +109,38 @@ class ZeroOrbits(Shown):
     # -- the numbers of the literature -------------------------------------------------------------
     @property
     def v_end(self) -> float:
-        """V_zero(Theta-) [kg^2 m^4/s^2]; negative when gravity speeds the step up."""
+        """Potential V_zero(Theta-) at the end of a step [kg^2 m^4/s^2]; negative when
+        gravity speeds the step up.
+        """
         return float(self.potential(self.zero.constraint.theta_minus))
 
     @cached_property
     def v_max(self) -> float:
-        """V_max = max V_zero >= 0 [kg^2 m^4/s^2]; a step is completed if sigma+^2 / 2 exceeds it."""
+        """Largest potential V_max = max V_zero >= 0 of a step [kg^2 m^4/s^2]; a step is completed
+        if sigma+^2 / 2 exceeds it.
+        """
         return max(0.0, float(self.potential(self.theta_max)))
 
     @property
     def existence(self) -> float:
-        """delta^2 / (1 - delta^2) V_zero(Theta-) + V_max [kg^2 m^4/s^2]: negative if there is
-        an orbit; inf for delta = 1.
+        """Number that is negative if a periodic orbit exists: delta^2 / (1 - delta^2)
+        V_zero(Theta-) + V_max [kg^2 m^4/s^2].
+
+        Infinite for delta = 1.
         """
         d2 = self.delta**2
         return d2 / (1.0 - d2) * self.v_end + self.v_max if d2 != 1.0 else math.inf
 
     @property
     def lowest(self) -> float:
-        """V_max / delta^2 [kg^2 m^4/s^2]: above this zeta the next step is completed."""
+        """Lower end V_max / delta^2 [kg^2 m^4/s^2] of the return map: above this zeta
+        the next step is completed.
+        """
         return self.v_max / self.delta**2
 
     @property
     def zeta_star(self) -> float:
-        """The fixed point of rho [kg^2 m^4/s^2].
-
-        Raises GaitError with the condition of existence or stability that fails, and by how much.
-        """
+        """zeta* [kg^2 m^4/s^2], the fixed point of the return map rho: zeta of the periodic orbit."""
         d2, V, unit = self.delta**2, self.v_end, "kg^2 m^4/s^2"
         for holds, text in (
             (

@@ -2,9 +2,10 @@
 
     x = (q, q', s, own, b, w, queue, u_m, waiting, u)
 
-own are the numbers of a plant that integrates itself, b the single support that the controller
-assumes, w the sensors' state, the rest the torques on their way to the motors; each is empty where the
-walker has no such part. u_m alone flows.
+own are the numbers of a plant that integrates itself, b the single support that the controller assumes, w the
+sensors' state. The rest are torques [N m]: those in the queue of the delay, u_m of motors with lag, the one
+that waits for a fraction of a period, and u commanded to the motors now. Each part is empty where the walker
+has none. Between ticks u_m alone changes.
 
 The walker's state is one vector, since integrators, stored runs and machine code know vectors alone. Here its
 tail is taken apart (`read`) and put together (`written`), and all parts are initialised and moved between

@@ -85,8 +85,7 @@ class Biped(Shown):
         return biped
 
     def check(self) -> None:
-        """Build both models; raise ModelError for wrong numbers, unequal legs or other
-        motors after a relabelling.
+        """Build both models; raise ModelError for wrong numbers, unequal legs or motors without a twin.
 
         Relabelling at impact is right only for equal legs. Tested at one state: with the base at rest the
         kinetic energy must not change when the legs exchange their roles, nor the distance between the feet.
@@ -146,7 +145,7 @@ class Biped(Shown):
 
     @cached_property
     def _offset(self) -> Array:
-        """r (n,) [rad] of q+ = R q- + r; zero except for robots with spokes."""
+        """Offset r (n,) [rad] of the relabelling q+ = R q- + r; zero except for robots with spokes."""
         return read_only(self.description.offset)
 
     @cached_property
@@ -206,17 +205,17 @@ class Biped(Shown):
         return k.T.T @ pin.crba(k.model, k.data, k.T @ self._angles(q)) @ k.T
 
     def bias(self, q: Array, v: Array) -> Array:
-        """Omega(q, q') = C q' + G_s (n,) [N m] of (11)."""
+        """Coriolis and gravity terms Omega(q, q') = C q' + G_s (n,) [N m] of (11)."""
         k, x, w = self.pinned, self._angles(q), self._angles(v)
         return k.T.T @ pin.nonLinearEffects(k.model, k.data, k.T @ x, k.T @ w)
 
     def gravity(self, q: Array) -> Array:
-        """G_s(q) = dV/dq (n,) [N m], the torques of gravity."""
+        """Torques of gravity G_s(q) = dV/dq (n,) [N m]."""
         k = self.pinned
         return k.T.T @ pin.computeGeneralizedGravity(k.model, k.data, k.T @ self._angles(q))
 
     def coriolis(self, q: Array, v: Array) -> Array:
-        """C(q, q') (n, n) [N m s]; D_s' - 2 C is skew-symmetric."""
+        """Coriolis matrix C(q, q') (n, n) [N m s]; D_s' - 2 C is skew-symmetric."""
         k, x, w = self.pinned, self._angles(q), self._angles(v)
         return k.T.T @ pin.computeCoriolisMatrix(k.model, k.data, k.T @ x, k.T @ w) @ k.T
 
@@ -276,16 +275,16 @@ class Biped(Shown):
         return k.inverse @ pin.aba(k.model, k.data, k.T @ x, k.T @ w, k.inverse.T @ force)
 
     def kinetic_energy(self, q: Array, v: Array) -> float:
-        """q'^T D_s q' / 2 [J], rotors included."""
+        """Kinetic energy q'^T D_s q' / 2 [J], rotors included."""
         return 0.5 * float(v @ self.inertia(q) @ v)
 
     def potential_energy(self, q: Array) -> float:
-        """V(q) [J], zero at the height of the stance foot."""
+        """Potential energy V(q) [J], zero at the height of the stance foot."""
         k = self.pinned
         return float(pin.computePotentialEnergy(k.model, k.data, k.T @ self._angles(q)))
 
     def angular_momentum(self, q: Array, v: Array) -> float:
-        """sigma [kg m^2/s], the last row of D_s q': the angular momentum about the stance foot.
+        """Angular momentum sigma [kg m^2/s] about the stance foot, the last row of D_s q'.
 
         sigma' = -dV/dq_N holds while no force or torque acts on q_N, since no motor acts there.
         """
@@ -297,7 +296,7 @@ class Biped(Shown):
         return self.pinned.position(self._angles(q), self.pinned.swing)
 
     def swing_foot_jacobian(self, q: Array) -> Array:
-        """dp_2/dq_s (2, n) [m]."""
+        """Jacobian dp_2/dq_s (2, n) [m] of the swing foot."""
         return self.pinned.jacobian(self._angles(q), self.pinned.swing)
 
     def swing_foot_velocity(self, q: Array, v: Array) -> Array:
@@ -386,9 +385,8 @@ class Biped(Shown):
         return self.tree.with_inertials(inertials)
 
     def _links(self, body: str) -> tuple[str, ...]:
-        """Names of the links in a group of the robot's record ("thigh" for both), or of one link.
-
-        Raises ModelError for a body the robot does not have.
+        """Names of the links of a body: a group of the robot's record ("thigh" for both),
+        or one link; or ModelError.
         """
         if body in self.description.links:
             return self.description.links[body]

@@ -89,7 +89,9 @@ class FloatingDynamics:
         return x
 
     def velocity_map(self, q: Array) -> Array:
-        """J_e(q) (n + 2, n + 2) of v_float = J_e q_e', dimensionless and [m]."""
+        """Jacobian J_e(q) (n + 2, n + 2) from q_e' = (q_s', p_e') to the velocity of the floating
+        model; entries [1] and [m].
+        """
         return self._velocity_map(self.configuration(q))
 
     def _velocity_map(self, x: Array) -> Array:

@@ -152,7 +152,7 @@ class PlanarTree:
 
     @property
     def leg(self) -> float:
-        """Length of the stretched stance leg [m]: sum_i |d_i| of the hip."""
+        """Length of the stretched stance leg [m]: the sum of the lengths |d_i| of the hip's vectors."""
         return float(np.sum(np.abs(self.hip)))
 
 

@@ -104,7 +104,9 @@ class InjectedChain(ChainObserver):
         return np.ascontiguousarray(np.real(p_of_Phi @ last))
 
     def error_system(self) -> ErrorSystem:
-        """Error dynamics (19) in scaled states: e' = A e + b (q_b'' - kappa u)."""
+        """Error dynamics (19) in scaled states, e' = A e + b (q_b'' - kappa u): A (m + 2, m + 2) [1/s],
+        and the scale [s] of velocities.
+        """
         A = self.scale * np.eye(self.order, k=1)
         A[:, 0] = -self.scale * self.scaled_gains
         return ErrorSystem(A, 1.0 / self.scale)

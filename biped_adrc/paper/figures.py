@@ -24,7 +24,7 @@ from biped_adrc.paper.scenarios import CONTROLLERS
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.view.from_the_side.robot_figure import robot_figure
 from biped_adrc.view.plots import figures
-from biped_adrc.view.plots.push_map import push_map_figure
+from biped_adrc.view.plots.study import push_map_figure
 from biped_adrc.view.style import literal, render
 
 NAMES = ("tracking", "disturbance", "ground", "energy", "phase", "comparison")

@@ -9,7 +9,7 @@ period. The same is done for robots whose trunk and legs are lighter or heavier 
 the model enters as it does in a walk, as a matrix L L_model^-1 with L = (I - H_b - H_N A_N) kappa in place of
 one number: it couples the joints and reaches Theta.
 
-The sample instant (tick) of a walker at frozen phases of its gait, as matrices.
+`tick_matrices` linearises the sample instant (tick) of a walker at the same phases:
 
     z+ = Z z + Y (q, q'),     u = C z + E (q, q')                   d z+ / d(z, q, q')
 

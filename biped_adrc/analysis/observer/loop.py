@@ -87,26 +87,30 @@ class ObserverLoop:
     # -- polynomials in s / w, highest power first --------------------------------------------------
     @cached_property
     def _chi(self) -> Array:
-        """Coefficients (m + 3,) of the observer's polynomial chi, the highest power
-        first, from the scaled gains.
-        """
+        """Coefficients (m + 3,) of the observer's polynomial chi, highest power first, dimensionless."""
         return np.concatenate(([1.0], self.observer.scaled_gains))
 
     @cached_property
     def _feedback(self) -> Array:
-        """Coefficients (3,) of the feedback's polynomial s^2 + K_d s + K_p."""
+        """Coefficients (3,) of the feedback's polynomial s^2 + K_d s + K_p, dimensionless."""
         (K_p, K_d), w = first_gains(self.gains), self.observer.scale
         return np.array([1.0, K_d / w, K_p / w**2])
 
     def _Q(self, printed: bool = False) -> Array:
-        """Coefficients (3,) of the polynomial Q, corrected or as printed."""
+        """Coefficients (3,) of the polynomial Q of the loop gain, highest power first;
+        corrected, or as the paper prints it.
+
+        s is counted in units of the observer's scale, so they are dimensionless.
+        """
         (_, k_d, k_p), (l_1, l_2) = self._feedback, self._chi[1:3]
         factor = 1.0 / self.observer.scale if printed else k_d
         return np.array([1.0, l_1 + k_d, l_2 + k_p + factor * l_1])
 
     @cached_property
     def _P(self) -> Array:
-        """Coefficients (m + 2,) of the polynomial P: the last ones of the product of chi and the feedback."""
+        """Coefficients (m + 2,) of the polynomial P of the loop gain, dimensionless: the last ones of the
+        product of chi and the feedback.
+        """
         return np.asarray(np.polymul(self._feedback, self._chi)[3:], dtype=float)
 
     # -- frequency responses -------------------------------------------------------------------------

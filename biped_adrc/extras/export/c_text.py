@@ -1,5 +1,6 @@
-"""C99 for a straight-line function: the same walk over CasADi's instructions as
-`engine.ir`, with C's operations.
+"""C99 text of a function without branches: one line of C for each of CasADi's instructions.
+
+`engine.ir` goes through the same instructions for LLVM; here only the text of an operation differs.
 
 Values are of the type `real`, double or float. The operations that decide the digits of a small difference are
 in double whatever `real` is: differences of measured angles or times, such as q - q_d, and all operands they

@@ -55,7 +55,7 @@ def read_log(file: str | Path, biped: Biped) -> RobotLog:
     there and what was expected.
 
     >>> from biped_adrc.extras.logs.log_file import write_log
-    >>> from biped_adrc.extras.logs.log_of_walk import logged
+    >>> from biped_adrc.extras.logs.robot_log import logged
     >>> walk = ba.walk_scenario(ba.Scenario("NPD", hardware="ideal", run={"impacts": 2}))
     >>> file = write_log(logged(walk), folder / "log.csv", biped)
     >>> ba.read_log(file, biped).q.shape[1]

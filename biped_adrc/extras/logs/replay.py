@@ -15,7 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -107,10 +107,41 @@ class Replay(Shown):
         return "\n".join(columns([HEADER, *(cells(row) for row in self.rows)]))
 
     def plot(self) -> Figure:
-        """Draw torque beyond the model, residuals and torques over time, a line for each joint."""
-        from biped_adrc.extras.logs.replay_figure import replay_figure
+        """Draw the replayed log over time in three panels, a line for each joint; lines break at touchdowns.
 
-        return replay_figure(self.signals, self.scenario.controller.name)
+        Panels: the joint torque beyond the nominal model, kappa^-1 (xi^ - xi_nominal) [N m]; the residual
+        q_b - x1^ [mrad]; the torque of the controller over the one in the log [N m]. The window of contact
+        after each touchdown is shaded.
+        """
+        from biped_adrc.view.plots.over_time import broken, curves, finished, without_observer
+        from biped_adrc.view.style import GREY, new_figure
+
+        x = self.signals
+        with new_figure(8.0, 7.0, self.scenario.controller.name) as figure:
+            beyond, residual, torque = figure.subplots(3, 1, sharex=True)
+            for k, u in enumerate(x.u.T):
+                name = "in the log" if k == 0 else "_"
+                torque.plot(broken(x, x.t), broken(x, u), color=GREY, lw=0.8, ls=":", label=name)
+            for axes, values, symbol, unit in (
+                (beyond, x.zeta_estimate, r"\hat\zeta", "beyond the model [N m]"),
+                (residual, 1e3 * x.residual, "q", "residual [mrad]"),
+                (torque, x.torque, "u", "torque asked for [N m]"),
+            ):
+                if np.isnan(values).all():
+                    without_observer(axes)
+                else:
+                    curves(axes, x, values, symbol)
+                look: Any = {
+                    "transform": axes.get_xaxis_transform(),
+                    "color": GREY,
+                    "alpha": 0.2,
+                    "lw": 0.0,
+                }
+                axes.fill_between(x.t, 0.0, 1.0, x.in_contact > 0.5, label="contact", **look)
+                finished(axes, unit)
+            for axes in (beyond, residual):
+                axes.set_xlabel("")
+            return figure
 
     def to_csv(self, path: Path | str) -> Path:
         """Write the signals as a table (.csv), a row for each sample; returns the path. Raises
@@ -140,7 +171,7 @@ def replay(
     contact. filter_time [s]: of rates that the log does not have; the scenario's if None. Raises InputError
     for a log or a scenario that cannot be used.
 
-    >>> from biped_adrc.extras.logs.log_of_walk import logged
+    >>> from biped_adrc.extras.logs.robot_log import logged
     >>> walk = ba.walk_scenario(ba.Scenario("NPD", hardware="ideal", run={"impacts": 2}))
     >>> replay = ba.replay(logged(walk), ba.Scenario({"name": "DOB", "observer": {"bandwidth": 200.0}}))
     >>> replay.signals.zeta_estimate.shape[1]

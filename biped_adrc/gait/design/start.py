@@ -56,9 +56,10 @@ def standing(tree: PlanarTree) -> Array:
 
 
 def inside(q: Array, biped: Biped, ranges: Mapping[str, tuple[float, float]]) -> Array:
-    """Move the joints of q (n,) [rad] that have a range a little inside of it (BEND or a quarter of it).
+    """Move the joints of q (n,) [rad] that have a range a little inside of it; returns the configuration.
 
-    ranges: (low, high) [rad] by joint. A guess at a bound would have no direction to move in.
+    ranges: (low, high) [rad] by joint; the distance from an end is BEND or a quarter of the range. A guess at
+    a bound would have no direction to move in.
     """
     q = q.copy()
     for joint, (low, high) in ranges.items():

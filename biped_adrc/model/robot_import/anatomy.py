@@ -11,7 +11,7 @@ which is q5 + q1 + q3/2 for RABBIT. For two links of equal length this is the an
 triangle), for others its first-order part about the straight leg; a virtual constraint needs a constant row c.
 
 `import_robot.derive` calls `anatomy` after the base is known. What the URDF does not say is guessed only when
-there is one answer, and every guess is a sentence in `remarks`.
+there is one answer, and every guess is a sentence in `Derived.guesses`.
 
 The planar base (x, z, pitch) is found in a URDF, or added above its root. It is two prismatic joints along x
 and z and one revolute joint about y, in this order from the root, with no mass in between. The stance contact

@@ -2,7 +2,7 @@
 
     derived = derive("walker.urdf")
     derived.biped    the Biped, with the masses of the URDF as its preset "urdf"
-    derived.guesses     what was guessed, in sentences
+    derived.guesses  what was guessed, in sentences
     derived.checks   the laws it was checked against, with their numbers
 
 The URDF describes a planar biped with point feet: revolute joints about y, equal legs, each with a
