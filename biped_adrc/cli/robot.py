@@ -127,9 +127,9 @@ def robot_export(
     """Write a robot with feet and motors on soft ground as MJCF, for MuJoCo's own viewer."""
     from biped_adrc.extras.mujoco.mjcf import write_mjcf
     from biped_adrc.extras.mujoco.plant import MuJoCoPlant
-    from biped_adrc.extras.mujoco.soft_ground import SoftGround
     from biped_adrc.gait.gait import load_gait
     from biped_adrc.model.biped import Biped
+    from biped_adrc.model.ground import SoftGround
     from biped_adrc.scenario.build import plant_step
 
     path = target(out, (".xml",), inputs(robot, *(() if gait is None else (gait,))))

@@ -5,6 +5,8 @@ direction. Steps are counted in single supports from 1: `StepDown(3, 0.02)` lowe
 which the third single support ends by 20 mm, and all that comes after it. `Walker` holds the slope
 and the tuple of steps; an impact is where the height of the swing foot over that ground comes down
 to zero.
+
+All this ground is rigid. `SoftGround` is that of a plant with contact, in MuJoCo.
 """
 
 from __future__ import annotations
@@ -14,8 +16,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.core.checks import Checked, PositiveFloat, PositiveInt
+from biped_adrc.core.checks import Checked, PositiveFloat, PositiveInt, numbers
 from biped_adrc.core.errors import InputError
+from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 
 
@@ -32,6 +35,57 @@ def check_slope(slope: float) -> None:
     """Raise InputError unless the slope [rad] is less than a right angle either way."""
     if not abs(slope) < 0.5 * math.pi:
         raise InputError(f"the slope is {slope} rad, expected less than a right angle")
+
+
+@dataclass(frozen=True)
+class SoftGround(Checked, Shown):
+    """Soft ground under point feet, in the terms of MuJoCo's contact model.
+
+        a_ref = -b r' - k r,   b = 2 / (d T),   k = d(r) / (d^2 T^2 zeta^2)
+
+    is the acceleration that a foot at depth r is driven to: T is `time_constant`, zeta `damping_ratio`
+    (solref), d(r) the impedance, which rises from the first to the second value of `impedance`, d (solimp).
+    Spring and damper act on an effective mass m of the foot, so that a stiffness in N/m follows from the robot
+    and cannot be prescribed. A foot that rests at depth r under the force F has
+
+        F / r = m (d(r) / d)^2 / ((1 - d(r)) T^2 zeta^2)
+
+    since the solver leaves the share 1 - d(r) of a_ref at rest. Friction carries up to mu F_N; below that a
+    foot creeps, the less the larger `impratio`. MuJoCo documentation, "Modeling: Solver parameters".
+
+    Raises InputError for values that no ground has.
+    """
+
+    friction: PositiveFloat = 0.6
+    """Coefficient mu of dry friction [1]."""
+    time_constant: PositiveFloat = 2e-3
+    """Time constant T [s]; MuJoCo takes two of its steps for any that is shorter."""
+    damping_ratio: PositiveFloat = 1.0
+    """Damping ratio zeta [1]."""
+    impedance: tuple[float, float] = (0.95, 0.99)
+    """Impedance d(r) at the surface and from 1 mm on [1]; 1 would leave no slack at all."""
+    impratio: PositiveFloat = 20.0
+    """Impedance of friction over that of the normal force [1]."""
+    foot_radius: PositiveFloat = 1e-3
+    """Radius of the feet [m]; a foot rolls on by the radius times the angle that its leg turns."""
+
+    def __post_init__(self) -> None:
+        result = numbers(self.impedance, "the impedance of the ground")
+        if result.shape != (2,) or not 0.0 < result[0] <= result[1] < 1.0:
+            raise InputError(
+                f"the impedance of the ground is {self.impedance}, expected 0 < first <= second < 1"
+            )
+        object.__setattr__(self, "impedance", tuple(result.tolist()))  # a list could be changed
+
+    def stiffness(self, mass: float) -> tuple[float, float]:
+        """F / r [N/m] under a foot that rests: at the surface, and where d(r) = d, from 1 mm on.
+
+        mass [kg]: its effective mass m, as `MuJoCoPlant.foot_mass`.
+        """
+        d = self.impedance[1]
+        full = mass / (self.time_constant * self.damping_ratio) ** 2
+        at_surface, deep = (full * (at / d) ** 2 / (1.0 - at) for at in self.impedance)
+        return at_surface, deep
 
 
 @dataclass(frozen=True)

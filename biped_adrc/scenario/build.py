@@ -276,7 +276,7 @@ def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
     g = s.ground
     if g.plant == RIGID:
         return None
-    from biped_adrc.extras.mujoco.soft_ground import SoftGround
+    from biped_adrc.model.ground import SoftGround
 
     make = find("plant", g.plant).load()
     all_taken("ground", g.own, {*takes(make), *takes(SoftGround)})

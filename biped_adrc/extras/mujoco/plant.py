@@ -39,10 +39,17 @@ from biped_adrc.core.timing import check_ends
 from biped_adrc.core.types import Array, Indices, MuJoCoModel, relabelled
 from biped_adrc.extras.mujoco.engine import INTEGRATORS, MuJoCoEngine
 from biped_adrc.extras.mujoco.robot import PLANES, compiled, floating_mjcf, mujoco
-from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.ground import StepDown, StepUp, check_slope, check_steps, drop_of, ground_axes
+from biped_adrc.model.ground import (
+    SoftGround,
+    StepDown,
+    StepUp,
+    check_slope,
+    check_steps,
+    drop_of,
+    ground_axes,
+)
 
 TOUCHING = 1e-6
 """Depth of the stance foot in the ground at the start [m]: round-off does not decide whether it touches."""

@@ -22,9 +22,8 @@ import numpy as np
 from biped_adrc.core.errors import optional
 from biped_adrc.core.files import one_line
 from biped_adrc.core.types import MuJoCoModel
-from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.ground import ground_axes
+from biped_adrc.model.ground import SoftGround, ground_axes
 from biped_adrc.model.robots.urdf import Joint, Tree
 
 KINDS = {"revolute": "hinge", "prismatic": "slide"}
