@@ -17,15 +17,18 @@ stability. The torque comes from `output_npd.linearising_torque`, as that of any
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.control.output_npd import linearising_torque
-from biped_adrc.core.checks import PositiveFloat
-from biped_adrc.core.errors import InputError
+from biped_adrc.core.checks import PositiveFloat, Range
 from biped_adrc.core.types import Array
 from biped_adrc.gait.outputs import Outputs
+
+LINEAR = "between 0 and 1; for a linear law use OutputNPDController"
+ExponentFloat = Annotated[float, Range(LINEAR, lambda x: 0.0 < x < 1.0)]
 
 
 def psi(x1: Array, x2: Array, alpha: float) -> Array:
@@ -55,15 +58,8 @@ class FiniteTimeController(Controller):
     """
 
     outputs: Outputs
-    alpha: float
+    alpha: ExponentFloat
     eps: PositiveFloat
-
-    def __post_init__(self) -> None:
-        if not 0.0 < self.alpha < 1.0:
-            raise InputError(
-                f"alpha is {self.alpha}, expected between 0 and 1; for a linear law use "
-                "OutputNPDController"
-            )
 
     def output(self, s: Array, m: Measurement) -> Array:
         o = self.outputs(m.t, m.q, m.v)

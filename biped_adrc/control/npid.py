@@ -125,7 +125,9 @@ class NPIDController(Controller):
         return (M @ s.reshape(3, -1) + np.outer(b, e)).ravel()
 
     def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
-        """Rows (3 p,) after impact: a new start, with the integral relabelled by swap (p,)."""
+        """Rows e_f, e_f', s (3 p,) of the filter after impact: a new start, but for the integral
+        s, relabelled by swap (p,).
+        """
         p = len(swap)
         return np.concatenate((self.initial_state(after)[: 2 * p], relabelled(s[2 * p :], swap)))
 

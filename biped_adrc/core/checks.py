@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import sysconfig
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import fields, is_dataclass
 from functools import lru_cache, wraps
@@ -26,10 +26,15 @@ from biped_adrc.core.types import Array
 
 
 class Range(NamedTuple):
-    """A range of numbers: `holds` accepts a number in it, `words` name it in a message."""
+    """A range of numbers or words: `holds` accepts a value in it, `words` name it in a message."""
 
     words: str
     holds: Callable[[Any], bool]
+
+
+def one_of(words: Collection[str]) -> Range:
+    """Range of a text that has to be one of these words."""
+    return Range(f"one of {list(words)}", lambda x: x in words)
 
 
 def _whole(x: Any, least: int) -> bool:
@@ -67,8 +72,8 @@ SUCH_AS = {
 """Name of a class -> an example of it, for the sentence."""
 
 
-NUMBERS: dict[Any, str] = {float: "a number", Integral: "a whole number"}
-"""A type of numbers -> its name in a sentence."""
+NUMBERS: dict[Any, str] = {float: "a number", Integral: "a whole number", str: "a text"}
+"""A type of numbers, or of text -> its name in a sentence."""
 
 
 def check_part(value: object, what: str, *kinds: type) -> None:
@@ -83,10 +88,9 @@ def check_part(value: object, what: str, *kinds: type) -> None:
 
 
 def check_fields(part: Any) -> None:
-    """Check every field of a dataclass that is annotated with a part or a number,
-    perhaps None, as `check_part`.
+    """Check every field of a dataclass that is annotated with a part, a number or a text, perhaps None.
 
-    A number has to be in the range of its annotation, too. Raises InputError.
+    As `check_part`; a number or text has to be in the `Range` of its annotation, too. Raises InputError.
     """
     cls: Any = type(part)
     for name, kinds, range in _expected(cls):
@@ -323,11 +327,9 @@ def _members(hint: Any) -> tuple[tuple[Any, ...], Range | None]:
 
 
 def _looked_at(kind: Any) -> bool:
-    """Whether a type is checked: a class of this package that is no protocol, a number with a range,
-    or None.
-    """
+    """Whether a type is checked: a class of this package that is no protocol, a number, text or None."""
     own = isinstance(kind, type) and kind.__module__.startswith("biped_adrc.")
-    return (own and not getattr(kind, "_is_protocol", False)) or kind in (float, Integral, NoneType)
+    return (own and not getattr(kind, "_is_protocol", False)) or kind in (*NUMBERS, NoneType)
 
 
 def _is_number(value: object) -> bool:

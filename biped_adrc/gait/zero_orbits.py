@@ -200,7 +200,9 @@ class ZeroOrbits(Shown):
 
     # -- what a step looks like --------------------------------------------------------------------
     def sigma_squared(self, theta: Array, zeta: float) -> Array:
-        """sigma^2 [kg^2 m^4/s^2] at theta (K,) [rad] in the step after zeta; negative beyond a stop."""
+        """sigma^2 [kg^2 m^4/s^2] at the phases theta (K,) [rad] of the step after zeta; negative
+        behind a phase where it stops.
+        """
         square: Array = 2.0 * (self.delta**2 * zeta - self.potential(theta))
         return square
 

@@ -40,8 +40,7 @@ from typing import Annotated
 
 import numpy as np
 
-from biped_adrc.core.checks import FiniteFloat, NonNegativeFloat, NonNegativeInt, Range
-from biped_adrc.core.errors import InputError
+from biped_adrc.core.checks import FiniteFloat, NonNegativeFloat, NonNegativeInt, Range, one_of
 from biped_adrc.core.part import setup
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, Indices
@@ -74,15 +73,9 @@ class Sensors(Shown, Sensor):
     noise: NonNegativeFloat = 0.0
     pitch_noise: NonNegativeFloat = 0.0
     rate_noise: NonNegativeFloat = 0.0
-    velocity: str = "differences"
+    velocity: Annotated[str, one_of(VELOCITIES)] = "differences"
     filter_time: NonNegativeFloat = 0.0
     seed: NonNegativeInt = 0
-
-    def __post_init__(self) -> None:
-        if self.velocity not in VELOCITIES:
-            raise InputError(
-                f"the sensors' velocity is '{self.velocity}', expected one of {list(VELOCITIES)}"
-            )
 
     @property
     def noisy(self) -> bool:

@@ -26,7 +26,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import NamedTuple, Protocol
+from typing import Annotated, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,7 +34,7 @@ from numpy.typing import NDArray
 from biped_adrc.analysis import soft_steps as meters
 from biped_adrc.analysis.signals import FORCE, PLACE, SPEED, Signals, footholds
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.core.checks import Checked, PositiveFloat
+from biped_adrc.core.checks import Checked, PositiveFloat, one_of
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
@@ -203,13 +203,9 @@ class Clip(Checked):
     start: float | None = None
     stop: float | None = None
     fps: PositiveFloat | None = None
-    view: str = "side"
+    view: Annotated[str, one_of(VIEWS)] = "side"
     apart: bool = False
     slower: PositiveFloat = 1.0
-
-    def __post_init__(self) -> None:
-        if self.view not in VIEWS:
-            raise InputError(f"view is '{self.view}', choose one of {list(VIEWS)}")
 
     def part(self, begin: float, end: float, usual: float) -> tuple[float, float]:
         """Start and stop [s] of the part shown of walks that last from `begin` to `end` [s].

@@ -80,7 +80,7 @@ class Written:
 
 
 def used_numbers(functions: Sequence[CFunction]) -> list[int]:
-    """Indices, in increasing order, of the entries of K that any of these functions reads."""
+    """Indices, in increasing order, of the parameters K that any of these functions reads."""
     result: set[int] = set()
     for each in functions:
         f = straight_line(each.function)

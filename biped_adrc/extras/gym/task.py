@@ -11,11 +11,11 @@ well most.
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
-from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat
+from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat, one_of
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.files import packaged
 from biped_adrc.core.shown import Shown
@@ -37,7 +37,6 @@ OF_RIGID = "errors.impact_width"
 """A field of the scenario that only walks on the rigid plant have."""
 TORQUES, ADDED = "torques", "added"
 """Meaning of an action: all of the torque, or an addition to the torque of the scenario's controller."""
-ACTIONS = (TORQUES, ADDED)
 NEAR = 0.1
 """e_1 of the reward [rad]."""
 FALLEN_FROM = 1e-9
@@ -54,7 +53,7 @@ class LearnerTask(Checked, Shown):
 
     scenario: Scenario
     """The scenario; its seed is replaced by that of each walk."""
-    action: str = TORQUES
+    action: Annotated[str, one_of((TORQUES, ADDED))] = TORQUES
     """ "torques": the action is the whole torque; "added": it is added to that of the scenario's controller."""
     seconds: PositiveFloat = 10.0
     """Longest walk [s]."""
@@ -66,8 +65,6 @@ class LearnerTask(Checked, Shown):
     """Cost of a sample with all motors at their limit [1], at most `alive`."""
 
     def __post_init__(self) -> None:
-        if self.action not in ACTIONS:
-            raise InputError(f"the action is {self.action!r}, expected one of {list(ACTIONS)}")
         if self.effort > self.alive:
             raise InputError(
                 f"effort = {self.effort} is above alive = {self.alive}: to fall would pay"

@@ -27,12 +27,13 @@ from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from threading import get_ident
+from typing import Annotated
 
 import numpy as np
 
 from biped_adrc.closed_loop.protocols import Contact, Feet, Load, Moved
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
-from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat, PositiveInt
+from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat, PositiveInt, one_of
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import check_ends
@@ -82,7 +83,7 @@ class MuJoCoPlant(Checked, Shown):
     flight_height: PositiveFloat = 0.02
     fall_height: float = 0.35
     max_step_time: float = 2.0
-    integrator: str = "rk4"
+    integrator: Annotated[str, one_of(INTEGRATORS)] = "rk4"
     lag: NonNegativeFloat = 0.0
     ground_steps: tuple[StepDown | StepUp, ...] = ()
     first_step: PositiveInt = 1
@@ -95,10 +96,6 @@ class MuJoCoPlant(Checked, Shown):
         if self.biped.p == 0:
             raise InputError(
                 f"robot '{self.biped.description.name}' has no motors; expected one with motors at its joints"
-            )
-        if str(self.integrator) not in INTEGRATORS:
-            raise InputError(
-                f"the integrator of the plant is {self.integrator!r}, expected one of {list(INTEGRATORS)}"
             )
         if self.h > 0.1 * self.ground.time_constant * (1.0 + 1e-9):
             warnings.warn(

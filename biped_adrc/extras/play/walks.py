@@ -173,7 +173,9 @@ class PageWalk:
         return result
 
     def delay(self) -> dict[int, Form]:
-        """Forms of the numbers that a delay between whole samples changes, by index in the block."""
+        """For each number of the block that a delay between whole samples changes: its index
+        -> its form over the delay.
+        """
         low, high = self.delays
         if low == high:
             return {}
