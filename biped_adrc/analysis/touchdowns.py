@@ -79,8 +79,11 @@ def touchdowns(loop: ClosedLoop[Any], run: Trajectory) -> Noticed:
 
 
 def matched(impacts: Array, found: Array) -> Noticed:
-    """Match touchdowns at `impacts` [s] and detections at `found` [s], both
-    increasing, as the module describes.
+    """Match touchdowns at `impacts` (N,) [s] with detections at `found` [s], both
+    increasing, in their order in time.
+
+    A detection after its touchdown is late, one before it early. Two touchdowns without a detection between
+    them are both missed, two detections without a touchdown both false.
     """
     late, false = np.full(len(impacts), np.nan), []
     events = [(t, 0, i) for i, t in enumerate(impacts)] + [(t, 1, i) for i, t in enumerate(found)]

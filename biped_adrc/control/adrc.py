@@ -74,7 +74,8 @@ class ADRCController(ObservingController):
 
 @dataclass(frozen=True)
 class AssistedADRCController(ADRCController):
-    """ADRC with the nominal model's xi in the observer's input, by the module's equations.
+    """ADRC whose observer has the nominal model's xi in its input, and estimates what
+    remains of the disturbance.
 
     The observer is the whole state; m = 1 and Table II by default.
     """

@@ -124,8 +124,9 @@ class Controller(Part):
         return s
 
     def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
-        """s (size,) after impact; `after` is the measurement after it, `swap` (p,) the
-        relabelling for `types.relabelled`.
+        """State s (size,) of the controller after an impact, from s before it.
+
+        after: the measurement after the impact. swap (p,): relabelling of the joints, for `types.relabelled`.
         """
         return s
 

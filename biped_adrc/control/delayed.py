@@ -42,7 +42,8 @@ OrderInt = Annotated[int, Range("a whole number from 1 to 10", lambda x: x in ra
 
 @dataclass(frozen=True)
 class Delayed(Around):
-    """The delay line of the module behind `inner`. delay [s] > 0; order: k of the approximant, 1 to 10.
+    """A wrapper whose torque acts `delay` [s] after the command of `inner`, by a Pade
+    approximant of this order k, 1 to 10.
 
     known: whether the observer inside is fed with the torque that acts. torque_limit [N m]: of the command. It
     compiles around whatever compiles in continuous time. Raises InputError for numbers out of range.
@@ -112,8 +113,8 @@ class Delayed(Around):
 
 
 def pade(k: int) -> tuple[Array, Array]:
-    """Coefficients N (k,) and D (k + 1,) of the module's approximant in x = s d, lowest
-    power first; D_0 = N_0 = 1.
+    """Coefficients N (k,) and D (k + 1,) of N(x) / D(x) ~ exp(-x), x = s d, lowest power first; D_0 =
+    N_0 = 1.
     """
     whole = factorial(2 * k - 1)
     N = [

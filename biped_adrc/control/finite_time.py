@@ -32,7 +32,11 @@ ExponentFloat = Annotated[float, Range(LINEAR, lambda x: 0.0 < x < 1.0)]
 
 
 def psi(x1: Array, x2: Array, alpha: float) -> Array:
-    """psi (p,) of the module's equation, elementwise, for x1 = y and x2 = eps y' (p,) in the unit of y."""
+    """Acceleration psi (p,) of the double integrators x1' = x2, x2' = psi that brings
+    both to zero in finite time.
+
+    Elementwise, for x1 = y and x2 = eps y' (p,) in the unit of y; alpha [1]: the exponent.
+    """
     phi = x1 + _power(x2, 2.0 - alpha) / (2.0 - alpha)
     return -_power(x2, alpha) - _power(phi, alpha / (2.0 - alpha))
 
@@ -44,7 +48,7 @@ def _power(x: Array, exponent: float) -> Array:
 
 @dataclass(frozen=True)
 class FiniteTimeController(Controller):
-    """Finite-time control of these outputs, by the module's equations.
+    """A controller that brings the outputs y to exactly zero in finite time, by a continuous torque.
 
     eps > 0 [s] is the time scale in which outputs come to rest, alpha (0 < alpha < 1) [1] the exponent: the
     smaller, the more abruptly. Raises InputError outside these ranges; its torque raises SingularError where J

@@ -36,9 +36,10 @@ from biped_adrc.observers.base import Estimate
 
 @dataclass(frozen=True)
 class FrictionFeedforward(Around):
-    """A wrapper that adds the friction F of the module to the torque of `inner`.
+    """A wrapper that adds to the torque of `inner` the friction F = share (viscous q_d'
+    + static tanh(q_d' / w)).
 
-    path: the reference whose rates are used; corrections of an outer loop are not in them.
+    path: the reference whose rates q_d' are used; corrections of an outer loop are not in them.
     viscous [N m s/rad], static [N m]: one number for each motor. Raises InputError for numbers
     that are negative or not finite.
     """

@@ -50,7 +50,7 @@ def pushed(terms: Reduction, r: Array) -> Reduction:
 
 @dataclass(frozen=True)
 class MomentumDOBController(ObservingController):
-    """Feedback linearisation with a momentum observer that is the whole state, by the module's equations.
+    """NPD (28) less the external force that a momentum observer estimates; the observer is the whole state.
 
     solve_theta: solve the loop through Theta'' (default), or drop h' Theta'' as (28) is printed. reset: what
     happens to the observer at impact.

@@ -38,8 +38,7 @@ from biped_adrc.gait.reference import Reference
 
 @dataclass(frozen=True)
 class NPIDController(Controller):
-    """Filtered PID with feedback linearisation, by the module's equations, for a K_i [1/s^3]
-    that leaves the loop stable.
+    """Feedback linearisation with a PID of the filtered error, for a K_i [1/s^3] that leaves the loop stable.
 
     filter_bandwidth, damping: w [rad/s] and zeta of the filter. period [s]: of the discrete form, in which
     the error is held from tick to tick; set by `sampled`. Raises InputError for numbers that are not

@@ -49,7 +49,8 @@ class OutputNPDController(Controller):
 
 
 def linearising_torque(o: OutputPoint, terms: Reduction, w: Array) -> Array:
-    """u (p,) [N m] that gives y'' = w (p,) by the module's equation, for outputs o.
+    """Torque u (p,) [N m] that gives the outputs o the acceleration y'' = J q'' + drift = w
+    (p,) on the nominal model.
 
     Raises InputError when J is not (p, n), SingularError where J D^-1 B is singular.
     """

@@ -40,7 +40,7 @@ beta in the middle of the step. A lean forwards and back slows the walk: its gai
 
 
 def bump(s: float) -> tuple[float, float, float]:
-    """Value b(s) of the module's bump, with db/ds and d2b/ds2; all are zero outside of [0, 1], b(1/2) = 1."""
+    """Value of the bump b(s) = 64 s^3 (1 - s)^3, with db/ds and d2b/ds2; all are zero outside of [0, 1]."""
     w, dw = max(s * (1.0 - s), 0.0), 1.0 - 2.0 * s
     return 64.0 * w**3, 192.0 * w**2 * dw, 384.0 * w * (dw**2 - w)
 
@@ -137,7 +137,8 @@ class StridePI(OuterLoop):
         return self.stepped(w)
 
     def stepped(self, w: Array) -> Array:
-        """State (tau, I, beta) (3,) after impact, by the PI of the module with both bounds.
+        """State (tau, I, beta) (3,) after an impact: I and beta by the PI on the speed of the
+        step just finished, bounded.
 
         With tau = 0, as when a run starts at the impact, no step has been timed and the state stays as it is.
         """

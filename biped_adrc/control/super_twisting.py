@@ -36,10 +36,12 @@ from biped_adrc.gait.reference import Reference, ReferencePoint
 
 @dataclass(frozen=True)
 class SuperTwistingController(Controller):
-    """Super-twisting sliding mode control about the reference, by the module's equations.
+    """Super-twisting sliding mode control about the reference, smooth within a layer around
+    sigma = e' + lambda e = 0.
 
-    slope: lambda [1/s] of the sliding surface. lipschitz: L [rad/s^3]. layer: delta [rad/s]. period [s]: of
-    the discrete form; set by `sampled`. Raises InputError for numbers that are not positive.
+    slope: lambda [1/s] of the sliding surface. lipschitz: L [rad/s^3], the bound on the slope of the error
+    of the model. layer: delta [rad/s]. period [s]: of the discrete form; set by `sampled`. Raises InputError
+    for numbers that are not positive.
     """
 
     reference: Reference

@@ -124,9 +124,10 @@ def feedback(gains: Gains, r: ReferencePoint, x1: Array, x2: Array) -> Array:
 
 
 def solved_acceleration(r: ReferencePoint, terms: Reduction, f: Array) -> Array:
-    """Solve the module's equation for the acceleration a (p,) [rad/s^2], with the feedback f (p,) [rad/s^2].
+    """Solve (I - H_b - H_N A_N) a = drift + f + H_N a_N for the acceleration a (p,) [rad/s^2] of the joints.
 
-    Raises SingularError when its matrix is exactly singular, with a pivot of 0.0; near that a grows
+    f (p,) [rad/s^2]: the feedback; r has drift and H of q_d'', terms have A_N and a_N of q_N''.
+    Raises SingularError when the matrix is exactly singular, with a pivot of 0.0; near that a grows
     without bound and without an error.
 
     >>> r = gait.constraint(0.0, gait.q_minus, gait.v_minus)

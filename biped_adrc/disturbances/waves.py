@@ -68,7 +68,8 @@ class TorquePulse(Windowed):
         return float(self.stop) + float(self.rise)
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        """zeta (n,) [N m] by the module's first equation.
+        """Torque zeta = amplitude (r(t - start) - r(t - stop)) (n,) [N m], r the unit step
+        or a ramp of length `rise`.
 
         The forms with vertical edges and with a rise are both computed and one is selected:
         machine code has no branch here.

@@ -116,7 +116,9 @@ class Sensors(Shown, Sensor):
 
 @dataclass(frozen=True)
 class SampledSensors(Sensor):
-    """`Sensors` on n coordinates, for ticks every `period` [s], by the module's equations."""
+    """`Sensors` on n coordinates, for ticks every `period` [s]: counts, noise, differences and their
+    low-pass.
+    """
 
     resolution: Array
     """Resolution of the angles (n,) [rad]."""
@@ -258,7 +260,9 @@ class PitchSensor(Sensor):
 
 @dataclass(frozen=True)
 class SampledPitchSensor(Sensor):
-    """`PitchSensor` for ticks every T, by the module's equations."""
+    """`PitchSensor` for ticks every `period` [s]: the angle drifts by d T from tick to
+    tick, the rate is off by d.
+    """
 
     of: PitchSensor
     turn: float

@@ -52,7 +52,7 @@ EXACT = 1e-11
 
 
 class PlantArrays(NamedTuple):
-    """Masses, lengths and inertias in the module's formulas, for n links, float64.
+    """Masses, lengths and inertias of n links, as the formulas for D_s and Omega take them, float64.
 
     The engine passes them at run time, so that one compilation serves all robots of the same structure.
     Complex vectors are stored as real and imaginary part.

@@ -55,7 +55,9 @@ class KalmanObserver(InjectedChain):
 
     @property
     def intensity(self) -> float:
-        """Intensity W [rad^2/s^(2 m + 3)], from the bandwidth and R by the module's equation."""
+        """Intensity W = R omega^(2 (m + 2)) [rad^2/s^(2 m + 3)] of the noise that drives the
+        chain, from bandwidth and R.
+        """
         return self.measurement * self.scale ** (2 * self.order)
 
     @cached_property

@@ -98,7 +98,9 @@ class Replay(Shown):
 
     @cached_property
     def rows(self) -> tuple[ReplayRow, ...]:
-        """The numbers of each single support."""
+        """Rows of the replay's table, one for each single support: torques, residual and
+        estimate, see `ReplayRow`.
+        """
         x = self.signals
         return tuple(_row(x, x.step == step) for step in np.unique(x.step))
 

@@ -57,9 +57,10 @@ def _gap(found: Array, expected: Array) -> float:
 
 
 def _single_support(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]:
-    """Laws of single support at q, v (n,) [rad, rad/s], each with its gap.
+    """Check the laws of single support at q, v (n,) [rad, rad/s]; yields the sentence of
+    each and its relative gap.
 
-    D_s and Omega, places of hip and foot, and the direction of the phase.
+    They are D_s and Omega, the places of hip and foot, and the direction of the phase.
     """
     D, Omega = b.floating.projected(q, v)
     yield "D_s of the pinned model is the floating one's, constrained", _gap(b.inertia(q), D)
@@ -78,9 +79,10 @@ def _single_support(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]
 
 
 def _impact(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]:
-    """Laws of the plastic impact at q, v (n,) [rad, rad/s], each with its gap.
+    """Check the laws of the plastic impact at q, v (n,) [rad, rad/s]; yields the sentence of
+    each and its relative gap.
 
-    Momenta are relative to that of all links at the same energy.
+    Changes of momenta are divided by the momentum of the whole robot at the same kinetic energy.
     """
     hit, reach = b.impact(q, v), max(np.linalg.norm(b.swing_foot(q)), np.linalg.norm(b.hip(q)))
     before, after = b.kinetic_energy(q, v), b.kinetic_energy(hit.q, hit.v)

@@ -304,7 +304,9 @@ def pose(scene: WalkScene, i: int, t: float) -> Pose:
 
 
 def _nodes(scene: WalkScene, arc: Arc, fps: float) -> Array:
-    """Times (K,) [s] at which one single support is sampled; see the module."""
+    """Times (K,) [s] at which one single support is sampled: frames, both ends, edges of
+    pushes, changes of contact.
+    """
     start, end = float(arc.t[0]), float(arc.t[-1])
     first = scene.trajectory.t_start
     frames = first + np.arange(math.ceil((start - first) * fps), (end - first) * fps) / fps
