@@ -23,8 +23,8 @@ from biped_adrc.scenario.scenario import write_scenario
 from biped_adrc.studies.build import SEED, Values, scenario_of
 from biped_adrc.studies.proposals import optuna_library, searched
 from biped_adrc.studies.results import BEFORE, CANDIDATE, CHOSEN, SET, SETTING, Choice, Results
-from biped_adrc.studies.run import run_trials
-from biped_adrc.studies.runner import Crew, Function, Progress, Runner
+from biped_adrc.studies.run import Function, run_trials
+from biped_adrc.studies.runner import Crew, Progress, Runner
 from biped_adrc.studies.search import Candidate, Search, Walks, judged, ranked
 from biped_adrc.studies.store import opened
 from biped_adrc.studies.study import CASE, CONDITION, Point, Study, chosen_file, read_study
@@ -64,6 +64,7 @@ def study(
     >>> [row["peak_error"] < 0.1 for row in results.rows()]
     [True, True]
     """
+    crew = Crew(workers, cluster)
     study_ = study if isinstance(study, Study) else read_study(study)
     if study_.search is not None:
         optuna_library()
@@ -77,7 +78,7 @@ def study(
             "machine"
         )
     folder = Path(out)
-    with opened(folder, study_) as store, Crew(workers, cluster) as crew:
+    with opened(folder, study_) as store, crew:
         runner = Runner(function, store, crew, study_.count, progress)
         if study_.search is None:
             runner.run(study_.points())
