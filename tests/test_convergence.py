@@ -13,13 +13,13 @@ import biped_adrc as ba
 from biped_adrc.analysis.quadrature import integrate, largest
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.engine.run import COMPILED
-from biped_adrc.paper.convergence import (
+from biped_adrc.paper.scenarios import CONTROLLERS, Plan, pushed_run
+from biped_adrc.paper.verdict import (
+    AGREE,
     error_text,
     largest_gap,
     observed_order,
 )
-from biped_adrc.paper.scenarios import CONTROLLERS, Plan, pushed_run
-from biped_adrc.paper.verdict import AGREE
 from biped_adrc.scenario.run import execute_twice, walk_scenario
 from biped_adrc.scenario.walk import FINE_STEP, Part, refined, walk_in_parts
 

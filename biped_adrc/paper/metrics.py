@@ -22,8 +22,7 @@ from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.paper.members import MemberOutcome, limits_broken
 from biped_adrc.paper.poincare import PoincareResult
 from biped_adrc.paper.push_map import LOST, PushCell
-from biped_adrc.paper.results import Results
-from biped_adrc.paper.runs import Start
+from biped_adrc.paper.runs import Results, Start
 from biped_adrc.paper.scenarios import CONTROLLERS, KINDS, declared
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.recording import Outcome

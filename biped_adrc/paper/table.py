@@ -26,11 +26,20 @@ import numpy as np
 from biped_adrc.core.verdict import Check, at_least, at_most, below, between
 from biped_adrc.paper import metrics as m
 from biped_adrc.paper import values as v
-from biped_adrc.paper.convergence import largest_gap, observed_order
 from biped_adrc.paper.physical_laws import work_identity
-from biped_adrc.paper.results import Results
+from biped_adrc.paper.runs import Results
 from biped_adrc.paper.scenarios import CONTROLLERS, KINDS, declared
-from biped_adrc.paper.verdict import AGREE, Claim, Limit, Row, claim_checks, row_of, texts
+from biped_adrc.paper.verdict import (
+    AGREE,
+    Claim,
+    Limit,
+    Row,
+    claim_checks,
+    largest_gap,
+    observed_order,
+    row_of,
+    texts,
+)
 
 
 def limit(text: str) -> Limit:

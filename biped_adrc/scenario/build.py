@@ -311,7 +311,7 @@ def disturbances(s: Scenario, biped: Biped, period: float, plant: Biped) -> Dist
 
 
 def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) -> Disturbance:
-    """Push number i. Raises InputError for a value that its shape does not take."""
+    """Push number i. Raises InputError for a value that its shape does not take, and where it cannot act."""
     push = s.pushes[i]
     along = push.force * np.array((math.cos(push.direction), math.sin(push.direction), 0.0))
     accepted = takes(find("disturbance", push.shape).load())
@@ -333,6 +333,10 @@ def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) 
     }
     place, fields = f"pushes.{i}", Push.model_fields
     result = named_part("disturbance", push.shape, known, push.own, Disturbance, place, fields)  # type: ignore[type-abstract]
+    first, last = s.run.first_step, s.run.first_step + s.run.impacts - 1
+    if push.step > last or (push.step < first and push.shape != "step" and not push.over_impacts):
+        walked = f"the walk has the single supports {first} to {last}"
+        raise Misfit(f"pushes.{i}.step", f"is {push.step}, and {walked}: it cannot act")
     return result if push.link is None else OnLink(plant, push.link, cast(Windowed, result))
 
 

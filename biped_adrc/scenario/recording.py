@@ -133,11 +133,9 @@ class Walk(Shown):
     """Remarks that came with it, as from a file."""
 
     def __repr__(self) -> str:
-        run, impacts = self.trajectory, self.impacts
-        impacts_text = (
-            f"{impacts} impact{'' if impacts == 1 else 's'} in {run.t_end - run.t_start:.4g} s"
-        )
-        return f"Walk({self.note}: {impacts_text}, {run.status.name})"
+        run = self.trajectory
+        duration = f"{run.t_end - run.t_start:.4g} s"
+        return f"Walk({self.note}: {self.impacts_text} in {duration}, {run.status.name})"
 
     @property
     def reference(self) -> Reference:
@@ -170,6 +168,11 @@ class Walk(Shown):
     def impacts(self) -> int:
         """How many impacts were made."""
         return len(self.trajectory.events(FOOT_STRIKE))
+
+    @property
+    def impacts_text(self) -> str:
+        """The same with its word: "1 impact"."""
+        return f"{self.impacts} impact{'' if self.impacts == 1 else 's'}"
 
     @property
     def peak_torque(self) -> float:
@@ -383,7 +386,7 @@ class Walk(Shown):
         from biped_adrc.view.meshcat.view import animation_html
         from biped_adrc.view.pages import inline
 
-        impacts, status = self.impacts, self.trajectory.status
-        summary = f"{self.controller_name}: {impacts} impacts. {status.name}: {status.value}"
+        status = self.trajectory.status
+        summary = f"{self.controller_name}: {self.impacts_text}. {status.name}: {status.value}"
         summary = " ".join((summary, *(f"Note: {remark}." for remark in self.remarks)))
         return inline(summary, animation_html({self.controller_name: self}), [self.plot()])

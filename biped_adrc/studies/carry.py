@@ -21,12 +21,27 @@ from typing import Any
 from biped_adrc.core.errors import InputError
 from biped_adrc.scenario.scenario import write_scenario
 from biped_adrc.studies.build import SEED, Values, scenario_of
-from biped_adrc.studies.proposals import optuna_library, searched
-from biped_adrc.studies.results import BEFORE, CANDIDATE, CHOSEN, SET, SETTING, Choice, Results
+from biped_adrc.studies.results import (
+    BEFORE,
+    CANDIDATE,
+    CHOSEN,
+    SET,
+    SETTING,
+    Choice,
+    Results,
+    opened,
+)
 from biped_adrc.studies.run import Function, run_trials
 from biped_adrc.studies.runner import Crew, Progress, Runner
-from biped_adrc.studies.search import Candidate, Search, Walks, judged, ranked
-from biped_adrc.studies.store import opened
+from biped_adrc.studies.search import (
+    Candidate,
+    Search,
+    Walks,
+    judged,
+    optuna_library,
+    ranked,
+    searched,
+)
 from biped_adrc.studies.study import CASE, CONDITION, Point, Study, chosen_file, read_study
 
 Candidates = Sequence[tuple[int, Values, Mapping[str, Any]]]

@@ -21,8 +21,8 @@ from biped_adrc.core.processes import cores, processes, stop
 from biped_adrc.core.types import DaskClient
 from biped_adrc.core.versions import differences, numerical_versions
 from biped_adrc.studies.build import CRASHED
+from biped_adrc.studies.results import Store
 from biped_adrc.studies.run import Function, rows_of
-from biped_adrc.studies.store import Store
 from biped_adrc.studies.study import Point
 
 PRELOADED = ("biped_adrc.studies.run",)

@@ -97,7 +97,7 @@ def test_the_columns_of_a_walk_are_means_over_ticks_and_joints() -> None:
 )
 def test_a_value_that_cannot_act_is_refused(said, idle, with_effect) -> None:
     with pytest.raises(ba.BipedError, match=said):
-        Scenario(**idle)
+        build(Scenario(**idle))
     if with_effect is not None:
         s = Scenario(**idle | with_effect)
         assert Scenario(**s.record()) == s
@@ -146,7 +146,7 @@ def test_what_is_wrong_is_named(values, message) -> None:
 def test_every_value_is_known_by_its_name() -> None:
     for name in names():
         what = field_of(name)
-        unit_of(what.unit)
+        unit_of(what.unit or "1")
         assert what.text, name
         if not name.startswith(("pushes", "controller.inner")):
             assert Scenario(**{name: what.default}) == Scenario()
