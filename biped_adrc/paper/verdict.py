@@ -58,6 +58,11 @@ class AtTwoSteps(NamedTuple):
     value: float
     at_half: float
 
+    @classmethod
+    def of(cls, x: AtTwoSteps | float) -> AtTwoSteps:
+        """A number; one without a step is the same at both."""
+        return x if isinstance(x, AtTwoSteps) else cls(float(x), float(x))
+
     def gap(self, resolution: float = 0.0) -> float:
         """|value - at_half| / |at_half|; 0 within the resolution, infinite where one of them is not finite."""
         gap, size = abs(self.value - self.at_half), abs(self.at_half)
@@ -120,10 +125,7 @@ class Claim:
         return tuple(self._case(name, x) for name, x in self.scenarios(r).items())
 
     def _case(self, name: str, x: Any) -> Case:
-        result = self.metric(x)
-        figure = (
-            result if isinstance(result, AtTwoSteps) else AtTwoSteps(float(result), float(result))
-        )
+        figure = AtTwoSteps.of(self.metric(x))
         used, half = (self.limit("", CLAIM, value).holds for value in figure)
         doubtful = used != half or not figure.converged(self.round_off)
         return Case(name, figure, half, doubtful, self.variant(name, x))
