@@ -153,9 +153,7 @@ def _derived(
 
 def _names(text: str | None) -> tuple[str, ...] | None:
     """Names between commas; an empty text is no name, None leaves them to be guessed."""
-    if text is None:
-        return None
-    return tuple(name.strip() for name in text.split(",") if name.strip())
+    return None if text is None else tuple(filter(None, map(str.strip, text.split(","))))
 
 
 def _explain(derived: Derived) -> None:

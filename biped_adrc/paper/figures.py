@@ -34,12 +34,10 @@ NAMES = ("tracking", "disturbance", "ground", "energy", "phase", "comparison")
 def draw(name: str, walks: Mapping[str, Walk]) -> Figure:
     """One figure: of the first walk, or of all walks for "phase" and "comparison".
 
-    Raises InputError for an unknown name, no walk, or a robot without motors where the figure shows motors.
+    Raises InputError for an unknown name, or a robot without motors where the figure shows motors.
     """
     if name not in NAMES:
         raise InputError(f"there is no figure '{name}'; choose one of {list(NAMES)}")
-    if not walks:
-        raise InputError("there is no walk to draw; expected at least one")
     walks = {literal(n): w for n, w in walks.items()}
     title, walk = next(iter(walks.items()))
     signals = {n: w.signals for n, w in walks.items()}

@@ -148,7 +148,7 @@ def tables(r: Results) -> dict[str, Table]:
             "columns": ["constant", "paper", "here"],
             "rows": constants,
         },
-        "Runs": _runs(r),
+        "Runs": table(_run(name, o) for name, o in r.run_twice.items()),
         "Stability: multipliers": _multipliers(r),
         "Gait (b), the paper's recipe": _recipe(r),
         "Numerics": table({"figure": k, "value": v} for k, v in r.figures.items()),
@@ -162,16 +162,11 @@ def table(rows: Iterable[dict[str, object]]) -> Table:
     return {"columns": list(rows[0]), "rows": [list(row.values()) for row in rows]}
 
 
-def _runs(r: Results) -> Table:
-    """Every walk: how it ended, errors, torques, forces.
-
-    A walk that ended early has no peak error or torque in the table: they would be those of a fall.
-    """
-    return table(_run(name, o) for name, o in r.run_twice.items())
-
-
 def _run(name: str, o: Outcome) -> dict[str, object]:
-    """The row of one walk."""
+    """The row of one walk: how it ended, errors, torques, forces.
+
+    One that ended early has no peak error or torque in the table: they would be those of a fall.
+    """
     steps = o.certificates
     return {
         "run": name,

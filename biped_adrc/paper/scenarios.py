@@ -206,9 +206,8 @@ def reset_runs(preset: str) -> dict[str, Scenario]:
     runs = {}
     for policy, limit in itertools.product(POLICIES, (None, 150.0)):
         h = DIVERGING_STEP if policy == "none" and limit is None else RESET_STEP
-        values: Values = {"reset": policy, "torque_limit": limit, "impacts": 2}
         name = f"reset {policy}, {'unlimited' if limit is None else '150 N m'}"
-        runs[name] = loose("ADRC", preset, h, **values)
+        runs[name] = loose("ADRC", preset, h, reset=policy, torque_limit=limit, impacts=2)
     return runs
 
 
@@ -342,14 +341,9 @@ class MapPush:
         signs = zip(MOTORS, declared()["map"]["patterns"][self.pattern], strict=True)
         torque = {joint: self.amplitude * sign for joint, sign in signs if sign}
         push = Push(torque=torque, step=19, onset=self.onset, duration=0.2)
-        run: Values = {
-            "pushes": (push,),
-            "first_step": 19,
-            "impacts": 4,
-            "h": 1e-3,
-            "continued": True,
-        }
-        return scenario(controller, self.preset, torque_limit=self.torque_limit, **run)
+        run: Values = {"pushes": (push,), "first_step": 19, "impacts": 4, "h": 1e-3}
+        limit = self.torque_limit
+        return scenario(controller, self.preset, torque_limit=limit, continued=True, **run)
 
 
 def map_pushes(plan: Plan) -> Iterator[list[MapPush]]:

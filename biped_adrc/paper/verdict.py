@@ -96,6 +96,11 @@ class Case(NamedTuple):
     variant: str
     """What of the scenario the verdict may depend on."""
 
+    @property
+    def kept(self) -> bool:
+        """Whether it holds, and is not marginal."""
+        return self.holds and not self.marginal
+
 
 @dataclass(frozen=True)
 class Claim:
@@ -171,10 +176,9 @@ def word_of(cases: Sequence[Case]) -> str:
     """The word for the cases of a claim, as in the head of this module."""
     if all(case.marginal for case in cases):
         return NOT_TESTABLE
-    held = sum(case.holds and not case.marginal for case in cases)
-    if held == len(cases):
+    if all(case.kept for case in cases):
         return REPLICATED
-    return DEPENDS if held else CONTRADICTED
+    return DEPENDS if any(case.kept for case in cases) else CONTRADICTED
 
 
 def row_of(claim: Claim, r: Results) -> Row:
@@ -187,7 +191,6 @@ def row_of(claim: Claim, r: Results) -> Row:
     number, reason, finding = (
         str(words.get(key, "")).format(**values) for key in ("number", "reason", "finding")
     )
-    held = [case.holds and not case.marginal for case in cases]
     return Row(
         claim.statement.format(**values),
         claim.where,
@@ -197,7 +200,7 @@ def row_of(claim: Claim, r: Results) -> Row:
         share_text(cases, word == DEPENDS),
         reason,
         finding,
-        sum(held) / max(len(held), 1) if words.get("asserted") else None,
+        sum(case.kept for case in cases) / max(len(cases), 1) if words.get("asserted") else None,
         sum(case.marginal for case in cases),
     )
 
@@ -207,7 +210,7 @@ def share_text(cases: Sequence[Case], apart: bool) -> str:
     if not cases:
         return ""
     every = Counter(case.variant for case in cases)
-    held = Counter(case.variant for case in cases if case.holds and not case.marginal)
+    held = Counter(case.variant for case in cases if case.kept)
     text = f"{held.total()} of {len(cases)}"
     if apart and len(every) <= SHOWN:
         text += ": " + "; ".join(f"{name} {held[name]} of {n}" for name, n in every.items())
@@ -267,15 +270,6 @@ RMS_RESOLUTION = 2e-10
 """The same for the root mean square [rad], where they differ by 1.3e-10 at most."""
 
 
-class Quantity(NamedTuple):
-    """A figure of merit of an outcome."""
-
-    of: Callable[[Outcome], float]
-    """The value of an outcome."""
-    resolution: float = 0.0
-    """Values nearer than this agree."""
-
-
 def _of_supports(of: Callable[[Feasibility], float]) -> Callable[[Outcome], float]:
     """A number of the judged steps; 0 where no window is long enough to say, and for a ratio at its pole."""
 
@@ -291,20 +285,20 @@ def _last(name: str) -> Callable[[Outcome], float]:
     return lambda o: float(getattr(o.certificates[-1], name)) if o.certificates else 0.0
 
 
-QUANTITIES = (
-    Quantity(lambda o: o.peak_error, PEAK_RESOLUTION),
-    Quantity(lambda o: o.rms_error, RMS_RESOLUTION),
-    Quantity(lambda o: o.peak_torque),
-    Quantity(lambda o: float(np.max(o.durations, initial=0.0))),
-    Quantity(lambda o: float(np.min(o.durations, initial=math.inf))),
-    Quantity(_last("joint_work"), 1e-6),  # [J]
-    Quantity(_last("energy_lost"), 1e-6),  # [J]
-    Quantity(_of_supports(lambda f: f.mean_normal_force)),
+QUANTITIES: tuple[tuple[Callable[[Outcome], float], float], ...] = (
+    (lambda o: o.peak_error, PEAK_RESOLUTION),
+    (lambda o: o.rms_error, RMS_RESOLUTION),
+    (lambda o: o.peak_torque, 0.0),
+    (lambda o: float(np.max(o.durations, initial=0.0)), 0.0),
+    (lambda o: float(np.min(o.durations, initial=math.inf)), 0.0),
+    (_last("joint_work"), 1e-6),  # [J]
+    (_last("energy_lost"), 1e-6),  # [J]
+    (_of_supports(lambda f: f.mean_normal_force), 0.0),
     # friction has its pole at F_N = 0
-    Quantity(_of_supports(lambda f: f.mean_friction if f.mean_normal_force > 0.0 else 0.0)),
-    Quantity(_of_supports(lambda f: f.impulse_ratio)),
+    (_of_supports(lambda f: f.mean_friction if f.mean_normal_force > 0.0 else 0.0), 0.0),
+    (_of_supports(lambda f: f.impulse_ratio), 0.0),
 )
-"""The figures of merit that are compared."""
+"""The figures of merit that are compared: of an outcome, and the resolution within which two values agree."""
 
 
 def largest_gap(o: Outcome) -> float:
@@ -317,7 +311,7 @@ def largest_gap(o: Outcome) -> float:
     one, half = ((x.status, x.impacts, x.feasibility.outcome) for x in (o, o.half))
     if one != half:
         return math.inf
-    gaps = (AtTwoSteps(q.of(o), q.of(o.half)).gap(q.resolution) for q in QUANTITIES)
+    gaps = (AtTwoSteps(of(o), of(o.half)).gap(resolution) for of, resolution in QUANTITIES)
     return max(gaps) if o.walked else 0.0
 
 

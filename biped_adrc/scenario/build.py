@@ -131,23 +131,23 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
     plant = plant_of(s, biped)
     width, hardware = s.errors.impact_width, s.hardware
     gain = impact_error(drawn(s, "impact"), width, biped.n if width else 0)
-    ideal = hardware.touchdown.name is None
+    timing: ContinuousTime | SampledTime = ContinuousTime()
+    if hardware.period is not None:
+        ideal = hardware.touchdown.name is None
+        timing = SampledTime(hardware.period, ideal, hardware.delay, hardware.delay_known)
+    moved = hardware.rate_limit or hardware.lag
     return Walker(
         plant,
         controller(s, gait, biped),
         disturbances(s, biped, gait.period, plant),
-        ContinuousTime()
-        if hardware.period is None
-        else SampledTime(hardware.period, ideal, hardware.delay, hardware.delay_known),
+        timing,
         model=None if plant is biped else biped,
         torque_limit=hardware.torque_limit,
         max_step_time=s.run.max_step_time,
         slope=gait.slope + s.ground.slope,
         ground_steps=ground(s),
         sensors=sensors(s),
-        motors=Motors(hardware.rate_limit, hardware.lag)
-        if hardware.rate_limit or hardware.lag
-        else None,
+        motors=Motors(hardware.rate_limit, hardware.lag) if moved else None,
         touchdown=touchdown(s, gait),
         impact_gain=tuple(gain.tolist()),
         runaway_speed=s.run.runaway_speed,
@@ -258,13 +258,9 @@ def plant_around(name: str, walker: Walker, options: Mapping[str, object]) -> St
 
     Raises InputError for one that there is not, or that cannot be made.
     """
-    values = {
-        "biped": walker.plant,
-        "slope": walker.slope,
-        "max_step_time": walker.max_step_time,
-        "fall_height": walker.fall_height,
-    }
-    return named_part("plant", name, {**options, **values}, {}, SteppingPlant, "ground")  # type: ignore[type-abstract]
+    own = {x: getattr(walker, x) for x in ("slope", "max_step_time", "fall_height")}
+    values = {**options, **own, "biped": walker.plant}
+    return named_part("plant", name, values, {}, SteppingPlant, "ground")  # type: ignore[type-abstract]
 
 
 def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:

@@ -221,12 +221,8 @@ class Walk(Shown):
         impacts, after = self.impacts, after_last_impact(self.walker, run)
         if self.soft:
             slips = [max(step.slip) for step in self.soft_steps] or [0.0] * len(run.arcs)
-        return Feasibility(
-            run.status,
-            supports(self.walker, Nodes.of(self.signals), k, impacts, after, slips),
-            k,
-            impacts,
-        )
+        judged = supports(self.walker, Nodes.of(self.signals), k, impacts, after, slips)
+        return Feasibility(run.status, judged, k, impacts)
 
     @cached_property
     def touchdowns(self) -> Noticed:
@@ -287,12 +283,8 @@ class Walk(Shown):
         """
         if self.recorded is not None:
             return self.stored_remarks
-        walker, trajectory = self.walker, self.trajectory
-        return (
-            *self.stored_remarks,
-            *edge_remarks(walker, trajectory),
-            *step_remarks(walker, trajectory),
-        )
+        made = self.walker, self.trajectory
+        return (*self.stored_remarks, *edge_remarks(*made), *step_remarks(*made))
 
     @property
     def controller_name(self) -> str:

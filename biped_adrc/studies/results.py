@@ -81,13 +81,6 @@ class Store:
             for at, row in self.db.execute(text, (first, first + count)):
                 yield Result(json.loads(at), json.loads(row))
 
-    def statuses(self) -> dict[str, tuple[int, str]]:
-        """By status how many walks ended so, and what the first of them says."""
-        text = "SELECT status, count(*), row, min(place) FROM walks GROUP BY status ORDER BY 2 DESC"
-        with _errors(self.path):
-            result = self.db.execute(text).fetchall()
-        return {str(s): (n, str(json.loads(row).get("detail") or "")) for s, n, row, _ in result}
-
 
 @contextmanager
 def opened(folder: Path, study: Study) -> Iterator[Store]:
@@ -183,16 +176,6 @@ class Group(NamedTuple):
     numbers: tuple[float, ...]
     """Of each walk in the column that is shown; infinite where it does not count."""
 
-    @property
-    def feasible(self) -> int:
-        """Walks that are feasible, the impact at most aside."""
-        return sum(is_counted(x.row) for x in self.rows)
-
-    @property
-    def made(self) -> int:
-        """Walks that make all steps."""
-        return sum(is_made(x.row) for x in self.rows)
-
 
 class Line(NamedTuple):
     """A line of the table; intervals are NaN where nothing was drawn."""
@@ -250,11 +233,12 @@ class Results(Shown):
         for g in self.groups:
             reference = first.setdefault(g.condition, g)
             ratio = None if g is reference else paired(*_pairs(g, reference))
-            counted, middle = share(g.feasible, len(g.rows)), median(g.numbers)
+            feasible, made = (sum(f(x.row) for x in g.rows) for f in (is_counted, is_made))
+            counted, middle = share(feasible, len(g.rows)), median(g.numbers)
             if not self.study.drawn:
                 counted, middle = _alone(counted), _alone(middle)
                 ratio = ratio and Paired(_alone(ratio.ratio), float("nan"), ratio.pairs)
-            lines.append(Line(g.name, g.condition, len(g.rows), counted, g.made, middle, ratio))
+            lines.append(Line(g.name, g.condition, len(g.rows), counted, made, middle, ratio))
         return lines
 
     @property
@@ -265,8 +249,10 @@ class Results(Shown):
 
     def statuses(self) -> dict[str, tuple[int, str]]:
         """By status how many walks ended so, and what the first of them says."""
-        with opened(self.folder, self.study) as store:
-            return store.statuses()
+        text = "SELECT status, count(*), row, min(place) FROM walks GROUP BY status ORDER BY 2 DESC"
+        with opened(self.folder, self.study) as store, _errors(store.path):
+            result = store.db.execute(text).fetchall()
+        return {str(s): (n, str(json.loads(row).get("detail") or "")) for s, n, row, _ in result}
 
     def export(self, path: Path) -> None:
         """Write all rows as CSV or Parquet, by the suffix of `path`. Raises InputError, OutputError."""

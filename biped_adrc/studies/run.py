@@ -74,11 +74,6 @@ def rows_of(function: Function, records: Sequence[Record]) -> list[tuple[str, st
         return [(json.dumps({"status": RAISED, "detail": detail}), RAISED)]
 
 
-def run_trial(record: Record) -> WalkRow:
-    """The row of one trial. record: values of a scenario by name; those not given have their defaults."""
-    return run_trials([record])[0]
-
-
 def run_trials(records: Sequence[Record]) -> list[WalkRow]:
     """A row for each trial, in their order: the function that workers run.
 

@@ -14,7 +14,7 @@ from biped_adrc.scenario.build import RobotAndGait, build, plant_of, start
 from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario, drawn, field_of, names, read_scenario
 from biped_adrc.scenario.units import unit_of
-from biped_adrc.studies.run import run_trial
+from biped_adrc.studies.run import run_trials
 
 
 def drawn_start(seed: int, **values: object) -> np.ndarray:
@@ -70,7 +70,7 @@ def test_the_columns_of_a_walk_are_means_over_ticks_and_joints() -> None:
         "hardware.period": 1e-3,
         "start.speed": 0.05,
     }
-    row = run_trial(values)
+    row = run_trials([values])[0]
     s = Scenario(**values)
     walk, scene = walk_scenario(s), RobotAndGait.of(s)
     signals, gait = walk.signals, scene.walked
