@@ -142,11 +142,7 @@ def return_map_samples(run: Scenario, size: float = 0.05, count: int = 21) -> tu
     """
     P, scene = gait_map(run, observer_states=False).P, RobotAndGait.of(run)
     biped, gait = scene.biped, scene.walked
-    before = np.linspace(1.0 - size, 1.0 + size, count)
-    after = np.empty(count)
-    c = biped.phase
-    for i, factor in enumerate(before):
-        x = np.concatenate((gait.q_minus, factor * gait.v_minus))
-        image = P.lift(P(P.project(x)))
-        after[i] = c @ image[biped.n : 2 * biped.n]
-    return before * float(c @ gait.v_minus), after
+    factors, c = np.linspace(1.0 - size, 1.0 + size, count), biped.phase
+    starts = (np.concatenate((gait.q_minus, factor * gait.v_minus)) for factor in factors)
+    after = [c @ P.lift(P(P.project(x)))[biped.n : 2 * biped.n] for x in starts]
+    return factors * float(c @ gait.v_minus), np.array(after)

@@ -28,6 +28,7 @@ from biped_adrc.core.versions import versions
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper.figures import draw_all, push_window
+from biped_adrc.paper.poincare import regression_of
 from biped_adrc.paper.push_map import PushCell, counts
 from biped_adrc.paper.runs import Results
 from biped_adrc.paper.runs import tasks as planned_tasks
@@ -199,7 +200,8 @@ def _multipliers(r: Results) -> Table:
         remark = remembers if name.endswith("measured") else ""
         result[f"central differences, {of}, {len(z)} coordinates"] = z[:10].tolist(), remark
     result["delta^2 of the zero dynamics"] = [r.multipliers["NPD"].delta_squared], ""
-    for c, test in r.regressions.items():
+    for c, head in r.headline.items():
+        test = regression_of(head.outcome)
         result[f"regression (27) on the pushed walk, {c}"] = test.magnitudes.tolist(), test.warning
     result["printed in the paper"] = list(PUBLISHED_MULTIPLIERS), "from a regression: no target"
     return table(

@@ -25,13 +25,7 @@ from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.paper import scenarios
 from biped_adrc.paper.members import MemberOutcome, member_outcomes, member_walk
 from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
-from biped_adrc.paper.poincare import (
-    PoincareResult,
-    Regression,
-    poincare,
-    regression_of,
-    return_map_samples,
-)
+from biped_adrc.paper.poincare import PoincareResult, poincare, return_map_samples
 from biped_adrc.paper.push_map import PushCell, push_map
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
 from biped_adrc.paper.verdict import AtTwoSteps
@@ -302,11 +296,6 @@ class Results:
             kind, _, name = of.partition("/")
             kinds.setdefault(kind.replace(" ", "_"), {})[name] = value
         return cls(plan, **kinds)
-
-    @property
-    def regressions(self) -> dict[str, Regression]:
-        """The regression (26), (27) on the pushed walks, by controller."""
-        return {c: regression_of(head.outcome) for c, head in self.headline.items()}
 
     @property
     def cells(self) -> list[PushCell]:

@@ -26,7 +26,6 @@ import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -159,17 +158,9 @@ class Row:
     """Number of its cases that are not converged."""
 
 
-@cache
 def texts() -> dict[str, Any]:
-    """The tables of claims.toml, each text on one line."""
-    return {name: _joined(x) for name, x in packaged("biped_adrc.paper", "claims.toml").items()}
-
-
-def _joined(value: object) -> object:
-    """The value with the lines of each text joined to one."""
-    if isinstance(value, dict):
-        return {name: _joined(x) for name, x in value.items()}
-    return " ".join(value.split()) if isinstance(value, str) else value
+    """The tables of claims.toml."""
+    return packaged("biped_adrc.paper", "claims.toml")
 
 
 def word_of(cases: Sequence[Case]) -> str:

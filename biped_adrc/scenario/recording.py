@@ -42,7 +42,7 @@ from biped_adrc.core.files import joint_columns, write_csv
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, freeze
 from biped_adrc.gait.gait import Gait
-from biped_adrc.gait.reference import Reference, TimeReference
+from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import Limits
@@ -138,13 +138,6 @@ class Walk(Shown):
         return f"Walk({self.note}: {self.impacts_text} in {duration}, {run.status.name})"
 
     @property
-    def reference(self) -> Reference:
-        """The reference of the joints: the gait's constraint, or one of no joints (0,) without motors."""
-        if self.gait is None:
-            return TimeReference(lambda t: (np.zeros(0), np.zeros(0), np.zeros(0)))
-        return self.gait.constraint
-
-    @property
     def note(self) -> str:
         """One line on what walked: controller, gait, robot and preset; without motors robot and slope [rad]."""
         plant, gait = self.walker.plant, self.gait
@@ -157,7 +150,9 @@ class Walk(Shown):
         """References, errors, torques, estimates and forces over time, computed at the first call and kept."""
         if self.recorded is not None:
             return self.recorded
-        return signals(self.walker, self.trajectory, self.reference)
+        no_joints = TimeReference(lambda t: (np.zeros(0), np.zeros(0), np.zeros(0)))
+        curve = no_joints if self.gait is None else self.gait.constraint
+        return signals(self.walker, self.trajectory, curve)
 
     @cached_property
     def certificates(self) -> tuple[Certificate, ...]:

@@ -307,9 +307,9 @@ def write_scenario(path: Path, s: Scenario, comment: str = "") -> None:
 def scenario_lines(s: Scenario) -> list[str]:
     """Lines of TOML: the names of controller and robot, then the values that differ from the defaults."""
     record = {"controller.name": s.controller.name, "robot.name": s.robot.name}
-    pushes = s.record().pop("pushes", [])
-    values = record | flat({k: x for k, x in s.record().items() if k != "pushes"})
-    values |= {"pushes": pushes} if pushes else {}
+    others = s.record()
+    pushes = {"pushes": others.pop("pushes")} if s.pushes else {}
+    values = record | flat(others) | pushes
     return [
         f"{'.'.join(map(toml_key, name.split('.')))} = {toml_value(x)}"
         for name, x in values.items()

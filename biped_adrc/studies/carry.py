@@ -151,15 +151,12 @@ class _Searched:
 
         The first of them is what the others are compared with: without cases the setting as it was.
         """
-        chosen, before = (
-            [
-                (c.number, c.values, _named(case) | {SETTING: setting})
-                for case, choice in choices.items()
-                for c in [choice.selected[0] if setting == CHOSEN else choice.candidates[0]]
-            ]
-            for setting in (CHOSEN, BEFORE)
+        chosen = [(x.selected[0], case, CHOSEN) for case, x in choices.items()]
+        before = [(x.candidates[0], case, BEFORE) for case, x in choices.items()]
+        every = [*chosen, *before] if self.study.cases else [*before, *chosen]
+        self.walk(
+            "test", [(c.number, c.values, _named(case) | {SETTING: s}) for c, case, s in every]
         )
-        self.walk("test", [*chosen, *before] if self.study.cases else [*before, *chosen])
         self.runner.total = self.runner.done
         self.runner.tell()
 

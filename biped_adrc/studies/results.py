@@ -18,7 +18,7 @@ import json
 import math
 import sqlite3
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -96,14 +96,12 @@ def opened(folder: Path, study: Study) -> Iterator[Store]:
     with _errors(path):
         folder.mkdir(parents=True, exist_ok=True)
         db = sqlite3.connect(path)
-    try:
+    with closing(db):
         with _errors(path):
             wrong = _wrong(db, study, versions)
         if wrong:
             raise InputError(f"'{path}' {wrong}; it is left as it is, choose another folder")
         yield Store(path, db)
-    finally:
-        db.close()
 
 
 def _wrong(db: sqlite3.Connection, study: Study, versions: dict[str, str]) -> str:

@@ -155,11 +155,10 @@ class Search(Part):
         """
         acting = self.acting(values)
         middle = {name: v.middle for name, v in acting.items()}
-        for name, v in {"": Variable(choices=("",)), **acting}.items():
-            for x in v.choices:
-                chosen = middle | ({name: x} if name else {})
-                candidate = self.values(values, chosen)
-                yield {n: candidate[n] for n in chosen if n in candidate}
+        choices = ({name: x} for name, v in acting.items() for x in v.choices)
+        for choice in ({}, *choices):
+            candidate = self.values(values, middle | choice)
+            yield {n: candidate[n] for n in middle if n in candidate}
 
 
 class Candidate(NamedTuple):
