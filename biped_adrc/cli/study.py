@@ -24,6 +24,7 @@ from biped_adrc.cli.app import (
     console,
     say,
     say_table,
+    say_written,
 )
 from biped_adrc.cli.options import options
 from biped_adrc.core.errors import SimulationError
@@ -85,7 +86,7 @@ def study(
     if table is not None:
         done.export(table)
         written.append(table)
-    say(f"written to {', '.join(map(str, written))}")
+    say_written(*written)
     if statuses.keys() <= {*NO_WALK}:
         raise SimulationError("no walk of this study could be made")
 

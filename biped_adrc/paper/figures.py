@@ -94,10 +94,11 @@ def pictures(r: Results, signals: Mapping[str, Signals]) -> dict[str, Task[tuple
     """
     npd, adrc, window = signals["NPD"], signals["ADRC"], push_window(signals["NPD"])
     magnitudes = {c: r.multipliers[c].orbit.multipliers for c in CONTROLLERS if c in r.multipliers}
-    mu = Biped.load("rabbit", r.plan.preset).description.friction_coefficient
+    biped = Biped.load("rabbit", r.plan.preset)
+    mu = biped.description.friction_coefficient
     pushed = "ADRC under the push"
     inputs: dict[str, tuple[object, ...]] = {
-        "figure1": (draw_robot, r.plan.preset),
+        "figure1": (robot_figure, biped),
         "figure4": (figures.tracking_figure, npd, "NPD under the push", window),
         "figure5": (figures.tracking_figure, adrc, pushed, window),
         "figure6": (figures.phase_figure, signals),
@@ -112,11 +113,6 @@ def pictures(r: Results, signals: Mapping[str, Signals]) -> dict[str, Task[tuple
         rows = [cell.row() for cell in r.cells if cell.push.preset == preset]
         inputs[f"push_map_{preset}"] = (push_map_figure, rows)
     return {name: Task(name, rendered, arguments) for name, arguments in inputs.items()}
-
-
-def draw_robot(preset: str) -> Figure:
-    """Figure 1: the robot of this preset with its coordinates."""
-    return robot_figure(Biped.load("rabbit", preset))
 
 
 def rendered(draw: Callable[..., Figure], *arguments: object) -> tuple[bytes, bytes]:
