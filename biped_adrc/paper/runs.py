@@ -74,7 +74,7 @@ def headline(run: Scenario) -> Headline:
     """A pushed run that is kept; at a quarter of the step only the single supports from the push on."""
     walk, half = sparse(walk_scenario(run)), halved(run)
     quarter = walk_scenario(
-        scenarios.with_values(halved(half), first_step=run.pushes[0].step, impacts=2)
+        halved(half).replace(run={"first_step": run.pushes[0].step, "impacts": 2})
     ).outcome
     at_half = replace(sparse(walk_scenario(half), 0.5 * NODE_DISTANCE).outcome, half=quarter)
     outcome = replace(walk.outcome, half=at_half)
@@ -213,7 +213,7 @@ def _order(preset: str, observer: GPIObserver) -> Order:
         observer.scale,
         loop.delay_margin().delay,
         float(np.abs(loop.tracking_error(np.array([10.0 * np.pi])))[0]),
-        member_walk(member, "ADRC", poles=poles).peak,
+        member_walk(member, "ADRC", **{"controller.observer.poles": poles}).peak,
     )
 
 
