@@ -279,7 +279,7 @@ class Walk(Shown):
         if self.recorded is not None:
             return self.stored_remarks
         made = self.walker, self.trajectory
-        return (*self.stored_remarks, *edge_remarks(*made), *step_remarks(*made))
+        return (*edge_remarks(*made), *step_remarks(*made))
 
     @property
     def controller_name(self) -> str:

@@ -73,9 +73,8 @@ def default_method(walker: Walker) -> OneStepMethod:
     inertia.
     """
     method: Exponential | RK4 = Exponential() if walker.split(Mode()) is not None else RK4()
-    if walker.sampled and any(
-        x is not None for x in (walker.sensors, walker.motors, walker.torque_limit)
-    ):
+    hardware = (walker.sensors, walker.motors, walker.torque_limit)
+    if walker.sampled and any(x is not None for x in hardware):
         method = RK4(HARDWARE_STEP)
     if isinstance(method, RK4) and method.h * (rate := rate_of_law(walker)) >= STABLE:
         method = RK4(1.0 / rate)
