@@ -110,6 +110,8 @@ def test_a_value_that_cannot_act_is_refused(said, idle, with_effect) -> None:
         ("controller.observer.bandwidth", "3 krad/s", 3000.0),
         ("start.q5", "90 deg", math.pi / 2),
         ("pushes.0.torque", "30 Nm", 30.0),
+        ("controller.K_p", "3 kN m/rad", 3000.0),
+        ("controller.K_p", "3000 1/s^2", 3000.0),
         ("errors.mass.torso", "110 %", 1.1),
         ("run.impacts", "8", 8),
     ],
