@@ -57,9 +57,7 @@ def broken(o: Outcome) -> AtTwoSteps:
 
 
 def distance(o: Outcome) -> float:
-    """max |x- - x*| [rad, rad/s] at the last impact, over angles and rates; infinite when the robot fell
-    before.
-    """
+    """max |x- - x*| [rad, rad/s] at the last impact; infinite when the robot fell before."""
     if not o.walked:
         return math.inf
     return float(np.max(np.abs(o.x_minus[-1][: len(X_STAR)] - X_STAR)))
@@ -182,9 +180,7 @@ def longest_step(multiplier: float) -> float:
 
 
 def period_gap(pair: tuple[Outcome, Outcome]) -> float:
-    """Largest difference of the step times of two walks, as a share of a usual step; infinite where they make
-    another number of steps.
-    """
+    """Largest difference of step times, as a share of a usual step; infinite for another number of steps."""
     npd, adrc = (o.durations for o in pair)
     if len(npd) != len(adrc) or len(npd) == 0:
         return math.inf
