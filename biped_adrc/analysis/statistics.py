@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
+import scipy
 
 CONFIDENCE = 0.95
 """Confidence level of every interval."""
@@ -26,13 +26,13 @@ class Interval(NamedTuple):
 
 def share(successes: int, count: int) -> Interval:
     """Share of `successes` among `count` walks, at least one, with Wilson's interval."""
-    result = stats.binomtest(successes, count).proportion_ci(CONFIDENCE, method="wilson")
+    result = scipy.stats.binomtest(successes, count).proportion_ci(CONFIDENCE, method="wilson")
     return Interval(successes / count, float(result.low), float(result.high))
 
 
 def median(values: Sequence[float]) -> Interval:
     """Median of at least one number, infinite ones included, with the interval of its order statistics."""
-    result = stats.quantile_test(values, q=0.0, p=0.5).confidence_interval(CONFIDENCE)
+    result = scipy.stats.quantile_test(values, q=0.0, p=0.5).confidence_interval(CONFIDENCE)
     return Interval(float(np.median(values)), float(result.low), float(result.high))
 
 
@@ -58,5 +58,9 @@ def paired(x: Sequence[float], y: Sequence[float]) -> Paired | None:
     if not r.size:
         return None
     apart = r[r != 1.0]
-    p = float(stats.binomtest(int(np.sum(apart < 1.0)), apart.size).pvalue) if apart.size else 1.0
+    p = (
+        float(scipy.stats.binomtest(int(np.sum(apart < 1.0)), apart.size).pvalue)
+        if apart.size
+        else 1.0
+    )
     return Paired(median(r.tolist()), p, r.size)
