@@ -25,9 +25,9 @@ from report import Run, Table, arguments, forked, rounds, spent
 import biped_adrc as ba
 from biped_adrc.engine.batch import Case, simulate_many
 from biped_adrc.studies.build import Record, scenario_of, trial_of
+from biped_adrc.studies.results import opened
 from biped_adrc.studies.run import run_trials
 from biped_adrc.studies.runner import LARGEST_CHUNK
-from biped_adrc.studies.store import opened
 from biped_adrc.studies.study import Study, read_study
 
 PUSH: dict[str, Any] = {"pushes.0.joints": "random", "pushes.0.torque": 40.0}

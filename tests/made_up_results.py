@@ -12,8 +12,7 @@ from biped_adrc.hybrid.status import Status
 from biped_adrc.model.robots.limits import KnownLimits
 from biped_adrc.paper.members import MemberOutcome, MemberWalk
 from biped_adrc.paper.push_map import Fate, PushCell
-from biped_adrc.paper.results import Results
-from biped_adrc.paper.runs import Order, Start
+from biped_adrc.paper.runs import Order, Results, Start
 from biped_adrc.paper.scenarios import (
     CONTROLLERS,
     MapPush,

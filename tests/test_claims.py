@@ -113,7 +113,9 @@ def test_peaks_lie_between_the_nodes():
 
 
 def test_kept_nodes_are_those_of_the_push_and_enough_of_the_others():
-    run = Member("identified", 30.0, 0.12, ("q3",), 0.0, "model", "solved").run("NPD", h=1e-4)
+    run = Member("identified", 30.0, 0.12, ("q3",), 0.0, "model", "solved").run(
+        "NPD", **{"run.h": 1e-4}
+    )
     whole = runs.walk_scenario(run)
     found = runs.sparse(whole)
     count = [[len(arc.t) for arc in w.trajectory.arcs] for w in (whole, found)]
@@ -275,7 +277,7 @@ def test_the_least_speed_of_the_zero_dynamics_parts_the_starts():
 
 def test_what_gait_b_needs_of_ground_and_motors():
     a, b = (
-        runs.walk_scenario(plain("NPD", "identified", gait=gait, impacts=2)).outcome
+        runs.walk_scenario(plain("NPD", "identified", gait=gait, run={"impacts": 2})).outcome
         for gait in GAITS
     )
     assert (
@@ -290,7 +292,9 @@ def test_what_gait_b_needs_of_ground_and_motors():
 def test_a_torque_on_the_torso_slows_both_controllers_alike():
     npd, adrc = (
         runs.walk_scenario(
-            loose(c, "tac2003", 1e-3, pushes=(on_torso(20.0),), first_step=19, impacts=4)
+            loose(
+                c, "tac2003", 1e-3, pushes=(on_torso(20.0),), run={"first_step": 19, "impacts": 4}
+            )
         ).outcome
         for c in CONTROLLERS
     )

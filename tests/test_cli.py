@@ -8,7 +8,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.core.errors import InputError
-from biped_adrc.gait.bspline import BSpline
+from biped_adrc.gait.curves import BSpline
 from biped_adrc.scenario.push import Push, parse_push
 
 from .commands import command
@@ -59,6 +59,19 @@ def test_a_gait_is_designed_of_the_curve_that_is_named(tmp_path):
     gait = ba.load_gait(out, ba.Biped.load("rabbit"))
     assert isinstance(gait.constraint.curve, BSpline)
     assert gait.provenance["curves"].startswith("bspline, degree 6")
+
+
+def test_the_observer_is_that_of_the_controller():
+    assert "m = 1 at 500 rad/s" in command("observer", "--set", "controller.name=LESO")
+    with pytest.raises(InputError, match="the observer of 'NPD' is None, expected a GPIObserver"):
+        command("observer", "--set", "controller.name=NPD")
+    assert "Sampling period of the controller [s]." in " ".join(command("observer", "-h").split())
+
+
+def test_the_state_before_the_impact_has_names_and_units():
+    said = " ".join(command("poincare").split())
+    assert "x-: q1 = 3.247231, q2 = " in said
+    assert "v5 = -0.170000 [rad/s]" in said
 
 
 INTERRUPTED = """

@@ -13,13 +13,13 @@ import biped_adrc as ba
 from biped_adrc.analysis.quadrature import integrate, largest
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.engine.run import COMPILED
-from biped_adrc.paper.convergence import (
+from biped_adrc.paper.scenarios import CONTROLLERS, Plan, pushed_run
+from biped_adrc.paper.verdict import (
+    AGREE,
     error_text,
     largest_gap,
     observed_order,
 )
-from biped_adrc.paper.scenarios import CONTROLLERS, Plan, pushed_run
-from biped_adrc.paper.verdict import AGREE
 from biped_adrc.scenario.run import execute_twice, walk_scenario
 from biped_adrc.scenario.walk import FINE_STEP, Part, refined, walk_in_parts
 
@@ -111,7 +111,7 @@ def test_a_walk_in_parts_is_the_walk(biped, gait):
     walker = ba.Walker(biped, ba.NPDController(gait.constraint), push)
     whole = ba.walk(walker, gait, 4, ba.RK4(1e-3), engine="compiled").trajectory
     parts = tuple(Part(n, ba.RK4(1e-3)) for n in (1, 2, 1))
-    joined = walk_in_parts(walker, gait, parts, engine="compiled").trajectory
+    joined = walk_in_parts(walker, gait, gait.start(biped), 1, parts, "compiled").trajectory
     assert [arc.mode for arc in joined.arcs] == [arc.mode for arc in whole.arcs]
     for one, other in zip(joined.arcs, whole.arcs, strict=True):
         assert np.array_equal(one.x, other.x)

@@ -13,9 +13,13 @@ from scipy.integrate import solve_ivp
 import biped_adrc as ba
 from biped_adrc.analysis.observer.choice import count_error, recommend
 from biped_adrc.analysis.observer.impact import ImpactStates, impact_peak, orbit_impact
-from biped_adrc.analysis.observer.loop import ObserverLoop
+from biped_adrc.analysis.observer.loop import (
+    ObserverLoop,
+    SampledLoop,
+    largest_delay,
+    largest_period,
+)
 from biped_adrc.analysis.observer.report import observer_report
-from biped_adrc.analysis.observer.sampled import SampledLoop, largest_delay, largest_period
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.delayed import Delayed, pade
 from biped_adrc.hardware.motors import IDEAL, Line, whole_and_part

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import biped_adrc as ba
 from biped_adrc.analysis.feasibility import OUTCOMES
 from biped_adrc.extras.logs.log_file import write_log
-from biped_adrc.extras.logs.log_of_walk import logged
+from biped_adrc.extras.logs.robot_log import logged
 from biped_adrc.studies.study import read_study
 
 FIXED = settings(deadline=None, derandomize=True, database=None)

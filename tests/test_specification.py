@@ -11,16 +11,18 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import minimize
 
 import biped_adrc as ba
-from biped_adrc.analysis.loops.disk_margin import balanced_bound, disk_margin, structured_value
-from biped_adrc.analysis.loops.frozen_gait import FrozenGait
-from biped_adrc.analysis.loops.specification import specification
-from biped_adrc.analysis.loops.tick_matrices import linear_twin
+from biped_adrc.analysis.loops.frozen_gait import FrozenGait, linear_twin
+from biped_adrc.analysis.loops.specification import (
+    balanced_bound,
+    disk_margin,
+    specification,
+    structured_value,
+)
 from biped_adrc.analysis.loops.walker_loop import FREQUENCIES, response, robot_step
 from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.core.errors import BipedError
 from biped_adrc.engine.tick_derivative import _differenced, tick_derivative
-from biped_adrc.hardware.pitch_sensor import PitchSensor
-from biped_adrc.hardware.sensors import Sensors
+from biped_adrc.hardware.sensors import PitchSensor, Sensors
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.cycle import specification_of
 from tests.plain import Undecorated

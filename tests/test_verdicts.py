@@ -12,14 +12,13 @@ import pytest
 from typer.testing import CliRunner
 
 from biped_adrc.cli.app import EXIT_CHECK_FAILED, app
-from biped_adrc.cli.reproduce import lines
+from biped_adrc.cli.study import lines
 from biped_adrc.core import errors
 from biped_adrc.core.processes import Timed
 from biped_adrc.core.verdict import at_least, at_most, below, between
 from biped_adrc.gait.published import X_STAR
 from biped_adrc.paper import reproduction
-from biped_adrc.paper.results import Results
-from biped_adrc.paper.runs import tasks
+from biped_adrc.paper.runs import Results, tasks
 from biped_adrc.paper.scenarios import Plan, base_runs
 from biped_adrc.paper.table import checks
 from biped_adrc.paper.verdict import AtTwoSteps

@@ -36,7 +36,7 @@ from biped_adrc.core.files import data_folder
 from biped_adrc.core.types import Array
 from biped_adrc.gait.design.request import StepLimits
 from biped_adrc.gait.gait import Gait, gait_names, load_gait
-from biped_adrc.gait.recipe import design_recipe_gait
+from biped_adrc.gait.published import design_recipe_gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.model.biped import Biped

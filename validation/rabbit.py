@@ -35,7 +35,7 @@ from biped_adrc.gait.zero_orbits import ZeroOrbits
 from biped_adrc.hybrid.integrators import Adaptive
 from biped_adrc.model.biped import Biped
 from biped_adrc.observers.gpi import TABLE_I
-from biped_adrc.paper.tables import PRINTED_TABLE_I
+from biped_adrc.paper.reproduction import PRINTED_TABLE_I
 from biped_adrc.scenario.cycle import gait_cycle
 from biped_adrc.scenario.scenario import Scenario
 from validation.hip_push import HipCase, PushedWalk

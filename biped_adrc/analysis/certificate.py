@@ -3,11 +3,12 @@
 A planar model pinned at its foot cannot slip or lift off, so feasibility is checked afterwards: F_N and
 friction |F_T| / F_N in the mean over a window (`ground_force`), the same ratio of the impulse at impact,
 scuffing of the swing foot, torque. A step is feasible where these are within the `Limits`. A `Certificate`
-adds what is known of a step that ended in an impact: whether the old foot lifts off, the forces at every
-instant, and the joint work against the energy lost at impact, which on a periodic gait on level ground are
-equal. Forces are those on the plant, along and perpendicular to its ground.
+adds numbers of a step that ended in an impact: whether the old foot lifts off, the forces at every instant,
+and the joint work and the energy lost at impact, which on a periodic gait on level ground are equal. Forces
+are those on the plant, along and perpendicular to its ground.
 
-`certificates` and `supports` read the nodes of a walk; `feasibility` sums them up for the walk.
+`certificates` and `supports` compute them from the nodes of a walk; `feasibility`
+summarises them for the walk.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import ENDS, ROUND_OFF, SLIP, KnownLimits, Limits
 
 IMPULSE = "impulse"
-"""The reason that is counted apart: the impulse at impact alone leaves the friction cone."""
+"""Name of the reason that is counted apart: the impulse at impact alone leaves the friction cone."""
 REASONS = {
     "normal_force": "mean_normal_force",
     "friction": "mean_friction",
@@ -41,19 +42,22 @@ REASONS = {
     "stones": "missed_stone",
     IMPULSE: "impulse_ratio",
 }
-"""Why a single support is not feasible, the keys of `Support.infeasible`, and by which of its numbers."""
+"""Reason why a single support is not feasible, a key of `Support.infeasible` -> its field of `Support`."""
 
 
 @dataclass(frozen=True)
 class Support(Shown):
-    """One single support, also an unfinished one. A friction is infinite where the ground never pushed."""
+    """Forces, torques and clearance of one single support, also an unfinished one, with their limits.
+
+    A friction ratio is infinite where the ground never pushed.
+    """
 
     step: int
     """Number of the single support, from 1."""
     duration: float
-    """[s]."""
+    """Duration of the single support [s]."""
     mean_normal_force: float
-    """Least F_N averaged over the window [N]; infinite where there was no time for one."""
+    """Least F_N averaged over the window [N]; infinite for a single support too short for a mean."""
     mean_friction: float
     """Largest |F_T| / F_N of the forces averaged over the window, of those with F_N > 0, dimensionless."""
     scuffing: float
@@ -65,8 +69,8 @@ class Support(Shown):
     peak_torque: float
     """Largest |u_i| [N m]."""
     impulse_ratio: float
-    """|F_T| / F_N of the impulse at the impact that ends it: infinite where the ground would have had to
-    pull, 0 without an impact.
+    """|F_T| / F_N of the impulse of its impact: infinite where the ground would have
+    had to pull, 0 without one.
     """
     friction_limit: float
     """mu of the friction cone; infinite on soft ground, where friction is the simulator's."""
@@ -76,7 +80,9 @@ class Support(Shown):
     """Length of the window of the means [s]."""
 
     def infeasible(self) -> dict[str, str]:
-        """What is not within the limits, in words, by the names in `REASONS`; empty for a feasible step."""
+        """The numbers that are not within their limits: name in `REASONS` -> text; empty for a
+        feasible step.
+        """
         k = KnownLimits(self.friction_limit, self.torque_limit, self.window)
         numbers = {name: getattr(self, number) for name, number in REASONS.items()}
         return {name: violation(name, x, k) for name, x in numbers.items() if not keeps(name, x, k)}
@@ -84,21 +90,19 @@ class Support(Shown):
 
 @dataclass(frozen=True)
 class Certificate(Support):
-    """One single support and the impact that ends it."""
+    """A single support with the impact that ends it."""
 
     least_normal_force: float
-    """F_N at any instant [N]."""
+    """Least F_N at any instant [N]."""
     friction: float
     """Largest |F_T| / F_N of the instants with F_N > 0, dimensionless."""
     step_length: float
     """Distance of the footholds along the ground [m]."""
     old_foot_velocity: float
-    """Velocity of the old stance foot after impact, perpendicular to the ground [m/s]; positive when
-    it lifts off.
-    """
+    """Velocity of the old stance foot after impact out of the ground [m/s]; positive when it lifts off."""
     clearance: float
-    """Least height [m] of the swing foot above the ground on which the step ends, without the first
-    and last 3 % of the step. Negative when it scuffs.
+    """Least height [m] of the swing foot, without the first and last 3 % of the step; negative when
+    it scuffs.
     """
     joint_work: float
     """int u' q_b' dt, the net work of the motors [J]."""
@@ -108,7 +112,8 @@ class Certificate(Support):
     """int |u_i q_i'| dt, summed over motors, over m g times step length; dimensionless."""
 
     def violations(self, but: Collection[str] = ()) -> tuple[str, ...]:
-        """As `infeasible`, as sentences, and in addition the old foot has to lift off; empty when all holds.
+        """Sentences on all numbers outside their limits, and on an old foot that does not lift
+        off; empty when all is well.
 
         but: names in `REASONS` that do not count.
         """
@@ -119,14 +124,15 @@ class Certificate(Support):
 
 
 def ratio_text(ratio: float) -> str:
-    """A friction ratio as text; "no contact" where it is infinite."""
+    """Text of a friction ratio; "no contact" where it is infinite."""
     return f"{ratio:.3f}" if math.isfinite(ratio) else "no contact"
 
 
 def keeps(name: str, x: Any, k: KnownLimits) -> Any:
-    """Whether numbers x (...,), of the kind `name` in `REASONS`, are within the limits; NaN is not.
+    """Whether numbers x (...,), of the kind `name` in `REASONS`, are within the limits k; NaN is not.
 
-    A friction that is infinite, where the ground never pushed, is left to the normal force.
+    An infinite friction ratio, where the ground never pushed, counts as within: the normal
+    force then violates its own.
     """
     cone = (1.0 + ROUND_OFF) * k.friction
     if name == "normal_force":
@@ -139,7 +145,7 @@ def keeps(name: str, x: Any, k: KnownLimits) -> Any:
 
 
 def violation(name: str, x: float, k: KnownLimits) -> str:
-    """What is wrong with a number x that is not within its limit, in words; name: in `REASONS`."""
+    """Text about a number x of the kind `name` in `REASONS` that is not within its limit."""
     over = f"over {1e3 * k.window:g} ms"
     return {
         "normal_force": f"F_N = {x:.3g} N {over}",
@@ -155,10 +161,12 @@ def violation(name: str, x: float, k: KnownLimits) -> str:
 def series(
     walker: Walker, n: Nodes, k: KnownLimits, impacts: int, after: Array | None = None
 ) -> dict[str, tuple[Array, Indices, Array]]:
-    """Of each of `REASONS` but slips times (M,) [s], single supports (M,) and numbers (M,), in order.
+    """The numbers that limits apply to, over time: name in `REASONS` -> times (M,) [s], single
+    supports (M,), numbers (M,).
 
-    Frictions are -inf where the mean force does not push. impacts, after: as of `impulse_ratios`; on soft
-    ground, where friction is not limited, there are no impulses.
+    Slips are not among them. The single supports are indices from 0. Friction ratios are -inf where
+    the mean force does not push. impacts, after: as for `impulse_ratios`; where friction is not
+    limited, on soft ground, impulses are 0.
     """
     first, last, of = n.supports
     means, impulses = mean_forces(walker, n, k.window), np.zeros(len(first))
@@ -182,10 +190,10 @@ def supports(
     after: Array | None = None,
     slips: Sequence[float] | None = None,
 ) -> tuple[Support, ...]:
-    """What each of the S single supports needed, of which the first `impacts` ended in an impact.
+    """Extremes of each of the S single supports of a walk, of which the first `impacts` ended in an impact.
 
-    after: as of `impulse_ratios`. slips: of each single support on soft ground [m], in place of the friction
-    cone; None on the rigid plant.
+    k: limits. after: as for `impulse_ratios`. slips: slip of each single support on soft ground [m], in place
+    of the friction cone; None on the rigid plant.
     """
     first, last, _ = n.supports
     k = k if slips is None else k._replace(friction=math.inf)
@@ -221,11 +229,11 @@ def missed_stones(walker: Walker, n: Nodes, impacts: int) -> Array:
 
 
 def depths(walker: Walker, n: Nodes, impacts: int) -> Array:
-    """How far the swing foot is below the ground at the nodes (K,) [m], 0 near the ends of a single support.
+    """Depth of the swing foot below the ground at the nodes (K,) [m], 0 near the ends of a single support.
 
-    The ground is taken at the height of the lower of the two footholds. It counts once the foot has been above
-    it, since it may come from lower ground. The end of a single support that is not finished, one behind the
-    first `impacts`, counts.
+    The ground is taken at the height of the lower of the two footholds. Depth counts once the foot has been
+    above it, since the foot may come from lower ground. It also counts at the end of a single support that did
+    not end in an impact, one behind the first `impacts`.
     """
     first, last, of = n.supports
     drops = np.array([max(walker.drop(int(step)), 0.0) for step in n.step[first]])
@@ -249,7 +257,7 @@ def ended_in_impact(arc: Arc) -> bool:
 
 
 def after_last_impact(walker: Walker, trajectory: Trajectory) -> Array | None:
-    """Momentum (2,) [N s] after the impact with which a walk ended; None where it did not end with one."""
+    """Momentum m v_com (2,) [N s] after the impact with which a walk ended; None where it ended otherwise."""
     event, n = trajectory.arcs[-1].event, walker.plant.n
     if not ended_in_impact(trajectory.arcs[-1]) or event is None or event.x_plus is None:
         return None
@@ -262,7 +270,7 @@ def certificates(
     signals: Signals,
     limits: Limits | KnownLimits | None = None,
 ) -> tuple[Certificate, ...]:
-    """One certificate for every single support that ended in an impact; None takes the robot's limits."""
+    """Certificate of every single support that ended in an impact; limits None: those of the robot's record."""
     k = limits
     if not isinstance(k, KnownLimits):
         k = (k or Limits()).of(walker.plant.description)
@@ -276,7 +284,10 @@ def certificates(
 
 
 def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Certificate:
-    """The certificate of a step that ended in an impact at x- = (q, q', ...), the end of its arc."""
+    """Certificate of a step that ended in an impact at x- = (q, q', ...), the end of its arc.
+
+    s: signals of the step. support: its extremes.
+    """
     b, p = walker.plant, walker.plant.p
     q, v, _ = walker.split_state(arc.x[-1])
     impact = b.impact(q, v)
@@ -300,7 +311,9 @@ def _certificate(walker: Walker, s: Signals, arc: Arc, support: Support) -> Cert
 
 
 def inner(t: Array) -> NDArray[np.bool_]:
-    """Whether a node is away from both ends of a step by the share ENDS (K,), for its times t (K,) [s]."""
+    """Whether each node, at times t (K,) [s], is away from both ends of the step by more
+    than the share ENDS (K,).
+    """
     since, last = t - t[0], t[-1] - t[0]
     result: NDArray[np.bool_] = (since > ENDS * last) & (since < (1.0 - ENDS) * last)
     return result

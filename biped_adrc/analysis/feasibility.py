@@ -1,9 +1,8 @@
 """Whether a walk was feasible, step by step, and where it first was not.
 
-`certificate` says what every single support needed. Here the walk is judged by it: an outcome in
-one word, the reasons in words, and the extreme numbers over all steps (`Feasibility`). `until_infeasible`
-cuts a walk at its first violation, for studies that count feasible steps only. `scenario.walk` calls
-both.
+`certificate` has the numbers of every single support. Here they decide about the walk: an outcome in one word,
+the reasons in words, and the extreme numbers over all steps (`Feasibility`). `until_infeasible` cuts a walk at
+its first violation, for studies that count feasible steps only. `scenario.walk` calls both.
 """
 
 from __future__ import annotations
@@ -39,19 +38,19 @@ VERDICTS = {
     "but_impact": "feasible but for the impact",
     "feasible": "feasible",
 }
-"""What steps that were all made are: word in records, and its meaning in reports."""
+"""Verdict on a walk that made all its steps: word in records -> its meaning in reports."""
 OUTCOMES = {
     "fell": "it fell",
     "ended": "it ended otherwise",
     **{word: f"it made all steps, {text}" for word, text in VERDICTS.items()},
 }
-"""Outcome of a walk: word in records, and its meaning in reports."""
+"""Outcome of a walk: word in records -> its meaning in reports."""
 COUNTED = ("feasible", "but_impact")
-"""Outcomes of a walk that is feasible, the impact at most aside."""
+"""Outcomes of a walk that is feasible, or feasible except for the impulses at impact."""
 
 
 def outcome_of(status: Status, broken: Collection[str]) -> str:
-    """One of the words in `OUTCOMES`; broken: what is not within the limits, by the names in `REASONS`."""
+    """Outcome of a walk, a word in `OUTCOMES`; broken: names in `REASONS` that are not within their limits."""
     if status is Status.FELL:
         return "fell"
     if status is not Status.COMPLETED:
@@ -60,22 +59,25 @@ def outcome_of(status: Status, broken: Collection[str]) -> str:
 
 
 def verdict_of(broken: Collection[str]) -> str:
-    """One of the words in `VERDICTS`; broken as for `outcome_of`."""
+    """Verdict on a walk that made all its steps, a word in `VERDICTS`; broken as for `outcome_of`."""
     if not set(broken) <= {IMPULSE}:
         return "infeasible"
     return "but_impact" if broken else "feasible"
 
 
 def because(words: str, broken: Mapping[str, str]) -> str:
-    """Words, with the reasons behind where there are some."""
+    """The text `words`, followed by the reasons in `broken` if there are any; broken:
+    name in `REASONS` -> text.
+    """
     return f"{words}: {'; '.join(broken.values())}" if broken else words
 
 
 def _over_steps(worst: Callable[[list[float]], float], name: str, text: str) -> property:
-    """A property: the least or largest value of one number over the single supports.
+    """Make a property: the extreme, by `worst`, of the field `name` over the single
+    supports; text: its docstring.
 
-    By NumPy's functions, since a NaN has to show in the result, which Python's `min` and `max` may
-    drop.
+    `worst` is NumPy's function, since a NaN has to show in the result, which Python's
+    `min` and `max` may drop.
     """
 
     def found(feasibility: Feasibility) -> float:
@@ -86,7 +88,8 @@ def _over_steps(worst: Callable[[list[float]], float], name: str, text: str) -> 
 
 @dataclass(frozen=True)
 class Feasibility(Shown):
-    """What the single supports of a walk needed, the last unfinished one included, compared with limits.
+    """Extremes of a walk's single supports, the last unfinished one included, and whether
+    they are within the limits.
 
     The numbers below are extremes over all single supports, with the units of `Support`.
     """
@@ -94,15 +97,17 @@ class Feasibility(Shown):
     status: Status
     """How the simulation ended."""
     supports: tuple[Support, ...]
-    """In order."""
+    """The single supports, in order."""
     limits: KnownLimits
     """The limits that `reasons` refers to."""
     touchdowns: int
-    """How many of the supports ended in one."""
+    """Number of the supports that ended in a touchdown."""
 
     @cached_property
     def reasons(self) -> dict[str, str]:
-        """Why it is not feasible: for each name in `REASONS` the first text, with the number of its step."""
+        """Why the walk is not feasible: for each name in `REASONS` the first text,
+        with the number of its step.
+        """
         result: dict[str, str] = {}
         for s in self.supports:
             for name, text in s.infeasible().items():
@@ -111,7 +116,7 @@ class Feasibility(Shown):
 
     @property
     def outcome(self) -> str:
-        """One of the words in `OUTCOMES`."""
+        """The outcome, a word in `OUTCOMES`."""
         return outcome_of(self.status, self.reasons)
 
     @property
@@ -120,10 +125,12 @@ class Feasibility(Shown):
         broken = (k for k, s in enumerate(self.supports[: self.touchdowns]) if s.infeasible())
         return next(broken, self.touchdowns)
 
-    mean_normal_force = _over_steps(np.min, "mean_normal_force", "Least of the means [N].")
-    mean_friction = _over_steps(np.max, "mean_friction", "Largest of the means.")
-    scuffing = _over_steps(np.max, "scuffing", "[m].")
-    impulse_ratio = _over_steps(np.max, "impulse_ratio", "Of the impacts, 0 without one.")
+    mean_normal_force = _over_steps(np.min, "mean_normal_force", "Least mean F_N [N].")
+    mean_friction = _over_steps(np.max, "mean_friction", "Largest mean |F_T| / F_N [1].")
+    scuffing = _over_steps(np.max, "scuffing", "Largest depth of scuffing [m].")
+    impulse_ratio = _over_steps(
+        np.max, "impulse_ratio", "Largest |F_T| / F_N of an impulse, 0 without impact."
+    )
 
     def text(self) -> str:
         """The outcome in words, with the reasons."""
@@ -131,22 +138,23 @@ class Feasibility(Shown):
 
 
 class Violation(NamedTuple):
-    """Where a walk is infeasible first."""
+    """The first limit that a walk violates."""
 
     t: float
-    """[s]."""
+    """Time of the violation [s]."""
     support: int
-    """In which of its single supports, from 0."""
+    """Index of its single support, from 0."""
     what: str
-    """In words."""
+    """The violation in words."""
 
 
 def first_violation(
     walker: Walker, n: Nodes, k: KnownLimits, impacts: int, after: Array | None = None
 ) -> Violation | None:
-    """The first node, impact, or end of a window of the mean force, at which a walk is infeasible; or None.
+    """Find the first node, impact, or end of a window of the mean force, at which a walk
+    violates a limit; or None.
 
-    impacts: how many of its single supports ended in one; after: as of `impulse_ratios`.
+    impacts: number of its single supports that ended in an impact; after: as for `impulse_ratios`.
     """
     result = []
     for name, (t, of, x) in series(walker, n, k, impacts, after).items():
@@ -162,11 +170,11 @@ def until_infeasible(
     limits: Limits | None = None,
     slipped: Sequence[float] | None = None,
 ) -> Trajectory:
-    """The trajectory up to its first violation, with the status INFEASIBLE; itself where there is none.
+    """Cut a trajectory at its first violation, with the status INFEASIBLE; returned as
+    it is where there is none.
 
-    slipped: on soft ground, when in each single support a foot has slipped by SLIP [s], infinite for never.
-    Everything before the violation is unchanged; the arc ends at the last node that is not after
-    it.
+    slipped: on soft ground, the time [s] in each single support when a foot has slipped by SLIP, infinite for
+    never. Everything before the violation is unchanged; the arc ends at the last node that is not after it.
     """
     k, arcs = (limits or Limits()).of(walker.plant.description), trajectory.arcs
     if slipped is not None:

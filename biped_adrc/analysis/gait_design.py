@@ -1,8 +1,8 @@
 """Design of a gait for a speed or a step length, proved by a simulated walk before it is returned.
 
-`gait.design` optimises on the zero dynamics and never integrates the robot. `certify` therefore walks the
-result under NPD: it has to come back to its orbit within RETURNS, and its first step has to keep the limits.
-What is returned is a `DesignedGait`, gait and proof together.
+`gait.design` optimises on the zero dynamics and never integrates the robot. `certify` therefore simulates the
+result under NPD: it has to return to its orbit within RETURNS, and its first step has to keep the limits. The
+result is a `DesignedGait`, gait and proof together.
 """
 
 from __future__ import annotations
@@ -41,17 +41,17 @@ class DesignedGait(Shown):
 
     gait: Gait
     request: GaitRequest
-    """What was asked for."""
+    """The speed, step and limits that the gait was designed for."""
     objective: float
     """Value of the cost, in the units of its Objective."""
     certificate: Certificate
-    """What its first simulated step asks of ground and motors."""
+    """Forces and torques of its first simulated step."""
     multiplier: float
     """delta^2 of the zero dynamics."""
     gap: float
-    """max |x- of the walk - x- of the gait| after its steps [rad, rad/s]."""
+    """max |x- of the walk - x- of the gait| after STEPS steps [rad, rad/s]."""
     iterations: int
-    """Of IPOPT."""
+    """Iterations of IPOPT."""
     seconds: float
     """Wall time of the design [s]."""
 
@@ -61,7 +61,7 @@ class DesignedGait(Shown):
         return self.certificate.step_length / self.gait.period
 
     def text(self) -> str:
-        """A table of what was found, one line per number."""
+        """A table of the results, one line per number."""
         c, o = self.certificate, self.request.objective
         unit = {"torque": " N^2 m s", "transport": "", "peak": " N m"}[o.value]
         rows = [
@@ -98,13 +98,13 @@ def design_gait(
     limits: StepLimits | None = None,
     curve: str = "bezier",
 ) -> DesignedGait:
-    """The periodic, hybrid-invariant gait of least objective, proved by a simulated walk.
+    """Design the periodic, hybrid-invariant gait of least objective, proved by a simulated walk.
 
     robot: a robot, its name or the path of its robot.toml. speed: along the ground [m/s]. step: between the
     feet [m]; one of the two may be left out and is then free. slope: [rad], positive downhill. through: (q-,
-    q'-), each (n,) [rad, rad/s], which the orbit has to pass in place of speed and step. curve: its kind by
-    name, one that lies between its ends. degree: of the curves. nodes: at which limits are kept. Raises
-    GaitError naming what could not be met, and KeyboardInterrupt on Ctrl-C.
+    q'-), each (n,) [rad, rad/s], the state before impact that the orbit has to pass, in place of speed and
+    step. curve: its kind by name, one that lies between its ends. degree: of the curves. nodes: at which
+    limits are kept. Raises GaitError naming what could not be met, and KeyboardInterrupt on Ctrl-C.
 
     >>> design = ba.design_gait("rabbit", speed=0.7, limits=ba.StepLimits(torque=100.0))
     >>> print(f"{design.speed:.3f} m/s, peak {design.certificate.peak_torque:.1f} N m")
@@ -121,11 +121,11 @@ def design_gait(
 
 
 def certify(biped: Biped, request: GaitRequest, optimum: Optimum) -> DesignedGait:
-    """Walk an optimised gait for STEPS steps under NPD and compare its first step with the limits.
+    """Simulate STEPS steps of an optimised gait under NPD and check its first step against the limits.
 
     The simulation shares neither nodes nor quadrature with the design, only the robot; it has adaptive steps.
 
-    Raises GaitError when it does not walk, violates a limit, or leaves the gait's orbit.
+    Raises GaitError when the gait does not walk, violates a limit, or leaves its orbit.
     """
     gait, limits = optimum.gait, request.limits.of(biped)
     longest = max(Walker.max_step_time, 2.0 * gait.period)

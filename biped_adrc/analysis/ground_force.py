@@ -22,12 +22,12 @@ from biped_adrc.core.types import Array, Indices
 from biped_adrc.model.ground import ground_axes
 
 SHORTEST = 1e-9
-"""A shorter single support [s] has no mean force."""
+"""Shortest single support with a mean force [s]."""
 
 
 @dataclass(frozen=True)
 class Nodes:
-    """What judging a walk reads, at its K nodes; forces and points are (x, z)."""
+    """The signals of a walk that feasibility depends on, at its K nodes; forces and points are (x, z)."""
 
     t: Array
     """(K,) [s]; a repeated time is a jump."""
@@ -36,53 +36,53 @@ class Nodes:
     error: Array
     """q_b - q_d (K, p) [rad]."""
     u: Array
-    """Torque applied (K, p) [N m]."""
+    """Torque of the motors (K, p) [N m]."""
     q_b: Array
     """(K, p) [rad]."""
     momentum: Array
     """m v_com (K, 2) [N s]."""
     swing_foot: Array
-    """From the stance foot (K, 2) [m]."""
+    """Place of the swing foot relative to the stance foot (K, 2) [m]."""
     outside: Array
-    """Force from outside (K, 2) [N]."""
+    """Resultant external force (K, 2) [N]."""
 
     @classmethod
     def of(cls, s: Signals) -> Nodes:
-        """Of the signals of a walk."""
+        """Take the nodes from the signals of a walk."""
         q_b = s.q[:, : s.u.shape[1]]
         return cls(s.t, s.step, s.error, s.u, q_b, s.momentum, s.swing_foot, s.outside)
 
     @classmethod
     def of_table(cls, table: Array, p: int) -> Nodes:
-        """Of the table of a compiled walk with p joints (`engine.batch.BatchWalk.table`)."""
+        """Take the nodes from the table of a compiled walk with p joints (`engine.batch.BatchWalk.table`)."""
         parts = (rows.T for rows in np.split(table, np.cumsum([1, 1, 2, p, p, p, 2])))
         t, step, outside, error, u, q_b, momentum, foot = parts
         return cls(t[:, 0], step[:, 0].astype(int), error, u, q_b, momentum, foot, outside)
 
     @cached_property
     def supports(self) -> Supports:
-        """Where single supports begin and end."""
+        """First and last node of each single support."""
         first = np.flatnonzero(np.diff(self.step, prepend=self.step[0] - 1))
         last = np.append(first[1:], len(self.step)) - 1
         return Supports(first, last, np.repeat(np.arange(len(first)), last - first + 1))
 
 
 class Supports(NamedTuple):
-    """The S single supports among K nodes."""
+    """Which of K nodes belong to which of S single supports."""
 
     first: Indices
     """First node of each (S,)."""
     last: Indices
-    """(S,)"""
+    """Last node of each (S,)."""
     of: Indices
-    """To which one a node belongs (K,)."""
+    """Index of the single support of each node (K,)."""
 
 
 class MeanForces(NamedTuple):
-    """Means over M windows, in order."""
+    """Mean forces of the ground over M windows, in order of time."""
 
     of: Indices
-    """To which single support a window belongs (M,)."""
+    """Index of the single support of each window (M,)."""
     t: Array
     """Ends of the windows (M,) [s]."""
     F: Array
@@ -90,7 +90,11 @@ class MeanForces(NamedTuple):
 
 
 def mean_forces(walker: Walker, n: Nodes, window: float) -> MeanForces:
-    """Means over windows [t - window, t] [s] within a single support; a shorter one is averaged as a whole."""
+    """Mean force of the ground over all windows [t - window, t] [s] within a single
+    support, t the time of a node.
+
+    A single support shorter than the window is averaged as a whole.
+    """
     first, last, of = n.supports
     t, length = n.t, np.minimum(window, n.t[last] - n.t[first])
     long, whole = length[of], n.momentum
@@ -109,10 +113,10 @@ def mean_forces(walker: Walker, n: Nodes, window: float) -> MeanForces:
 
 
 def impulse_ratios(walker: Walker, n: Nodes, impacts: int, after: Array | None) -> Array:
-    """|F_T| / F_N of the impulse that ends each of the S single supports: infinite where the ground would have
-    to pull, 0 for those behind the first `impacts`, which end in none.
+    """|F_T| / F_N of the impulse of the impact that ends each of the S single supports (S,).
 
-    after (2,) [N s]: momentum after the last impact, where the walk ends with it.
+    Infinite where the ground would have had to pull, 0 for those behind the first `impacts`, which end in
+    none. after (2,) [N s]: momentum after the last impact, where the walk ends with it.
     """
     first, last, _ = n.supports
     result = np.zeros(len(first))
@@ -125,7 +129,7 @@ def impulse_ratios(walker: Walker, n: Nodes, impacts: int, after: Array | None) 
 
 
 def ratios(F: Array, without: float) -> Array:
-    """|F_T| / F_N of the rows of F (M, 2), `without` where F_N is not positive; NaN stays."""
+    """|F_T| / F_N of the rows of F (M, 2), and `without` where F_N is not positive; NaN stays."""
     pushes = F[:, 1] > 0.0
     result = np.abs(F[:, 0]) / np.where(pushes, F[:, 1], 1.0)
     return np.where(pushes | np.isnan(F[:, 1]), result, without)

@@ -16,11 +16,11 @@ from biped_adrc.core.types import Array
 
 
 def integrate(t: Array, y: Array) -> float:
-    """Integral of y (K,) over t (K,) [s]; a repeated time separates smooth pieces.
+    """Integrate y (K,) over t (K,) [s]; a repeated time separates smooth pieces.
 
-    Cubic splines, of order 4 in the distance of the nodes; the trapezoidal rule where a piece has
-    fewer than four nodes. Infinite where y is not finite, as in a walk that diverges. The result
-    has the unit of y times [s].
+    Cubic splines, of order 4 in the distance of the nodes; the trapezoidal rule where a piece
+    has fewer than four nodes. Infinite where y is not finite, as in a walk that diverges. The
+    result has the unit of y times [s].
     """
     if not np.all(np.isfinite(y)):
         return math.inf
@@ -54,11 +54,11 @@ def _under_spline(t: Array, y: Array) -> float:
 
 
 def largest(t: Array, y: Array, dy: Array) -> float:
-    """max |y| over [t_0, t_K] [s] for y (K, p) with slopes dy (K, p): at the nodes and between them.
+    """max |y| over [t_0, t_K] [s] for y (K, p) with slopes dy (K, p), at the nodes and between them.
 
-    Between two nodes y is the cubic through both with their slopes, which has the order of the
-    integration method; its extrema are where its derivative a s^2 + b s + c is zero, s from 0 to 1.
-    A repeated time is a jump: both sides count. Infinite where y is not finite.
+    Between two nodes y is the cubic through both with their slopes, which has the order of the integration
+    method; its extrema are where its derivative a s^2 + b s + c is zero, s from 0 to 1. A repeated time is a
+    jump: both sides count. Infinite where y is not finite.
     """
     if not (np.all(np.isfinite(y)) and np.all(np.isfinite(dy))):
         return math.inf

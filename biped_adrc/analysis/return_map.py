@@ -39,13 +39,13 @@ if TYPE_CHECKING:
     from biped_adrc.engine.batch import Strides
 
 MOST_ITERATIONS = 12
-"""Of Newton's method on P(s) - s."""
+"""Largest number of iterations of Newton's method on P(s) - s."""
 _CHORD = 0.1  # the residual must fall by this factor with the old dP/ds, else it is taken anew
 
 
 @dataclass(frozen=True)
 class PeriodicOrbit(Shown):
-    """A fixed point of the return map."""
+    """A fixed point of the return map with its multipliers."""
 
     x_minus: Array
     """State before impact (2 n + c,): q [rad], q' [rad/s], then the c states of the controller."""
@@ -77,13 +77,13 @@ class ReturnMap(Shown):
     method: OneStepMethod
     """Integration method of the flow."""
     controller_states: bool = True
-    """Keep the controller's states as coordinates; False starts the controller anew at each passage."""
+    """Whether the controller's states are coordinates; False starts the controller anew at each passage."""
     difference: float = 1e-5
     """Half width of the central differences [rad, rad/s]."""
     pitch: float = 0.0
-    """Where the search for q_N starts [rad]."""
+    """Initial value of q_N in the search of `lift` [rad]."""
     engine: str = COMPILED
-    """Either "compiled" or "pinocchio", which also replaces it where a part has no compiled form."""
+    """Engine: "compiled" or "pinocchio", which also replaces it where a part has no compiled form."""
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -126,7 +126,8 @@ class ReturnMap(Shown):
         return x
 
     def __call__(self, s: Array) -> Array:
-        """P(s) (2 n - 1 + c,) [rad, rad/s].
+        """The return map P: section coordinates before the next impact from those before this one, s
+        (2 n - 1 + c,) [rad, rad/s].
 
         Raises SimulationError, with the status, when the walker does not come back.
         """
@@ -134,7 +135,8 @@ class ReturnMap(Shown):
 
     def images(self, points: Sequence[Array]) -> list[Array]:
         """P of several points s (2 n - 1 + c,) [rad, rad/s], in parallel threads where it is compiled.
-        Raises as P.
+
+        Raises SimulationError, with the status, when the walker does not come back.
         """
         starts = [after_impact(self.walker, 0.0, self.lift(s), Mode()) for s in points]
         compiled = self._compiled(len(starts[0][0]))
@@ -148,14 +150,16 @@ class ReturnMap(Shown):
 
     @cached_property
     def ran(self) -> str:
-        """The engine that P runs on: the one asked for, or "pinocchio" where a part has no compiled form."""
+        """Name of the engine on which P runs: `engine`, or "pinocchio" where a part has no compiled form."""
         q = np.zeros(self.walker.plant.n)
         return (
             PINOCCHIO if self._compiled(len(self.walker.initial_state(q, q))) is None else COMPILED
         )
 
     def _compiled(self, states: int) -> Strides | None:
-        """The compiled map for walkers with `states` numbers, or None where there is no compiled form."""
+        """The compiled map for walkers whose state has `states` numbers, or None where
+        there is no compiled form.
+        """
         if self.engine != COMPILED:
             return None
         from biped_adrc.engine.batch import Strides
@@ -170,7 +174,7 @@ class ReturnMap(Shown):
         return Strides(walker, 2.0 * self.walker.max_step_time)
 
     def next_impact(self, system: HybridSystem, x: Array, mode: Mode) -> Event:
-        """The next impact of the walker, or of a system that carries it along, from x (2 n + c,) after impact.
+        """Simulate a walker, or a system that contains one, from x (2 n + c,) after impact to its next impact.
 
         Raises SimulationError, with the status, when there is none.
         """
@@ -181,19 +185,19 @@ class ReturnMap(Shown):
         return run.events(FOOT_STRIKE)[-1]
 
     def jacobian(self, s: Array) -> Array:
-        """dP/ds (2 n - 1 + c, 2 n - 1 + c) by central differences of width `difference` [rad, rad/s]."""
+        """dP/ds (2 n - 1 + c, 2 n - 1 + c) by central differences of half width `difference` [rad, rad/s]."""
         d = self.difference
         points = [s + sign * d * e for e in np.eye(len(s)) for sign in (1.0, -1.0)]
         images = self.images(points)
         return np.array([(images[2 * i] - images[2 * i + 1]) / (2.0 * d) for i in range(len(s))]).T
 
     def fixed_point(self, guess: Array, tolerance: float = 1e-9) -> PeriodicOrbit:
-        """Newton's method on P(s) - s from a state before impact `guess` (2 n + c,) [rad, rad/s].
+        """Find P(s) = s by Newton's method from a state before impact `guess` (2 n + c,) [rad, rad/s].
 
-        dP/ds is kept from iteration to iteration while the residual falls fast enough, since it
-        costs 2 returns per coordinate; it is taken anew at the fixed point. Raises SimulationError
-        when the iteration does not converge or the walker does not come back, SingularError when a
-        multiplier is 1.
+        tolerance: of |P(s) - s| [rad, rad/s]. dP/ds is kept from iteration to iteration while the residual
+        falls fast enough, since it costs 2 returns per coordinate; it is computed anew at the fixed point.
+        Raises SimulationError when the iteration does not converge or the walker does not come back,
+        SingularError when a multiplier is 1.
         """
         s = self.project(np.asarray(guess, dtype=float))
         J, s_J, previous = self.jacobian(s), s, np.inf
@@ -211,12 +215,12 @@ class ReturnMap(Shown):
 
 
 def _no_return(status: Status, detail: str) -> SimulationError:
-    """The error of a walk that ended before the next impact."""
+    """The error of a walk that ended before the next impact, with its status."""
     return SimulationError(f"no return to the section: {status.name}, {status.value} {detail}")
 
 
 def after_impact(walker: Walker, t: float, x: Array, mode: Mode) -> tuple[Array, Mode]:
-    """State x+ and its mode after the impact at x (2 n + c,) [rad, rad/s], t [s].
+    """State x+ and mode after the impact of a walker in x (2 n + c,) [rad, rad/s] at t [s].
 
     Raises SimulationError where the swing foot is behind the stance foot.
     """
@@ -227,7 +231,7 @@ def after_impact(walker: Walker, t: float, x: Array, mode: Mode) -> tuple[Array,
 
 
 def newton_step(J: Array, gap: Array) -> Array:
-    """ds (k,) with (1 - J) ds = P(s) - s, for J (k, k) and the gap (k,) [rad, rad/s].
+    """Solve (1 - J) ds = gap for ds (k,), with J = dP/ds (k, k) and the gap P(s) - s (k,) [rad, rad/s].
 
     Raises SingularError when 1 is a multiplier.
     """
@@ -241,7 +245,7 @@ def sorted_eigenvalues(matrix: Array) -> ComplexArray:
 
 
 def not_converged(residual: float, tolerance: float) -> SimulationError:
-    """The error of Newton's method when it gives up."""
+    """The error of Newton's method after MOST_ITERATIONS, with its residual and tolerance [rad, rad/s]."""
     return SimulationError(
         f"Newton on the return map did not converge in {MOST_ITERATIONS} iterations: "
         f"residual {residual:.3g}, expected below {tolerance:g}; start nearer to the orbit"

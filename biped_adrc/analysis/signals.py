@@ -33,15 +33,16 @@ from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.reduction import disturbance_parts, unknown_force
 
 FORCE, PLACE, SPEED = NAMES
-"""What an arc has `read` of the feet, (K, 4) each."""
+"""Names of the feet's readings in an arc's `read`, (K, 4) each: forces [N], places [m], velocities [m/s]."""
 LONG = 2000
-"""Number of nodes from which on compiling is faster than NumPy."""
+"""Number of nodes from which on compiling the signals is faster than NumPy."""
 
 
 @dataclass(frozen=True)
 class Signals(Shown):
-    """All signals of a walk; rows are the K stored nodes. Impacts and sample instants repeat their
-    time, with the values before and after.
+    """All signals of a walk; rows are the K stored nodes.
+
+    Impacts and sample instants repeat their time, with the values before and after.
     """
 
     t: Array
@@ -73,19 +74,19 @@ class Signals(Shown):
     xi_estimate: Array
     """(K, p) estimate of xi [rad/s^2]; NaN without an observer."""
     xi_external: Array
-    """(K, p) the part of xi that the nominal model does not know, matched and unmatched: what zeta makes, and
-    errors of the model, friction among them [rad/s^2]. It is xi - xi_nominal."""
+    """(K, p) xi - xi_nominal: effects of zeta, matched and unmatched, and errors of the model [rad/s^2]."""
     xi_matched: Array
     """(K, p) kappa xi~_b, the matched part of it, with xi~ of (11): what a motor could cancel [rad/s^2]."""
     xi_nominal: Array
     """(K, p) (14) without xi~: the part of xi that the nominal model knows [rad/s^2]."""
     zeta_estimate: Array
-    """(K, p) kappa^-1 (xi^ - xi_nominal): the joint torque the estimate amounts to beyond the nominal
-    model [N m]; NaN without an observer."""
+    """(K, p) kappa^-1 (xi^ - xi_nominal): estimated joint torque beyond the model [N
+    m]; NaN without an observer.
+    """
     ground_reaction: Array
     """(K, 2), (F_T, F_N) [N], horizontal and vertical on any ground."""
     outside: Array
-    """(K, 2), force from outside on the robot as a whole [N], along x and z."""
+    """(K, 2), resultant external force on the robot [N], along x and z."""
     momentum: Array
     """(K, 2), m v_com of the plant [N s], along x and z."""
     kinetic: Array
@@ -93,9 +94,9 @@ class Signals(Shown):
     potential: Array
     """(K,) [J], zero at the height of the first stance foot."""
     swing_foot: Array
-    """(K, 2) from the stance foot [m]."""
+    """(K, 2) place of the swing foot relative to the stance foot [m]."""
     hip: Array
-    """(K, 2) from the stance foot [m]."""
+    """(K, 2) place of the hip relative to the stance foot [m]."""
     foothold: Array
     """(K,) x of the stance foot in the world [m]."""
     foothold_height: Array
@@ -125,7 +126,7 @@ class Signals(Shown):
 
 
 def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Signals:
-    """The signals of a walk; `reference` gives q_d (usually the controller's own).
+    """Compute the signals of a walk; `reference` gives q_d (usually the controller's own).
 
     Where outer loops correct the reference, q_d is the corrected one. Of a compiled run, and of a long one,
     they are computed in compiled code where that is possible.
@@ -145,7 +146,7 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
 def readings(
     walker: Walker, trajectory: Trajectory, reference: Reference | OuterLoop
 ) -> InstantSignals:
-    """What is read off the closed loop at all nodes of a walk, in NumPy; arrays (K, ...)."""
+    """Evaluate the closed loop at all nodes of a walk, in NumPy; fields (K, ...)."""
     rows = [
         signals_at(walker, float(t), x, arc.mode, partial(tracked_point, reference))
         for arc in trajectory.arcs
@@ -155,7 +156,7 @@ def readings(
 
 
 def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Signals:
-    """The signals from the readings at the nodes: adds what follows from the states and the footholds."""
+    """Make the signals from the closed loop's values r at the nodes, the states and the footholds."""
     arcs, n, p = trajectory.arcs, walker.plant.n, walker.plant.p
     r = as_recorded(walker, trajectory, r)
     x = np.vstack([arc.x for arc in arcs])
@@ -187,15 +188,17 @@ def signals_of(walker: Walker, trajectory: Trajectory, r: InstantSignals) -> Sig
 
 # -- on another plant ---------------------------------------------------------------------------------
 def recorded(trajectory: Trajectory, name: str) -> Array | None:
-    """What was recorded of the feet at all K nodes of a walk (K, 4); None for a walk on the rigid plant."""
+    """Reading `name` of the feet at all K nodes of a walk (K, 4); None for a walk on the rigid plant."""
     if any(name not in arc.read for arc in trajectory.arcs):
         return None
     return np.vstack([arc.read[name] for arc in trajectory.arcs])
 
 
 def footholds(walker: Walker, trajectory: Trajectory) -> Array:
-    """x and z [m] of the stance foot at the start of each arc (arcs, 2): the first stands at x = z = 0, each
-    impact moves it by p_2(q-), the swing foot; on soft ground as recorded.
+    """x and z [m] of the stance foot at the start of each arc (arcs, 2).
+
+    The first stands at x = z = 0, each impact moves it by p_2(q-), the swing foot; on
+    soft ground it is recorded.
     """
     foot, feet, plant = np.zeros(2), [], walker.plant
     for arc in trajectory.arcs:
@@ -206,10 +209,11 @@ def footholds(walker: Walker, trajectory: Trajectory) -> Array:
 
 
 def as_recorded(walker: Walker, trajectory: Trajectory, found: InstantSignals) -> InstantSignals:
-    """The readings at all nodes with q'', ground force, momentum and xi of the plant that walked, in place of
-    the rigid one's.
+    """The signals found from the closed loop, with q'', ground force, momentum and xi of the plant that
+    walked in place of the rigid model's.
 
-    Forces from outside are added to that of the ground, as `InstantSignals` has it.
+    On the rigid plant they stay as they are. External forces are added to that of the
+    ground, as `InstantSignals` has it.
     """
     force, speed = recorded(trajectory, FORCE), recorded(trajectory, SPEED)
     if force is None or speed is None:
@@ -237,8 +241,8 @@ def as_recorded(walker: Walker, trajectory: Trajectory, found: InstantSignals) -
 def accelerations(arc: Arc, n: int) -> Array:
     """q'' (K, n) [rad/s^2] at the nodes of an arc, by differences of rates.
 
-    In a stretch of less than SAME_INSTANT, as where a push ends at a tick but for round-off, a difference is
-    round-off too: there it is that of the stretch before, or after it at the start.
+    Over less than SAME_INSTANT, as where a push ends at a sample instant up to round-off, a difference is
+    round-off too: there q'' is that of the interval before, or after it at the start.
     """
     ways = np.diff(arc.t)
     short = (ways > 0.0) & (ways < SAME_INSTANT)

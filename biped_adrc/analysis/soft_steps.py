@@ -1,4 +1,4 @@
-"""What a soft walk did on the ground, single support by single support.
+"""Slips, support phases and depths of a walk on soft ground, single support by single support.
 
     slips        |F_T| >= AT_CONE mu F_N  and  |v_T| > slip_speed:  creep below the cone is no slip
     carries      F_N > carrying
@@ -7,13 +7,13 @@
 Times are of the readings (`closed_loop.feet`), each of which stands for half the way to its neighbours, so
 that single support, double support and flight add up to the duration.
 
-`contact_errors` keeps the error that a touchdown leaves and the error that a push causes apart:
+`contact_errors` separates the error that a touchdown leaves from the error that a push causes:
 
     settling   t - start of the single support <= SETTLING
     pushed     t - last time at which zeta != 0 <= AFTER, and not settling
 
 Contact that takes time moves the joints at every touchdown, whatever the controller. The largest error of a
-step is then often this transient, and hides what a push has done.
+step is then often this transient, and hides the effect of a push.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import SLIP
 
 AT_CONE = 0.99
-"""Of mu F_N [1]: a tangential force from there on is at the cone; the solver does not come closer."""
+"""Share of mu F_N [1] from which on a tangential force is at the cone; the solver does not come closer."""
 CARRYING = 1.0
 """Normal force from which on a foot carries weight [N]."""
 SLIP_SPEED = 5e-3
@@ -54,11 +54,11 @@ class SoftStep(Shown):
     """One single support on soft ground; pairs are of the stance foot and of the other one."""
 
     duration: float
-    """[s]"""
+    """Duration of the single support [s]."""
     double_support: float
-    """Both feet carry [s]."""
+    """Time in which both feet carry [s]."""
     flight: float
-    """No foot carries [s]."""
+    """Time in which no foot carries [s]."""
     slip: tuple[float, float]
     """Distance along the ground while slipping [m]."""
     depth: float
@@ -68,17 +68,17 @@ class SoftStep(Shown):
 
     @property
     def single_support(self) -> float:
-        """One foot carries [s]."""
+        """Time in which one foot carries [s]."""
         return self.duration - self.double_support - self.flight
 
 
 def soft_steps(
     loop: SteppingLoop, run: Trajectory, apart: float | None = None
 ) -> tuple[SoftStep, ...]:
-    """What was done in every single support of a run on soft ground, that at the end included.
+    """Measure every single support of a run on soft ground, the unfinished last one included.
 
-    apart [s]: between two readings; None for one at each step of the engine. Raises InputError for a run that
-    is not of this loop.
+    apart [s]: time between two readings; None for one at each step of the engine. Raises InputError for
+    a run that is not of this loop.
     """
     plant: Any = loop.plant
     apart, axes = plant.h if apart is None else apart, ground_axes(plant.slope)
@@ -91,23 +91,27 @@ def soft_steps(
 def recorded_steps(
     run: Trajectory, friction: float, axes: tuple[Array, Array]
 ) -> tuple[SoftStep, ...]:
-    """As `soft_steps`, of a run with readings at its nodes (`feet.with_readings`), and of those alone.
+    """Measure every single support from the readings at the nodes of a run alone (`feet.with_readings`).
 
-    Coarser, and at no price: a slip is off by up to the time between two nodes times the speed at which it
-    begins. friction: mu [1]. axes: unit vectors (x, z) (2,) along and out of the ground.
+    Coarser than `soft_steps`, and without computing forces: a slip is off by up to the time
+    between two nodes times the speed at which it begins. friction: mu [1]. axes: unit vectors (x,
+    z) (2,) along and out of the ground.
     """
     return tuple(step_of(_recorded(arc), friction, axes) for arc in run.arcs)
 
 
 def slip_times(run: Trajectory, friction: float, axes: tuple[Array, Array]) -> tuple[float, ...]:
-    """When in each single support a foot has slipped by more than SLIP [s], infinite for never.
+    """Time [s] in each single support at which a foot has slipped by more than SLIP, infinite for never.
 
-    As `recorded_steps`, with the same arguments.
+    Arguments and accuracy as for `recorded_steps`.
     """
     return tuple(_slip_time(_recorded(arc), friction, axes) for arc in run.arcs)
 
 
 def _slip_time(r: Readings, friction: float, axes: tuple[Array, Array]) -> float:
+    """Time [s] at which a foot has slipped by more than SLIP, from the readings of one
+    single support; or infinite.
+    """
     slips = slipping(r.force, r.speed, friction, axes) * np.abs(r.speed @ axes[0])
     slipped = np.cumsum(weights(r.t)[:, np.newaxis] * slips, axis=0)
     beyond = np.flatnonzero(np.max(slipped, axis=1) > SLIP)
@@ -115,7 +119,7 @@ def _slip_time(r: Readings, friction: float, axes: tuple[Array, Array]) -> float
 
 
 def _recorded(arc: Arc) -> Readings:
-    """The readings that an arc carries; all else than feet is left out."""
+    """Readings of the feet that a run has stored at the nodes of an arc; fields without readings stay empty."""
     force, place, speed = (arc.read[name].reshape(-1, 2, 2) for name in NAMES)
     none = np.zeros((len(arc.t), 0))
     return Readings(arc.t, none, none, none, force, place, speed)
@@ -127,10 +131,10 @@ def step_of(
     axes: tuple[Array, Array],
     level: Array | float = 0.0,
 ) -> SoftStep:
-    """What was done in one single support, from readings at K times.
+    """Measure one single support, from readings at K times.
 
-    friction: mu [1]. axes: unit vectors (x, z) (2,) along and out of the ground. level (K, 2) [m]: of the
-    ground under each foot.
+    friction: mu [1]. axes: unit vectors (x, z) (2,) along and out of the ground. level (K, 2) [m]:
+    of the ground under each foot.
     """
     along, out = axes
     w, normal, tangential = weights(r.t), r.force @ out, np.abs(r.force @ along)
@@ -155,7 +159,10 @@ def slipping(
     friction: float,
     axes: tuple[Array, Array],
 ) -> NDArray[np.bool_]:
-    """Whether each foot slips (...,), from force [N] and speed [m/s], each (..., 2); the rest as `step_of`."""
+    """Whether each foot slips (...,), from its force [N] and speed [m/s], each (..., 2).
+
+    friction: mu [1]. axes: unit vectors (x, z) (2,) along and out of the ground.
+    """
     along, out = axes
     normal, tangential = force @ out, np.abs(force @ along)
     at_cone = tangential >= AT_CONE * friction * normal
@@ -164,32 +171,37 @@ def slipping(
 
 
 def weights(t: Array) -> Array:
-    """Of the trapezoidal rule at times t (K,) [s]: half the way to both neighbours."""
+    """Weights (K,) [s] of the trapezoidal rule at times t (K,) [s]: half the way to both neighbours."""
     ways = np.diff(t)
     return 0.5 * (np.append(ways, 0.0) + np.append(0.0, ways))
 
 
 def _pair(numbers: Array) -> tuple[float, float]:
+    """The two numbers of an array (2,) as floats."""
     one, other = map(float, numbers)
     return one, other
 
 
 # -- errors ------------------------------------------------------------------------------------------
 class ContactErrors(NamedTuple):
-    """Largest absolute errors and root mean squares over the joints [rad]; None of nothing."""
+    """Largest absolute tracking errors and their rms over the joints [rad]; None where there is no
+    such time.
+    """
 
     touchdown_error: float | None
-    """While contact settles, from the second single support on."""
+    """Largest error while contact settles, from the second single support on."""
     pushed_error: float | None
-    """From the onset of a push to `AFTER` its end, where contact has settled."""
+    """Largest error from the onset of a push to `AFTER` its end, where contact has settled."""
     settled_error: float | None
-    """Where contact has settled."""
+    """Largest error where contact has settled."""
     settled_rms: float | None
-    """Over time, where contact has settled."""
+    """rms over time where contact has settled."""
 
 
 def contact_errors(x: Signals) -> ContactErrors:
-    """The errors of a walk, at its nodes."""
+    """Tracking errors of a walk at its nodes, separated into those of touchdowns, of
+    pushes, and all settled ones.
+    """
     since = x.t - starts(x)
     settling = since <= SETTLING + SAME_INSTANT
     acted = np.maximum.accumulate(np.where(np.any(x.zeta != 0.0, axis=1), x.t, -np.inf))
@@ -205,11 +217,12 @@ def contact_errors(x: Signals) -> ContactErrors:
 
 
 def starts(x: Signals) -> Array:
-    """Start of the single support of each node (K,) [s]."""
+    """Time [s] at which the single support of each node began (K,)."""
     _, first, places = np.unique(x.step, return_index=True, return_inverse=True)
     begins: Array = x.t[first][places]
     return begins
 
 
 def _largest(error: Array) -> float | None:
+    """Largest |error| [rad]; None of an empty array."""
     return float(np.max(np.abs(error))) if error.size else None

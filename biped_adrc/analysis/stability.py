@@ -49,21 +49,18 @@ from biped_adrc.model.robots.limits import Limits
 VARIATIONAL, CENTRAL = "variational equation", "central differences"
 """Names of the methods."""
 RELATIVE, ABSOLUTE = 1e-6, 1e-7
-"""Two multipliers agree within the first of the larger one, or within the second."""
+"""Tolerances with which two multipliers agree: relative to the larger one, or absolute."""
 FLOW = 1e-5
 """The largest `StepDerivative.flow_residual` with which the variational equation is trusted."""
 INVARIANCE = 1e-6
 """The largest `invariance_gap` with which a constraint counts as hybrid invariant [rad, rad/s]."""
 SETTLES = 1e-9
-"""Largest residual of Newton's method [rad, rad/s]; feet of 1e-7 of the hip's mass leave a round-off of
-1e-10."""
+"""Largest residual of Newton's method [rad, rad/s]; with feet of 1e-7 of the hip's mass round-off is 1e-10."""
 
 
 @dataclass(frozen=True)
 class StabilityTable(Shown):
-    """Multipliers (k,) by both methods, the largest magnitude first; `verdict` says whether they agree, and
-    which to trust.
-    """
+    """Multipliers (k,) by both methods, the largest magnitude first; `verdict` says whether they agree."""
 
     central: ComplexArray
     """By central differences."""
@@ -76,7 +73,9 @@ class StabilityTable(Shown):
 
     @property
     def trusted(self) -> ComplexArray:
-        """Those of the variational equation, where there is no doubt of them."""
+        """The multipliers of the variational equation, or of the differences where it is
+        in doubt or does not apply.
+        """
         return self.central if self.variational is None or self.doubt else self.variational
 
     @property
@@ -90,8 +89,10 @@ class StabilityTable(Shown):
         return self.gap() <= 1.0
 
     def gap(self, noise: Array | float | None = None) -> float:
-        """Largest distance of the two sets in units of the tolerance, which is `noise` at least; at most 1 when
+        """Largest distance of the two sets, in units of the tolerance; at most 1 when
         they agree, 0 for one set.
+
+        noise: least tolerance (k,) of each multiplier, the table's own if None.
         """
         if self.trusted is self.central:
             return 0.0
@@ -99,7 +100,9 @@ class StabilityTable(Shown):
 
     @property
     def verdict(self) -> str:
-        """One sentence for the method that is not trusted, then which one to trust."""
+        """Text of one or two sentences: why one of the two methods is not to be trusted, if so; whether the
+        cycle is stable by the other, with its largest |lambda|.
+        """
         name = CENTRAL if self.trusted is self.central else VARIATIONAL
         largest, end = np.max(np.abs(self.trusted)), "stable" if self.stable else "not stable"
         last = f"Trust the {name}: the cycle is {end}, the largest |lambda| is {largest:.6f}."
@@ -127,8 +130,8 @@ class StabilityTable(Shown):
 def _farthest(one: ComplexArray, other: ComplexArray, noise: Array | float) -> float:
     """Largest distance of two sets (k,), paired at least total distance, in units of the tolerance.
 
-    A distance is divided by the largest of the absolute tolerance, the relative one, and noise (k,), what
-    errors of computing may do to each of `other`.
+    A distance is divided by the largest of the absolute tolerance, the relative one, and noise (k,), a bound
+    of the numerical error of each multiplier in `other`.
     """
     # SciPy's optimisers take long to load
     from scipy.optimize import linear_sum_assignment
@@ -160,13 +163,15 @@ def noise_of_differences(P: ReturnMap, step: StepDerivative) -> Array:
 
 
 def central_multipliers(P: ReturnMap, s: Array) -> ComplexArray:
-    """(k,) by central differences at s (k,) [rad, rad/s], extrapolated from d = P.difference and d / 2."""
+    """Multipliers (k,) by central differences at s (k,) [rad, rad/s], extrapolated from
+    d = P.difference and d / 2.
+    """
     wide, narrow = P.jacobian(s), replace(P, difference=0.5 * P.difference).jacobian(s)
     return sorted_eigenvalues((4.0 * narrow - wide) / 3.0)
 
 
 def invariance_gap(biped: Biped, constraint: VirtualConstraint) -> float:
-    """How far the state after impact is from the constraint q_b = h(Theta); zero for a hybrid invariant one.
+    """Distance of the state after impact from the constraint q_b = h(Theta); zero for a hybrid invariant one.
 
     The larger of max |q_b+ - h(Theta+)| [rad] and max |q_b'+ - h' Theta'+| [rad/s], after an impact at the end
     of the constraint with |Theta'-| = 1 rad/s.
@@ -177,7 +182,8 @@ def invariance_gap(biped: Biped, constraint: VirtualConstraint) -> float:
 
 
 def stability_table(P: ReturnMap, step: StepDerivative) -> StabilityTable:
-    """The table at the fixed point of `step`, as `variational.periodic_orbit` finds it.
+    """Compute multipliers by both methods at the fixed point of `step`, as
+    `variational.periodic_orbit` finds it.
 
     The variational equation is doubted when Phi f(0) is not f-, the flow before the next impact, see
     `StepDerivative.flow_residual`. Central differences of P cost 4 steps of walking per coordinate.
@@ -213,7 +219,7 @@ class CycleStability(Shown):
 
 
 def cycle_stability(cycle: Cycle) -> CycleStability:
-    """Fixed point of a cycle and its multipliers by every method.
+    """Find the fixed point of a cycle and its multipliers by every method.
 
     The methods are independent of each other, the variational equation along the step and central differences
     of the return map. That they agree is the test of each.
@@ -237,9 +243,10 @@ def cycle_stability(cycle: Cycle) -> CycleStability:
 
 
 def nominal_step(cycle: Cycle, orbit: PeriodicOrbit, limits: Limits | None = None) -> Certificate:
-    """The certificate of the step at the fixed point: what it asks of ground and motors, within these limits.
+    """Certificate of the step at the fixed point: the forces and torques it needs, with these limits.
 
-    Certificates depend on states, torques and forces alone, so a reference of zeros is given for the signals.
+    Certificates depend on states, torques and forces alone, so the signals are computed
+    with a reference of zeros.
 
     Raises SimulationError where the step does not end with an impact.
     """

@@ -39,25 +39,23 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics
 from biped_adrc.model.biped import Biped
 
 BUMP = 64.0 * np.array([0.0, 0.0, 0.0, 1.0, -3.0, 3.0, -1.0])
-"""Coefficients (7,) of b(s) = 64 s^3 (1 - s)^3 in powers of s: zero with two derivatives at both ends,
-so that the correction changes neither begin nor end of a step.
-"""
+"""Coefficients (7,) of b(s) = 64 s^3 (1 - s)^3 in powers of s: zero with two derivatives at both ends."""
 DIFFERENCE = 1e-3
 """Half width of the central differences: in beta [rad], and relative in z."""
 
 
 @dataclass(frozen=True)
 class StrideResponse(Shown):
-    """The linear map from step to step of one gait and one direction."""
+    """Linear map from step to step of the speed of one gait, with the correction beta along one direction."""
 
     a: float
     """delta^2, multiplier of the walking cycle, dimensionless."""
     b: float
-    """[kg^2 m^4/s^2 per rad]."""
+    """dz/dbeta [kg^2 m^4/s^2 per rad]."""
     c: float
-    """[m/s per kg^2 m^4/s^2]."""
+    """dv/dz [m/s per kg^2 m^4/s^2]."""
     d: float
-    """[m/s per rad]."""
+    """dv/dbeta [m/s per rad]."""
 
     @property
     def static_gain(self) -> float:
@@ -65,7 +63,7 @@ class StrideResponse(Shown):
         return self.d + self.c * self.b / (1.0 - self.a)
 
     def poles(self, gains: StrideGains) -> ComplexArray:
-        """The three poles of the loop (3,), dimensionless, the largest magnitude first."""
+        """The three poles of the loop with these gains (3,), dimensionless, the largest magnitude first."""
         walk, plant = [1.0, -self.a], [self.d, self.c * self.b - self.d * self.a]
         law = [gains.K_P + gains.K_I, -gains.K_P]
         equation = np.polyadd(np.polymul([1.0, -1.0, 0.0], walk), np.polymul(law, plant))
@@ -73,7 +71,7 @@ class StrideResponse(Shown):
         return roots[np.argsort(-np.abs(roots))]
 
     def gains(self, limit: float = 0.3) -> StrideGains:
-        """K_P and K_I of the triple pole; limit: bound on |beta| [rad].
+        """K_P and K_I that give the triple pole; limit: bound on |beta| [rad].
 
         Raises InputError where the pole is not inside the unit circle.
         """
@@ -96,10 +94,10 @@ def stride_pi(
     direction: Sequence[float] = TORSO_LEAN,
     limit: float = 0.3,
 ) -> StridePI:
-    """The PI from step to step around the controller `inner`, with the gains of the triple pole.
+    """Wrap a controller in the PI from step to step, with the gains of the triple pole.
 
-    direction: d (p,), dimensionless. limit: bound on |beta| [rad]. Raises as `stride_response` and
-    `StrideResponse.gains`.
+    inner: the controller. direction: d (p,), dimensionless. limit: bound on |beta| [rad]. Raises as
+    `stride_response` and `StrideResponse.gains`.
     """
     along = tuple(float(d) for d in direction)
     gains = stride_response(gait, biped, along).gains(limit)
@@ -107,7 +105,7 @@ def stride_pi(
 
 
 def bumped(h: VirtualConstraint, shift: Array) -> VirtualConstraint:
-    """h + shift b(s) as one polynomial constraint; shift = beta d (p,) [rad]."""
+    """The constraint h + shift b(s) as a polynomial; shift = beta d (p,) [rad]."""
     a = h.curve.power_coefficients
     wide = np.zeros((a.shape[0], max(a.shape[1], len(BUMP))))
     wide[:, : a.shape[1]] = a
@@ -118,10 +116,11 @@ def bumped(h: VirtualConstraint, shift: Array) -> VirtualConstraint:
 def stride_response(
     gait: Gait, biped: Biped, direction: tuple[float, ...] = TORSO_LEAN
 ) -> StrideResponse:
-    """The response of a gait whose constraint is hybrid invariant, or made so by ReferenceReset.
+    """Linearise the map from step to step of a gait whose constraint is hybrid invariant, or
+    made so by ReferenceReset.
 
-    direction: d (p,), dimensionless. Raises InputError for a direction of the wrong length,
-    GaitError where the zero dynamics have no stable cycle.
+    direction: d (p,), dimensionless. Raises InputError for a direction of the wrong length, GaitError where
+    the zero dynamics have no stable cycle.
 
     >>> response = ba.stride_response(gait, biped)
     >>> print(f"{response.static_gain:.2f} (m/s)/rad")

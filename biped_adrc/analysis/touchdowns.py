@@ -1,8 +1,8 @@
-"""When each touchdown of a finished walk was noticed by its controller (`hardware.touchdown`).
+"""Times at which a controller detected the touchdowns of a finished walk (`hardware.touchdown`).
 
-A touchdown and a notice each turn the labels, so the one that comes first waits for the other: a notice after
-its touchdown is late, one before it early. Two touchdowns without a notice between them are both missed, two
-notices without a touchdown both false.
+A touchdown and its detection each exchange the labels, so they are matched in order: a detection after its
+touchdown is late, one before it early. Two touchdowns without a detection between them are both missed, two
+detections without a touchdown both false.
 """
 
 from __future__ import annotations
@@ -22,39 +22,43 @@ from biped_adrc.hybrid.trajectory import Trajectory
 
 
 class TouchdownRates(NamedTuple):
-    """How well the touchdowns of a walk were noticed, in plain numbers; None of nothing."""
+    """Lateness of the detections of a walk, and the shares of early and missed ones; None where there
+    is none.
+    """
 
     late_mean: float | None
-    """Mean lateness of those that were noticed, and not early [s]."""
+    """Mean delay of the detections that were not early [s]."""
     late_max: float | None
-    """The largest of it [s]."""
+    """Largest delay of a detection [s]."""
     early_share: float | None
-    """Share of the touchdowns that were noticed early [1]."""
+    """Share of the touchdowns that were detected early [1]."""
     missed_share: float | None
     """Share of the touchdowns that were missed [1]."""
     false_notices: int
-    """How many notices had no touchdown."""
+    """Number of detections without a touchdown."""
 
 
 @dataclass(frozen=True)
 class Noticed(Shown):
-    """The N touchdowns of a walk and the notices of its controller."""
+    """The N touchdowns of a walk and their detections."""
 
     t: Array
-    """Of the touchdowns (N,) [s]."""
+    """Times of the touchdowns (N,) [s]."""
     late: Array
-    """How much later each was noticed (N,) [s], negative for early; NaN where it was missed, or waits."""
+    """Delay of each detection (N,) [s], negative for an early one; NaN where it was missed or is to come."""
     false: Array
-    """Times of the notices without a touchdown [s]."""
+    """Times of the detections without a touchdown [s]."""
     waits: bool = False
-    """Whether the walk ended before the last touchdown was noticed or missed; no share counts it."""
+    """Whether the walk ended before the last touchdown was detected or missed; no share counts it."""
 
     def __post_init__(self) -> None:
         freeze(self, "t", "late", "false")
 
     @property
     def rates(self) -> TouchdownRates:
-        """Lateness, shares and the number of false notices, without a touchdown that waits."""
+        """Delays, shares and the number of false detections, without a touchdown whose
+        detection was still to come.
+        """
         decided = self.late[: len(self.late) - self.waits]
         late = decided[decided >= 0.0]
         mean = float(np.mean(late)) if len(late) else None
@@ -67,7 +71,7 @@ class Noticed(Shown):
 
 
 def touchdowns(loop: ClosedLoop[Any], run: Trajectory) -> Noticed:
-    """When each touchdown of a run of this loop was noticed.
+    """Match the touchdowns of a run of this loop with the detections of its controller.
 
     loop: a `Walker` or `SteppingLoop` with a touchdown part; raises InputError without.
     """
@@ -75,7 +79,12 @@ def touchdowns(loop: ClosedLoop[Any], run: Trajectory) -> Noticed:
 
 
 def matched(impacts: Array, found: Array) -> Noticed:
-    """Touchdowns at `struck` [s] and notices at `found` [s], both increasing, as the module says."""
+    """Match touchdowns at `impacts` (N,) [s] with detections at `found` [s], both
+    increasing, in their order in time.
+
+    A detection after its touchdown is late, one before it early. Two touchdowns without a detection between
+    them are both missed, two detections without a touchdown both false.
+    """
     late, false = np.full(len(impacts), np.nan), []
     events = [(t, 0, i) for i, t in enumerate(impacts)] + [(t, 1, i) for i, t in enumerate(found)]
     waits: tuple[int, int] | None = None
@@ -95,7 +104,7 @@ def matched(impacts: Array, found: Array) -> Noticed:
 
 
 def notices(loop: ClosedLoop[Any], run: Trajectory) -> Array:
-    """Times [s] at which a controller took a touchdown for noticed, right or wrong. Raises as `touchdowns`."""
+    """Times [s] at which a controller detected a touchdown, right or wrong. Raises as `touchdowns`."""
     k = loop.held
     if k is None or k.sizes.belief == 0:
         raise InputError(

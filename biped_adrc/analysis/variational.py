@@ -47,11 +47,11 @@ from biped_adrc.model.derivatives import (
 )
 
 TorqueDerivative = Callable[[Instant], Array]
-"""Instant of a walk -> du/dx (p, 2 n) [N m/rad, N m s/rad] of the applied torque."""
+"""A function of an instant of a walk: du/dx (p, 2 n) [N m/rad, N m s/rad] of the applied torque."""
 
 
 def torque_derivative(walker: Walker) -> TorqueDerivative:
-    """The derivative of the torque of a law without states, at any instant of a walk of this walker.
+    """Make the derivative of the torque of a law without states, a function of an instant of a walk.
 
     It is exact for every law that compiles, by differences for any other, and zero for saturated motors.
     """
@@ -115,7 +115,7 @@ class VariationalSystem(HybridSystem):
 
     @cached_property
     def torque_derivative(self) -> TorqueDerivative:
-        """Of the walker."""
+        """The derivative of the walker's torque."""
         return torque_derivative(self.walker)
 
     def flow(self, t: float, y: Array, mode: Mode) -> Array:
@@ -126,12 +126,12 @@ class VariationalSystem(HybridSystem):
         return np.concatenate((i.measurement.v, i.a, (A @ Phi).ravel()))
 
     def guards(self, mode: Mode) -> tuple[Guard, ...]:
-        """The walker's event functions on x."""
+        """The walker's event functions, applied to x of y."""
         return tuple(_on_x(guard) for guard in self.walker.guards(mode))
 
 
 def _on_x(guard: Guard) -> Guard:
-    """An event of the walker as an event of y = (x, Phi), whose reset is none."""
+    """Apply an event function of the walker to x of y = (x, Phi); its reset leaves y as it is."""
     reset = guard.reset
 
     def impact(t: float, y: Array) -> tuple[Array, Mode] | None:
@@ -156,10 +156,9 @@ class StepDerivative(Shown):
     jacobian: Array
     """dP/ds (2 n - 1, 2 n - 1)."""
     duration: float
-    """Of the single support [s]."""
+    """Duration of the single support [s]."""
     flow_residual: float
-    """max |Phi f(0) - f-| / max |f-|: zero for the exact Phi of a flow that does not depend on time, so it
-    shows a wrong A, a reference in time, and the error of the method."""
+    """max |Phi f(0) - f-| / max |f-|: zero for the exact Phi of a flow that does not depend on time."""
     end_flow: Array
     """f- in section coordinates (2 n - 1,): how the image moves per second that the event is found late."""
     earlier: Array
@@ -167,12 +166,15 @@ class StepDerivative(Shown):
 
     @property
     def multipliers(self) -> ComplexArray:
-        """Eigenvalues of dP/ds (2 n - 1,), the largest magnitude first; those of the cycle when P(s) = s."""
+        """Eigenvalues of dP/ds (2 n - 1,), the largest magnitude first; multipliers of
+        the cycle when P(s) = s.
+        """
         return sorted_eigenvalues(self.jacobian)
 
 
 def differentiate_step(P: ReturnMap, s: Array) -> StepDerivative:
-    """P(s) and dP/ds at s (2 n - 1,) [rad, rad/s] along one single support, with P's walker and method.
+    """Compute P(s) and dP/ds at s (2 n - 1,) [rad, rad/s] along one single support,
+    with P's walker and method.
 
     Raises SimulationError, with the status, when the walker does not come back; InputError for a controller
     with states, and as VariationalSystem does.
@@ -206,7 +208,9 @@ def differentiate_step(P: ReturnMap, s: Array) -> StepDerivative:
 
 
 def section_tangent(walker: Walker, x: Array) -> Array:
-    """L (2 n, 2 n - 1): dx of a change of the section coordinates, which drop q_N and keep h = 0."""
+    """L (2 n, 2 n - 1): change dx of the state per change ds of the section coordinates, with h = 0
+    unchanged.
+    """
     k, dh = walker.plant.n - 1, height_derivative(walker, x)
     L = np.delete(np.eye(len(x)), k, axis=1)
     L[k] = np.delete(dh, k) / -dh[k]
@@ -216,10 +220,10 @@ def section_tangent(walker: Walker, x: Array) -> Array:
 def periodic_orbit(
     P: ReturnMap, guess: Array, tolerance: float = 1e-11
 ) -> tuple[PeriodicOrbit, StepDerivative]:
-    """Newton's method on P(s) - s from a state before impact (2 n,) [rad, rad/s], with the exact dP/ds.
+    """Find P(s) = s by Newton's method with the exact dP/ds, from a state before impact (2 n,) [rad, rad/s].
 
-    Converges quadratically. Raises SimulationError when it does not converge or the walker does not
-    come back, SingularError when a multiplier is 1.
+    tolerance: of |P(s) - s| [rad, rad/s]. Converges quadratically. Raises SimulationError when it does not
+    converge or the walker does not come back, SingularError when a multiplier is 1.
     """
     s = P.project(np.asarray(guess, dtype=float))
     for _ in range(MOST_ITERATIONS):

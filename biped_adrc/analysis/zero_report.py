@@ -1,8 +1,8 @@
-"""What the zero dynamics say of a gait before any simulation: does it walk, from where, how fast.
+"""Properties of a gait by its zero dynamics, before any simulation: whether it walks, from where, how fast.
 
-The numbers of `gait.zero_dynamics` and `gait.zero_orbits` with their units, as text. They hold for
-the closed loop as far as it keeps to the constraint: exactly for a constraint that the impact does
-not leave (hybrid invariant), tracked without error. Where that is in doubt the report says so.
+The numbers of `gait.zero_dynamics` and `gait.zero_orbits` with their units, as text. They hold for the closed
+loop as far as it keeps to the constraint: exactly for a constraint that the impact does not leave (hybrid
+invariant), tracked without error. Where that is in doubt the report says so.
 """
 
 from __future__ import annotations
@@ -28,17 +28,19 @@ from biped_adrc.model.ground import ground_axes
 CLOSENESS = 1e-3
 """Distance from zeta*, relative to it, within which a walk counts as settled."""
 UNIT = "kg^2 m^4/s^2"
-"""Of zeta and V_zero."""
+"""Unit of zeta and V_zero."""
 Rows = Iterator[tuple[str, ...]]
-"""Of the report, as text."""
+"""Rows of the report, as texts in columns."""
 
 
 @dataclass(frozen=True)
 class ZeroDynamicsReport(Shown):
-    """The periodic orbit, the range of speeds around it and the margins; `text()` is all of it with units."""
+    """The periodic orbit of a gait, the range of speeds around it and the margins;
+    `text()` has all with units.
+    """
 
     orbits: ZeroOrbits
-    """Quadratures of the zero dynamics, and what follows from them."""
+    """Quadratures of the zero dynamics, and their orbits."""
     limits: DomainLimits
     """Friction, torque and slope that the domain respects."""
     domain: Domain
@@ -77,7 +79,7 @@ class ZeroDynamicsReport(Shown):
         return "\n".join(columns([(robot,), *self._numbers(), *self._range(), *self._doubts()]))
 
     def _numbers(self) -> Rows:
-        """About the periodic orbit itself."""
+        """Rows about the periodic orbit."""
         o, z, c = self.orbits, self.zeta_star, self.orbits.zero.constraint
         inertia = o.inertia(grid(o.zero))
         yield "Theta", f"{c.theta_plus:.6f} to {c.theta_minus:.6f} rad"
@@ -92,7 +94,9 @@ class ZeroDynamicsReport(Shown):
         yield "impact", f"asks for |F_T| / F_N = {self.impulse_ratio:.3f}, at any speed"
 
     def _range(self) -> Rows:
-        """About the domain: its ends and why, speeds, energies, steps until it has settled."""
+        """Rows about the domain: its ends and their reasons, speeds, energies, number of steps
+        until the walk has settled.
+        """
         if self.domain.empty:
             yield "domain", f"empty: no speed keeps {_show(self.limits)} all along the step"
             return
@@ -111,7 +115,7 @@ class ZeroDynamicsReport(Shown):
             yield "settled", f"to {CLOSENESS:.1%} of zeta* after {steps}"
 
     def _doubts(self) -> Rows:
-        """Where these numbers do not hold for the closed loop."""
+        """Rows with the reasons why these numbers may not hold for the closed loop."""
         if not self.walkable:
             text = f"the periodic orbit does not keep {_show(self.limits)}"
             yield (f"{text}: zeta* is outside of the domain",)
@@ -126,7 +130,7 @@ class ZeroDynamicsReport(Shown):
 def zero_report(
     biped: Biped, constraint: VirtualConstraint, limits: DomainLimits | None = None
 ) -> ZeroDynamicsReport:
-    """The report of a constraint; limits None: the friction of the robot's record, on level ground.
+    """Make the report of a constraint; limits None: the friction of the robot's record, on level ground.
 
     Raises GaitError when Theta is no phase, when no periodic orbit exists or it is not stable, and when the
     curve does not end on the ground.
@@ -154,13 +158,14 @@ def zero_report(
 
 
 def _because(bound: Bound) -> str:
-    """What bounds the domain at one end."""
+    """Text with the limit that bounds the domain at one end."""
     if bound.cause == UNLIMITED:
         return UNLIMITED
     return f"{bound.cause} at Theta = {bound.theta:.4f} rad"
 
 
 def _show(limits: DomainLimits) -> str:
+    """Text with the limits that the domain respects."""
     result = ["F_N > 0"]
     if limits.friction is not None:
         result.append(f"friction {limits.friction:g}")

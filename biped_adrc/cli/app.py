@@ -23,15 +23,8 @@ from pathlib import Path
 from typing import Annotated, Any, TextIO, TypeVar
 
 import typer
+from rich import progress
 from rich.console import Console, ConsoleOptions, RenderableType
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
 from rich.segment import Segment
 from rich.table import Table
 
@@ -128,11 +121,12 @@ FIGURES, GAITS = (".png", ".svg"), (".json",)
 @contextmanager
 def bar(name: str) -> Iterator[Callable[[int, int | None, str], None]]:
     """Context with a progress bar; shown(done, of how many, what is done now)."""
-    text = TextColumn("{task.description:<44.44}", markup=False)
-    times = TimeElapsedColumn(), TextColumn("left"), TimeRemainingColumn()
-    with Progress(text, BarColumn(), MofNCompleteColumn(), *times, console=console) as progress:
-        task = progress.add_task(name, total=None)
-        yield lambda done, total, now: progress.update(
+    text = progress.TextColumn("{task.description:<44.44}", markup=False)
+    counts = progress.BarColumn(), progress.MofNCompleteColumn(), progress.TimeElapsedColumn()
+    left = progress.TextColumn("left"), progress.TimeRemainingColumn()
+    with progress.Progress(text, *counts, *left, console=console) as shown:
+        task = shown.add_task(name, total=None)
+        yield lambda done, total, now: shown.update(
             task, completed=done, total=total, description=now
         )
 

@@ -119,17 +119,9 @@ def _library(biped: Biped, speeds: str, how: dict[str, Any], out: Path) -> None:
             continue
         result.gait.save(out / result.gait.file_name)
         c = result.certificate
-        rows.append(
-            (
-                f"{result.speed:.3f}",
-                f"{c.step_length:.3f}",
-                f"{c.peak_torque:.1f}",
-                f"{c.friction:.2f}",
-                f"{result.multiplier:.3f}",
-                f"{c.cost_of_transport:.3f}",
-                f"{result.seconds:.1f}",
-            )
-        )
+        forces, delta = (c.peak_torque, c.friction), (result.multiplier, c.cost_of_transport)
+        numbers = (result.speed, c.step_length, *forces, *delta, result.seconds)
+        rows.append([f"{x:.4g}" for x in numbers])
     if rows:
         header = "m/s", "step [m]", "torque [N m]", "friction", "delta^2", "transport", "s"
         say_table(header, rows)

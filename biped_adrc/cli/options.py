@@ -88,9 +88,10 @@ def _shown(text: str | PlainRecord) -> object:
 def _option(name: str, usual: str | None) -> Parameter:
     """The parameter, for typer, of one value; usual: what the help shows as its default."""
     what = field_of(SHORT[name])
-    default = what.default if usual is None else usual
-    unit = "" if what.unit == "1" else f" [{what.unit}]"
-    text = f"{what.text.removesuffix('.')}{unit}."
+    text, default = what.text.removesuffix("."), what.default
+    if usual is not None:
+        text, default = text.partition("; by default")[0], usual
+    text = f"{text}{what.in_brackets}."
     flag = "--" + name.replace("_", "-")
     shown = typer.Option(flag, help=text, show_default=False if default is None else str(default))
     annotation = Annotated[str | None, shown]

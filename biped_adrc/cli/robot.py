@@ -68,10 +68,9 @@ def _print_values() -> None:
 
     say("Values of a scenario, for --set NAME=VALUE: unit, default, range, what it is")
     for what in map(field_of, names()):
-        unit = "" if what.unit == "1" else f" [{what.unit}]"
         default = "" if what.default in (None, {}) else f"{what.default}"
         words = ", ".join(x for x in (default, what.range_text) if x)
-        say(f"  {what.name}{unit}{f' ({words})' if words else ''}: {what.text}")
+        say(f"  {what.name}{what.in_brackets}{f' ({words})' if words else ''}: {what.text}")
     say(
         "A controller, observer, contact, sensor, touchdown, push or plant takes its own parameters the same "
         "way, such as controller.K_i=90000 of NPID."
@@ -127,9 +126,9 @@ def robot_export(
     """Write a robot with feet and motors on soft ground as MJCF, for MuJoCo's own viewer."""
     from biped_adrc.extras.mujoco.mjcf import write_mjcf
     from biped_adrc.extras.mujoco.plant import MuJoCoPlant
-    from biped_adrc.extras.mujoco.soft_ground import SoftGround
     from biped_adrc.gait.gait import load_gait
     from biped_adrc.model.biped import Biped
+    from biped_adrc.model.ground import SoftGround
     from biped_adrc.scenario.build import plant_step
 
     path = target(out, (".xml",), inputs(robot, *(() if gait is None else (gait,))))
@@ -154,9 +153,7 @@ def _derived(
 
 def _names(text: str | None) -> tuple[str, ...] | None:
     """Names between commas; an empty text is no name, None leaves them to be guessed."""
-    if text is None:
-        return None
-    return tuple(name.strip() for name in text.split(",") if name.strip())
+    return None if text is None else tuple(filter(None, map(str.strip, text.split(","))))
 
 
 def _explain(derived: Derived) -> None:

@@ -13,6 +13,7 @@ from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 import typer
 from rich.box import SIMPLE_HEAD
 from rich.table import Column, Table
@@ -30,7 +31,7 @@ from biped_adrc.cli.app import (
 )
 from biped_adrc.cli.options import WALKS, options, scenario_from
 from biped_adrc.core.errors import InputError, RaisedError
-from biped_adrc.core.types import PlainRecord
+from biped_adrc.core.types import Array, PlainRecord
 from biped_adrc.hybrid.status import Status
 
 if TYPE_CHECKING:
@@ -95,7 +96,7 @@ def _walk(
         (full.save if out.suffix.lower() == ".npz" else full.export)(out)
     if log is not None:
         from biped_adrc.extras.logs.log_file import write_log
-        from biped_adrc.extras.logs.log_of_walk import logged
+        from biped_adrc.extras.logs.robot_log import logged
 
         write_log(logged(full), log, full.walker.nominal)
     _print_on_ground(full.soft_steps)
@@ -114,7 +115,7 @@ def _print_end(walk: Walk, half: Walk | None, limits: Limits) -> None:
 
     half: the same walk at half the step, where there are joints with an error.
     """
-    from biped_adrc.paper.convergence import error_text
+    from biped_adrc.paper.verdict import error_text
 
     feasibility, certificates = walk.feasible_within(limits), walk.certified(limits)
     _print_steps(feasibility.supports, certificates)
@@ -128,7 +129,7 @@ def _print_end(walk: Walk, half: Walk | None, limits: Limits) -> None:
         )
     console.print(
         f"{run.status.name}: {run.status.value} {run.detail}".strip()
-        + f"\n{walk.impacts} impacts, {about}\n{feasibility.text()}"
+        + f"\n{walk.impacts_text}, {about}\n{feasibility.text()}"
     )
     stays = [c.step for c in certificates if not c.old_foot_velocity > 0.0]
     if stays and half is not None:
@@ -180,6 +181,11 @@ def _print_on_ground(steps: tuple[SoftStep, ...]) -> None:
         say_table(header, rows)
 
 
+def _named(letter: str, x: Array) -> str:
+    """Numbers with their names: "q1 = 0.123000, q2 = .."."""
+    return ", ".join(f"{letter}{i} = {value:.6f}" for i, value in enumerate(x, 1))
+
+
 @app.command()
 @options("poincare", *WALKS, controller="NPD, or passive")
 def poincare(
@@ -199,9 +205,10 @@ def poincare(
         result = cycle_stability(cycle)
     walker, o = cycle.P.walker, result.orbit
     law = type(walker.controller).__name__.removesuffix("Controller")
+    q, v = np.split(o.x_minus[: 2 * walker.plant.n], 2)
     say(
         f"{s.robot.name}, {walker.plant.preset}, {law}, slope {walker.slope:g} rad, {cycle.P.method.label}\n"
-        f"x- = {' '.join(f'{value:.6f}' for value in o.x_minus[: 2 * walker.plant.n])}"
+        f"x-: {_named('q', q)} [rad], {_named('v', v)} [rad/s]"
     )
     step = nominal_step(cycle, o, limits(s))
     _print_steps([step], [step])

@@ -2,16 +2,27 @@
 
     u = kappa^-1 (q_d'' - K_d (x2^ - q_d') - K_p (x1^ - q_d) - xi^)
 
-xi^ lumps model error and external torques into one signal per joint; the nominal model gives kappa alone
-(and, through Theta'' in q_d'', the unactuated row).
+xi^ lumps model error and external torques into one signal per joint; the nominal model gives kappa alone (and,
+through Theta'' in q_d'', the unactuated row).
 
 Any observer of the chain x1' = x2, x2' = xi + kappa u fits: it measures q_b, its input is kappa u for the
 torque applied, and xi^ is what remains.
+
+In assisted ADRC the observer contains the nominal model's xi, and estimates the remaining disturbance d.
+
+    x1' = x2,   x2' = xi + kappa u + d                              d: model error and external torques
+    u = kappa^-1 (q_d'' - K_d (x2^ - q_d') - K_p (x1^ - q_d) - xi - d^)
+
+With m = 0 there is no d^, and the law is NPD (28) on the angles and rates of an observer in place of measured
+ones. With m >= 1 the observer has less to follow than in (20), where all of xi is a disturbance: (20) needs
+kappa alone of the model, assisted ADRC all of it.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+
+import numpy as np
 
 from biped_adrc.control.base import Measurement, measured
 from biped_adrc.control.tracking import TABLE_II, Gains, ObservingController, tracking_torque
@@ -23,11 +34,10 @@ from biped_adrc.observers.gpi import GPIObserver
 
 @dataclass(frozen=True)
 class ADRCController(ObservingController):
-    """(20) with an observer that is its whole state; Table I and Table II by default.
+    """ADRC, eq. (20), with an observer that is its whole state; Table I and Table II by default.
 
-    gains: K_p [1/s^2], K_d [1/s].
-    solve_theta: solve the loop through Theta'' (default), or drop h' Theta'' as printed.
-    reset: what happens to the observer at impact.
+    gains: K_p [1/s^2], K_d [1/s]. solve_theta: solve the loop through Theta'' (default), or drop h' Theta'' as
+    printed. reset: what happens to the observer at impact.
 
     >>> controller = ba.ADRCController(gait.constraint, ba.GPIObserver.from_bandwidth(400.0, m=2))
     >>> ba.walk(ba.Walker(biped, controller), gait, impacts=1).impacts
@@ -41,15 +51,15 @@ class ADRCController(ObservingController):
     reset: ResetPolicy = ResetPolicy.MODEL
 
     def measured_output(self, m: Measurement) -> Estimate:
-        """q_b, q_b' and the nominal model's xi, each (p,)."""
+        """q_b [rad], q_b' [rad/s] and the nominal model's xi [rad/s^2], each (p,)."""
         return measured(m)
 
     def observer_input(self, m: Measurement, u: Array) -> Array:
-        """kappa u (p,) [rad/s^2]."""
+        """Input of the observer for the torque u (p,) [N m]: kappa u (p,) [rad/s^2]."""
         return m.terms.kappa @ u
 
     def output_change(self, m: Measurement, a: Array) -> Array:
-        """Change of q_b' (p, 2)."""
+        """Change of q_b' (p, 2) when the rates change by a (n, 2): its first p rows."""
         return a[: m.terms.kappa.shape[0]]
 
     def torque(
@@ -60,3 +70,31 @@ class ADRCController(ObservingController):
 
     def error_system(self) -> ErrorSystem | None:
         return self.observer.error_system()
+
+
+@dataclass(frozen=True)
+class AssistedADRCController(ADRCController):
+    """ADRC whose observer has the nominal model's xi in its input, and estimates what
+    remains of the disturbance.
+
+    The observer is the whole state; m = 1 and Table II by default.
+    """
+
+    observer: Observer = field(default_factory=lambda: GPIObserver.from_bandwidth(500.0, 1))
+
+    def measured_output(self, m: Measurement) -> Estimate:
+        """q_b [rad], q_b' [rad/s], each (p,), and d = 0: without error the model explains the whole motion."""
+        x = measured(m)
+        return x._replace(disturbance=np.zeros(len(x.disturbance)))
+
+    def observer_input(self, m: Measurement, u: Array) -> Array:
+        """Input of the observer: kappa u + xi (p,) [rad/s^2], the acceleration by the model."""
+        return super().observer_input(m, u) + m.terms.xi
+
+    def joint_estimate(self, x: Estimate, m: Measurement) -> Estimate:
+        """The estimates x of the joints with xi^ = xi + d^ [rad/s^2], each (p,)."""
+        return x._replace(disturbance=m.terms.xi + x.disturbance)
+
+    def error_system(self) -> ErrorSystem | None:
+        """None, as the observer's input is not kappa u alone."""
+        return None

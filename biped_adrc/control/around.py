@@ -1,31 +1,31 @@
-"""What goes around any controller: a controller that calls the one inside.
+"""Wrappers: controllers around any controller, which call the one inside (`inner`).
 
 A subclass writes the methods that differ. It names no class of controllers, so that every one that compiles
-still does. `friction_feedforward` and `predicted` serve all the time, as does a torque a from elsewhere, such
-as a learner's, beside u_i that the controller inside asks for:
+still does. `friction_feedforward` and `predicted` act all the time, as does an additional torque a, such as a
+learner's, beside the torque u_i of the controller inside:
 
     u = u_i + a
 
 The controller inside gets the sum that acts: its observer does not take a for a disturbance, and so does not
-fight it. Around `Passive` it is the torque a itself. a (p,) [N m] is a parameter: machine code reads it from
-its vector K, Python from the array that it was made with, which stays its maker's to write. So a `Stepper`
-gives another a before each sample, and compiles nothing.
+work against it. Around `Passive` it is the torque a itself. a (p,) [N m] is a parameter: machine code reads it
+from its vector K, Python from the array that the wrapper was made with, which its owner may overwrite. So a
+`Stepper` sets another a before each sample, and compiles nothing.
 
-Across a touchdown a policy serves for the time in which contact settles:
+Across a touchdown a policy acts for the time in which contact settles:
 
     hold    s <- initial_state(m)                      at each tick with t_step < T, then s <- correct(s, m)
 
-t_step is the time since the touchdown that the controller was told of; the start of a run counts as one. A
-contact that takes time moves the joints by forces that no observer is told of, and an observer takes them for
-a disturbance. While it is held the torque is that of the model on measured rates, as NPD's for ADRC; it is told
-the torque of the last such tick, so that from there on it runs as from a start.
+t_step is the time since the last touchdown that the controller knows of; the start of a run counts as one. A
+contact that takes time moves the joints by forces that no observer knows, and an observer takes them for a
+disturbance. While it is held the torque is that of the model on measured rates, as NPD's for ADRC; the
+observer gets the torque of the last such tick, so that from there on it runs as from a start.
 
 Policies act at ticks, so they work in sampled time alone. T = 0 is the controller itself, bit for bit. Around
-an outer loop they would begin that loop anew; put the outer loop around the policy.
+an outer loop they would restart that loop; put the outer loop around the policy.
 
 `AcrossContact` is the base of all policies; `ContactWindow` of those with a T. Another one is
-`impact_invariant`; more, as files that run, are in `examples/policies`. What an observer does at the instant of
-the touchdown itself is its `ResetPolicy`.
+`impact_invariant`; more, as files that run, are in `examples/policies`. What an observer does at the instant
+of the touchdown itself is its `ResetPolicy`.
 """
 
 from __future__ import annotations
@@ -45,13 +45,15 @@ from biped_adrc.observers.base import Estimate
 
 @dataclass(frozen=True)
 class Around(Controller):
-    """Base of what is around `inner`: all that a subclass does not write is that of the controller inside."""
+    """Base of the wrappers around `inner`: every method that a subclass does not write is
+    that of the controller inside.
+    """
 
     inner: Controller
 
     @property
     def needs_body(self) -> bool:  # type: ignore[override]
-        """As the controller inside."""
+        """Whether the controller inside needs `Measurement.body`."""
         return self.inner.needs_body
 
     def output(self, s: Array, m: Measurement) -> Array:
@@ -90,7 +92,7 @@ class Around(Controller):
 
 @dataclass(frozen=True)
 class AddedTorque(Around):
-    """The module's a = `torque` (p,) [N m] beside the torque of `inner`."""
+    """A wrapper that adds a = `torque` (p,) [N m] to the torque of `inner`."""
 
     torque: Array
 
@@ -106,7 +108,7 @@ class AddedTorque(Around):
 
 @dataclass(frozen=True)
 class AcrossContact(Around):
-    """Base of the policies, which act at sample instants."""
+    """Base of the policies across a touchdown, which act at sample instants only."""
 
     def continuous(self) -> Self:
         self._only_sampled()
@@ -114,19 +116,19 @@ class AcrossContact(Around):
 
 @dataclass(frozen=True)
 class ContactWindow(AcrossContact):
-    """Base of the policies that act for `window` seconds T after touchdown. Raises InputError unless T >= 0."""
+    """Base of the policies that act for T = `window` [s] after a touchdown. Raises InputError unless T >= 0."""
 
     window: NonNegativeFloat = 0.015
 
     @derived
     def until(self) -> float:
-        """T less round-off [s]."""
+        """Length of the window [s] less round-off: a tick at its very end is outside."""
         return float(self.window - SAME_INSTANT)
 
 
 @dataclass(frozen=True)
 class Hold(ContactWindow):
-    """The observer of `inner` begins anew at each tick for `window` seconds after touchdown, then runs."""
+    """A policy that restarts the observer of `inner` at each tick for `window` [s] after a touchdown."""
 
     def correct(self, s: Array, m: Measurement) -> Array:
         fresh, run = self.inner.initial_state(m), self.inner.correct(s, m)

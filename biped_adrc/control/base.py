@@ -1,13 +1,13 @@
-"""What a controller is: a torque from a measurement and a state of its own.
+"""A controller: a torque from a measurement and the controller's own state.
 
     u = output(s, m),   s' = flow(s, m, u)         in continuous time
     s <- correct(s, m), u = output(s, m), s <- predict(s, m, u)    at a tick
 
-The state s is passed in and handed back. A controller without a state needs `output` alone and works in
-both time bases. `u` handed to `flow` and `predict` is the torque applied, after saturation.
+The state s is passed in and handed back. A controller without a state needs `output` alone and works in both
+time bases. `u` handed to `flow` and `predict` is the torque applied, after saturation.
 
 At a sample instant `output` comes between `correct` and `predict`: the torque uses the measurement of this
-instant, and the observer inside is told that torque and no other, so it does not wind up at a limit.
+instant, and the observer inside gets that torque and no other, so it does not wind up at a limit.
 
 A controller is a frozen dataclass that writes these methods. Python calls them, and the engine turns them into
 machine code (`biped_adrc.core.part`).
@@ -30,7 +30,7 @@ from biped_adrc.observers.base import ErrorSystem, Estimate
 
 
 class Measurement(NamedTuple):
-    """What the controller is given, as its sensors see it; `terms` are the nominal model's, computed once.
+    """The measurement that a controller gets, from its sensors, with `terms` of the nominal model there.
 
     >>> q, v = gait.q_minus, gait.v_minus
     >>> m = ba.Measurement(t=0.0, step=1, t_step=0.0, q=q, v=v, terms=biped.reduction(q, v))
@@ -39,21 +39,21 @@ class Measurement(NamedTuple):
     """
 
     t: float
-    """[s] from the start of the run."""
+    """Time since the start of the run [s]."""
     step: int
-    """Single support, counted from 1."""
+    """Number of the single support, from 1."""
     t_step: float
-    """[s] since this single support began."""
+    """Time since this single support began [s]."""
     q: Array
-    """(n,) [rad]."""
+    """Angles (n,) [rad]."""
     v: Array
-    """(n,) [rad/s]."""
+    """Rates (n,) [rad/s]."""
     terms: Reduction
     """D, Omega, kappa, xi of the nominal model at (q, v)."""
     body: BodyTerms | None = None
     """G, C' q' and the ground's force of the nominal model, for a controller with `needs_body`."""
     elsewhere: Callable[[Array, Array], Measurement] | None = None
-    """elsewhere(q, v) -> what would be given in that state, at the same time; None outside of a closed loop."""
+    """elsewhere(q, v) -> the measurement in another state, at the same time; None outside of a closed loop."""
 
     @property
     def q_b(self) -> Array:
@@ -62,7 +62,7 @@ class Measurement(NamedTuple):
 
     @property
     def v_b(self) -> Array:
-        """Their rates (p,) [rad/s]."""
+        """Rates of the actuated joints (p,) [rad/s]."""
         return self.v[: len(self.terms.kappa)]
 
     def __repr__(self) -> str:
@@ -70,19 +70,19 @@ class Measurement(NamedTuple):
 
 
 def measured(m: Measurement) -> Estimate:
-    """What measurement and nominal model say of the p joints: q_b, q_b' and xi, each (p,).
+    """The measured q_b, q_b' and the nominal model's xi, each (p,), as an `Estimate`.
 
-    In place of an observer's estimates where there is none, and where one starts.
+    It takes the place of an observer's estimates where there is none, and initialises those of an observer.
     """
     p = m.terms.kappa.shape[0]
     return Estimate(m.q[:p], m.v[:p], m.terms.xi)
 
 
 class Controller(Part):
-    """Base of all controllers: write `output`, and what else the controller needs.
+    """Base of all controllers: write `output`, and the other methods that the controller needs.
 
-    Frozen, with gains and parts as fields. A controller with `flow` works in continuous time, one with
-    `correct` and `predict` in sampled time, and `sampled` turns the one into the other.
+    A frozen dataclass with gains and parts as fields. A controller with `flow` works in continuous time, one
+    with `correct` and `predict` in sampled time, and `sampled` turns the first into the second.
 
     >>> @dataclass(frozen=True)
     ... class PD(ba.Controller):
@@ -99,49 +99,58 @@ class Controller(Part):
     """Whether `Measurement.body` has to be there."""
 
     def output(self, s: Array, m: Measurement) -> Array:
-        """u (p,) [N m] asked of the motors, before any limit. Raises InputError where no class writes it."""
+        """Torque u (p,) [N m] commanded to the motors, before any limit. Raises InputError
+        if no subclass writes it.
+        """
         raise InputError(
             f"{type(self).__name__} has no method output(s, m); write it: u (p,) [N m] from its state s and "
             "the Measurement m"
         )
 
     def initial_state(self, m: Measurement) -> Array:
-        """s (size,) at the start of a run; empty (0,) for a controller without state."""
+        """State s (size,) at the start of a run; empty (0,) for a controller without state."""
         return np.zeros(0)
 
     def flow(self, s: Array, m: Measurement, u: Array) -> Array:
-        """s' (size,) in continuous time, under the applied torque u (p,) [N m]; of no state, none."""
+        """s' (size,) in continuous time, under the applied torque u (p,) [N m]; empty without a state."""
         return s
 
     def correct(self, s: Array, m: Measurement) -> Array:
-        """Sampled: s (size,) with the measurement of this sample instant taken in."""
+        """In sampled time: s (size,) corrected by the measurement of this sample instant."""
         return s
 
     def predict(self, s: Array, m: Measurement, u: Array) -> Array:
-        """Sampled: s (size,) at the next sample instant, under the applied torque u (p,) [N m]."""
+        """In sampled time: s (size,) at the next sample instant, under the applied torque u (p,) [N m]."""
         return s
 
     def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
-        """s (size,) after impact; `swap` (p,) is for `types.relabelled`, `after` is measured after it."""
+        """State s (size,) of the controller after an impact, from s before it.
+
+        after: the measurement after the impact. swap (p,): relabelling of the joints, for `types.relabelled`.
+        """
         return s
 
     def estimate(self, s: Array, m: Measurement) -> Estimate | None:
-        """What an observer inside says of the joints, each (p,); None without one. It is for plots."""
+        """Estimates of the p joints by an observer inside, for plots; None without one."""
         return None
 
     def projected_output(self, s: Array, m: Measurement, a: Array) -> Array:
-        """u (p,) [N m] as `output`, blind to changes of the rates along a (n, 2) in the rate error.
+        """u (p,) [N m] as `output`, without the part of the rate error along the change of the rates a (n, 2).
 
-        For `impact_invariant`. Raises InputError for a controller that has no such form.
+        For `impact_invariant`: an impulse of the striking foot changes the rates along a, and leaves this
+        torque unchanged. Raises InputError for a controller that has no such form.
         """
         self._has_no("rate error that could be projected")
 
     def projected_correct(self, s: Array, m: Measurement, a: Array) -> Array:
-        """s (size,) as `correct`, blind to changes of the rates along a (n, 2) in the innovation."""
+        """s (size,) as `correct`, without the part of the innovation along the change of the rates a (n, 2).
+
+        Raises InputError for a controller that has no such form.
+        """
         self._has_no("innovation that could be projected")
 
     def sampled(self, period: float) -> Controller:
-        """The same law for ticks every `period` [s].
+        """The same controller for ticks every `period` [s].
 
         Raises InputError for a controller that has a state in continuous time and no discrete form.
         """
@@ -153,7 +162,9 @@ class Controller(Part):
         return self
 
     def continuous(self) -> Controller:
-        """Itself, for continuous time. Raises InputError for a controller that was made for sampled time."""
+        """The controller itself, for continuous time. Raises InputError for one that
+        was made for sampled time.
+        """
         if self._writes("predict") and not self._writes("flow"):
             self._only_sampled()
         return self
@@ -163,32 +174,35 @@ class Controller(Part):
         return None
 
     def _writes(self, name: str) -> bool:
-        """Whether its class writes this method."""
+        """Whether the controller's class overrides the method `name` of `Controller`."""
         return getattr(type(self), name) is not getattr(Controller, name)
 
     def _only_sampled(self) -> NoReturn:
+        """Raise InputError: this controller works in sampled time only."""
         raise InputError(
             f"{type(self).__name__} works in sampled time only; give timing=SampledTime(period), or "
             "hardware.period of a scenario"
         )
 
     def _has_no(self, what: str) -> NoReturn:
+        """Raise InputError: this controller lacks `what`."""
         raise InputError(
             f"{type(self).__name__} has no {what}; expected one such as NPDController or ADRCController"
         )
 
 
 def nested(controller: Controller | None) -> Iterator[Controller]:
-    """A controller and the controllers inside it (field `inner`)."""
+    """Iterate over a controller and the controllers inside it (field `inner`), from outside in."""
     while controller is not None:
         yield controller
         controller = getattr(controller, "inner", None)
 
 
 def check_methods(controller: Controller, s: Array, m: Measurement, sampled: bool) -> None:
-    """Raise InputError for arrays of another shape, and for a user's method with a memory or noise of its own.
+    """Check a controller's methods at the start of a run, in state s at m. Raises InputError.
 
-    It is asked at the start: machine code would write past the end of the state, and keep nothing in an object.
+    Arrays must have the right shape, as machine code would write past the end of the state; a user's method
+    must give the same result twice, as machine code keeps nothing in an object.
     """
     u = returned(controller.output(s, m), (m.terms.kappa.shape[0],), controller, "output")
     if not _is_own(controller):
@@ -210,6 +224,6 @@ def check_methods(controller: Controller, s: Array, m: Measurement, sampled: boo
 
 
 def _is_own(part: Part) -> bool:
-    """Whether the class of a part, or of one in it, is a user's."""
+    """Whether the class of a part, or of a part in it, is a user's."""
     inside = (x for x in vars(part).values() if isinstance(x, Part))
     return not type(part).__module__.startswith("biped_adrc.") or any(map(_is_own, inside))

@@ -45,14 +45,14 @@ ROOT = math.sqrt(3.0)
 
 
 class Decrease(NamedTuple):
-    """V and V' + c V / eps = psi_0 + psi_1 mu."""
+    """The Lyapunov function V, and V' + c V / eps = psi_0 + psi_1 mu as a function of mu."""
 
     V: float
-    """[rad^2/s^2]"""
+    """V [rad^2/s^2]."""
     psi_0: float
-    """What V does for mu = 0; above 0 it does not fall fast enough."""
+    """Value for mu = 0; above 0, V does not fall fast enough without an input."""
     psi_1: Array
-    """(p,)."""
+    """Gradient by mu (p,)."""
 
 
 class Affine(NamedTuple):
@@ -69,7 +69,8 @@ class Affine(NamedTuple):
 
 
 class Rows(NamedTuple):
-    """G z <= h for z = (mu, sqrt p delta) (p + 1,), whose square is least; the rows of the ground come last.
+    """Constraints G z <= h of the program, for z = (mu, sqrt p delta) (p + 1,); the
+    rows of the ground come last.
 
     Scaling delta by the root of its weight makes the cost |z|^2, which needs no matrix.
     """
@@ -77,7 +78,7 @@ class Rows(NamedTuple):
     G: Array
     h: Array
     ground: int
-    """Number of those rows."""
+    """Number of rows of the ground."""
 
 
 def decrease(y: Array, dy: Array, eps: float) -> Decrease:
@@ -97,7 +98,7 @@ def least_norm(d: Decrease, relaxation: float) -> Array:
 
 
 def affine(r: ReferencePoint, m: Measurement) -> Affine:
-    """Torque and ground force as affine functions of mu (p,), which turn limits on them into rows of the QP.
+    """Torque and ground force as affine functions of mu (p,), by which limits on them become rows of the QP.
 
     Raises SingularError where L of y'' is exactly singular.
     """
@@ -115,12 +116,11 @@ def affine(r: ReferencePoint, m: Measurement) -> Affine:
 
 @dataclass(frozen=True)
 class CLFQPController(Controller):
-    """The module's program; it calls a solver, so it runs in Python.
+    """A controller that solves the module's quadratic program at every call; it runs in Python.
 
     epsilon [s]: V falls with c / eps outside the dead zone; 1 / eps^2 and sqrt 3 / eps are like K_p and K_d.
     torque_limit [N m], friction (of a flat ground) and least_force, F_min [N]: None for no such limit.
-    relaxation: p.
-    Raises InputError for numbers that are not positive; needs qpsolvers and daqp.
+    relaxation: p. Raises InputError for numbers that are not positive; needs qpsolvers and daqp.
     """
 
     needs_body: ClassVar[bool] = True
@@ -161,7 +161,7 @@ class CLFQPController(Controller):
         return self.friction is None or abs(tangential) <= self.friction * normal
 
     def program(self, d: Decrease, to: Affine) -> Rows:
-        """The rows that the decrease of V and the limits make, over (mu, sqrt p delta).
+        """Rows of the program from the decrease of V and the limits, for (mu, sqrt p delta).
 
         Those of the ground come last, so that they can be dropped where nothing fulfils all.
         """
@@ -187,7 +187,9 @@ class CLFQPController(Controller):
         return Rows(rows, np.concatenate(h), ground)
 
     def _solved(self, program: Rows) -> Array | None:
-        """mu (p,), with the limits of the ground or else without; None when the solver fails at both."""
+        """Solve the program for mu (p,), with the limits of the ground or else without; None
+        when the solver fails at both.
+        """
         z = _least(program.G, program.h)
         if z is None and program.ground > 0:
             z = _least(program.G[: -program.ground], program.h[: -program.ground])
@@ -195,7 +197,7 @@ class CLFQPController(Controller):
 
 
 def _least(G: Array, h: Array) -> Array | None:
-    """The z of least |z| with G z <= h; None when there is none."""
+    """The vector z of least |z| that fulfils G z <= h, row by row; None when there is none."""
     from qpsolvers import solve_qp
 
     n = G.shape[1]

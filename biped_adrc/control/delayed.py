@@ -1,21 +1,22 @@
-"""Any controller in continuous time, with its torque on the way to the motors for `delay` seconds.
+"""A wrapper around any controller in continuous time, whose torque acts `delay` seconds late.
 
-    u(t) = u_asked(t - d),   exp(-s d) ~ N(s d) / D(s d)
+    u(t) = u_c(t - d),   exp(-s d) ~ N(s d) / D(s d)              u_c: the command
 
 by the Pade approximant with a numerator one degree lower than the denominator of degree k = `order`:
 
     N(x) = sum_(j<k)  (2k-1-j)! (k-1)! / ((2k-1)! j! (k-1-j)!) (-x)^j
     D(x) = sum_(j<=k) (2k-1-j)! k!     / ((2k-1)! j! (k-j)!)     x^j
 
-Its error is of order (w d)^(2k), as good as the next one of equal degrees, whose gain at high frequency is +-1:
-what is asked would act at once, in part and with the wrong sign, and a torque that depends on itself would have
-to be solved for. This one passes nothing at once. States per joint R (k,), x' = d x / dt:
+Its error is of order (w d)^(2k), as good as the next one of equal degrees, whose gain at high frequency is
++-1: a part of the command would act at once and with the wrong sign, and a torque that depends on itself would
+have to be solved for. This one has no direct feedthrough. States per joint R (k,), x' = d x / dt:
 
-    d R_i' = R_(i+1),   d R_k' = (u_asked - sum_j D_j R_(j+1)) / D_k,   u = sum_j N_j R_(j+1)
+    d R_i' = R_(i+1),   d R_k' = (u_c - sum_j D_j R_(j+1)) / D_k,   u = sum_j N_j R_(j+1)
 
-hidden: the inner observer is fed with what was asked for, as if it acted at once; known: with what acts. The
-legs swap in the line as in the controller. A torque limit of the Walker acts behind the line; one of the
-drives' own, `torque_limit`, before it, and a hidden observer is fed with the limited torque.
+With an unknown delay the inner observer is fed with the command, as if it acted at once; with a known delay,
+with the torque that acts. The legs swap in the delay line as in the controller. A torque limit of the Walker
+acts behind the line; one of the drives' own, `torque_limit`, before it, and with an unknown delay the observer
+is fed with the limited torque.
 """
 
 from __future__ import annotations
@@ -36,15 +37,16 @@ from biped_adrc.core.types import Array, Indices, relabelled
 from biped_adrc.observers.base import Estimate
 
 OrderInt = Annotated[int, Range("a whole number from 1 to 10", lambda x: x in range(1, 11))]
-"""Beyond 10 coefficients cover more than ten decades, and the line gets no better."""
+"""Order k; above 10 the coefficients cover more than ten decades, and the approximation gets no better."""
 
 
 @dataclass(frozen=True)
 class Delayed(Around):
-    """The module's line behind `inner`. delay [s] > 0; order k of the approximant, 1 to 10.
+    """A wrapper whose torque acts `delay` [s] after the command of `inner`, by a Pade
+    approximant of this order k, 1 to 10.
 
-    known: the observer inside is fed with the torque that acts. torque_limit [N m]: of what is asked for.
-    It compiles around whatever compiles in continuous time. Raises InputError.
+    known: whether the observer inside is fed with the torque that acts. torque_limit [N m]: of the command. It
+    compiles around whatever compiles in continuous time. Raises InputError for numbers out of range.
     """
 
     delay: PositiveFloat
@@ -54,7 +56,7 @@ class Delayed(Around):
 
     @derived
     def pade(self) -> tuple[Array, Array]:
-        """N (k,) and D (k + 1,), lowest power first."""
+        """Coefficients N (k,) and D (k + 1,), lowest power first."""
         return pade(self.order)
 
     @derived
@@ -63,12 +65,14 @@ class Delayed(Around):
         return math.inf if self.torque_limit is None else float(self.torque_limit)
 
     def parts(self, s: Array, m: Measurement) -> tuple[Array, Array]:
-        """The inner state and R (k, p) of s, whose last k p numbers are the line's."""
+        """Split the state s into that of the controller inside, and the states R (k, p) [N m] of the delay."""
         size = len(s) - self.order * m.terms.kappa.shape[0]
         return s[:size], s[size:].reshape(self.order, -1)
 
     def asked(self, z: Array, m: Measurement) -> Array:
-        """The torque (p,) [N m] that goes into the line, within the drives' own limit."""
+        """The command (p,) [N m] that enters the delay line, within the drives' own limit; z: the
+        inner state.
+        """
         u = self.inner.output(z, m)
         return np.minimum(np.maximum(u, -self.limit), self.limit)
 
@@ -78,7 +82,7 @@ class Delayed(Around):
     projected_output, projected_correct = Controller.projected_output, Controller.projected_correct
 
     def initial_state(self, m: Measurement) -> Array:
-        """With R as if the torque of the start had been asked for long enough."""
+        """The inner state at the start, with R as if its command had acted for long enough."""
         z = self.inner.initial_state(m)
         u = self.asked(z, m)
         R = np.zeros((self.order, len(u)))
@@ -109,7 +113,9 @@ class Delayed(Around):
 
 
 def pade(k: int) -> tuple[Array, Array]:
-    """N (k,) and D (k + 1,) of the module's approximant in x = s d, lowest power first; D_0 = N_0 = 1."""
+    """Coefficients N (k,) and D (k + 1,) of N(x) / D(x) ~ exp(-x), x = s d, lowest power first; D_0 =
+    N_0 = 1.
+    """
     whole = factorial(2 * k - 1)
     N = [
         (-1.0) ** j * factorial(2 * k - 1 - j) * factorial(k - 1)

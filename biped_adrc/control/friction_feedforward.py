@@ -2,18 +2,18 @@
 
     u = u_i + F,   F = share (viscous q_d' + static tanh(q_d' / w))
 
-u_i is what the controller inside asks for, q_d' the rates of a reference at the measured (Theta, Theta'), and w
-the width of the plant's own smoothed sign, `model.biped.STICTION_SPEED`. Rates that are measured would carry
-the steps of encoders through static friction, which changes its sign with them; those of the reference are
-smooth, and with a small tracking error they are the same.
+u_i is the torque of the controller inside, q_d' the rates of a reference at the measured (Theta, Theta'), and
+w the width of the plant's own smoothed sign, `model.biped.STICTION_SPEED`. Measured rates would carry the
+steps of encoders through static friction, which changes its sign with them; those of the reference are smooth,
+and with a small tracking error they are the same.
 
-The controller inside is told u - F, where u is the torque that acts. So it lives in a world with F taken off
-the friction: after a saturation too, and its observer finds what is left,
+The controller inside gets u - F as the applied torque, where u is the torque that acts. So for it the friction
+is reduced by F, after a saturation too, and its observer estimates the remaining disturbance,
 
     q_b'' = xi + kappa u = (xi + kappa F) + kappa (u - F)
 
-Told u, its xi^ would contain all of the friction, which would then be compensated twice. `estimate` gives xi.
-share = 1 is the friction of the robot's record, 0 the controller inside, bit for bit.
+With u instead, its xi^ would contain all of the friction, which would then be compensated twice. `estimate`
+gives xi. share = 1 is the friction of the robot's record, 0 the controller inside, bit for bit.
 """
 
 from __future__ import annotations
@@ -36,10 +36,12 @@ from biped_adrc.observers.base import Estimate
 
 @dataclass(frozen=True)
 class FrictionFeedforward(Around):
-    """The module's F beside the torque of `inner`.
+    """A wrapper that adds to the torque of `inner` the friction F = share (viscous q_d'
+    + static tanh(q_d' / w)).
 
-    path: the reference whose rates are taken; corrections of an outer loop are not in them. viscous
-    [N m s/rad], static [N m]: one number for each motor. Raises InputError for numbers that are not finite.
+    path: the reference whose rates q_d' are used; corrections of an outer loop are not in them.
+    viscous [N m s/rad], static [N m]: one number for each motor. Raises InputError for numbers
+    that are negative or not finite.
     """
 
     path: Reference
@@ -57,11 +59,11 @@ class FrictionFeedforward(Around):
 
     @derived
     def coefficients(self) -> tuple[Array, Array]:
-        """Viscous [N m s/rad] and static [N m], each (p,), times the share."""
+        """Viscous [N m s/rad] and static [N m] coefficients, each (p,), times the share."""
         return self.share * np.array(self.viscous), self.share * np.array(self.static)
 
     def friction(self, m: Measurement) -> Array:
-        """F (p,) [N m] at the rates of the reference."""
+        """Torque F (p,) [N m] that cancels the share of the joint friction at the rates of the reference."""
         dq_d, (viscous, static) = self.path(m.t, m.q, m.v).dq_d, self.coefficients
         return viscous * dq_d + static * np.tanh(dq_d / STICTION_SPEED)
 
@@ -87,9 +89,10 @@ class FrictionFeedforward(Around):
 def friction_feedforward(
     inner: Controller, reference: Reference, biped: Biped, feedforward: float
 ) -> Controller:
-    """`FrictionFeedforward` of the joint friction in the robot's record, with the share `feedforward`.
+    """Wrap a controller in the feedforward of the joint friction in the robot's record;
+    feedforward: its share [1].
 
-    It does not matter whether the robot was loaded with friction. Raises InputError for a record without.
+    The robot may be loaded with friction or without. Raises InputError for a record without friction.
     """
     viscous, static = (x[: biped.p] for x in biped.friction_coefficients)
     if not (np.any(viscous) or np.any(static)):

@@ -1,29 +1,30 @@
-"""Near a touchdown, removes from the feedback error the part that an impulse of the striking foot can change.
+"""Near a touchdown, a feedback error without the part that an impulse of the striking foot can change.
 
     a = (D - J_m' J_m / m)^-1 (J' - J_m' / m)          q'+ - q'- = a F for an impulse F of the ground (2,)
     N = change of a quantity under q' + a F            (., 2)
     P = 1 - N (N' N)^-1 N'                             P N = 0
 
-F (2,) [N s] is the foot's impulse, a (n, 2) the change of q' for each N s of it, N the change of what is
-projected; J', N' are transposes, q', e' rates, D is D_s. a follows from the impact (7) where only the foot with
-the Jacobian J strikes. J is J_2 of the swing foot before touchdown. After it J = 0: the foot that struck is the
-support then, and q does not contain its place. J_m is the Jacobian of m p_com, m [kg] the robot's mass, t_step
-[s] the time since the last touchdown, H the matrix of q_d'' = drift + H q''. While a touchdown is
-less than T [s] away (field `window`),
+F (2,) [N s] is the foot's impulse, a (n, 2) the change of q' for each N s of it, N the change of the quantity
+that is projected; J', N' are transposes, q', e' rates, D is D_s. a follows from the impact (7) where only the
+foot with the Jacobian J strikes. J is J_2 of the swing foot before touchdown. After it J = 0: the foot that
+struck is then the support, and q does not contain its place. J_m is the Jacobian of m p_com, m [kg] the
+robot's mass, t_step [s] the time since the last touchdown, H the matrix of q_d'' = drift + H q''. While a
+touchdown is less than T [s] away (field `window`),
 
     rates        the controller's rate error e' = q_b' - q_d' is P e', N = a_b - H a
     innovation   that of the observer, y - y^, is P (y - y^); N is a_b for an observer of the joints, a_b - H a
                  for one of their error, D a for one of the momentum D q'
 
-since q_d' of a virtual constraint follows the measured rates and jumps with them.
-The last touchdown was less than T ago (t_step < T), or the next one is expected in less than T by the phase:
-|Theta- - Theta| < T |Theta'|.
+since q_d' of a virtual constraint follows the measured rates and jumps with them. The last
+touchdown was less than T ago (t_step < T), or the next one is expected in less than T by the
+phase: |Theta- - Theta| < T |Theta'|.
 
 The projection of the rate error is that of Yang and Posa, Impact invariant control with applications to
 bipedal locomotion, IROS 2021 (arXiv 2103.06907), and Autonomous Robots 49(35), 2025 (arXiv 2303.00817), shown
-there on a planar biped of five links: the impulse that explains most of the error is taken off it. In the code
-that they published it comes and goes by a factor; here it is on or off. For the innovation of an observer no
-precedent was found, in three searches for observers of disturbances and states of legged robots near an impact.
+there on a planar biped of five links: the impulse that explains most of the error is removed from it. In the
+code that they published it is faded in and out by a factor; here it is on or off. For the innovation of an
+observer no precedent was found, in three searches for observers of disturbances and states of legged robots
+near an impact.
 """
 
 from __future__ import annotations
@@ -44,7 +45,10 @@ from biped_adrc.model.reduction import BodyTerms
 
 
 def impulse_response(D: Array, body: BodyTerms, J: Array) -> Array:
-    """a (n, 2) [1/(kg m)] of the module, for the Jacobian J (2, n) [m] of the foot that strikes."""
+    """Changes a (n, 2) [1/(kg m)] of the rates per unit impulse (x, z) on a foot with Jacobian J (2, n) [m].
+
+    D (n, n): inertia matrix; body: terms of the same posture. See the module for the equation.
+    """
     J_m = body.F_a
     about_com = D - J_m.T @ J_m / body.mass
     return solve_positive(
@@ -54,11 +58,13 @@ def impulse_response(D: Array, body: BodyTerms, J: Array) -> Array:
 
 @dataclass(frozen=True)
 class ImpactInvariant(ContactWindow):
-    """`inner` blind to impulses of the striking foot, within `window` seconds of a touchdown on either side.
+    """A policy that removes from the errors of `inner` what an impulse of the striking foot
+    changes, near a touchdown.
 
-    rates: in the controller's rate error. innovation: in that of its observer.
+    window [s]: on either side of the touchdown. rates: apply it to the controller's rate error.
+    innovation: to that of its observer.
 
-    Raises InputError for a controller that tracks no virtual constraint, or has not what is to be projected.
+    Raises InputError for a controller that tracks no virtual constraint, or lacks the error to be projected.
     """
 
     rates: bool = True
@@ -78,13 +84,13 @@ class ImpactInvariant(ContactWindow):
 
     @derived
     def phase(self) -> tuple[Array, float]:
-        """c (n,) of Theta = c q, and Theta- [rad]."""
+        """Row c (n,) of the phase Theta = c q, and the phase Theta- [rad] at which a step ends."""
         h = tracked_constraint(self.inner)
         return h.phase, float(h.theta_minus)
 
     @property
     def needs_body(self) -> bool:  # type: ignore[override]
-        """True: the Jacobian of the swing foot is among the terms of the body."""
+        """True, as the Jacobian of the swing foot is in `Measurement.body`."""
         return True
 
     def output(self, s: Array, m: Measurement) -> Array:
@@ -100,22 +106,24 @@ class ImpactInvariant(ContactWindow):
         return self.near(m, self.inner.projected_correct(s, m, self.directions(m)), z)
 
     def landed(self, m: Measurement) -> bool:
-        """Whether the last touchdown is less than T ago; on symbols 1 or 0."""
+        """Whether the last touchdown was less than T ago; 1 or 0 on symbols."""
         return m.t_step < self.until
 
     def expected(self, m: Measurement) -> bool:
-        """Whether the phase comes to its end, or has passed it, within T; on symbols 1 or 0."""
+        """Whether the phase is within T of its end, before or after it; 1 or 0 on symbols."""
         c, theta_minus = self.phase
         left, rate = float(theta_minus - c.dot(m.q)), float(c.dot(m.v))
         return abs(left) < self.until * abs(rate)
 
     def directions(self, m: Measurement) -> Array:
-        """a (n, 2) for the foot that has struck, or is about to."""
+        """Changes a (n, 2) [1/(kg m)] of the rates per unit impulse on the foot that has
+        just struck, or is about to.
+        """
         body = body_of(m)
         J = np.where(self.landed(m), 0.0 * body.J_2, body.J_2)
         return impulse_response(m.terms.D, body, J)
 
     def near(self, m: Measurement, projected: Array, other: Array) -> Array:
-        """`projected` within T of a touchdown, else the other."""
+        """`projected` within T of a touchdown, else `other`."""
         soon = np.where(self.expected(m), projected, other)
         return np.where(self.landed(m), projected, soon)

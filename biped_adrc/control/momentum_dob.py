@@ -4,10 +4,10 @@
     u = kappa^-1 (a_d - xi) - r_b - A_N' r_N             NPD (28), less both parts of r through (12)
     q_N'' = A_N q_b'' + a_N + D22^-1 r_N                 in the loop through Theta''
 
-r_b is matched, a motor each; r_N acts on the unactuated coordinate: its effect on the q_b is cancelled, that on
-q_N itself cannot be. For r = zeta the error obeys q_b'' - q_d'' = -K_d (q_b' - q_d') - K_p (q_b - q_d)
-exactly, under any force that stays. Unlike in ADRC the model compensates its own Omega, and the observer sees
-what is left.
+r_b is matched, one entry per motor; r_N acts on the unactuated coordinate: its effect on the q_b is cancelled,
+that on q_N itself cannot be. For r = zeta the error obeys q_b'' - q_d'' = -K_d (q_b' - q_d') - K_p (q_b - q_d)
+exactly, under any constant force. Unlike in ADRC the model compensates its own Omega, and the observer
+estimates the remaining force.
 
 De Luca, Albu-Schaeffer, Haddadin, Hirzinger, IROS 2006; Chen, Ballance, Gawthrop, O'Reilly, IEEE Trans.
 Industrial Electronics 47(4), 2000; Sariyildiz, Oboe, Ohnishi, IEEE Trans. Industrial Electronics 67(3), 2020.
@@ -41,7 +41,7 @@ from biped_adrc.observers.momentum import MomentumObserver
 
 
 def pushed(terms: Reduction, r: Array) -> Reduction:
-    """The split of D q'' + Omega = B u + r: with the force r (n,) [N m] in xi and a_N."""
+    """The reduction of D q'' + Omega = B u + r: xi and a_N of `terms` with the force r (n,) [N m] added."""
     p = terms.kappa.shape[0]
     xi = terms.xi + terms.kappa @ (r[:p] + terms.A_N.T @ r[p:])
     a_N = terms.a_N + solve_positive(terms.D[p:, p:], r[p:], "D22")
@@ -50,10 +50,10 @@ def pushed(terms: Reduction, r: Array) -> Reduction:
 
 @dataclass(frozen=True)
 class MomentumDOBController(ObservingController):
-    """The module's equations with a momentum observer that is the whole state.
+    """NPD (28) less the external force that a momentum observer estimates; the observer is the whole state.
 
-    solve_theta: solve the loop through Theta'' (default), or drop h' Theta'' as (28) is printed.
-    reset: what happens to the observer at impact.
+    solve_theta: solve the loop through Theta'' (default), or drop h' Theta'' as (28) is printed. reset: what
+    happens to the observer at impact.
     """
 
     needs_body: ClassVar[bool] = True
@@ -65,7 +65,7 @@ class MomentumDOBController(ObservingController):
     reset: ResetPolicy = ResetPolicy.MODEL
 
     def measured_output(self, m: Measurement) -> Estimate:
-        """pi = D q' (n,) [kg m^2/s] of the nominal model, and no force from outside."""
+        """Momentum pi = D q' (n,) [kg m^2/s] of the nominal model, and zero external force."""
         none = np.zeros(len(m.q))
         return Estimate(m.terms.D @ m.v, none, none)
 
@@ -85,9 +85,11 @@ class MomentumDOBController(ObservingController):
         return tracking_torque(self.gains, r, joints, terms, self.solve_theta, a)
 
     def joint_estimate(self, x: Estimate, m: Measurement) -> Estimate:
-        """The measurement, and the total disturbance (14) that the model and the estimated force (n,) make."""
+        """The measured joints, and the total disturbance (14) of the model with the
+        estimated force (n,) [N m].
+        """
         return measured(m)._replace(disturbance=pushed(m.terms, x.disturbance).xi)
 
     def output_change(self, m: Measurement, a: Array) -> Array:
-        """Change of pi, D a (n, 2)."""
+        """Change D a (n, 2) of the momentum when the rates change by a (n, 2)."""
         return m.terms.D @ a

@@ -22,10 +22,10 @@ from biped_adrc.gait.reference import Reference
 
 @dataclass(frozen=True)
 class NPDController(Controller):
-    """(28), a controller without a state.
+    """NPD, eq. (28), a controller without a state.
 
-    reference: what is tracked. gains: K_p [1/s^2], K_d [1/s]. solve_theta: solve the loop through Theta''
-    (default), or drop h' Theta'' as printed.
+    reference: the reference to track. gains: K_p [1/s^2], K_d [1/s]. solve_theta: solve the loop through
+    Theta'' (default), or drop h' Theta'' as printed.
 
     >>> controller = ba.NPDController(gait.constraint, ba.Gains(K_p=2500.0, K_d=100.0))
     >>> ba.walk(ba.Walker(biped, controller), gait, impacts=1).impacts

@@ -38,11 +38,11 @@ from biped_adrc.gait.reference import Reference
 
 @dataclass(frozen=True)
 class NPIDController(Controller):
-    """The module's equations, for K_i [1/s^3] below K_p K_d, above which the loop is unstable.
+    """Feedback linearisation with a PID of the filtered error, for a K_i [1/s^3] that leaves the loop stable.
 
-    filter_bandwidth, damping: w [rad/s] and zeta of the filter.
-    period [s]: of the discrete form, in which the error is held from tick to tick; set by `sampled`.
-    Raises InputError for numbers that are not positive.
+    filter_bandwidth, damping: w [rad/s] and zeta of the filter. period [s]: of the discrete form, in which
+    the error is held from tick to tick; set by `sampled`. Raises InputError for numbers that are not
+    positive, and for an unstable loop.
     """
 
     reference: Reference
@@ -71,7 +71,7 @@ class NPIDController(Controller):
     def like_adrc(
         cls, reference: Reference, gains: Gains = TABLE_II, bandwidth: float = 500.0
     ) -> NPIDController:
-        """With C(s) of the linear ADRC whose three observer poles are at -bandwidth [rad/s].
+        """The controller with C(s) of the linear ADRC whose three observer poles are at -bandwidth [rad/s].
 
         gains: that ADRC's, one number for all joints.
         """
@@ -87,7 +87,9 @@ class NPIDController(Controller):
 
     @derived
     def filter(self) -> tuple[Array, Array]:
-        """M (3, 3), b (3,): Z' = M Z + b e, or Z one period later, for the rows e_f, e_f', s of Z (3, p)."""
+        """M (3, 3) and b (3,) of Z' = M Z + b e, or of Z one period later, for the rows
+        e_f, e_f', s of Z (3, p).
+        """
         w, zeta = self.filter_bandwidth, self.damping
         A = np.array([[0.0, 1.0, 0.0], [-w * w, -2.0 * zeta * w, 0.0], [1.0, 0.0, 0.0]])
         b = np.array([0.0, w * w, 0.0])
@@ -103,7 +105,7 @@ class NPIDController(Controller):
         return m.terms.kappa_inverse @ (solved_acceleration(r, m.terms, f) - m.terms.xi)
 
     def initial_state(self, m: Measurement) -> Array:
-        """Rows (3 p,) that agree with the error and its rate, without an integral."""
+        """Rows e_f, e_f', s (3 p,) of the filter, with the measured error and its rate, and no integral."""
         r = self.reference(m.t, m.q, m.v)
         e, de = m.q_b - r.q_d, m.v_b - r.dq_d
         return np.concatenate((e, de, np.zeros(len(e))))
@@ -115,12 +117,16 @@ class NPIDController(Controller):
         return self._filtered(s, m)
 
     def _filtered(self, s: Array, m: Measurement) -> Array:
-        """The slope of the filter's rows, or the rows one period later (3 p,)."""
+        """M Z + b e (3 p,) of the filter, with the error e of this measurement: Z' in continuous time, Z
+        one period later in sampled time.
+        """
         (M, b), e = self.filter, m.q_b - self.reference(m.t, m.q, m.v).q_d
         return (M @ s.reshape(3, -1) + np.outer(b, e)).ravel()
 
     def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
-        """Rows after impact: a new start, with the integral relabelled by swap (p,)."""
+        """Rows e_f, e_f', s (3 p,) of the filter after impact: a new start, but for the integral
+        s, relabelled by swap (p,).
+        """
         p = len(swap)
         return np.concatenate((self.initial_state(after)[: 2 * p], relabelled(s[2 * p :], swap)))
 

@@ -2,13 +2,13 @@
 
     h_in_force(Theta) = h(Theta) + c(Theta; w),   s = (s_inner, w)
 
-w is the loop's own state; it changes at impact, and between impacts only as `own_flow` says. The inner
-controller, whichever it is, tracks the sum. Outer loops go around outer loops: their corrections add up.
+w is the loop's own state; it changes at impact, and between impacts only by `own_flow`. The inner controller,
+whichever it is, tracks the sum. Outer loops can be nested: their corrections add up.
 
-An inner loop drives q_b - h(Theta) to zero, and cannot change what the zero dynamics do with a push; an outer
-loop does so by changing h. The inner controller is never told: at each call a copy of it tracks the corrected
-constraint. The core, inside all loops, starts and jumps last, when all corrections are known, since an observer
-of outputs starts from the error of what is in force.
+An inner loop drives q_b - h(Theta) to zero, and cannot change how the zero dynamics respond to a push; an
+outer loop does so by changing h. The inner controller itself is not changed: at each call a copy of it tracks
+the corrected constraint. The core, inside all loops, starts and jumps last, when all corrections are known,
+since an observer of outputs starts from the error of the reference in force.
 """
 
 from __future__ import annotations
@@ -41,28 +41,31 @@ class OuterLoop(Around):
     @property
     @abstractmethod
     def own_size(self) -> int:
-        """Length of w."""
+        """Number of the loop's own states w."""
 
     @abstractmethod
     def own_start(self, h: Constraint, m: Measurement) -> Array:
-        """w (own_size,) at the start of a run; h is what the inner controller tracks."""
+        """w (own_size,) at the start of a run; h is the constraint that the inner controller tracks."""
 
     @abstractmethod
     def own_jump(self, w: Array, h: Constraint, after: Measurement) -> Array:
-        """w (own_size,) after impact, from w before it; h is what the inner controller tracks then."""
+        """w (own_size,) after impact, from w before it; h is the constraint that the
+        inner controller then tracks.
+        """
 
     @abstractmethod
     def correction(self, w: Array) -> Correction:
-        """c(Theta; w): a function of Theta [rad] that gives c, dc/dTheta, d2c/dTheta2, each (p,), for this w
-        (own_size,).
+        """The correction c(Theta; w) for this w (own_size,), a function of Theta [rad].
+
+        It returns c, dc/dTheta, d2c/dTheta2, each (p,).
         """
 
     def own_flow(self, w: Array) -> Array:
-        """w' (own_size,) in continuous time; zero unless a subclass says otherwise."""
+        """w' (own_size,) in continuous time; zero by default."""
         return np.zeros(self.own_size)
 
     def own_correct(self, w: Array, m: Measurement) -> Array:
-        """w (own_size,) at a sample instant, unchanged unless a subclass says otherwise."""
+        """w (own_size,) after the measurement of a sample instant; unchanged by default."""
         return w
 
     def parts(self, s: Array) -> tuple[Array, Array]:
@@ -71,7 +74,7 @@ class OuterLoop(Around):
         return s[:end], s[end:]
 
     def _acting(self, w: Array) -> Controller:
-        """The inner controller with its constraint corrected as w (own_size,) says."""
+        """The inner controller with its constraint corrected by c(Theta; w)."""
         return with_correction(self.inner, self.correction(w))
 
     # -- what a controller does ------------------------------------------------------------------
@@ -118,7 +121,10 @@ OF_A_LOOP = "an outer loop corrects the virtual constraint of its inner controll
 
 
 def tracked_constraint(controller: Controller, why: str = OF_A_LOOP) -> VirtualConstraint:
-    """h of the controller inside all outer loops. Raises InputError, with the reason why, if it tracks none."""
+    """The virtual constraint h of the controller inside all outer loops.
+
+    Raises InputError, beginning with `why`, if it tracks none.
+    """
     h = own_reference(controller)
     if isinstance(h, CorrectedConstraint):
         return h.constraint
@@ -132,20 +138,20 @@ def tracked_constraint(controller: Controller, why: str = OF_A_LOOP) -> VirtualC
 
 
 def own_reference(controller: Controller | None) -> Any:
-    """The field `reference` of the controller inside all others (field `inner`); None where it has none."""
+    """The field `reference` of the controller inside all wrappers (field `inner`); None where it has none."""
     each = (getattr(c, "reference", None) for c in nested(controller))
     return next((h for h in each if h is not None), None)
 
 
 def tracking(controller: Controller, reference: Constraint) -> Controller:
-    """A copy of the controller, or of that inside it (field `inner`), with another reference."""
+    """A copy of the controller, or of the one inside it (field `inner`), that tracks another reference."""
     if hasattr(controller, "reference"):
         return with_fields(controller, reference=reference)
     return with_fields(controller, inner=tracking(controller.inner, reference))  # type: ignore[attr-defined]
 
 
 def reference_in_force(controller: Controller, s: Array) -> Constraint:
-    """What a controller with state s (size,) tracks, all corrections included.
+    """The reference that a controller tracks in its state s (size,), all corrections included.
 
     Raises InputError as `tracked_constraint`.
     """
@@ -164,10 +170,11 @@ def tracked_point(h: Reference | OuterLoop, s: Array, m: Measurement) -> Referen
 
 
 def innermost(loop: OuterLoop, s: Array) -> tuple[Controller, int]:
-    """The controller inside all outer loops, tracking what is in force in the state s (size,), and how many
-    numbers of s, its first ones, are its own.
+    """The controller inside all outer loops, tracking the reference in force in s
+    (size,), and its number of states.
 
-    An observer of outputs starts from the error of what is in force, not of h alone.
+    Its states are the first ones of s. An observer of outputs starts from the error of the
+    reference in force, not of h alone.
     """
     core: Controller = loop
     size = len(s)
@@ -177,10 +184,7 @@ def innermost(loop: OuterLoop, s: Array) -> tuple[Controller, int]:
 
 
 def with_correction(controller: Controller, correction: Correction) -> Controller:
-    """A copy of the controller with its constraint corrected, whatever outer loops it is in.
-
-    The innermost one is changed: loops between pass the correction on.
-    """
+    """A copy of the controller, inside whatever outer loops, that tracks its constraint plus a correction."""
     if isinstance(controller, OuterLoop):
         return with_fields(controller, inner=with_correction(controller.inner, correction))
     return tracking(controller, CorrectedConstraint(own_reference(controller), correction))

@@ -8,11 +8,11 @@ q_b'' = a = kappa u + xi and q_N'' = A_N a + a_N, the same u is
 
     (J_b + J_N A_N) a = w - drift - J_N a_N,   u = kappa^-1 (a - xi)
 
-since J D^-1 B = (J_b + J_N A_N) kappa. For y = q_b - h(Theta) this is NPD (28) with its loop through Theta''
-solved.
+since J D^-1 B = (J_b + J_N A_N) kappa. For y = q_b - h(Theta) this is NPD (28) with its
+loop through Theta'' solved.
 
 Outputs are any object of `gait.outputs`: linear ones, those of a virtual constraint, positions of a foot. They
-may be Python of the user's own, so this controller is written as a method and runs in Python.
+may be a user's own Python, so this controller runs in Python.
 """
 
 from __future__ import annotations
@@ -30,13 +30,12 @@ from biped_adrc.gait.outputs import OutputPoint, Outputs
 from biped_adrc.model.reduction import Reduction
 
 _SINGULAR = 1e-9
-"""Reciprocal condition number; a Jacobian by differences has errors of 1e-11, which must not hide a singular
-one."""
+"""Least reciprocal condition of the decoupling matrix; a Jacobian by differences has errors of 1e-11."""
 
 
 @dataclass(frozen=True)
 class OutputNPDController(Controller):
-    """y'' = -K_p y - K_d y' for the nominal model; as many outputs as motors.
+    """Input-output linearisation with y'' = -K_p y - K_d y' for the nominal model; as many outputs as motors.
 
     Raises InputError for another number of outputs, SingularError where J D^-1 B is singular.
     """
@@ -50,7 +49,8 @@ class OutputNPDController(Controller):
 
 
 def linearising_torque(o: OutputPoint, terms: Reduction, w: Array) -> Array:
-    """u (p,) [N m] of the module's equation, for y'' = w (p,).
+    """Torque u (p,) [N m] that gives the outputs o the acceleration y'' = J q'' + drift = w
+    (p,) on the nominal model.
 
     Raises InputError when J is not (p, n), SingularError where J D^-1 B is singular.
     """
@@ -66,7 +66,7 @@ def linearising_torque(o: OutputPoint, terms: Reduction, w: Array) -> Array:
 
 
 def _solve(M: Array, b: Array) -> Array:
-    """M^-1 b. Raises SingularError when M is singular, or as good as that."""
+    """Solve M x = b. Raises SingularError when M is singular or its condition number above 1 / _SINGULAR."""
     if len(M) == 0:
         return np.zeros_like(b)
     factors, pivots, _ = dgetrf(M)

@@ -1,7 +1,7 @@
-"""No torque at all: u = 0, for passive walkers and for seeing what a robot does by itself.
+"""No torque: u = 0, for passive walkers and for the robot's own motion.
 
-The compass gait down a slope needs nothing more (McGeer, Int. J. Robotics Research 9(2), 1990). Tests take it
-where the loop has to do nothing, such as for the conservation of energy between impacts.
+The compass gait down a slope needs nothing more (McGeer, Int. J. Robotics Research 9(2), 1990). Tests use it
+where no controller may interfere, such as for the conservation of energy between impacts.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from biped_adrc.core.types import Array
 
 @dataclass(frozen=True)
 class Passive(Controller):
-    """u = 0 (p,) [N m].
+    """A controller with u = 0 (p,) [N m].
 
     >>> walk = ba.walk_scenario(ba.Scenario("passive", robot="compass", run={"impacts": 2}))
     >>> walk.impacts

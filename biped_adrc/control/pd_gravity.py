@@ -2,10 +2,10 @@
 
     u = -K_p (q_b - q_d) - K_d (q_b' - q_d') + G_b(q)
 
-Takegaki, Arimoto, ASME J. Dynamic Systems, Measurement, and Control 103(2), 1981: on a fully actuated arm
-that stands still q_d is reached from everywhere, whatever the inertia, since the energy
-q'' D q' / 2 + K_p |q - q_d|^2 / 2 falls. On a walker G_b leaves out what the unactuated coordinate does, and
-nothing is asked of the inertia or of q_d'': the error of tracking stays finite, and falls with the gains.
+Takegaki, Arimoto, ASME J. Dynamic Systems, Measurement, and Control 103(2), 1981: on a fully actuated arm that
+stands still q_d is reached from everywhere, whatever the inertia, since the energy q'' D q' / 2 + K_p |q -
+q_d|^2 / 2 falls. On a walker G_b ignores the motion of the unactuated coordinate, and neither inertia nor
+q_d'' is used: the tracking error stays finite, and falls with the gains.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class JointGains(Gains):
 
 @dataclass(frozen=True)
 class PDGravityController(Controller):
-    """The module's equation, a controller without a state; `gains` are torques per angle and rate.
+    """PD with gravity compensation, a controller without a state; `gains` are torques per angle and rate.
 
     It needs the weight of the nominal model, `Measurement.body`, and no other part of it.
     """

@@ -1,18 +1,18 @@
-"""Prediction over a known delay around any controller: it is shown the state at which its torque will act.
+"""Prediction over a known delay around any controller, which gets the state at which its torque will act.
 
     q^ = q + d v + d^2/2 a(u_q),   v^ = v + d a(u_v)          a(u): D_s a + Omega = B_s u at (q, v)
 
 u_v is the mean of the torques that act until t + d, and u_q their mean with the weight 2 (t + d - s) / d^2 at
-the instant s. With q'' constant but for the torque, both are exact. The torque that is asked for at a tick
-acts d later, so those on their way are the last N = ceil(d / T), which are a state U (N, p) behind that of the
+the instant s. With q'' constant but for the torque, both are exact. The torque computed at a tick acts d
+later, so those on their way are the last N = ceil(d / T), which are a state U (N, p) behind that of the
 controller inside: all act for a period T but the oldest, for d - (N - 1) T.
 
-The controller inside is given the nominal model at (q^, v^), t + d, and the torque of this tick: for its
-observer there is no delay. `SampledTime(delay_known=True)` shifts the torque instead and leaves the state as
-it is measured; with both the delay would count twice, so this is around a controller that is not told of it.
-After an early tick, at an impact, torques act sooner than is reckoned here.
+The controller inside gets the nominal model at (q^, v^), t + d, and the torque of this tick: for its observer
+there is no delay. `SampledTime(delay_known=True)` shifts the torque instead and leaves the state as it is
+measured; with both the delay would count twice, so use this wrapper with delay_known=False. After an early
+tick, at an impact, torques act sooner than assumed here.
 
-d is what is to be predicted: the delay of the clock, or more, as half a period for the hold. d = 0 is the
+d is the delay to predict: that of the clock, or more, as half a period for the hold. d = 0 is the
 controller inside, bit for bit.
 """
 
@@ -34,7 +34,10 @@ from biped_adrc.observers.base import Estimate
 
 
 def weights(d: float, period: float) -> tuple[Array, Array]:
-    """The weights (N,) in u_v and u_q of the torques on their way, the oldest first; empty for d = 0."""
+    """Weights (N,) of the torques on their way in the means u_v and u_q, the oldest first; empty for d = 0.
+
+    d [s]: the delay. period [s]: of the ticks.
+    """
     count = math.ceil(d / period - WHOLE)
     left = np.minimum(
         np.arange(count, 0, -1) * period, d
@@ -45,7 +48,7 @@ def weights(d: float, period: float) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class Predicted(Around):
-    """The module's prediction over `prediction` seconds d > 0 around `inner`; period [s]: set by `sampled`.
+    """A wrapper that predicts the state over d = `prediction` [s] for `inner`; period [s]: set by `sampled`.
 
     Raises InputError for d that is not positive, or longer than `timing.LONGEST_DELAY` periods.
     """
@@ -63,17 +66,17 @@ class Predicted(Around):
 
     @derived
     def weights(self) -> tuple[Array, Array]:
-        """Of U's rows in u_v and in u_q, each (N,)."""
+        """Weights of the N torques on their way in the means u_v and u_q, each (N,); see `weights`."""
         return weights(self.prediction, self.period or self.prediction)
 
     def parts(self, s: Array, m: Measurement) -> tuple[Array, Array]:
-        """The state of the controller inside, and U (N, p)."""
+        """Split the state s into that of the controller inside, and the torques on their way U (N, p) [N m]."""
         count, p = len(self.weights[0]), m.terms.kappa.shape[0]
         end = len(s) - count * p
         return s[:end], s[end:].reshape(count, p)
 
     def ahead(self, U: Array, m: Measurement) -> Measurement:
-        """The measurement d later, of the nominal model under the torques U (N, p) [N m].
+        """The measurement d later, predicted by the nominal model under the torques U (N, p) [N m].
 
         Raises InputError for a controller that was not made for sampled time.
         """

@@ -29,12 +29,12 @@ from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import Correction
 
 LEAST_REACH = 0.2
-"""Least x at impact: nearer to Theta_e, where c would have to fall abruptly, nothing is corrected."""
+"""Least x at impact for a correction: nearer to Theta_e, c would have to fall abruptly."""
 
 
 @dataclass(frozen=True)
 class ResetPolynomial:
-    """The correction c(Theta) of the rows a_0, a_1 of a (2, p).
+    """The correction c(Theta) with the coefficients a = (a_0, a_1) (2, p).
 
     end: Theta_e [rad]. rate: dx/dTheta = -1 / (Theta_e - Theta+) [1/rad], where x is 1 at Theta+.
     """
@@ -54,7 +54,11 @@ class ResetPolynomial:
 
 
 def reset_coefficients(x: Array | float, rate: float, e: Array, slope: Array) -> Array:
-    """a_0, a_1 (2, p) with c = e [rad] and dc/dTheta = slope [rad/rad] where (Theta_e - Theta) has this x."""
+    """Coefficients a_0, a_1 (2, p) of the correction c with c = e [rad] and dc/dTheta =
+    slope [rad/rad] at this x.
+
+    rate: dx/dTheta [1/rad].
+    """
     A, B = e / x**3, slope / (rate * x**2)
     return np.vstack((4.0 * A - B, (B - 3.0 * A) / x))
 
@@ -64,11 +68,12 @@ ShareFloat = Annotated[float, Range("a share in (0, 1]", lambda x: 0.0 < x <= 1.
 
 @dataclass(frozen=True)
 class ReferenceReset(OuterLoop):
-    """The correction above around `inner`; its state is (a_0, a_1).
+    """An outer loop that bends the constraint of `inner` to the state after each
+    impact; its state is (a_0, a_1).
 
     share: of the phase range after which the reference is h again, in (0, 1]. Nothing is corrected when an
     impact leaves x < LEAST_REACH, or Theta running backwards: then the error is the inner controller's.
-    Raises InputError.
+    Raises InputError for another share.
 
     >>> controller = ba.ReferenceReset(ba.NPDController(gait.constraint), share=0.4)
     >>> ba.walk(ba.Walker(biped, controller), gait, impacts=1).impacts

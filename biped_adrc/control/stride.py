@@ -40,7 +40,7 @@ beta in the middle of the step. A lean forwards and back slows the walk: its gai
 
 
 def bump(s: float) -> tuple[float, float, float]:
-    """b, db/ds, d2b/ds2 at s, all zero outside of [0, 1]; b = 1 in the middle of the step."""
+    """Value of the bump b(s) = 64 s^3 (1 - s)^3, with db/ds and d2b/ds2; all are zero outside of [0, 1]."""
     w, dw = max(s * (1.0 - s), 0.0), 1.0 - 2.0 * s
     return 64.0 * w**3, 192.0 * w**2 * dw, 384.0 * w * (dw**2 - w)
 
@@ -57,17 +57,17 @@ class Bump:
     rate: float
 
     def __call__(self, theta: float) -> tuple[Array, Array, Array]:
-        """c and its two derivatives by Theta, each (p,)."""
+        """c and its two derivatives by Theta at theta [rad], each (p,)."""
         b, db, ddb = bump(self.rate * (theta - self.theta_plus))
         return b * self.shift, self.rate * db * self.shift, self.rate**2 * ddb * self.shift
 
 
 @dataclass(frozen=True)
 class StrideGains(Checked):
-    """K_P [rad s/m], K_I [rad s/m], and `limit`, the bound on |beta| [rad].
+    """Gains of the PI: K_P [rad s/m], K_I [rad s/m], and `limit`, the bound on |beta| [rad].
 
-    `analysis.stride_gain` finds them from how the speed answers to beta. Raises InputError for gains that are
-    not finite and a bound that is not positive.
+    `analysis.stride_gain` computes them from the response of the speed to beta. Raises InputError for gains
+    that are not finite and a bound that is not positive.
     """
 
     K_P: FiniteFloat
@@ -77,7 +77,8 @@ class StrideGains(Checked):
 
 @dataclass(frozen=True)
 class StridePI(OuterLoop):
-    """The PI above around `inner`; its state is (tau, I, beta). Make it with `on_gait`.
+    """An outer loop, the PI on the walking speed around `inner`; its state is (tau, I,
+    beta). Make it with `on_gait`.
 
     speed: v* [m/s]. step_length: L [m]. direction: d (p,). Raises InputError for a speed or length that is not
     positive, and for a direction that has not p finite numbers.
@@ -113,7 +114,7 @@ class StridePI(OuterLoop):
         speed: float | None = None,
         direction: tuple[float, ...] = TORSO_LEAN,
     ) -> StridePI:
-        """Around `inner` on a gait, with its step length, and its speed unless another is given [m/s]."""
+        """The PI around `inner` on a gait, with the gait's step length; speed [m/s]: v*, the gait's if None."""
         length = float(np.hypot(*biped.swing_foot(gait.q_minus)))
         return cls(
             inner, length / gait.period if speed is None else speed, length, direction, gains
@@ -136,9 +137,10 @@ class StridePI(OuterLoop):
         return self.stepped(w)
 
     def stepped(self, w: Array) -> Array:
-        """w = (tau, I, beta) (3,) after impact: the PI of the module's equation, with both bounds.
+        """State (tau, I, beta) (3,) after an impact: I and beta by the PI on the speed of the
+        step just finished, bounded.
 
-        One at tau = 0, as when a run starts with it, has timed no step and changes nothing.
+        With tau = 0, as when a run starts at the impact, no step has been timed and the state stays as it is.
         """
         timed, k = w[0] > 0.0, self.gains
         e = self.speed - self.step_length / np.where(timed, w[0], 1.0)
@@ -148,12 +150,12 @@ class StridePI(OuterLoop):
 
     @derived
     def most_I(self) -> float:
-        """Bound on |I| [m/s], by which K_I |I| is bounded as |beta| is."""
+        """Bound on the integral |I| [m/s], such that K_I |I| has the bound of |beta|."""
         return self.gains.limit / abs(self.gains.K_I) if self.gains.K_I else math.inf
 
     @derived
     def phase(self) -> tuple[float, float]:
-        """Theta+ [rad] and 1 / (Theta- - Theta+) [1/rad]."""
+        """Phase Theta+ [rad] at the start of a step, and 1 / (Theta- - Theta+) [1/rad]."""
         h = tracked_constraint(self.inner)
         return h.theta_plus, 1.0 / (h.theta_minus - h.theta_plus)
 

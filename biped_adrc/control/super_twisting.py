@@ -36,10 +36,12 @@ from biped_adrc.gait.reference import Reference, ReferencePoint
 
 @dataclass(frozen=True)
 class SuperTwistingController(Controller):
-    """The module's equations.
+    """Super-twisting sliding mode control about the reference, smooth within a layer around
+    sigma = e' + lambda e = 0.
 
-    slope: lambda [1/s] of the sliding surface. lipschitz: L [rad/s^3]. layer: delta [rad/s].
-    period [s]: of the discrete form; set by `sampled`. Raises InputError for numbers that are not positive.
+    slope: lambda [1/s] of the sliding surface. lipschitz: L [rad/s^3], the bound on the slope of the error
+    of the model. layer: delta [rad/s]. period [s]: of the discrete form; set by `sampled`. Raises InputError
+    for numbers that are not positive.
     """
 
     reference: Reference
@@ -50,16 +52,16 @@ class SuperTwistingController(Controller):
 
     @derived
     def k_1(self) -> float:
-        """[rad^(1/2) / s^(3/2)]"""
+        """Gain k_1 [rad^(1/2) / s^(3/2)]."""
         return 1.5 * math.sqrt(self.lipschitz)
 
     @derived
     def k_2(self) -> float:
-        """[rad/s^3]"""
+        """Gain k_2 [rad/s^3]."""
         return 1.1 * self.lipschitz
 
     def sliding(self, r: ReferencePoint, m: Measurement) -> tuple[Array, Array]:
-        """sigma and e', each (p,) [rad/s]."""
+        """The sliding variable sigma = e' + lambda e and the rate error e' = q_b' - q_d', each (p,) [rad/s]."""
         de = m.v_b - r.dq_d
         return de + self.slope * (m.q_b - r.q_d), de
 
@@ -71,11 +73,13 @@ class SuperTwistingController(Controller):
         return m.terms.kappa_inverse @ (solved_acceleration(r, m.terms, f) - m.terms.xi)
 
     def initial_state(self, m: Measurement) -> Array:
-        """z = 0 (p,) [rad/s^2] at the start: the model is taken to be right."""
+        """z = 0 (p,) [rad/s^2] at the start: the model is assumed to be exact."""
         return np.zeros(len(m.q_b))
 
     def flow(self, s: Array, m: Measurement, u: Array) -> Array:
-        """z' (p,) [rad/s^3], of any torque u: z does not know of a limit, and winds up while one is reached."""
+        """z' (p,) [rad/s^3], whatever the torque u: z ignores the torque limit, and
+        winds up while it is reached.
+        """
         sigma, _ = self.sliding(self.reference(m.t, m.q, m.v), m)
         return -self.k_2 * sigma / (np.abs(sigma) + self.layer)
 
@@ -84,7 +88,7 @@ class SuperTwistingController(Controller):
         return s + self.period * self.flow(s, m, u)
 
     def jump(self, s: Array, after: Measurement, swap: Indices) -> Array:
-        """z (p,) after impact: what is wrong with the model belongs to a leg, and is relabelled."""
+        """z (p,) [rad/s^2] after impact, relabelled, since an error of the model belongs to a leg."""
         return relabelled(s, swap)
 
     def sampled(self, period: float) -> SuperTwistingController:

@@ -1,12 +1,13 @@
-"""What controllers share that track a reference: the acceleration asked for, and an observer that is the state.
+"""Shared parts of the controllers that track a reference: the commanded acceleration,
+and an observer as the state.
 
     u = kappa^-1 (a - xi),   a = q_d'' + f,   f = -K_d (x2 - q_d') - K_p (x1 - q_d)
 
-is shared by (20) and (28). They differ in where x1, x2 and xi come from: an observer in (20), the measurement
-and the model in (28).
+is shared by (20) and (28). They differ in where x1, x2 and xi come from: an observer in (20), the
+measurement and the model in (28).
 
-q_d'' = drift + H q'' contains q'' and so, through the model, the torque. With the unactuated rows
-q_N'' = A_N q_b'' + a_N of (12) and q_b'' = a,
+q_d'' = drift + H q'' contains q'' and so, through the model, the torque. With the unactuated rows q_N'' = A_N
+q_b'' + a_N of (12) and q_b'' = a,
 
     (I - H_b - H_N A_N) a = drift + f + H_N a_N
 
@@ -17,8 +18,8 @@ ADRC, its output form and DOB have an observer that is their whole state:
     u = torque(r, x^, m),   z' = flow(z, y, input)          in continuous time
     z <- correct(z, y),     z <- predict(z, input)          at a tick
 
-r is the point of the reference, x^ the observer's estimate. An `ObservingController` says what its observer
-measures, y, what its input is, and the torque; observer and reference may be any. `adrc` measures the joints,
+r is the point of the reference, x^ the observer's estimate. An `ObservingController` defines the observer's
+measurement y, its input, and the torque; observer and reference may be any. `adrc` measures the joints,
 `output_adrc` the output y = q_b - q_d, `momentum_dob` the momentum. All else, resets and time bases included,
 is here once.
 """
@@ -42,7 +43,7 @@ from biped_adrc.model.reduction import BodyTerms, Reduction
 from biped_adrc.observers.base import Estimate, Observer, ResetPolicy
 
 HIGHEST = 1e15
-"""Of a gain [1/s^2], [1/s]: beyond it products of gains and poles have no place among the floats."""
+"""Largest gain [1/s^2], [1/s]; above it products of gains and poles overflow."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +70,7 @@ class Gains(Shown):
             object.__setattr__(self, name, float(value) if value.ndim == 0 else frozen(value))
 
     def check(self, p: int) -> None:
-        """Raise InputError for gains per joint of another number of joints than p."""
+        """Raise InputError for gains per joint whose number is not p."""
         for name in ("K_p", "K_d"):
             count = np.size(getattr(self, name))
             if count not in (1, p):
@@ -94,10 +95,10 @@ def tracking_torque(
     solve_theta: bool,
     a: Array | None = None,
 ) -> Array:
-    """u (p,) [N m] of (20) or (28), whichever x is. Raises SingularError as `solved_acceleration`.
+    """Torque u (p,) [N m] of (20) or (28): the estimates x come from an observer, or from the measurement.
 
-    solve_theta: whether the loop through Theta'' is solved. a (n, 2): the rate error is taken blind to changes
-    of the rates along a; None: as it is.
+    solve_theta: whether the loop through Theta'' is solved. a (n, 2): changes of the rates that are projected
+    out of the rate error; None: nothing is projected. Raises SingularError as `solved_acceleration`.
     """
     x2 = x.velocity
     if a is not None:
@@ -113,7 +114,7 @@ def rate_error_change(r: ReferencePoint, a: Array) -> Array:
 
 
 def feedback(gains: Gains, r: ReferencePoint, x1: Array, x2: Array) -> Array:
-    """-K_d (x2 - q_d') - K_p (x1 - q_d) (p,) [rad/s^2].
+    """The feedback f = -K_d (x2 - q_d') - K_p (x1 - q_d) (p,) [rad/s^2].
 
     >>> r = gait.constraint(0.0, gait.q_minus, gait.v_minus)
     >>> ba.feedback(ba.Gains(100.0, 10.0), r, r.q_d + 0.01, r.dq_d)
@@ -123,9 +124,11 @@ def feedback(gains: Gains, r: ReferencePoint, x1: Array, x2: Array) -> Array:
 
 
 def solved_acceleration(r: ReferencePoint, terms: Reduction, f: Array) -> Array:
-    """a (p,) [rad/s^2] of the module's equation. Raises SingularError when its matrix is exactly singular.
+    """Solve (I - H_b - H_N A_N) a = drift + f + H_N a_N for the acceleration a (p,) [rad/s^2] of the joints.
 
-    That is where a pivot of it is 0.0; near that a grows without bound and without an error.
+    f (p,) [rad/s^2]: the feedback; r has drift and H of q_d'', terms have A_N and a_N of q_N''.
+    Raises SingularError when the matrix is exactly singular, with a pivot of 0.0; near that a grows
+    without bound and without an error.
 
     >>> r = gait.constraint(0.0, gait.q_minus, gait.v_minus)
     >>> terms = biped.reduction(gait.q_minus, gait.v_minus)
@@ -146,20 +149,24 @@ def output_matrix(r: ReferencePoint, terms: Reduction) -> Array:
 
 
 def printed_acceleration(r: ReferencePoint, f: Array) -> Array:
-    """a (p,) [rad/s^2] as (20) and (28) print it, with h' Theta'' dropped.
+    """Acceleration a (p,) [rad/s^2] as the paper prints it in (20) and (28), with h' Theta'' left out.
 
-    It saves the solution of a linear system; the error it leaves is a disturbance for the loop.
+    f (p,) [rad/s^2]: the feedback. It saves the solution of a linear system; the error it
+    makes acts as a disturbance.
     """
     return r.drift + f
 
 
 def orthogonal_to(N: Array) -> Array:
-    """P = 1 - N (N' N)^-1 N' (k, k): the part of a vector that is orthogonal to the columns of N (k, 2)."""
+    """Projection P = 1 - N (N' N)^-1 N' (k, k) onto the directions orthogonal to the columns of N (k, 2)."""
     return np.eye(len(N)) - N @ solve_positive(N.T @ N, N.T, "N' N of two impulses")
 
 
 def body_of(m: Measurement) -> BodyTerms:
-    """m.body. Raises InputError for a measurement made for a controller without `needs_body`."""
+    """`m.body`, the body terms of the nominal model.
+
+    Raises InputError for a measurement made for a controller without `needs_body`.
+    """
     if m.body is None:
         raise InputError(
             "the measurement has no body terms; expected those of the nominal model. Give the controller "
@@ -169,10 +176,10 @@ def body_of(m: Measurement) -> BodyTerms:
 
 
 class ObservingController(Controller):
-    """Base of the controllers whose state is an observer's.
+    """Base of the controllers whose state is that of an observer.
 
-    reference: what is tracked. gains: K_p [1/s^2], K_d [1/s] on the estimates. reset: the observer's,
-    at impact.
+    reference: the reference to track. gains: K_p [1/s^2], K_d [1/s] on the estimates. reset:
+    of the observer, at impact.
 
     >>> controller = ba.ADRCController(gait.constraint)
     >>> isinstance(controller, ba.ObservingController), controller.observer.m
@@ -186,32 +193,36 @@ class ObservingController(Controller):
 
     @abstractmethod
     def measured_output(self, m: Measurement) -> Estimate:
-        """y and y', and the disturbance that the nominal model expects."""
+        """The observer's measurement y, its rate y', and the disturbance by the nominal model."""
 
     @abstractmethod
     def observer_input(self, m: Measurement, u: Array) -> Array:
-        """The observer's input under the torque u (p,)."""
+        """The observer's input under the torque u (p,) [N m]."""
 
     @abstractmethod
     def torque(
         self, r: ReferencePoint, x: Estimate, m: Measurement, a: Array | None = None
     ) -> Array:
-        """u (p,) [N m] for the estimates x, where a is given blind to changes of the rates along it (n, 2)."""
+        """u (p,) [N m] for the estimates x; a (n, 2): changes of the rates that are
+        projected out of the rate error.
+        """
 
     @abstractmethod
     def output_change(self, m: Measurement, a: Array) -> Array:
-        """Change of y' when the rates change by a (n, 2), such as per unit of each contact impulse."""
+        """Change of y' when the rates change by a (n, 2), such as by each component of a contact impulse."""
 
     def joint_estimate(self, x: Estimate, m: Measurement) -> Estimate:
-        """The estimates x as estimates of the joints, each (p,); they are, where y is q_b."""
+        """The observer's estimates x as estimates of the joints, each (p,); x itself by
+        default, where y is q_b.
+        """
         return x
 
     def point(self, m: Measurement) -> ReferencePoint:
-        """The reference at a measurement."""
+        """The point of the reference at a measurement."""
         return self.reference(m.t, m.q, m.v)
 
     def estimated(self, s: Array) -> Estimate:
-        """The observer's estimates. Raises InputError for an observer that returns something else."""
+        """The observer's estimates in s. Raises InputError for an observer that returns something else."""
         x = self.observer.estimate(s)
         check_part(x, f"what {type(self.observer).__name__}.estimate returned", Estimate)
         return x

@@ -1,1 +1,1 @@
-"""What every room may use: errors, types, checks, parts, files, linear systems, time bases."""
+"""Helpers for all rooms: errors, types, checks, parts, files, linear systems, time bases."""

@@ -1,6 +1,6 @@
-"""What a part of a walker is expected to be, and the sentence for a user who gives another thing.
+"""Checks of a user's arguments and classes, with a sentence that says what was expected.
 
-A dataclass calls `check_fields` and has each field held against its own annotation, its range included
+A dataclass calls `check_fields`, which checks each field against its own annotation, its range included
 (`Range`); a function calls `check_part` for one argument. Both raise InputError.
 """
 
@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import sysconfig
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import fields, is_dataclass
 from functools import lru_cache, wraps
@@ -26,13 +26,19 @@ from biped_adrc.core.types import Array
 
 
 class Range(NamedTuple):
-    """The numbers that `holds` accepts, and what a message calls them."""
+    """A range of numbers or words: `holds` accepts a value in it, `words` name it in a message."""
 
     words: str
     holds: Callable[[Any], bool]
 
 
+def one_of(words: Collection[str]) -> Range:
+    """Range of a text that has to be one of these words."""
+    return Range(f"one of {list(words)}", lambda x: x in words)
+
+
 def _whole(x: Any, least: int) -> bool:
+    """Whether x is a whole number (not True or False), at least `least`."""
     return isinstance(x, Integral) and not isinstance(x, bool) and int(x) >= least
 
 
@@ -63,14 +69,15 @@ SUCH_AS = {
     "Windowed": "a TorquePulse; add up several OnLink for a sum",
     "Walker": "Walker(biped, controller); a Scenario walks with walk_scenario",
 }
-"""An example of each, for the sentence only."""
+"""Name of a class -> an example of it, for the sentence."""
 
 
-NUMBERS: dict[Any, str] = {float: "a number", Integral: "a whole number"}
+NUMBERS: dict[Any, str] = {float: "a number", Integral: "a whole number", str: "a text"}
+"""A type of numbers, or of text -> its name in a sentence."""
 
 
 def check_part(value: object, what: str, *kinds: type) -> None:
-    """Raise InputError, beginning with `what`, unless `value` is an instance of one of the classes."""
+    """Raise InputError, beginning with `what`, unless `value` is an instance of one of the classes `kinds`."""
     if isinstance(value, kinds) or (float in kinds and _is_number(value)):
         return
     named = [kind for kind in kinds if kind is not NoneType]
@@ -81,9 +88,9 @@ def check_part(value: object, what: str, *kinds: type) -> None:
 
 
 def check_fields(part: Any) -> None:
-    """`check_part` for every field of a dataclass that is annotated with parts or numbers, None included.
+    """Check every field of a dataclass that is annotated with a part, a number or a text, perhaps None.
 
-    A number has to be in the range of its annotation, too.
+    As `check_part`; a number or text has to be in the `Range` of its annotation, too. Raises InputError.
     """
     cls: Any = type(part)
     for name, kinds, range in _expected(cls):
@@ -99,7 +106,7 @@ def check_fields(part: Any) -> None:
 
 
 class Checked:
-    """Base of dataclasses whose fields are held against their annotations before anything is done with them.
+    """Base of dataclasses whose fields are checked against their annotations when an object is made.
 
     A subclass need not call the `__post_init__` above its own: the check comes before either.
     """
@@ -117,12 +124,14 @@ class Checked:
             cls.__post_init__ = after  # type: ignore[method-assign]
 
     def __post_init__(self) -> None:
-        """Raises InputError for a field that is not what its annotation says."""
+        """Check the fields. Raises InputError for a field that does not fit its annotation."""
         check_fields(self)
 
 
 def numbers(values: object, what: str) -> Array:
-    """A copy as floats of any shape. Raises InputError, beginning with `what`, for what is no number."""
+    """Copy `values` as an array of floats of any shape. Raises InputError, beginning
+    with `what`, for other values.
+    """
     try:
         return np.array(values, dtype=float)
     except (TypeError, ValueError):
@@ -142,11 +151,12 @@ def returned(
     finite: bool = True,
     field: bool = False,
 ) -> Array:
-    """What a method of a user's class gave, as an array of floats; shape None: any row.
+    """Check the result `found` of a method of a user's class; returns it as an array of floats.
 
-    field: `method` is the name of one of the arrays that the class gave together. It is called at every tick,
-    so what is such an array already costs less than a microsecond. Raises InputError that names the class for
-    None, complex numbers, text, objects and another shape, and, where `finite`, NotFiniteError.
+    shape: the expected one; None: any row. finite: whether NaN and infinity are refused. field: `method` is
+    the name of one of the arrays that the class returned together. It is called at every tick, so an array
+    that is right already costs less than a microsecond. Raises InputError that names the class for None,
+    complex numbers, text, objects and another shape, and, where `finite`, NotFiniteError.
     """
     if type(found) is not np.ndarray or found.dtype is not FLOAT or found.shape != shape:
         found = _numbers_returned(found, shape, part, method, field)
@@ -157,7 +167,9 @@ def returned(
 
 
 def _sentence(part: object, method: str, field: bool) -> str:
-    """How a sentence about what a class gave begins: X.output (own.py:12) returned, X gives q_d =."""
+    """Beginning of a sentence about a result: "X.output (own.py:12) returned", or "X gives q_d =" for
+    a field.
+    """
     name = spoken(part)
     return (
         f"{name} gives {method} =" if field else f"{name}.{method}{line_of(part, method)} returned"
@@ -165,7 +177,9 @@ def _sentence(part: object, method: str, field: bool) -> str:
 
 
 def line_of(part: object, method: str) -> str:
-    """Where a user's class writes a method: " (own.py:12)"; empty for a class of this package."""
+    """Text such as " (own.py:12)" with the line where a user's class writes a method; empty
+    for a class of this package.
+    """
     written: Any = getattr(type(part), method, None)
     code = getattr(unwrap(written), "__code__", None)
     if code is None or not is_users(code.co_filename):
@@ -176,7 +190,9 @@ def line_of(part: object, method: str) -> str:
 def _numbers_returned(
     found: object, shape: tuple[int, ...] | None, part: object, method: str, field: bool
 ) -> Array:
-    """As `returned`, for what is no array of floats of this shape at first sight."""
+    """Convert a result that is no array of floats of this shape, or raise InputError;
+    arguments as for `returned`.
+    """
     try:
         array = np.asarray(found)
     except ValueError:  # rows of different lengths
@@ -194,9 +210,11 @@ def _numbers_returned(
 
 
 def point_returned(found: object, kind: Any, part: object, n: int, p: int | None = None) -> Any:
-    """What `__call__` of a reference or of outputs gave: a `kind` of arrays (p,), its H or J (p, n).
+    """Check the result of `__call__` of a reference or of outputs: a tuple `kind` of
+    arrays (p,), its H or J (p, n).
 
-    p: None takes it from that matrix. Raises as `returned`, with the name of the field.
+    p: None takes it from that matrix. Returns it with arrays of floats. Raises as
+    `returned`, with the name of the field.
     """
     if not isinstance(found, kind):
         raise InputError(
@@ -212,7 +230,10 @@ def point_returned(found: object, kind: Any, part: object, n: int, p: int | None
 
 
 def called_checked(cls: Any, kind: type) -> None:
-    """Hold what the method `__call__`(t, q, v) gives, where a class writes one, against `point_returned`."""
+    """Wrap the method `__call__`(t, q, v) of a class, where it writes one, so that its result is checked.
+
+    kind: as for `point_returned`.
+    """
     own = vars(cls).get("__call__")
     if own is not None:
 
@@ -224,7 +245,7 @@ def called_checked(cls: Any, kind: type) -> None:
 
 
 def spoken(part: object) -> str:
-    """The class of a part, with those inside it that it calls: Delayed (ADRCController (MyObserver))."""
+    """Name of a part's class with those of the parts inside: "Delayed (ADRCController (MyObserver))"."""
     inside = [getattr(part, name, None) for name in ("inner", "observer", "parts")]
     each = [x for given in inside for x in (given if isinstance(given, tuple) else (given,))]
     names = [spoken(x) for x in each if isinstance(x, Checked)]
@@ -249,7 +270,9 @@ def handing_out() -> Iterator[None]:
 
 
 def sentence_of(error: Exception) -> str:
-    """What a user's code raised, and where: PD.output (own.py:12, `x = 1 / 0`); empty for other code."""
+    """Sentence on an exception in a user's code: "PD.output (own.py:12, `x = 1 / 0`) raised
+    ..."; empty for other code.
+    """
     frames = traceback.walk_tb(error.__traceback__)
     lines = zip(frames, traceback.extract_tb(error.__traceback__), strict=True)
     own = [(frame.f_code, line) for (frame, _), line in lines if is_users(line.filename)]
@@ -269,16 +292,20 @@ def sentence_of(error: Exception) -> str:
 LIBRARIES = tuple(sysconfig.get_paths()[kind] for kind in ("stdlib", "purelib", "platlib"))
 """Folders of Python and of installed packages."""
 PACKAGE = str(Path(__file__).parents[1])
+"""Folder of this package."""
 
 
 def is_users(file: str) -> bool:
-    """Whether a file of Python is the user's, and no library's or this package's."""
+    """Whether a Python file is the user's: not of a library, nor of this package."""
     return not file.startswith((PACKAGE, *LIBRARIES, "<frozen"))
 
 
 @lru_cache(maxsize=256)
 def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...], Range | None], ...]:
-    """Fields, what they may be and their ranges; without those whose annotation cannot be read or says more."""
+    """Fields of a class to check: name, allowed types and range of each.
+
+    Without fields whose annotation cannot be read or contains other types.
+    """
     try:
         hints = get_type_hints(cls, include_extras=True)
     except (NameError, TypeError, AttributeError, SyntaxError):
@@ -290,7 +317,7 @@ def _expected(cls: Any) -> tuple[tuple[str, tuple[type, ...], Range | None], ...
 
 
 def _members(hint: Any) -> tuple[tuple[Any, ...], Range | None]:
-    """The classes of an annotation, and the range that it names."""
+    """The types of an annotation, and its range if it has one."""
     each = get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
     ranges = [x.__metadata__[0] for x in each if get_origin(x) is Annotated]
     kinds = tuple(x.__origin__ if get_origin(x) is Annotated else x for x in each)
@@ -300,19 +327,20 @@ def _members(hint: Any) -> tuple[tuple[Any, ...], Range | None]:
 
 
 def _looked_at(kind: Any) -> bool:
-    """Whether an annotation is a class of this package and no protocol, a number with a range, or None."""
+    """Whether a type is checked: a class of this package that is no protocol, a number, text or None."""
     own = isinstance(kind, type) and kind.__module__.startswith("biped_adrc.")
-    return (own and not getattr(kind, "_is_protocol", False)) or kind in (float, Integral, NoneType)
+    return (own and not getattr(kind, "_is_protocol", False)) or kind in (*NUMBERS, NoneType)
 
 
 def _is_number(value: object) -> bool:
+    """Whether a value is a real number, or an array without axes."""
     return isinstance(value, Real) or (
         getattr(value, "ndim", None) == 0 and hasattr(value, "dtype")
     )
 
 
 def _shown(value: Any) -> str:
-    """A value in a few words; a class is said to be one."""
+    """Short text of a value with its type, for a message; a class is named as one."""
     if isinstance(value, type):
         return f"the class {value.__name__}, not made as {value.__name__}(...)"
     text = repr(value)
@@ -323,7 +351,7 @@ def _shown(value: Any) -> str:
 
 
 def _a(kind: type) -> str:
-    """The name of a class with its article, as it is spoken: an NPDController, a Gait."""
+    """Name of a class with its article: "an NPDController", "a Gait"."""
     name = kind.__name__
     vowel = name[0] in "AEIOaeio" or (name[0] in "NLMRSFH" and name[:2].isupper())
     return f"{'an' if vowel else 'a'} {name}"

@@ -1,13 +1,11 @@
 """Errors with the exit codes of the command, and checks of input that many modules share.
 
-Every error raised on purpose derives from `BipedError`; the command prints its text as one line and
-ends with its `exit_code`, without a traceback. Each class also derives from the builtin error that
-a Python user would catch, such as ValueError. A message says what was asked, what was found, what
-was expected and what to try.
+Every error raised on purpose derives from `BipedError`; the command prints its text as one line and ends with
+its `exit_code`, without a traceback. Each class also derives from the builtin error that a Python user would
+catch, such as ValueError. A message says what was asked, what was found, what was expected and what to try.
 
-A function here that begins with `check_` returns nothing and raises. Its argument `what` is the
-first half of the sentence, which names the value and says what was found; the function adds what
-was expected.
+A function here that begins with `check_` returns nothing and raises. Its argument `what` is the first half of
+the sentence, which names the value and says what was found; the function adds what was expected.
 """
 
 from __future__ import annotations
@@ -59,13 +57,13 @@ class SingularError(BipedError, ArithmeticError):
 
 
 class SimulationError(BipedError, RuntimeError):
-    """A run ended without what was asked of it, such as a return to the section (exit code 4)."""
+    """A run ended before its goal, such as a return to the section (exit code 4)."""
 
     exit_code = 4
 
 
 class RanAwayError(SimulationError):
-    """A motion or a torque is beyond anything that the robot has (exit code 4)."""
+    """A motion or a torque is far beyond the robot's limits (exit code 4)."""
 
 
 class OutputError(BipedError, OSError):
@@ -76,7 +74,10 @@ class OutputError(BipedError, OSError):
 
 @contextmanager
 def optional(extra: str, need: str, instead: str = "") -> Iterator[None]:
-    """Context of the import of a library of an extra. Raises InputError that says how to install it."""
+    """Context of the import of a library of an extra. Raises InputError that says how to install it.
+
+    extra: its name. need: the sentence before, such as "MuJoCo is not installed". instead: text behind.
+    """
     try:
         yield
     except ImportError:
@@ -84,7 +85,8 @@ def optional(extra: str, need: str, instead: str = "") -> Iterator[None]:
 
 
 def check_whole(value: object, what: str, least: int = 0) -> None:
-    """Raise InputError unless `value` is a whole number, at least `least`; NumPy's count, True does not.
+    """Raise InputError unless `value` is a whole number, at least `least`; NumPy's
+    integers count, True does not.
 
     what: how the message begins, with the value found.
     """
@@ -93,7 +95,7 @@ def check_whole(value: object, what: str, least: int = 0) -> None:
 
 
 def check_count(count: object, what: str) -> None:
-    """`check_whole` from 1 on."""
+    """Raise InputError unless `count` is a whole number, at least 1; what: as for `check_whole`."""
     check_whole(count, what, 1)
 
 

@@ -1,7 +1,7 @@
-"""Files: names of outputs, JSON that is read, text for other languages, and writing whole or not at all.
+"""Files: names of outputs, JSON and CSV, text for other languages, and writing whole or not at all.
 
-Used by every module that touches the file system, so that all of them refuse the same things with
-the same sentences. Three rules stand behind it:
+Used by every module that touches the file system, so that all of them refuse the same things with the
+same sentences. It has three rules:
 
     A name is checked before anything is computed (`output_path`, `check_folder`, `keep_inputs`): an
     hour of walking is not lost to a typing error.
@@ -37,19 +37,19 @@ from biped_adrc.core.errors import BipedError, InputError, OutputError
 from biped_adrc.core.types import Array
 
 _KIND = re.compile(r"\.[A-Za-z]\w*")
-"""The end of a name that says what is in a file; '.1' of 'push_0.1' does not."""
+"""Suffix of a name that states the kind of a file; '.1' of 'push_0.1' is none."""
 CONTROL = re.compile(r"[\x00-\x1f\x7f]")
-"""What is in no name of a file that is written, such as a line break."""
+"""Characters that no name of an output file contains, such as a line break."""
 LONGEST = 240
-"""Bytes of a part of a path; file systems take 255, and the temporary file beside has some more."""
+"""Longest part of a path [bytes]; file systems take 255, and the temporary file beside needs some."""
 
 
 def output_path(path: Path | str, suffixes: Sequence[str], default: bool = False) -> Path:
-    """The path of a file to write, checked; it has to end in one of `suffixes`, such as (".png", ".svg").
+    """Check the path of a file to write; it has to end in one of `suffixes`, such as
+    (".png", ".svg"). Returns the path.
 
-    default: a name that says no kind, such as 'push_0.1', has the first of `suffixes` put behind
-    it. Raises InputError for another kind and for what is no name of a file, and OutputError for what
-    `check_place` refuses.
+    default: a name without a suffix of a kind, such as 'push_0.1', gets the first of `suffixes`. Raises
+    InputError for another suffix and for an impossible name, and OutputError as `check_place`.
     """
     path = _named(path)
     check_place(path)
@@ -63,7 +63,7 @@ def output_path(path: Path | str, suffixes: Sequence[str], default: bool = False
 
 
 def check_place(path: Path) -> None:
-    """Raise OutputError where a file would take the place of a folder, a device, a pipe or a link."""
+    """Raise OutputError if the path is a folder, a device, a pipe or a link, which a file would replace."""
     try:
         taken = path.exists() and not path.is_file()
         kind = "a folder" if path.is_dir() else "not a regular file"
@@ -90,7 +90,7 @@ def check_folder(path: Path | str) -> None:
 
 
 def check_regular(path: Path | str, where: str, error: type[BipedError]) -> None:
-    """Raise `error` for a device or a pipe; what is not there at all is left to who opens it."""
+    """Raise `error`, beginning with `where`, for a device or a pipe; a file that does not exist passes."""
     try:
         mode = os.stat(path).st_mode
     except (OSError, ValueError):
@@ -100,8 +100,8 @@ def check_regular(path: Path | str, where: str, error: type[BipedError]) -> None
 
 
 def _named(path: object) -> Path:
-    """The path that is given. Raises InputError for what no file may be called, OutputError for too long a
-    name.
+    """The path, checked as a name. Raises InputError for a name that no file may have,
+    OutputError for one too long.
     """
     if not isinstance(path, str | os.PathLike) or CONTROL.search(str(path)):
         raise InputError(
@@ -120,7 +120,7 @@ def _named(path: object) -> Path:
 
 
 def keep_inputs(outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
-    """Raise InputError where a file that is to be written is also one that is read.
+    """Raise InputError if one of the files to write is also one that is read.
 
     Links are followed: another name of the same file is refused too.
     """
@@ -134,7 +134,7 @@ def keep_inputs(outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
 
 
 def _same(a: Path, b: Path) -> bool:
-    """Whether two paths are one file; of files that do not exist yet, whether they would be."""
+    """Whether two paths are one file; for files that do not exist yet, whether they would be."""
     try:
         return os.path.samefile(a, b)
     except OSError:
@@ -143,11 +143,11 @@ def _same(a: Path, b: Path) -> bool:
 
 @contextmanager
 def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[None]:
-    """Context in which a file is read: whatever goes wrong is raised as `error`, which names the file.
+    """Context in which a file is read: any exception is raised as `error`, with the name of the file.
 
-    what: what the file is, such as "gait file". Missing files, wrong JSON or TOML, missing keys and
-    values of a wrong type or shape are covered. An error of this package, raised on purpose inside,
-    keeps its text behind the name of the file.
+    what: what the file is, such as "gait file". Missing files, wrong JSON or TOML, missing keys and values
+    of a wrong type or shape are covered. An error of this package, raised on purpose inside, keeps its
+    text behind the name of the file.
     """
     where, kind = f"{what} '{path}'", Path(path).suffix[1:].upper()
     check_regular(path, where, error)
@@ -175,16 +175,16 @@ def reading(what: str, path: Path | str, error: type[BipedError]) -> Iterator[No
 
 
 class CsvTable(NamedTuple):
-    """What is in a CSV file; entries without the blanks around them."""
+    """Content of a CSV file; entries without the blanks around them."""
 
     head: list[str]
-    """The first line."""
+    """Entries of the first line."""
     rows: list[tuple[int, list[str]]]
-    """Of each line below it the number in the file, and as many entries as the first line has."""
+    """Each line below: its number in the file, and as many entries as the first line has."""
 
     @classmethod
     def read(cls, file: Path | str) -> CsvTable:
-        """Of a file. Raises InputError for a line of another length, with its number."""
+        """Read a file. Raises InputError for a line of another length, with its number."""
         with Path(file).open(newline="", encoding="utf-8-sig") as text:
             lines = csv.reader(text)
             rows = [(lines.line_num, [x.strip() for x in row]) for row in lines if row]
@@ -197,7 +197,7 @@ class CsvTable(NamedTuple):
         return cls(head, rows[1:])
 
     def numbers(self, at: int) -> Array:
-        """The finite numbers (K,) of one column. Raises InputError with the line of the file and the column."""
+        """Numbers (K,) of column `at`. Raises InputError for one that is not finite, with line and column."""
         result = np.empty(len(self.rows))
         for k, (line, row) in enumerate(self.rows):
             try:
@@ -212,13 +212,19 @@ class CsvTable(NamedTuple):
 
 
 def joint_columns(of: object, names: Mapping[str, str]) -> dict[str, Array]:
-    """A column (K,) for each joint of arrays (K, n); names: by attribute of `of`, such as "q{} [rad]"."""
+    """Split arrays (K, n), attributes of `of`, into a column (K,) for each joint.
+
+    names: attribute -> name of its columns, such as "q{} [rad]".
+    """
     arrays = ((name, getattr(of, attribute)) for attribute, name in names.items())
     return {name.format(i): x for name, array in arrays for i, x in enumerate(array.T, 1)}
 
 
 def write_csv(columns: Mapping[str, Any], path: Path | str) -> Path:
-    """Write columns under their names; floats come back to the last bit. Raises InputError, OutputError."""
+    """Write columns under their names; returns the path. Floats are read back to the last bit.
+
+    Raises InputError and OutputError as `output_path`.
+    """
     target = output_path(path, (".csv",), default=True)
     lists = [x if isinstance(x, list) else x.tolist() for x in columns.values()]
     with replacing(target) as temporary, open(temporary, "w", newline="", encoding="utf-8") as file:
@@ -229,20 +235,19 @@ def write_csv(columns: Mapping[str, Any], path: Path | str) -> Path:
 
 
 def read_json(path: Path, what: str, error: type[BipedError] = InputError) -> Any:
-    """The content of a JSON file, as dict, list, text, number or None.
+    """Read the content of a JSON file, as dict, list, text, number or None.
 
-    what: what the file should be, for the message. Raises `error` where it cannot be read or is no
-    JSON.
+    what: what the file should be, for the message. Raises `error` where it cannot be read or is no JSON.
     """
     with reading(what, path, error):
         return json.loads(path.read_text(encoding="utf-8"))
 
 
 def plain(value: object) -> Any:
-    """A value as JSON can hold it, recursively.
+    """Convert a value to types that JSON has, recursively.
 
-    Dataclasses and NamedTuples become dicts by field, arrays and tuples become lists. JSON has no
-    infinity and no NaN: such a number becomes the text "inf", "-inf" or "nan".
+    Dataclasses and NamedTuples become dicts by field, arrays and tuples become lists. JSON has no infinity and
+    no NaN: such a number becomes the text "inf", "-inf" or "nan".
     """
     if is_dataclass(value):
         value = {field.name: getattr(value, field.name) for field in fields(value)}
@@ -258,30 +263,31 @@ def plain(value: object) -> Any:
 
 
 def one_line(text: str, keep: str = "") -> str:
-    """The text on one line: line breaks and what is not printable are written out, such as \\n; keep: what is
-    not.
+    """The text on one line: characters that are not printable, such as line breaks, are escaped.
+
+    keep: characters that stay as they are.
     """
     return "".join(x if x.isprintable() or x in keep else ascii(x)[1:-1] for x in text)
 
 
 def c_comment(text: str) -> str:
-    """The text inside a comment of C: one line of ASCII that cannot end it, continue it or hold a trigraph."""
+    """The text for a comment of C: one line of ASCII that cannot end it, continue it or hold a trigraph."""
     plain = one_line(text.replace("\\", "\\x5c")).encode("ascii", "backslashreplace").decode()
     return re.sub(r"(?<=\*)(?=/)|(?<=/)(?=\*)|(?<=\?)(?=\?)", " ", plain)
 
 
 def xml_comment(text: str) -> str:
-    """The text inside a comment of XML: one line without two hyphens in a row, which XML forbids there."""
+    """The text for a comment of XML: one line without two hyphens in a row, which XML forbids there."""
     return re.sub("(?<=-)(?=-)", " ", one_line(text))
 
 
 def toml_key(name: str) -> str:
-    """A key of TOML, in quotes where it has other characters than letters, digits, _ and -."""
+    """The name as a key of TOML, in quotes where it has other characters than letters, digits, _ and -."""
     return name if re.fullmatch("[A-Za-z0-9_-]+", name) else toml_value(name)
 
 
 def toml_value(x: object) -> str:
-    """A plain value in TOML: floats are read back to the same bits; None is the text "none"."""
+    """A plain value as TOML: floats are read back to the same bits; None is the text "none"."""
     if x is None:
         return toml_value("none")
     if isinstance(x, Mapping):
@@ -307,12 +313,12 @@ def write_bytes(path: Path, data: bytes) -> None:
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Context that gives a temporary file beside `path` to write to, and moves it to `path` at the end.
+    """Context with a temporary file beside `path` to write to, which replaces `path` at the end.
 
-    The content is flushed to the disk (fsync) before the rename, and a rename within one folder is
-    atomic, so `path` is at any time either the old file or the new one. Missing folders are made.
-    Permissions are those of a new file under the user's umask, not the private ones of mkstemp.
-    Raises OutputError; after any error the temporary file is removed and `path` is as it was.
+    The content is flushed to the disk (fsync) before the rename, and a rename within one folder is atomic, so
+    `path` is at any time either the old file or the new one. Missing folders are made. Permissions are those
+    of a new file under the user's umask, not the private ones of mkstemp. Raises OutputError; after any error
+    the temporary file is removed and `path` is as it was.
     """
     temporary = None
     check_place(path)
@@ -341,7 +347,7 @@ _PACKAGE = Path(__file__).resolve().parents[1]
 
 
 def data_folder(kind: str) -> Path:
-    """The folder of this kind of data, "urdf" or "gaits".
+    """Folder of the package's data of this kind, "urdf" or "gaits".
 
     Raises FileNotFoundError when neither the wheel nor the checkout has it.
     """
@@ -356,7 +362,7 @@ def data_folder(kind: str) -> Path:
 
 @cache
 def packaged(package: str, name: str) -> dict[str, Any]:
-    """The content of the TOML file `name` in the folder of `package`, such as "biped_adrc.view"; read once.
+    """Read the TOML file `name` in the folder of `package`, such as "biped_adrc.view"; it is read once.
 
     The dict is shared by all callers and must not be changed.
     """

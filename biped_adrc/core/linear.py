@@ -22,7 +22,7 @@ from biped_adrc.core.types import Array
 
 
 def _lapack() -> Any:
-    """SciPy's module of LAPACK alone, or by way of SciPy where it lies elsewhere."""
+    """SciPy's module of LAPACK, loaded alone where that is possible."""
     name = "scipy.linalg._flapack"
     scipy: Any = find_spec("scipy")
     folders = [f"{folder}/linalg" for folder in scipy.submodule_search_locations]
@@ -40,10 +40,10 @@ dgesv = lapack.dgesv
 
 
 def solve(A: Array, B: Array, what: str) -> Array:
-    """X (k,) or (k, c) with A X = B, for A (k, k) and B of the shape of X.
+    """Solve A X = B for X (k,) or (k, c), with A (k, k) and B of the shape of X.
 
-    what: names A in the message, such as "the decoupling matrix". Raises SingularError when a pivot
-    is exactly zero; a badly conditioned A is solved without a word.
+    what: names A in the message, such as "the decoupling matrix". Raises SingularError when a pivot is exactly
+    zero; a badly conditioned A is solved without a warning.
 
     >>> ba.solve(np.diag([2.0, 4.0]), np.array([2.0, 4.0]), "the inertia")
     array([1., 1.])
@@ -57,9 +57,9 @@ def solve(A: Array, B: Array, what: str) -> Array:
 
 
 def solve_positive(A: Array, B: Array, what: str) -> Array:
-    """X (k,) or (k, c) with A X = B, for A (k, k) symmetric and positive definite, such as an inertia matrix.
+    """Solve A X = B as `solve`, for A (k, k) symmetric and positive definite, such as an inertia matrix.
 
-    In Python this is `solve`. The engine generates the factors A = L d L' for it, whose pivots d
-    are all positive: compiled code then has no search for pivots, hence no branch.
+    In Python this is `solve`. The engine generates the factors A = L d L' for it, whose pivots d are all
+    positive: compiled code then has no search for pivots, hence no branch.
     """
     return solve(A, B, what)

@@ -8,8 +8,7 @@ parts. Python calls their methods on numbers. The engine calls them once on symb
     derived                        numbers that are computed once from the fields, such as gains from poles
     setup                          fields for derived numbers and the start alone, such as a seed
 
-A method that decides by a number (`if x > 0`) has no one form on symbols; it runs in Python. `np.where` decides
-without that.
+A method that decides by a number (`if x > 0`) cannot be compiled; it runs in Python. Write `np.where` instead.
 """
 
 from __future__ import annotations
@@ -30,7 +29,8 @@ T = TypeVar("T")
 class derived(cached_property[T]):
     """A method whose value is computed once for each object, from its fields, and is read-only.
 
-    For numbers that machine code takes as they are: a pole placement is not run on symbols, its gains are used.
+    For numbers that machine code takes as they are: a pole placement is not run on
+    symbols, its gains are used.
 
     >>> @dataclass(frozen=True)
     ... class Damped:
@@ -44,7 +44,7 @@ class derived(cached_property[T]):
     """
 
     def __get__(self, instance: Any, owner: Any = None) -> Any:
-        """The value; the descriptor itself where it is asked of the class."""
+        """The value for an object; the descriptor itself for the class."""
         if instance is None:
             return self
         name = self.attrname
@@ -59,7 +59,7 @@ class Part(Checked, Shown, ABC):
 
 
 class Setup:
-    """In place of a field of `setup` where methods run on symbols."""
+    """Placeholder for a field of `setup` where methods run on symbols."""
 
 
 SETUP = {"setup": True}
@@ -67,7 +67,9 @@ SETUP = {"setup": True}
 
 
 def setup(default: Any) -> Any:
-    """A field with this default that no method reads on symbols, such as a seed: new values compile nothing."""
+    """A dataclass field with this default that no method reads on symbols, such as a seed:
+    new values compile nothing.
+    """
     return field(default=default, metadata=SETUP)
 
 
@@ -77,15 +79,15 @@ def is_part(x: object) -> bool:
 
 
 def content(part: Any) -> dict[str, Any]:
-    """The fields of a part, then its derived numbers, by name."""
+    """Fields and derived numbers of a part, by name, as methods on symbols use them."""
     return {name: value(getattr(part, name)) for name, value in _values(type(part))}  # type: ignore[arg-type]
 
 
 @lru_cache(maxsize=1024)
 def _values(cls: Any) -> tuple[tuple[str, Callable[[Any], Any]], ...]:
-    """Of a class of parts: each name in `content`, and what methods on symbols find in place of its value.
+    """Names in `content` for a class of parts, each with the function that converts its value.
 
-    Floats where the annotation says so, even for whole numbers.
+    Numbers of a field annotated as float become floats, even whole ones.
     """
     result: list[tuple[str, Callable[[Any], Any]]] = []
     for f in fields(cls):
@@ -95,21 +97,24 @@ def _values(cls: Any) -> tuple[tuple[str, Callable[[Any], Any]], ...]:
 
 
 def _hidden(x: Any) -> Setup:
+    """A placeholder for a setup field."""
     return Setup()
 
 
 def _itself(x: Any) -> Any:
+    """The value unchanged."""
     return x
 
 
 def _as_floats(x: Any) -> Any:
+    """The value with whole numbers, also those in tuples and lists, as floats."""
     if type(x) in (tuple, list):
         return type(x)(map(_as_floats, x))
     return float(x) if type(x) is int else x
 
 
 def with_content(part: T, values: Mapping[str, Any], cls: type | None = None) -> T:
-    """An object of the class of a part, or of `cls`, with this content, to which no check is applied."""
+    """Make an object of the class of a part, or of `cls`, with these values by name, without any check."""
     new: Any = object.__new__(type(part) if cls is None else cls)
     for name, value in values.items():
         object.__setattr__(new, name, value)
@@ -117,7 +122,7 @@ def with_content(part: T, values: Mapping[str, Any], cls: type | None = None) ->
 
 
 def with_fields(part: T, **values: Any) -> T:
-    """A copy of a part with other fields, to which no check is applied; derived numbers stay.
+    """A copy of a part with other fields, without any check; derived numbers stay.
 
     For methods that both engines run: `dataclasses.replace` would check symbols as numbers.
     """
@@ -133,5 +138,6 @@ def derived_names(cls: type) -> tuple[str, ...]:
 
 
 def _derived(cls: Any) -> Iterator[str]:
+    """Iterate over the names of derived numbers of a class and its bases, from the most basic on."""
     for base in reversed(cls.__mro__):
         yield from (name for name, x in vars(base).items() if isinstance(x, derived))

@@ -1,7 +1,7 @@
-"""Worker processes of this machine, and a few different tasks carried out by them.
+"""Worker processes of this machine, and a list of different tasks run by them.
 
-Processes are forked from a server that has imported `preload`, so that they share what it has loaded. They
-ignore Ctrl-C, which reaches every process of a terminal and which the parent answers, and end with it.
+Processes are forked from a server that has imported `preload`, so that they share its memory. They ignore
+Ctrl-C, which reaches every process of a terminal and which the parent handles, and end with the parent.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ from typing import Generic, NamedTuple, TypeVar
 from biped_adrc.core.errors import InputError
 
 T = TypeVar("T")
-"""What a task returns."""
+"""Type of a task's result."""
 T_co = TypeVar("T_co", covariant=True)
 
 TaskProgress = Callable[[int, int, str], None]
-"""Called with tasks done, tasks in all, and the name of the one that has just finished."""
+"""A function called after each task with tasks done, tasks in all, and the name of the one just finished."""
 MOST_WORKERS = 1024
-"""Of one machine; more are a mistake, which would take its memory."""
+"""Largest number of workers on one machine; more are a mistake, which would take its memory."""
 SAFE_PATH = "PYTHONSAFEPATH"
 """Environment variable: the working directory is not put first on the path."""
 PRELOADED = ("biped_adrc.paper.runs", "biped_adrc.paper.figures", "biped_adrc.engine.batch")
@@ -39,7 +39,7 @@ class Task(Generic[T_co]):
     """function(*arguments) under a name; function and arguments are pickled to reach another process."""
 
     name: str
-    """Shown while it runs."""
+    """Name shown while it runs."""
     function: Callable[..., T_co]
     arguments: tuple[object, ...] = ()
 
@@ -52,7 +52,7 @@ class Timed(NamedTuple, Generic[T]):
 
 
 def cores() -> int:
-    """Cores that this process may use; fewer than the machine has under a batch system."""
+    """Number of cores that this process may use; fewer than the machine has under a batch system."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
@@ -79,7 +79,7 @@ def processes(count: int | None = None, preload: Sequence[str] = PRELOADED) -> P
 
 
 def stop(executor: Executor) -> None:
-    """End an executor at once, its processes also in the middle of their work."""
+    """End an executor at once, including processes in the middle of their work."""
     for process in list((getattr(executor, "_processes", None) or {}).values()):
         process.terminate()
     executor.shutdown(wait=True, cancel_futures=True)
@@ -88,10 +88,10 @@ def stop(executor: Executor) -> None:
 def run_tasks(
     tasks: Sequence[Task[T]], workers: int | None = None, progress: TaskProgress | None = None
 ) -> list[Timed[T]]:
-    """Results in the order of `tasks`, with the wall time of each [s].
+    """Run tasks in worker processes; returns their results in order, each with its wall time [s].
 
-    workers: processes (one per core if None); with 1 the tasks run in this process, which helps a debugger. An
-    error in one task, or Ctrl-C, terminates all workers and is raised.
+    workers: processes (one per core if None); with 1 the tasks run in this process, which helps a debugger.
+    progress: called after each task. An error in one task, or Ctrl-C, terminates all workers and is raised.
     """
     report = progress or (lambda *_: None)
     if (workers or cores()) == 1:
@@ -112,7 +112,7 @@ def run_tasks(
 
 
 def _timed(task: Task[T]) -> Timed[T]:
-    """Carry a task out in the worker, and measure it there: waiting for a core does not count."""
+    """Run a task in the worker, and measure its time there: waiting for a core does not count."""
     begin = time.perf_counter()
     value = task.function(*task.arguments)
     return Timed(value, time.perf_counter() - begin)
@@ -120,7 +120,7 @@ def _timed(task: Task[T]) -> Timed[T]:
 
 @contextmanager
 def _safe_path() -> Iterator[None]:
-    """Context in which interpreters are started that import nothing from the working directory."""
+    """Context in which new interpreters import nothing from the working directory."""
     before = os.environ.get(SAFE_PATH, "")
     os.environ[SAFE_PATH] = "1"
     try:
@@ -130,7 +130,7 @@ def _safe_path() -> Iterator[None]:
 
 
 def _begin() -> None:
-    """First call in each worker: ignore Ctrl-C, and end with the parent, even where that is killed."""
+    """First call in each worker: ignore Ctrl-C, and end with the parent, even when it is killed."""
 
     def end_with_parent() -> None:
         if (parent := multiprocessing.parent_process()) is not None:

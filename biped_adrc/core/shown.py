@@ -1,6 +1,6 @@
-"""What an object looks like where it is printed: one line, with arrays by their shape.
+"""Short texts of objects for printing: one line, with arrays by their shape.
 
-A class below `Shown` shows its fields that are not at their defaults, unless it has a sentence of its own.
+A subclass of `Shown` prints its fields that are not at their defaults, unless it writes its own `__repr__`.
 """
 
 from __future__ import annotations
@@ -14,18 +14,18 @@ from typing import Any
 import numpy as np
 
 LONGEST = 110
-"""Characters of a line."""
+"""Longest line [characters]."""
 FEW = 6
-"""Numbers of an array that are shown one by one."""
+"""Largest number of entries with which an array is printed in full."""
 SHORT = 48
-"""Characters of a part that is shown inside another one."""
+"""Longest text of a part inside another one [characters]."""
 
 
 class Shown:
     """Base of dataclasses whose repr is `one_line`; a class that writes a `__repr__` keeps it."""
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
-        """A dataclass keeps a `__repr__` that its class has, so every class is given the one above it."""
+        """Copy the inherited `__repr__` into the class, since a dataclass would otherwise replace it."""
         super().__init_subclass__(**kwargs)
         if "__repr__" not in vars(cls):
             cls.__repr__ = cls.__repr__  # type: ignore[method-assign]
@@ -35,7 +35,7 @@ class Shown:
 
 
 def one_line(thing: Any) -> str:
-    """Name(field=value, ...) in at most `LONGEST` characters.
+    """Text Name(field=value, ...) of an object in at most `LONGEST` characters.
 
     Fields at their defaults, and empty mappings, are left out.
     """
@@ -43,14 +43,14 @@ def one_line(thing: Any) -> str:
 
 
 def call_text(name: str, fields: Iterable[tuple[str, str]]) -> str:
-    """Name(field=text, ...) in at most `LONGEST` characters."""
+    """Text Name(field=text, ...) from pairs (field, text), in at most `LONGEST` characters."""
     told = ", ".join(f"{key}={text}" for key, text in fields)
     room = LONGEST - len(name) - 2
     return f"{name}({told if len(told) <= room else told[: room - 3] + '...'})"
 
 
 def short(x: Any) -> str:
-    """A value in a few words: numbers as they are, an array by its shape, a long part by its class."""
+    """Short text of a value: numbers as they are, an array by its shape, a long part by its class."""
     if isinstance(x, np.ndarray):
         few = x.ndim == 1 and x.size <= FEW and x.dtype.kind in "bifc"
         return f"[{' '.join(f'{number:.6g}' for number in x)}]" if few else f"array{x.shape}"
@@ -69,7 +69,7 @@ def short(x: Any) -> str:
 
 
 def _fields_of(thing: Any) -> list[tuple[str, Any]]:
-    """Names and values of fields, without those at their defaults."""
+    """Names and values of the fields of a dataclass or NamedTuple that are not at their defaults."""
     if not is_dataclass(thing):
         names = getattr(thing, "_fields", ())
         usual = getattr(thing, "_field_defaults", {})
@@ -86,6 +86,7 @@ def _fields_of(thing: Any) -> list[tuple[str, Any]]:
 
 
 def _same(thing: Any, key: str, usual: Mapping[str, Any]) -> bool:
+    """Whether field `key` has its default in `usual`, or is an empty mapping."""
     x = getattr(thing, key)
     if isinstance(x, Mapping) and not x:
         return True
@@ -98,10 +99,10 @@ def _same(thing: Any, key: str, usual: Mapping[str, Any]) -> bool:
 
 
 def columns(rows: Sequence[Sequence[str]], least: int = 0, gap: int = 2) -> list[str]:
-    """The rows of a table as lines of text, cells padded at the right to the width of their column.
+    """Format the rows of a table as lines of text, cells padded to the width of their column.
 
-    A row of one text is a line of its own, such as a heading between rows, and has no part in the
-    widths. least: least width of the first column, in characters. gap: spaces between two columns.
+    A row of one text is a line of its own, such as a heading between rows, and does not count for the widths.
+    least: least width of the first column, in characters. gap: spaces between two columns.
     """
     table = [row for row in rows if len(row) > 1]
     widths = [max(map(len, column)) for column in zip_longest(*table, fillvalue="")]

@@ -1,9 +1,9 @@
-"""Time base of the controller: it acts at every instant, or at sample instants with a zero-order hold.
+"""Time base of the controller: continuous, or sampled with a zero-order hold.
 
-`ContinuousTime` is the paper's setting: torque is a function of the state at every stage of the
-integrator. `SampledTime` is a computer: it measures at sample instants (ticks), its torque begins
-to act after a computation delay and is then held until the next one arrives. Timing is a field of
-`Walker`; classes of `control` and `observers` have methods for either base.
+`ContinuousTime` is the paper's setting: torque is a function of the state at every stage of the integrator.
+`SampledTime` is a computer: it measures at sample instants (ticks), its torque begins to act after a
+computation delay and is then held until the next one arrives. Timing is a field of `Walker`; classes of
+`control` and `observers` have methods for either base.
 """
 
 from __future__ import annotations
@@ -15,18 +15,13 @@ from biped_adrc.core.checks import check_fields
 from biped_adrc.core.errors import InputError
 
 LONGEST_PERIOD = 0.1
-"""Largest sampling period accepted [s].
-
-A body whose hip is l = 0.8 m high falls over its foot with the time constant sqrt(l / g) = 0.29 s:
-a torque that is held for more than a third of that is no feedback, and a longer period is a mistake
-of units.
-"""
+"""Largest sampling period accepted [s]: a body with the hip 0.8 m high falls with sqrt(l / g) = 0.29 s."""
 LONGEST_DELAY = 100
-"""Largest computation delay accepted, in periods; more torques on their way are a mistake of units."""
+"""Largest computation delay accepted, in periods; a longer one is a mistake of units."""
 WHOLE = 1e-9
-"""A delay that differs from whole periods by less than this fraction of one is of whole periods."""
+"""Tolerance, as a fraction of a period, with which a delay counts as a whole number of periods."""
 SAME_INSTANT = 1e-9
-"""[s]: times that differ by less are one but for round-off, in both engines."""
+"""Times that differ by less are the same instant up to round-off [s], in both engines."""
 
 
 @dataclass(frozen=True)
@@ -81,7 +76,7 @@ class SampledTime:
 
 
 def check_timing(timing: object) -> None:
-    """Raise InputError for what is neither `ContinuousTime` nor `SampledTime`.
+    """Raise InputError for a timing that is neither `ContinuousTime` nor `SampledTime`.
 
     A number alone, the usual mistake, gets a message that shows how to write it as a period.
     """
@@ -93,12 +88,12 @@ def check_timing(timing: object) -> None:
 
 
 def check_ends(max_step_time: float, fall_height: float, speed: float, torque: float) -> None:
-    """Raise InputError for limits that end no run: NaN, a time that is not positive, a height of 1 or more.
+    """Raise InputError for limits with which a run could not end: NaN, a time that is not
+    positive, a height of 1 or more.
 
-    speed, torque [1]: multiples of the robot's limits beyond which a run ends; infinite ones are none.
-
-    max_step_time [s]: the longest single support before the walk counts as stalled. fall_height
-    [1]: the robot counts as fallen when its hip is lower than this fraction of |p_hip| at q = 0.
+    max_step_time [s]: the longest single support before the walk counts as stalled. fall_height [1]: the robot
+    counts as fallen when its hip is lower than this fraction of |p_hip| at q = 0. speed, torque [1]: multiples
+    of the robot's limits beyond which a run ends; infinite for none.
     """
     if not (max_step_time > 0.0 and fall_height < 1.0):
         raise InputError(

@@ -20,11 +20,7 @@ ComplexArray = NDArray[np.complex128]
 """Complex array, for eigenvalues and transfer functions."""
 
 PlainRecord = Mapping[str, Any]
-"""Values by name as JSON and TOML have them: text, numbers, truth values, None, lists, records.
-
-For summaries, stored rows and TOML tables, whose keys are stated where they are written. Inside the
-package a dataclass or a NamedTuple is preferred.
-"""
+"""Values by name as JSON and TOML have them: text, numbers, truth values, None, lists, records."""
 
 MuJoCoModel: TypeAlias = Any
 """`mujoco.MjModel`, a compiled robot: MuJoCo is optional."""
@@ -36,18 +32,16 @@ DaskClient: TypeAlias = Any
 
 
 def read_only(values: ArrayLike) -> Array:
-    """A copy in float64 that cannot be written to, of the shape of `values`, (K,) or (K, n); for
-    frozen records.
-    """
+    """A copy in float64 that cannot be written to, of the shape of `values`; for frozen records."""
     array = np.array(values, dtype=float)
     array.setflags(write=False)
     return array
 
 
 def frozen(value: T) -> T:
-    """An array as a view of it that cannot be written to; a tuple with all arrays in it so; the rest as it is.
+    """A read-only view of an array, or a tuple with its arrays so; other values are returned as they are.
 
-    For what is handed to a user's code, or kept: the array itself stays writable for whoever made it.
+    For arrays handed to a user's code, or stored: the array itself stays writable for its owner.
     """
     if isinstance(value, np.ndarray):
         view = value.view()
@@ -65,6 +59,6 @@ def relabelled(rows: Array, swap: Indices) -> Array:
 
 
 def freeze(record: object, *names: str) -> None:
-    """Put `frozen` views in place of the arrays in these fields of a frozen dataclass."""
+    """Replace the arrays in these fields of a frozen dataclass by read-only views."""
     for name in names:
         object.__setattr__(record, name, frozen(getattr(record, name)))

@@ -1,11 +1,10 @@
-"""Checks: a value that was computed, the limit it has to keep, and whether it does.
+"""Checks: a computed value, its limit, and whether the value keeps it.
 
-The reproduction writes its checks into summary.json and the report, `biped-adrc robot check` prints
-those of a URDF. The verdict is stored beside value and limit, so that a reader of the file need not
-parse the limit. Each check is of one kind:
+The reproduction writes its checks into summary.json and the report, `biped-adrc robot check` prints those
+of a URDF. The verdict is stored beside value and limit, so that a reader of the file need not parse the
+limit. Each check is of one kind:
 
-    law            physics and numerics that hold whatever a paper says, such as conservation of
-    energy
+    law            physics and numerics that hold whatever a paper says, such as conservation of energy
     consistency    what was built in has to come out, such as a gait designed to close on x*
     reproduced     a claim of the paper, which could have failed
 
@@ -36,27 +35,27 @@ class Check:
     holds: bool
 
     def __str__(self) -> str:
-        """One line, such as "residual of the orbit: 3.1e-12 <= 1e-09"; "is not" before a limit that is
-        broken.
+        """The check on one line, such as "residual of the orbit: 3.1e-12 <= 1e-09"; with "is
+        not" if it does not hold.
         """
         return f"{self.name}: {self.value:.1e} {'' if self.holds else 'is not '}{self.limit}"
 
 
 def at_most(name: str, kind: str, value: float, limit: float) -> Check:
-    """The check value <= limit, both in the unit that `name` states; NaN does not hold."""
+    """Check value <= limit, both in the unit that `name` states; NaN does not hold."""
     return Check(name, kind, float(value), f"<= {limit:g}", bool(value <= limit))
 
 
 def at_least(name: str, kind: str, value: float, limit: float) -> Check:
-    """The check value >= limit, both in the unit that `name` states; NaN does not hold."""
+    """Check value >= limit, both in the unit that `name` states; NaN does not hold."""
     return Check(name, kind, float(value), f">= {limit:g}", bool(value >= limit))
 
 
 def below(name: str, kind: str, value: float, limit: float) -> Check:
-    """The check value < limit, strictly, both in the unit that `name` states; NaN does not hold."""
+    """Check value < limit, strictly, both in the unit that `name` states; NaN does not hold."""
     return Check(name, kind, float(value), f"< {limit:g}", bool(value < limit))
 
 
 def between(name: str, kind: str, value: float, low: float, high: float) -> Check:
-    """The check low <= value <= high, all in the unit that `name` states; NaN does not hold."""
+    """Check low <= value <= high, all in the unit that `name` states; NaN does not hold."""
     return Check(name, kind, float(value), f"in [{low:g}, {high:g}]", bool(low <= value <= high))

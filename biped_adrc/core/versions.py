@@ -1,4 +1,4 @@
-"""Versions of all that decides the numbers of a run: Python, packages, and this package's own source.
+"""Versions that decide the numbers of a run: Python, packages, and this package's own source.
 
 A report lists versions for the reader (`versions`), and a store of results refuses to mix runs of different
 versions (`numerical_versions`, `differences`). A version number alone is not enough for that, as a checkout is
@@ -35,7 +35,7 @@ SOURCE = "source of biped-adrc"
 
 
 def packages(names: Iterable[str]) -> dict[str, str]:
-    """Installed version by name of package; "none" for one that is not installed.
+    """Installed version of each package by name; "none" for one that is not installed.
 
     That of this package is its `__version__`.
     """
@@ -49,7 +49,9 @@ def packages(names: Iterable[str]) -> dict[str, str]:
 
 
 def differences(found: Mapping[str, str], expected: Mapping[str, str]) -> str:
-    """How two sets of versions differ, in words: "there" is `found`, "here" is `expected`; empty if equal."""
+    """Text on the differences of two sets of versions, `found` ("there") and `expected`
+    ("here"); empty if equal.
+    """
     names = sorted({*found, *expected})
     pairs = [(name, found.get(name), expected.get(name)) for name in names]
     return "; ".join(f"{name} {a} there, {b} here" for name, a, b in pairs if a != b)
@@ -63,10 +65,10 @@ def versions() -> dict[str, str]:
 
 @lru_cache(maxsize=1)
 def numerical_versions() -> Mapping[str, str]:
-    """Versions of all that decides the digits of a run, with a hash of the source of this package.
+    """All versions on which the digits of a run depend, with a hash of the source of this package.
 
-    Two runs with equal values of this mapping, on any machine of the same architecture, are
-    comparable. Computed once for each process.
+    Two runs with equal values of this mapping, on any machine of the same architecture, are comparable.
+    Computed once for each process.
     """
     source = source_hash(Path(__file__).parents[1])[:12]
     result = {"python": platform.python_version(), "machine": platform.machine(), SOURCE: source}

@@ -1,1 +1,1 @@
-"""External torques zeta of (1); one file per idea."""
+"""Disturbances of a walk: the external generalised force zeta (n,) [N m] of (1) as a function of time."""

@@ -1,16 +1,16 @@
-"""What a disturbance is: the generalised force zeta of (1), and the times at which it is not smooth.
+"""A disturbance: the generalised force zeta of (1), and the times at which it is not smooth.
 
     D(q) q'' + Omega(q, q') = B u + zeta(t, step, t_start, q, q')
 
 zeta (n,) [N m] acts on all coordinates q1..qN, the unactuated pitch among them. The controller does not know
 it. Where it comes from a force in the world, the ground has to carry that force too: `resultant` (2,) [N].
 
-A disturbance is a pure function, so a run may be repeated and a step of integration taken again. It is written
-as the method `torque`, which both engines run. One that acts for a part of the time says when in `acts`; `zeta`
-and `net_force` are zero elsewhere. Integrators end their steps at `switching_times`, since a method of high
-order loses its accuracy across a jump.
+A disturbance is a pure function, so a run may be repeated and an integration step repeated. It is written as
+the method `torque`, which both engines run. `acts` says when it acts; `zeta` and `net_force` are zero at other
+times. Integrators end their steps at `switching_times`, since a method of high order loses its accuracy across
+a jump.
 
-It stands below `closed_loop.walker`, which evaluates it, and `scenario.build`, which makes it by name.
+`closed_loop.walker` evaluates it, `scenario.build` makes it by name.
 """
 
 from __future__ import annotations
@@ -47,31 +47,33 @@ class Disturbance(Part):
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
         """zeta (n,) [N m] at time t [s] in single support `step` (from 1), which began at t_start [s].
 
-        q (n,) [rad], v (n,) [rad/s]: the state of the plant. It is asked for where the disturbance acts.
+        q (n,) [rad], v (n,) [rad/s]: the state of the plant. It is called only where the disturbance acts.
         """
 
     def resultant(self, t: float, step: int, t_start: float) -> Array:
-        """Force (F_x, F_z) (2,) [N] from outside on the robot as a whole, zero for torques between links.
+        """External force (F_x, F_z) (2,) [N] on the robot as a whole, zero for torques between links.
 
-        The ground carries m (p_com'' - g) less this force. It is asked for where the disturbance acts.
+        The ground carries m (p_com'' - g) less this force. It is called only where the disturbance acts.
         """
         return np.zeros(2)
 
     def acts(self, t: float, step: int, t_start: float) -> float:
-        """Above 0 where torque and resultant act; elsewhere they are zero and not computed."""
+        """A number above 0 where torque and resultant act; elsewhere they are zero and not computed."""
         return 1.0
 
     @property
     def switches(self) -> tuple[tuple[int, float], ...]:
-        """(step, s): not smooth s [s] after that single support began; for step 0 at the time s of the run."""
+        """Times (step, s) at which it is not smooth: s [s] after that single support began,
+        or after the run for step 0.
+        """
         return ()
 
     def check_size(self, n: int) -> None:
-        """Raise InputError where this is known beforehand to be of other coordinates than n."""
+        """Raise InputError where the disturbance is known to have another number of coordinates than n."""
 
     @property
     def terms(self) -> tuple[Disturbance, ...]:
-        """What it is the sum of; each term is compiled by itself."""
+        """The disturbances of which it is the sum; each term is compiled by itself."""
         return (self,)
 
     def zeta(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
@@ -99,7 +101,7 @@ class Disturbance(Part):
 
     @property
     def pulls(self) -> bool:
-        """Whether it has a resultant at all."""
+        """Whether a force acts on the robot as a whole, so that `resultant` may differ from zero."""
         return any(type(term).resultant is not Disturbance.resultant for term in self.terms)
 
     def __add__(self, other: Disturbance) -> Disturbance:
@@ -109,7 +111,7 @@ class Disturbance(Part):
 
 @dataclass(frozen=True)
 class Sum(Disturbance):
-    """The sum of several disturbances; of none, zero."""
+    """The sum of several disturbances; zero if there are none."""
 
     parts: tuple[Disturbance, ...] = ()
 
@@ -139,14 +141,14 @@ def summands(disturbance: Disturbance) -> tuple[Disturbance, ...]:
 
 @dataclass(frozen=True)
 class Windowed(Disturbance):
-    """A torque between `start` and `stop` [s].
+    """A torque that acts between `start` and `stop` [s].
 
     amplitude (n,) [N m] acts on q1..qN, actuated or not. With `step`, from 1, the window counts from the start
     of that single support and closes at its end at the latest; without, from the start of the run. The base of
     pulse, step, sine and noise, which write `torque` in the window.
 
-    Raises InputError for an amplitude that is not one row of finite numbers, a window that is empty or begins
-    before 0, and a step below 1.
+    Raises InputError for an amplitude that is not one row of finite numbers, a window that is empty or
+    begins before 0, and a step below 1.
     """
 
     amplitude: Array
@@ -176,12 +178,14 @@ class Windowed(Disturbance):
 
     @derived
     def support(self) -> float:
-        """`step` as a number; 0 where the window counts from the start of the run."""
+        """Number of the single support in which the window opens, as a float; 0 where it counts
+        from the start of the run.
+        """
         return float(self.step or 0)
 
     @derived
     def end(self) -> float:
-        """The time from which the torque is zero [s], counted as `start`."""
+        """Time from which the torque is zero [s], counted as `start`."""
         return float(self.stop)
 
     def onset(self, t_start: float) -> float:
@@ -189,7 +193,7 @@ class Windowed(Disturbance):
         return 1.0 * (self.support > 0) * t_start + self.start
 
     def acts(self, t: float, step: int, t_start: float) -> float:
-        """Above 0 in the window, start <= t < end, and 0 outside.
+        """A number above 0 in the window, start <= t < end, and 0 outside.
 
         A product of comparisons in place of `if`, so that it runs on symbols too.
         """
@@ -199,14 +203,14 @@ class Windowed(Disturbance):
 
     @property
     def switches(self) -> tuple[tuple[int, float], ...]:
-        """Both ends of the window, where the torque jumps."""
+        """Both ends of the window, where the torque jumps; (step, time in it [s])."""
         ends = (self.start, self.stop)
         return tuple((self.step or 0, float(s)) for s in ends if math.isfinite(s))
 
 
 @dataclass(frozen=True)
 class WindowedTorque(Windowed):
-    """amplitude * profile(time since onset) in its window: the shortest way to write a torque of one's own.
+    """A torque amplitude * profile(time since onset) in its window: the shortest way to write one's own.
 
     >>> @dataclass(frozen=True)
     ... class Decaying(ba.WindowedTorque):
@@ -219,7 +223,7 @@ class WindowedTorque(Windowed):
 
     @abstractmethod
     def profile(self, s: float) -> float:
-        """Factor on the amplitude, s [s] after onset."""
+        """Factor on the amplitude [1], s [s] after onset."""
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
         return self.amplitude * self.profile(float(t - self.onset(t_start)))

@@ -36,16 +36,17 @@ from biped_adrc.model.planar import (
 )
 
 AT_REST = np.zeros(3), np.zeros(3)
-"""What a wave is given for q and q', each (3,): it is a function of time."""
+"""q and q', each (3,), for calls of a wave, which is a function of time alone."""
 
 
 @dataclass(frozen=True)
 class OnLink(Disturbance):
-    """`wave` with amplitude (F_x, F_z, M) [N, N, N m] on `link` of `biped`, the plant.
+    """A force and moment on a link: `wave` with amplitude (F_x, F_z, M) [N, N, N m] on
+    `link` of `biped`, the plant.
 
-    at: the point (x, z) [m] in the link's frame, as its URDF has it; its origin without. M is counter-clockwise
-    with x to the right and z up. A link of the leg that the URDF draws as the stance leg is the
-    stance leg's in every single support: the push changes legs at each impact, since coordinates do.
+    at: the point (x, z) [m] in the link's frame, as its URDF has it; its origin if None. M is
+    counter-clockwise with x to the right and z up. A link of the leg that the URDF draws as the stance leg is
+    the stance leg's in every single support: the push changes legs at each impact, since coordinates do.
     Raises InputError for a wave that has not three amplitudes, ModelError for a link that the robot has not.
 
     >>> push = ba.OnLink(biped, "torso", ba.TorquePulse([50.0, 0.0, 0.0], step=3, stop=0.1))
@@ -72,7 +73,7 @@ class OnLink(Disturbance):
 
     @derived
     def point(self) -> LinkPoint:
-        """Where it acts, in closed form: p(q) (2,) [m] and its Jacobian."""
+        """The point where it acts, in closed form: p(q) (2,) [m] and its Jacobian."""
         return link_point(self.biped, self.link, self.at)
 
     @property
@@ -92,11 +93,11 @@ class OnLink(Disturbance):
 
 @dataclass(frozen=True)
 class HipForce(Disturbance):
-    """F = force (F_x, F_z) [N] on the hip of `biped`, the plant.
+    """A constant force (F_x, F_z) [N] on the hip of `biped`, the plant.
 
-    steps: the first and the last single support (from 1) in which it acts; all of them without. It switches at
-    impacts alone, so integrators have no times to stop at.
-    Raises InputError for a force that is not two finite numbers, or steps that do not count up from 1.
+    steps: the first and the last single support (from 1) in which it acts; all of them if None. It switches at
+    impacts alone, so integrators have no times to stop at. Raises InputError for a force that is not two
+    finite numbers, or steps that do not count up from 1.
 
     >>> push = ba.HipForce(biped, (20.0, 0.0), steps=(4, 6))
     >>> push.net_force(2.0, 4, 1.9)
@@ -120,7 +121,7 @@ class HipForce(Disturbance):
 
     @derived
     def hip(self) -> LinkPoint:
-        """J in closed form."""
+        """The hip as a point in closed form, with its Jacobian."""
         return hip_point(self.biped)
 
     @derived
@@ -130,7 +131,7 @@ class HipForce(Disturbance):
         return float(first), float(last)
 
     def acts(self, t: float, step: int, t_start: float) -> float:
-        """1 from the first to the last single support, else 0, whatever the time in them."""
+        """1 from the first to the last single support, else 0."""
         first, last = self.span
         return 1.0 * (step >= first) * (step <= last)
 
@@ -144,7 +145,9 @@ class HipForce(Disturbance):
 
 @dataclass(frozen=True)
 class AddedForce(Disturbance):
-    """The module's F = `force` (2,) [N] at `point`; nothing is computed while it is zero."""
+    """A force (2,) [N] on `point`, which its owner may change before each sample; not
+    computed while it is zero.
+    """
 
     force: Array
     point: LinkPoint

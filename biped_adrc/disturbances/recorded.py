@@ -1,19 +1,19 @@
-"""Torques from rows of numbers: a recording, with straight lines between its rows, and what a hand did.
+"""Torques from rows of numbers: a recording, interpolated linearly, and the forces of a hand.
 
     zeta_i(t) = zeta_ij + (s - t_j) (zeta_i,j+1 - zeta_ij) / (t_j+1 - t_j),   t_j <= s < t_j+1,   s = t - start
 
-of a recording, zero before its first row and from the last on. A corner at a row is no switching time: a step
-of integration may go across it, since zeta does not jump there. Where it does jump, at the first row and at
-the last, none does.
+for a recording, zero before its first row and from the last on. A corner at a row is no switching time:
+a step of integration may go across it, since zeta does not jump there. It does jump at the first row and
+at the last, and steps end there.
 
     zeta(t) = tau_k + J(q)' F_k,     t_k <= t - t_start < t_k+1
 
-of a hand: torques on the coordinates, and a force on a point of a link, held from row to row in one single
-support, whose end is the end of the last row. It is what a page on which a walk is pushed writes down
-(`extras.play`): one row for each sample in which the hand changed. Rows jump, so each is a switching time.
+for a hand: torques on the coordinates, and a force on a point of a link, constant from row to row in one
+single support, whose end is the end of the last row. The page on which a walk is pushed (`extras.play`) writes
+it: one row for each sample in which the hand changed. Rows jump, so each is a switching time.
 
-Both may have thousands of rows, while machine code has arrays of a fixed length. So they are cut into terms
-of `PIECES` rows each, which share one machine code; of a recording one acts at a time.
+Both may have thousands of rows, while machine code has arrays of a fixed length. So they are cut into terms of
+`PIECES` rows each, which share one machine code; of a recording one acts at a time.
 """
 
 from __future__ import annotations
@@ -36,15 +36,15 @@ from biped_adrc.disturbances.force import OnLink
 from biped_adrc.model.biped import Biped
 
 PIECES = 16
-"""Rows of a hand, or straight pieces of a recording, in one term."""
+"""Number of rows of a hand, or of linear pieces of a recording, in one term."""
 
 
 @dataclass(frozen=True)
 class Lines(Windowed):
-    """One term of a recording, in its window; amplitude (n,) [N m] is the torque where it opens.
+    """One term of a recording: a piecewise linear torque in its window, amplitude (n,) [N m] at its beginning.
 
-    begin, width (PIECES,) [s]: of its pieces, counted from where it opens; slopes (n, PIECES) [N m/s]. Pieces
-    that it has not are of width 0.
+    begin, width (PIECES,) [s]: of its pieces, counted from where the window opens; slopes (n, PIECES) [N
+    m/s]. Unused pieces have width 0.
     """
 
     begin: Array = field(kw_only=True)
@@ -52,19 +52,19 @@ class Lines(Windowed):
     slopes: Array = field(kw_only=True)
 
     def torque(self, t: float, step: int, t_start: float, q: Array, v: Array) -> Array:
-        """zeta (n,) [N m]: the torque where it opens, and what each piece passed has added."""
+        """zeta (n,) [N m]: the torque at the beginning plus the change over all pieces passed."""
         s = t - self.onset(t_start)
         return self.amplitude + self.slopes @ np.clip(s - self.begin, 0.0, self.width)
 
 
 @dataclass(frozen=True)
 class RecordedTorque(Disturbance):
-    """times (K,) [s] of the recording's own clock, which increase, torques (K, n) [N m]. Read a file with
-    `read`.
+    """A torque recorded as rows: times (K,) [s] of its own clock, increasing, and torques (K, n) [N m].
 
-    start [s]: where time 0 of the recording is, after the start of single support `step`, from 1, with which it
-    then ends at the latest; without `step`, after the start of the run. Raises InputError for numbers that are
-    not finite, times that do not increase, and a recording that begins before 0.
+    start [s]: when time 0 of the recording is, after the start of single support `step`, from 1, with which it
+    then ends at the latest; without `step`, after the start of the run. Make one from a file with `read`.
+    Raises InputError for numbers that are not finite, times that do not increase, and a recording that begins
+    before 0.
     """
 
     times: Array
@@ -98,7 +98,7 @@ class RecordedTorque(Disturbance):
     def read(
         cls, file: str | Path, biped: Biped, step: int | None = None, start: float = 0.0
     ) -> RecordedTorque:
-        """The recording in a CSV file: a column `t` [s], and one [N m] for each joint that is named.
+        """Read a recording from a CSV file: a column `t` [s], and one [N m] for each joint that is named.
 
         Joints are those of the robot, or q1..qN; the others have no torque. Raises InputError for a file that
         cannot be read, columns other than these, and a line that is not of as many numbers, with its number.
@@ -122,12 +122,12 @@ class RecordedTorque(Disturbance):
 
     @property
     def switches(self) -> tuple[tuple[int, float], ...]:
-        """Where it begins and ends."""
+        """The beginning and the end, where it jumps; (step, time in it [s])."""
         return tuple((self.step or 0, float(self.start + t)) for t in self.times[[0, -1]])
 
     @cached_property
     def terms(self) -> tuple[Disturbance, ...]:
-        """`Lines` of `PIECES` pieces each."""
+        """The recording as `Lines` of `PIECES` pieces each."""
         ends = [*range(0, len(self.times) - 1, PIECES), len(self.times) - 1]
         return tuple(self._lines(*part) for part in pairwise(ends))
 
@@ -135,7 +135,7 @@ class RecordedTorque(Disturbance):
         return self.zeta(t, step, t_start, q, v)
 
     def _lines(self, first: int, last: int) -> Lines:
-        """The pieces from one row to another."""
+        """The term with the pieces between two rows."""
         t, zeta = self.times[first : last + 1], self.torques[first : last + 1]
         begin, width = np.zeros(PIECES), np.zeros(PIECES)
         slopes = np.zeros((zeta.shape[1], PIECES))
@@ -147,9 +147,9 @@ class RecordedTorque(Disturbance):
 
 @dataclass(frozen=True)
 class HeldRows(Windowed):
-    """One term of a hand, in its window; amplitude is its first row.
+    """One term of a hand: piecewise constant in its window, with its first row as amplitude.
 
-    times (PIECES,) [s]: of its rows, counted as `start`. jumps (size, PIECES): what each of them adds.
+    times (PIECES,) [s]: of its rows, counted as `start`. jumps (size, PIECES): change at each of them.
     """
 
     times: Array = field(kw_only=True)
@@ -174,8 +174,10 @@ def by_hand(
     point: tuple[float, float] = (0.0, 0.0),
     forces: ArrayLike = (),
 ) -> Disturbance:
-    """What a hand did in single support `step`: torques (K, n) [N m] from times (K,) [s] on, counted in it, and
-    forces (K, 2) [N] on `point` (x, z) [m] of the link `on`.
+    """Make the disturbance of a hand that pushes in single support `step`, constant from row to row.
+
+    times (K,) [s]: of the rows, since the single support began. torques (K, n) [N m]. forces (K, 2) [N]: on
+    `point` (x, z) [m] of the link `on`.
 
     Raises InputError for rows that are not as many as times, and times that do not increase from 0.
     """
@@ -192,7 +194,7 @@ def by_hand(
 def _terms(
     what: str, rows: ArrayLike, t: Array, step: int, size: int, moment: int = 0
 ) -> list[HeldRows]:
-    """Rows (K, size) in terms of PIECES, with so many zeros behind each; none of no rows."""
+    """Cut rows (K, size) at times t (K,) [s] into terms of PIECES rows, each row padded with `moment` zeros."""
     y = numbers(rows, f"the {what} of the hand")
     if not y.size:
         return []

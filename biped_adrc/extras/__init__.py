@@ -1,1 +1,1 @@
-"""What stands on the toolkit and nothing of it needs: each part imports what is below, and no other part."""
+"""Optional parts on top of the toolkit; nothing below imports them, and none imports another one."""

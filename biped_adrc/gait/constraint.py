@@ -55,7 +55,7 @@ class VirtualConstraint(Reference):
     curve: Curve
     """h over s in [0, 1], p rows."""
     phase: Array
-    """c (n,)."""
+    """Row c (n,) of Theta = c q, dimensionless."""
     theta_plus: float
     """Theta just after impact, s = 0 [rad]."""
     theta_minus: float
@@ -86,7 +86,9 @@ class VirtualConstraint(Reference):
         return float(1.0 / (self.theta_minus - self.theta_plus))
 
     def h(self, theta: float) -> tuple[Array, Array, Array]:
-        """h [rad], dh/dTheta and d2h/dTheta2 at theta [rad], each (p,), continued past its ends where it is."""
+        """h [rad], dh/dTheta and d2h/dTheta2 at theta [rad], each (p,); past its ends
+        continued if `fade` is set.
+        """
         s = self.rate * (theta - self.theta_plus)
         inside = s if self.fade is None else np.minimum(np.maximum(s, 0.0), 1.0)
         h, dh, ddh = self.curve(inside)
@@ -104,7 +106,7 @@ class VirtualConstraint(Reference):
         return ReferencePoint(h, dh * dtheta, dtheta**2 * ddh, dh[:, np.newaxis] * self.phase)
 
     def over(self, theta: Array) -> Array:
-        """h [rad] at many theta (K,) [rad] at once, (K, p); where it is continued, one by one."""
+        """h [rad] at many theta (K,) [rad] at once, (K, p)."""
         if self.fade is not None:
             return np.array([self.h(float(x))[0] for x in theta])
         return self.curve.over(self.rate * (theta - self.theta_plus))
@@ -121,14 +123,14 @@ def continued(h: VirtualConstraint) -> VirtualConstraint:
     """The same constraint, continued smoothly past Theta+ and Theta-.
 
     A step that ends late, after a push or on a step down, runs past Theta-, where the polynomial itself would
-    soon ask for angles out of reach. Raises InputError for what is no constraint.
+    soon command angles out of reach. Raises InputError for an argument that is no constraint.
     """
     check_part(h, "what is to go on", VirtualConstraint)
     return replace(h, fade=FADE)
 
 
 Correction = Callable[[float], tuple[Array, Array, Array]]
-"""c, dc/dTheta, d2c/dTheta2 at Theta [rad], each (p,)."""
+"""A function of Theta [rad] that returns c, dc/dTheta, d2c/dTheta2, each (p,)."""
 
 
 @dataclass(frozen=True)
@@ -140,7 +142,7 @@ class CorrectedConstraint(Reference):
 
     @property
     def constraint(self) -> VirtualConstraint:
-        """h alone, below all corrections."""
+        """The constraint h alone, without any correction."""
         return self.base if isinstance(self.base, VirtualConstraint) else self.base.constraint
 
     def __call__(self, t: float, q: Array, v: Array) -> ReferencePoint:

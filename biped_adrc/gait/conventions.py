@@ -53,17 +53,17 @@ class AngleMap:
             object.__setattr__(self, name, read_only(getattr(self, name)))
 
     def angles(self, q: Array) -> Array:
-        """A q + b [rad] of angles q (n,), or of each row of (K, n)."""
+        """Map angles q (n,) [rad], or each row of (K, n): A q + b [rad]."""
         return self.rates(q) + self.b
 
     def rates(self, v: Array) -> Array:
-        """A v of rates [rad/s] or accelerations (n,), or of each row of (K, n)."""
+        """Map rates [rad/s] or accelerations (n,), or each row of (K, n): A v."""
         mapped: Array = v @ self.A.T
         return mapped
 
     @cached_property
     def inverse(self) -> AngleMap:
-        """The map back, q' = A^-1 (q - b)."""
+        """The inverse map, q' = A^-1 (q - b)."""
         inverse: Array = np.asarray(np.linalg.inv(self.A), dtype=np.float64)
         return AngleMap(inverse, -inverse @ self.b)
 
@@ -74,7 +74,7 @@ class Convention:
 
     name: str
     coordinates: tuple[str, ...]
-    """Names of the coordinates, as that convention calls them."""
+    """Names of the coordinates, in the convention's order."""
     to_paper: AngleMap
     """q of the paper from q' of this convention."""
     outputs: Array
@@ -82,7 +82,7 @@ class Convention:
     sense: float
     """+1 if its phase falls while the robot walks to +x, as the paper's Theta, -1 if it grows."""
     paper_phase: Array
-    """(n,), Theta = paper_phase q."""
+    """Row (n,) of the paper's phase, Theta = paper_phase q."""
 
     @property
     def n(self) -> int:
@@ -91,16 +91,18 @@ class Convention:
 
     @cached_property
     def phase(self) -> Array:
-        """c' (n,): row of this convention's own phase, c' q' = sense (Theta - paper_phase b) [rad]."""
+        """Row c' (n,) of this convention's own phase: c' q' = sense (Theta - paper_phase b) [rad]."""
         return self.sense * self.paper_phase @ self.to_paper.A + 0.0
 
 
 OWN = "own"
-"""The coordinates of a robot's own record, whatever they are."""
+"""Name of the convention of a robot's own coordinates, whatever they are."""
 
 
 def own_convention(biped: Biped) -> Convention:
-    """The coordinates of a robot as they are; `to_paper` is then to these, and the phase is its record's."""
+    """The convention of a robot's own coordinates; `to_paper` is then the identity, and
+    the phase is its record's.
+    """
     n, p, d = biped.n, biped.p, biped.description
     same = AngleMap(np.eye(n), np.zeros(n))
     return Convention(OWN, d.joints, same, np.eye(p, n), 1.0, np.array(d.phase))
@@ -117,7 +119,10 @@ def of_the_paper(biped: Biped) -> bool:
 
 
 def layout_of(name: str, biped: Biped) -> Convention:
-    """The convention of this name for a robot; "own": its coordinates as they are. Raises GaitError."""
+    """The convention of this name for a robot; "own" for its coordinates as they are.
+
+    Raises GaitError for an unknown name, or a robot with other coordinates or another phase.
+    """
     if name == OWN:
         return own_convention(biped)
     result = convention(name, knees=biped.n == 5)
@@ -132,7 +137,9 @@ def layout_of(name: str, biped: Biped) -> Convention:
 
 
 def convention(name: str, knees: bool = True) -> Convention:
-    """A convention by name, for a walker with knees or without. Raises GaitError with the names there are."""
+    """The convention of this name, for a walker with knees or without. Raises GaitError with the
+    known names.
+    """
     if name not in CONVENTIONS:
         raise GaitError(f"there is no angle convention '{name}'; choose one of {list(CONVENTIONS)}")
     d = _definitions[name]

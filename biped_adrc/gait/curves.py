@@ -2,19 +2,21 @@
 
     h(s) = sum_k a_k s^k                                  Polynomial
     h(s) = sum_k alpha_k C(M, k) s^k (1 - s)^(M - k)      Bezier
+    h(s) = sum_k alpha_k N_k(s)                           BSpline
 
 Outside [0, 1] the curve goes on as the polynomial it is, its first or last piece: after a push a step may end
 late, and the reference must not stop there.
 
-Every curve says itself as polynomials by pieces, and all that needs its values, Python, machine code, the zero
-dynamics and the optimisation of gaits, works with these. A curve of another basis is a class with `pieces` and
-the coefficients of a line, `ramp` (`bspline` is one), and a line of the registry.
+Every curve gives its own representation as polynomials by pieces, from which its values are computed in
+Python, machine code, the zero dynamics and the optimisation of gaits. A curve of another basis is a class with
+`pieces` and the coefficients of a straight line, `ramp`, and a line of the registry.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from functools import lru_cache
 from importlib import import_module
 from math import comb
 from typing import Any, ClassVar
@@ -38,7 +40,7 @@ class Curve(Shown, ABC):
 
     coefficients: Array
     least: ClassVar[int] = 2
-    """Coefficients that a joint has at least."""
+    """Least number of coefficients of a joint."""
 
     def __post_init__(self) -> None:
         a = read_only(self.coefficients)
@@ -51,15 +53,18 @@ class Curve(Shown, ABC):
 
     @property
     def degree(self) -> int:
-        """M, one less than the coefficients of a joint; for `Bezier` and `Polynomial` the degree itself."""
+        """M, one less than the coefficients of a joint; for `Bezier` and `Polynomial` the
+        degree of the polynomial.
+        """
         return int(self.coefficients.shape[1]) - 1
 
     @property
     @abstractmethod
     def pieces(self) -> tuple[Array, Array]:
-        """Where pieces join inside of (0, 1), (J - 1,), rising, and a (J, p, K) of h(s) = sum_k a_jk s^k.
+        """Breaks (J - 1,) in (0, 1), increasing, where pieces join, and coefficients a (J, p,
+        K) of h(s) = sum_k a_jk s^k.
 
-        All that is computed of a curve comes from this: a new kind of curve need not say its derivatives.
+        Values and derivatives follow from this: a new kind of curve need not define its derivatives.
         """
 
     @classmethod
@@ -73,7 +78,7 @@ class Curve(Shown, ABC):
 
     @property
     def power_coefficients(self) -> Array:
-        """a (p, K) of h(s) = sum_k a_k s^k, for what works with one polynomial: the response of the stride.
+        """Coefficients a (p, K) of h(s) = sum_k a_k s^k, for a curve of one piece.
 
         Raises GaitError for a curve of several pieces.
         """
@@ -87,7 +92,7 @@ class Curve(Shown, ABC):
 
     @derived
     def breaks(self) -> Array:
-        """Where the further pieces begin (J - 1,), rising."""
+        """Places (J - 1,) in (0, 1) where a further piece begins, increasing."""
         return self.pieces[0]
 
     @derived
@@ -102,11 +107,11 @@ class Curve(Shown, ABC):
 
     @derived
     def powers(self) -> NDArray[np.int64]:
-        """The exponents (K,)."""
+        """Exponents (K,) of s in the power basis of a piece."""
         return np.arange(self.stacked.shape[2])
 
     def piece(self, s: float) -> Array:
-        """The stacked coefficients (3 p, K) that hold at s; at a break those of the later piece."""
+        """Stacked coefficients (3 p, K) of the piece at s; at a break those of the later piece."""
         a = self.stacked[0]
         for j in range(len(self.breaks)):
             a = np.where(s >= self.breaks[j], self.stacked[j + 1], a)
@@ -130,9 +135,9 @@ class Curve(Shown, ABC):
 
 @dataclass(frozen=True)
 class Polynomial(Curve):
-    """h(s) = sum_k a_k s^k, a (p, M + 1): for curves from elsewhere, as the paper's gait (b).
+    """A polynomial h(s) = sum_k a_k s^k, a (p, M + 1) [rad]: for imported curves, as the paper's gait (b).
 
-    Gaits are designed of `ControlledCurve`.
+    Gaits are designed with `ControlledCurve`.
     """
 
     @property
@@ -148,16 +153,17 @@ class Polynomial(Curve):
 
 @dataclass(frozen=True)
 class ControlledCurve(Curve):
-    """From its first to its last coefficient, by a basis that adds up to one and is the same from behind.
+    """Base of curves that go from their first to their last coefficient, in a basis that adds up to one.
 
-    Such a curve is designed from its ends: the impact gives both ends and their slopes, and the optimisation
-    moves what lies between. A polynomial in powers has no coefficient that is its end.
+    The basis is symmetric. Such a curve is designed from its ends: the impact gives both ends and
+    their slopes, and the optimisation moves the coefficients between. A polynomial in powers has
+    no coefficient that is its end.
     """
 
     @classmethod
     @abstractmethod
     def abscissae(cls, degree: int) -> Array:
-        """Coefficients (M + 1,) of h(s) = s; the second says how far the slope at an end reaches."""
+        """Coefficients (M + 1,) of h(s) = s; the second is the reach of the slope at an end."""
 
     @classmethod
     def ramp(cls, degree: int, start: float, end: float) -> Array:
@@ -165,10 +171,11 @@ class ControlledCurve(Curve):
 
     @classmethod
     def between(cls, begin: Array, first: Array, last: Array, end: Array, degree: int) -> Array:
-        """Coefficients (p, M + 1) from `begin` to `end` with these first and last slopes dh/ds, each (p,).
+        """Coefficients (p, M + 1) of a curve from `begin` to `end` with slopes dh/ds
+        `first` and `last`, each (p,).
 
-        Those between lie on a straight line. It is what the search for a gait starts from: ends and slopes are
-        those that make the constraint invariant under the impact.
+        Those between lie on a straight line. The search for a gait starts from this curve: with ends and
+        slopes that make the constraint invariant under the impact.
         """
         inner = np.linspace(0.0, 1.0, degree - 1)
         reach = cls.abscissae(degree)[1]
@@ -179,7 +186,8 @@ class ControlledCurve(Curve):
 
 @dataclass(frozen=True)
 class Bezier(ControlledCurve):
-    """h(s) = sum_k alpha_k C(M, k) s^k (1 - s)^(M - k), alpha (p, M + 1) [rad]; the paper's gait (a) is one.
+    """A Bezier curve h(s) = sum_k alpha_k C(M, k) s^k (1 - s)^(M - k), alpha (p, M + 1)
+    [rad], as the paper's gait (a).
 
     h(0) = alpha_0, h(1) = alpha_M, h'(0) = M (alpha_1 - alpha_0), h'(1) = M (alpha_M - alpha_(M-1)). It stays
     within the hull of its coefficients, so bounds on these are bounds on the angles.
@@ -195,7 +203,7 @@ class Bezier(ControlledCurve):
 
 
 def bernstein_to_power(degree: int) -> Array:
-    """T (M + 1, M + 1) with sum_k alpha_k B_k(s) = sum_j (alpha T)_j s^j.
+    """Matrix T (M + 1, M + 1) from Bezier to power coefficients: sum_k alpha_k B_k(s) = sum_j (alpha T)_j s^j.
 
     Its numbers grow with the degree, up to 2^M and more: in powers a curve of degree 20 has lost some digits.
     """
@@ -208,13 +216,13 @@ CURVES: dict[str, Any] = {
     name: entry["home"]
     for name, entry in packaged("biped_adrc.scenario", "registry.toml")["curve"].items()
 }
-"""By name, `module:Class`, or the class itself where it was registered."""
+"""Name of a kind of curve -> `module:Class`, or the class itself if it was registered."""
 
 
 def curve_kind(name: str) -> type[Curve]:
     """The class of a curve by its name in the registry, imported now.
 
-    Raises GaitError with the names there are.
+    Raises GaitError with the known names.
     """
     if name not in CURVES:
         raise GaitError(
@@ -227,3 +235,75 @@ def curve_kind(name: str) -> type[Curve]:
         result = getattr(import_module(module), cls)
     kind: type[Curve] = result
     return kind
+
+
+CUBIC = 3
+"""Degree of each piece: the least one with two continuous derivatives."""
+
+
+@dataclass(frozen=True)
+class BSpline(ControlledCurve):
+    """A cubic B-spline h(s): local support and two continuous derivatives; alpha (p, M + 1) [rad], M >= 3.
+
+        h(s) = sum_k alpha_k N_k(s),   knots 0, 0, 0, 0, 1/J, 2/J, ..., 1, 1, 1, 1,   J = M - 2 pieces
+
+    Each coefficient reaches over four pieces at most, where one of a Bezier curve reaches over all of the step.
+    By de Boor's recursion, on the polynomials of each piece:
+
+        N_k,d = (s - t_k) / (t_k+d - t_k) N_k,d-1 + (t_k+d+1 - s) / (t_k+d+1 - t_k+1) N_k+1,d-1
+
+    with N_k,0 one on [t_k, t_k+1) and zero elsewhere, and 0 for what is divided by 0. The third derivative
+    jumps at the knots. de Boor, A Practical Guide to Splines, Springer, 1978. `scipy.interpolate.BSpline` has
+    the same values; here they are needed as polynomials by pieces, of symbols too.
+
+    Raises GaitError for fewer than 4 coefficients per joint.
+    """
+
+    least = CUBIC + 1
+
+    @property
+    def pieces(self) -> tuple[Array, Array]:
+        return knots(self.degree)[CUBIC + 1 : -CUBIC - 1], self.coefficients @ basis(self.degree)
+
+    @classmethod
+    def abscissae(cls, degree: int) -> Array:
+        t = knots(degree)
+        return np.array([np.mean(t[k + 1 : k + 1 + CUBIC]) for k in range(degree + 1)])
+
+
+def knots(degree: int) -> Array:
+    """Knots t (M + 5,) in [0, 1] for M = `degree`, the ends four times: so the curve begins and
+    ends in its outer coefficients.
+    """
+    inner = np.linspace(0.0, 1.0, degree - CUBIC + 2)
+    return np.concatenate((np.zeros(CUBIC), inner, np.ones(CUBIC)))
+
+
+@lru_cache(maxsize=32)
+def basis(degree: int) -> Array:
+    """Basis functions N_k as polynomials (J, M + 1, 4): on each piece the coefficients
+    of each N_k in powers of s.
+
+    By de Boor's recursion. degree: M. Cached, since the knots depend on nothing else.
+    """
+    t = knots(degree)
+    table = np.zeros((degree - CUBIC + 1, degree + 1, CUBIC + 1))
+    for j in range(len(table)):
+        N = np.zeros((len(t) - 1, CUBIC + 1))
+        N[CUBIC + j, 0] = 1.0
+        for d in range(1, CUBIC + 1):
+            N = np.array([_raised(t, N, k, d) for k in range(len(N) - 1)])
+        table[j] = N
+    table.setflags(write=False)
+    return table
+
+
+def _raised(t: Array, N: Array, k: int, d: int) -> Array:
+    """Coefficients (4,) of N_k,d in powers of s, from those of degree d - 1, N (., 4); t are the knots."""
+    result = np.zeros(CUBIC + 1)
+    for i, sign, at in ((k, 1.0, t[k]), (k + 1, -1.0, t[k + d + 1])):
+        width = t[i + d] - t[i]
+        if width > 0.0:
+            result[1:] += sign / width * N[i, :-1]
+            result -= sign * at / width * N[i]
+    return result

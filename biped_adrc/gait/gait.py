@@ -1,13 +1,13 @@
 """A gait: a virtual constraint, the periodic orbit it belongs to, and where both come from.
 
-Stored as a small readable JSON file in `gaits/<robot>/<name>-<preset>.json`, whose keys `Gait.save` lists:
-the fields of `Gait` with the constraint taken apart, in rad, rad/s and s. Files are read by people and
-compared by version control, so keys and order are fixed and numbers have all digits.
-`load_gait` finds it by name or path and checks it against the robot (`Gait.check`): shapes, direction, foot on
-the ground, and closure, that is, the relabelled end of the step is its start.
+Stored as a small readable JSON file in `gaits/<robot>/<name>-<preset>.json`, whose keys `Gait.save` lists: the
+fields of `Gait` with the constraint taken apart, in rad, rad/s and s. Files are read by people and compared by
+version control, so keys and order are fixed and numbers have all digits. `load_gait` finds it by name or path
+and checks it against the robot (`Gait.check`): shapes, direction, foot on the ground, and closure, that is,
+the relabelled end of the step is its start.
 
-Made by `published`, `recipe` and `design`, or brought by `exchange`; walked by `scenario` and taken by
-controllers as their reference.
+`published` and `design` make gaits, `exchange` imports them; `scenario` walks them, and controllers use
+their constraints as references.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from biped_adrc.model.ground import ground_axes
 FORMAT = "biped_adrc gait 1"
 """First entry of a gait file; the number changes with the keys."""
 CLOSES = 1e-3
-"""[rad] and [m]: largest gap between the end of a step, relabelled, and its start, in a gait that closes."""
+"""Largest gap between the end of a step, relabelled, and its start, in a gait that closes [rad], [m]."""
 
 
 @dataclass(frozen=True)
@@ -55,12 +55,12 @@ class Gait(Shown):
     """
 
     name: str
-    """By which `load_gait` finds its file."""
+    """Name by which `load_gait` finds its file."""
     robot: str
     preset: str
-    """Robot and preset it was made for."""
+    """Name of the preset of the robot it was made for."""
     constraint: VirtualConstraint
-    """q_b = h(Theta)."""
+    """The virtual constraint q_b = h(Theta)."""
     q_minus: Array
     """Configuration just before impact on the periodic orbit (n,) [rad]."""
     v_minus: Array
@@ -70,7 +70,7 @@ class Gait(Shown):
     provenance: Mapping[str, object]
     """How it was made: method, source, command; free text by name."""
     slope: float = 0.0
-    """Of the ground it walks on [rad], positive downhill."""
+    """Slope of the ground it walks on [rad], positive downhill."""
 
     def __post_init__(self) -> None:
         freeze(self, "q_minus", "v_minus")
@@ -97,7 +97,7 @@ class Gait(Shown):
         return cls(name, robot, preset, zero.constraint, q, v, period, provenance, slope)
 
     def check_robot(self, biped: Biped) -> Gait:
-        """The gait itself. Raises GaitError for another robot or preset than it was made for."""
+        """The gait itself. Raises GaitError if it was made for another robot or preset."""
         made, given = (self.robot, self.preset), (biped.description.name, biped.preset)
         if made != given:
             raise GaitError(
@@ -107,14 +107,16 @@ class Gait(Shown):
         return self
 
     def check(self, biped: Biped) -> Gait:
-        """The gait itself, when it fits the robot and its curve closes. Raises GaitError, with the joint."""
+        """The gait itself, after a check that it fits the robot and its curve closes. Raises
+        GaitError, with the joint.
+        """
         for fits, text in self._laws(biped):
             if not fits:
                 raise GaitError(f"gait '{self.name}': {text}")
         return self
 
     def _laws(self, biped: Biped) -> Iterator[tuple[bool, str]]:
-        """What a gait of a robot keeps, the first ones first: whether it does, and the sentence where not."""
+        """Iterate over the conditions on a gait of this robot: whether each holds, and the sentence if not."""
         c, q, d = self.constraint, self.q_minus, biped.description
         p, n = c.curve.coefficients.shape[0], len(c.phase)
         expected = f"robot '{d.name}' has {biped.p} motors and {biped.n} coordinates"
@@ -152,14 +154,16 @@ class Gait(Shown):
 
     @property
     def file_name(self) -> str:
-        """What its file is called. Raises GaitError for a name that no file may have, or that is a path."""
+        """Name of its file. Raises GaitError for a name that no file may have, or that is a path."""
         name = f"{self.name}-{self.preset}.json"
         if CONTROL.search(name) or name != Path(name).name:
             raise GaitError(f"{name!r} is no name of a file; say where to write the gait")
         return name
 
     def save(self, path: Path | str) -> None:
-        """Write the JSON file. Raises InputError for a name that does not end in .json, and OutputError."""
+        """Write the gait as a JSON file. Raises InputError for a name that does not end
+        in .json, and OutputError.
+        """
         path = output_path(path, (".json",))
         c = self.constraint
         record: dict[str, Any] = {
@@ -183,7 +187,9 @@ class Gait(Shown):
 
 
 def _readable(record: Mapping[str, Any]) -> str:
-    """JSON text with one line per row of numbers, so that a difference of two gait files can be read."""
+    """JSON text of a record with one line per row of numbers, so that differences of
+    two gait files are readable.
+    """
     lines = []
     for key, value in record.items():
         if key == "coefficients":
@@ -205,7 +211,7 @@ def gait_names(robot: str, preset: str) -> tuple[str, ...]:
 
 
 def load_gait(gait: str | Path, biped: Biped, other_robot: bool = False) -> Gait:
-    """A stored gait by name for this robot and preset, or a gait file by its path.
+    """Load a stored gait by name for this robot and preset, or a gait file by its path.
 
     other_robot: accept a file that was made for another robot or preset. Raises GaitError that names the file,
     the key, what was found and what was expected.
@@ -232,7 +238,7 @@ def load_gait(gait: str | Path, biped: Biped, other_robot: bool = False) -> Gait
 
 
 def _from_record(record: Mapping[str, Any]) -> Gait:
-    """The gait in a file that was read. Raises GaitError, or KeyError and TypeError for damaged entries."""
+    """The gait of a file's content. Raises GaitError, or KeyError and TypeError for damaged entries."""
     if record["format"] != FORMAT:
         raise GaitError(f"format is '{record['format']}', expected '{FORMAT}'")
     n = len(record["phase"])
@@ -246,9 +252,9 @@ def _from_record(record: Mapping[str, Any]) -> Gait:
 
 
 def onto_section(biped: Biped, q: Array, slope: float = 0.0) -> Array:
-    """The configuration (n,) [rad] nearest to q (n,) whose swing foot is on ground of `slope` [rad].
+    """The configuration (n,) [rad] near q (n,) whose swing foot is on ground of `slope` [rad].
 
-    Newton's method on the foot's height moves the driven joints q_b only, by the least change; the last
+    Newton's method on the foot's height moves the actuated joints q_b only, by the least change; the last
     coordinate q_N is kept. Raises GaitError when no configuration near q reaches the ground.
     """
     q = np.array(q, dtype=float)
@@ -267,7 +273,7 @@ def onto_section(biped: Biped, q: Array, slope: float = 0.0) -> Array:
 
 
 def finite_vector(record: Mapping[str, object], key: str, length: int) -> Array:
-    """The numbers under a key of a record, (length,). Raises GaitError unless there are so many finite ones."""
+    """The numbers (length,) under a key of a record. Raises GaitError unless there are `length` finite ones."""
     value = np.array(record[key], dtype=float)
     if value.shape != (length,) or not np.all(np.isfinite(value)):
         raise GaitError(f"{key} is {record[key]}, expected {length} finite numbers")

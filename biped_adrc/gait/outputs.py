@@ -34,9 +34,9 @@ from biped_adrc.gait.constraint import VirtualConstraint
 from biped_adrc.gait.curves import Curve
 
 _SLOPE = np.array([1.0, -8.0, 0.0, 8.0, -1.0]) / 12.0
-"""Central difference of order 4 for f' over -2 h .. 2 h, times 1 / h; its error is h^4 f^(5) / 30."""
+"""Weights of the central difference of order 4 for f' over -2 h .. 2 h, times 1 / h; error h^4 f^(5) / 30."""
 _BEND = np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / 12.0
-"""The same for f'', times 1 / h^2; its error is h^4 f^(6) / 90."""
+"""Weights of the central difference of order 4 for f'', times 1 / h^2; error h^4 f^(6) / 90."""
 
 
 _H = 4e-3
@@ -60,9 +60,10 @@ class OutputPoint(NamedTuple):
 
 
 class Outputs(Shown, ABC):
-    """Base class: outputs as a pure function of (t, q, q').
+    """Base of all outputs: y as a pure function of (t, q, q').
 
-    What a subclass gives is checked at every call: InputError, or NotFiniteError, with the name of the class.
+    The result of a subclass is checked at every call: InputError, or NotFiniteError,
+    with the name of the class.
     """
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
@@ -76,13 +77,13 @@ class Outputs(Shown, ABC):
 
 @dataclass(frozen=True)
 class LinearOutputs(Outputs):
-    """y = H0 q - h_d(Theta). With H0 = [I 0] it is the joint error y = q_b - h(Theta).
+    """Linear outputs y = H0 q - h_d(Theta). With H0 = [I 0] they are the joint errors y = q_b - h(Theta).
 
     Raises GaitError when the shapes do not fit.
     """
 
     H0: Array
-    """(p, n) [1]."""
+    """Output matrix (p, n) [1]."""
     desired: VirtualConstraint
     """h_d over its phase, one row of its curve per output [rad]."""
 
@@ -101,12 +102,10 @@ class LinearOutputs(Outputs):
         return OutputPoint(self.H0 @ q - r.q_d, self.H0 @ v - r.dq_d, self.H0 - r.H, -r.drift)
 
     def as_virtual_constraint(self) -> VirtualConstraint:
-        """The virtual constraint q_b = h(Theta) whose configurations are those of y = 0, by a curve of the kind
-        of h_d.
+        """The virtual constraint q_b = h(Theta) that is equivalent to y = 0, with a curve of the kind of h_d.
 
-        Zero dynamics and gaits are written for virtual constraints, so this brings linear outputs to them.
-
-        Raises GaitError when there is not one output fewer than coordinates, or [H0; c] is singular.
+        Zero dynamics and gaits are written for virtual constraints, so this makes them usable for linear
+        outputs. Raises GaitError when there is not one output fewer than coordinates, or [H0; c] is singular.
         """
         d = self.desired
         q = all_coordinates(d.curve, self.H0, d.phase, (d.theta_plus, d.theta_minus))
@@ -115,10 +114,10 @@ class LinearOutputs(Outputs):
 
 
 def all_coordinates(curve: Curve, H0: Array, phase: Array, ends: tuple[float, float]) -> Curve:
-    """q(s), all n coordinates, from the curve of the outputs y by [H0; c] q = [y; Theta].
+    """The curve q(s) of all n coordinates, from the curve of the outputs y by [H0; c] q = [y; Theta].
 
-    phase: c (n,). ends: Theta+ and Theta- [rad]. Raises GaitError where outputs and phase together are not n
-    independent rows.
+    phase: c (n,). ends: Theta+ and Theta- [rad]. Raises GaitError where outputs and phase
+    together are not n independent rows.
     """
     n = len(phase)
     H = np.vstack((H0, phase)) if H0.shape == (n - 1, n) else np.zeros((n, n))
@@ -135,17 +134,18 @@ def all_coordinates(curve: Curve, H0: Array, phase: Array, ends: tuple[float, fl
 
 @dataclass(frozen=True)
 class FunctionOutputs(Outputs):
-    """y = function(q), a Python function that is at least four times differentiable.
+    """Outputs y = function(q) by a Python function that is at least four times differentiable.
 
         height = FunctionOutputs(lambda q: np.array([biped.hip(q)[1] - 0.78, q[4]]))
 
-    Its derivatives are central differences of order 4. For a function and derivatives of order one, J is within
-    1e-11 and the drift within 1e-10 |v|^2 of the truth. Raises InputError or NotFiniteError, at a call, for a
-    result of the wrong shape or not finite. Outputs with derivatives of their own are a class below `Outputs`.
+    Its derivatives are central differences of order 4. For a function and derivatives of order one, J is
+    within 1e-11 and the drift within 1e-10 |v|^2 of the truth. Raises InputError or NotFiniteError, at a call,
+    for a result of the wrong shape or not finite. Outputs with derivatives of their own are a subclass of
+    `Outputs`.
     """
 
     function: Callable[[Array], Array]
-    """q (n,) -> y (p,)."""
+    """The function q (n,) [rad] -> y (p,)."""
 
     def __call__(self, t: float, q: Array, v: Array) -> OutputPoint:
         y = returned(self.function(q), None, self, "function")
@@ -165,7 +165,7 @@ class FunctionOutputs(Outputs):
 
 
 def _along(f: Callable[[Array], Array], q: Array, dq: Array, weights: Array) -> Array:
-    """sum_k w_k f(q + k dq), k = -2 .. 2: a finite difference of f along dq (n,) with weights (5,)."""
+    """Finite difference of f along dq (n,): sum_k w_k f(q + k dq), k = -2 .. 2, with weights w (5,)."""
     total: Array = np.asarray(
         sum(w * np.asarray(f(q + k * dq)) for k, w in zip(range(-2, 3), weights, strict=True) if w)
     )

@@ -1,4 +1,4 @@
-"""References q_d of the driven joints, figure 2 of the paper: functions of time, or of the state.
+"""References q_d of the actuated joints, figure 2 of the paper: functions of time, or of the state.
 
 A reference that depends on the state (a virtual constraint) has an acceleration which contains the joint
 acceleration that the controller is about to cause. It is therefore split into
@@ -34,13 +34,13 @@ class ReferencePoint(NamedTuple):
     """
 
     q_d: Array
-    """(p,) [rad]."""
+    """Angles (p,) [rad]."""
     dq_d: Array
-    """(p,) [rad/s]."""
+    """Rates (p,) [rad/s]."""
     drift: Array
-    """(p,) [rad/s^2], the part of q_d'' that does not depend on q''."""
+    """Part of q_d'' (p,) [rad/s^2] that does not depend on q''."""
     H: Array
-    """(p, n), q_d'' = drift + H q''."""
+    """Matrix (p, n) of q_d'' = drift + H q'', dimensionless."""
 
     def __repr__(self) -> str:
         return one_line(self)
@@ -79,7 +79,7 @@ def check_point(reference: Reference, r: object, p: int, n: int) -> None:
 
 @dataclass(frozen=True)
 class TimeReference(Reference):
-    """q_d(t) given by a function that returns q_d, q_d', q_d'', each (p,) [rad, rad/s, rad/s^2]."""
+    """A reference q_d(t): `function` returns q_d [rad], q_d' [rad/s], q_d'' [rad/s^2], each (p,), at t [s]."""
 
     function: Callable[[float], tuple[Array, Array, Array]]
 

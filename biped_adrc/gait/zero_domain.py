@@ -13,8 +13,7 @@ The unilateral contact is what Westervelt, Grizzle, Koditschek (IEEE TAC 48(1), 
 `zero_orbits.ZeroOrbits` gives the return map rho and zeta*; `domain` cuts the interval in which the next step
 is finished by these limits. Used by `analysis.zero_report` and the command line.
 
-    domain(orbits, DomainLimits(friction=0.6))     zeta from 82.3 (V_max) to 484.1 (friction) for the published
-    gait
+    domain(orbits, DomainLimits(friction=0.6))     published gait: zeta from 82.3 (V_max) to 484.1 (friction)
 """
 
 from __future__ import annotations
@@ -33,13 +32,13 @@ from biped_adrc.model.ground import check_slope, ground_axes
 
 LIFT_OFF, FRICTION, TORQUE = "lift-off", "friction", "torque"
 PASSING = "V_max"
-"""The step has to pass the highest point of V_zero."""
+"""Name of the bound by the highest point of V_zero, which the step has to pass."""
 UNLIMITED = "no limit"
 
 
 @dataclass(frozen=True)
 class DomainLimits(Checked):
-    """What ground and motors allow in `domain`; None leaves a limit out. F_N > 0 holds in any case.
+    """Limits of ground and motors for `domain`; None for no such limit. F_N > 0 is always required.
 
     Raises InputError for a limit that is not positive or a slope of a right angle and more.
     """
@@ -49,7 +48,7 @@ class DomainLimits(Checked):
     torque: PositiveFloat | None = None
     """Largest |u_i| [N m]."""
     slope: float = 0.0
-    """Of the ground [rad], positive downhill."""
+    """Slope of the ground [rad], positive downhill."""
 
     def __post_init__(self) -> None:
         check_slope(self.slope)
@@ -59,11 +58,11 @@ class Bound(NamedTuple):
     """One end of the domain, and the limit that sets it."""
 
     zeta: float
-    """[kg^2 m^4/s^2]."""
+    """zeta of the bound [kg^2 m^4/s^2]."""
     cause: str
     """"V_max", "lift-off", "friction", "torque", or "no limit"."""
     theta: float
-    """Where it happens first [rad]; NaN without limit."""
+    """Phase at which the limit is reached first [rad]; NaN without limit."""
 
 
 class Domain(NamedTuple):
@@ -74,16 +73,16 @@ class Domain(NamedTuple):
 
     @property
     def empty(self) -> bool:
-        """True where no speed keeps all limits."""
+        """Whether no speed keeps all limits."""
         return not self.lower.zeta < self.upper.zeta
 
     def holds(self, zeta: float) -> bool:
-        """True where zeta is inside, both ends excluded."""
+        """Whether zeta is inside, both ends excluded."""
         return self.lower.zeta < zeta < self.upper.zeta
 
 
 def domain(orbits: ZeroOrbits, limits: DomainLimits | None = None) -> Domain:
-    """The interval of zeta whose next step is finished and keeps the limits; F_N > 0 without limits.
+    """The interval of zeta whose next step is completed and keeps the limits; only F_N > 0 if limits is None.
 
     It contains zeta* when the periodic orbit keeps them, and is then a domain of attraction: each limit leaves
     an interval, and the domain is their intersection.
@@ -97,21 +96,20 @@ def domain(orbits: ZeroOrbits, limits: DomainLimits | None = None) -> Domain:
 
 
 class Margin(NamedTuple):
-    """One limit as still + moving Theta'^2 > 0, at the K Gauss nodes; forces [N] or torques [N m]."""
+    """One limit as a condition still + moving Theta'^2 > 0, at the K Gauss nodes; forces [N] or
+    torques [N m].
+    """
 
     cause: str
-    """Which limit, as in `Bound.cause`."""
+    """Name of the limit, as in `Bound.cause`."""
     still: Array
     """Distance to the limit at rest (K,)."""
     moving: Array
-    """Its change with Theta'^2 (K,), per rad^2/s^2."""
+    """Change of that distance with Theta'^2 (K,), per rad^2/s^2."""
 
 
 def _margins(orbits: ZeroOrbits, limits: DomainLimits) -> list[Margin]:
-    """All limits of the domain.
-
-    The model is affine in Theta'^2, so its values at Theta' = 0 and 1 rad/s give both coefficients.
-    """
+    """All limits of the domain, each as a `Margin`."""
     zero = orbits.zero
     rest, moving = ([zero.dynamics(k, rate) for k in range(len(zero.theta))] for rate in (0.0, 1.0))
     u_0, u_1 = (np.array([result[1] for result in rows]) for rows in (rest, moving))
@@ -130,7 +128,7 @@ def _margins(orbits: ZeroOrbits, limits: DomainLimits) -> list[Margin]:
 
 
 def _end(orbits: ZeroOrbits, margin: Margin, sign: float) -> Bound:
-    """The lower (sign 1) or upper (sign -1) end that one margin leaves: the extreme of -A / B over Theta."""
+    """The lower (sign 1) or upper (sign -1) bound of zeta by one margin: the extreme of -A / B over Theta."""
     still, moving = series(orbits.zero, margin.still), series(orbits.zero, margin.moving)
 
     def reach(theta: Array) -> Array:

@@ -55,31 +55,29 @@ def gauss_nodes(count: int) -> tuple[Array, Array, Array]:
 
 @dataclass(frozen=True)
 class ZeroDynamicsOrbit(Shown):
-    """One step of the zero dynamics at the nodes; K nodes, n coordinates, p motors."""
+    """One step of the zero dynamics at K nodes; n coordinates, p motors."""
 
     theta: Array
-    """(K,) [rad]."""
+    """Phases (K,) [rad]."""
     q: Array
-    """(K, n) [rad]."""
+    """Angles (K, n) [rad]."""
     v: Array
-    """(K, n) [rad/s]."""
+    """Rates (K, n) [rad/s]."""
     a: Array
-    """(K, n) [rad/s^2]."""
+    """Accelerations (K, n) [rad/s^2]."""
     u: Array
-    """(K, p) [N m]."""
+    """Torques (K, p) [N m]."""
     ground_reaction: Array
-    """(K, 2), (F_T, F_N) [N]."""
+    """Ground reaction (F_T, F_N) (K, 2) [N]."""
     time_weights: Array
-    """(K,) [s]: sum of weights * f is the integral of f over the step in time."""
+    """Weights (K,) [s]: their sum with f is the integral of f over the step in time."""
     period: float
-    """[s]."""
+    """Duration of the step [s]."""
 
 
 @dataclass(frozen=True)
 class ZeroDynamics(Shown):
-    """The model along one constraint at K Gauss nodes, and what follows from it by quadrature.
-
-    Make it by `of`.
+    """The model along one constraint at K Gauss nodes, with orbits by quadrature. Make it by `of`.
 
     >>> zero = ba.ZeroDynamics.of(biped, gait.constraint)
     >>> zero.delta**2 < 1.0  # the cycle is stable
@@ -93,7 +91,7 @@ class ZeroDynamics(Shown):
     weights: Array
     """weights @ f is the integral of f over Theta from Theta+ to Theta- (K,) [rad]."""
     cumulative: Array
-    """cumulative @ f is the same up to each node (K, K) [rad]."""
+    """cumulative @ f is the integral of f over Theta from Theta+ to each node (K, K) [rad]."""
     q: Array
     """Configurations on the constraint (K, n) [rad]."""
     dq: Array
@@ -107,7 +105,9 @@ class ZeroDynamics(Shown):
 
     @classmethod
     def of(cls, biped: Biped, constraint: VirtualConstraint, nodes: int = NODES) -> ZeroDynamics:
-        """Evaluate the model along the constraint at so many Gauss nodes. Raises InputError."""
+        """Evaluate the model along the constraint at `nodes` Gauss nodes. Raises
+        InputError for other arguments.
+        """
         check_part(biped, "biped", Biped)
         check_part(constraint, "constraint", VirtualConstraint)
         s, w, C = gauss_nodes(nodes)
@@ -123,18 +123,22 @@ class ZeroDynamics(Shown):
 
     @property
     def work(self) -> float:
-        """W = int -G_N I dTheta over the step [kg^2 m^4/s^2], so that (sigma-^2 - sigma+^2) / 2 = W."""
+        """W = int -G_N I dTheta over the step [kg^2 m^4/s^2], by which gravity changes
+        sigma^2 / 2 from start to end.
+        """
         return float(self.weights @ (-self.gravity * self.inertia))
 
     @cached_property
     def _end(self) -> tuple[Array, Array]:
-        """(q-, q'-) on the constraint at |Theta'-| = 1 rad/s, in the direction of the walk."""
+        """State (q-, q'-) on the constraint at |Theta'-| = 1 rad/s, in the direction of the walk."""
         q, dq, _ = configuration(self.constraint, self.constraint.theta_minus)
         return q, np.sign(self.constraint.theta_minus - self.constraint.theta_plus) * dq
 
     @property
     def delta(self) -> float:
-        """sigma+ / sigma- across the impact at the end of the step; the same at every speed."""
+        """Ratio sigma+ / sigma- of the angular momenta after and before the impact that ends the
+        step; the same at every speed.
+        """
         impact = self.biped.impact(*self._end)
         after = self.biped.angular_momentum(impact.q, impact.v)
         return after / self.biped.angular_momentum(*self._end)
@@ -155,14 +159,16 @@ class ZeroDynamics(Shown):
         return math.copysign(math.sqrt(square), self.biped.angular_momentum(*self._end))
 
     def end_state(self, sigma_minus: float) -> tuple[Array, Array]:
-        """(q-, q'-) on the constraint with angular momentum sigma_minus [kg m^2/s], each (n,) [rad, rad/s]."""
+        """State (q-, q'-) on the constraint with angular momentum sigma_minus [kg
+        m^2/s], each (n,) [rad, rad/s].
+        """
         q, v = self._end
         return q, v * (sigma_minus / self.biped.angular_momentum(q, v))
 
     def sigma_squared(self, sigma_plus: float) -> Array:
         """sigma^2 at the nodes (K,) [kg^2 m^4/s^2] for a step that starts with sigma_plus [kg m^2/s].
 
-        Negative from where the step comes to a stop.
+        Negative from the phase on at which the step comes to a stop.
         """
         square: Array = sigma_plus**2 + 2.0 * self.cumulative @ (-self.gravity * self.inertia)
         return square
@@ -170,7 +176,8 @@ class ZeroDynamics(Shown):
     def orbit(self, sigma_plus: float) -> ZeroDynamicsOrbit:
         """The step that starts with sigma_plus [kg m^2/s]: states, torques and ground reaction at the nodes.
 
-        Raises GaitError when the step does not reach its end, or Theta is no phase since I changes its sign.
+        Raises GaitError when the step does not reach its end, or I changes its sign,
+        so that Theta is no phase.
         """
         low, high = np.min(self.inertia), np.max(self.inertia)
         square = self.sigma_squared(sigma_plus)
@@ -224,10 +231,10 @@ def configuration(constraint: VirtualConstraint, theta: float) -> tuple[Array, A
 def impact_jump(
     biped: Biped, constraint: VirtualConstraint, q: Array, v: Array
 ) -> tuple[Array, Array]:
-    """How far an impact at (q-, q'-) (n,) [rad, rad/s] leaves a constraint: q_b+ - h(Theta+) [rad] and
-    q_b'+ - h'(Theta+) Theta'+ [rad/s], each (p,).
+    """Distance from a constraint after an impact at (q-, q'-) (n,) [rad, rad/s].
 
-    Zero for a hybrid-invariant constraint; otherwise each impact disturbs the tracking controller by this much.
+    Returns q_b+ - h(Theta+) [rad] and q_b'+ - h'(Theta+) Theta'+ [rad/s], each (p,). Zero for a
+    hybrid-invariant constraint; otherwise each impact disturbs the tracking controller by this much.
     """
     after, c, p = biped.impact(q, v), constraint.phase, biped.p
     h, slope, _ = constraint.h(float(c @ after.q))
@@ -237,10 +244,11 @@ def impact_jump(
 def invariant_constraint(
     kind: type[ControlledCurve], biped: Biped, q: Array, dq: Array, degree: int
 ) -> VirtualConstraint:
-    """The constraint between a pose before impact and itself relabelled, which the impact does not leave.
+    """The hybrid-invariant constraint from a relabelled pre-impact pose to the pose itself.
 
-    q: pre-impact configuration (n,) [rad], dq (n,): dq/dTheta there. The slopes at both ends are those before
-    and after the impact, which is linear in the rates; coefficients between lie on a straight line.
+    kind, degree: of its curve. q: pre-impact configuration (n,) [rad], dq (n,): dq/dTheta there. The
+    slopes at both ends are those before and after the impact, which is linear in the rates; coefficients
+    between lie on a straight line.
     """
     p, c, impact = biped.p, biped.phase, biped.impact(q, dq)
     plus, minus = float(c @ impact.q), float(c @ q)

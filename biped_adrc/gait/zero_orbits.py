@@ -45,15 +45,15 @@ from biped_adrc.core.types import Array
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, configuration, gauss_nodes
 
 _GRID = 401
-"""Phases among which signs and extremes are looked for; zeros between two of them are then solved for."""
+"""Number of phases at which signs and extremes are searched; zeros between two of them are then solved for."""
 _DURATION = 1e-6
-"""Largest error of a duration over itself."""
+"""Largest relative error of a duration."""
 _SADDLE = 1e-6
 """|dV_zero/dTheta| at V_max over its largest value, below which V_max counts as an equilibrium."""
 
 
 def series(zero: ZeroDynamics, values: Array) -> Legendre:
-    """The polynomial in Theta [rad] through values (K,) at the Gauss nodes of `zero`."""
+    """The polynomial in Theta [rad] that has the values (K,) at the Gauss nodes of `zero`."""
     s, w, _ = gauss_nodes(len(values))
     x, c = 2.0 * s - 1.0, zero.constraint
     coefficients = (legendre.legvander(x, len(x) - 1).T @ (2.0 * w * values)) * (
@@ -83,11 +83,11 @@ class ZeroOrbits(Shown):
     delta: float
     """sigma+ / sigma- across the impact."""
     theta_max: float
-    """Where V_zero is largest [rad]."""
+    """Phase at which V_zero is largest [rad]."""
 
     @classmethod
     def of(cls, zero: ZeroDynamics) -> ZeroOrbits:
-        """The map of a constraint.
+        """Compute the map of a constraint.
 
         Raises GaitError when I changes its sign (Theta is no phase), or when the impact reverses the motion.
         """
@@ -109,31 +109,38 @@ class ZeroOrbits(Shown):
     # -- the numbers of the literature -------------------------------------------------------------
     @property
     def v_end(self) -> float:
-        """V_zero(Theta-) [kg^2 m^4/s^2]; negative when gravity speeds the step up."""
+        """Potential V_zero(Theta-) at the end of a step [kg^2 m^4/s^2]; negative when
+        gravity speeds the step up.
+        """
         return float(self.potential(self.zero.constraint.theta_minus))
 
     @cached_property
     def v_max(self) -> float:
-        """V_max = max V_zero >= 0 [kg^2 m^4/s^2]; a step is finished if sigma+^2 / 2 exceeds it."""
+        """Largest potential V_max = max V_zero >= 0 of a step [kg^2 m^4/s^2]; a step is completed
+        if sigma+^2 / 2 exceeds it.
+        """
         return max(0.0, float(self.potential(self.theta_max)))
 
     @property
     def existence(self) -> float:
-        """delta^2 / (1 - delta^2) V_zero(Theta-) + V_max, negative if there is an orbit; inf for delta = 1."""
+        """Number that is negative if a periodic orbit exists: delta^2 / (1 - delta^2)
+        V_zero(Theta-) + V_max [kg^2 m^4/s^2].
+
+        Infinite for delta = 1.
+        """
         d2 = self.delta**2
         return d2 / (1.0 - d2) * self.v_end + self.v_max if d2 != 1.0 else math.inf
 
     @property
     def lowest(self) -> float:
-        """V_max / delta^2 [kg^2 m^4/s^2]: from a zeta above it, the next step is finished."""
+        """Lower end V_max / delta^2 [kg^2 m^4/s^2] of the return map: above this zeta
+        the next step is completed.
+        """
         return self.v_max / self.delta**2
 
     @property
     def zeta_star(self) -> float:
-        """The fixed point of rho [kg^2 m^4/s^2].
-
-        Raises GaitError that says which condition of existence or stability fails, and by how much.
-        """
+        """zeta* [kg^2 m^4/s^2], the fixed point of the return map rho: zeta of the periodic orbit."""
         d2, V, unit = self.delta**2, self.v_end, "kg^2 m^4/s^2"
         for holds, text in (
             (
@@ -162,7 +169,9 @@ class ZeroOrbits(Shown):
 
     # -- the return map ----------------------------------------------------------------------------
     def rho(self, zeta: float) -> float:
-        """The return map: zeta one step later. Raises GaitError for a step that is not finished."""
+        """The return map: zeta one step later [kg^2 m^4/s^2]. Raises GaitError for a
+        step that is not completed.
+        """
         begin = self.delta**2 * zeta
         if not self.v_max < begin < math.inf:
             raise GaitError(
@@ -191,15 +200,17 @@ class ZeroOrbits(Shown):
 
     # -- what a step looks like --------------------------------------------------------------------
     def sigma_squared(self, theta: Array, zeta: float) -> Array:
-        """sigma^2 [kg^2 m^4/s^2] at theta (K,) [rad] in the step after zeta; negative past where it stops."""
+        """sigma^2 [kg^2 m^4/s^2] at the phases theta (K,) [rad] of the step after zeta; negative
+        behind a phase where it stops.
+        """
         square: Array = 2.0 * (self.delta**2 * zeta - self.potential(theta))
         return square
 
     def period(self, zeta: float) -> float:
         """Duration [s] of the step after zeta, int |I / sigma| dTheta; also at the lower end of the domain.
 
-        By adaptive quadrature, which sigma near 0 at V_max asks for. Raises GaitError as rho, and where its
-        error estimate exceeds _DURATION of it, in a step that comes too near to rest.
+        By adaptive quadrature, needed for sigma near 0 at V_max. Raises GaitError as rho, and where its error
+        estimate exceeds _DURATION of it, in a step that nearly comes to rest.
         """
         if zeta != self.lowest:
             self.rho(zeta)
@@ -248,8 +259,8 @@ class ZeroOrbits(Shown):
 
 
 def _highest(potential: Legendre, theta: Array) -> float:
-    """The phase [rad] at which V_zero is largest: an end of theta (K,), or a zero of its slope beside the
-    largest value on that grid.
+    """Phase [rad] at which V_zero is largest: an end of the grid theta (K,), or a zero of its
+    slope next to the maximum on it.
     """
     k = int(np.argmax(potential(theta)))
     slope = potential.deriv()

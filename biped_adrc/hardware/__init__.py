@@ -1,1 +1,1 @@
-"""What lies between controller and robot: encoders and their noise, delay, rate limit and lag of the motors."""
+"""Parts between controller and robot: encoders and their noise, touchdown detectors, delay, rate limit, lag."""

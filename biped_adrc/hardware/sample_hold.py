@@ -1,15 +1,15 @@
-"""What a walker holds between ticks, behind its controller's state.
+"""The tail of a walker's state: numbers kept between ticks, behind its controller's state.
 
     x = (q, q', s, own, b, w, queue, u_m, waiting, u)
 
-own is what a plant that moves by itself keeps, b what the controller takes for its single support, w the
-sensors' state, the rest the line of torques on their way to the motors; each is empty where the
-walker has no such part. u_m alone flows.
+own are the numbers of a plant that integrates itself, b the single support that the controller assumes, w the
+sensors' state. The rest are torques [N m]: those in the queue of the delay, u_m of motors with lag, the one
+that waits for a fraction of a period, and u commanded to the motors now. Each part is empty where the walker
+has none. Between ticks u_m alone changes.
 
 The walker's state is one vector, since integrators, stored runs and machine code know vectors alone. Here its
-tail is taken apart (`read`) and put together (`written`), and what happens to all parts at the start and
-between ticks is said once; `closed_loop.semantics` does so for a tick and an impact, where the controller comes
-in.
+tail is taken apart (`read`) and put together (`written`), and all parts are initialised and moved between
+ticks; `closed_loop.semantics` moves them at a tick and an impact, where the controller acts.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from biped_adrc.hardware.touchdown import HEAD, Belief, Touchdown, numbers_of
 
 
 class HeldSizes(NamedTuple):
-    """n coordinates, p joints, and what is held: numbers in w, torques in the queue, and 0 or 1."""
+    """Sizes of the parts of the tail, for n coordinates and p joints."""
 
     n: int
     p: int
@@ -44,46 +44,46 @@ class HeldSizes(NamedTuple):
     known: int
     """1 when the controller knows the delay."""
     own: int
-    """Numbers that the plant keeps for itself."""
+    """Numbers of a plant that integrates itself."""
     belief: int
     """Numbers in b."""
 
     @property
     def total(self) -> int:
-        """Numbers held."""
+        """Length of the tail."""
         torques = self.queue + self.lag + self.waiting + 1
         return self.own + self.belief + self.sensors + self.p * torques
 
 
 class HeldParts(NamedTuple):
-    """The parts at the ticks of a walker; None where it has not one."""
+    """Sensors, motors and touchdown detector of a walker at its ticks; None where it has none."""
 
     sensors: Sensor | None
-    """Sampled for its robot and period."""
+    """The sensors, sampled for the robot and period."""
     motors: TorqueLine
     sizes: HeldSizes
     touchdown: Touchdown | None
 
     def sense(self, w: Array, q: Array, v: Array) -> Array:
-        """w of the sensors after a tick at q (n,) [rad], v (n,) [rad/s]."""
+        """State w of the sensors after a tick at q (n,) [rad], v (n,) [rad/s]."""
         return w if self.sensors is None else self.sensors.sense(w, q, v)
 
     def reading(self, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
-        """(q, v) as the sensors in their state w show it, each (n,)."""
+        """q (n,) [rad] and v (n,) [rad/s] as measured by sensors in the state w."""
         return (q, v) if self.sensors is None else self.sensors.reading(w, q, v)
 
 
 class Held(NamedTuple):
-    """What is held at one instant, in parts."""
+    """The tail at one instant, in parts."""
 
     w: Array
-    """Of the sensors."""
+    """State of the sensors."""
     line: Line
     """Torques on their way to the motors [N m]."""
     own: Array
-    """Of a plant that moves by itself."""
+    """Numbers of a plant that integrates itself."""
     b: Array
-    """Of the controller's belief."""
+    """Belief of the controller about its single support."""
 
 
 def held_parameters(
@@ -95,10 +95,10 @@ def held_parameters(
     own: int,
     touchdown: Touchdown | None,
 ) -> HeldParts:
-    """What a walker's tail is laid out by, and the numbers of its parts.
+    """Make the sampled parts of a walker's tail, and their sizes.
 
-    For n coordinates, p motors and the ticks of `timing`, whose delay makes the queue; own: how many numbers
-    the plant keeps for itself.
+    For n coordinates, p motors and the ticks of `timing`, whose delay makes the queue; own: how many
+    numbers the plant keeps for itself.
     """
     motors, period = IDEAL if motors is None else motors, timing.period
     sampled = None if sensors is None else sensors.sampled(n, p, period)
@@ -113,7 +113,7 @@ def held_parameters(
 
 
 def read(k: HeldSizes, tail: Array) -> Held:
-    """The parts of what follows the controller's state: tail (total,), as views."""
+    """Split the tail (total,) of a state into its parts, as views."""
     at, parts = 0, []
     of_line = (k.queue * k.p, k.lag * k.p, k.waiting * k.p, k.p)
     for size in (k.own, k.belief, k.sensors, *of_line):
@@ -124,17 +124,17 @@ def read(k: HeldSizes, tail: Array) -> Held:
 
 
 def written(held: Held) -> Array:
-    """The parts in one vector (total,), the inverse of `read`."""
+    """Join the parts to the tail (total,), the inverse of `read`."""
     return np.concatenate((held.own, held.b, held.w, *held.line))
 
 
 def motor_torque(line: Line) -> Array:
-    """The torque on the joints now (p,) [N m]: of motors with lag their own, else what is asked of them."""
+    """Torque on the joints now (p,) [N m]: the state of lagging motors, else the command."""
     return line.u_m if len(line.u_m) > 0 else line.u
 
 
 def lagged(k: HeldParts, tail: Array) -> Array:
-    """The slope of the tail (total,): tau u_m' = u - u_m [N m], and zero for all else."""
+    """Slope of the tail (total,): tau u_m' = u - u_m [N m], and zero for all else."""
     line, rate = read(k.sizes, tail).line, np.zeros(len(tail))
     if k.sizes.lag > 0:
         at = len(tail) - k.sizes.p * (k.sizes.waiting + 2)
@@ -143,7 +143,8 @@ def lagged(k: HeldParts, tail: Array) -> Array:
 
 
 def at_start(k: HeldParts, q: Array, v: Array, support: tuple[int, float]) -> Array:
-    """What is held (total,) at the start of a run in q (n,), v (n,): no torque, a first look of the sensors.
+    """The tail (total,) at the start of a run in q (n,), v (n,): zero torque, and a first
+    measurement of the sensors.
 
     support: number and start [s] of the single support, which the controller knows at first.
     """
@@ -158,7 +159,10 @@ def at_start(k: HeldParts, q: Array, v: Array, support: tuple[int, float]) -> Ar
 
 
 def _tried(sensors: Sensor, q: Array, v: Array) -> Array:
-    """w (size,) of the sensors at the start; raises InputError where it, or one more sample, is no such row."""
+    """Start a user's sensors and call each of their methods once; returns their state w (size,) at the start.
+
+    Raises InputError where a method returns another shape.
+    """
     size = (sensors.size,)
     w = returned(sensors.start(q, v), size, sensors, "start")
     returned(sensors.sense(frozen(w), q, v), size, sensors, "sense")

@@ -1,12 +1,12 @@
-"""What a sensor is: a state w that ticks and impacts change, and what it makes of (q, q') for the controller.
+"""A sensor: a state w that changes at ticks and impacts, and the reading of (q, q') for the controller.
 
     w <- sense(w, q, v)                   at a tick at (q, v)
     w <- impact(w, q, v, v_model)         after an impact to (q, v)
     (q^, v^) = reading(w, q, v)           (q, v) as the sensors before it read them
 
-`a + b` puts b behind a: both sense the true (q, v), and b changes what a lets through.
+`a + b` puts b behind a: both sense the true (q, v), and b changes the readings of a.
 
-Sensors work in sampled time: between ticks the controller sees what was read at the last one. Both engines run
+Sensors work in sampled time: between ticks the controller has the readings of the last one. Both engines run
 these methods, which are pure functions; randomness is a part of w, so that a walk is repeated by its seed.
 `closed_loop.semantics` calls them, `hardware.sample_hold` keeps w.
 """
@@ -28,49 +28,57 @@ class Sensor(Checked):
 
     @property
     def size(self) -> int:
-        """Numbers in w."""
+        """Length of the state w."""
         return 0
 
     def start(self, q: Array, v: Array) -> Array:
-        """w (size,) at the start of a run in q (n,) [rad], v (n,) [rad/s]."""
+        """State w (size,) at the start of a run in q (n,) [rad], v (n,) [rad/s]."""
         return np.zeros(self.size)
 
     def sense(self, w: Array, q: Array, v: Array) -> Array:
-        """w (size,) after a tick at q (n,) [rad], v (n,) [rad/s]."""
+        """State w (size,) after a tick at q (n,) [rad], v (n,) [rad/s]."""
         return w
 
     def impact(self, w: Array, q: Array, v: Array, v_model: Array) -> Array:
-        """w (size,) after an impact to q, v (n,); v_model (n,): v^ through the nominal model's impact."""
+        """State w (size,) after an impact to q, v (n,); v_model (n,): v^ through the nominal model's impact."""
         return w
 
     def reading(self, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
-        """q^ (n,) [rad] and v^ (n,) [rad/s], from w and from q, v (n,) as the sensors before it read them."""
+        """q^ (n,) [rad] and v^ (n,) [rad/s], from w and from q, v (n,) as read by the sensors before it.
+
+        Raises InputError where no class writes it.
+        """
         raise InputError(
             f"{type(self).__name__} has no reading(w, q, v); write it, or take sampled(n, p, period)"
         )
 
     def sampled(self, n: int, p: int, period: float) -> Sensor:
-        """The sensor on n coordinates, p of them joints, with ticks every `period` [s]."""
+        """The sensor for n coordinates, p of them joints, and ticks every `period` [s]."""
         return self
 
     @property
     def noisy(self) -> bool:
-        """Whether anything is random: a walk with it has no orbit, and so no return map."""
+        """Whether the readings are random: a walk with such a sensor has no orbit, and so no return map."""
         return False
 
     def smooth(self) -> Sensor:
-        """The same sensor without counts and noise, which a linear loop takes in its place."""
+        """The same sensor without counts and noise, for a linear loop."""
         return self
 
     def errors(self, n: int, p: int, before: Array) -> Array:
-        """Standard deviations (2 n,) [rad, rad/s] of what this sensor adds to (q, q') at every tick,
-        independent from tick to tick; counts as errors spread evenly. before: of the sensors before it.
+        """Standard deviations (2 n,) [rad, rad/s] of the errors in (q, q') at every
+        tick, this sensor's included.
+
+        Errors are independent from tick to tick; counts are uniform errors. before (2 n,):
+        those of the sensors before it.
         """
         return before
 
     def on_computer(self, before: Sensor | None) -> Sensor | None:
-        """What the controller's computer does with the readings, such as differences and filter, behind
-        `before`; None for nothing. Raises InputError for a sensor that does not say.
+        """The part of the sensor that runs on the controller's computer, such as differences
+        and filter; None for nothing.
+
+        before: the part of the sensors before it. Raises InputError for a sensor that does not define it.
         """
         raise InputError(
             f"sensor {type(self).__name__} does not say what of it runs on the controller's computer; "
@@ -83,7 +91,7 @@ class Sensor(Checked):
 
 
 def _parts(sensor: Sensor) -> tuple[Sensor, ...]:
-    """Those of several sensors, or the sensor itself, so that a + b + c is one row of three."""
+    """The sensors of a `Sensing`, or the sensor itself, so that a + b + c is one row of three."""
     return sensor.parts if isinstance(sensor, Sensing) else (sensor,)
 
 

@@ -1,11 +1,11 @@
-"""Encoders, in sampled time: what the controller sees of (q, q').
+"""Encoders and an inertial sensor, in sampled time: the measured (q, q').
 
     y_k = q(t_k) + noise,   q^_k = resolution * round(y_k / resolution)
     v^_k = v^_(k-1) + (1 - exp(-T / tau)) ((q^_k - q^_(k-1)) / T - v^_(k-1))
 
-or, for coordinates whose rate has a sensor of its own, v^_k = q' + noise. At impact velocities jump, and a
-difference across it says nothing: v^ goes through the nominal model's impact (7), and the first tick after it
-keeps that value.
+or, for coordinates whose rate has a sensor of its own, v^_k = q' + noise. At impact velocities jump,
+and a difference across it is useless: v^ goes through the nominal model's impact (7), and the first
+tick after it keeps that value.
 
 The state w is (q^, v^, fresh, r): fresh is 1 where no difference can be taken, r the state of the noise.
 
@@ -16,7 +16,20 @@ The noise is a pure function of its state: MRG32k3a, in doubles that hold whole 
     u_n = ((x_n - y_n) mod m_1) / (m_1 + 1), m_1 in place of 0
 
 L'Ecuyer, Operations Research 47(1), 1999. Normal numbers by Box and Muller. The state is handed in and out, so
-that a run is repeated by repeating its seed, and a tick may be taken again.
+that a run is repeated by repeating its seed, and a tick may be repeated.
+
+An inertial sensor on the torso measures the unactuated pitch and its rate, with a bias and a drift:
+
+    q_N^ = q_N + b + k d T + white noise,      v_N^ = v_N + d        at the k-th tick
+
+d [rad/s] is the bias of the gyroscope, by which the integrated angle drifts, b [rad] the mounting error of the
+sensor. It is put behind encoders, `Sensors(...) + PitchSensor(...)`, whose joints it leaves alone.
+
+Its state w is (q_N^, v_N^, b + k d T, r). After an impact the rate is read anew, the angle is that of the last
+tick: at an impact the rate jumps and the angle does not.
+
+No encoder of a joint measures the pitch, and Theta, by which the gait is timed, contains it. So a bias shifts
+the whole step in phase, and a drift of the angle does so more and more from step to step.
 """
 
 from __future__ import annotations
@@ -27,8 +40,8 @@ from typing import Annotated
 
 import numpy as np
 
-from biped_adrc.core.checks import NonNegativeFloat, NonNegativeInt, Range
-from biped_adrc.core.errors import InputError
+from biped_adrc.core.checks import FiniteFloat, NonNegativeFloat, NonNegativeInt, Range, one_of
+from biped_adrc.core.part import setup
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.hardware.sensing import Sensor
@@ -39,14 +52,14 @@ CountsFloat = Annotated[float, Range("at least 1 count", lambda x: 1.0 <= x < ma
 
 @dataclass(frozen=True)
 class Sensors(Shown, Sensor):
-    """counts: of the joints' encoders per revolution, None for exact angles.
+    """Encoders of the joints and the sensor of the pitch.
 
-    pitch_resolution [rad]: of the unactuated pitch; None: as the joints'.
-    noise, pitch_noise [rad], rate_noise [rad/s] of rates that are measured: standard deviations, drawn anew at
-    every tick.
-    velocity: "differences" of the angles, "measured", or "gyro": differences, but for the pitch's own rate.
-    filter_time [s]: time constant of the differences' low-pass, 0 for none.
-    seed: of the noise, a whole number from 0. Raises InputError for what is negative or not finite.
+    counts: of the joints' encoders per revolution, None for exact angles. pitch_resolution [rad]: of the
+    unactuated pitch; None: as the joints'. noise, pitch_noise [rad], rate_noise [rad/s] of measured rates:
+    standard deviations, drawn anew at every tick. velocity: "differences" of the angles, "measured", or
+    "gyro": differences, but for the pitch's own rate. filter_time [s]: time constant of the differences'
+    low-pass, 0 for none. seed: of the noise, a whole number from 0. Raises InputError for numbers that are
+    negative or not finite.
 
     >>> sensors = ba.Sensors(counts=10000, noise=1e-5, seed=1)
     >>> timing = ba.SampledTime(1e-3)
@@ -60,19 +73,13 @@ class Sensors(Shown, Sensor):
     noise: NonNegativeFloat = 0.0
     pitch_noise: NonNegativeFloat = 0.0
     rate_noise: NonNegativeFloat = 0.0
-    velocity: str = "differences"
+    velocity: Annotated[str, one_of(VELOCITIES)] = "differences"
     filter_time: NonNegativeFloat = 0.0
     seed: NonNegativeInt = 0
 
-    def __post_init__(self) -> None:
-        if self.velocity not in VELOCITIES:
-            raise InputError(
-                f"the sensors' velocity is '{self.velocity}', expected one of {list(VELOCITIES)}"
-            )
-
     @property
     def noisy(self) -> bool:
-        """Whether anything is random."""
+        """Whether any noise is above 0."""
         return self.noise > 0.0 or self.pitch_noise > 0.0 or self.rate_noise > 0.0
 
     def smooth(self) -> Sensors:
@@ -109,14 +116,16 @@ class Sensors(Shown, Sensor):
 
 @dataclass(frozen=True)
 class SampledSensors(Sensor):
-    """`Sensors` on n coordinates, with ticks every `period` [s]: the module's equations."""
+    """`Sensors` on n coordinates, for ticks every `period` [s]: counts, noise, differences and their
+    low-pass.
+    """
 
     resolution: Array
-    """(n,) [rad]"""
+    """Resolution of the angles (n,) [rad]."""
     noise: Array
-    """(n,) [rad]"""
+    """Standard deviation of the angles' noise (n,) [rad]."""
     rate_noise: float
-    """[rad/s]"""
+    """Standard deviation of the noise of measured rates [rad/s]."""
     share: float
     """1 - exp(-T / tau)."""
     period: float
@@ -126,7 +135,7 @@ class SampledSensors(Sensor):
     rounds: Indices
     """(n,), 1 where angles are counts, else 0."""
     random: Array
-    """r at the start of a run: (6,), or none without noise."""
+    """State r of the noise at the start of a run: (6,), or (0,) without noise."""
 
     @property
     def noisy(self) -> bool:
@@ -160,7 +169,9 @@ class SampledSensors(Sensor):
         return w[:n], w[n : 2 * n]
 
     def anew(self, q: Array, v: Array, r: Array) -> Array:
-        """w in q, v (n,) at the start of a run and after an impact: there no difference can be taken."""
+        """State w of the sensors in q, v (n,) at the start of a run and after an impact, where no difference
+        of angles can be taken yet; r (6,): state of the random numbers.
+        """
         return np.concatenate((self.rounded(q), v, np.ones(1), r))
 
     def rounded(self, y: Array) -> Array:
@@ -172,21 +183,21 @@ M_1, M_2 = 4294967087.0, 4294944443.0
 
 
 def seeded(seed: int) -> Array:
-    """r (6,), as different for neighbouring seeds as for any others."""
+    """State r (6,) of the random numbers from a seed; neighbouring seeds give independent states."""
     words = np.random.SeedSequence(seed).generate_state(6, np.uint32).astype(float)
     r: Array = 1.0 + words % np.repeat([M_1 - 1.0, M_2 - 1.0], 3)
     return r
 
 
 def modulo(a: float, m: float) -> float:
-    """a mod m for whole numbers |a| < 2^53; a quotient off by one in its last bit is put right afterwards."""
+    """a mod m for whole numbers |a| < 2^53, exact: a quotient that is off by one is corrected afterwards."""
     b = a - np.floor(a / m) * m
     b = np.where(b < 0.0, b + m, b)
     return np.where(b >= m, b - m, b)
 
 
 def uniforms(r: Array, count: int) -> tuple[Array, Array]:
-    """The state after `count` numbers, and these (count,), in (0, 1)."""
+    """Draw `count` numbers in (0, 1); returns the next state (6,) and the numbers (count,)."""
     x0, x1, x2, y0, y1, y2 = r[0], r[1], r[2], r[3], r[4], r[5]
     u = np.zeros(count)
     for i in range(count):
@@ -199,7 +210,9 @@ def uniforms(r: Array, count: int) -> tuple[Array, Array]:
 
 
 def normals(r: Array, count: int) -> tuple[Array, Array]:
-    """The state (6,) after, and `count` independent standard normal numbers (count,), by Box and Muller."""
+    """Draw `count` independent standard normal numbers by Box and Muller; returns the next
+    state (6,) and the numbers.
+    """
     pairs = (count + 1) // 2
     r, u = uniforms(r, 2 * pairs)
     g = np.zeros(2 * pairs)
@@ -207,3 +220,71 @@ def normals(r: Array, count: int) -> tuple[Array, Array]:
         radius, angle = np.sqrt(-2.0 * np.log(u[2 * i])), 2.0 * math.pi * u[2 * i + 1]
         g[2 * i], g[2 * i + 1] = radius * np.cos(angle), radius * np.sin(angle)
     return r, g[:count]
+
+
+@dataclass(frozen=True)
+class PitchSensor(Sensor):
+    """An inertial sensor of the pitch: bias b [rad], drift d [rad/s], noise: standard
+    deviation of the angle [rad].
+
+    The noise is drawn at each tick, by `seed`, a whole number from 0. Raises InputError for numbers that are
+    not finite or a noise that is negative.
+    """
+
+    bias: FiniteFloat = 0.0
+    drift: FiniteFloat = 0.0
+    noise: NonNegativeFloat = 0.0
+    seed: NonNegativeInt = setup(0)
+
+    @property
+    def noisy(self) -> bool:
+        return self.noise > 0.0
+
+    def smooth(self) -> PitchSensor:
+        return replace(self, noise=0.0)
+
+    def on_computer(self, before: Sensor | None) -> Sensor | None:
+        if isinstance(before, Sensors) and before.velocity == "differences":
+            return replace(before, velocity="gyro")
+        return before
+
+    def errors(self, n: int, p: int, before: Array) -> Array:
+        own = before.copy()
+        own[n - 1], own[-1] = self.noise, 0.0
+        return own
+
+    def sampled(self, n: int, p: int, period: float) -> SampledPitchSensor:
+        r = seeded(self.seed) if self.noisy else np.zeros(0)
+        return SampledPitchSensor(self, float(self.drift * period), r)
+
+
+@dataclass(frozen=True)
+class SampledPitchSensor(Sensor):
+    """`PitchSensor` for ticks every `period` [s]: the angle drifts by d T from tick to
+    tick, the rate is off by d.
+    """
+
+    of: PitchSensor
+    turn: float
+    """Drift d T of the angle in a period [rad]."""
+    random: Array
+    """State r of the noise at the start of a run: (6,), or (0,) without noise."""
+
+    @property
+    def size(self) -> int:
+        return 3 + len(self.random)
+
+    def start(self, q: Array, v: Array) -> Array:
+        at = np.array([q[-1] + self.of.bias, v[-1] + self.of.drift, self.of.bias])
+        return np.concatenate((at, self.random))
+
+    def sense(self, w: Array, q: Array, v: Array) -> Array:
+        r, g = normals(w[3:], 1) if len(self.random) > 0 else (w[3:], np.zeros(1))
+        off = np.array([w[2] + self.turn])
+        return np.concatenate((q[-1:] + w[2] + self.of.noise * g, v[-1:] + self.of.drift, off, r))
+
+    def impact(self, w: Array, q: Array, v: Array, v_model: Array) -> Array:
+        return np.concatenate((w[:1], v[-1:] + self.of.drift, w[2:]))
+
+    def reading(self, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
+        return np.concatenate((q[:-1], w[:1])), np.concatenate((v[:-1], w[1:2]))

@@ -1,27 +1,28 @@
-"""How a controller notices a touchdown: late, early, not at all, or one that was none.
+"""Touchdown detectors: a touchdown may be detected late, early, not at all, or where there was none.
 
     d <- touchdown(d, other, t)               at a true touchdown
     (d, fires) = notice(d, look)              at a tick, fires 0 or 1
 
 Without such a part a controller, its observer and the labels of its measurement change at the true touchdown.
-With one they change at the tick at which `notice` fires, and what the controller holds for true meanwhile, its
+With one they change at the tick at which `notice` fires, and the controller's assumption until then, its
 belief, is a part of the walker's state:
 
     b = (other, step, start, d)       other: 1 where its legs have the labels of the other foot, else 0
 
-A touchdown and a notice each turn `other`. So a notice before its touchdown is an early one, and a touchdown
-that is not noticed before the next one leaves the labels right again and the belief two steps behind. Both
-engines run these methods, which are pure functions; randomness is a part of d.
+A touchdown and a detection each toggle `other`. So a detection before its touchdown is an early one, and a
+touchdown that is not detected before the next one leaves the labels right again and the belief two steps
+behind. Both engines run these methods, which are pure functions; randomness is a part of d.
 
 `FaultyTouchdown` knows the true touchdown and makes errors: it fires at the first tick at t >= t_touchdown +
-late, with probability 1 - missed. d is (waits, due, done, r): whether a touchdown waits to be noticed and when
-that is due [s], whether the false notice has been, and the state r of the random numbers (`hardware.sensors`).
+late, with probability 1 - missed. d is (waits, due, done, r): whether a touchdown waits to be detected and
+when that is due [s], whether the false detection has been, and the state r of the random numbers
+(`hardware.sensors`).
 
-The others look at the swing foot: where the measured angles say it is, or its force. Both have a gate on the
-phase, that is on how far the swing foot is ahead:
+The others use the swing foot: its place by the measured angles, or its force. Both have a gate on the phase,
+that is on how far the swing foot is ahead:
 
     ByKinematics   z + tan(slope) x < height, and lower than at the tick before
-    ByForce        free: F < off; then loaded: F > on, until F < off; noticed after debounce and delay
+    ByForce        free: F < off; then loaded: F > on, until F < off; detected after debounce and delay
 """
 
 from __future__ import annotations
@@ -43,43 +44,43 @@ from biped_adrc.core.types import Array
 from biped_adrc.hardware.sensors import seeded, uniforms
 
 HEAD = 3
-"""Numbers in b before d."""
+"""Number of entries of b before d."""
 
 
 class Belief(NamedTuple):
-    """What a controller takes for the present single support, the parts of b."""
+    """The controller's assumption about the present single support, the parts of b."""
 
     other: float
     """1 where its labels differ from the plant's, else 0."""
     step: int
-    """Single support, counted by notices."""
+    """Number of the single support, counted by detections."""
     start: float
-    """Time of the last notice [s]."""
+    """Time of the last detection [s]."""
     d: Array
-    """The detector's own state (size,)."""
+    """State d of the detector (size,)."""
 
 
 class Look(NamedTuple):
-    """What a detector may look at, at a tick."""
+    """The quantities that a detector may use at a tick."""
 
     t: float
-    """[s]"""
+    """Time [s]."""
     t_step: float
-    """Since the last notice [s]."""
+    """Time since the last detection [s]."""
     foot: Array
     """The controller's swing foot (x, z) from its stance foot (2,) [m], by its model at the measured angles."""
     force: float
     """Vertical force of the ground on the controller's swing foot [N]; 0 unless `needs_force`."""
     other: float
-    """1 where the controller's labels differ from the plant's; for errors that are asked for."""
+    """1 where the controller's labels differ from the plant's; for deliberate errors."""
     step: float
-    """The plant's single support; for errors that are asked for."""
+    """Number of the plant's single support; for deliberate errors."""
     age: float
-    """Since the last true touchdown [s]; for errors that are asked for."""
+    """Time since the last true touchdown [s]; for deliberate errors."""
 
 
 class Touchdown(Checked, ABC):
-    """Base of all detectors: frozen dataclasses that `notice` touchdowns; one with a memory has a `size` too.
+    """Base of all touchdown detectors: write `notice`, and `size` for a detector with a memory.
 
     >>> @dataclass(frozen=True)
     ... class Low(ba.Touchdown):
@@ -98,29 +99,29 @@ class Touchdown(Checked, ABC):
 
     @property
     def size(self) -> int:
-        """Numbers in d."""
+        """Length of the detector's state d."""
         return 0
 
     def start(self) -> Array:
-        """d (size,) at the start of a run."""
+        """State d (size,) at the start of a run."""
         return np.zeros(self.size)
 
     def touchdown(self, d: Array, other: float, t: float) -> Array:
-        """d (size,) after a true touchdown at t [s]; `other` is that after it."""
+        """State d (size,) after a true touchdown at t [s]; `other` is the value after it."""
         return d
 
     @abstractmethod
     def notice(self, d: Array, look: Look) -> tuple[Array, float]:
-        """d (size,) after a tick, and 1 where a touchdown is noticed, else 0."""
+        """State d (size,) after a tick, and 1 where a touchdown is detected, else 0."""
 
 
 def belief_of(b: Array) -> Belief:
-    """The parts of b."""
+    """Split the controller's row of assumptions b (3 + size,) into a `Belief`."""
     return Belief(b[0], b[1], b[2], b[HEAD:])
 
 
 def numbers_of(belief: Belief) -> Array:
-    """b of its parts, the inverse of `belief_of`."""
+    """Join a `Belief` to the row b (3 + size,), the inverse of `belief_of`."""
     return np.concatenate((np.array([belief.other, belief.step, belief.start]), belief.d))
 
 
@@ -129,12 +130,14 @@ ProbabilityFloat = Annotated[float, Range("0 to 1", lambda x: 0.0 <= x <= 1.0)]
 
 @dataclass(frozen=True)
 class FaultyTouchdown(Shown, Touchdown):
-    """The true touchdown, noticed `late` [s] after it, with misses and false ones.
+    """A detector that knows the true touchdown and fires `late` [s] after it, with
+    misses and false detections.
 
-    missed [1]: probability that a touchdown is never noticed, by `seed`, a whole number from 0. false_at:
-    (step, time [s]) of one notice without a touchdown, at the first tick so long after the step began; shortly
-    before its end it is an early one. A touchdown that leaves the labels right, as after a missed or an early
-    one, is not noticed. Raises InputError for a time that is negative and a probability that is none.
+    missed [1]: probability that a touchdown is never detected, by `seed`, a whole number from 0. false_at:
+    (step, time [s]) of one detection without a touchdown, at the first tick so long after the step began;
+    shortly before its end it is an early one. A touchdown that leaves the labels right, as after a missed or
+    an early one, is not detected. Raises InputError for a time that is negative and a probability out of
+    range.
     """
 
     late: NonNegativeFloat = 0.0
@@ -153,12 +156,12 @@ class FaultyTouchdown(Shown, Touchdown):
 
     @derived
     def random(self) -> Array:
-        """r at the start of a run: (6,), or none where no touchdown is missed."""
+        """State r of the random numbers at the start of a run: (6,), or (0,) where no touchdown is missed."""
         return seeded(self.seed) if self.missed > 0.0 else np.zeros(0)
 
     @derived
     def false(self) -> Array:
-        """Step, and time in it [s], of the false notice (2,); step 0 for none."""
+        """Step, and time in it [s], of the false detection (2,); step 0 for none."""
         return np.array((0, 0.0) if self.false_at is None else self.false_at, dtype=float)
 
     @property
@@ -169,7 +172,9 @@ class FaultyTouchdown(Shown, Touchdown):
         return np.concatenate((np.zeros(2), [float(self.false_at is None)], self.random))
 
     def touchdown(self, d: Array, other: float, t: float) -> Array:
-        """It is noticed late, if the labels differ now and it is not missed."""
+        """State d after a true touchdown: its detection is due `late` [s] later, if the labels
+        differ and it is not missed.
+        """
         missed, r = 0.0, d[3:]
         if len(r) > 0:
             r, u = uniforms(r, 1)
@@ -178,7 +183,7 @@ class FaultyTouchdown(Shown, Touchdown):
         return np.concatenate((np.array([waits, t + self.late, d[2]]), r))
 
     def notice(self, d: Array, look: Look) -> tuple[Array, float]:
-        """When it is due and the labels still differ; and once at the false time."""
+        """Fire when a detection is due and the labels still differ; and once at the false time."""
         due = 1.0 * (d[0] * look.other > 0.5) * (look.t >= d[1] - SAME_INSTANT)
         at_step = 1.0 * (abs(look.step - self.false[0]) < 0.5) * (d[2] < 0.5)
         false = at_step * (look.age >= self.false[1] - SAME_INSTANT)
@@ -191,9 +196,9 @@ class FaultyTouchdown(Shown, Touchdown):
 class Gated(Shown, Touchdown):
     """Base of the detectors with a gate on the phase: on how far the swing foot is ahead.
 
-    ahead [m]: the controller's swing foot is more than that in front of its stance foot. after [s]: so long
-    after the last notice no other comes. slope [rad]: of the ground as the controller takes it, positive
-    downhill. Raises InputError for numbers that are not finite or a time that is negative.
+    ahead [m]: least distance of the controller's swing foot in front of its stance foot. after [s]: least time
+    between two detections. slope [rad]: of the ground as the controller assumes it, positive downhill. Raises
+    InputError for numbers that are not finite or a time that is negative.
     """
 
     ahead: FiniteFloat = 0.1
@@ -206,17 +211,20 @@ class Gated(Shown, Touchdown):
         return math.tan(self.slope)
 
     def gate(self, look: Look) -> float:
-        """1 where a touchdown may come: the swing foot is ahead and the last notice long ago; else 0."""
+        """1 where a touchdown is possible, else 0: the swing foot is ahead by more than `ahead` [m] and the
+        last detection at least `after` [s] ago.
+        """
         ahead = 1.0 * (look.foot[0] > self.ahead)
         return ahead * (look.t_step >= self.after - SAME_INSTANT)
 
 
 @dataclass(frozen=True)
 class ByKinematics(Gated):
-    """The swing foot, by the controller's model at the measured angles, comes below `height` [m].
+    """A detector that fires when the swing foot, by the controller's model at the measured
+    angles, is below `height` [m].
 
-    Above zero it is early, by height / speed of the foot but for a tick; a step of the ground, which no angle
-    shows, makes it late or early too.
+    With a height above zero it is early, by height / speed of the foot up to a tick; a step of the ground,
+    which no angle shows, makes it late or early too.
 
     >>> detector = ba.ByKinematics(height=0.002)
     >>> timing = ba.SampledTime(1e-3, restart=False)
@@ -230,7 +238,9 @@ class ByKinematics(Gated):
     size = 1
 
     def notice(self, d: Array, look: Look) -> tuple[Array, float]:
-        """d = (height before,) [m]: below the height, lower than at the tick before, and the gate open."""
+        """Fire when the foot is below the height, lower than at the tick before, and the gate
+        open; d = (height before,) [m].
+        """
         height = look.foot[1] + self.tangent * look.foot[0]
         low = 1.0 * (height < self.height) * (height < d[0])
         return np.array([height]), low * self.gate(look)
@@ -238,9 +248,10 @@ class ByKinematics(Gated):
 
 @dataclass(frozen=True)
 class ByForce(Gated):
-    """The controller's swing foot, free before (below `off` [N]), carries more than `on` [N], and never below
-    `off` for `debounce` [s]; noticed `delay` [s] later. A switch is one with its threshold and delay.
+    """A detector that fires when the ground's force on the swing foot, low before, exceeds a threshold.
 
+    The foot was free (below `off` [N]), carries more than `on` [N], and never below `off` for
+    `debounce` [s]; it fires `delay` [s] later. A foot switch is one with its threshold and delay.
     Raises InputError unless 0 <= off <= on.
 
     >>> detector = ba.ByForce(on=80.0, off=30.0, delay=2e-3)
@@ -265,7 +276,9 @@ class ByForce(Gated):
     needs_force = True
 
     def notice(self, d: Array, look: Look) -> tuple[Array, float]:
-        """d = (free, loaded, since, waits, due): a free foot is loaded for long enough, then the delay."""
+        """Fire when a free foot has been loaded for long enough, after the delay; d = (free,
+        loaded, since, waits, due).
+        """
         t = look.t
         free = np.maximum(d[0], 1.0 * (look.force < self.off))
         stays = d[1] * (look.force >= self.off)

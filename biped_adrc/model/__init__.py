@@ -8,8 +8,8 @@
 - `reduction`   kappa and xi of the actuated joints (11)-(15)
 - `planar`      the same dynamics in closed form, for numbers and for symbols
 - `derivatives` of accelerations and of the impact with respect to the state
-- `physical`    checks that a robot read from a file can be computed with
+- `physical`    checks of the numbers of a robot read from a file
 - `model_errors` relative errors of masses, COMs, inertias and friction
 
-Nothing here knows of time, controllers or simulation; `closed_loop` and `engine` build on it.
+Time, controllers and simulation are in rooms above; `closed_loop` and `engine` build on this one.
 """

@@ -2,16 +2,14 @@
 
     D_s(q) q'' + C(q, q') q' + G_s(q) = B_s u + delta + zeta         (1)
 
-q_b (p,) are the actuated joints (for RABBIT: stance hip, swing hip, stance knee, swing knee), q_N
-is the absolute pitch of the torso. Angles are counter-clockwise positive with x to the right and z
-up; a link of absolute angle a points along (-sin a, cos a). zeta is an external generalised force
-and delta what the model has wrong.
+q_b (p,) are the actuated joints (for RABBIT: stance hip, swing hip, stance knee, swing knee), q_N is the
+absolute pitch of the torso. Angles are counter-clockwise positive with x to the right and z up; a link of
+absolute angle a points along (-sin a, cos a). zeta is an external generalised force and delta the model error.
 
-`Biped` joins a robot's record (`model.robots.robot_toml`), its URDF tree and two Pinocchio models made
-from that tree: `pinned` at the stance foot for single support, `floating` for the impact. Every
-method here checks its angles and passes them on to one of the two. Walkers, observers, controllers,
-gait design and the compiled engine all take their numbers from this class. Use it for the plant and
-for the controller's nominal model alike; they are two objects when the model is wrong.
+`Biped` joins a robot's record (`model.robots.robot_toml`), its URDF tree and two Pinocchio models made from
+that tree: `pinned` at the stance foot for single support, `floating` for the impact. All rooms above take
+their numbers from this class. Use it for the plant and for the controller's nominal model alike; they are two
+objects when the model is wrong.
 """
 
 from __future__ import annotations
@@ -35,10 +33,9 @@ from biped_adrc.model.physical import check_numbers, check_planar
 from biped_adrc.model.pinned import PinnedDynamics, finite_angles, reroot
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
 from biped_adrc.model.robots.robot_toml import RobotDescription, load_description
-from biped_adrc.model.robots.symmetry import absolute_angles, relabelling, unlike
-from biped_adrc.model.robots.urdf import Inertial, Tree
+from biped_adrc.model.robots.urdf import Inertial, Tree, absolute_angles, relabelling, unlike
 
-STICTION_SPEED = 0.05  # [rad/s], width of the smoothed sign of static friction
+STICTION_SPEED = 0.05
 """Width [rad/s] of the smoothed sign tanh(v / STICTION_SPEED) of static friction."""
 
 
@@ -47,8 +44,8 @@ class Biped(Shown):
     """A robot with one set of parameters. Make it with `Biped.load`.
 
     Methods take q (n,) [rad], v = q' (n,) [rad/s] and a = q'' (n,) [rad/s^2] in the order of
-    `description.joints`, and raise InputError for another shape, NotFiniteError for NaN or
-    infinity. Pinocchio's work data inside is overwritten by every call: use one Biped per thread.
+    `description.joints`, and raise InputError for another shape, NotFiniteError for NaN or infinity.
+    Pinocchio's work data inside is overwritten by every call: use one Biped per thread.
 
     >>> biped = ba.Biped.load("rabbit")
     >>> biped.inertia(np.zeros(5)).shape, round(biped.mass, 1)
@@ -74,10 +71,10 @@ class Biped(Shown):
     def load(
         cls, robot: str | Path = "rabbit", preset: str | None = None, friction: bool = False
     ) -> Biped:
-        """A robot by name, or by the path of its robot.toml, with a parameter preset (None: the default one).
+        """Load a robot by name or by the path of its robot.toml, with a parameter preset (None: its default).
 
-        friction: add the record's viscous and static joint friction to the dynamics. Raises
-        ModelError for an unknown robot or preset, or a URDF that is not physical.
+        friction: add the record's viscous and static joint friction to the dynamics. Raises ModelError for an
+        unknown robot or preset, or a URDF that is not physical.
         """
         description = load_description(robot)
         record = description.preset(preset)
@@ -88,11 +85,10 @@ class Biped(Shown):
         return biped
 
     def check(self) -> None:
-        """Build both models now; check their numbers, that the legs are alike, and how motors change over.
+        """Build both models; raise ModelError for wrong numbers, unequal legs or motors without a twin.
 
-        Relabelling at impact is right only for equal legs. Tested at one state: with the base at
-        rest the kinetic energy must not change when the legs exchange their roles, nor the distance
-        between the feet. Raises ModelError.
+        Relabelling at impact is right only for equal legs. Tested at one state: with the base at rest the
+        kinetic energy must not change when the legs exchange their roles, nor the distance between the feet.
         """
         check_planar(self.tree, self.description)
         check_numbers(self)
@@ -144,12 +140,12 @@ class Biped(Shown):
         return read_only(relabelling(self.tree, self.description.joints, self.description.feet))
 
     def relabel(self, q: Array) -> Array:
-        """R q + r: the configuration q (n,) [rad] in the coordinates of the next single support."""
+        """Relabel the configuration q (n,) [rad] for the next single support: R q + r (n,) [rad]."""
         return self.R @ q + self._offset
 
     @cached_property
     def _offset(self) -> Array:
-        """r (n,) [rad] of q+ = R q- + r; zero except for robots with spokes."""
+        """Offset r (n,) [rad] of the relabelling q+ = R q- + r; zero except for robots with spokes."""
         return read_only(self.description.offset)
 
     @cached_property
@@ -190,7 +186,9 @@ class Biped(Shown):
         return FloatingDynamics(self.tree, self.description, self.armature)
 
     def _stance_chain(self) -> Array:
-        """Row (n,): absolute angle of the stance foot's link as a sum of coordinates."""
+        """Row (n,): absolute angle of the stance foot's link as a sum of coordinates. Raises
+        ModelError for a wrong base.
+        """
         pitch = self.tree.joint_above(self.description.trunk)
         if pitch is None or pitch.name != self.description.unactuated:
             raise ModelError(
@@ -207,17 +205,17 @@ class Biped(Shown):
         return k.T.T @ pin.crba(k.model, k.data, k.T @ self._angles(q)) @ k.T
 
     def bias(self, q: Array, v: Array) -> Array:
-        """Omega(q, q') = C q' + G_s (n,) [N m] of (11)."""
+        """Coriolis and gravity terms Omega(q, q') = C q' + G_s (n,) [N m] of (11)."""
         k, x, w = self.pinned, self._angles(q), self._angles(v)
         return k.T.T @ pin.nonLinearEffects(k.model, k.data, k.T @ x, k.T @ w)
 
     def gravity(self, q: Array) -> Array:
-        """G_s(q) = dV/dq (n,) [N m], the torques of gravity."""
+        """Torques of gravity G_s(q) = dV/dq (n,) [N m]."""
         k = self.pinned
         return k.T.T @ pin.computeGeneralizedGravity(k.model, k.data, k.T @ self._angles(q))
 
     def coriolis(self, q: Array, v: Array) -> Array:
-        """C(q, q') (n, n) [N m s]; D_s' - 2 C is skew-symmetric."""
+        """Coriolis matrix C(q, q') (n, n) [N m s]; D_s' - 2 C is skew-symmetric."""
         k, x, w = self.pinned, self._angles(q), self._angles(v)
         return k.T.T @ pin.computeCoriolisMatrix(k.model, k.data, k.T @ x, k.T @ w) @ k.T
 
@@ -277,16 +275,16 @@ class Biped(Shown):
         return k.inverse @ pin.aba(k.model, k.data, k.T @ x, k.T @ w, k.inverse.T @ force)
 
     def kinetic_energy(self, q: Array, v: Array) -> float:
-        """q'^T D_s q' / 2 [J], rotors included."""
+        """Kinetic energy q'^T D_s q' / 2 [J], rotors included."""
         return 0.5 * float(v @ self.inertia(q) @ v)
 
     def potential_energy(self, q: Array) -> float:
-        """V(q) [J], zero at the height of the stance foot."""
+        """Potential energy V(q) [J], zero at the height of the stance foot."""
         k = self.pinned
         return float(pin.computePotentialEnergy(k.model, k.data, k.T @ self._angles(q)))
 
     def angular_momentum(self, q: Array, v: Array) -> float:
-        """sigma [kg m^2/s], the last row of D_s q': the angular momentum about the stance foot.
+        """Angular momentum sigma [kg m^2/s] about the stance foot, the last row of D_s q'.
 
         sigma' = -dV/dq_N holds while no force or torque acts on q_N, since no motor acts there.
         """
@@ -298,7 +296,7 @@ class Biped(Shown):
         return self.pinned.position(self._angles(q), self.pinned.swing)
 
     def swing_foot_jacobian(self, q: Array) -> Array:
-        """dp_2/dq_s (2, n) [m]."""
+        """Jacobian dp_2/dq_s (2, n) [m] of the swing foot."""
         return self.pinned.jacobian(self._angles(q), self.pinned.swing)
 
     def swing_foot_velocity(self, q: Array, v: Array) -> Array:
@@ -327,9 +325,8 @@ class Biped(Shown):
     def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
         """Force of the ground on the stance foot (F_T, F_N) (2,) [N] in single support at (q, q', q'').
 
-        Newton's law for the COM: F = m (p_com'' - g). Torques in joints and pure moments on a link
-        do not enter. External forces on links would; subtract their resultant (as
-        `analysis.signals` does).
+        Newton's law for the COM: F = m (p_com'' - g). Torques in joints and pure moments on a link do not
+        enter. External forces on links would; subtract their resultant (as `analysis.signals` does).
         """
         acceleration = self.pinned.centre_of_mass(self._angles(q), v, a)[2]
         return self.mass * (acceleration + np.array([0.0, self.description.gravity]))
@@ -347,8 +344,10 @@ class Biped(Shown):
         return self.floating.extended(self._angles(q))[1]
 
     def impact(self, q: Array, v: Array) -> Impact:
-        """The plastic impact at (q-, q'-) (n,) [rad, rad/s]: Delta (8), Sigma (9), and the state after
-        it, already relabelled. Raises SingularError where (7) is singular.
+        """The plastic impact at (q-, q'-) (n,) [rad, rad/s]: Delta (8), Sigma (9), and the
+        relabelled state after it.
+
+        Raises SingularError where (7) is singular.
         """
         return self.floating.impact(self._angles(q), self._angles(v), self.R, self._offset)
 
@@ -363,7 +362,7 @@ class Biped(Shown):
 
         Factors are dimensionless, 1.1 is ten per cent more. `mass` alone leaves the inertias about
         the COM as they are. friction: None keeps the setting. Raises ModelError for an unknown body
-        or a factor that leaves no mass or inertia.
+        or a factor that leaves no mass.
         """
         check_part(mass, "mass", Mapping, NoneType)
         check_part(inertia, "inertia", Mapping, NoneType)
@@ -386,7 +385,9 @@ class Biped(Shown):
         return self.tree.with_inertials(inertials)
 
     def _links(self, body: str) -> tuple[str, ...]:
-        """The links that `body` names: a group in the robot's record ("thigh" for both), or a single link."""
+        """Names of the links of a body: a group of the robot's record ("thigh" for both),
+        or one link; or ModelError.
+        """
         if body in self.description.links:
             return self.description.links[body]
         if body in self.tree.links:
@@ -395,4 +396,5 @@ class Biped(Shown):
         raise ModelError(f"robot '{self.description.name}' has no body '{body}'; it has {known}")
 
     def _angles(self, q: Array) -> Array:
+        """q (n,) after a check of its shape and that it is finite."""
         return finite_angles(q, (self.n,))

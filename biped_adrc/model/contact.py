@@ -38,14 +38,14 @@ from biped_adrc.model.robots.urdf import Tree
 
 
 class Impact(NamedTuple):
-    """Result of the plastic impact at x- = (q, v): Delta (8), Sigma (9), and the state after relabelling."""
+    """Result of the plastic impact at x- = (q, v): Delta (8), Sigma (9), and the relabelled state after it."""
 
     q: Array
     """q_s after relabelling (n,) [rad]."""
     v: Array
     """q_s' after impact and relabelling (n,) [rad/s]."""
     impulse: Array
-    """F_2 = (tangential, normal) [N s]."""
+    """Impulse F_2 (2,) = (tangential, normal) of the ground on the new stance foot [N s]."""
     v_e: Array
     """q_e+' before relabelling (n + 2,) [rad/s, m/s]: Delta of (8) times q'-."""
 
@@ -56,7 +56,7 @@ class Impact(NamedTuple):
 
     @property
     def impulse_ratio(self) -> float:
-        """|F_T| / F_N, dimensionless: the coefficient of dry friction that the impact asks for."""
+        """|F_T| / F_N, dimensionless: the coefficient of dry friction that the impact requires."""
         return float(abs(self.impulse[0]) / self.impulse[1])
 
     def __repr__(self) -> str:
@@ -80,7 +80,7 @@ class FloatingDynamics:
         self.stance, self.swing = (frame_index(self.model, foot) for foot in d.feet)
 
     def configuration(self, q: Array) -> Array:
-        """Pinocchio configuration for q_s (n,) and the stance foot at the origin."""
+        """Pinocchio's configuration (m,) at q_s (n,) [rad] with the stance foot at the origin."""
         x = np.zeros(self.model.nq)
         x[self.angles] = q
         pin.forwardKinematics(self.model, self.data, x)
@@ -89,11 +89,15 @@ class FloatingDynamics:
         return x
 
     def velocity_map(self, q: Array) -> Array:
-        """J_e(q) (n + 2, n + 2) of v_float = J_e q_e', dimensionless and [m]."""
+        """Jacobian J_e(q) (n + 2, n + 2) from q_e' = (q_s', p_e') to the velocity of the floating
+        model; entries [1] and [m].
+        """
         return self._velocity_map(self.configuration(q))
 
     def _velocity_map(self, x: Array) -> Array:
-        """J_e for Pinocchio's configuration x (m,): the base moves so that the stance foot moves with p_e'."""
+        """J_e (n + 2, n + 2) at Pinocchio's configuration x (m,): the base moves such that the
+        stance foot moves with p_e'.
+        """
         J = self._foot_jacobian(x, self.stance)
         J_e = np.zeros((self.n + 2, self.n + 2))
         J_e[self.angles, np.arange(self.n)] = 1.0
@@ -102,12 +106,12 @@ class FloatingDynamics:
         return J_e
 
     def inertia_on_fixed_base(self, q: Array) -> Array:
-        """Inertia matrix of the joints (n, n) with the base held [kg m^2]."""
+        """Inertia matrix of the joints (n, n) with the base fixed [kg m^2]."""
         M = pin.crba(self.model, self.data, self.configuration(q))
         return M[np.ix_(self.angles, self.angles)]
 
     def _foot_jacobian(self, x: Array, frame: int) -> Array:
-        """d(x, z)/dx of a frame (2, m) [m] in the axes of the world."""
+        """Jacobian d(x, z)/dx of a frame (2, m) [m] in the axes of the world."""
         J: Array = pin.computeFrameJacobian(
             self.model, self.data, x, frame, pin.LOCAL_WORLD_ALIGNED
         )
@@ -123,9 +127,9 @@ class FloatingDynamics:
     def projected(self, q: Array, v: Array) -> tuple[Array, Array]:
         """D_s (n, n) [kg m^2] and Omega (n,) [N m] from the floating model, constrained by the stance contact.
 
-        An independent way to the pinned model's terms, used as a check. With Z = J_e[:, :n] the
-        null space of the contact Jacobian, D_s = Z' M Z and Omega = Z' (nle + M Z' v), where Z' v
-        is minus the drift acceleration of the stance foot in the rows of the base.
+        Independent of the pinned model's terms, for a check of these. With Z = J_e[:, :n] the null space of
+        the contact Jacobian, D_s = Z' M Z and Omega = Z' (nle + M Z' v), where Z' v is minus the drift
+        acceleration of the stance foot in the rows of the base.
         """
         x = self.configuration(q)
         Z = self.velocity_map(q)[:, : self.n]
@@ -161,14 +165,14 @@ class FloatingDynamics:
 class LinkMotion:
     """Placements and velocities of all links of the floating model at (q, q_e'), stance foot at the origin.
 
-    Makes its own work data, so it stays valid when the model is used again.
+    It has its own work data, so it stays valid when the model is used again.
     """
 
     floating: FloatingDynamics
     q: Array
-    """(n,) [rad]."""
+    """Configuration (n,) [rad]."""
     v_e: Array
-    """(q_s', p_e') (n + 2,) [rad/s, m/s]."""
+    """Rates (q_s', p_e') (n + 2,) [rad/s, m/s]."""
     data: pin.Data = field(init=False, repr=False)
     """Pinocchio's work data at this state."""
 
@@ -181,8 +185,10 @@ class LinkMotion:
         object.__setattr__(self, "data", data)
 
     def momentum(self, joints: Iterable[int] | None = None) -> pin.Force:
-        """Spatial momentum [N s], [N m s] of the links that move with `joints` (Pinocchio's numbers),
-        in the axes of the world about its origin; None takes all of them.
+        """Spatial momentum [N s], [N m s] of the links that move with `joints`, in the axes of
+        the world about its origin.
+
+        joints: Pinocchio's indices of joints; None for all.
         """
         model, data, total = self.floating.model, self.data, pin.Force.Zero()
         for j in range(1, model.njoints) if joints is None else joints:
@@ -190,14 +196,15 @@ class LinkMotion:
         return total
 
     def about(self, point: Array, joints: Iterable[int] | None = None) -> float:
-        """L [kg m^2/s] about a point (x, z) [m] of the links that move with `joints`, Pinocchio's numbers of
-        joints; None takes all.
+        """Angular momentum [kg m^2/s] about a point (x, z) [m] of the links that move with `joints`.
+
+        joints: Pinocchio's indices of joints; None for all.
         """
         h = self.momentum(joints)
         return -float((h.angular - np.cross([point[0], 0.0, point[1]], h.linear))[1])
 
     def old_leg(self) -> list[int]:
-        """Pinocchio's numbers of the joints of the leg that was the support, from its knee up to its hip."""
+        """Pinocchio's indices of the joints of the previous stance leg, from its knee up to its hip."""
         model, result = self.floating.model, []
         j = int(model.frames[self.floating.stance].parentJoint)
         top = int(model.frames[self.floating.swing].parentJoint)
@@ -208,10 +215,9 @@ class LinkMotion:
         return result
 
     def outboard(self, joint: int) -> float:
-        """L [kg m^2/s] about a joint of everything it carries, with the angular momentum of its rotor.
+        """Angular momentum [kg m^2/s] about a joint of all links that it carries, with that of its rotor.
 
-        An ideal joint transmits no impulse of torque, so an impact elsewhere leaves this number
-        unchanged.
+        An ideal joint transmits no impulse of torque, so an impact elsewhere leaves this number unchanged.
         """
         model, data = self.floating.model, self.data
         below = data.oMi[joint].rotation @ data.v[joint].angular

@@ -36,18 +36,20 @@ class AccelerationDerivatives(NamedTuple):
     """Partial derivatives of q'' = D_s^-1 (force + friction - Omega), each (n, n)."""
 
     dq: Array
-    """[1/s^2]."""
+    """dq''/dq [1/s^2]."""
     dv: Array
-    """[1/s]."""
+    """dq''/dq' [1/s]."""
     dforce: Array
-    """D_s^-1 [1/(kg m^2)]."""
+    """dq''/dforce = D_s^-1 [1/(kg m^2)]."""
 
 
 def acceleration_derivatives(
     biped: Biped, q: Array, v: Array, force: Array
 ) -> AccelerationDerivatives:
-    """Derivatives of `Biped.acceleration` at q (n,) [rad], v (n,) [rad/s] and the generalised force
-    B_s u + delta + zeta (n,) [N m], friction included where the biped has it.
+    """Derivatives of `Biped.acceleration` at q (n,) [rad], v (n,) [rad/s] and the
+    generalised force (n,) [N m].
+
+    The force is B_s u + delta + zeta; friction is included where the biped has it.
     """
     dq, dv = torque_derivatives(biped, q, v, biped.acceleration(q, v, force))
     inverse: Array = np.asarray(np.linalg.inv(biped.inertia(q)), dtype=np.float64)
@@ -84,7 +86,9 @@ def impact_derivatives(biped: Biped, q: Array, v: Array) -> Array:
 
 # -- the planar model as CasADi expressions --------------------------------------------------------
 def each(x: ca.SX) -> Symbols:
-    """A CasADi column of m symbols as a NumPy array (m,) of CasADi scalars; the inverse of `together`."""
+    """Convert a CasADi column of m symbols to a NumPy array (m,) of CasADi scalars; the inverse of
+    `together`.
+    """
     out = np.empty(x.numel(), dtype=object)
     for i in range(len(out)):
         out[i] = x[i]
@@ -92,16 +96,17 @@ def each(x: ca.SX) -> Symbols:
 
 
 def together(values: Symbols) -> ca.SX:
-    """A NumPy array (m,) or (m, k) of CasADi scalars as one CasADi column or matrix."""
+    """Convert a NumPy array (m,) or (m, k) of CasADi scalars to one CasADi column or matrix."""
     rows = np.reshape(values, (len(values), -1))
     return ca.vertcat(*(ca.horzcat(*map(ca.SX, row)) for row in rows))
 
 
 def pose_function(tree: PlanarTree) -> ca.Function:
-    """CasADi function of the configuration q (n,): what the impact equations (7) need of it.
+    """Make a CasADi function of q (n,) for the impact equations (7): q -> D_s, J_m, J_2,
+    position of the swing foot.
 
-    Returns the inertia matrix D_s (n, n) [kg m^2], d(m p_com)/dq (2, n) [kg m], the Jacobian J_2 (2, n) [m] of
-    the swing foot, and its position (2,) [m].
+    D_s (n, n) [kg m^2] is the inertia matrix, J_m = d(m p_com)/dq (2, n) [kg m], J_2 (2, n) [m] the Jacobian
+    of the swing foot, its position (2,) [m].
     """
     n, K = len(tree.A), tree.K
     q = ca.SX.sym("q", n)
@@ -117,7 +122,8 @@ def pose_function(tree: PlanarTree) -> ca.Function:
 def impact_rows(
     D: ca.MX, J_m: ca.MX, J_2: ca.MX, mass: float, before: ca.MX, after: ca.MX, impulse: ca.MX
 ) -> tuple[ca.MX, ca.MX, ca.MX]:
-    """Residuals of (7), zero at its solution: of momenta (n,) [N m s], (2,) [N s], and of the foot (2,) [m/s].
+    """Residuals of (7): of momenta (n,) [N m s] and (2,) [N s], and of the foot's velocity (2,)
+    [m/s]; zero at the solution.
 
     D_e (q_e'+ - q_e'-) = E_2' F balances the momenta, E_2 q_e'+ = 0 lets the swing foot neither slip nor
     rebound. D, J_m, J_2: of `pose_function`. before: q' (n,), after: q_e'+ (n + 2,), impulse: F (2,) [N s].

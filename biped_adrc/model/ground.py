@@ -5,6 +5,8 @@ direction. Steps are counted in single supports from 1: `StepDown(3, 0.02)` lowe
 which the third single support ends by 20 mm, and all that comes after it. `Walker` holds the slope
 and the tuple of steps; an impact is where the height of the swing foot over that ground comes down
 to zero.
+
+All this ground is rigid. `SoftGround` is that of a plant with contact, in MuJoCo.
 """
 
 from __future__ import annotations
@@ -14,8 +16,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from biped_adrc.core.checks import Checked, PositiveFloat, PositiveInt
+from biped_adrc.core.checks import Checked, PositiveFloat, PositiveInt, numbers
 from biped_adrc.core.errors import InputError
+from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 
 
@@ -35,24 +38,76 @@ def check_slope(slope: float) -> None:
 
 
 @dataclass(frozen=True)
+class SoftGround(Checked, Shown):
+    """Soft ground under point feet, in the terms of MuJoCo's contact model.
+
+        a_ref = -b r' - k r,   b = 2 / (d T),   k = d(r) / (d^2 T^2 zeta^2)
+
+    is the acceleration that a foot at depth r is driven to: T is `time_constant`, zeta `damping_ratio`
+    (solref), d(r) the impedance, which rises from the first to the second value of `impedance`, d (solimp).
+    Spring and damper act on an effective mass m of the foot, so that a stiffness in N/m follows from the robot
+    and cannot be prescribed. A foot that rests at depth r under the force F has
+
+        F / r = m (d(r) / d)^2 / ((1 - d(r)) T^2 zeta^2)
+
+    since the solver leaves the share 1 - d(r) of a_ref at rest. Friction carries up to mu F_N; below that a
+    foot creeps, the less the larger `impratio`. MuJoCo documentation, "Modeling: Solver parameters".
+
+    Raises InputError for values that no ground has.
+    """
+
+    friction: PositiveFloat = 0.6
+    """Coefficient mu of dry friction [1]."""
+    time_constant: PositiveFloat = 2e-3
+    """Time constant T [s]; MuJoCo takes two of its steps for any that is shorter."""
+    damping_ratio: PositiveFloat = 1.0
+    """Damping ratio zeta [1]."""
+    impedance: tuple[float, float] = (0.95, 0.99)
+    """Impedance d(r) at the surface and from 1 mm on [1]; 1 would leave no slack at all."""
+    impratio: PositiveFloat = 20.0
+    """Impedance of friction over that of the normal force [1]."""
+    foot_radius: PositiveFloat = 1e-3
+    """Radius of the feet [m]; a foot rolls on by the radius times the angle that its leg turns."""
+
+    def __post_init__(self) -> None:
+        result = numbers(self.impedance, "the impedance of the ground")
+        if result.shape != (2,) or not 0.0 < result[0] <= result[1] < 1.0:
+            raise InputError(
+                f"the impedance of the ground is {self.impedance}, expected 0 < first <= second < 1"
+            )
+        object.__setattr__(self, "impedance", tuple(result.tolist()))  # a list could be changed
+
+    def stiffness(self, mass: float) -> tuple[float, float]:
+        """F / r [N/m] under a foot that rests: at the surface, and where d(r) = d, from 1 mm on.
+
+        mass [kg]: its effective mass m, as `MuJoCoPlant.foot_mass`.
+        """
+        d = self.impedance[1]
+        full = mass / (self.time_constant * self.damping_ratio) ** 2
+        at_surface, deep = (full * (at / d) ** 2 / (1.0 - at) for at in self.impedance)
+        return at_surface, deep
+
+
+@dataclass(frozen=True)
 class GroundStep(Checked):
-    """What a step down and a step up share: the single support that ends on it, and a height [m] > 0."""
+    """Base of a step down and a step up: the single support that ends on it, and its height [m] > 0."""
 
     step: PositiveInt
     """Number of the single support, from 1, that ends on the changed ground."""
     height: PositiveFloat
-    """[m], positive whichever way the step goes."""
+    """Height of the step [m], positive for both directions."""
 
     @property
     def drop(self) -> float:
-        """How far the ground lies below the stance foot where this single support ends [m]; negative
-        for a step up.
+        """Depth of the ground below the stance foot where this single support ends
+        [m]; negative for a step up.
         """
         return self.height if isinstance(self, StepDown) else -self.height
 
 
 class StepDown(GroundStep):
-    """The ground on which single support `step` (from 1) ends lies `height` [m] below its stance foot.
+    """A step down: the ground on which single support `step` (from 1) ends lies `height`
+    [m] below its stance foot.
 
     Raises InputError for a height that is not positive; a step up is a `StepUp`.
 
@@ -64,13 +119,12 @@ class StepDown(GroundStep):
 
 
 class StepUp(GroundStep):
-    """The ground on which single support `step` (from 1) ends lies `height` [m] above its stance foot.
+    """A step up: the ground on which single support `step` (from 1) ends lies `height`
+    [m] above its stance foot.
 
-    The swing foot starts below that level; impact is where it comes down on it after it has been
-    above. The edge of the step is not part of the model, so whether the foot clears it is not
-    checked.
-
-    Raises InputError for a height that is not positive; a step down is a `StepDown`.
+    The swing foot starts below that level; impact is where it comes down on it after it has been above. The
+    edge of the step is not part of the model, so whether the foot clears it is not checked. Raises InputError
+    for a height that is not positive; a step down is a `StepDown`.
     """
 
 
@@ -103,7 +157,7 @@ class Stones(Checked):
 
 
 def check_steps(steps: object) -> None:
-    """Raise InputError unless these are steps of the ground, in a tuple."""
+    """Raise InputError unless `steps` is a tuple of steps of the ground."""
     if not isinstance(steps, tuple) or not all(isinstance(x, StepDown | StepUp) for x in steps):
         raise InputError(
             f"ground_steps is {steps!r:.60}, expected a tuple of steps, such as (StepDown(3, 0.02),), or ()"
@@ -111,7 +165,7 @@ def check_steps(steps: object) -> None:
 
 
 def drop_of(steps: tuple[StepDown | StepUp, ...], number: int) -> float:
-    """How far these steps lower the ground on which single support `number` ends [m]."""
+    """Depth by which these steps lower the ground on which single support `number` ends [m]."""
     return sum((d.drop for d in steps if d.step == number), 0.0)
 
 
@@ -124,13 +178,13 @@ def random_steps(seed: int, height: float, steps: int) -> tuple[StepDown | StepU
 
 
 def uneven_ground(seed: int, rms: float, steps: int) -> tuple[StepDown | StepUp, ...]:
-    """Steps up and down whose footholds have heights of mean zero and root mean square `rms` [m].
+    """Make random steps up and down, `steps` of them, with foothold heights of mean zero and
+    root mean square `rms` [m].
 
-    The heights h_1, h_2, ... are independent and normally distributed. The first stance foot is at
-    h_0 = 0, and single support k, for k = 1 to `steps`, ends h_(k-1) - h_k lower than it began.
-    After that the ground is level. The same seed gives the same ground.
-
-    Raises ValueError for an rms, a seed or a number of steps below 0.
+    The heights h_1, h_2, ... are independent and normally distributed. The first stance foot is at h_0 = 0,
+    and single support k, for k = 1 to `steps`, ends h_(k-1) - h_k lower than it began. After that the ground
+    is level. The same seed gives the same ground. Raises ValueError for an rms, a seed or a number of steps
+    below 0.
 
     >>> ground = ba.uneven_ground(seed=1, rms=0.005, steps=20)
     >>> [edge.step for edge in ground[:3]]

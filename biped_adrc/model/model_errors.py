@@ -1,13 +1,11 @@
-"""Errors of a model: masses, COMs, inertias and friction that differ from the nominal ones, `delta` of
-(1).
+"""Errors of a model: masses, COMs, inertias and friction that differ from the nominal ones, `delta` of (1).
 
     m -> (1 + e_m) m     d -> (1 + e_d) d     J -> (1 + e_J) J     b, F_c -> (1 + e_f) b, F_c
 
-with J about the COM d, which is given from the origin of the link's frame. The errors are relative,
-chosen by hand or drawn evenly from +-width with a seed, for studies of robustness. Both legs of a
-biped get the same errors, because relabelling at impact needs equal legs; so errors go by body
-("thigh") rather than by link. `ModelErrors.apply` makes the plant; the controller keeps the robot
-it was made with as nominal model.
+with J about the COM d, which is measured from the origin of the link's frame. The errors are relative, chosen
+by hand or drawn evenly from +-width with a seed, for studies of robustness. Both legs of a biped get the same
+errors, because relabelling at impact needs equal legs; so errors go by body ("thigh") rather than by link.
+`ModelErrors.apply` makes the plant; the controller keeps the robot it was made with as nominal model.
 """
 
 from __future__ import annotations
@@ -29,10 +27,9 @@ KINDS = ("mass", "com", "inertia", "friction")
 
 @dataclass(frozen=True)
 class ModelErrors(Shown):
-    """Relative errors, dimensionless: 0.1 is ten per cent more.
+    """Relative errors of a model, dimensionless: 0.1 is ten per cent more.
 
-    Raises InputError for an error that is not finite, or that leaves no mass or inertia, or
-    negative friction.
+    Raises InputError for an error that is not finite, or that leaves no mass or inertia, or negative friction.
 
     >>> errors = ba.ModelErrors(mass={"torso": 0.2})
     >>> round(errors.apply(biped).mass / biped.mass, 3)
@@ -40,13 +37,13 @@ class ModelErrors(Shown):
     """
 
     mass: Mapping[str, float] = field(default_factory=dict)
-    """By body or link; the inertia about the COM is not scaled with it."""
+    """Errors of the mass by body or link; the inertia about the COM is not scaled with it."""
     com: Mapping[str, float] = field(default_factory=dict)
-    """By body or link, of the distance of the COM from the link's origin."""
+    """Errors of the distance of the COM from the link's origin, by body or link."""
     inertia: Mapping[str, float] = field(default_factory=dict)
-    """By body or link, about the COM."""
+    """Errors of the inertia about the COM, by body or link."""
     friction: Mapping[str, float] = field(default_factory=dict)
-    """By joint, of viscous and static friction alike."""
+    """Errors of viscous and static friction alike, by joint."""
 
     def __post_init__(self) -> None:
         for kind in KINDS:
@@ -71,11 +68,11 @@ class ModelErrors(Shown):
         inertia: float = 0.1,
         friction: float = 0.3,
     ) -> ModelErrors:
-        """Errors of every body, drawn evenly from +-width by a seed.
+        """Draw errors of every body evenly from +-width by a seed.
 
-        mass, com, inertia, friction: the widths, dimensionless. Friction is drawn for the joints
-        that have some, where the robot was loaded with friction. The errors depend on the seed and
-        on the bodies, in their order. Raises InputError for widths with which nothing may be left.
+        mass, com, inertia, friction: the widths, dimensionless. Friction is drawn for the joints that have
+        some, where the robot was loaded with friction. The errors depend on the seed and on the bodies, in
+        their order. Raises InputError for widths with which nothing may be left.
         """
         random = np.random.default_rng(seed)
         bodies = tuple(biped.description.links)
@@ -90,13 +87,15 @@ class ModelErrors(Shown):
 
     @classmethod
     def of_friction(cls, biped: Biped, error: float) -> ModelErrors:
-        """The same relative error of friction in all joints that have some. Raises ModelError for none."""
+        """The same relative error of friction in all joints with friction. `apply` raises
+        ModelError where there is none.
+        """
         joints = [joint for pair in _rubbing(biped) for joint in pair]
         return cls(friction=dict.fromkeys(joints or ["its joints"], error))
 
     def apply(self, biped: Biped) -> Biped:
-        """`biped` with these errors. Raises ModelError for an unknown body or joint, or legs that
-        become unequal.
+        """`biped` with these errors. Raises ModelError for an unknown body or joint, or
+        legs that become unequal.
         """
         factors = {k: {x: 1.0 + e for x, e in getattr(self, k).items()} for k in KINDS[:3]}
         wrong = replace(biped, tree=biped.scaled(factors))
@@ -131,7 +130,9 @@ def impact_error(seed: int, spread: float, n: int) -> Array:
 
 
 def _rubbing(biped: Biped) -> Iterator[tuple[str, ...]]:
-    """Joints with friction, a joint and its twin of the other leg together; none where friction is off."""
+    """Iterate over the joints with friction, each with its twin of the other leg; none where friction
+    is off.
+    """
     joints, d = biped.description.joints, biped.description
     rubs = [biped.friction and bool(d.viscous.get(x) or d.static.get(x)) for x in joints]
     for i, joint in enumerate(joints):

@@ -1,9 +1,9 @@
-"""Whether a robot read from a file can be computed with: planar joints, and well-conditioned numbers.
+"""Checks of a robot read from a file: planar joints, and well-conditioned numbers.
 
-Masses and inertias are checked one by one where the file is read (`model.robots.urdf`). What is left is
-how they go together: joint axes that leave the plane, a mass beside another 1e20 times as large,
-lengths whose squares overflow. So D_s, Omega and the impact are evaluated at a few random states.
-`Biped.check` calls both functions whenever a robot is loaded or changed.
+Masses and inertias are checked one by one where the file is read (`model.robots.urdf`). Here they are checked
+together: joint axes that leave the plane, a mass beside another 1e20 times as large, lengths whose squares
+overflow. So D_s, Omega and the impact are evaluated at a few random states. `Biped.check` calls both functions
+whenever a robot is loaded or changed.
 """
 
 from __future__ import annotations
@@ -14,16 +14,15 @@ import numpy as np
 
 from biped_adrc.core.errors import ModelError, SingularError
 from biped_adrc.model.robots.robot_toml import RobotDescription
-from biped_adrc.model.robots.symmetry import text_of
-from biped_adrc.model.robots.urdf import Tree, Vector
+from biped_adrc.model.robots.urdf import Tree, Vector, text_of
 
 if TYPE_CHECKING:
     from biped_adrc.model.biped import Biped
 
 STATES, SEED = 4, 5
 ACCURACY = 1e-6
-"""Largest relative round-off in D_s^-1 (eps times the condition number), dimensionless. Feet with 1e-7
-of the hip's mass still reach 1e-8.
+"""Largest relative round-off in D_s^-1, eps times its condition [1]; feet of 1e-7 of the hip's mass
+have 1e-8.
 """
 _ALONG = 1e-6  # how far an axis may be from y, x or z, dimensionless
 
@@ -54,8 +53,10 @@ def check_planar(tree: Tree, d: RobotDescription) -> None:
 
 
 def check_numbers(biped: Biped) -> None:
-    """Check at random states that D_s is positive definite and well conditioned, and that Omega and
-    the impact are finite. Raises ModelError that says what to look for in the URDF.
+    """Check at random states that D_s is positive definite and well conditioned, and
+    Omega and the impact finite.
+
+    Raises ModelError with what to look for in the URDF.
     """
     random, n = np.random.default_rng(SEED), biped.n
     where = f"URDF '{biped.tree.source}', robot '{biped.description.name}'"

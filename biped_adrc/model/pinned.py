@@ -31,7 +31,9 @@ XZ = [0, 2]
 
 
 def build(tree: Tree, d: RobotDescription, armature: float) -> pin.Model:
-    """The Pinocchio model of `tree` with rotor inertia `armature` [kg m^2] at every motor, and its gravity."""
+    """Make the Pinocchio model of `tree`, with rotor inertia `armature` [kg m^2] at
+    every motor, and its gravity.
+    """
     model = pin.buildModelFromXML(to_xml(tree))
     rotor = np.zeros(model.nv)
     rotor[[velocity_index(model, joint) for joint in d.actuated]] = armature
@@ -46,8 +48,8 @@ def velocity_index(model: pin.Model, joint: str) -> int:
 
 
 def frame_index(model: pin.Model, frame: str) -> int:
-    """Index of a link's frame, also where a joint has the same name. Raises ModelError if it is
-    unknown, where Pinocchio would answer with the number of frames.
+    """Pinocchio's index of a link's frame, also where a joint has the same name. Raises
+    ModelError if it is unknown.
     """
     if not model.existBodyName(frame):
         names = [f.name for f in model.frames if f.type == pin.FrameType.BODY]
@@ -60,10 +62,10 @@ BEYOND = 1e150
 
 
 def finite_angles(q: Array, shape: tuple[int]) -> Array:
-    """q itself, once it is known to have this shape, (n,), and finite numbers [rad] or [rad/s].
+    """Return q after a check that it has this shape, (n,), and finite numbers [rad] or [rad/s].
 
-    Raises InputError for the shape, NotFiniteError for NaN, infinity and what is `BEYOND`. Python's floats
-    are added since that is the fastest test and overflows without a warning.
+    Raises InputError for the shape, NotFiniteError for NaN, infinity and numbers above `BEYOND`. Python's
+    floats are added since that is the fastest test and overflows without a warning.
     """
     if q.shape != shape:
         raise InputError(f"expected an array of shape {shape}, found {q.shape}")
@@ -73,11 +75,10 @@ def finite_angles(q: Array, shape: tuple[int]) -> Array:
 
 
 class PinnedDynamics:
-    """Pinocchio's model pinned at the stance foot, and kinematics at (q_s, q_s') (n,) [rad, rad/s].
+    """Pinocchio's model pinned at the stance foot, and its kinematics at (q_s, q_s') (n,) [rad, rad/s].
 
-    Positions are (x, z) from the stance foot. `model` and `data` are Pinocchio's, `T` (n, n) maps
-    q_s to the tree's coordinates and `inverse` back, `swing` and `hip` are frame numbers. `Biped` has the
-    dynamics.
+    Positions are (x, z) from the stance foot. `model` and `data` are Pinocchio's, `T` (n, n) maps q_s to the
+    tree's coordinates and `inverse` back, `swing` and `hip` are frame indices. `Biped` has the dynamics.
     """
 
     def __init__(self, tree: Tree, d: RobotDescription, stance_chain: Array, armature: float):
@@ -102,12 +103,12 @@ class PinnedDynamics:
         self.hip = frame_index(self.model, d.hip)
 
     def position(self, q: Array, frame: int) -> Array:
-        """Place (x, z) of a frame, given by its index, from the stance foot (2,) [m]."""
+        """Position (x, z) of a frame, by its index, from the stance foot (2,) [m]."""
         pin.forwardKinematics(self.model, self.data, self.T @ q)
         return pin.updateFramePlacement(self.model, self.data, frame).translation[XZ]
 
     def jacobian(self, q: Array, frame: int) -> Array:
-        """d(x, z)/dq_s of a frame, given by its index (2, n) [m]."""
+        """Jacobian d(x, z)/dq_s of a frame, by its index (2, n) [m]."""
         J = pin.computeFrameJacobian(
             self.model, self.data, self.T @ q, frame, pin.LOCAL_WORLD_ALIGNED
         )
@@ -128,16 +129,16 @@ class PinnedDynamics:
         return d.com[0][XZ].copy(), d.vcom[0][XZ].copy(), d.acom[0][XZ].copy()
 
     def mass_jacobian(self, q: Array) -> Array:
-        """m dp_com/dq_s (2, n) [kg m]: times q' it is the linear momentum."""
+        """Jacobian m dp_com/dq_s (2, n) [kg m]: times q' it is the linear momentum."""
         J = pin.jacobianCenterOfMass(self.model, self.data, self.T @ q).reshape(3, -1)
         return float(pin.computeTotalMass(self.model)) * J[XZ] @ self.T
 
     def bodies(self) -> tuple[Array, Array, Array]:
-        """Masses (n,) [kg], inertias about the COM (n,) [kg m^2] and rows A (n, n) of the absolute
-        angles a = A q_s, for the bodies in Pinocchio's order.
+        """Masses (n,) [kg], inertias about the COM (n,) [kg m^2] and rows A (n, n) of the
+        absolute angles a = A q_s.
 
-        Fixed links are merged with the body they hang on. Counter-clockwise with x to the right and
-        z up.
+        For the bodies in Pinocchio's order; fixed links are merged with the body they hang on.
+        Counter-clockwise with x to the right and z up.
         """
         inertias = self.model.inertias[1:]
         mass = np.array([body.mass for body in inertias])
@@ -150,7 +151,8 @@ class PinnedDynamics:
         return mass, about_y, np.array(rows)
 
     def points(self, q: Array) -> Array:
-        """Places (x, z) (n + 2, 2) [m] from the stance foot: the COM of every body, the swing foot, the hip.
+        """Positions (x, z) (n + 2, 2) [m] from the stance foot: the COM of every body,
+        the swing foot, the hip.
 
         The planar closed form is fitted to these.
         """
@@ -175,7 +177,7 @@ def _minus(a: Vector, b: Vector) -> Vector:
 
 
 def _moved(link: Link, origin: Vector) -> Link:
-    """`link` written in a frame whose origin lies at `origin` [m] of the old one."""
+    """The link in a frame whose origin lies at `origin` [m] of the old one."""
     body = link.inertial and replace(link.inertial, com=_minus(link.inertial.com, origin))
     visuals = tuple(replace(v, origin=_minus(v.origin, origin)) for v in link.visuals)
     return Link(link.name, body, visuals)
@@ -208,7 +210,7 @@ def reroot(tree: Tree, foot: str, torso: str) -> Tree:
 
 
 def _chain(tree: Tree, foot: str, torso: str) -> tuple[Joint, ...]:
-    """Joints from `foot` up to `torso`. Raises ModelError where there are none."""
+    """Joints from `foot` up to `torso`, the nearest first. Raises ModelError where there is no such path."""
     chain = tree.path_below(foot, torso)
     if chain is None:
         raise ModelError(f"URDF '{tree.source}': foot '{foot}' does not hang below '{torso}'")
@@ -216,7 +218,9 @@ def _chain(tree: Tree, foot: str, torso: str) -> tuple[Joint, ...]:
 
 
 def _beside(tree: Tree, link: str, chain: tuple[Joint, ...]) -> Iterator[Joint]:
-    """All joints below `link` that are not reached by the chain: the other branches, which keep their sense."""
+    """Iterate over all joints below `link` that are not on the chain: the other
+    branches, which keep their sense.
+    """
     for joint in tree.joints_below(link):
         if joint not in chain:
             yield joint

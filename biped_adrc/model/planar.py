@@ -52,10 +52,10 @@ EXACT = 1e-11
 
 
 class PlantArrays(NamedTuple):
-    """The numbers of the module's formulas for n links, float64: masses, lengths and inertias.
+    """Masses, lengths and inertias of n links, as the formulas for D_s and Omega take them, float64.
 
-    The engine passes them at run time, so that one compilation serves all robots of the same structure. Complex
-    vectors are stored as real and imaginary part.
+    The engine passes them at run time, so that one compilation serves all robots of the same structure.
+    Complex vectors are stored as real and imaginary part.
     """
 
     W_re: Array
@@ -103,7 +103,7 @@ class PlanarTree:
 
     @classmethod
     def of(cls, biped: Biped) -> PlanarTree:
-        """The tree of a robot: A and K from its Pinocchio model, checked against it.
+        """Make the tree of a robot: A and K from its Pinocchio model, checked against it.
 
         Raises ModelError when the robot is not a planar tree of rigid links.
         """
@@ -152,17 +152,17 @@ class PlanarTree:
 
     @property
     def leg(self) -> float:
-        """Length of the stretched stance leg [m]: sum_i |d_i| of the hip."""
+        """Length of the stretched stance leg [m]: the sum of the lengths |d_i| of the hip's vectors."""
         return float(np.sum(np.abs(self.hip)))
 
 
 def _parts(z: ComplexArray) -> tuple[Array, Array]:
-    """Real and imaginary part, contiguous as compiled code expects them."""
+    """Real and imaginary part of z, contiguous as compiled code expects them."""
     return np.ascontiguousarray(z.real), np.ascontiguousarray(z.imag)
 
 
 def fitted(A: Array, places: Callable[[Array], Array], exact: float) -> ComplexArray:
-    """The vectors d (points, n) [m] of points fixed to links, by least squares over random angles.
+    """Fit the vectors d (points, n) [m] of points fixed to links, by least squares over random angles.
 
     A is the matrix of the absolute angles (n, n); `places` maps q (n,) [rad] to the places (points, 2) [m].
     Parts of d below `exact` times the largest distance of a place from the origin, or times 1 m where it is
@@ -239,12 +239,12 @@ def _weight(K: PlantArrays, t: Turned[Numbers]) -> Numbers:
 
 
 def point(t: Turned[Numbers], re: Array, im: Array) -> tuple[Numbers, Numbers]:
-    """(x, z) [m] of a point from the stance foot, from its vectors d = re + i im (n,) [m]."""
+    """Position (x, z) [m] of a point from the stance foot, from its vectors d = re + i im (n,) [m]."""
     return re @ t.c - im @ t.s, im @ t.c + re @ t.s
 
 
 def jacobian(robot: Joined, t: Turned[Numbers], re: Array, im: Array) -> Numbers:
-    """d(x, z)/dq (2, n) [m] of a point with vectors d = re + i im (n,) [m]."""
+    """Jacobian d(x, z)/dq (2, n) [m] of a point with vectors d = re + i im (n,) [m]."""
     return np.array([robot.A.T @ (-(re * t.s) - im * t.c), robot.A.T @ (re * t.c - im * t.s)])
 
 
@@ -264,7 +264,7 @@ POINT_EXACT = 1e-10
 
 
 class LinkPoint(NamedTuple):
-    """A point fixed to a link, in n coordinates; all arrays float64, so that compiled code can take it."""
+    """A point fixed to a link, in closed form for n coordinates; all arrays float64, for compiled code."""
 
     A: Array
     """Matrix of the absolute angles a = A q (n, n)."""
@@ -286,10 +286,9 @@ def wrench_torque(k: LinkPoint, q: Array, f: Array) -> Array:
 
 
 def link_point(biped: Biped, link: str, at: tuple[float, float] | None = None) -> LinkPoint:
-    """The point `at` (x, z) [m] in the frame of `link`; None is its origin.
+    """The point `at` (x, z) [m] in the frame of `link`, in closed form; its origin if None.
 
-    Raises ModelError for a link that the robot does not have, or that does not move with its
-    coordinates.
+    Raises ModelError for a link that the robot does not have, or that does not move with its coordinates.
     """
     f, x_z = biped.floating, at or (0.0, 0.0)
     tree, trunk = biped.tree, biped.description.trunk
@@ -311,12 +310,12 @@ def link_point(biped: Biped, link: str, at: tuple[float, float] | None = None) -
 
 
 def hip_point(biped: Biped) -> LinkPoint:
-    """The hip as a point without rotation: forces act there, moments do not."""
+    """The hip as a point in closed form, without rotation: forces act there, moments do not."""
     return _fitted(biped, biped.hip, np.zeros(biped.n))
 
 
 def _fitted(biped: Biped, place: Callable[[Array], Array], turn: Array) -> LinkPoint:
-    """The `LinkPoint` with this place (x, z) [m] as a function of q (n,) [rad]; turn: b (n,) of its link."""
+    """Fit a `LinkPoint` to its place (x, z) [m] as a function of q (n,) [rad]; turn: b (n,) of its link."""
     _, _, A = biped.pinned.bodies()
     (d,) = fitted(A, place, POINT_EXACT)
     return LinkPoint(np.ascontiguousarray(A), *_parts(d), turn)

@@ -1,4 +1,4 @@
-"""The split (11)-(15): what the nominal model says of the actuated joints.
+"""The split (11)-(15): the nominal model of the actuated joints.
 
     D_s q'' + Omega = B_s u + xi~                                    (11)
     q_b'' = kappa u + xi                                             (13)
@@ -7,11 +7,11 @@
          {xi~1 - Omega1 - D12 D22^-1 (xi~2 - Omega2)}                (14)
 
 The unactuated rows of (11) are solved for q_N'' and inserted into the actuated ones, so that every
-actuated joint is a double integrator with an input gain kappa and a total disturbance xi.
-Controllers and observers work on (13) alone.
+actuated joint is a double integrator with an input gain kappa and a total disturbance xi. Controllers
+and observers work on (13) alone.
 
-xi~ is a generalised force [N m] in (11) and xi an acceleration [rad/s^2] in (13); the paper prints
-one letter for both. Here B1 is the identity: the motors act on the joints q_b.
+xi~ is a generalised force [N m] in (11) and xi an acceleration [rad/s^2] in (13); the paper prints one letter
+for both. Here B1 is the identity: the motors act on the joints q_b.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from biped_adrc.core.types import Array
 
 
 class Reduction(NamedTuple):
-    """Terms of the model at one state; n coordinates, the first p of them actuated."""
+    """Terms of the reduced model at one state; n coordinates, the first p of them actuated."""
 
     D: Array
     """Inertia matrix D_s (n, n) [kg m^2]."""
@@ -66,7 +66,7 @@ class BodyTerms(NamedTuple):
     J_2: Array
     """dp_2/dq (2, n) [m] of the swing foot."""
     mass: float
-    """Of the whole robot [kg]."""
+    """Mass of the whole robot [kg]."""
 
     def __repr__(self) -> str:
         return one_line(self)
@@ -81,10 +81,10 @@ def identity(p: int) -> Array:
 
 
 def reduce(D: Array, Omega: Array, p: int) -> Reduction:
-    """kappa (15) and xi (14) with xi~ = 0, from D (n, n) [kg m^2] and Omega (n,) [N m].
+    """Compute kappa (15) and xi (14) with xi~ = 0, from D (n, n) [kg m^2] and Omega (n,) [N m].
 
-    The first p coordinates are actuated; p = 0 is a passive robot with empty kappa and xi. With one
-    unactuated coordinate D22 is a number, and no system is solved for it. Raises SingularError.
+    The first p coordinates are actuated; p = 0 is a passive robot with empty kappa and xi. With one unactuated
+    coordinate D22 is a number, and no system is solved for it. Raises SingularError.
     """
     if p == 0:
         a_N = -solve_positive(D, Omega, "D_s")
@@ -104,10 +104,11 @@ def reduce(D: Array, Omega: Array, p: int) -> Reduction:
 
 
 def unknown_force(terms: Reduction, a: Array, u: Array) -> Array:
-    """xi~ of (11): the generalised force D_s a + Omega - B_s u that the nominal model does not know (n,) [N m].
+    """The generalised force xi~ = D_s a + Omega - B_s u (n,) [N m] of (11), which the
+    nominal model does not explain.
 
-    With a = q'' (n,) [rad/s^2] of the plant and u (p,) [N m] it is zeta plus all that is wrong with
-    the model, friction included.
+    With a = q'' (n,) [rad/s^2] of the plant and u (p,) [N m] it is zeta plus the model
+    error, friction included.
     """
     force = terms.D @ a + terms.Omega
     force[: len(u)] = force[: len(u)] - u
@@ -115,10 +116,10 @@ def unknown_force(terms: Reduction, a: Array, u: Array) -> Array:
 
 
 def disturbance_parts(terms: Reduction, force: Array) -> tuple[Array, Array]:
-    """The matched part (from xi~1) and the unmatched part (from xi~2) of (14), each (p,) [rad/s^2].
+    """Matched part (from xi~1) and unmatched part (from xi~2) of (14), each (p,) [rad/s^2].
 
-    A motor could cancel the matched part at once; the unmatched one enters through -D12 D22^-1 xi~2. force
-    is xi~ = delta + zeta (n,) [N m], on all coordinates.
+    A motor could cancel the matched part at once; the unmatched one enters through -D12 D22^-1 xi~2. force is
+    xi~ = delta + zeta (n,) [N m], on all coordinates.
     """
     p = terms.kappa.shape[0]
     return terms.kappa @ force[:p], terms.kappa @ (terms.A_N.T @ force[p:])

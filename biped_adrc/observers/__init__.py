@@ -1,1 +1,1 @@
-"""Extended observers of the total disturbance; one file per idea."""
+"""Extended observers, which estimate the total disturbance of each joint; a file for each choice of gains."""

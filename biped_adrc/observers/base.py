@@ -1,24 +1,25 @@
-"""What an observer is: a state z, its flow or its discrete step, and the estimates read from it.
+"""An observer: a state z, its flow or its discrete step, and the estimates read from it.
 
     z' = flow(z, y, input)                               in continuous time
     z <- correct(z, y),  z <- predict(z, input)          at a sample instant, and over the period after it
 
     input = kappa u (p,) [rad/s^2],  y = q_b (p,) [rad]
 
-for the observers under ADRC; those under DOB see the momentum and the known force of all n coordinates.
-States are flat vectors passed in and handed back; an observer holds only numbers. So one observer object may
-serve many walks at once, and an integrator may evaluate a step twice. The engine turns the methods into machine
-code. `control.tracking` puts an observer under a controller, `analysis.observer` chooses its poles and
-judges it alone.
+for the observers under ADRC; those under DOB use the momentum and the known force of all n coordinates. States
+are flat vectors passed in and handed back; an observer holds only numbers. So one observer object may serve
+many walks at once, and an integrator may evaluate a step twice. The engine turns the methods into machine
+code. `control.tracking` puts an observer under a controller, `analysis.observer` chooses its poles and judges
+it alone.
 
 All observers of the package share a chain of integrators per coordinate in scaled states,
 
     x_k = z_k scale^(k-1), k = 1..m+2,
 
 with x1 position, x2 velocity, x3 disturbance and its derivatives. In x itself the observer matrix of Table I
-has condition number 3e29; scaled it has 5e6. LEAD integrators lie between disturbance and measurement: two from
-an acceleration to an angle, one from a force to a momentum. `ChainObserver` has start, estimates and reset,
-which do not depend on how the gains were chosen; `gpi`, `high_gain`, `kalman` and `momentum` add their flow.
+has condition number 3e29; scaled it has 5e6. LEAD integrators lie between disturbance and measurement: two
+from an acceleration to an angle, one from a force to a momentum. `ChainObserver` has start, estimates and
+reset, which do not depend on how the gains were chosen; `gpi`, `high_gain`, `kalman` and `momentum` add their
+flow.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ from biped_adrc.core.types import Array, Indices, relabelled
 
 
 class Estimate(NamedTuple):
-    """What the observer says of the p joints, each (p,)."""
+    """Estimates of position, velocity and disturbance of the p joints, each (p,)."""
 
     position: Array
     """x1^ [rad]."""
@@ -52,7 +53,7 @@ class Estimate(NamedTuple):
 
 
 class ResetPolicy(Enum):
-    """What happens to the observer at impact, where the legs swap and velocities jump.
+    """What happens to the observer's state at impact, where the legs swap and velocities jump.
 
     An observer that is left alone there takes the jump for a disturbance, and its estimate peaks.
 
@@ -61,7 +62,7 @@ class ResetPolicy(Enum):
     """
 
     NONE = "none"
-    """Nothing."""
+    """The state stays as it is."""
     RELABEL = "relabel"
     """The states of the legs swap."""
     MEASURED = "measured"
@@ -71,22 +72,21 @@ class ResetPolicy(Enum):
 
 
 class ErrorSystem(NamedTuple):
-    """Coordinates in which a linear observer's error obeys e' = A e + b (q_b'' - kappa u).
+    """Linear error dynamics of an observer: its error obeys e' = A e + b (q_b'' - kappa u).
 
-    With Z = z as (k, p): E = S (q_b, q_b') - Z, where S puts q_b in row 0 and q_b' * velocity_scale in
-    row 1. The forcing enters row 1 times velocity_scale.
+    With Z = z as (k, p): E = S (q_b, q_b') - Z, where S puts q_b in row 0 and q_b' * velocity_scale in row 1.
+    The forcing enters row 1 times velocity_scale.
     """
 
     A: Array
-    """(k, k) [1/s]."""
+    """Matrix (k, k) [1/s]."""
     velocity_scale: float
-    """[s]."""
+    """Scale of the velocity in row 1 [s]."""
 
 
 class Observer(Part):
-    """Base of all observers: a frozen dataclass with `flow`, or with `correct` and `predict`.
-
-    Which of them it has says in which time base it works.
+    """Base of all observers: a frozen dataclass with `flow` for continuous time, or
+    with `correct` and `predict`.
 
     >>> observer = ba.GPIObserver.from_poles()
     >>> z = observer.initial_state(np.zeros(4), np.ones(4), np.zeros(4))
@@ -96,19 +96,19 @@ class Observer(Part):
 
     @abstractmethod
     def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
-        """z (size,) that agrees with position y, velocity dy and disturbance xi, each (p,)."""
+        """State z (size,) whose estimates are position y, velocity dy and disturbance xi, each (p,)."""
 
     @abstractmethod
     def estimate(self, z: Array) -> Estimate:
-        """The estimates in z (size,), each (p,) [rad], [rad/s], [rad/s^2]."""
+        """Estimates in the state z (size,), each (p,) [rad], [rad/s], [rad/s^2]."""
 
     @abstractmethod
     def reset(
         self, z: Array, policy: ResetPolicy, swap: Indices, y: Array, dy: Array, xi: Array
     ) -> Array:
-        """z (size,) after impact, from z before it.
+        """State z (size,) after impact, from z before it.
 
-        `swap` (p,) is the relabelling of joints; y, dy, xi, each (p,), are taken after it.
+        `swap` (p,) is the relabelling of joints; y, dy, xi, each (p,), are measured after it.
         """
 
     def flow(self, z: Array, y: Array, input: Array) -> Array:
@@ -119,14 +119,14 @@ class Observer(Part):
         raise InputError(f"{type(self).__name__} works in sampled time only; give a SampledTime")
 
     def correct(self, z: Array, y: Array) -> Array:
-        """Sampled: z (size,) at a sample instant with the measurement y (p,) taken in.
+        """In sampled time: z (size,) corrected by the measurement y (p,) of the sample instant.
 
         Raises InputError for an observer in continuous time, as `predict` does.
         """
         raise self._continuous()
 
     def predict(self, z: Array, input: Array) -> Array:
-        """Sampled: z (size,) one period later under a constant input (p,)."""
+        """In sampled time: z (size,) one period later under a constant input (p,)."""
         raise self._continuous()
 
     def sampled(self, period: float) -> Observer:
@@ -134,25 +134,27 @@ class Observer(Part):
         raise InputError(f"{type(self).__name__} has no discrete form; use ContinuousTime()")
 
     def error_system(self) -> ErrorSystem | None:
-        """The linear error dynamics, for the exponential method; None when there are none."""
+        """Linear error dynamics, for the exponential method; None where there are none."""
         return None
 
     def _continuous(self) -> InputError:
-        """The error for what is asked of an observer in sampled time alone."""
+        """The InputError of a method that needs `sampled(period)` first."""
         return InputError(f"{type(self).__name__} works in continuous time; call sampled(period)")
 
 
 MOST_POLES = 20
-"""States per joint: with more, round-off places the poles, and machine code of a step takes minutes to make."""
+"""Most states per joint: with more, round-off places the poles, and compiling a step takes minutes."""
 SLOWEST, FASTEST = 1e-6, 1e9
-"""[rad/s]: beyond these bandwidths products of the gains have no place among the floats."""
+"""Range of bandwidths [rad/s], beyond which products of the gains overflow or vanish."""
 
 
 # -- what is asked of poles ----------------------------------------------------------------------
 def stable_poles(poles: Sequence[complex], what: str) -> tuple[complex, ...]:
-    """Two poles [rad/s] or more with negative real parts, complex ones in conjugate pairs.
+    """Check poles [rad/s]: two or more with negative real parts, complex ones in
+    conjugate pairs. Returns them.
 
-    Without pairs the gains would not be real. `what` has them. Raises InputError, with the pole that is wrong.
+    Without pairs the gains would not be real. what: the observer, for the message. Raises
+    InputError with the wrong pole.
     """
     try:
         numbers = tuple(complex(pole) for pole in poles)
@@ -174,7 +176,7 @@ def stable_poles(poles: Sequence[complex], what: str) -> tuple[complex, ...]:
 
 
 def equal_poles(bandwidth: float, number: int) -> tuple[complex, ...]:
-    """That many poles at -bandwidth [rad/s]. Raises InputError unless both are positive, and not too many."""
+    """`number` poles at -bandwidth [rad/s]. Raises InputError unless both are positive, and not too many."""
     check_positive(bandwidth, f"observer bandwidth is {bandwidth} rad/s")
     check_count(number, f"an observer has {number!r} poles")
     check_chain(number, bandwidth, "an observer")
@@ -187,11 +189,14 @@ def mean_bandwidth(poles: Sequence[complex]) -> float:
 
 
 def _show(pole: complex) -> str:
+    """Text of a pole, without the imaginary part of a real one."""
     return f"{pole.real:g}" if pole.imag == 0 else f"{pole:g}"
 
 
 def check_chain(order: int, scale: float, what: str) -> None:
-    """Raise InputError for more than MOST_POLES states per joint, or a bandwidth out of reach [rad/s]."""
+    """Raise InputError for more than MOST_POLES states per joint, or a bandwidth [rad/s]
+    beyond SLOWEST to FASTEST.
+    """
     if order > MOST_POLES:
         raise InputError(f"{what} has {order} poles, expected at most {MOST_POLES}")
     if not SLOWEST <= scale <= FASTEST:
@@ -202,7 +207,7 @@ def check_chain(order: int, scale: float, what: str) -> None:
 
 @dataclass(frozen=True)
 class ChainObserver(Observer):
-    """m extended states; z is Z (LEAD + m, p) row by row. Leaves add their own flow, or correct and predict.
+    """Base of observers with m extended states; z is Z (LEAD + m, p) row by row. Subclasses add the dynamics.
 
     scale [rad/s] is near the bandwidth, so that the scaled states have numbers of one size.
 
@@ -212,7 +217,7 @@ class ChainObserver(Observer):
     """
 
     LEAD: ClassVar[int] = 2
-    """Integrators between disturbance and measurement."""
+    """Number of integrators between disturbance and measurement."""
     m: int
     scale: float
 
@@ -221,11 +226,11 @@ class ChainObserver(Observer):
 
     @property
     def order(self) -> int:
-        """LEAD + m, states per coordinate."""
+        """Number of states per coordinate, LEAD + m."""
         return self.LEAD + self.m
 
     def initial_state(self, y: Array, dy: Array, xi: Array) -> Array:
-        """z that agrees with y, dy and xi, each (p,); higher derivatives are zero."""
+        """State z whose estimates are y, dy and xi, each (p,); higher derivatives are zero."""
         Z = np.zeros((self.order, len(y)))
         Z[0] = y
         if self.LEAD > 1:
@@ -235,7 +240,7 @@ class ChainObserver(Observer):
         return Z.ravel()
 
     def estimate(self, z: Array) -> Estimate:
-        """x1^, x2^ and xi^ in z, each (p,); xi^ = 0 for m = 0, x2^ = 0 for one integrator."""
+        """Estimates x1^, x2^ and xi^ in z, each (p,); xi^ = 0 for m = 0, x2^ = 0 for one integrator."""
         Z = z.reshape(self.order, -1)
         none = np.zeros(Z.shape[1])
         velocity = Z[1] * self.scale if self.LEAD > 1 else none
@@ -246,7 +251,7 @@ class ChainObserver(Observer):
     def reset(
         self, z: Array, policy: ResetPolicy, swap: Indices, y: Array, dy: Array, xi: Array
     ) -> Array:
-        """z after impact; MEASURED keeps xi^ and its derivatives, relabelled.
+        """State z after impact; MEASURED keeps xi^ and its derivatives, relabelled.
 
         With one integrator xi^ is a force, which the impact does not end, so MODEL keeps it too, and only its
         derivatives become zero. Coordinates behind the p joints keep their place.

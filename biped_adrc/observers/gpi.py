@@ -55,16 +55,18 @@ TABLE_I = tuple(-180.0 * 1.8**k for k in range(9))
 
 @dataclass(frozen=True)
 class InjectedChain(ChainObserver):
-    """(17) with any gains: what its subclasses share, whose `poles` say how they were chosen."""
+    """Base of the observers (17), whatever their gains; a subclass defines the `poles`."""
 
     @property
     @abstractmethod
     def poles(self) -> tuple[complex, ...]:
-        """(m + 2,) [rad/s]."""
+        """Poles of the error dynamics (m + 2,) [rad/s]."""
 
     @derived
     def scaled_gains(self) -> Array:
-        """l_(m+1)/w, l_m/w^2, ... (m + 2,), dimensionless: the polynomial of the poles over w has them."""
+        """l_(m+1)/w, l_m/w^2, ... (m + 2,), dimensionless: coefficients of the polynomial
+        of the poles divided by w.
+        """
         return np.ascontiguousarray(np.real(np.poly(np.array(self.poles) / self.scale))[1:])
 
     @property
@@ -73,7 +75,7 @@ class InjectedChain(ChainObserver):
         return self.scaled_gains * self.scale ** np.arange(1, self.order + 1)
 
     def flow(self, z: Array, y: Array, input: Array) -> Array:
-        """z' for scaled states, the measurement y (p,) [rad] and the input kappa u (p,) [rad/s^2]."""
+        """z' of the scaled states, for the measurement y (p,) [rad] and the input kappa u (p,) [rad/s^2]."""
         Z, w = z.reshape(self.order, -1), self.scale
         dZ = w * np.outer(self.scaled_gains, y - Z[0])
         dZ[:-1] += w * Z[1:]
@@ -86,7 +88,9 @@ class InjectedChain(ChainObserver):
         return SampledChain(self.m, 1.0 / period, self, period)
 
     def sampled_gains(self, Phi: Array, period: float) -> Array:
-        """L (k,), dimensionless, by Ackermann's formula: poles at exp(s T)."""
+        """L (k,), dimensionless, by Ackermann's formula: eigenvalues at exp(s T). Phi (k,
+        k): the transition matrix.
+        """
         k = self.order
         N = Phi - np.eye(k)
         roots = np.exp(np.array(self.poles) * period)
@@ -100,7 +104,9 @@ class InjectedChain(ChainObserver):
         return np.ascontiguousarray(np.real(p_of_Phi @ last))
 
     def error_system(self) -> ErrorSystem:
-        """(19) in scaled states: e' = A e + b (q_b'' - kappa u)."""
+        """Error dynamics (19) in scaled states, e' = A e + b (q_b'' - kappa u): A (m + 2, m + 2) [1/s],
+        and the scale [s] of velocities.
+        """
         A = self.scale * np.eye(self.order, k=1)
         A[:, 0] = -self.scale * self.scaled_gains
         return ErrorSystem(A, 1.0 / self.scale)
@@ -108,7 +114,8 @@ class InjectedChain(ChainObserver):
 
 @dataclass(frozen=True)
 class GPIObserver(InjectedChain):
-    """(17) with the same m + 2 poles for every joint. Make it with `from_poles` or `from_bandwidth`.
+    """The GPI observer (17) with the same m + 2 poles for every joint. Make it with
+    `from_poles` or `from_bandwidth`.
 
     >>> ba.GPIObserver.from_bandwidth(300.0, m=1).gains
     array([9.0e+02, 2.7e+05, 2.7e+07])
@@ -118,7 +125,7 @@ class GPIObserver(InjectedChain):
 
     @classmethod
     def from_poles(cls, poles: Sequence[complex] = TABLE_I, m: int | None = None) -> GPIObserver:
-        """m + 2 stable poles [rad/s]; complex ones in conjugate pairs.
+        """The observer with m + 2 stable poles [rad/s]; complex ones in conjugate pairs.
 
         m, when given, is checked against their number. Raises InputError.
         """
@@ -131,9 +138,10 @@ class GPIObserver(InjectedChain):
 
     @classmethod
     def from_bandwidth(cls, bandwidth: float, m: int = 1) -> GPIObserver:
-        """All m + 2 poles at -bandwidth [rad/s]; m = 1 is the linear extended state observer.
+        """The observer with all m + 2 poles at -bandwidth [rad/s]; m = 1 is the linear
+        extended state observer.
 
-        Raises InputError.
+        Raises InputError for a bandwidth or an order out of range.
         """
         check_whole(m, f"observer order m is {m!r}")
         return cls.from_poles(equal_poles(bandwidth, m + 2))
@@ -141,37 +149,35 @@ class GPIObserver(InjectedChain):
 
 @dataclass(frozen=True)
 class SampledChain(ChainObserver):
-    """The module's discrete form of an observer for one period T [s]; `scale` is 1/T, so that Phi has no T in
-    it.
-    """
+    """The discrete form of an observer for one period T [s]; `scale` is 1/T, so that Phi does not contain T."""
 
     continuous: InjectedChain = field(metadata=SETUP)
     period: float
 
     @derived
     def Phi(self) -> Array:
-        """(k, k), dimensionless."""
+        """Transition matrix (k, k) over one period, dimensionless."""
         k = range(self.order)
         return np.array([[1.0 / factorial(j - i) if j >= i else 0.0 for j in k] for i in k])
 
     @derived
     def Gamma(self) -> Array:
-        """(k,) [s^2], or [s] for one integrator."""
+        """Input vector (k,) [s^2], or [s] for one integrator."""
         Gamma, lead = np.zeros(self.order), self.LEAD
         Gamma[:lead] = [self.period**lead / factorial(lead - i) for i in range(lead)]
         return Gamma
 
     @derived
     def L(self) -> Array:
-        """(k,), dimensionless."""
+        """Correction gains (k,), dimensionless."""
         return self.continuous.sampled_gains(self.Phi, self.period)
 
     def correct(self, z: Array, y: Array) -> Array:
-        """z at the sample instant with the measurement y (p,) taken in."""
+        """State z at the sample instant, corrected by the measurement y (p,)."""
         Z = z.reshape(self.order, -1)
         return np.ravel(Z + np.outer(self.L, y - Z[0]))
 
     def predict(self, z: Array, input: Array) -> Array:
-        """z one period later under a constant input (p,)."""
+        """State z one period later under a constant input (p,)."""
         Z = z.reshape(self.order, -1)
         return np.ravel(self.Phi @ Z + np.outer(self.Gamma, input))

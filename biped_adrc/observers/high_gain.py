@@ -30,7 +30,7 @@ from biped_adrc.observers.gpi import InjectedChain
 
 @dataclass(frozen=True)
 class HighGainObserver(InjectedChain):
-    """The module's equations, the same for every joint. Make it with `from_epsilon`."""
+    """The extended high-gain observer, the same for every joint. Make it with `from_epsilon`."""
 
     alpha: tuple[float, ...] = ()
 
@@ -38,7 +38,8 @@ class HighGainObserver(InjectedChain):
     def from_epsilon(
         cls, epsilon: float, alpha: Sequence[float] | None = None, m: int = 1
     ) -> HighGainObserver:
-        """epsilon [s]; alpha_1 .. alpha_(m+2), dimensionless, (s + 1)^(m+2) without.
+        """The observer with epsilon [s] and alpha_1 .. alpha_(m+2), dimensionless; those
+        of (s + 1)^(m+2) if None.
 
         Raises InputError for an epsilon that is not positive, m below 1, and alphas that are not those of a
         stable polynomial of degree m + 2.
@@ -51,22 +52,24 @@ class HighGainObserver(InjectedChain):
 
     @property
     def epsilon(self) -> float:
-        """The one number to choose [s]: all poles are of the order of 1 / epsilon."""
+        """eps [s]: all poles are of the order of 1 / eps."""
         return 1.0 / self.scale
 
     @cached_property
     def poles(self) -> tuple[complex, ...]:
-        """Of the error dynamics (m + 2,) [rad/s]; m + 2 equal ones come out scattered by round-off."""
+        """Poles of the error dynamics (m + 2,) [rad/s]; round-off scatters m + 2 equal ones."""
         return tuple(complex(root) * self.scale for root in np.roots([1.0, *self.alpha]))
 
     @derived
     def scaled_gains(self) -> Array:
-        """alpha (m + 2,)."""
+        """The coefficients alpha (m + 2,)."""
         return np.array(self.alpha)
 
 
 def _hurwitz(alpha: Sequence[float], m: int) -> tuple[float, ...]:
-    """alpha as floats. Raises InputError unless they are the coefficients of a Hurwitz polynomial."""
+    """alpha as floats. Raises InputError unless they are the coefficients of a Hurwitz
+    polynomial of degree m + 2.
+    """
     a = numbers(alpha, "alpha")
     if a.shape != (m + 2,) or not np.isfinite(a).all() or np.roots([1.0, *a]).real.max() >= 0.0:
         raise InputError(

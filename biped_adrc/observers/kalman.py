@@ -33,17 +33,20 @@ from biped_adrc.observers.gpi import InjectedChain
 
 @dataclass(frozen=True)
 class KalmanObserver(InjectedChain):
-    """The module's equations, the same for every joint; `scale` is omega. Make it with `from_noise`."""
+    """The observer with gains of a steady-state Kalman filter; `scale` is omega [rad/s].
+    Make it with `from_noise`.
+    """
 
     measurement: float = 0.0
-    """R [rad^2 s]."""
+    """Intensity R of the measurement noise [rad^2 s]."""
 
     @classmethod
     def from_noise(cls, drift: float, measurement: float, m: int = 1) -> KalmanObserver:
-        """drift: root of W, what x_(m+2) drifts by in the root of a second; measurement: root of R [rad s^1/2].
+        """The observer for noises: drift = sqrt(W) [rad/s^(m + 3/2)], measurement = sqrt(R) [rad s^(1/2)].
 
-        An encoder with errors of standard deviation s at ticks of T seconds has the measurement s T^(1/2).
-        Raises InputError for numbers that are not positive, and for m below 1.
+        sqrt(W) is the drift of x_(m+2) in the root of a second. An encoder with errors of standard
+        deviation s at ticks of T seconds has the measurement s T^(1/2). Raises InputError for numbers that
+        are not positive, and for m below 1.
         """
         check_whole(m, f"the order m of a Kalman observer is {m!r}", 1)
         check_positive(drift, f"the drift of a Kalman observer is {drift} rad/s^{m + 1.5:g}")
@@ -52,12 +55,14 @@ class KalmanObserver(InjectedChain):
 
     @property
     def intensity(self) -> float:
-        """W [rad^2/s^(2 m + 3)], from the bandwidth and R by the module's equation."""
+        """Intensity W = R omega^(2 (m + 2)) [rad^2/s^(2 m + 3)] of the noise that drives the
+        chain, from bandwidth and R.
+        """
         return self.measurement * self.scale ** (2 * self.order)
 
     @cached_property
     def poles(self) -> tuple[complex, ...]:
-        """Those of the Butterworth filter (m + 2,) [rad/s]."""
+        """Poles of the Butterworth filter (m + 2,) [rad/s]."""
         k = self.order
         angles = np.pi * (0.5 + (np.arange(k) + 0.5) / k)
         return tuple(complex(pole) for pole in self.scale * np.exp(1j * angles))
@@ -76,7 +81,11 @@ class KalmanObserver(InjectedChain):
 
 
 def accumulated(order: int) -> Array:
-    """Q (k, k) for W = 1 and T = 1, which is Q in states scaled by powers of T but for T^(2 k - 1)."""
+    """Covariance Q (k, k) that white noise of intensity W = 1 adds to k = `order`
+    integrators in a period T = 1.
+
+    It is Q in states scaled by powers of T, without its factor T^(2 k - 1).
+    """
     left = [order - i for i in range(1, order + 1)]
     rows = [[1.0 / (factorial(a) * factorial(b) * (a + b + 1)) for b in left] for a in left]
     return np.array(rows)

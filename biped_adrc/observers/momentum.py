@@ -1,4 +1,4 @@
-"""Momentum observer: from the momentum alone, an estimate r of the force zeta that the model does not know.
+"""Momentum observer: from the momentum alone, an estimate r of the force zeta that the model does not contain.
 
 zeta (n,) [N m] is generalised, in the coordinates q (n,) [rad]; ^ is an estimate.
 
@@ -9,20 +9,21 @@ zeta (n,) [N m] is generalised, in the coordinates q (n,) [rad]; ^ is an estimat
      ...
     dr_(k-2)/dt =             l_k (pi - pi^)
 
-r_1, r_2, ... are estimates of the derivatives of zeta. Only the momentum pi is measured: no acceleration and no
-inverse of D is needed. With one pole there would be no r_0, and r = l_1 (pi - pi^) is the residual of De Luca,
-Albu-Schaeffer, Haddadin, Hirzinger, IROS 2006. Here there are two poles or more. With two, r is a state of its
-own as in the disturbance observer of Chen, Ballance, Gawthrop, O'Reilly, IEEE Trans. Industrial Electronics
-47(4), 2000: for constant zeta the errors zeta - r and pi - pi^ go to zero. With k poles they do so for a zeta
-that is a polynomial in time of degree k - 2. With chi(s) = s^k + l_1 s^(k-1) + ... + l_k the polynomial of the
-poles
+r_1, r_2, ... are estimates of the derivatives of zeta. Only the momentum pi is measured: no acceleration and
+no inverse of D is needed. With one pole there would be no r_0, and r = l_1 (pi - pi^) is the residual of De
+Luca, Albu-Schaeffer, Haddadin, Hirzinger, IROS 2006. Here there are two poles or more. With two, r is a state
+of its own as in the disturbance observer of Chen, Ballance, Gawthrop, O'Reilly, IEEE Trans. Industrial
+Electronics 47(4), 2000: for constant zeta the errors zeta - r and pi - pi^ go to zero. With k poles they do so
+for a zeta that is a polynomial in time of degree k - 2. With chi(s) = s^k + l_1 s^(k-1) + ... + l_k the
+polynomial of the poles
 
     zeta - r = s^(k-1) (s + l_1) / chi(s) zeta
 
 The states Z (k, n) have one column per coordinate; row i, counted from 0, is the module's state divided by
 scale^i, with scale the geometric mean of the poles [rad/s] (1/T in the discrete form), as in the GPI observer.
 
-The rows of zeta are all n coordinates, the unactuated q_N among them, so r has a part that no motor can cancel.
+The rows of zeta are all n coordinates, the unactuated q_N among them, so r has a
+part that no motor can cancel.
 """
 
 from __future__ import annotations
@@ -41,7 +42,7 @@ from biped_adrc.observers.gpi import InjectedChain, SampledChain
 
 @dataclass(frozen=True)
 class MomentumObserver(InjectedChain):
-    """The observer in continuous time. Make it with `from_poles` or `from_bandwidth`.
+    """The momentum observer in continuous time. Make it with `from_poles` or `from_bandwidth`.
 
     Its flow takes y = pi (n,), the momentum [kg m^2/s], and input = beta (n,), the known force [N m], of all n
     coordinates, as `control.momentum_dob` has them.
@@ -75,10 +76,10 @@ class MomentumObserver(InjectedChain):
 
 @dataclass(frozen=True)
 class SampledMomentumObserver(SampledChain):
-    """The discrete observer for one sampling period [s]: a chain of integrators with beta in its first row.
+    """The discrete momentum observer for one sampling period [s].
 
-    beta is held between ticks. Where it changes within a period T this looks like a part of zeta, so that r has
-    an error of about (T / 2) dbeta/dt; for a constant beta it has none.
+    beta is held between ticks. Where it changes within a period T this looks like a part of zeta, so that r
+    has an error of about (T / 2) dbeta/dt; for a constant beta it has none.
     """
 
     LEAD: ClassVar[int] = 1

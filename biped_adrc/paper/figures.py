@@ -19,12 +19,12 @@ from biped_adrc.core.files import write_bytes
 from biped_adrc.core.processes import Task, run_tasks
 from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS
 from biped_adrc.model.biped import Biped
-from biped_adrc.paper.results import Results
+from biped_adrc.paper.runs import Results
 from biped_adrc.paper.scenarios import CONTROLLERS
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.view.from_the_side.robot_figure import robot_figure
 from biped_adrc.view.plots import figures
-from biped_adrc.view.plots.push_map import push_map_figure
+from biped_adrc.view.plots.study import push_map_figure
 from biped_adrc.view.style import literal, render
 
 NAMES = ("tracking", "disturbance", "ground", "energy", "phase", "comparison")
@@ -34,12 +34,10 @@ NAMES = ("tracking", "disturbance", "ground", "energy", "phase", "comparison")
 def draw(name: str, walks: Mapping[str, Walk]) -> Figure:
     """One figure: of the first walk, or of all walks for "phase" and "comparison".
 
-    Raises InputError for an unknown name, no walk, or a robot without motors where the figure shows motors.
+    Raises InputError for an unknown name, or a robot without motors where the figure shows motors.
     """
     if name not in NAMES:
         raise InputError(f"there is no figure '{name}'; choose one of {list(NAMES)}")
-    if not walks:
-        raise InputError("there is no walk to draw; expected at least one")
     walks = {literal(n): w for n, w in walks.items()}
     title, walk = next(iter(walks.items()))
     signals = {n: w.signals for n, w in walks.items()}
@@ -96,10 +94,11 @@ def pictures(r: Results, signals: Mapping[str, Signals]) -> dict[str, Task[tuple
     """
     npd, adrc, window = signals["NPD"], signals["ADRC"], push_window(signals["NPD"])
     magnitudes = {c: r.multipliers[c].orbit.multipliers for c in CONTROLLERS if c in r.multipliers}
-    mu = Biped.load("rabbit", r.plan.preset).description.friction_coefficient
+    biped = Biped.load("rabbit", r.plan.preset)
+    mu = biped.description.friction_coefficient
     pushed = "ADRC under the push"
     inputs: dict[str, tuple[object, ...]] = {
-        "figure1": (draw_robot, r.plan.preset),
+        "figure1": (robot_figure, biped),
         "figure4": (figures.tracking_figure, npd, "NPD under the push", window),
         "figure5": (figures.tracking_figure, adrc, pushed, window),
         "figure6": (figures.phase_figure, signals),
@@ -114,11 +113,6 @@ def pictures(r: Results, signals: Mapping[str, Signals]) -> dict[str, Task[tuple
         rows = [cell.row() for cell in r.cells if cell.push.preset == preset]
         inputs[f"push_map_{preset}"] = (push_map_figure, rows)
     return {name: Task(name, rendered, arguments) for name, arguments in inputs.items()}
-
-
-def draw_robot(preset: str) -> Figure:
-    """Figure 1: the robot of this preset with its coordinates."""
-    return robot_figure(Biped.load("rabbit", preset))
 
 
 def rendered(draw: Callable[..., Figure], *arguments: object) -> tuple[bytes, bytes]:

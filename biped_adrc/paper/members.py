@@ -24,7 +24,7 @@ from biped_adrc.core.types import Array
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.paper import scenarios
-from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Member, with_values
+from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Member
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import Walk
@@ -95,7 +95,8 @@ def pieces(run: Scenario, zero: bool, share: float) -> list[Walk]:
     if zero and adrc:
         x[2 * n + 2 * scene.biped.p :] = 0.0  # x3^ and its derivatives in the scaled chain
     later = Exponential(share * COARSE) if adrc else RK4(share * COARSE)
-    parts = [Part(1, method_of(with_values(run, h=share * h), walker)), Part(impacts - 1, later)]
+    first = method_of(run.replace({"run.h": share * h}), walker)
+    parts = [Part(1, first), Part(impacts - 1, later)]
     runs = runs_in_parts(walker, x, mode, parts[: 1 + (impacts > 1)])
     return [Walk(walker, gait, moved) for moved in runs]
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -22,10 +22,9 @@ from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.paper.members import MemberOutcome, limits_broken
 from biped_adrc.paper.poincare import PoincareResult
 from biped_adrc.paper.push_map import LOST, PushCell
-from biped_adrc.paper.results import Results
-from biped_adrc.paper.runs import Start
+from biped_adrc.paper.runs import Results, Start
 from biped_adrc.paper.scenarios import CONTROLLERS, KINDS, declared
-from biped_adrc.paper.verdict import AtTwoSteps
+from biped_adrc.paper.verdict import AtTwoSteps, observed_order
 from biped_adrc.scenario.recording import Outcome
 
 Pair = tuple[Outcome, Outcome, float]
@@ -58,9 +57,7 @@ def broken(o: Outcome) -> AtTwoSteps:
 
 
 def distance(o: Outcome) -> float:
-    """max |x- - x*| [rad, rad/s] at the last impact, over angles and rates; infinite when the robot fell
-    before.
-    """
+    """max |x- - x*| [rad, rad/s] at the last impact; infinite when the robot fell before."""
     if not o.walked:
         return math.inf
     return float(np.max(np.abs(o.x_minus[-1][: len(X_STAR)] - X_STAR)))
@@ -88,10 +85,14 @@ error = partial(_adrc_over_npd, lambda o, _: o.peak_error)
 """Of a pair, the largest tracking error."""
 
 
-def worst(name: str, sign: float, o: Outcome) -> float:
-    """The largest (or with sign -1 the least) value of all steps; without a step it keeps no limit."""
-    result = [sign * getattr(s, name) for s in o.certificates]
-    return sign * float(np.max(result or [math.inf]))
+def largest(name: str, o: Outcome) -> float:
+    """The largest value of all steps; without a step it keeps no limit."""
+    return float(np.max([getattr(s, name) for s in o.certificates] or [math.inf]))
+
+
+def least(name: str, o: Outcome) -> float:
+    """The least value of all steps; without a step it keeps no limit."""
+    return float(np.min([getattr(s, name) for s in o.certificates] or [-math.inf]))
 
 
 def last(name: str, o: Outcome) -> float:
@@ -114,6 +115,21 @@ def of_orbit(of: Callable[[PeriodicOrbit], float], found: PoincareResult | str) 
 def largest_multiplier(found: PoincareResult | str) -> AtTwoSteps:
     """Of a cycle; NaN where none was found."""
     return of_orbit(lambda orbit: float(abs(orbit.multipliers[0])), found)
+
+
+def second_multiplier(found: PoincareResult) -> float:
+    """Of a cycle."""
+    return float(np.sort(np.abs(found.orbit.multipliers))[-2])
+
+
+def off_delta_squared(found: PoincareResult) -> float:
+    """Difference of the largest multiplier and delta^2 of the zero dynamics."""
+    return float(abs(abs(found.orbit.multipliers[0]) - found.delta_squared))
+
+
+def multiplier_change(found: PoincareResult | str) -> float:
+    """Largest change of a multiplier at half the step; infinite where no cycle was found."""
+    return math.inf if isinstance(found, str) else found.gap
 
 
 def phase_rate(x_minus: Array) -> float:
@@ -164,13 +180,31 @@ def longest_step(multiplier: float) -> float:
 
 
 def period_gap(pair: tuple[Outcome, Outcome]) -> float:
-    """Largest difference of the step times of two walks, as a share of a usual step; infinite where they make
-    another number of steps.
-    """
+    """Largest difference of step times, as a share of a usual step; infinite for another number of steps."""
     npd, adrc = (o.durations for o in pair)
     if len(npd) != len(adrc) or len(npd) == 0:
         return math.inf
     return float(np.max(np.abs(npd - adrc)) / np.median(npd[:2]))
+
+
+def peak_ratio(pair: tuple[Outcome, Outcome]) -> float:
+    """Peak error of ADRC over that of NPD."""
+    return pair[1].peak_error / pair[0].peak_error
+
+
+def order_of_error(o: Outcome) -> float:
+    """Order in the step of the largest error."""
+    return observed_order(o, lambda x: x.peak_error)
+
+
+def change(i: str, j: str, figures: Sequence[float]) -> float:
+    """|figure i / figure j - 1|."""
+    return abs(figures[int(i)] / figures[int(j)] - 1.0)
+
+
+def figure(i: str, figures: Sequence[float]) -> float:
+    """|figure i|."""
+    return abs(figures[int(i)])
 
 
 def adrc_counts(cell: PushCell) -> float:
@@ -181,11 +215,6 @@ def adrc_counts(cell: PushCell) -> float:
 def quotient(pair: tuple[float, float]) -> float:
     """The first over the second."""
     return pair[0] / pair[1]
-
-
-def item(name: str, found: Mapping[str, float]) -> float:
-    """A number by its name."""
-    return found[name]
 
 
 def periods(found: Mapping[str, float]) -> float:
@@ -215,9 +244,60 @@ def headline(r: Results) -> dict[str, Outcome]:
     return {c: r.headline[c].outcome for c in CONTROLLERS}
 
 
-def jumps(r: Results) -> Mapping[str, Mapping[str, float]]:
-    """What is not smooth, by preset."""
-    return r.jumps
+def adrc_push(r: Results) -> dict[str, Outcome]:
+    """The pushed walk under ADRC."""
+    return {"ADRC": r.headline["ADRC"].outcome}
+
+
+PAIRS = {
+    "matched": ("push", "sine"),
+    "sampled": ("1 kHz",),
+    "heavier": tuple(f"heavier, {kind}" for kind in KINDS),
+    "torso": ("torso",),
+}
+"""Walks under both controllers, by what is done to them."""
+
+
+def pairs(kind: str, r: Results) -> dict[str, tuple[Outcome, Outcome]]:
+    """Those of one kind."""
+    return {name: r.pair(name) for name in PAIRS[kind]}
+
+
+def walks(r: Results) -> dict[str, Outcome]:
+    """All of them, one by one."""
+    names = itertools.chain(*PAIRS.values())
+    return {f"{c}, {n}": o for n in names for c, o in zip(CONTROLLERS, r.pair(n), strict=True)}
+
+
+def of_npd(r: Results) -> dict[str, PoincareResult]:
+    """The cycle under NPD, with all multipliers."""
+    return {"NPD": r.multipliers["NPD"]}
+
+
+def of_adrc(r: Results) -> dict[str, PoincareResult]:
+    """The cycles under ADRC, with all multipliers."""
+    return {name: x for name, x in r.multipliers.items() if name != "NPD"}
+
+
+def all_cycles(r: Results) -> dict[str, PoincareResult | str]:
+    """Cycles with all multipliers, and those of gait (b)."""
+    return {f"multipliers {name}": x for name, x in r.multipliers.items()} | cycles("b", r)
+
+
+def laws_of_walks(r: Results) -> dict[str, Mapping[str, float]]:
+    """Laws of the pushed walks, by controller."""
+    return {c: x.laws for c, x in r.headline.items()}
+
+
+def laws_of_models(r: Results) -> dict[str, float]:
+    """Violation of each law by each model."""
+    laws = next(iter(r.model.values()))
+    return {f"{preset}: {law}": x[law] for law in laws for preset, x in r.model.items()}
+
+
+def numerics(r: Results) -> dict[str, Sequence[float]]:
+    """The figures of the numerical methods, all together."""
+    return {"": tuple(r.figures.values())}
 
 
 def members(r: Results) -> dict[str, MemberOutcome]:

@@ -134,7 +134,9 @@ def sampling_order(preset: str, periods: tuple[float, ...] = (2e-3, 1e-3, 5e-4))
     """
 
     def end(h: float, period: float | None = None) -> Array:
-        run = walk_scenario(scenario("NPD", preset, impacts=1, period=period, h=h))
+        run = walk_scenario(
+            scenario("NPD", preset, hardware={"period": period}, run={"impacts": 1, "h": h})
+        )
         return run.trajectory.before(FOOT_STRIKE)[-1][:10]
 
     exact = end(2.5e-4)
@@ -148,7 +150,8 @@ def exponential_order(preset: str, factor: float) -> tuple[float, float]:
     Over 0.1 s of walking with the poles of Table I times `factor`. Longer steps do not resolve the fast joints
     of a robot without rotors.
     """
-    run = scenario("ADRC", preset, poles=tuple(factor * pole for pole in TABLE_I))
+    poles = {"controller.observer.poles": tuple(factor * pole for pole in TABLE_I)}
+    run = scenario("ADRC", preset, **poles)
     scene = RobotAndGait.of(run)
     walker = build(run, scene)
     x0 = walker.initial_state(*scene.walked.start(scene.biped))

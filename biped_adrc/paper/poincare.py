@@ -18,7 +18,6 @@ from typing import Any
 import numpy as np
 
 from biped_adrc.analysis.return_map import PeriodicOrbit
-from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
@@ -112,13 +111,10 @@ class Regression(Shown):
 
 
 def regress_multipliers(x_minus: Array, x_star: Array) -> Regression:
-    """(27) from states before impact (k, n) [rad, rad/s] and the fixed point (n,).
+    """(27) from states before impact (k, n) [rad, rad/s], k >= 3, and the fixed point (n,).
 
-    Directions below RANK of the largest do not count for the rank. Raises InputError for fewer than three
-    samples.
+    Directions below RANK of the largest do not count for the rank.
     """
-    if x_minus.ndim != 2 or x_minus.shape[0] < 3:
-        raise InputError(f"found samples of shape {x_minus.shape}, expected (k, n) with k >= 3")
     chi = x_minus - x_star
     before, after = chi[:-1], chi[1:]
     result, _, _, singular = np.linalg.lstsq(before, after, rcond=None)
@@ -146,11 +142,7 @@ def return_map_samples(run: Scenario, size: float = 0.05, count: int = 21) -> tu
     """
     P, scene = gait_map(run, observer_states=False).P, RobotAndGait.of(run)
     biped, gait = scene.biped, scene.walked
-    before = np.linspace(1.0 - size, 1.0 + size, count)
-    after = np.empty(count)
-    c = biped.phase
-    for i, factor in enumerate(before):
-        x = np.concatenate((gait.q_minus, factor * gait.v_minus))
-        image = P.lift(P(P.project(x)))
-        after[i] = c @ image[biped.n : 2 * biped.n]
-    return before * float(c @ gait.v_minus), after
+    factors, c = np.linspace(1.0 - size, 1.0 + size, count), biped.phase
+    starts = (np.concatenate((gait.q_minus, factor * gait.v_minus)) for factor in factors)
+    after = [c @ P.lift(P(P.project(x)))[biped.n : 2 * biped.n] for x in starts]
+    return factors * float(c @ gait.v_minus), np.array(after)

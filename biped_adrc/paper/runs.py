@@ -1,14 +1,15 @@
-"""The work of the reproduction: what a worker computes, and the tasks of a plan by kind and name.
+"""The work of the reproduction: what a worker computes, tasks of a plan by kind and name, and their results.
 
 The walks are those of `paper.scenarios`; most are made at two integration steps, and of many nodes only those
-are kept that a figure of merit needs.
+are kept that a figure of merit needs. Tasks have names such as "multipliers/ADRC" or
+"cycles/gait (b), tac2003, NPD": kind, and key in its mapping of `Results`.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,15 +18,15 @@ from scipy.optimize import brentq
 from biped_adrc.analysis.observer.loop import ObserverLoop
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.processes import Task
-from biped_adrc.core.types import relabelled
+from biped_adrc.core.types import Array, relabelled
 from biped_adrc.gait.zero_dynamics import ZeroDynamics, impact_jump
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.observers.gpi import GPIObserver
 from biped_adrc.paper import scenarios
-from biped_adrc.paper.members import member_outcomes, member_walk
+from biped_adrc.paper.members import MemberOutcome, member_outcomes, member_walk
 from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.paper.poincare import PoincareResult, poincare, return_map_samples
-from biped_adrc.paper.push_map import push_map
+from biped_adrc.paper.push_map import PushCell, push_map
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
 from biped_adrc.paper.verdict import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait
@@ -73,7 +74,7 @@ def headline(run: Scenario) -> Headline:
     """A pushed run that is kept; at a quarter of the step only the single supports from the push on."""
     walk, half = sparse(walk_scenario(run)), halved(run)
     quarter = walk_scenario(
-        scenarios.with_values(halved(half), first_step=run.pushes[0].step, impacts=2)
+        halved(half).replace(run={"first_step": run.pushes[0].step, "impacts": 2})
     ).outcome
     at_half = replace(sparse(walk_scenario(half), 0.5 * NODE_DISTANCE).outcome, half=quarter)
     outcome = replace(walk.outcome, half=at_half)
@@ -212,7 +213,7 @@ def _order(preset: str, observer: GPIObserver) -> Order:
         observer.scale,
         loop.delay_margin().delay,
         float(np.abs(loop.tracking_error(np.array([10.0 * np.pi])))[0]),
-        member_walk(member, "ADRC", poles=poles).peak,
+        member_walk(member, "ADRC", **{"controller.observer.poles": poles}).peak,
     )
 
 
@@ -248,3 +249,83 @@ def tasks(plan: Plan) -> dict[str, Task[object]]:
     add("orders", plan.presets[0], orders, plan.presets[0])
     add("returns", "map", return_map_samples, scenarios.multiplier_runs(plan)["NPD"])
     return result
+
+
+@dataclass(frozen=True)
+class Results:
+    """By kind of task, the results by name."""
+
+    plan: Plan
+    """What was asked for."""
+    headline: Mapping[str, Headline] = field(default_factory=dict)
+    """The pushed walks, by controller."""
+    runs: Mapping[str, Outcome] = field(default_factory=dict)
+    """Walks at two steps, by the names of `scenarios.base_runs`."""
+    claim_runs: Mapping[str, Outcome] = field(default_factory=dict)
+    """Those of the claims alone, by the names of `scenarios.claim_runs`."""
+    members: Mapping[str, list[MemberOutcome]] = field(default_factory=dict)
+    """The push on the joints at all declared choices, by preset."""
+    pushed_recipe: Mapping[str, list[MemberOutcome]] = field(default_factory=dict)
+    """A push on gait (b), by preset."""
+    engines: Mapping[str, float] = field(default_factory=dict)
+    """Difference of the engines over the pushed step [rad, rad/s], by controller."""
+    multipliers: Mapping[str, PoincareResult] = field(default_factory=dict)
+    """Walking cycles with all multipliers, by controller (and reset policy)."""
+    cycles: Mapping[str, PoincareResult | str] = field(default_factory=dict)
+    """Walking cycles by gait, preset, controller and Theta'', or why there is none."""
+    starts: Mapping[str, list[Start]] = field(default_factory=dict)
+    """Walks around the least speed, by preset."""
+    jumps: Mapping[str, dict[str, float]] = field(default_factory=dict)
+    """What is not smooth, by preset."""
+    orders: Mapping[str, dict[str, Order]] = field(default_factory=dict)
+    """Observers of different order, by preset."""
+    model: Mapping[str, dict[str, float]] = field(default_factory=dict)
+    """Violations of the laws of the model, by preset."""
+    map: Mapping[str, list[PushCell]] = field(default_factory=dict)
+    """Parts of the map of pushes."""
+    numerics: Mapping[str, dict[str, float]] = field(default_factory=dict)
+    """Figures of the numerical methods, one entry."""
+    returns: Mapping[str, tuple[Array, Array]] = field(default_factory=dict)
+    """By "map": Theta' before an impact and before the next one [rad/s], both (K,)."""
+
+    @classmethod
+    def of(cls, plan: Plan, values: Mapping[str, Any]) -> Results:
+        """Sort what the tasks of a plan returned, by their names."""
+        kinds: dict[str, dict[str, Any]] = {}
+        for of, value in values.items():
+            kind, _, name = of.partition("/")
+            kinds.setdefault(kind.replace(" ", "_"), {})[name] = value
+        return cls(plan, **kinds)
+
+    @property
+    def cells(self) -> list[PushCell]:
+        """The map of pushes, all parts of it."""
+        return [cell for part in self.map.values() for cell in part]
+
+    @property
+    def figures(self) -> dict[str, float]:
+        """Figures of the numerical methods, by name with unit."""
+        return {name: x for result in self.numerics.values() for name, x in result.items()}
+
+    def pair(self, name: str) -> tuple[Outcome, Outcome]:
+        """A walk under NPD and under ADRC, of the headline where the name is "push"."""
+        if name == "push":
+            npd, adrc = (self.headline[c].outcome for c in CONTROLLERS)
+        else:
+            npd, adrc = ({**self.runs, **self.claim_runs}[f"{name} {c}"] for c in CONTROLLERS)
+        return npd, adrc
+
+    def on_gait(self, gait: str) -> dict[str, Outcome]:
+        """The undisturbed walks on gait "a" or "b", by "gait (.), preset, controller"."""
+        word = {"a": "nominal", "b": "gait (b)"}[gait]
+        return {
+            f"gait ({gait}), {preset}, {c}": self.runs[f"{word} {preset} {c}"]
+            for preset in self.plan.presets
+            for c in CONTROLLERS
+        }
+
+    @property
+    def run_twice(self) -> dict[str, Outcome]:
+        """Every walk that is checked at two steps, by name."""
+        heads = {f"push {c}": head.outcome for c, head in self.headline.items()}
+        return heads | dict(self.runs)

@@ -5,7 +5,7 @@ could be an accident of it, and at choices picked afterwards it would prove noth
 levels of seven choices, and takes 36 of their 648 combinations (`Member`), an orthogonal array of strength 2:
 any two choices meet in all pairs of levels equally often, so that no effect hides behind another one.
 
-Integration steps are such that halving them changes no figure of merit by more than 1 % (`paper.convergence`).
+Integration steps are such that halving them changes no figure of merit by more than 1 % (`paper.verdict`).
 """
 
 from __future__ import annotations
@@ -22,26 +22,13 @@ from biped_adrc.scenario.push import Push
 from biped_adrc.scenario.scenario import Scenario
 
 Values = dict[str, Any]
-"""Of a scenario, by the names of PLACES."""
+"""Of a scenario, by its records and dotted names."""
 CONTROLLERS = ("NPD", "ADRC")
 """The two that the paper compares, in the order of every pair: PD with inertia decoupling, and ADRC."""
-PLACES = {
-    "controller": "controller.name",
-    "solve_theta": "controller.solve_theta",
-    "reset": "controller.observer.reset",
-    "poles": "controller.observer.poles",
-    "preset": "robot.preset",
-    "gait": "gait.name",
-    "continued": "gait.continued",
-    "period": "hardware.period",
-    "torque_limit": "hardware.torque_limit",
-    "pushes": "pushes",
-    "mass": "errors.mass",
-    "inertia": "errors.inertia",
-    "start_speed": "start.speed",
-    **{x: f"run.{x}" for x in ("impacts", "first_step", "method", "h", "fine", "engine")},
-}
-"""Names in a scenario of the values that the reproduction sets."""
+SOLVED, RESET = "controller.solve_theta", "controller.observer.reset"
+"""Names in a scenario of two choices: Theta'' in (20), and what becomes of the observer at an impact."""
+EIGHT = {"impacts": 8}
+"""Of `run`: four steps of the paper."""
 GAITS = ("published", "recipe")
 """Gait (a), through x*, and gait (b), by the recipe of section IV."""
 MOTORS = ("q1", "q2", "q3", "q4")
@@ -126,17 +113,8 @@ def on_torso(torque: float) -> Push:
 
 
 def scenario(controller: str, preset: str, **values: Any) -> Scenario:
-    """The only place at which a scenario of the reproduction is made: RABBIT in a preset under a controller.
-
-    values: by the names of PLACES.
-    """
-    named = {PLACES[name]: x for name, x in values.items()}
-    return Scenario(controller, **{PLACES["preset"]: preset, **named})
-
-
-def with_values(run: Scenario, **values: Any) -> Scenario:
-    """The scenario with other values."""
-    return run.replace({PLACES[name]: x for name, x in values.items()})
+    """The only place at which a scenario of the reproduction is made: RABBIT in a preset under a controller."""
+    return Scenario(controller, **{"robot.preset": preset, **values})
 
 
 def pushed_steps(run: Scenario) -> set[int]:
@@ -147,27 +125,27 @@ def pushed_steps(run: Scenario) -> set[int]:
 def plain(controller: str, preset: str, **values: Any) -> Scenario:
     """A walk with RK4, at the step of its controller."""
     h = STEPS[controller][0]
-    return scenario(controller, preset, **{"method": "rk4", "h": h, **values})
+    return scenario(controller, preset, **{"run.method": "rk4", "run.h": h, **values})
 
 
 def loose(controller: str, preset: str, h: float = LOOSE, **values: Any) -> Scenario:
     """As `plain`, but the exponential method with a step of h [s] under ADRC."""
     if controller == "ADRC":
-        values |= {"method": "exponential", "h": h}
+        values |= {"run.method": "exponential", "run.h": h}
     return plain(controller, preset, **values)
 
 
 def pushed_run(plan: Plan, controller: str) -> Scenario:
     """The headline run of a controller: the paper's gait under the plan's pushes."""
     fine = STEPS[controller][1]
-    return plain(controller, plan.preset, pushes=plan.pushes, fine=fine)
+    return plain(controller, plan.preset, pushes=plan.pushes, run={"fine": fine})
 
 
 def engine_runs(plan: Plan, controller: str) -> tuple[Scenario, Scenario]:
     """The pushed step of the headline run on Pinocchio's dynamics, and compiled, at the same step."""
-    values: Values = {"pushes": plan.pushes, "h": ENGINES_STEP, "impacts": 1}
-    one = scenario(controller, plan.preset, first_step=plan.pushes[0].step, **values)
-    return with_values(one, engine=PINOCCHIO), one
+    run = {"first_step": plan.pushes[0].step, "impacts": 1, "h": ENGINES_STEP}
+    one = scenario(controller, plan.preset, pushes=plan.pushes, run=run)
+    return one.replace({"run.engine": PINOCCHIO}), one
 
 
 def base_runs(plan: Plan) -> dict[str, Scenario]:
@@ -184,17 +162,18 @@ def base_runs(plan: Plan) -> dict[str, Scenario]:
         p, fine = plan.preset, STEPS[c][1]
         for preset in plan.presets:
             runs[f"nominal {preset} {c}"] = plain(c, preset)
-            runs[f"gait (b) {preset} {c}"] = loose(c, preset, gait="recipe", impacts=8)
-        rises: Values = {"pushes": rising, "first_step": first, "impacts": 2, "fine": fine}
-        runs[f"rising push {c}"] = plain(c, p, **rises)
-        late: Values = {"first_step": TORSO_STEP, "impacts": 9}
-        runs[f"sine {c}"] = plain(c, p, pushes=(SINE,), fine=fine, **late)
-        runs[f"torso {c}"] = loose(c, p, pushes=(on_torso(20.0),), **late)
-        runs[f"1 kHz {c}"] = scenario(c, p, pushes=plan.pushes, period=1e-3, h=1e-3)
+            runs[f"gait (b) {preset} {c}"] = loose(c, preset, gait="recipe", run=EIGHT)
+        rises = {"first_step": first, "impacts": 2, "fine": fine}
+        runs[f"rising push {c}"] = plain(c, p, pushes=rising, run=rises)
+        late = {"first_step": TORSO_STEP, "impacts": 9}
+        runs[f"sine {c}"] = plain(c, p, pushes=(SINE,), run={**late, "fine": fine})
+        runs[f"torso {c}"] = loose(c, p, pushes=(on_torso(20.0),), run=late)
+        sampled: Values = {"hardware.period": 1e-3, "run.h": 1e-3}
+        runs[f"1 kHz {c}"] = scenario(c, p, pushes=plan.pushes, **sampled)
         for kind, factors in KINDS.items():
-            runs[f"heavier, {kind} {c}"] = loose(c, p, impacts=8, **factors)
+            runs[f"heavier, {kind} {c}"] = loose(c, p, run=EIGHT, errors=factors)
         if not plan.quick:
-            runs[f"as printed {c}"] = loose(c, p, solve_theta=False, impacts=8)
+            runs[f"as printed {c}"] = loose(c, p, run=EIGHT, **{SOLVED: False})
     return runs | ({} if plan.quick else reset_runs(plan.preset))
 
 
@@ -206,8 +185,8 @@ def reset_runs(preset: str) -> dict[str, Scenario]:
     runs = {}
     for policy, limit in itertools.product(POLICIES, (None, 150.0)):
         h = DIVERGING_STEP if policy == "none" and limit is None else RESET_STEP
-        values: Values = {"reset": policy, "torque_limit": limit, "impacts": 2}
         name = f"reset {policy}, {'unlimited' if limit is None else '150 N m'}"
+        values: Values = {RESET: policy, "hardware.torque_limit": limit, "run.impacts": 2}
         runs[name] = loose("ADRC", preset, h, **values)
     return runs
 
@@ -217,11 +196,11 @@ def claim_runs(plan: Plan) -> dict[str, Scenario]:
     runs, step = {}, declared()["push"]["step"]
     for preset, c in itertools.product(plan.presets, CONTROLLERS):
         for torque in declared()["torso"]["amplitudes"]:
-            late: Values = {"pushes": (on_torso(torque),), "first_step": step, "impacts": 4}
-            run = with_values(loose(c, preset, **late), h=COARSE)
+            late = {"first_step": step, "impacts": 4}
+            run = loose(c, preset, pushes=(on_torso(torque),), run=late).replace({"run.h": COARSE})
             runs[f"{torque:g} N m on the torso, {preset} {c}"] = run
         for kind, factors in KINDS.items() if preset != plan.preset else ():
-            runs[f"heavier, {kind}, {preset} {c}"] = loose(c, preset, impacts=8, **factors)
+            runs[f"heavier, {kind}, {preset} {c}"] = loose(c, preset, run=EIGHT, errors=factors)
     return runs
 
 
@@ -234,7 +213,7 @@ def cycle_runs(plan: Plan) -> dict[str, tuple[Scenario, bool]]:
     for preset, c in itertools.product(plan.presets, CONTROLLERS):
         result[f"gait (b), {preset}, {c}"] = (scenario(c, preset, gait="recipe"), True)
         for theta in declared()["factors"]["theta"]:
-            run = scenario(c, preset, solve_theta=theta == "solved")
+            run = scenario(c, preset, **{SOLVED: theta == "solved"})
             result[f"gait (a), {preset}, {c}, Theta'' {theta}"] = (run, False)
     return result
 
@@ -244,12 +223,12 @@ def multiplier_runs(plan: Plan) -> dict[str, Scenario]:
     npd, adrc = (scenario(c, plan.preset) for c in CONTROLLERS)
     if plan.quick:
         return {"NPD": npd}
-    return {"NPD": npd, "ADRC": adrc, "ADRC measured": with_values(adrc, reset="measured")}
+    return {"NPD": npd, "ADRC": adrc, "ADRC measured": adrc.replace({RESET: "measured"})}
 
 
 def starting(controller: str, preset: str, speed: float) -> Scenario:
     """A walk that starts with `speed` times the gait's rates after the impact."""
-    return loose(controller, preset, COARSE, start_speed=speed - 1.0, impacts=3)
+    return loose(controller, preset, COARSE, start={"speed": speed - 1.0}, run={"impacts": 3})
 
 
 @dataclass(frozen=True)
@@ -290,11 +269,11 @@ class Member:
         usual: Values = {
             "gait": self.gait,
             "pushes": (push,) if pushed else (),
-            "first_step": push.step,
-            "impacts": steps["impacts"] if pushed else 1,
-            "solve_theta": self.theta == "solved",
-            "reset": "measured" if zero else "model",
-            "h": steps[controller],
+            "run.first_step": push.step,
+            "run.impacts": steps["impacts"] if pushed else 1,
+            SOLVED: self.theta == "solved",
+            RESET: "measured" if zero else "model",
+            "run.h": steps[controller],
         }
         return plain(controller, self.preset, **usual | values)
 
@@ -342,14 +321,9 @@ class MapPush:
         signs = zip(MOTORS, declared()["map"]["patterns"][self.pattern], strict=True)
         torque = {joint: self.amplitude * sign for joint, sign in signs if sign}
         push = Push(torque=torque, step=19, onset=self.onset, duration=0.2)
-        run: Values = {
-            "pushes": (push,),
-            "first_step": 19,
-            "impacts": 4,
-            "h": 1e-3,
-            "continued": True,
-        }
-        return scenario(controller, self.preset, torque_limit=self.torque_limit, **run)
+        run = {"first_step": 19, "impacts": 4, "h": 1e-3}
+        more: Values = {"hardware.torque_limit": self.torque_limit, "gait.continued": True}
+        return scenario(controller, self.preset, pushes=(push,), run=run, **more)
 
 
 def map_pushes(plan: Plan) -> Iterator[list[MapPush]]:

@@ -16,7 +16,7 @@ from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper import metrics as m
 from biped_adrc.paper.poincare import regress_multipliers
 from biped_adrc.paper.push_map import LOST
-from biped_adrc.paper.results import Results
+from biped_adrc.paper.runs import Results
 from biped_adrc.paper.scenarios import CONTROLLERS, declared
 from biped_adrc.paper.verdict import Extremes
 

@@ -12,6 +12,10 @@ cases of a claim, h that hold and m marginal ones:
     h = 0                       contradicted
     otherwise                   depends, on the variant of the scenario, which the share names
 
+A number that changes when the step is halved says something of the method and nothing of the robot. Two values
+agree when they differ by at most 1 %, or by the resolution of the quantity: tracking errors of undisturbed
+walks are themselves round-off. Outcomes (`scenario.recording.Outcome`) hold the run at half the step in `half`.
+
 Words for a reader are in claims.toml. In braces stand {limit}, {found} (the least and the largest number of the
 cases) and what `Claim.values` gives.
 """
@@ -22,14 +26,18 @@ import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
+from biped_adrc.analysis.feasibility import Feasibility
 from biped_adrc.core.files import packaged
 from biped_adrc.core.verdict import Check, at_least, at_most
+from biped_adrc.scenario.recording import Outcome
 
 if TYPE_CHECKING:
-    from biped_adrc.paper.results import Results
+    from biped_adrc.paper.runs import Results
+
 
 REPLICATED, DEPENDS, CONTRADICTED = "replicated", "depends", "contradicted"
 NOT_TESTABLE = "not testable"
@@ -48,6 +56,11 @@ class AtTwoSteps(NamedTuple):
 
     value: float
     at_half: float
+
+    @classmethod
+    def of(cls, x: AtTwoSteps | float) -> AtTwoSteps:
+        """A number; one without a step is the same at both."""
+        return x if isinstance(x, AtTwoSteps) else cls(float(x), float(x))
 
     def gap(self, resolution: float = 0.0) -> float:
         """|value - at_half| / |at_half|; 0 within the resolution, infinite where one of them is not finite."""
@@ -82,6 +95,11 @@ class Case(NamedTuple):
     variant: str
     """What of the scenario the verdict may depend on."""
 
+    @property
+    def kept(self) -> bool:
+        """Whether it holds, and is not marginal."""
+        return self.holds and not self.marginal
+
 
 @dataclass(frozen=True)
 class Claim:
@@ -111,10 +129,7 @@ class Claim:
         return tuple(self._case(name, x) for name, x in self.scenarios(r).items())
 
     def _case(self, name: str, x: Any) -> Case:
-        result = self.metric(x)
-        figure = (
-            result if isinstance(result, AtTwoSteps) else AtTwoSteps(float(result), float(result))
-        )
+        figure = AtTwoSteps.of(self.metric(x))
         used, half = (self.limit("", CLAIM, value).holds for value in figure)
         doubtful = used != half or not figure.converged(self.round_off)
         return Case(name, figure, half, doubtful, self.variant(name, x))
@@ -143,27 +158,18 @@ class Row:
     """Number of its cases that are not converged."""
 
 
-@cache
 def texts() -> dict[str, Any]:
-    """The tables of claims.toml, each text on one line."""
-    return {name: _joined(x) for name, x in packaged("biped_adrc.paper", "claims.toml").items()}
-
-
-def _joined(value: object) -> object:
-    """The value with the lines of each text joined to one."""
-    if isinstance(value, dict):
-        return {name: _joined(x) for name, x in value.items()}
-    return " ".join(value.split()) if isinstance(value, str) else value
+    """The tables of claims.toml."""
+    return packaged("biped_adrc.paper", "claims.toml")
 
 
 def word_of(cases: Sequence[Case]) -> str:
     """The word for the cases of a claim, as in the head of this module."""
     if all(case.marginal for case in cases):
         return NOT_TESTABLE
-    held = sum(case.holds and not case.marginal for case in cases)
-    if held == len(cases):
+    if all(case.kept for case in cases):
         return REPLICATED
-    return DEPENDS if held else CONTRADICTED
+    return DEPENDS if any(case.kept for case in cases) else CONTRADICTED
 
 
 def row_of(claim: Claim, r: Results) -> Row:
@@ -176,7 +182,6 @@ def row_of(claim: Claim, r: Results) -> Row:
     number, reason, finding = (
         str(words.get(key, "")).format(**values) for key in ("number", "reason", "finding")
     )
-    held = [case.holds and not case.marginal for case in cases]
     return Row(
         claim.statement.format(**values),
         claim.where,
@@ -186,7 +191,7 @@ def row_of(claim: Claim, r: Results) -> Row:
         share_text(cases, word == DEPENDS),
         reason,
         finding,
-        sum(held) / max(len(held), 1) if words.get("asserted") else None,
+        sum(case.kept for case in cases) / max(len(cases), 1) if words.get("asserted") else None,
         sum(case.marginal for case in cases),
     )
 
@@ -196,7 +201,7 @@ def share_text(cases: Sequence[Case], apart: bool) -> str:
     if not cases:
         return ""
     every = Counter(case.variant for case in cases)
-    held = Counter(case.variant for case in cases if case.holds and not case.marginal)
+    held = Counter(case.variant for case in cases if case.kept)
     text = f"{held.total()} of {len(cases)}"
     if apart and len(every) <= SHOWN:
         text += ": " + "; ".join(f"{name} {held[name]} of {n}" for name, n in every.items())
@@ -244,3 +249,88 @@ class Extremes(tuple[float, ...]):
         text = low if low == high else f"{low} to {high}"
         unknown = len(self) - len(known)
         return f"{text} ({unknown} are no numbers)" if unknown else text
+
+
+NEGLIGIBLE = 1e-6
+"""[rad]: a smaller tracking error is none, whatever its digits."""
+PEAK_RESOLUTION = 1e-9
+"""Peak errors nearer than this are not told apart [rad]; undisturbed walks differ by 6e-10 at most at both
+steps.
+"""
+RMS_RESOLUTION = 2e-10
+"""The same for the root mean square [rad], where they differ by 1.3e-10 at most."""
+
+
+def _of_supports(of: Callable[[Feasibility], float]) -> Callable[[Outcome], float]:
+    """A number of the judged steps; 0 where no window is long enough to say, and for a ratio at its pole."""
+
+    def value(o: Outcome) -> float:
+        x = of(o.feasibility) if o.feasibility.supports else 0.0
+        return 0.0 if x == math.inf else x
+
+    return value
+
+
+def _last(name: str) -> Callable[[Outcome], float]:
+    """A value of the last step's certificate; 0 where no step was finished."""
+    return lambda o: float(getattr(o.certificates[-1], name)) if o.certificates else 0.0
+
+
+QUANTITIES: tuple[tuple[Callable[[Outcome], float], float], ...] = (
+    (lambda o: o.peak_error, PEAK_RESOLUTION),
+    (lambda o: o.rms_error, RMS_RESOLUTION),
+    (lambda o: o.peak_torque, 0.0),
+    (lambda o: float(np.max(o.durations, initial=0.0)), 0.0),
+    (lambda o: float(np.min(o.durations, initial=math.inf)), 0.0),
+    (_last("joint_work"), 1e-6),  # [J]
+    (_last("energy_lost"), 1e-6),  # [J]
+    (_of_supports(lambda f: f.mean_normal_force), 0.0),
+    # friction has its pole at F_N = 0
+    (_of_supports(lambda f: f.mean_friction if f.mean_normal_force > 0.0 else 0.0), 0.0),
+    (_of_supports(lambda f: f.impulse_ratio), 0.0),
+)
+"""The figures of merit that are compared: of an outcome, and the resolution within which two values agree."""
+
+
+def largest_gap(o: Outcome) -> float:
+    """The largest relative change of a figure of merit when every step is halved.
+
+    Infinite where the two runs end differently; "feasible" and "not feasible" are different endings. A run that
+    falls before its last impact has no figures of merit: only its ending has to be the same.
+    """
+    assert o.half is not None
+    one, half = ((x.status, x.impacts, x.feasibility.outcome) for x in (o, o.half))
+    if one != half:
+        return math.inf
+    gaps = (AtTwoSteps(of(o), of(o.half)).gap(resolution) for of, resolution in QUANTITIES)
+    return max(gaps) if o.walked else 0.0
+
+
+WalkEnd = tuple[float, str, int]
+"""What `error_text` says of a walk: largest tracking error [rad], status, number of impacts."""
+
+
+def error_text(end: WalkEnd, half: WalkEnd) -> str:
+    """The largest tracking error at both steps, with a hint where the step is too long for it."""
+    errors = end[0], half[0]
+    text = f"{errors[0]:.3e} rad ({errors[1]:.3e} at half the step)"
+    if end[1:] != half[1:]:
+        ends = f"at half the step the walk ends as {half[1]} after {half[2]} impacts"
+        return f"{text}; {ends}: shorten the step"
+    errors = AtTwoSteps(end[0], half[0])
+    if errors.converged(PEAK_RESOLUTION) or max(errors) < NEGLIGIBLE:
+        return text
+    return f"{text}, the step decides it: shorten it"
+
+
+def observed_order(o: Outcome, of: Callable[[Outcome], float]) -> float:
+    """Order k of a quantity from the run, its half and its quarter; NaN where a difference is zero.
+
+    k = log2 (|y(h) - y(h/2)| / |y(h/2) - y(h/4)|)
+    """
+    assert o.half is not None
+    assert o.half.half is not None
+    first, second, third = of(o), of(o.half), of(o.half.half)
+    if first == second or second == third:
+        return math.nan
+    return math.log2(abs(first - second) / abs(second - third))

@@ -36,7 +36,14 @@ from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.sensors import Sensors
 from biped_adrc.hardware.touchdown import Touchdown
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.ground import StepDown, StepUp, Stones, random_steps, uneven_ground
+from biped_adrc.model.ground import (
+    SoftGround,
+    StepDown,
+    StepUp,
+    Stones,
+    random_steps,
+    uneven_ground,
+)
 from biped_adrc.model.model_errors import ModelErrors, impact_error
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.controllers import controller
@@ -131,23 +138,24 @@ def build(s: Scenario, scene: RobotAndGait | None = None) -> Walker:
     plant = plant_of(s, biped)
     width, hardware = s.errors.impact_width, s.hardware
     gain = impact_error(drawn(s, "impact"), width, biped.n if width else 0)
-    ideal, course = hardware.touchdown.name is None, stones(s)
+    course = stones(s)
+    timing: ContinuousTime | SampledTime = ContinuousTime()
+    if hardware.period is not None:
+        ideal = hardware.touchdown.name is None
+        timing = SampledTime(hardware.period, ideal, hardware.delay, hardware.delay_known)
+    moved = hardware.rate_limit or hardware.lag
     return Walker(
         plant,
         controller(s, gait, biped, course.lengths if course else ()),
         disturbances(s, biped, gait.period, plant),
-        ContinuousTime()
-        if hardware.period is None
-        else SampledTime(hardware.period, ideal, hardware.delay, hardware.delay_known),
+        timing,
         model=None if plant is biped else biped,
         torque_limit=hardware.torque_limit,
         max_step_time=s.run.max_step_time,
         slope=gait.slope + s.ground.slope,
         ground_steps=ground(s),
         sensors=sensors(s),
-        motors=Motors(hardware.rate_limit, hardware.lag)
-        if hardware.rate_limit or hardware.lag
-        else None,
+        motors=Motors(hardware.rate_limit, hardware.lag) if moved else None,
         touchdown=touchdown(s, gait),
         impact_gain=tuple(gain.tolist()),
         stones=course,
@@ -259,13 +267,9 @@ def plant_around(name: str, walker: Walker, options: Mapping[str, object]) -> St
 
     Raises InputError for one that there is not, or that cannot be made.
     """
-    values = {
-        "biped": walker.plant,
-        "slope": walker.slope,
-        "max_step_time": walker.max_step_time,
-        "fall_height": walker.fall_height,
-    }
-    return named_part("plant", name, {**options, **values}, {}, SteppingPlant, "ground")  # type: ignore[type-abstract]
+    own = {x: getattr(walker, x) for x in ("slope", "max_step_time", "fall_height")}
+    values = {**options, **own, "biped": walker.plant}
+    return named_part("plant", name, values, {}, SteppingPlant, "ground")  # type: ignore[type-abstract]
 
 
 def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
@@ -277,7 +281,6 @@ def soft_loop(s: Scenario, walker: Walker) -> SteppingLoop | None:
     g = s.ground
     if g.plant == RIGID:
         return None
-    from biped_adrc.extras.mujoco.soft_ground import SoftGround
 
     make = find("plant", g.plant).load()
     all_taken("ground", g.own, {*takes(make), *takes(SoftGround)})
@@ -328,7 +331,7 @@ def disturbances(s: Scenario, biped: Biped, period: float, plant: Biped) -> Dist
 
 
 def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) -> Disturbance:
-    """Push number i. Raises InputError for a value that its shape does not take."""
+    """Push number i. Raises InputError for a value that its shape does not take, and where it cannot act."""
     push = s.pushes[i]
     along = push.force * np.array((math.cos(push.direction), math.sin(push.direction), 0.0))
     accepted = takes(find("disturbance", push.shape).load())
@@ -350,6 +353,10 @@ def disturbance(s: Scenario, i: int, biped: Biped, period: float, plant: Biped) 
     }
     place, fields = f"pushes.{i}", Push.model_fields
     result = named_part("disturbance", push.shape, known, push.own, Disturbance, place, fields)  # type: ignore[type-abstract]
+    first, last = s.run.first_step, s.run.first_step + s.run.impacts - 1
+    if push.step > last or (push.step < first and push.shape != "step" and not push.over_impacts):
+        walked = f"the walk has the single supports {first} to {last}"
+        raise Misfit(f"pushes.{i}.step", f"is {push.step}, and {walked}: it cannot act")
     return result if push.link is None else OnLink(plant, push.link, cast(Windowed, result))
 
 

@@ -42,7 +42,7 @@ from biped_adrc.core.files import joint_columns, write_csv
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, freeze
 from biped_adrc.gait.gait import Gait
-from biped_adrc.gait.reference import Reference, TimeReference
+from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import Limits
@@ -133,18 +133,9 @@ class Walk(Shown):
     """Remarks that came with it, as from a file."""
 
     def __repr__(self) -> str:
-        run, impacts = self.trajectory, self.impacts
-        impacts_text = (
-            f"{impacts} impact{'' if impacts == 1 else 's'} in {run.t_end - run.t_start:.4g} s"
-        )
-        return f"Walk({self.note}: {impacts_text}, {run.status.name})"
-
-    @property
-    def reference(self) -> Reference:
-        """The reference of the joints: the gait's constraint, or one of no joints (0,) without motors."""
-        if self.gait is None:
-            return TimeReference(lambda t: (np.zeros(0), np.zeros(0), np.zeros(0)))
-        return self.gait.constraint
+        run = self.trajectory
+        duration = f"{run.t_end - run.t_start:.4g} s"
+        return f"Walk({self.note}: {self.impacts_text} in {duration}, {run.status.name})"
 
     @property
     def note(self) -> str:
@@ -159,7 +150,9 @@ class Walk(Shown):
         """References, errors, torques, estimates and forces over time, computed at the first call and kept."""
         if self.recorded is not None:
             return self.recorded
-        return signals(self.walker, self.trajectory, self.reference)
+        no_joints = TimeReference(lambda t: (np.zeros(0), np.zeros(0), np.zeros(0)))
+        curve = no_joints if self.gait is None else self.gait.constraint
+        return signals(self.walker, self.trajectory, curve)
 
     @cached_property
     def certificates(self) -> tuple[Certificate, ...]:
@@ -170,6 +163,11 @@ class Walk(Shown):
     def impacts(self) -> int:
         """How many impacts were made."""
         return len(self.trajectory.events(FOOT_STRIKE))
+
+    @property
+    def impacts_text(self) -> str:
+        """The same with its word: "1 impact"."""
+        return f"{self.impacts} impact{'' if self.impacts == 1 else 's'}"
 
     @property
     def peak_torque(self) -> float:
@@ -218,12 +216,8 @@ class Walk(Shown):
         impacts, after = self.impacts, after_last_impact(self.walker, run)
         if self.soft:
             slips = [max(step.slip) for step in self.soft_steps] or [0.0] * len(run.arcs)
-        return Feasibility(
-            run.status,
-            supports(self.walker, Nodes.of(self.signals), k, impacts, after, slips),
-            k,
-            impacts,
-        )
+        judged = supports(self.walker, Nodes.of(self.signals), k, impacts, after, slips)
+        return Feasibility(run.status, judged, k, impacts)
 
     @cached_property
     def touchdowns(self) -> Noticed:
@@ -284,12 +278,8 @@ class Walk(Shown):
         """
         if self.recorded is not None:
             return self.stored_remarks
-        walker, trajectory = self.walker, self.trajectory
-        return (
-            *self.stored_remarks,
-            *edge_remarks(walker, trajectory),
-            *step_remarks(walker, trajectory),
-        )
+        made = self.walker, self.trajectory
+        return (*edge_remarks(*made), *step_remarks(*made))
 
     @property
     def controller_name(self) -> str:
@@ -383,7 +373,7 @@ class Walk(Shown):
         from biped_adrc.view.meshcat.view import animation_html
         from biped_adrc.view.pages import inline
 
-        impacts, status = self.impacts, self.trajectory.status
-        summary = f"{self.controller_name}: {impacts} impacts. {status.name}: {status.value}"
+        status = self.trajectory.status
+        summary = f"{self.controller_name}: {self.impacts_text}. {status.name}: {status.value}"
         summary = " ".join((summary, *(f"Note: {remark}." for remark in self.remarks)))
         return inline(summary, animation_html({self.controller_name: self}), [self.plot()])

@@ -106,6 +106,7 @@ class Described(NamedTuple):
     text: str = ""
     choices: tuple[str, ...] = ()
     unit: str = "1"
+    """"" where it is that of the part which takes the value."""
     kind: str = ""
     """Of the registry, where it is a name of it."""
 
@@ -113,6 +114,11 @@ class Described(NamedTuple):
     def number(self) -> bool:
         """Whether it may be a number."""
         return bool({int, float} & set(self.types))
+
+    @property
+    def in_brackets(self) -> str:
+        """Its unit behind a name, as " [s]"; empty without one."""
+        return "" if self.unit in ("1", "") else f" [{self.unit}]"
 
     def check(self, x: Any) -> None:
         """Raise ValueError for a value of another type, or out of its range."""
@@ -122,7 +128,7 @@ class Described(NamedTuple):
             raise ValueError(f"found {x!r}, expected {kinds.replace('NoneType', 'none')}")
         for sign, limit in self.limits if isinstance(x, int | float) else ():
             if not getattr(operator, sign)(x, limit):
-                raise ValueError(f"found {x:g}, expected {self.range_text} [{self.unit}]")
+                raise ValueError(f"found {x:g}, expected {self.range_text}{self.in_brackets}")
 
     @property
     def range_text(self) -> str:
@@ -259,10 +265,10 @@ def read(what: Described, x: Any) -> Any:
             x = quantity(x, what.unit)
         elif bool in types and x in ("true", "false"):
             return x == "true"
-        elif tuple in types and what.unit != "1":
+        elif tuple in types and what.in_brackets:
             return tuple(quantity(word, what.unit) for word in x.split(","))
     if number and isinstance(x, bool):
-        raise ValueError(f"found {x!r}, expected a number [{what.unit}]")
+        raise ValueError(f"found {x!r}, expected a number{what.in_brackets}")
     if int in types and isinstance(x, float) and x.is_integer():
         return int(x)
     return x

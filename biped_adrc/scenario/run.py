@@ -114,19 +114,12 @@ def walk_scenario(
         from biped_adrc.scenario.cycle import cycle_start
 
         begin = cycle_start(scene.biped, walker.slope)
+    first, engine = s.run.first_step, s.run.engine
     if (loop := soft_loop(s, walker)) is not None:
-        run = walk_on(loop, walker, begin, Mode(s.run.first_step), s.run.impacts, progress)
+        run = walk_on(loop, walker, begin, Mode(first), s.run.impacts, progress)
         return Walk(walker, scene.gait, run, kept)
-    return walk_in_parts(
-        walker,
-        scene.gait,
-        parts_of(s, walker),
-        start=begin,
-        first_step=s.run.first_step,
-        progress=progress,
-        engine=s.run.engine,
-        scenario=kept,
-    )
+    parts = parts_of(s, walker)
+    return walk_in_parts(walker, scene.gait, begin, first, parts, engine, progress, kept)
 
 
 def execute_twice(s: Scenario) -> Outcome:

@@ -101,10 +101,10 @@ class ControllerRecord(OpenRecord):
 
     name: str = field("ADRC", kind="controller")
     """Of the registry, or module:Class."""
-    K_p: float | None = field(None, "1/s^2", gt=0)
-    """Proportional gain; by default the controller's own."""
-    K_d: float | None = field(None, "1/s", gt=0)
-    """Derivative gain; by default the controller's own."""
+    K_p: float | None = field(None, "", gt=0)
+    """Proportional gain in the controller's unit, 1/s^2 of NPD and ADRC; by default its own."""
+    K_d: float | None = field(None, "", gt=0)
+    """Derivative gain in the controller's unit, 1/s of NPD and ADRC; by default its own."""
     solve_theta: bool = field(True)
     """Solve the loop through Theta''; if not, as printed."""
     observer: ObserverRecord = field(ObserverRecord.model_construct())
@@ -296,13 +296,7 @@ class Scenario(Record):
 
     @model_validator(mode="after")
     def _acting(self) -> Self:
-        """Raise Misfit for a push that cannot act, and for a delay that is counted twice."""
-        first, last = self.run.first_step, self.run.first_step + self.run.impacts - 1
-        for i, push in enumerate(self.pushes):
-            late = push.step > last
-            if late or (push.step < first and push.shape != "step" and not push.over_impacts):
-                walked = f"the walk has the single supports {first} to {last}"
-                raise Misfit(f"pushes.{i}.step", f"is {push.step}, and {walked}: it cannot act")
+        """Raise Misfit for a delay that is counted twice."""
         if self.hardware.delay_known and self.controller.prediction > 0.0:
             raise Misfit("hardware.delay_known", "counts the delay twice beside a prediction")
         return self
@@ -331,9 +325,9 @@ def write_scenario(path: Path, s: Scenario, comment: str = "") -> None:
 def scenario_lines(s: Scenario) -> list[str]:
     """Lines of TOML: the names of controller and robot, then the values that differ from the defaults."""
     record = {"controller.name": s.controller.name, "robot.name": s.robot.name}
-    pushes = s.record().pop("pushes", [])
-    values = record | flat({k: x for k, x in s.record().items() if k != "pushes"})
-    values |= {"pushes": pushes} if pushes else {}
+    others = s.record()
+    pushes = {"pushes": others.pop("pushes")} if s.pushes else {}
+    values = record | flat(others) | pushes
     return [
         f"{'.'.join(map(toml_key, name.split('.')))} = {toml_value(x)}"
         for name, x in values.items()

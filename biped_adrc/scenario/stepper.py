@@ -69,12 +69,8 @@ class Sample(NamedTuple):
     """`Status` (N,): COMPLETED for a walk that goes on, None for one that has not begun."""
 
 
-class Snapshot(NamedTuple):
-    """A walk where it is, for `Stepper.restore`."""
-
-    walker: Walker
-    walk: CompiledWalk | PythonWalk
-    code: int
+Snapshot = tuple[Walker, CompiledWalk | PythonWalk, int]
+"""A walk where it is, for `Stepper.restore`: with its walker, and the code of its status."""
 
 
 class Stepper:
@@ -265,12 +261,12 @@ class Stepper:
         walk, walker = self.walks[i], self.walkers[i]
         if walk is None or walker is None:
             raise InputError(f"walk {i} has not begun; call reset({i}) first")
-        return Snapshot(walker, walk.copy(), int(self.codes[i]))
+        return walker, walk.copy(), int(self.codes[i])
 
     def restore(self, i: int, snapshot: Snapshot) -> None:
         """Walk i goes on from where a walk, this or another one, was saved."""
-        self.walkers[i] = snapshot.walker
-        self._put(i, snapshot.walk.copy(), snapshot.code)
+        self.walkers[i], walk, code = snapshot
+        self._put(i, walk.copy(), code)
 
     def read(self, view: Reading) -> Array:
         """What view(loop, t, x, mode, reference) says of each walk where it is, as `signals_at`, in N rows.

@@ -28,6 +28,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, fields, is_dataclass
 from enum import Enum
 from importlib import import_module
@@ -123,7 +124,9 @@ def load_walk(path: Path | str) -> Walk:
             k.removeprefix("signal."): x for k, x in beside.items() if k.startswith("signal.")
         }
         remarks = tuple(map(str, trajectory.settings.get("remarks", ())))
-        gait, scenario = reader.made(record["gait"]), _scenario(trajectory)
+        gait, scenario = reader.made(record["gait"]), None
+        with suppress(KeyError, TypeError, InputError):  # none, or it names what is not at hand
+            scenario = Scenario(**trajectory.settings["scenario"])
         return Walk(walker, gait, trajectory, scenario, Signals(**arrays), remarks)
 
 
@@ -137,14 +140,6 @@ def _walker(reader: Reader, record: PartRecord) -> Walker:
             if name in STAND_INS:
                 values[name] = STAND_INS[name](missing.home)
     return Walker(**values)
-
-
-def _scenario(trajectory: Trajectory) -> Scenario | None:
-    """The scenario stored with a trajectory; None without one, or where it names what is not at hand."""
-    try:
-        return Scenario(**trajectory.settings["scenario"])
-    except (KeyError, TypeError, InputError):
-        return None
 
 
 def replay(s: Scenario, trajectory: Trajectory) -> Walk:

@@ -56,14 +56,16 @@ _FACTOR = re.compile(r"([^\d\s/*^·+-]+|1)(?:\^?(-?\d))?")
 def quantity(text: str, unit: str) -> float:
     """The number of a text such as "1.5 ms" in the unit `unit`; a number without a unit is in `unit` already.
 
-    Raises ValueError, which says why, for what is no number, another dimension, or out of range.
+    unit: "" takes any one, and gives the number in SI units. Raises ValueError, which says why, for what is no
+    number, another dimension, or out of range.
     """
     match = _QUANTITY.fullmatch(text)
     if match is None:
         raise ValueError(f"found '{text}', expected a number [{unit}] or a number and its unit")
     number, own_unit = float(match[1]), match[2]
     if own_unit:
-        result, expected = unit_of(own_unit), unit_of(unit)
+        result = unit_of(own_unit)
+        expected = unit_of(unit) if unit else result._replace(factor=1.0)
         if result.powers != expected.powers:
             raise ValueError(
                 f"found '{text}': '{own_unit}' is another dimension, expected a unit such as '{unit}'"

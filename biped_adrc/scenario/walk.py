@@ -16,7 +16,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import partial
 from itertools import groupby
 from types import NoneType
 from typing import TYPE_CHECKING, NamedTuple
@@ -74,9 +73,8 @@ def default_method(walker: Walker) -> OneStepMethod:
     inertia.
     """
     method: Exponential | RK4 = Exponential() if walker.split(Mode()) is not None else RK4()
-    if walker.sampled and any(
-        x is not None for x in (walker.sensors, walker.motors, walker.torque_limit)
-    ):
+    hardware = (walker.sensors, walker.motors, walker.torque_limit)
+    if walker.sampled and any(x is not None for x in hardware):
         method = RK4(HARDWARE_STEP)
     if isinstance(method, RK4) and method.h * (rate := rate_of_law(walker)) >= STABLE:
         method = RK4(1.0 / rate)
@@ -175,9 +173,9 @@ def walk(
     check_part(gait, "the gait of the walk", Gait)
     check_part(method, "the method of the walk", OneStepMethod, NoneType)
     check_count(impacts, f"the walk asks for {impacts} impacts")
+    begin = _begin(gait, walker, start, first_step)
     if plant is not None:
         check_part(method, "the method on a plant of its own", NoneType)
-        begin = _begin(gait, walker, start, first_step)
         moved = plant_around(plant, walker, {}) if isinstance(plant, str) else plant
         loop = stepping_loop(walker, moved, engine, first_step)
         run = walk_on(loop, walker, begin, Mode(first_step), impacts, progress)
@@ -185,42 +183,34 @@ def walk(
     else:
         own_part = None if method is None else (Part(impacts, method),)
         parts = own_part or default_parts(walker, impacts, first_step, engine)
-        result = walk_in_parts(
-            walker,
-            gait,
-            parts,
-            start=start,
-            first_step=first_step,
-            progress=progress,
-            engine=engine,
-        )
+        result = walk_in_parts(walker, gait, begin, first_step, parts, engine, progress)
     return result if within is None else result.until_infeasible(within)
 
 
 def walk_in_parts(
     walker: Walker,
     gait: Gait | None,
+    start: tuple[Array, Array],
+    first_step: int,
     parts: Sequence[Part],
-    *,
-    scenario: Scenario | None = None,
-    start: tuple[Array, Array] | None = None,
-    first_step: int = 1,
+    engine: str,
     progress: Progress | None = None,
-    engine: str = COMPILED,
+    scenario: Scenario | None = None,
 ) -> Walk:
     """As `walk`, by several methods in turn; each part begins after the last impact of the one before.
 
-    start: (q, v), each (n,) [rad, rad/s]; by default that of the gait. scenario: kept in the walk. Ends early
-    with a fall. Raises InputError for more than one part under a clock that does not restart at impact, since a
-    part begins with a sample instant.
+    start: (q, v), each (n,) [rad, rad/s]. scenario: kept in the walk. Ends early with a fall. Raises InputError
+    for more than one part under a clock that does not restart at impact, since a part begins with a sample
+    instant.
     """
     if len(parts) > 1 and not getattr(walker.timing, "restart", True):
         raise InputError(
             f"the walk has {len(parts)} parts, and its clock does not restart at impact; expected one part, or "
             "SampledTime(..., restart=True)"
         )
-    begin, mode = _begin(gait, walker, start, first_step), Mode(first_step)
-    x = walker.initial_state(*begin, mode)
+    check_start(*start, walker)
+    mode = Mode(first_step)
+    x = walker.initial_state(*start, mode)
     runs = list(runs_in_parts(walker, x, mode, parts, progress, engine))
     return Walk(walker, gait, _joined(runs), scenario)
 
@@ -235,6 +225,11 @@ def runs_in_parts(
 ) -> Iterator[Trajectory]:
     """The trajectory of each part from state x (nx,) in a mode on; none after a fall."""
     done = 0
+
+    def shown(t: float, events: int) -> None:
+        assert progress is not None
+        progress(t, done + events)
+
     for part in parts:
         run = simulate_by(
             engine,
@@ -245,7 +240,7 @@ def runs_in_parts(
             t0=mode.start,
             t_end=mode.start + part.impacts * walker.max_step_time,
             impacts=part.impacts,
-            progress=None if progress is None else partial(_later, progress, done),
+            progress=progress and shown,
         )
         yield run
         event, done = run.arcs[-1].event, done + len(run.arcs)
@@ -255,7 +250,7 @@ def runs_in_parts(
 
 
 def _begin(
-    gait: Gait | None, walker: Walker, start: tuple[Array, Array] | None, first_step: int
+    gait: Gait, walker: Walker, start: tuple[Array, Array] | None, first_step: int
 ) -> tuple[Array, Array]:
     """`start`, or the start of the gait, checked.
 
@@ -263,7 +258,6 @@ def _begin(
     """
     check_count(first_step, f"the walk begins in single support {first_step}")
     if start is None:
-        assert gait is not None
         if (count := len(gait.q_minus)) != (n := walker.nominal.n):
             raise InputError(
                 f"gait '{gait.name}' is of robot '{gait.robot}' with {count} coordinates, and the walker is "
@@ -286,11 +280,6 @@ def check_start(q: Array, v: Array, walker: Walker) -> None:
             f"the start q is {q} rad, with an angle beyond a whole turn; expected radians: np.radians(q) and "
             "np.radians(v) if these are degrees"
         )
-
-
-def _later(progress: Progress, done: int, t: float, events: int) -> None:
-    """Report progress of a part: time t [s], and the events of the parts before it counted in."""
-    progress(t, done + events)
 
 
 def _joined(runs: Sequence[Trajectory]) -> Trajectory:

@@ -13,17 +13,18 @@ from __future__ import annotations
 
 import hashlib
 import inspect
-import tomllib
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import Mode
-from biped_adrc.core.errors import InputError
+from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.engine.batch import Case
 from biped_adrc.engine.run import COMPILED
+from biped_adrc.model.robots.robot_toml import load_description
 from biped_adrc.scenario.build import RobotAndGait, build, soft_loop, start
 from biped_adrc.scenario.registry import find, is_own
 from biped_adrc.scenario.run import method_of
@@ -96,10 +97,9 @@ def files_of(name: str, value: object) -> tuple[Path, ...]:
     path = Path(value)
     if name != "robot.name" or not path.is_file():
         return (path,)
-    try:
-        return path, path.parent / tomllib.loads(path.read_text(encoding="utf-8"))["urdf"]
-    except (OSError, ValueError, KeyError, TypeError):
-        return (path,)  # who loads it says what is wrong
+    with suppress(ModelError):  # who loads it says what is wrong
+        return path, load_description(path).urdf
+    return (path,)
 
 
 def scene_of(s: Scenario) -> RobotAndGait:

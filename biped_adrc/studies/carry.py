@@ -21,12 +21,27 @@ from typing import Any
 from biped_adrc.core.errors import InputError
 from biped_adrc.scenario.scenario import write_scenario
 from biped_adrc.studies.build import SEED, Values, scenario_of
-from biped_adrc.studies.proposals import optuna_library, searched
-from biped_adrc.studies.results import BEFORE, CANDIDATE, CHOSEN, SET, SETTING, Choice, Results
-from biped_adrc.studies.run import run_trials
-from biped_adrc.studies.runner import Crew, Function, Progress, Runner
-from biped_adrc.studies.search import Candidate, Search, Walks, judged, ranked
-from biped_adrc.studies.store import opened
+from biped_adrc.studies.results import (
+    BEFORE,
+    CANDIDATE,
+    CHOSEN,
+    SET,
+    SETTING,
+    Choice,
+    Results,
+    opened,
+)
+from biped_adrc.studies.run import Function, run_trials
+from biped_adrc.studies.runner import Crew, Progress, Runner
+from biped_adrc.studies.search import (
+    Candidate,
+    Search,
+    Walks,
+    judged,
+    optuna_library,
+    ranked,
+    searched,
+)
 from biped_adrc.studies.study import CASE, CONDITION, Point, Study, chosen_file, read_study
 
 Candidates = Sequence[tuple[int, Values, Mapping[str, Any]]]
@@ -64,6 +79,7 @@ def study(
     >>> [row["peak_error"] < 0.1 for row in results.rows()]
     [True, True]
     """
+    crew = Crew(workers, cluster)
     study_ = study if isinstance(study, Study) else read_study(study)
     if study_.search is not None:
         optuna_library()
@@ -77,7 +93,7 @@ def study(
             "machine"
         )
     folder = Path(out)
-    with opened(folder, study_) as store, Crew(workers, cluster) as crew:
+    with opened(folder, study_) as store, crew:
         runner = Runner(function, store, crew, study_.count, progress)
         if study_.search is None:
             runner.run(study_.points())
@@ -135,15 +151,12 @@ class _Searched:
 
         The first of them is what the others are compared with: without cases the setting as it was.
         """
-        chosen, before = (
-            [
-                (c.number, c.values, _named(case) | {SETTING: setting})
-                for case, choice in choices.items()
-                for c in [choice.selected[0] if setting == CHOSEN else choice.candidates[0]]
-            ]
-            for setting in (CHOSEN, BEFORE)
+        chosen = [(x.selected[0], case, CHOSEN) for case, x in choices.items()]
+        before = [(x.candidates[0], case, BEFORE) for case, x in choices.items()]
+        every = [*chosen, *before] if self.study.cases else [*before, *chosen]
+        self.walk(
+            "test", [(c.number, c.values, _named(case) | {SETTING: s}) for c, case, s in every]
         )
-        self.walk("test", [*chosen, *before] if self.study.cases else [*before, *chosen])
         self.runner.total = self.runner.done
         self.runner.tell()
 

@@ -107,10 +107,8 @@ class Measure(Part):
         numbers: Array = np.array(
             [self.number(row) for name, row in walks if self.condition in (None, name)]
         )
-        if self.over == "mean":
-            return float(numbers.mean())
-        if self.over == "median":
-            return float(np.median(numbers))
+        if self.over in ("mean", "median"):
+            return float(getattr(np, self.over)(numbers))
         p = 1.0 if self.over == "worst" else float(self.over)
         return self.sign * float(np.quantile(self.sign * numbers, p, method="inverted_cdf"))
 

@@ -40,7 +40,7 @@ def write_page(found: Results) -> Path:
         lines=[texts(line) for line in found.table()],
         figures=figures,
         chosen=chosen(found),
-        failures=found.failures,
+        notes=(*found.failures, found.too_few),
     )
     write_text(path, text)
     return path
@@ -136,7 +136,7 @@ def _map(found: Results, numbers: Sequence[Sequence[float]], title: str, log: bo
             ys.append(x.at[axes[1]] if len(axes) > 1 else g.name)
             values.append(number)
     shown = {name: (x, y, np.array(v)) for name, (x, y, v) in panels.items()}
-    names = [_unit_of(name) for name in axes[:2]]
+    names = [name + field_of(name).in_brackets for name in axes[:2]]
     return map_figure(shown, (names[0], names[1] if len(axes) > 1 else "case"), title, log)
 
 
@@ -150,9 +150,3 @@ def _panel(g: Group, at: dict[str, Any], axes: Sequence[str]) -> str:
 def _named(column: str) -> str:
     """A column with its unit in brackets, for a label."""
     return " ".join([column, *re.findall(r"\[[^]]+\]", COLUMNS.get(column, ""))])
-
-
-def _unit_of(name: str) -> str:
-    """A field with its unit in brackets, for a label."""
-    unit = field_of(name).unit
-    return name if unit == "1" else f"{name} [{unit}]"

@@ -8,12 +8,13 @@ A walk is counted at its nodes, or in the table of a compiled walk. On the rigid
 certificate, on soft ground by how far its feet slip (`analysis.feasibility`). There a friction is what the
 ground gave, so it is never above that of the ground, and the impulses of an impact are among the forces.
 
-`run_trials` is the function that `study.runner` hands to workers. The meaning of the columns is in
+`rows_of(run_trials, records)` is what `studies.runner` hands to workers. The meaning of the columns is in
 columns.toml.
 """
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
@@ -45,6 +46,8 @@ WORDS = ("status", "detail", "outcome", "engine")
 """Columns that hold text."""
 WalkRow = dict[str, float | int | str | None]
 """Results by column name."""
+Function = Callable[[Sequence[Record]], Sequence[Any]]
+"""What workers run: a row of plain values for each record, in their order."""
 OF_FEASIBILITY = ("feasible_impacts", "mean_normal_force", "mean_friction", "scuffing")
 """Columns that `Feasibility` has under the same names."""
 AT_ONCE = 160
@@ -53,9 +56,22 @@ _PREPARING = Lock()
 """Held while walkers are built or plants used: threads of a process share robots and compiled code."""
 
 
-def run_trial(record: Record) -> WalkRow:
-    """The row of one trial. record: values of a scenario by name; those not given have their defaults."""
-    return run_trials([record])[0]
+def rows_of(function: Function, records: Sequence[Record]) -> list[tuple[str, str | None]]:
+    """For each record its row as JSON, and the row's status. Called in a worker.
+
+    Where the function raises on a chunk it is called again with one record at a time; a record on which it
+    raises has a row with the status RAISED, so that one bad record spoils no other.
+    """
+    try:
+        return [
+            (json.dumps(dict(row), allow_nan=False), row.get("status"))
+            for row, _ in zip(function(records), records, strict=True)
+        ]
+    except (Exception, SystemExit) as error:
+        if len(records) > 1:
+            return [one for record in records for one in rows_of(function, [record])]
+        detail = f"{type(error).__name__}: {error}"
+        return [(json.dumps({"status": RAISED, "detail": detail}), RAISED)]
 
 
 def run_trials(records: Sequence[Record]) -> list[WalkRow]:

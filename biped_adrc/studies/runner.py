@@ -20,12 +20,13 @@ from biped_adrc.core.errors import InputError, SimulationError, optional
 from biped_adrc.core.processes import cores, processes, stop
 from biped_adrc.core.types import DaskClient
 from biped_adrc.core.versions import differences, numerical_versions
-from biped_adrc.studies.build import CRASHED, RAISED, Record
-from biped_adrc.studies.store import Store
+from biped_adrc.studies.build import CRASHED
+from biped_adrc.studies.results import Store
+from biped_adrc.studies.run import Function, rows_of
 from biped_adrc.studies.study import Point
 
 PRELOADED = ("biped_adrc.studies.run",)
-"""Modules that worker processes share."""
+"""Modules that worker processes share: all that they need."""
 LOOK_UP = 256
 """Points that are made and looked up in the store at once."""
 LARGEST_CHUNK = 32
@@ -36,9 +37,6 @@ MOST_CRASHED = 20
 """Walks that kill their workers one after the other, and so end the study."""
 TIMEOUT = 10.0
 """For a Dask scheduler to answer, and for its first worker to appear [s]."""
-
-Function = Callable[[Sequence[Record]], Sequence[Any]]
-"""What workers run: a row of plain values for each record, in their order."""
 
 
 class WorkersError(SimulationError):
@@ -55,39 +53,27 @@ class Progress(NamedTuple):
     note: str = ""
 
 
-def rows_of(function: Function, records: Sequence[Record]) -> list[tuple[str, str | None]]:
-    """For each record its row as JSON, and the row's status. Called in a worker.
-
-    Where the function raises on a chunk it is called again with one record at a time; a record on which it
-    raises has a row with the status RAISED, so that one bad record spoils no other.
-    """
-    try:
-        return [
-            (json.dumps(dict(row), allow_nan=False), row.get("status"))
-            for row, _ in zip(function(records), records, strict=True)
-        ]
-    except (Exception, SystemExit) as error:
-        if len(records) > 1:
-            return [one for record in records for one in rows_of(function, [record])]
-        detail = f"{type(error).__name__}: {error}"
-        return [(json.dumps({"status": RAISED, "detail": detail}), RAISED)]
-
-
 @dataclass
 class Crew:
     """Who walks: processes of this machine, the workers of a Dask scheduler, or an executor of the user's.
 
     workers: a number of processes, one per core if None, or an executor, which is used as it is and not ended.
-    cluster: address of the scheduler, such as tcp://host:8786. A context manager.
+    cluster: address of the scheduler, such as tcp://host:8786. A context manager; processes of this machine
+    begin to load the package before.
     """
 
     workers: Executor | int | None = None
     cluster: str | None = None
 
-    def __enter__(self) -> Crew:
-        if self.cluster is not None and self.workers is not None:
+    def __post_init__(self) -> None:
+        if self.cluster is None:
+            self.start()
+        elif self.workers is not None:
             raise InputError("a cluster brings its own workers; leave out their number")
-        self.start()
+
+    def __enter__(self) -> Crew:
+        if self.cluster is not None:
+            self.start()
         return self
 
     def __exit__(self, kind: object, *_: object) -> None:

@@ -94,8 +94,8 @@ class Levels(Range):
     def levels(self) -> list[float]:
         """`count` values from low to high, with both ends exactly."""
         spaced = np.geomspace if self.scale == "log" else np.linspace
-        result = spaced(self.low, self.high, self.count).tolist()
-        return [self.low, *result[1:-1], self.high][: self.count]
+        levels: list[float] = spaced(self.low, self.high, self.count).tolist()
+        return levels
 
 
 R = TypeVar("R", bound=Range)

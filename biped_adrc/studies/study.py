@@ -39,8 +39,6 @@ from biped_adrc.studies.measure import Column, Limit, Measure, Objective
 from biped_adrc.studies.search import Search, Variable, WalkSets
 from biped_adrc.studies.space import Draw, Grid, Part, Seeds, Sets, Values, problem
 
-MOST_POINTS = 10_000_000
-"""Most walks of a study; more is taken for a mistake in the file."""
 MOST_LEVELS = 200
 """Levels of one axis, samples, and combinations of texts that a rehearsal builds."""
 LONGEST = 100
@@ -77,8 +75,6 @@ class Study(Part):
     def _together(self) -> Study:
         """Raises ValueError with what no single entry shows."""
         wrong = [*self._twice(), *(() if self.search is None else self._searched(self.search))]
-        if self.count > MOST_POINTS:
-            wrong.append(f"has {self.count:.3g} walks, expected at most {MOST_POINTS:.0e}")
         if wrong:
             raise ValueError("; ".join(wrong))
         return self

@@ -25,10 +25,11 @@ SUFFIXES = (".html", ".gif", ".png", ".svg")
 
 
 def export(path: Path, walks: Mapping[str, Recorded], clip: Clip | None = None) -> None:
-    """Write the walks to `path`, as its suffix says; a strip shows the last of them.
+    """Write the walks to `path` as its suffix says; a strip shows the last of them.
 
-    walks: name -> walk, one or more; the names are shown. clip: what is shown, the defaults if None. Raises
-    InputError for a suffix, a part or an option that does not fit, and OutputError.
+    walks: name -> walk, one or more; the names are shown. clip: the part shown and how, the defaults
+    if None. Raises InputError for a suffix, a part or an option that does not fit, and OutputError
+    where the file cannot be written.
     """
     clip = Clip() if clip is None else clip
     suffix = output_path(path, SUFFIXES).suffix.lower()

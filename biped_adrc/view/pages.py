@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 HERE = "biped_adrc.view"
+"""The package with the templates shared by all pages."""
 POLICY = (
     "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval'; style-src 'unsafe-inline'; "
     "img-src data: blob:; worker-src blob:"
@@ -44,17 +45,17 @@ HEIGHT = 480
 
 
 def rendered(template: str, package: str = HERE, **values: object) -> str:
-    """The text of a page from its template, in a package or here, and the values the template names.
+    """Fill in a page's template; returns the text of the page.
 
-    Every value is escaped as HTML, and shown as `plain` has it: floats with four significant
-    digits.
+    template: name of the file, in `package` or here. values: for the names in it. Every value is escaped as
+    HTML, and written by `plain`: floats with four significant digits.
     """
     return _environment(package).get_template(f"{template}.html.j2").render(values)
 
 
 @cache
 def _environment(package: str) -> Environment:
-    """Jinja's environment, made once: it compiles the templates."""
+    """Jinja's environment for the templates of a package, made once, since it compiles them."""
     places = [files(package), files(HERE), files(HERE) / "templates"]
     loader = FileSystemLoader([str(place) for place in places])
     environment = Environment(
@@ -70,9 +71,9 @@ def _environment(package: str) -> Environment:
 
 
 def plain(value: object) -> str:
-    """A value as a page shows it: text as it is, a dash for None, yes or no, floats with four digits.
+    """Text of a value on a page: texts as they are, a dash for None, yes or no, floats with four digits.
 
-    Mappings and lists are joined with commas, recursively.
+    Entries of mappings and lists are joined with commas, recursively.
     """
     if isinstance(value, str):
         return value
@@ -90,8 +91,9 @@ def plain(value: object) -> str:
 
 
 def data_uri(picture: bytes) -> str:
-    """A PNG or SVG as a data URI for the source of an <img>: an SVG there can neither run scripts nor
-    clash with the ids of another.
+    """Encode a PNG or SVG as a data URI for the source of an <img>.
+
+    There an SVG can neither run scripts nor clash with the ids of another one.
     """
     kind = "png" if picture.startswith(b"\x89PNG") else "svg+xml"
     return f"data:image/{kind};base64,{base64.b64encode(picture).decode('ascii')}"
@@ -100,11 +102,11 @@ def data_uri(picture: bytes) -> str:
 def report_html(
     summary: PlainRecord, figures: Mapping[str, bytes], animation: str | None = None
 ) -> str:
-    """The page of a reproduction (report.html).
+    """Text of the page of a reproduction (report.html).
 
-    summary: as in summary.json; parts that are missing are left out of the page.
-    figures: name -> an SVG or PNG; the name selects the caption.
-    animation: text of the page of `meshcat.view.animation_html`, shown in a frame.
+    summary: as in summary.json; parts that are missing are left out of the page. figures: name -> an
+    SVG or PNG; the name selects the caption. animation: text of the page of
+    `meshcat.view.animation_html`, shown in a frame.
     """
     return rendered(
         "report",
@@ -117,9 +119,9 @@ def report_html(
 
 
 def _figure(name: str, picture: bytes) -> tuple[str, str, str]:
-    """(heading, what to look for, data URI) of one figure; its name begins with that of a caption.
+    """Heading, caption and data URI of one figure of the report; the caption is the one its name begins with.
 
-    What the name has behind that, such as the preset of a map, is put behind the heading.
+    The rest of the name, such as the preset of a map, follows in the heading.
     """
     known = packaged(HERE, "captions.toml")["report"]
     key = next((key for key in known if name == key or name.startswith(f"{key}_")), "")
@@ -130,10 +132,10 @@ def _figure(name: str, picture: bytes) -> tuple[str, str, str]:
 
 
 def player(settings: Mapping[str, object], title: str, legend: Sequence[tuple[str, str]]) -> str:
-    """The page that plays walks in Meshcat's viewer, with play, pause, speed and a slider of time.
+    """Text of the page that plays walks in Meshcat's viewer, with play, pause, speed and a slider of time.
 
-    settings: as `meshcat.view.scene_settings` gives them; player.js reads them as JSON. legend:
-    pairs (colour, text), the text plain, as it is escaped here.
+    settings: as `meshcat.view.scene_settings` gives them; player.js reads them as JSON. legend: pairs (colour,
+    text), the text plain, as it is escaped here.
     """
     return with_viewer("player", settings, title=title, captions=legend, style="player.css")
 
@@ -141,10 +143,10 @@ def player(settings: Mapping[str, object], title: str, legend: Sequence[tuple[st
 def with_viewer(
     template: str, settings: Mapping[str, object], package: str = HERE, **values: object
 ) -> str:
-    """The text of a page that draws in Meshcat's viewer; its scripts read the settings as JSON.
+    """Text of a page that draws in Meshcat's viewer and whose scripts read the settings as JSON.
 
-    settings: as `player` has them. package: where the template is. values: those that it names besides.
-    `packed` is the same JSON, deflated, in base64.
+    template: name of the page's template, in `package`. settings: as for `player`. values: other names in the
+    template. The template has the JSON twice: `data` as text, `packed` deflated in base64.
     """
     viewer = files("meshcat").joinpath("viewer", "dist", "main.min.js").read_text(encoding="utf-8")
     text = json.dumps(settings)
@@ -162,8 +164,7 @@ def with_viewer(
 def inline(summary: str, animation: str, figures: Sequence[Figure] = ()) -> str:
     """HTML of the output of a notebook's cell: a line of text, the page `animation` in a frame, figures below.
 
-    The frame has the page as its source text, so the scripts of the notebook and of the page cannot
-    meet.
+    The frame has the page as its source text, so the scripts of the notebook and of the page cannot meet.
     """
     from biped_adrc.view.style import render  # loads matplotlib, which other pages do not need
 

@@ -26,7 +26,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import NamedTuple, Protocol
+from typing import Annotated, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,32 +34,20 @@ from numpy.typing import NDArray
 from biped_adrc.analysis import soft_steps as meters
 from biped_adrc.analysis.signals import FORCE, PLACE, SPEED, Signals, footholds
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.core.checks import Checked, PositiveFloat
+from biped_adrc.core.checks import Checked, PositiveFloat, one_of
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.types import Array
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import ground_axes
-from biped_adrc.model.robots.symmetry import twins
-from biped_adrc.model.robots.urdf import Joint, Tree
+from biped_adrc.model.robots.urdf import Joint, Tree, twins
 
 MOST_FRAMES = 200_000
-"""Of a page or a moving picture: an hour at 50 in a second."""
+"""Largest number of frames of a page or a moving picture: an hour at 50 in a second."""
 TILE = 0.5
-"""[m], along x, of the light and dark tiles."""
+"""Length [m], along x, of the light and dark tiles of the ground."""
 VIEWS = ("side", "perspective")
 """Cameras: "side" is orthographic, so lengths can be compared anywhere in the picture."""
-
-
-class Tile(NamedTuple):
-    """A piece of the surface without a step in it, drawn in one shade: the shades show how far a walk
-    has come.
-    """
-
-    ends: Array
-    """(2, 2), x and z of both ends [m]."""
-    even: bool
-    """Light tiles are even, dark ones odd, counted from x = 0."""
 
 
 @dataclass(frozen=True)
@@ -87,14 +75,16 @@ class Surface:
         corners = [(x, self.height(x, before)) for x in inside for before in (True, False)]
         return np.array([(low, self.height(low)), *corners, (high, self.height(high, True))])
 
-    def tiles(self, low: int, high: int) -> list[Tile]:
-        """The tiles from x = low TILE to high TILE, with whole numbers low, high; cut at multiples of
-        TILE and at edges.
+    def tiles(self, low: int, high: int) -> list[tuple[Array, bool]]:
+        """Tiles of the ground from x = low TILE to high TILE, with whole numbers low, high; cut at edges too.
+
+        Of each tile x and z of both ends (2, 2) [m], and whether it is a light one: tiles are light and dark in
+        turn, counted from x = 0, to show how far a walk has come.
         """
         inside = self.edges[(low * TILE < self.edges) & (self.edges < high * TILE)]
         cuts = np.unique([*(k * TILE for k in range(low, high + 1)), *inside])
         return [
-            Tile(
+            (
                 np.array([(a, self.height(a)), (b, self.height(b, True))]),
                 math.floor(a / TILE) % 2 == 0,
             )
@@ -103,14 +93,14 @@ class Surface:
 
 
 def turn(axis: tuple[float, float, float], angle: float) -> Array:
-    """Rotation (3, 3) by `angle` [rad] about the unit vector `axis`: Rodrigues' formula."""
+    """Rotation matrix (3, 3) by `angle` [rad] about the unit vector `axis`: Rodrigues' formula."""
     x, y, z = axis
     K = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.eye(3) + math.sin(angle) * K + (1.0 - math.cos(angle)) * (K @ K)
 
 
 def placed(origin: Sequence[float] | Array = (0.0, 0.0, 0.0), R: Array | None = None) -> Array:
-    """Placement (4, 4) at `origin` (3,) [m], turned by R (3, 3)."""
+    """Placement (4, 4) at `origin` (3,) [m] with the rotation R (3, 3), the identity if None."""
     M = np.eye(4)
     M[:3, 3] = origin
     M[:3, :3] = np.eye(3) if R is None else R
@@ -134,7 +124,7 @@ def link_placements(tree: Tree, values: dict[str, float]) -> dict[str, Array]:
 
 
 def link_placement(tree: Tree, values: dict[str, float], link: str) -> Array:
-    """World placement (4, 4) of one link, as `link_placements` has it."""
+    """World placement (4, 4) of one link; values as for `link_placements`."""
     M = np.eye(4)
     for joint in tree.path_to_root(link):
         M = joint_transform(joint, values.get(joint.name, 0.0)) @ M
@@ -142,17 +132,15 @@ def link_placement(tree: Tree, values: dict[str, float], link: str) -> Array:
 
 
 def is_wheel(biped: Biped) -> bool:
-    """Whether no link changes over at impact (R is the identity): both feet belong to one body that
-    rolls on.
-    """
+    """Whether the robot is a rimless wheel: no link changes over at impact (R is the identity)."""
     return np.array_equal(biped.R, np.eye(biped.n))
 
 
 def spokes(biped: Biped) -> list[Array]:
-    """Rotations (3, 3) that take the spoke in the URDF to each spoke of the wheel; the identity alone for legs.
+    """Rotations (3, 3) that take the spoke in the URDF to each spoke of the wheel; the
+    identity alone for legs.
 
-    The URDF of a wheel draws one spoke; the angle between two is what the relabelling at impact
-    adds to q.
+    The URDF of a wheel draws one spoke; the angle between two is the change of q in the relabelling at impact.
     """
     if not is_wheel(biped):
         return [np.eye(3)]
@@ -163,8 +151,8 @@ def spokes(biped: Biped) -> list[Array]:
 
 
 def exchanged(biped: Biped, step: int) -> bool:
-    """Whether in single support `step` (from 1) the drawn legs have changed over: in even ones, but
-    for a wheel.
+    """Whether the drawn legs have changed over in single support `step` (from 1): in even
+    ones, but never for a wheel.
     """
     return step % 2 == 0 and not is_wheel(biped)
 
@@ -201,15 +189,13 @@ def joint_values(
 
 @dataclass(frozen=True)
 class Clip(Checked):
-    """What part of the walks is shown, and how; None leaves the choice to the kind of picture.
+    """The part of the walks that is shown, and how; None leaves the choice to the kind of picture.
 
-    start, stop [s]: the part shown in a moving picture or a strip; None: the whole walk, or its
-    last two steps for a strip.
-    fps [1/s]: frames per second; None: 60 for a page and 25 for a moving picture.
-    view: camera of a page at the start, one of `VIEWS`; all else is from the side.
-    apart: moving picture with the walks side by side and their errors below, instead of over one
-    another.
-    slower [1]: how many times slower than the walk a moving picture plays.
+    start, stop [s]: the part shown in a moving picture or a strip; None: the whole walk, or its last two steps
+    for a strip. fps [1/s]: frames per second; None: 60 for a page and 25 for a moving picture. view: camera of
+    a page at the start, one of `VIEWS`; all else is from the side. apart: moving picture with the walks side
+    by side and their errors below, instead of over one another. slower [1]: how many times slower than the
+    walk a moving picture plays.
 
     Raises InputError for values that do not fit.
     """
@@ -217,18 +203,14 @@ class Clip(Checked):
     start: float | None = None
     stop: float | None = None
     fps: PositiveFloat | None = None
-    view: str = "side"
+    view: Annotated[str, one_of(VIEWS)] = "side"
     apart: bool = False
     slower: PositiveFloat = 1.0
 
-    def __post_init__(self) -> None:
-        if self.view not in VIEWS:
-            raise InputError(f"view is '{self.view}', choose one of {list(VIEWS)}")
-
     def part(self, begin: float, end: float, usual: float) -> tuple[float, float]:
-        """What is shown of walks from `begin` to `end` [s]; from `usual` to the end if nothing is said.
+        """Start and stop [s] of the part shown of walks that last from `begin` to `end` [s].
 
-        Raises InputError for times outside the walks.
+        usual [s]: start if the clip has none. Raises InputError for times outside the walks.
         """
         start = usual if self.start is None else self.start
         stop = end if self.stop is None else self.stop
@@ -241,11 +223,10 @@ class Clip(Checked):
 
 
 class Recorded(Protocol):
-    """What a drawing needs of a walk; `scenario.recording.Walk` is one.
+    """The walk that a drawing needs; `scenario.recording.Walk` is one.
 
-    walker: the closed loop that walked. trajectory: what it did. recorded: its signals where the
-    controller is not at hand to compute them again, as in a file of another version; None
-    otherwise.
+    walker: the closed loop that walked. trajectory: its run. recorded: its signals where the controller is not
+    at hand to compute them again, as in a file of another version; None otherwise.
     """
 
     @property
@@ -269,11 +250,11 @@ class WalkScene:
     footholds: Array
     heights: Array
     recorded: Signals | None = None
-    """Signals of a walk whose controller is not there; None where they can be computed."""
+    """Signals of a walk whose controller is not at hand; None where they can be computed."""
 
     @classmethod
     def of(cls, walk: Recorded) -> WalkScene:
-        """Lay a walk out from x = z = 0."""
+        """Lay a walk out along the ground, its first foothold at x = z = 0."""
         x, z = footholds(walk.walker, walk.trajectory).T
         return cls(walk.walker, walk.trajectory, x, z, walk.recorded)
 
@@ -303,9 +284,7 @@ class WalkScene:
         return Surface(self.walker.slope, middles[drops != 0.0], drops[drops != 0.0])
 
     def level(self, x: float) -> float:
-        """z [m] of a smooth line through the footholds at x [m]: a camera that follows it does not
-        jump at steps.
-        """
+        """z [m] of a smooth line through the footholds at x [m], for a camera that does not jump at steps."""
         fall = math.tan(self.walker.slope)
         return float(np.interp(x, self.footholds, self.heights + fall * self.footholds)) - fall * x
 
@@ -321,12 +300,12 @@ class WalkScene:
         return i, self.trajectory.arcs[i](t)[: self.biped.n]
 
     def joints(self, t: float) -> dict[str, float]:
-        """Joint values of the URDF [rad], [m] at t [s]."""
+        """Joint values of the URDF at t [s]: name -> [rad] or [m]."""
         i, q = self.posture(t)
         return joint_values(self.biped, q, self.trajectory.arcs[i].mode.step, *self.foot(i, t))
 
     def points(self, i: int, t: float, q: Array) -> Array:
-        """(4,), x and z [m] of the hip and of the swing foot at q (n,) [rad] in arc i at t [s]."""
+        """x and z [m] of the hip and of the swing foot in the world (4,), at q (n,) [rad] in arc i at t [s]."""
         ends = np.concatenate((self.biped.hip(q), self.biped.swing_foot(q)))
         return ends + np.tile(self.foot(i, t), 2)
 
@@ -337,18 +316,18 @@ class DrawnLoads(NamedTuple):
     ground_reaction: Array
     """(2,), F_T and F_N on the stance foot [N], along x and z of the world."""
     zeta: Array
-    """(n,) external torque on the drawn joints of q1..qn [N m]."""
+    """External torque (n,) on the drawn joints of q1..qn [N m]."""
     other: Array = np.zeros(2)
-    """(2,) of the ground on the other foot [N], where both touch soft ground."""
+    """Force (2,) of the ground on the other foot [N], where both touch soft ground."""
     slips: bool = False
     """Whether a foot slides with its force at the friction cone."""
 
 
 def loads(scene: WalkScene, t: float) -> DrawnLoads:
-    """The loads at the last stored node up to t [s]; of the ends of the run outside it.
+    """Forces and torques on the robot at the last stored node up to t [s]; of the ends of the run outside it.
 
-    They are computed from the state at the node, or taken from `recorded`. States of controllers
-    are not interpolated between nodes: for a fast observer the result would be far from the truth.
+    They are computed from the state at the node, or taken from `recorded`. States of controllers are not
+    interpolated between nodes: for a fast observer the result would be far from the truth.
     """
     arcs, at = scene.trajectory.arcs, scene.arc_at(t)
     arc, known = arcs[at], scene.recorded
@@ -376,7 +355,9 @@ def slipping(scene: WalkScene, arc: Arc) -> NDArray[np.bool_]:
 
 
 def contact_changes(scene: WalkScene, arc: Arc) -> Array:
-    """Times (K,) [s] from which on the other foot touches soft ground or does not, or one slips or does not."""
+    """Times (K,) [s] at which, on soft ground, the other foot touches or leaves the ground, or a
+    foot begins or ends to slip.
+    """
     if FORCE not in arc.read:
         return np.zeros(0)
     contact = np.column_stack((slipping(scene, arc), np.any(arc.read[FORCE][:, 2:], axis=1)))
@@ -385,7 +366,7 @@ def contact_changes(scene: WalkScene, arc: Arc) -> Array:
 
 
 def check_frames(count: float) -> None:
-    """Raise InputError for more frames than a picture can have."""
+    """Raise InputError for a number of frames above MOST_FRAMES."""
     if not count <= MOST_FRAMES:
         raise InputError(
             f"this would be {count:.6g} frames, expected at most {MOST_FRAMES}; show a part of the "
@@ -394,11 +375,9 @@ def check_frames(count: float) -> None:
 
 
 def ending(trajectory: Trajectory) -> str:
-    """How a walk ended that did not do what it was asked for, such as "fell at 3.42 s: hip too low";
-    else empty.
+    """Text such as "fell at 3.42 s: hip too low" for a walk that did not reach its end; else empty.
 
-    The reason is the terminal event of the run, the detail of its status, or what the status says,
-    in this order.
+    The reason is the terminal event of the run, the detail of its status, or the status itself, in this order.
     """
     status = trajectory.status
     if status.ok:

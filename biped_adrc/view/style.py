@@ -52,8 +52,10 @@ def style() -> AbstractContextManager[None]:
 
 @contextmanager
 def new_figure(width: float, height: float, title: str = "") -> Iterator[Figure]:
-    """Context with an empty figure of width x height [inch], in this package's style; its layout keeps room for
-    labels and legends.
+    """Context with an empty figure of width x height [inch], in this package's style,
+    with a title above if given.
+
+    Its layout keeps room for labels and legends.
     """
     with style():
         figure = Figure(figsize=(width, height), layout="constrained")
@@ -71,7 +73,7 @@ def label(axes: Axes, x: str, y: str, title: str = "") -> None:
 
 
 def literal(text: str) -> str:
-    """A text of somebody's file as matplotlib draws it: a dollar begins no formula."""
+    """Escape the dollars in a text from a user's file, so that matplotlib does not read them as formulas."""
     return text.replace("$", r"\$")
 
 
@@ -80,8 +82,8 @@ def named_cells(
 ) -> None:
     """Prepare axes for a table drawn as cells, with the names of rows and columns as tick labels.
 
-    Rows run from the top, columns from the left; cell (i, j) is at x = j, y = i. rotation [deg]: of column
-    names.
+    Rows run from the top, columns from the left; cell (i, j) is at x = j, y = i.
+    rotation [deg]: of column names.
     """
     axes.set_xlim(-0.5, len(columns) - 0.5)
     axes.set_ylim(len(rows) - 0.5, -0.5)
@@ -92,7 +94,7 @@ def named_cells(
 
 
 def render(figure: Figure, kind: str, dpi: float = 150.0) -> bytes:
-    """The figure as the bytes of a "png" or "svg" file, without the date (SVG) or the program's name (PNG).
+    """Encode a figure as the bytes of a "png" or "svg" file, without date (SVG) or name of the program (PNG).
 
     So the same figure gives the same bytes. dpi [1/inch]: of a PNG. Raises InputError for another kind.
     """
@@ -114,5 +116,5 @@ def write_figure(path: Path, figure: Figure) -> None:
 
 
 def _shortened(svg: bytes) -> bytes:
-    """The SVG with the coordinates of its paths rounded to a hundredth of a point, for smaller files."""
+    """Round the coordinates of an SVG's paths to a hundredth of a point, for smaller files."""
     return _PATH.sub(lambda path: _LONG.sub(lambda n: b"%.2f" % float(n[0]), path[0]), svg)

@@ -20,9 +20,8 @@ from biped_adrc.control.pd_gravity import JointGains
 from biped_adrc.control.stride import TORSO_LEAN, StrideGains
 from biped_adrc.core.errors import InputError
 from biped_adrc.disturbances.force import AddedForce
-from biped_adrc.gait.bspline import BSpline
 from biped_adrc.gait.constraint import CorrectedConstraint, continued
-from biped_adrc.gait.curves import Curve
+from biped_adrc.gait.curves import BSpline, Curve
 from biped_adrc.gait.outputs import FunctionOutputs, LinearOutputs, Outputs
 from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hardware.motors import IDEAL, Motors

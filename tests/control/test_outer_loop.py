@@ -14,7 +14,7 @@ from biped_adrc.control.reference_reset import ReferenceReset, ResetPolynomial, 
 from biped_adrc.control.stride import TORSO_LEAN, StrideGains, StridePI, bump
 from biped_adrc.core.errors import GaitError, InputError
 from biped_adrc.disturbances.force import HipForce
-from biped_adrc.gait.bspline import BSpline
+from biped_adrc.gait.curves import BSpline
 from biped_adrc.gait.reference import TimeReference
 
 RK4 = ba.RK4(2e-3)

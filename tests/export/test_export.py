@@ -16,10 +16,9 @@ from biped_adrc.core.errors import InputError, OutputError
 from biped_adrc.engine.mechanics import RobotStructure
 from biped_adrc.extras.export import loaded as loading
 from biped_adrc.extras.export.c_text import in_double
-from biped_adrc.extras.export.computer import Computer
+from biped_adrc.extras.export.computer import Computer, Noticed
 from biped_adrc.extras.export.export import export_c
 from biped_adrc.extras.export.loaded import NOT_MEASURED, OK, ExportedController, Loaded, compiled
-from biped_adrc.extras.export.noticed import Noticed
 from biped_adrc.extras.export.source import source_of
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hybrid.status import Status

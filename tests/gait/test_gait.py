@@ -9,9 +9,8 @@ from scipy import interpolate
 
 import biped_adrc as ba
 from biped_adrc.core.errors import GaitError, OutputError
-from biped_adrc.gait.bspline import BSpline, knots
 from biped_adrc.gait.constraint import continued
-from biped_adrc.gait.curves import Bezier, Polynomial
+from biped_adrc.gait.curves import Bezier, BSpline, Polynomial, knots
 from biped_adrc.gait.gait import onto_section
 from biped_adrc.gait.published import X_STAR
 

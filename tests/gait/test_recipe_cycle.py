@@ -8,9 +8,9 @@ from biped_adrc.analysis.return_map import ReturnMap
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.npd import NPDController
 from biped_adrc.gait.gait import load_gait, onto_section
-from biped_adrc.gait.published import X_STAR
-from biped_adrc.gait.recipe import (
+from biped_adrc.gait.published import (
     HUMAN_STEP,
+    X_STAR,
     design_recipe_gait,
     fit_to_x_star,
     inverse_kinematics,

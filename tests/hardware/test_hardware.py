@@ -9,8 +9,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.closed_loop import semantics
 from biped_adrc.hardware.motors import Line, Motors, TorqueLine
-from biped_adrc.hardware.pitch_sensor import PitchSensor
-from biped_adrc.hardware.sensors import Sensors
+from biped_adrc.hardware.sensors import PitchSensor, Sensors
 
 T = 1e-3
 RANDOM = np.random.default_rng(11)

@@ -7,7 +7,7 @@ from functools import cache
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.extras.logs.log_of_walk import logged
+from biped_adrc.extras.logs.robot_log import logged
 
 PULSE = "q1,q2=20@2:0.1-0.3"
 """20 N m on both hips, in the second single support."""

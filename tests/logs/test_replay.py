@@ -10,7 +10,7 @@ from scipy.signal import cont2discrete, dlsim
 
 import biped_adrc as ba
 from biped_adrc.core.errors import InputError
-from biped_adrc.extras.logs.log_of_walk import logged
+from biped_adrc.extras.logs.robot_log import logged
 
 LESO = {"controller.name": "LESO", "controller.observer.bandwidth": 160.0}
 RABBIT = {"hardware.profile": "rabbit", "hardware.encoders.filter_time": 5e-3}

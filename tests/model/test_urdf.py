@@ -9,7 +9,7 @@ import biped_adrc as ba
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.core.files import data_folder
 from biped_adrc.model.pinned import frame_index, reroot
-from biped_adrc.model.robots import symmetry
+from biped_adrc.model.robots import urdf
 from biped_adrc.model.robots.robot_toml import robot_names
 from biped_adrc.model.robots.urdf_reader import read
 
@@ -112,7 +112,7 @@ def test_twins_that_differ_are_named(biped):
         joints = tuple(replace(j, **change) if j.name == "right_knee" else j for j in tree.joints)
         return replace(biped, tree=replace(tree, joints=joints))
 
-    assert symmetry.unlike(tree, d.feet) == []
+    assert urdf.unlike(tree, d.feet) == []
     with pytest.raises(ModelError, match=r"legs differ.*'right_shin'"):
         changed(origin=(0.0, 0.0, 0.5)).check()
     other = changed(axis=(0.0, 1.0, 0.0))

@@ -14,7 +14,7 @@ from biped_adrc.scenario.build import RobotAndGait, build, plant_of, start
 from biped_adrc.scenario.run import walk_scenario
 from biped_adrc.scenario.scenario import Scenario, drawn, field_of, names, read_scenario
 from biped_adrc.scenario.units import unit_of
-from biped_adrc.studies.run import run_trial
+from biped_adrc.studies.run import run_trials
 
 
 def drawn_start(seed: int, **values: object) -> np.ndarray:
@@ -70,7 +70,7 @@ def test_the_columns_of_a_walk_are_means_over_ticks_and_joints() -> None:
         "hardware.period": 1e-3,
         "start.speed": 0.05,
     }
-    row = run_trial(values)
+    row = run_trials([values])[0]
     s = Scenario(**values)
     walk, scene = walk_scenario(s), RobotAndGait.of(s)
     signals, gait = walk.signals, scene.walked
@@ -97,7 +97,7 @@ def test_the_columns_of_a_walk_are_means_over_ticks_and_joints() -> None:
 )
 def test_a_value_that_cannot_act_is_refused(said, idle, with_effect) -> None:
     with pytest.raises(ba.BipedError, match=said):
-        Scenario(**idle)
+        build(Scenario(**idle))
     if with_effect is not None:
         s = Scenario(**idle | with_effect)
         assert Scenario(**s.record()) == s
@@ -110,6 +110,8 @@ def test_a_value_that_cannot_act_is_refused(said, idle, with_effect) -> None:
         ("controller.observer.bandwidth", "3 krad/s", 3000.0),
         ("start.q5", "90 deg", math.pi / 2),
         ("pushes.0.torque", "30 Nm", 30.0),
+        ("controller.K_p", "3 kN m/rad", 3000.0),
+        ("controller.K_p", "3000 1/s^2", 3000.0),
         ("errors.mass.torso", "110 %", 1.1),
         ("run.impacts", "8", 8),
     ],
@@ -146,7 +148,7 @@ def test_what_is_wrong_is_named(values, message) -> None:
 def test_every_value_is_known_by_its_name() -> None:
     for name in names():
         what = field_of(name)
-        unit_of(what.unit)
+        unit_of(what.unit or "1")
         assert what.text, name
         if not name.startswith(("pushes", "controller.inner")):
             assert Scenario(**{name: what.default}) == Scenario()

@@ -33,7 +33,7 @@ def test_on_the_command_line(own: str) -> None:
         "simulate", "--controller", name, "--set", "controller.gain=0.5", "--impacts", "1", "--engine",
         "compiled", "--period", "0.001", "--set", "hardware.delay=1 ms", "-o", "mine.npz",
     )  # fmt: skip
-    assert "1 impacts" in " ".join(done.split())
+    assert "1 impact," in " ".join(done.split())
     record = ba.load_walk("mine.npz").trajectory.settings["scenario"]
     assert record["controller"]["gain"] == 0.5
     assert record["hardware"]["delay"] == 1e-3
@@ -101,6 +101,8 @@ def test_a_class_that_is_registered_has_a_name(own: str, monkeypatch) -> None:
         ({"hardware.lag": 1e-3}, "hardware.lag: does nothing in continuous time"),
         ({"pushes.0.gain": 1.0}, "pushes.0.gain: unknown name"),
         ({"pushes.0.torque": 1.0, "pushes.0.step": 26}, "it cannot act"),
+        ({"pushes.0.joints": "knee", "pushes.0.step": 26}, "no joint 'knee'"),
+        ({"controller.name": "PD", "controller.K_p": "3 parsec"}, "unit 'parsec' is not known"),
         (
             {"controller.name": "CLF-QP", "controller.solve_theta": False},
             "solve_theta: 'CLF-QP' does not take it",

@@ -10,7 +10,7 @@ import pytest
 import biped_adrc as ba
 from biped_adrc.hardware.touchdown import ByForce, ByKinematics, FaultyTouchdown
 from biped_adrc.scenario.build import build
-from biped_adrc.studies.run import run_trial
+from biped_adrc.studies.run import run_trials
 
 USUAL = {"controller.name": "NPD", "hardware.period": 1e-3, "run.impacts": 2}
 
@@ -53,14 +53,14 @@ def test_a_row_of_a_study_says_how_touchdowns_were_noticed(plant):
         "ground.plant": plant,
         "hardware.torque_limit": 150.0,
     }
-    row = run_trial(values)
+    row = run_trials([values])[0]
     assert row["status"] == "COMPLETED"
     assert (row["early_share"], row["missed_share"], row["false_notices"]) == (0.5, 0.0, 0)
     assert 4e-3 - 1e-9 < row["late_mean"] == row["late_max"] < 5e-3
     rates = ba.walk_scenario(ba.Scenario(**values)).touchdowns.rates
     assert {name: row[name] for name in rates._fields} == pytest.approx(rates._asdict(), abs=1e-9)
     at_once = {name: x for name, x in values.items() if "touchdown" not in name}
-    assert run_trial(at_once)["false_notices"] is None
+    assert run_trials([at_once])[0]["false_notices"] is None
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,7 @@ from biped_adrc.analysis.soft_steps import soft_steps
 from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
-from biped_adrc.extras.mujoco.soft_ground import SoftGround
-from biped_adrc.model.ground import StepUp, ground_axes
+from biped_adrc.model.ground import SoftGround, StepUp, ground_axes
 
 from .loops import SOFT, TICK, run_of
 

@@ -13,9 +13,9 @@ from biped_adrc.engine.on_plant import CompiledLoop, stepping_loop
 from biped_adrc.extras.mujoco.mjcf import mjcf
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
-from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hybrid.simulator import simulate
+from biped_adrc.model.ground import SoftGround
 
 from .loops import SOFT, TICK, run_of
 

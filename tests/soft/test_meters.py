@@ -15,9 +15,9 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.core.errors import InputError
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
-from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.storage import load, save
+from biped_adrc.model.ground import SoftGround
 
 from .loops import loop_on, run_of
 

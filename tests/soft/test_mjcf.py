@@ -10,7 +10,7 @@ from biped_adrc.core.errors import InputError, OutputError
 from biped_adrc.extras.mujoco.mjcf import mjcf, write_mjcf
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import mujoco
-from biped_adrc.extras.mujoco.soft_ground import SoftGround
+from biped_adrc.model.ground import SoftGround
 
 GROUND = SoftGround(0.55 + 1e-9, 3e-3 / 7, 0.9 + 1e-9, (0.9 + 1e-9, 0.95), 7.0, 1e-3 / 3)
 """Numbers of more than six digits."""

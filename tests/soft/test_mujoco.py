@@ -13,9 +13,8 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.extras.mujoco import robot as mujoco_robot
 from biped_adrc.extras.mujoco.plant import TOUCHING, MuJoCoPlant
 from biped_adrc.extras.mujoco.robot import compiled, mujoco, pinned_mjcf
-from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.hybrid.simulator import RunOptions
-from biped_adrc.model.ground import ground_axes
+from biped_adrc.model.ground import SoftGround, ground_axes
 
 from .loops import loop_on, run_of
 

@@ -12,8 +12,8 @@ from biped_adrc.control.around import Hold
 from biped_adrc.core.errors import InputError
 from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.extras.mujoco.plant import MuJoCoPlant
-from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.hybrid.trajectory import Arc
+from biped_adrc.model.ground import SoftGround
 from biped_adrc.scenario.run import halved
 
 from .loops import SOFT, TICK, loop_on, run_of

@@ -5,7 +5,7 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.scenario.build import limits
-from biped_adrc.studies.run import counted_in, run_trial
+from biped_adrc.studies.run import counted_in, run_trials
 
 PULL = {"shape": "sine", "link": "torso", "force": 40.0, "step": 2, "duration": 0.3}
 PULSE = {**PULL, "shape": "pulse"}
@@ -23,7 +23,7 @@ CASES = {
 @pytest.mark.parametrize("name", CASES)
 def test_both_give_the_same_numbers(name):
     s = ba.Scenario(**{"controller": "NPD", "run.impacts": 3, **CASES[name]})
-    row, walk = run_trial(s.record()), ba.walk_scenario(s)
+    row, walk = run_trials([s.record()])[0], ba.walk_scenario(s)
     assert row["status"] == walk.trajectory.status.name
     for column, x in counted_in(walk, limits(s)).items():
         if isinstance(x, float) and np.isfinite(x):

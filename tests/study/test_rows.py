@@ -17,7 +17,7 @@ import biped_adrc as ba
 from biped_adrc.core.errors import InputError, SimulationError
 from biped_adrc.core.files import data_folder
 from biped_adrc.studies import runner
-from biped_adrc.studies.store import RESULTS
+from biped_adrc.studies.results import RESULTS
 from tests.commands import command
 
 FOLDER = Path(plants.__file__).parent
@@ -234,3 +234,9 @@ def test_the_command_walks_writes_and_goes_on(tmp_path):
     assert page.count("<figure>") == 5
     command(*line)
     assert (out / "study.html").read_text() == page
+    few = tmp_path / "few.toml"
+    few.write_text(
+        'name = "few"\nseeds = 2\nbase = { run.impacts = 1, start.rate_spread = 0.05 }\n'
+    )
+    done = command("study", few, "-o", tmp_path / "few", "--workers", "1")
+    assert "An interval of a median takes at least 6 walks." in done

@@ -15,8 +15,7 @@ from biped_adrc.scenario.scenario import read_scenario
 from biped_adrc.studies import search as search_room
 from biped_adrc.studies.build import scenario_of
 from biped_adrc.studies.measure import Limit, Objective, numbers_without_walk
-from biped_adrc.studies.proposals import searched
-from biped_adrc.studies.search import Candidate, ranked
+from biped_adrc.studies.search import Candidate, ranked, searched
 from biped_adrc.studies.study import read_study
 from tests.commands import command
 

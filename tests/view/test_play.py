@@ -23,7 +23,7 @@ from biped_adrc.extras.play.webassembly import web_module
 from biped_adrc.model.planar import jacobian, link_point, point, turned
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.scenario import read_scenario
-from biped_adrc.view.meshcat.frames import pose
+from biped_adrc.view.meshcat.view import pose
 from biped_adrc.view.placement import WalkScene
 from tests.commands import command
 
@@ -327,7 +327,7 @@ def test_what_walks_is_chosen_and_what_is_refused_is_said(browser: Chrome) -> No
         "field.value = arguments[0]; field.dispatchEvent(new Event('change'))",
         "-5",
     )
-    assert "K_p [1/s²] is -5, expected 30 to 30000" in browser.execute_script(refused)
+    assert "K_p is -5, expected 30 to 30000" in browser.execute_script(refused)
     mixed = "play.sample(); play.tune({ slider: 'ground.slope', value: 0.01, walks: known }); "
     browser.execute_script(mixed + "play.sample(); save()")
     assert "a slider was moved while it walked" in browser.execute_script(refused)

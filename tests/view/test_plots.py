@@ -23,7 +23,7 @@ from biped_adrc.paper.figures import NAMES, draw
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.walk import walk as walk_of
 from biped_adrc.view.from_the_side.robot_figure import robot_figure
-from biped_adrc.view.plots import comparison, over_time
+from biped_adrc.view.plots import figures, over_time
 from biped_adrc.view.style import render
 
 
@@ -103,7 +103,7 @@ def test_the_size_of_a_sine_is_its_amplitude_and_that_over_the_root_of_two(
     t = np.linspace(0.0, 1.0, 1001)
     error = 0.02 * np.sin(2 * np.pi * 5 * t)
     sine = replace(pushed["NPD"].signals, t=t, error=np.column_stack((error, -error, error, error)))
-    axes = comparison.error_sizes(axes_of_my_own(), {"NPD": sine})
+    axes = figures.error_sizes(axes_of_my_own(), {"NPD": sine})
     np.testing.assert_allclose(
         axes.get_lines()[0].get_ydata(), [0.02, 0.02 / np.sqrt(2)], rtol=1e-4
     )

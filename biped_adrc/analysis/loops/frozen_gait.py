@@ -4,43 +4,58 @@ At a phase of the periodic orbit the robot has (q, q', q''), and a small change 
 
     d q'' = A_q dq + A_v dq' + D^-1 B_s du                  about q'' of the orbit
 
-The configuration is frozen: a controller that samples at 1 kHz sees it move by less than 1 % of the
-step in a period. The same is done for robots whose trunk and legs are lighter or heavier than the
-model. So an error of the model enters as it does in a walk, as a matrix L L_model^-1 with L = (I - H_b -
-H_N A_N) kappa in place of one number: it couples the joints and reaches Theta.
+The configuration is frozen: a controller that samples at 1 kHz sees it move by less than 1 % of the step in a
+period. The same is done for robots whose trunk and legs are lighter or heavier than the model. So an error of
+the model enters as it does in a walk, as a matrix L L_model^-1 with L = (I - H_b - H_N A_N) kappa in place of
+one number: it couples the joints and reaches Theta.
+
+`tick_matrices` linearises the sample instant (tick) of a walker at the same phases:
+
+    z+ = Z z + Y (q, q'),     u = C z + E (q, q')                   d z+ / d(z, q, q')
+
+z is the walker's state from tick to tick: controller, observer, sensors with their filter, and the torques
+that the controller knows of. The derivative is taken of the methods themselves (`engine.tick_derivative`), so
+that the path of an encoder's error through Theta and Theta' is in it, and no controller has a formula here.
+
+Torque and rate limits are left out, and encoder counts are an error that is independent from tick to tick.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.core.errors import check_positive
+from biped_adrc.closed_loop.walker import Mode, Walker
+from biped_adrc.core.errors import InputError, check_positive
 from biped_adrc.core.shown import Shown
+from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array, read_only
+from biped_adrc.engine.tick_derivative import tick_derivative
 from biped_adrc.gait.gait import Gait
 from biped_adrc.gait.zero_dynamics import ZeroDynamics
+from biped_adrc.hardware.sample_hold import HeldSizes
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.derivatives import acceleration_derivatives
 
 PHASES = (0.15, 0.4, 0.65, 0.9)
-"""Shares of the step's time at which a loop is looked at [1]; the first is after the impact's transient."""
+"""Shares of the step's time at which a loop is linearised [1]; the first is after the impact's transient."""
 SPREAD = 0.2
-"""Masses and inertias known to this share [1]."""
+"""Uncertainty of masses and inertias, as a share of them [1]."""
 
 
 @dataclass(frozen=True)
 class FrozenPoint:
-    """The orbit at one phase, and (A, B) of each robot there."""
+    """The orbit at one phase, and the linearised dynamics (A, B) of each robot there."""
 
     t: float
     """Time since the step began [s]."""
     q: Array
-    """(n,) [rad]."""
+    """Angles of the orbit (n,) [rad]."""
     v: Array
-    """(n,) [rad/s]."""
+    """Rates of the orbit (n,) [rad/s]."""
     A: Array
     """(robots, 2 n, 2 n): (q, q')' = A (q, q') + B u for small changes."""
     B: Array
@@ -49,11 +64,11 @@ class FrozenPoint:
 
 @dataclass(frozen=True)
 class FrozenGait(Shown):
-    """The points of a gait. Make it by `of`, once for all candidates on this robot and gait."""
+    """A gait linearised at some phases. Make it by `of`, once for all candidates on this robot and gait."""
 
     points: tuple[FrozenPoint, ...]
     period: float
-    """Of the orbit: time of one step [s]."""
+    """Time of one step of the orbit [s]."""
     falling: float
     """sqrt(g / l) [1/s] of a body as high as the hip: the rate at which the robot falls over its foot."""
 
@@ -66,11 +81,11 @@ class FrozenGait(Shown):
         phases: tuple[float, ...] = PHASES,
         spread: float = SPREAD,
     ) -> FrozenGait:
-        """The gait's orbit on `model` (the plant itself when None), linearised for the plant and its
-        like with other inertias.
+        """Linearise the plant, and its like with other inertias, at phases of the gait's orbit.
 
-        Raises GaitError for a gait without a periodic orbit, InputError for a spread that is not
-        between 0 and 1.
+        model: robot on which the orbit is computed, the plant itself when None. phases: shares of
+        the step's time. Raises GaitError for a gait without a periodic orbit, InputError for a
+        spread that is not between 0 and 1.
         """
         check_positive(1.0 - spread, f"the spread of inertias is {spread}")
         orbit = ZeroDynamics.of(plant if model is None else model, gait.constraint).cycle
@@ -83,7 +98,9 @@ class FrozenGait(Shown):
 
 
 def _robots(plant: Biped, spread: float) -> Iterator[Biped]:
-    """The plant; all of it lighter and heavier; trunk heavier and legs lighter, and the other way round."""
+    """Iterate over the plant and four robots like it: all lighter, all heavier, trunk heavier and legs
+    lighter, and the other way round.
+    """
     yield plant
     if spread == 0.0:
         return
@@ -95,7 +112,9 @@ def _robots(plant: Biped, spread: float) -> Iterator[Biped]:
 
 
 def _point(robots: tuple[Biped, ...], t: float, q: Array, v: Array, a: Array) -> FrozenPoint:
-    """The point with q, v, a (n,) of the orbit, under the force that gives a robot this a."""
+    """Linearise all robots at q, v, a (n,) of the orbit, each under the force that
+    gives it this acceleration a.
+    """
     n, p = robots[0].n, robots[0].p
     A, B = np.zeros((len(robots), 2 * n, 2 * n)), np.zeros((len(robots), 2 * n, p))
     A[:, :n, n:] = np.eye(n)
@@ -106,3 +125,111 @@ def _point(robots: tuple[Biped, ...], t: float, q: Array, v: Array, a: Array) ->
         d = acceleration_derivatives(robot, q, v, force)
         A_i[n:, :n], A_i[n:, n:], B_i[n:] = d.dq, d.dv, d.dforce[:, :p]
     return FrozenPoint(t, read_only(q), read_only(v), read_only(A), read_only(B))
+
+
+TICKS_BEFORE = 2
+"""Ticks before the one that is differentiated, after which every sensor has a difference of its angles."""
+SAME = 1e-12
+"""Largest difference of two columns that count as equal; their largest entry is 1."""
+
+
+class TickMatrices(NamedTuple):
+    """The tick at some phases, their axes in front: k numbers in z, n coordinates, p motors."""
+
+    Z: Array
+    """(.., k, k)."""
+    Y: Array
+    """(.., k, 2 n)."""
+    C: Array
+    """(.., p, k)."""
+    E: Array
+    """(.., p, 2 n)."""
+
+
+def linear_twin(walker: Walker) -> Walker:
+    """The walker without its parts that have no derivative: limits, counts, noise, pushes.
+
+    Raises InputError for a walker in continuous time, or one that detects touchdowns.
+    """
+    if not isinstance(walker.timing, SampledTime):
+        raise InputError(
+            f"the sampled loop of a walker was asked for, found {walker.timing}; give "
+            "timing=SampledTime(period)"
+        )
+    if walker.touchdown is not None:
+        raise InputError(
+            "the walker has to notice touchdowns, which is no linear part; expected touchdown=None"
+        )
+    return replace(
+        walker,
+        sensors=None if walker.sensors is None else walker.sensors.smooth(),
+        torque_limit=None,
+        motors=None,
+        disturbance=None,
+    )
+
+
+def tick_matrices(twin: Walker, points: Sequence[FrozenPoint]) -> TickMatrices:
+    """Linearise the tick of a `linear_twin` at points of the gait; the matrices have a leading axis of points.
+
+    Raises NotFiniteError as `tick_derivative`.
+    """
+    assert isinstance(twin.timing, SampledTime)
+    assert twin.held is not None
+    n, T, sizes, mode = twin.plant.n, twin.timing.period, twin.held.sizes, Mode()
+    result, ticked = [], None
+    for point in points:
+        x, J = (
+            twin.initial_state(point.q - TICKS_BEFORE * T * point.v, point.v, mode),
+            np.zeros((0, 0)),
+        )
+        ticked = ticked or tick_derivative(twin, len(x))
+        for before in range(TICKS_BEFORE, -1, -1):
+            x[:n], x[n : 2 * n] = point.q - before * T * point.v, point.v
+            x, J = ticked(point.t - before * T, x, mode)
+        u, z = J[_newest(sizes, len(x))], _released(sizes, J)[2 * n :]
+        result.append((z[:, 2 * n :], z[:, : 2 * n], u[:, 2 * n :], u[:, : 2 * n]))
+    return _acting(TickMatrices(*(np.array(x) for x in zip(*result, strict=True))))
+
+
+def _acting(tick: TickMatrices) -> TickMatrices:
+    """Drop the numbers of z on which, at all phases, neither the torque nor the rest of z depends.
+
+    Two numbers that act on everything in the same ratio become one, their weighted sum: as the old angle of an
+    encoder and the rate of its filter do.
+    """
+    Z, Y, C, E = tick
+    columns = np.concatenate((*Z, *C)).T
+    k = len(columns)
+    largest = columns[range(k), np.argmax(np.abs(columns), axis=1)] if k else np.zeros(0)
+    shape = columns / np.where(largest == 0.0, 1.0, largest)[:, np.newaxis]
+    alike = np.max(np.abs(shape[:, np.newaxis] - shape), axis=-1, initial=0.0) < SAME
+    first = np.argmax(alike, axis=1) if k else np.zeros(0, dtype=int)
+    some = np.flatnonzero((first == np.arange(k)) & (largest != 0.0))
+    if len(some) == k:
+        return tick
+    share = (first == some[:, np.newaxis]) * largest / largest[some, np.newaxis]
+    return _acting(TickMatrices(share @ Z[:, :, some], share @ Y, C[:, :, some], E))
+
+
+def _newest(sizes: HeldSizes, end: int) -> slice:
+    """Slice of x, of `end` numbers, that holds the torque sent at this tick.
+
+    It is at the end of the queue, else where it waits, else where it acts on the motors.
+    """
+    if sizes.queue:
+        end -= sizes.p * (1 + sizes.waiting)
+    elif sizes.waiting:
+        end -= sizes.p
+    return slice(end - sizes.p, end)
+
+
+def _released(sizes: HeldSizes, J: Array) -> Array:
+    """J (nx, nx) after the torque that waits for a part of the period has begun to
+    act, as `semantics.release`.
+    """
+    if not sizes.waiting:
+        return J
+    p, J = sizes.p, J.copy()
+    J[-p:] = J[-2 * p : -p]
+    return J

@@ -1,4 +1,4 @@
-"""What a loop bears and what it costs, before a walk is spent: a specification of a whole candidate.
+"""Robustness and ripple of a candidate's loop, computed before any walk is simulated: its specification.
 
     spec = specification(walker, gait)
     spec.stable, spec.delay_margin, spec.disk_margin, spec.ripple
@@ -8,15 +8,29 @@ motors. Its sampled loop is linearised at some phases of the gait (`walker_loop`
 with other inertias (`frozen_gait`):
 
 - stable: at every phase, with every robot, every mode of the loop decays.
-- delay_margin: the smallest delay in all motors, beside the clock's own and hidden from the controller, with
+- delay_margin: the smallest delay in all motors, beside the clock's own and unknown to the controller, with
   which one of these loops is unstable.
-- disk_margin: the smallest multiloop disk margin of them (`disk_margin`).
+- disk_margin: the smallest multiloop disk margin of them, see below.
 - ripple: rms torque of the encoders' counts and noise over a step, of the motor with most.
 
 The gait's own modes do not count: a robot on a foot without a motor falls, with growth about sqrt(g / l),
-until the next step catches it, and no torque on joints that track a gait changes that. So a mode counts
-where |s| exceeds OWN times that rate, and margins are taken at frequencies above it. What the impact
-does, the multipliers of the return map say (`analysis.return_map`).
+until the next step catches it, and no torque on joints that track a gait changes that. So a mode counts where
+|s| exceeds OWN times that rate, and margins are taken at frequencies above it. The multipliers of the return
+map (`analysis.return_map`) describe the effect of impacts.
+
+The multiloop disk margin bounds errors of all motors at once, in gain and in phase. With S = (1 - G)^-1 the
+sensitivity of the torques u = G u, the loop bears every diagonal Delta in
+
+    u_i -> (1 + Delta_i / 2) / (1 - Delta_i / 2) u_i,    |Delta_i| < alpha
+    alpha = 1 / max_w mu(S(w) - 1/2)
+
+(Seiler, Packard, Gahinet, IEEE Control Systems Magazine 40(5), 2020, skew 0). A margin alpha lets all gains
+vary between (2 - alpha) / (2 + alpha) and its inverse, and all phases by +-2 atan(alpha / 2). mu is the
+structured singular value of one complex number per motor; as usual its upper bound is taken,
+
+    mu(M) <= min over d > 0 of sigma_max(diag(d) M diag(d)^-1)
+
+which is mu itself for up to three motors, and on the safe side beyond.
 """
 
 from __future__ import annotations
@@ -27,46 +41,50 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
+from scipy.optimize import minimize
 
-from biped_adrc.analysis.loops.disk_margin import disk_margin
-from biped_adrc.analysis.loops.frozen_gait import FrozenGait
-from biped_adrc.analysis.loops.tick_matrices import TickMatrices, linear_twin, tick_matrices
+from biped_adrc.analysis.loops.frozen_gait import (
+    FrozenGait,
+    TickMatrices,
+    linear_twin,
+    tick_matrices,
+)
 from biped_adrc.analysis.loops.walker_loop import WalkerLoops
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import SampledTime
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.gait.gait import Gait
 
 OWN = 2.0
-"""A mode with |s| below so many times sqrt(g / l) is the gait's own [1]."""
+"""A mode belongs to the gait itself where |s| is below this many times sqrt(g / l) [1]."""
 MOST_DELAY = 0.05
-"""Largest hidden delay that is looked at [s]."""
+"""Largest unknown delay that is tried [s]."""
 
 
 class Worst(NamedTuple):
-    """The loop in which a mode decays least."""
+    """The mode that decays least, and its loop."""
 
     growth: float
-    """Of that mode [1/s], below 0 where it decays."""
+    """Growth rate of the mode [1/s], below 0 where it decays."""
     share: float
-    """Time since the step began, over that of a step [1]."""
+    """Phase of its loop: time since the step began, over the time of a step [1]."""
     robot: int
-    """Place among the robots; 0 for the plant itself."""
+    """Index of its robot; 0 for the plant itself."""
 
 
 @dataclass(frozen=True)
 class Specification(Shown):
-    """The loops of one candidate, and what they bear. Make it by `specification`.
+    """The loops of one candidate with their margins and ripple. Make it by `specification`.
 
-    Each number is computed when it is asked for, in milliseconds. For an unstable loop the text says
-    "unstable"; its margins are 0 and its ripple is infinite.
+    Each number is computed at its first use, in milliseconds. For an unstable loop the text says "unstable";
+    its margins are 0 and its ripple is infinite.
     """
 
     loops: WalkerLoops
-    """By phase and by robot; the first robot is the plant."""
+    """The loops by phase and by robot; the first robot is the plant."""
     shares: tuple[float, ...]
-    """Of the phases: time since the step began, over that of a step [1]."""
+    """Phases: times since the step began, over the time of a step [1]."""
     errors: Array
     """Standard deviations (2 n,) [rad, rad/s] of the sensors' errors of (q, q')."""
 
@@ -84,7 +102,7 @@ class Specification(Shown):
 
     @cached_property
     def delay_margin(self) -> float:
-        """The smallest hidden delay [s] with which one of the loops is unstable, at most MOST_DELAY."""
+        """The smallest unknown delay [s] with which one of the loops is unstable, at most MOST_DELAY."""
         return self.loops.delay_margin(MOST_DELAY)
 
     @cached_property
@@ -97,7 +115,9 @@ class Specification(Shown):
 
     @cached_property
     def ripple(self) -> float:
-        """rms torque [N m] of the sensors' errors over a step, of the motor with most, on the plant itself."""
+        """rms torque [N m] that the sensors' errors make over a step, of the motor with
+        most, on the plant itself.
+        """
         if not self.stable:
             return math.inf
         plant = (self.loops[i, 0] for i in range(len(self.shares)))
@@ -105,7 +125,9 @@ class Specification(Shown):
         return float(np.sqrt(np.max(np.mean(squares, axis=0))))
 
     def columns(self) -> dict[str, float]:
-        """All of it as numbers by name, none of them NaN: growth [1/s], delay_margin [s], ripple [N m]."""
+        """All numbers by name, none of them NaN: stable [0 or 1], growth [1/s], delay_margin [s],
+        disk_margin [1], ripple [N m].
+        """
         return {
             "stable": float(self.stable),
             "growth": self.worst.growth,
@@ -121,17 +143,17 @@ class Specification(Shown):
             return f"unstable: a mode grows by {growth:.3g} /s {where}"
         more = "more than " if self.delay_margin >= MOST_DELAY else ""
         return (
-            f"stable: bears {more}{1e3 * self.delay_margin:.3g} ms of hidden delay, disk margin "
+            f"stable: bears {more}{1e3 * self.delay_margin:.3g} ms of unknown delay, disk margin "
             f"{self.disk_margin:.3g}, ripple {self.ripple:.3g} N m rms"
         )
 
 
 def specification(walker: Walker, gait: Gait | FrozenGait) -> Specification:
-    """What the sampled loop of a walker bears on a gait, and the ripple of its sensors.
+    """Linearise the sampled loop of a walker on a gait; its margins and ripple follow.
 
-    For many candidates on one robot and gait give a `FrozenGait`, which is made once. Raises InputError for
-    a walker in continuous time or one that has to notice touchdowns, GaitError for a gait without a
-    periodic orbit, NotFiniteError where a method has no finite derivative on the gait.
+    For many candidates on one robot and gait pass a `FrozenGait`, which is made once. Raises InputError for a
+    walker in continuous time or one that detects touchdowns, GaitError for a gait without a periodic orbit,
+    NotFiniteError where a method has no finite derivative on the gait.
     """
     twin = linear_twin(walker)
     assert isinstance(twin.timing, SampledTime)
@@ -146,3 +168,63 @@ def specification(walker: Walker, gait: Gait | FrozenGait) -> Specification:
     sensors = walker.sensors
     errors = exact if sensors is None else sensors.errors(n, walker.plant.p, exact)
     return Specification(loops, tuple(at.t / gait.period for at in gait.points), errors)
+
+
+BALANCED = 10
+"""Sweeps of Osborne's iteration, whose bounds decide for which frequencies mu is computed."""
+TOP = 50
+"""Number of matrices of largest norm whose spectral radius excludes frequencies with smaller mu."""
+SMOOTH = (8, 64, 512)
+"""Powers p of the norms (sum sigma^p)^(1/p), one after the other, for sigma_max, which is not smooth."""
+
+
+def balanced_bound(M: ComplexArray) -> Array:
+    """Upper bounds of mu (F,) of matrices M (F, p, p), by Osborne's scaling: fast, but not the least ones."""
+    p = M.shape[-1]
+    a = np.moveaxis(np.abs(M) ** 2, 0, -1) * (1.0 - np.eye(p))[..., np.newaxis]  # (p, p, F)
+    d = np.ones((p, len(M)))
+    for i in [*range(p)] * BALANCED:
+        f = np.sqrt((a[:, i].sum(0) + 1e-300) / (a[i].sum(0) + 1e-300))
+        a[i] *= f
+        a[:, i] /= f
+        d[i] *= np.sqrt(f)
+    d = d.T
+    return np.asarray(np.linalg.norm(d[:, :, np.newaxis] * M / d[:, np.newaxis], 2, axis=(-2, -1)))
+
+
+def structured_value(M: ComplexArray) -> float:
+    """Least upper bound of mu over scalings d of one matrix M (p, p)."""
+    p = len(M)
+    if p == 1:
+        return float(abs(M[0, 0]))
+
+    def scaled(x: Array) -> ComplexArray:
+        d = np.exp(np.append(x, 0.0))
+        return d[:, np.newaxis] * M / d
+
+    def smooth(x: Array, power: float) -> tuple[float, Array]:
+        """log of the norm of order `power` at log d = (x, 0), and its gradient (p - 1,)."""
+        U, sigma, V = np.linalg.svd(scaled(x))
+        weight = (sigma / sigma[0]) ** power
+        slope = np.abs(U) ** 2 @ weight - (np.abs(V) ** 2).T @ weight
+        value = np.log(sigma[0]) + np.log(weight.sum()) / power
+        return float(value), slope[:-1] / weight.sum()
+
+    x = np.zeros(p - 1)
+    for power in SMOOTH:
+        x = minimize(smooth, x, args=(power,), jac=True, method="BFGS").x
+    return float(np.linalg.norm(scaled(x), 2))
+
+
+def disk_margin(S: ComplexArray) -> float:
+    """alpha of sensitivities S (F, p, p) at F frequencies; infinite where S - 1/2 is zero at all of them."""
+    M = S - 0.5 * np.eye(S.shape[1])
+    rough = np.linalg.norm(M, axis=(-2, -1))  # Frobenius: mu is at most this, and at least a radius
+    radius = np.max(np.abs(np.linalg.eigvals(M[np.argsort(-rough)[:TOP]])))
+    M = M[rough >= (1.0 - 1e-9) * radius]
+    bounds, largest = balanced_bound(M), 0.0
+    for k in np.argsort(-bounds):
+        if bounds[k] <= largest:
+            break
+        largest = max(largest, structured_value(M[k]))
+    return 1.0 / largest if largest > 0.0 else np.inf

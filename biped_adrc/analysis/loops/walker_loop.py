@@ -2,11 +2,11 @@
 
 One period, for small changes of the state at a phase of the gait:
 
-    z+ = Z z + Y (q, q'),     u = C z + E (q, q')                   the tick, `tick_matrices`
+    z+ = Z z + Y (q, q'),     u = C z + E (q, q')                   the tick, `frozen_gait`
     (q, q', u_m)+ = Phi (q, q', u_m) + Gamma_1 u_(k-j-1) + Gamma_2 u_(k-j)       robot and motors
 
-The delay (j + f) T is the clock's and a hidden one beside it, the same in all motors; robot and lagging
-motors are exact for a torque that changes at f T. All loops of a walker are computed together.
+The delay (j + f) T is the clock's plus an unknown one, the same in all motors; robot and lagging motors are
+exact for a torque that changes at f T. All loops of a walker are computed together.
 """
 
 from __future__ import annotations
@@ -21,19 +21,23 @@ import numpy as np
 from scipy.linalg import eig, expm
 from scipy.optimize import brentq
 
-from biped_adrc.analysis.loops.tick_matrices import TickMatrices
-from biped_adrc.analysis.observer.sampled import covariance
+from biped_adrc.analysis.loops.frozen_gait import TickMatrices
+from biped_adrc.analysis.observer.loop import covariance
 from biped_adrc.core.types import Array, ComplexArray
 from biped_adrc.hardware.motors import whole_and_part
 
 TINY = 1e-12
-"""Eigenvalues below it are gone within a period."""
+"""Eigenvalues below this magnitude count as zero: their modes vanish within a period."""
 FREQUENCIES = 100
-"""At which the sensitivity is taken, in geometric order, beside those at which the loop swings."""
+"""Number of frequencies of the sensitivity, in geometric order, beside those of the loop's modes."""
 
 
 class LoopMatrices(NamedTuple):
-    """X+ = M X + B w of one period, and u = C X + D w; w is (q, q') as an error of the sensors, then of u."""
+    """X+ = M X + B w over one period, and u = C X + D w.
+
+    w is an error of the sensors in (q, q'), followed by an error of u. s states, p
+    motors; leading axes as the loops.
+    """
 
     M: Array
     """(.., s, s)."""
@@ -46,10 +50,11 @@ class LoopMatrices(NamedTuple):
 
 
 def robot_step(A: Array, B: Array, T: float, f: float, lag: float) -> tuple[Array, Array, Array]:
-    """Phi (.., s, s), Gamma_1 and Gamma_2 (.., s, p) of a period T [s] whose torque changes at f T.
+    """Phi (.., s, s), Gamma_1 and Gamma_2 (.., s, p) of robot and motors over a period T [s]
+    whose torque changes at f T.
 
-    A (.., m, m), B (.., m, p): of (q, q'). lag [s]: time constant of the motors, 0 for none, else their
-    torque is among the s states.
+    A (.., m, m), B (.., m, p): of (q, q'). lag [s]: time constant of the motors, 0 for none, else
+    their torque is among the s states.
     """
     *axes, m, p = B.shape
     rows = m + (p if lag > 0.0 else 0)
@@ -82,21 +87,21 @@ class WalkerLoops:
     period: float
     """T [s]."""
     delay: float
-    """From a sample instant to its torque [s]: the clock's."""
+    """Delay from a sample instant to its torque [s], of the clock."""
     lag: float
     """Time constant of the motors [s], 0 for none."""
     slow: float
-    """|s| [1/s] up to which a mode belongs to the gait, not to the loop; see `specification`."""
+    """|s| [1/s] up to which a mode belongs to the gait and not to the loop; see `specification`."""
 
     def __getitem__(self, at: Any) -> WalkerLoops:
-        """Some of the loops, by their indices or slices along (phases, robots)."""
+        """Select loops by indices or slices along (phases, robots)."""
         axes = self.B.shape[:-2]
         tick = (np.broadcast_to(x, (*axes, *x.shape[-2:]))[at] for x in self.tick)
         return replace(self, tick=TickMatrices(*tick), A=self.A[at], B=self.B[at])
 
-    def matrices(self, hidden: float = 0.0) -> LoopMatrices:
-        """One period with a hidden delay [s] in all motors."""
-        j, f = whole_and_part(self.delay + hidden, self.period)
+    def matrices(self, unknown: float = 0.0) -> LoopMatrices:
+        """Matrices of one period with an unknown delay [s] in all motors."""
+        j, f = whole_and_part(self.delay + unknown, self.period)
         Phi, G_1, G_2 = robot_step(self.A, self.B, self.period, f, self.lag)
         Z, Y, C_z, E = self.tick
         k, m, r, p = Z.shape[-1], Y.shape[-1], Phi.shape[-1], G_2.shape[-1]
@@ -121,35 +126,36 @@ class WalkerLoops:
 
     @cached_property
     def rates(self) -> ComplexArray:
-        """s [1/s] of the modes (.., s) without a hidden delay; see `modes`."""
+        """s [1/s] of the modes (.., s) without an unknown delay; see `modes`."""
         return self.modes(0.0)
 
-    def modes(self, hidden: float) -> ComplexArray:
-        """s = log(lambda) / T [1/s] of the modes (.., s) with a hidden delay [s] in all motors.
+    def modes(self, unknown: float) -> ComplexArray:
+        """s = log(lambda) / T [1/s] of the modes (.., s) with an unknown delay [s] in all motors.
 
-        Very negative for those that are gone within a period.
+        Very negative for modes that vanish within a period.
         """
-        values = np.linalg.eigvals(self.matrices(hidden).M).astype(complex)
+        values = np.linalg.eigvals(self.matrices(unknown).M).astype(complex)
         return np.asarray(self._rates(values))
 
     def _rates(self, values: ComplexArray) -> ComplexArray:
         return np.asarray(np.log(np.where(np.abs(values) > TINY, values, TINY)) / self.period)
 
-    def growth(self, hidden: float = 0.0) -> Array:
-        """Of the fastest growing mode that is not the gait's own (..) [1/s], below 0 for a stable loop.
+    def growth(self, unknown: float = 0.0) -> Array:
+        """Growth rate of the fastest growing mode that is not the gait's own (..) [1/s],
+        below 0 for a stable loop.
 
-        hidden [s]: a delay in all motors.
+        unknown [s]: delay in all motors.
         """
-        rates = self.modes(hidden) if hidden else self.rates
+        rates = self.modes(unknown) if unknown else self.rates
         own = np.abs(rates) <= self.slow
         return np.asarray(np.max(np.where(own, -np.inf, rates.real), axis=-1, initial=-np.inf))
 
     def delay_margin(self, most: float) -> float:
-        """The smallest hidden delay [s] with which a mode of one of the loops grows, `most` [s] where none up
-        to it does; 0 where one is unstable without.
+        """The smallest unknown delay [s] with which a mode of one of the loops grows; `most` [s]
+        where there is none up to it.
 
-        The loop whose torques move the robot most is asked first; of the others those alone that are
-        unstable with what is found.
+        0 where a loop is unstable without it. The loop whose torques move the robot most is searched first; of
+        the others only those that are unstable with the delay found so far.
         """
         if not np.all(self.growth() < 0.0):
             return 0.0
@@ -163,14 +169,14 @@ class WalkerLoops:
         return least
 
     def _in_a_row(self) -> WalkerLoops:
-        """The same loops along one axis."""
+        """The same loops along one leading axis."""
         axes = self.B.shape[:-2]
         tick = (np.broadcast_to(x, (*axes, *x.shape[-2:])) for x in self.tick)
         A, B, *rest = (x.reshape(math.prod(axes), *x.shape[-2:]) for x in (self.A, self.B, *tick))
         return replace(self, tick=TickMatrices(*rest), A=A, B=B)
 
     def _first_unstable(self, most: float, upwards: bool) -> float:
-        """Of one loop the smallest hidden delay [s] with which a mode grows, at most `most` [s].
+        """Of one loop the smallest unknown delay [s] with which a mode grows, at most `most` [s].
 
         Delays are tried from a quarter of a period on, each 1.25 times the one before; the first that is
         unstable is refined. Not `upwards`: from `most`, where it is unstable, down to the first that is not.
@@ -187,8 +193,11 @@ class WalkerLoops:
         return most if low == most else float(brentq(growth, low, high, xtol=1e-9, rtol=1e-6))
 
     def sensitivity(self) -> ComplexArray:
-        """S (.., F, p, p): torque of the controller and an error of it, per that error, at FREQUENCIES and
-        at the loop's own, between `slow` and half the sampling frequency.
+        """S (.., F, p, p): the controller's torque plus an error of the torque, per that
+        error, at F frequencies.
+
+        They are FREQUENCIES in geometric order and those of the loop's modes, between `slow` and
+        half the sampling frequency.
         """
         nyquist, own = np.pi / self.period, self.rates.imag
         inside = (own > self.slow) & (own < nyquist)
@@ -212,9 +221,11 @@ class WalkerLoops:
         return np.concatenate(result, axis=-3)
 
     def covariance_of_torque(self, errors: Array) -> Array:
-        """Of the torques (p, p) [N^2 m^2] of one loop under independent errors of (q, q') at every tick, of
-        standard deviations errors (2 n,) [rad, rad/s]; the gait's own modes are taken out. Of a stable loop
-        only.
+        """Covariance (p, p) [N^2 m^2] of the torques of one loop under independent errors of
+        the sensors at every tick.
+
+        errors (2 n,): standard deviations of the errors of (q, q') [rad, rad/s]. The gait's own modes are
+        removed. For a stable loop only.
         """
         M, B, C, D = self.matrices()
         m = len(errors)
@@ -228,7 +239,7 @@ class WalkerLoops:
 
 
 def response(z: ComplexArray, M: Array, B: Array, C: Array) -> ComplexArray:
-    """C (z - M)^-1 B (.., F, p, m) of sampled systems, of many at once, at z (.., F, 1, 1)."""
+    """Frequency response C (z - M)^-1 B (.., F, p, m) of many sampled systems at z (.., F, 1, 1)."""
     M, B = M[..., np.newaxis, :, :], B[..., np.newaxis, :, :]
     states = np.linalg.solve(z * np.eye(M.shape[-1]) - M, B + 0.0 * z)
     return np.asarray(C[..., np.newaxis, :, :] @ states)

@@ -1,18 +1,17 @@
-"""The largest bandwidth that a robot's encoders, sampling and motors allow an observer, for each order
-m.
+"""The largest bandwidth that a robot's encoders, sampling and motors allow an observer, for each order m.
 
-An encoder of N counts per revolution leaves an error between -pi / N and pi / N, of variance (2 pi
-/ N)^2 / 12, independent from one sample instant to the next while the joint moves by counts. In
-joint i it makes a torque of
+An encoder of N counts per revolution leaves an error between -pi / N and pi / N, of variance (2
+pi / N)^2 / 12, independent from one sample instant to the next while the joint moves by counts.
+In joint i it makes a torque of
 
     rms u_i = sigma_a sqrt(sum_j (kappa^-1)_ij^2)
 
-with sigma_a [rad/s^2] from the sampled loop. The encoders' part in Theta and in the rates of the
-reference, which no observer filters, is not included; `analysis.loops` has it.
+with sigma_a [rad/s^2] from the sampled loop. The encoders' part in Theta and in the rates of the reference,
+which no observer filters, is not included; `analysis.loops` has it.
 
-An observer is allowed on the `Hardware` if its sampled loop is stable for kappa 20 % off, and if
-the torque noise ("ripple") of one count stays below a share of the torque limit. `observer_report`
-calls `recommend` for its last table.
+An observer is allowed on the `Hardware` if its sampled loop is stable for kappa 20 % off, and if the
+torque noise ("ripple") of one count stays below a share of the torque limit. `observer_report` calls
+`recommend` for its last table.
 """
 
 from __future__ import annotations
@@ -25,9 +24,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from biped_adrc.analysis.observer.loop import ObserverLoop, first_gains
-from biped_adrc.analysis.observer.sampled import (
+from biped_adrc.analysis.observer.loop import (
+    ObserverLoop,
     SampledLoop,
+    first_gains,
     largest_delay,
     last_true,
 )
@@ -35,15 +35,15 @@ from biped_adrc.control.tracking import Gains
 from biped_adrc.observers.gpi import GPIObserver
 
 SHARE = 0.1
-"""Share of the torque limit that the rms torque of one count may have. The published gait takes 108 of
-RABBIT's 150 N m at its peak: the rest holds three standard deviations of 15 N m.
+"""Share of the torque limit for the rms torque of one count: a gait of 108 of 150 N m leaves three
+deviations.
 """
 KAPPA_RATIOS = (0.8, 1.0, 1.25)
 """Ratios of the robot's kappa to the model's for which a recommended loop is stable: inertias known to 20 %."""
 ORDERS = (0, 1, 2, 3, 5, 7)
 """Orders m of the disturbance model that are compared; an observer has m + 2 poles."""
 LEAST, MOST = 10.0, 2e4
-"""[rad/s]: bandwidths that are looked among; below, the observer is slower than a step of the robot."""
+"""Range of the bandwidths that are tried [rad/s]; below it, the observer is slower than a step of the robot."""
 BANDS = 120
 """Number of bandwidths, in geometric order, before the largest one is refined by bisection."""
 REJECTED = 2.0 * math.pi * 5.0
@@ -51,18 +51,18 @@ REJECTED = 2.0 * math.pi * 5.0
 
 
 class Hardware(NamedTuple):
-    """Sampling, encoders and motors that the loop runs on."""
+    """Sampling, encoders and motors on which the loop runs."""
 
     period: float
     """Sampling period [s]."""
     delay: float
     """From a sample instant to the torque computed from it [s]."""
     known: bool
-    """Whether the delay is known: the observer is then fed with the torque that acts, not the command."""
+    """Whether the delay is known: the observer is then fed with the torque that acts, else with the command."""
     counts: float
     """Counts of the encoders per revolution."""
     torque_limit: float
-    """Of every motor [N m]."""
+    """Torque limit of every motor [N m]."""
     inertia: float
     """Largest sqrt(sum_j (kappa^-1)_ij^2) over joints i and the step [kg m^2]: torque per acceleration."""
 
@@ -75,7 +75,9 @@ class Recommended(NamedTuple):
     bandwidth: float
     """Magnitude of the poles [rad/s]."""
     because: str
-    """What forbids a larger one: "ripple" or "stability"; "" where nothing does, or none is allowed."""
+    """Obstacle to a larger bandwidth: "ripple" or "stability"; "" for none, or where no bandwidth is
+    allowed.
+    """
     ripple: float
     """rms torque of one encoder count [N m]."""
     delay_margin: float
@@ -91,7 +93,7 @@ def count_error(counts: float) -> float:
 
 @dataclass(frozen=True)
 class OnHardware:
-    """An observer and the gains of the first joint, judged at the period and delay of the hardware."""
+    """An observer and the gains of the first joint, evaluated at the period and delay of the hardware."""
 
     hardware: Hardware
     observer: GPIObserver
@@ -110,18 +112,20 @@ class OnHardware:
 
     @cached_property
     def ripple(self) -> float:
-        """rms torque [N m] of the error of one encoder count; NaN for an unstable loop."""
+        """rms torque [N m] that the error of one encoder count makes; NaN for an unstable loop."""
         return self.sampled().rms(count_error(self.hardware.counts)) * self.hardware.inertia
 
     @cached_property
     def weakest(self) -> tuple[float, float]:
-        """The one of KAPPA_RATIOS with the largest spectral radius, and that radius; dimensionless."""
+        """The ratio among KAPPA_RATIOS with the largest spectral radius of the sampled loop, and that
+        radius.
+        """
         radii = {ratio: self.sampled(ratio).spectral_radius for ratio in KAPPA_RATIOS}
         return max(radii.items(), key=lambda found: found[1])
 
     @cached_property
     def obstacle(self) -> str:
-        """What forbids this observer: "stability", "ripple", or "" where nothing does."""
+        """The criterion that excludes this observer: "stability", "ripple", or "" where it is allowed."""
         if not self.weakest[1] < 1.0:
             return "stability"
         return "" if self.ripple <= SHARE * self.hardware.torque_limit else "ripple"
@@ -133,10 +137,10 @@ class OnHardware:
 
 
 def recommend(hardware: Hardware, gains: Gains, m: int) -> Recommended:
-    """The largest bandwidth of m + 2 equal poles in the lowest range of bandwidths that are allowed.
+    """Find the largest bandwidth of m + 2 equal poles within the lowest range of bandwidths that are allowed.
 
-    Only the lowest range counts: a loop that is unstable at some bandwidth and stable again above
-    it would be a bad recommendation.
+    Only the lowest range counts: a loop that is unstable at some bandwidth and stable again above it
+    would be a bad recommendation.
     """
 
     def candidate(w: float) -> OnHardware:
@@ -155,7 +159,7 @@ def recommend(hardware: Hardware, gains: Gains, m: int) -> Recommended:
 
 
 def without_observer(gains: Gains) -> float:
-    """|e / xi| at REJECTED [s^2] of K_p and K_d alone: 1 / |s^2 + K_d s + K_p|, to compare with."""
+    """|e / xi| at REJECTED [s^2] with K_p and K_d alone, 1 / |s^2 + K_d s + K_p|, for comparison."""
     K_p, K_d = first_gains(gains)
     s = 1j * REJECTED
     return float(1.0 / abs(s**2 + K_d * s + K_p))

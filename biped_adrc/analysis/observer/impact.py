@@ -1,10 +1,10 @@
 """The estimation error that an impact leaves in an observer, by its linear error dynamics.
 
-    e' = A^ e   (19),   e(0+) = what is true after impact - what the reset makes of the estimates before it
+    e' = A^ e   (19),   e(0+) = true states after impact - estimates after the reset
 
-The true states are q_b, q_b', the total disturbance xi (p,) [rad/s^2] of q_b'' = kappa u + xi (13), and
-derivatives of xi in time. e_1, e_2, e_3 (p,) are the errors of the first three, and A^ is the observer's
-matrix.
+The true states are q_b, q_b', the total disturbance xi (p,) [rad/s^2] of q_b'' = kappa u +
+xi (13), and derivatives of xi in time. e_1, e_2, e_3 (p,) are the errors of the first three,
+and A^ is the observer's matrix.
 
 At an impact velocities and xi jump; each `ResetPolicy` sets the estimates in another way. The gait walks its
 periodic orbit, and just before impact the estimates have no error. The torque that the error costs is
@@ -12,7 +12,7 @@ periodic orbit, and just before impact the estimates have no error. The torque t
     u - u* = kappa^-1 (K_p e_1 + K_d e_2 + e_3)
 
 its deviation from the torque u* of exact estimates. kappa is constant, its value just after impact. The model
-is linear, so it knows neither the torque limit nor a fall. `observer_tables` shows one row per reset policy.
+is linear and includes neither the torque limit nor a fall. `ObserverReport` shows one row per reset policy.
 """
 
 from __future__ import annotations
@@ -35,13 +35,9 @@ from biped_adrc.observers.gpi import GPIObserver
 DEGREE = 20
 """Degree of the polynomial in time that approximates xi along the orbit."""
 DERIVATIVES = 3
-"""How many derivatives of xi are taken from it. Higher ones, for which the fit is too rough, are set to zero
-before and after impact, and so give no error.
-"""
+"""Number of derivatives of xi taken from it; higher ones, too rough, are zero before and after impact."""
 INSTANTS, LONG = 400, 8.0
-"""Number of instants after t = 0 at which the response is computed; its length in time constants of the slowest
-pole.
-"""
+"""Number of instants after t = 0 at which the response is computed."""
 
 
 class ImpactPeak(NamedTuple):
@@ -73,10 +69,10 @@ class ImpactStates(NamedTuple):
 
 
 def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
-    """True states just before and after the impact of the gait's periodic orbit.
+    """True states of the observer's chain just before and after the impact of the gait's periodic orbit.
 
-    order: states per joint of the observer, m + 2: q_b, q_b', and m for xi and its derivatives.
-    Raises GaitError where the gait has no periodic orbit.
+    order: states per joint of the observer, m + 2: q_b, q_b', and m for xi and its derivatives. Raises
+    GaitError where the gait has no periodic orbit.
     """
     zero = ZeroDynamics.of(biped, gait.constraint)
     orbit = zero.cycle
@@ -95,9 +91,9 @@ def orbit_impact(biped: Biped, gait: Gait, order: int) -> ImpactStates:
 
 
 def reset_error(impact: ImpactStates, policy: ResetPolicy) -> Array:
-    """The error e(0+) just after impact under a reset policy: true states minus estimates.
+    """The error e(0+) (order, p) just after impact under a reset policy: true states minus estimates.
 
-    (order, p) in physical units: rows [rad], [rad/s], [rad/s^2], ....
+    In physical units: rows [rad], [rad/s], [rad/s^2], ....
     """
     estimate = (
         impact.before if policy is ResetPolicy.NONE else relabelled(impact.before, impact.swap)
@@ -114,7 +110,7 @@ def reset_error(impact: ImpactStates, policy: ResetPolicy) -> Array:
 def impact_peak(
     observer: GPIObserver, impact: ImpactStates, policy: ResetPolicy, gains: Gains = TABLE_II
 ) -> ImpactPeak:
-    """Largest errors and torque deviation after an impact: peaks of the response to e(0+).
+    """Peaks of the estimation errors and of the torque deviation after an impact, from the response to e(0+).
 
     Over LONG time constants of the slowest pole, in scaled states, by a matrix exponential at each instant.
     For m = 0 the observer has no estimate of xi, and e_3 counts as 0.

@@ -1,7 +1,6 @@
 """The linear loop of one joint under ADRC whose torque acts after a delay: loop gain and delay margin.
 
-With chi(s) the observer's polynomial (19), a = kappa u - q_d'' and e = q_b - q_d, the robot and
-(20) are
+With chi(s) the observer's polynomial (19), a = kappa u - q_d'' and e = q_b - q_d, the robot and (20) are
 
     e'' = a(t - d) + xi,    a = -K_p x1^ - K_d x2^ - xi^
 
@@ -13,21 +12,38 @@ Opened at the delay, the loop has the gain L(s), and roots on the imaginary axis
     Q = s^2 + (l_(m+1) + K_d) s + l_m + K_p + K_d l_(m+1)
     P = the terms of (s^2 + K_d s + K_p) chi below s^(m+2)
 
-since s^(m+2) Q + P = (s^2 + K_d s + K_p) chi, which for d = 0 is the characteristic
-polynomial. All coefficients of P and Q are sums of products of positive ones, so nothing cancels,
-and s is counted in units of w, the geometric mean of the poles, which keeps the numbers near 1.
-Without delay
+since s^(m+2) Q + P = (s^2 + K_d s + K_p) chi, which for d = 0 is the characteristic polynomial. All
+coefficients of P and Q are sums of products of positive ones, so nothing cancels, and s is counted in units of
+w, the geometric mean of the poles, which keeps the numbers near 1. Without delay
 
     e / xi = s^m Q / ((s^2 + K_d s + K_p) chi)                    (23), corrected
     xi^ / xi = (chi - s^(m+2) - l_(m+1) s^(m+1) - l_m s^m) / chi
     a / n = -s^2 P / ((s^2 + K_d s + K_p) chi)                    n: error of the measured q_b
 
-(22) and (23) print l_(m+1) in Q without its factor K_d. `sampled` has the same loop in sampled time.
+(22) and (23) print l_(m+1) in Q without its factor K_d. `SampledLoop` is the same loop in sampled time.
+
+In sampled time, with T the period, the torque held between sample instants and acting (j + f) T
+after its instant, 0 <= f < 1,
+
+    e_(k+1)    = e_k + T e'_k + T^2 (g alpha + xi) / 2,     T e'_(k+1) = T e'_k + T^2 (g alpha + xi)
+
+where alpha changes from a_(k-j-1) to a_(k-j) at t_k + f T, and
+
+    Z <- Z + L (e + n - Z_1),  a = -F Z,  Z <- Phi Z + Gamma a       as `SampledChain`
+
+X = (e, T e', Z, torques on their way) obeys X <- X + M X + B (xi, n). M is formed without its unit matrix: at
+short periods all eigenvalues gather at 1, and what distinguishes them would be lost in round-off. With an
+unknown delay the observer is fed with a_k; with a known one, as the controllers are, with the mean of the
+torque that acts until the next sample instant. For f > 0 the mean has the right effect on the velocity and an
+error f (1 - f) T^2 / 2 per change of the torque in the angle. For fast observers that error can be worse than
+an unknown delay.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -35,11 +51,14 @@ import numpy as np
 from scipy.optimize import brentq
 
 from biped_adrc.control.tracking import TABLE_II, Gains
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array, ComplexArray
+from biped_adrc.hardware.motors import whole_and_part
 from biped_adrc.observers.gpi import GPIObserver
 
 GRID = 2000
-"""Number of frequencies of a response, between which crossovers are searched too."""
+"""Number of frequencies of a response; crossovers are searched between them too."""
 
 
 class DelayMargin(NamedTuple):
@@ -48,19 +67,19 @@ class DelayMargin(NamedTuple):
     delay: float
     """[s], infinite when there is none."""
     frequency: float
-    """[rad/s], as the delay infinite."""
+    """Frequency of the root [rad/s], infinite when there is none."""
 
 
 @dataclass(frozen=True)
 class ObserverLoop:
-    """The loop of the first joint in continuous time."""
+    """The loop of the first joint under ADRC in continuous time."""
 
     observer: GPIObserver
     gains: Gains = TABLE_II
 
     @property
     def frequencies(self) -> Array:
-        """Grid (GRID,) [rad/s], from far below the slowest pole to far above the fastest."""
+        """Grid of frequencies (GRID,) [rad/s], from far below the slowest pole to far above the fastest."""
         (K_p, K_d), rates = first_gains(self.gains), np.abs(self.observer.poles)
         slow, fast = min(rates.min(), np.sqrt(K_p)), max(rates.max(), K_d)
         return np.geomspace(0.01 * slow, 100.0 * fast, GRID)
@@ -68,24 +87,30 @@ class ObserverLoop:
     # -- polynomials in s / w, highest power first --------------------------------------------------
     @cached_property
     def _chi(self) -> Array:
-        """chi (m + 3,), from the scaled gains."""
+        """Coefficients (m + 3,) of the observer's polynomial chi, highest power first, dimensionless."""
         return np.concatenate(([1.0], self.observer.scaled_gains))
 
     @cached_property
     def _feedback(self) -> Array:
-        """s^2 + K_d s + K_p (3,)."""
+        """Coefficients (3,) of the feedback's polynomial s^2 + K_d s + K_p, dimensionless."""
         (K_p, K_d), w = first_gains(self.gains), self.observer.scale
         return np.array([1.0, K_d / w, K_p / w**2])
 
     def _Q(self, printed: bool = False) -> Array:
-        """Q (3,), corrected or as printed."""
+        """Coefficients (3,) of the polynomial Q of the loop gain, highest power first;
+        corrected, or as the paper prints it.
+
+        s is counted in units of the observer's scale, so they are dimensionless.
+        """
         (_, k_d, k_p), (l_1, l_2) = self._feedback, self._chi[1:3]
         factor = 1.0 / self.observer.scale if printed else k_d
         return np.array([1.0, l_1 + k_d, l_2 + k_p + factor * l_1])
 
     @cached_property
     def _P(self) -> Array:
-        """P (m + 2,): the last coefficients of the product."""
+        """Coefficients (m + 2,) of the polynomial P of the loop gain, dimensionless: the last ones of the
+        product of chi and the feedback.
+        """
         return np.asarray(np.polymul(self._feedback, self._chi)[3:], dtype=float)
 
     # -- frequency responses -------------------------------------------------------------------------
@@ -116,7 +141,9 @@ class ObserverLoop:
         return -self._response(numerator, frequency) * self.observer.scale**2
 
     def gain(self, frequency: Array, known: bool = False) -> ComplexArray:
-        """L (K,), dimensionless, at frequencies (K,) [rad/s]."""
+        """Loop gain L (K,), dimensionless, at frequencies (K,) [rad/s]; known: whether the
+        observer is fed with a(t - d).
+        """
         s = 1j * np.asarray(frequency, dtype=float) / self.observer.scale
         if known:
             return np.polyval(self._feedback[1:], s) / s**2
@@ -146,3 +173,157 @@ class ObserverLoop:
 def first_gains(gains: Gains) -> tuple[float, float]:
     """K_p [1/s^2] and K_d [1/s] of the first joint."""
     return float(np.ravel(gains.K_p)[0]), float(np.ravel(gains.K_d)[0])
+
+
+SHORTEST, LONGEST = 1e-6, 0.1
+"""Range of the periods that are tried for the largest stable one [s]."""
+RATIO = 1.05
+"""Ratio of one period of that search to the one before."""
+PARTS, MOST_PERIODS = 20, 50
+"""Steps per period of the search for the largest delay, and its length in periods."""
+HIGHEST = 14
+"""Largest m: above it round-off moves the poles of the discrete observer by more than the loop does."""
+
+
+class StepMatrices(NamedTuple):
+    """X <- X + M X + B w and T^2 a = C X + D w over one period, with w = (T^2 xi, n)."""
+
+    M: Array
+    """(s, s)."""
+    B: Array
+    """(s, 2)."""
+    C: Array
+    """(s,)."""
+    D: Array
+    """(2,)."""
+
+
+@dataclass(frozen=True)
+class SampledLoop:
+    """The loop of the first joint under ADRC in sampled time.
+
+    Raises InputError for a period or delay that `SampledTime` refuses, and an m above HIGHEST.
+    """
+
+    observer: GPIObserver
+    """The GPI observer in continuous time; its sampled form has the poles exp(s T)."""
+    period: float
+    """T [s]."""
+    gains: Gains = TABLE_II
+    delay: float = 0.0
+    """Delay from a sample instant to its torque [s]."""
+    known: bool = False
+    """Whether the observer is fed with the torque that acts, or with the command."""
+    kappa_ratio: float = 1.0
+    """g, the robot's kappa over the model's, dimensionless."""
+
+    def __post_init__(self) -> None:
+        SampledTime(self.period, delay=self.delay)
+        if self.observer.m > HIGHEST:
+            raise InputError(
+                f"the sampled loop of an observer with m = {self.observer.m} was asked for, expected m <= "
+                f"{HIGHEST}: above it round-off decides what is stable"
+            )
+
+    @cached_property
+    def step(self) -> StepMatrices:
+        """Matrices of one period, formed from rows in (X, T^2 xi, n), composed as the equations read."""
+        k, T, g = self.observer.order, self.period, self.kappa_ratio
+        queue, f = whole_and_part(self.delay, T)
+        late = int(f > 0.0)
+        size = 2 + k + queue + late
+        rows = np.eye(size + 2)
+        e, rate, xi, n = rows[[0, 1, size, size + 1]]
+        Z, line = rows[2 : 2 + k], rows[2 + k : size]
+        o = self.observer.sampled(T)
+        correction = np.outer(o.L, e + n - Z[0])
+        Z_k = Z + correction
+        K_p, K_d = first_gains(self.gains)
+        F = np.zeros(k)
+        F[:3] = (T**2 * np.array([K_p, K_d / T, T**-2]))[:k]
+        a = -F @ Z_k
+        sent = np.vstack((line, a))  # in the order in which they act; the first until t_k + f T
+        before, after = sent[0], sent[late]
+        push = g * (before * (f - 0.5 * f**2) + after * 0.5 * (1.0 - f) ** 2) + 0.5 * xi
+        kick = g * (before * f + after * (1.0 - f)) + xi
+        u = f * before + (1.0 - f) * after if self.known else a
+        dZ = correction + (o.Phi - np.eye(k)) @ Z_k + np.outer(o.Gamma / T**2, u)
+        changes = np.vstack((rate + push, kick, dZ, sent[1:] - line))
+        return StepMatrices(changes[:, :size], changes[:, size:], a[:size], a[size:])
+
+    @property
+    def matrix(self) -> Array:
+        """The matrix (s, s) of X_(k+1) = matrix X_k, dimensionless."""
+        return self.step.M + np.eye(len(self.step.M))
+
+    @cached_property
+    def spectral_radius(self) -> float:
+        """Largest |eigenvalue| over one period; below 1 for a stable loop."""
+        return float(np.max(np.abs(1.0 + np.linalg.eigvals(self.step.M))))
+
+    @property
+    def stable(self) -> bool:
+        """Whether the spectral radius is below 1."""
+        return self.spectral_radius < 1.0
+
+    def rms(self, sigma: float) -> float:
+        """Standard deviation of a [rad/s^2] under independent errors of the measured angles,
+        of deviation sigma [rad].
+
+        Exact, by the discrete Lyapunov equation; NaN for an unstable loop, which has none.
+        """
+        if not self.stable:
+            return np.nan
+        _, B, C, D = self.step
+        P = covariance(self.matrix, np.outer(B[:, 1], B[:, 1]))
+        return float(np.sqrt(C @ P @ C + D[1] ** 2)) * sigma / self.period**2
+
+
+def covariance(A: Array, Q: Array) -> Array:
+    """Solve P = A P A' + Q for P (s, s), with a stable A (s, s), as the sum of A^i Q A'^i, doubling its terms.
+
+    For a matrix Q that is positive semidefinite all terms add up, so nothing is lost where the equation itself
+    is badly conditioned. P has the units of Q, such as [rad^2] for angles.
+    """
+    P = Q
+    while True:
+        more = A @ P @ A.T
+        P, A = P + more, A @ A
+        if not np.max(np.abs(more)) > 1e-16 * np.max(np.abs(P)):
+            return P
+
+
+def largest_period(loop: SampledLoop, delay_periods: float = 0.0) -> float:
+    """The largest T [s] below which the loop is stable at every period, with a delay of that many periods.
+
+    NaN when SHORTEST is unstable already, infinite when all up to LONGEST are stable.
+    """
+    count = math.ceil(math.log(LONGEST / SHORTEST) / math.log(RATIO))
+    periods = SHORTEST * RATIO ** np.arange(count + 1)
+    return last_true(lambda T: replace(loop, period=T, delay=delay_periods * T).stable, periods)
+
+
+def largest_delay(loop: SampledLoop) -> float:
+    """The largest delay [s] below which the loop is stable with every delay.
+
+    NaN when the loop is unstable without one, infinite when all up to MOST_PERIODS are stable.
+    """
+    delays = loop.period / PARTS * np.arange(MOST_PERIODS * PARTS + 1)
+    return last_true(lambda delay: replace(loop, delay=delay).stable, delays)
+
+
+def last_true(holds: Callable[[float], bool], tried: Iterable[float]) -> float:
+    """Find where `holds` ends: between two of the increasing numbers `tried`, by bisection to 1e-6 of it.
+
+    NaN when it does not hold at the first, infinite when it holds at all of them.
+    """
+    low = math.nan
+    for x in tried:
+        if holds(high := float(x)):
+            low = high
+            continue
+        while high - low > 1e-6 * high:
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if holds(middle) else (low, middle)
+        return low
+    return math.inf

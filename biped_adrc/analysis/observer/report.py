@@ -1,10 +1,10 @@
 """What a GPI observer demands of a robot's encoders, sampling and motors, and which one they allow.
 
-`observer_report` puts together what the linear loop of one joint says: gains and conditioning,
-transfer functions, delay margins, the largest stable period, the torque noise of one encoder count,
-the peak after an impact, and the largest bandwidth of each order that the robot allows. Numbers are computed
-when they are asked for. `verdict` and `sections` say them in words and tables, in which the delay is "hidden"
-from the observer, or "known" to it.
+`observer_report` computes from the linear loop of one joint: gains and conditioning, transfer functions, delay
+margins, the largest stable period, the torque noise of one encoder count, the peak after an impact, and the
+largest bandwidth of each order that the robot allows. Each number is computed at its first use. `verdict` and
+`sections` present them in words and tables. A delay is "unknown" where the observer is fed with the command,
+"known" where it is fed with the torque that acts.
 """
 
 from __future__ import annotations
@@ -28,8 +28,7 @@ from biped_adrc.analysis.observer.choice import (
     without_observer,
 )
 from biped_adrc.analysis.observer.impact import ImpactStates, impact_peak, orbit_impact
-from biped_adrc.analysis.observer.loop import GRID
-from biped_adrc.analysis.observer.sampled import largest_delay, largest_period
+from biped_adrc.analysis.observer.loop import GRID, largest_delay, largest_period
 from biped_adrc.control.tracking import TABLE_II, Gains
 from biped_adrc.core.shown import columns
 from biped_adrc.core.types import Array, ComplexArray
@@ -46,7 +45,7 @@ PERIOD = 1.5e-3
 
 
 class Section(NamedTuple):
-    """One table: its title, the heads of its columns, and its rows as text."""
+    """A table as text: its title, the headings of its columns, and its rows."""
 
     title: str
     header: tuple[str, ...]
@@ -59,7 +58,7 @@ class Section(NamedTuple):
 
 @dataclass(frozen=True)
 class ObserverReport(OnHardware):
-    """All numbers for one observer, the gains of one joint and a robot; `text()` shows them."""
+    """All numbers for one observer, the gains of one joint and a robot; `text()` presents them."""
 
     robot: str = field(kw_only=True)
     """Name and preset of the robot."""
@@ -69,9 +68,9 @@ class ObserverReport(OnHardware):
     # -- numbers -------------------------------------------------------------------------------------
     @cached_property
     def sampled_margins(self) -> tuple[float, float]:
-        """The largest stable delay [s] at this period, unknown and known to the observer."""
-        hidden, known = (largest_delay(replace(self.sampled(), known=k)) for k in (False, True))
-        return hidden, known
+        """The largest stable delay [s] at this period: unknown to the observer, and known to it."""
+        unknown, known = (largest_delay(replace(self.sampled(), known=k)) for k in (False, True))
+        return unknown, known
 
     @cached_property
     def recommended(self) -> tuple[Recommended, ...]:
@@ -80,9 +79,9 @@ class ObserverReport(OnHardware):
 
     @property
     def runs(self) -> bool:
-        """Whether it is allowed: stable for all KAPPA_RATIOS, the ripple within SHARE of the limit.
+        """Whether the observer is allowed: stable for all KAPPA_RATIOS, the ripple within SHARE of the limit.
 
-        Not whether it is of use: see `against_none`.
+        It may be allowed and still of no use: see `against_none`.
         """
         return not self.obstacle
 
@@ -93,8 +92,8 @@ class ObserverReport(OnHardware):
 
     @property
     def responses(self) -> dict[str, Callable[[Array], ComplexArray]]:
-        """Of xi to e [s^2], of xi to xi^ [1], and of the measurement's error to the torque [N m/rad], over
-        frequencies [rad/s].
+        """Frequency responses by name: e / xi [s^2], xi^ / xi [1] and u / n [N m/rad], functions
+        of frequencies (K,) [rad/s].
         """
         return {
             "e / xi": self.loop.tracking_error,
@@ -105,7 +104,7 @@ class ObserverReport(OnHardware):
     # -- words ---------------------------------------------------------------------------------------
     @property
     def name(self) -> str:
-        """The observer in words: Table I, or m and the poles [rad/s]."""
+        """Name of the observer: "Table I", or m and the poles [rad/s]."""
         poles, m = self.observer.poles, self.observer.m
         if poles == GPIObserver.from_poles().poles:
             return "Table I"
@@ -142,7 +141,7 @@ class ObserverReport(OnHardware):
         return f"{self.name} {word} on {where}: {'; '.join(facts)}"
 
     def _unstable(self) -> str:
-        """Which ratio of the robot's kappa to the model's makes the sampled loop unstable."""
+        """Sentence with the ratio of the robot's kappa to the model's that makes the sampled loop unstable."""
         (ratio, radius), late = self.weakest, 1e6 * self.hardware.delay
         return (
             f"with a delay of {late:.0f} us and {ratio:g} times the model's kappa the sampled loop is unstable,"
@@ -151,7 +150,7 @@ class ObserverReport(OnHardware):
         )
 
     def _use(self) -> str:
-        """What the observer is good for: the error it leaves relative to a loop without it."""
+        """Sentence with the error that the observer leaves, relative to a loop without it."""
         times = self.against_none
         error = f"a 5 Hz disturbance leaves {times:.2g} times the error of K_p and K_d alone"
         if self.observer.m == 0:
@@ -171,7 +170,7 @@ class ObserverReport(OnHardware):
         return "\n\n".join((self.verdict, *tables))
 
     def _gains(self) -> Section:
-        """Gains l of (19), physical [1/s^i] and scaled."""
+        """Table of the gains l of (19), physical [1/s^i] and scaled."""
         o = self.observer
         rows = (
             (f"l_{o.m + 1 - i} [1/s^{i + 1}]", f"{physical:.6g}", f"{scaled:.6g}")
@@ -181,7 +180,7 @@ class ObserverReport(OnHardware):
         return Section(title, ("", "physical", "scaled"), tuple(rows))
 
     def _stability(self) -> Section:
-        """Delay margins and largest periods, the delay unknown and known."""
+        """Table of delay margins and largest periods, for an unknown and for a known delay."""
         margins = [self.loop.delay_margin(known) for known in (False, True)]
         loop, period = self.sampled(), microseconds(self.hardware.period)
         rows = [
@@ -194,11 +193,12 @@ class ObserverReport(OnHardware):
             periods = (microseconds(largest_period(one, late)) for one in known)
             rows.append((f"largest period, {name}", *periods))
         title = "Stability of the linear loop, kappa as in the model"
-        return Section(title, ("", "delay hidden", "known"), tuple(rows))
+        return Section(title, ("", "unknown delay", "known delay"), tuple(rows))
 
     def _responses(self) -> Section:
-        """Level at low frequency, peak, and where each is 3 dB below it: xi^ / xi below its level, the others
-        below their peak.
+        """Table of each response: level at low frequency, peak, and frequency at which it is 3 dB lower.
+
+        xi^ / xi is compared with its level at low frequency, the others with their peak.
         """
         grid, rows = self.loop.frequencies, []
         for name, response in self.responses.items():
@@ -213,7 +213,7 @@ class ObserverReport(OnHardware):
         return Section(title, ("", "at low frequency", "peak", "-3 dB"), tuple(rows))
 
     def _impact(self) -> Section:
-        """Peak of the estimation error after the gait's impact, one row per reset policy."""
+        """Table of the peaks of the estimation error after the gait's impact, one row per reset policy."""
         rows = []
         for policy in ResetPolicy:
             p = impact_peak(self.observer, self.impact, policy, self.gains)
@@ -227,7 +227,7 @@ class ObserverReport(OnHardware):
         return Section(title, ("reset", "x1^", "x2^", "xi^", "torque"), tuple(rows))
 
     def _allowed(self) -> Section:
-        """The largest allowed bandwidth for every order m, and the loop without an observer."""
+        """Table of the largest allowed bandwidth for every order m, with the loop without an observer."""
         rows: list[tuple[str, ...]] = []
         for r in self.recommended:
             if math.isnan(r.bandwidth):
@@ -253,7 +253,9 @@ class ObserverReport(OnHardware):
 
 
 def _falls(response: Callable[[Array], ComplexArray], low: float, high: float) -> float:
-    """The first frequency [rad/s] at which |response| is 3 dB below its value at low; high where none is."""
+    """The first frequency [rad/s] above `low` at which |response| is 3 dB below its value at
+    low; `high` if there is none.
+    """
     grid = np.geomspace(low, high, GRID)
     level = np.abs(response(grid))
     below = np.flatnonzero(level < level[0] / np.sqrt(2.0))
@@ -261,12 +263,12 @@ def _falls(response: Callable[[Array], ComplexArray], low: float, high: float) -
 
 
 def microseconds(seconds: float) -> str:
-    """A time [s] in microseconds, or that there is no limit; NaN is the margin of an unstable loop."""
+    """Text of a time [s] in microseconds: "no limit found" if infinite, "unstable" for NaN."""
     return of_stable(1e6 * seconds, "us")
 
 
 def of_stable(number: float, unit: str) -> str:
-    """A margin, period or frequency of a stable loop with its unit; "unstable" for NaN."""
+    """Text of a margin, period or frequency with its unit: "no limit found" if infinite, "unstable" for NaN."""
     if math.isnan(number):
         return "unstable"
     return f"{number:.4g} {unit}" if math.isfinite(number) else "no limit found"
@@ -283,11 +285,11 @@ def observer_report(
     delay: float = 0.0,
     known: bool = False,
 ) -> ObserverReport:
-    """The report of an observer, or of poles [rad/s], on a robot that walks a gait.
+    """Make the report of an observer, or of poles [rad/s], on a robot that walks a gait.
 
-    period [s]: of the sampling; counts: of the encoders per revolution; delay [s]: from a sample
-    instant to its torque, `known` to the observer or not. Of gains with one number per joint those
-    of the first count. Raises InputError for what is impossible, and names it.
+    period [s]: of the sampling; counts: of the encoders per revolution; delay [s]: from a sample instant to
+    its torque, `known` to the observer or not. Of gains with one number per joint those of the first are used.
+    Raises InputError for an impossible value, and names it.
     """
     if not isinstance(observer, GPIObserver):
         observer = GPIObserver.from_poles(observer)
@@ -303,7 +305,7 @@ def observer_report(
 def worst_inertia(biped: Biped, gait: Gait) -> float:
     """The largest sqrt(sum_j (kappa^-1)_ij^2) over joints i and along the gait [kg m^2].
 
-    It turns independent errors of the commanded accelerations into the torque of the worst joint.
+    It converts independent errors of the commanded accelerations into the torque of the worst joint.
     """
     still = np.zeros(biped.n)
     along = ZeroDynamics.of(biped, gait.constraint).q

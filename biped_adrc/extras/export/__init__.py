@@ -1,1 +1,1 @@
-"""Onto a robot: a controller with all that it needs as C99 without dependencies, also as an FMU."""
+"""Export of a controller: C99 without dependencies, with all that it needs, and as an FMU."""

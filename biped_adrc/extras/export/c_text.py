@@ -1,11 +1,13 @@
-"""C99 for a straight-line function, beside `engine.ir`: the same walk over instructions, another table.
+"""C99 text of a function without branches: one line of C for each of CasADi's instructions.
 
-Values are of the type `real`, double or float. What decides the digits of a small difference stays
-in double whatever `real` is: a difference of measured angles or times, such as q - q_d, and all that
-it is made of (`in_double`). So a robot with floats alone loses no digits where the errors are formed.
+`engine.ir` goes through the same instructions for LLVM; here only the text of an operation differs.
 
-The text needs `real`, F(f) for the C library's function f of that type, LEAST and GREATEST, which
-pass NaN on, and the table k of doubles.
+Values are of the type `real`, double or float. The operations that decide the digits of a small difference are
+in double whatever `real` is: differences of measured angles or times, such as q - q_d, and all operands they
+are made of (`in_double`). So a robot with floats alone loses no digits where the errors are formed.
+
+The text needs `real`, F(f) for the C library's function f of that type, LEAST and GREATEST, which pass
+NaN on, and the table k of doubles.
 """
 
 from __future__ import annotations
@@ -46,12 +48,12 @@ PATTERNS: Patterns = {
         for code, name in FUNCTIONS.items()
     },
 }
-"""Lines of C by operation; F is empty in double."""
+"""Expression in C of each operation; {a}, {b}, {c} are its operands, and {F} is empty in double."""
 
 
 @dataclass(frozen=True)
 class Entry:
-    """A number that a function reads: its name in C, and whether it is a double whatever `real` is."""
+    """A number that a C function reads: its name in C, and whether it is a double whatever `real` is."""
 
     name: str
     double: bool = False
@@ -59,7 +61,7 @@ class Entry:
 
 @dataclass(frozen=True)
 class CFunction:
-    """A function to be written: its expression, and the names of what it reads and writes."""
+    """A function to write in C: its expression, and the names in C of its inputs and outputs."""
 
     function: SymbolicFunction
     inputs: Sequence[Entry]
@@ -68,17 +70,17 @@ class CFunction:
 
 @dataclass(frozen=True)
 class Written:
-    """The lines of a function in C, and what is in them."""
+    """The lines of a function in C, and how many operations they have."""
 
     lines: tuple[str, ...]
     operations: int
-    """Arithmetic operations and calls, one for each line that is no copy."""
+    """Number of arithmetic operations and calls, one for each line that is no copy."""
     doubles: int
-    """Those of them that are in double whatever `real` is."""
+    """Number of these that are in double whatever `real` is."""
 
 
 def used_numbers(functions: Sequence[CFunction]) -> list[int]:
-    """Places in K that any of these functions reads, in order."""
+    """Indices, in increasing order, of the parameters K that any of these functions reads."""
     result: set[int] = set()
     for each in functions:
         f = straight_line(each.function)
@@ -90,7 +92,8 @@ def used_numbers(functions: Sequence[CFunction]) -> list[int]:
 
 
 def c_text(each: CFunction, numbers: Sequence[int]) -> Written:
-    """The lines of a function whose K lies in the table k, which holds the entries `numbers` of K.
+    """Write a function in C; its parameters K are read from the table k, which holds
+    the entries `numbers` of K.
 
     Raises InputError for an operation that has no line here.
     """
@@ -103,10 +106,11 @@ def c_text(each: CFunction, numbers: Sequence[int]) -> Written:
 
 
 def in_double(f: ca.Function, angles: Sequence[bool]) -> set[int]:
-    """Numbers of the instructions that are carried out in double; angles: which inputs are angles or times.
+    """Indices of the instructions of f that have to be computed in double.
 
-    They are the differences one side of which is a linear combination of angles or times, where the
-    other side depends on angles, times and constants alone, with all that they are made of.
+    They are the differences one side of which is a linear combination of angles or times, where the other side
+    depends on angles, times and constants alone, with all instructions they are made of. angles: for each
+    input whether it is an angle or a time.
     """
     made: dict[int, int] = {}
     sources: dict[int, list[int]] = {}
@@ -137,11 +141,11 @@ def in_double(f: ca.Function, angles: Sequence[bool]) -> set[int]:
 
 
 CONSTANT, LINEAR, KNOWN, UNKNOWN = range(4)
-"""What a value is of: of constants alone; linear in angles and times; any function of them; of more."""
+"""Dependence of a value: on constants; linear in angles and times; any function of these; on other inputs."""
 
 
 def _degree(code: int, of: list[int]) -> int:
-    """What the value of an operation is of, from what its operands are of."""
+    """Dependence (CONSTANT to UNKNOWN) of an operation's value, from those of its operands."""
     most = max(of)
     if most != LINEAR:
         return most
@@ -151,7 +155,9 @@ def _degree(code: int, of: list[int]) -> int:
 
 
 class _Writer(Writer):
-    """Values in double are called w1, w2, .., others v1, v2, ..; what nothing reads is left out."""
+    """Writer of C: values in double are called w1, w2, .., others v1, v2, ..; values that
+    nothing reads are left out.
+    """
 
     patterns, language = PATTERNS, "C"
 
@@ -167,7 +173,7 @@ class _Writer(Writer):
         self.needed: set[str] = set()
 
     def written(self, f: ca.Function) -> list[str]:
-        """The lines, without those of values that no output needs."""
+        """Lines of the function f, without those of values that no output needs."""
         super().written(f)
         self.needed, open_names = set(), list(self.stored)
         while open_names:
@@ -179,34 +185,36 @@ class _Writer(Writer):
         return [*kept, *self.stores]
 
     def instruction(self, f: ca.Function, i: int) -> None:
-        """As of every language; notes which instruction it is."""
+        """Write instruction i of f, as in every language, and note its index for `line` and `new`."""
         self.now = i
         super().instruction(f, i)
 
     def literal(self, x: float) -> str:
-        """The shortest decimals that give the same bits."""
+        """A constant as the shortest decimals that give the same bits."""
         name = decimal(x)
         self.double.add(name)
         return name
 
     def read(self, block: int, index: int) -> str:
-        """The entry itself."""
+        """Name in C of an input: entry `index` of K (block 0) or of the inputs (block 1)."""
         entry = self.each.inputs[index] if block else self.K[index]
         if entry.double:
             self.double.add(entry.name)
         return entry.name
 
     def store(self, index: int, value: str) -> None:
-        """An assignment to an output."""
+        """Assign a value to output `index`."""
         self.stores.append(f"{self.each.outputs[index]} = {self.cast(value)};")
         self.stored.append(value)
 
     def cast(self, name: str) -> str:
-        """A value as an operand of type `real`."""
+        """The value as an operand of type `real`."""
         return f"(real){name}" if name in self.double else name
 
     def line(self, code: int, a: tuple[str, ...]) -> str:
-        """As of every language, with operands of the type in which the operation is carried out."""
+        """Write an operation, with operands of the type in which it is computed;
+        returns the name of its value.
+        """
         pattern = self.patterns.get(code)
         if not isinstance(pattern, str):
             return super().line(code, a)
@@ -216,7 +224,9 @@ class _Writer(Writer):
         return self.new(text, a)
 
     def new(self, text: str, operands: tuple[str, ...]) -> str:
-        """A constant of C."""
+        """Write a constant of C with this expression; returns its name. operands: names
+        that the expression reads.
+        """
         wide = self.now in self.wide
         name = f"{'w' if wide else 'v'}{len(self.made) + 1}"
         if wide:
@@ -226,7 +236,7 @@ class _Writer(Writer):
 
 
 def decimal(x: float) -> str:
-    """A double in C, by the shortest decimals that are read back as the same bits."""
+    """Text in C of a double: the shortest decimals that are read back as the same bits."""
     if math.isinf(x):
         return "HUGE_VAL" if x > 0.0 else "(-HUGE_VAL)"
     return repr(float(x)) if math.copysign(1.0, x) > 0.0 else f"({float(x)!r})"

@@ -1,9 +1,9 @@
-"""What of a walker runs on the robot's computer, and what is the robot's own.
+"""The part of a walker that runs on the robot's computer.
 
-The computer is given the time, the angles and, where they are measured, the rates. Its own are:
-differences of angles and their filter, the nominal model's terms, the gait, the observer, the policy
-at impact, limits of the torque and of its rate, and the torques on their way where it knows the
-delay. Noise, counts of encoders, lag of motors and the delay itself are the robot's.
+The computer reads the time, the angles and, where they are measured, the rates. It computes differences of
+angles and their filter, the nominal model's terms, the gait, the observer, the reset policy at impact, limits
+of the torque and of its rate, and the queue of torques where it knows the delay. Noise, encoder counts, lag of
+motors and the delay itself belong to the robot.
 """
 
 from __future__ import annotations
@@ -20,10 +20,9 @@ from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import WalkerNumbers
-from biped_adrc.engine.mechanics import RobotData, robot_of
+from biped_adrc.engine.mechanics import RobotData, RobotStructure, robot_of
 from biped_adrc.engine.program import controller_numbers
 from biped_adrc.engine.tick_derivative import tick_derivative
-from biped_adrc.extras.export.noticed import Noticed
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.hardware.sensing import Sensor
@@ -34,7 +33,7 @@ from biped_adrc.hardware.sensors import Sensors
 class Computer:
     """The controller's side of a walker in sampled time.
 
-    Raises InputError for what cannot run without Python, and names the part that stands in the way.
+    Raises InputError for a walker that cannot run without Python, and names the part that stands in the way.
     """
 
     walker: Walker
@@ -51,13 +50,13 @@ class Computer:
 
     @property
     def timing(self) -> SampledTime:
-        """Period and delay."""
+        """The walker's sampling period and delay [s]."""
         assert isinstance(self.walker.timing, SampledTime)
         return self.walker.timing
 
     @cached_property
     def robot(self) -> RobotData:
-        """The nominal model. Raises InputError for one that is no planar tree of rigid links."""
+        """The nominal model's data. Raises InputError for a model that is no planar tree of rigid links."""
         try:
             return robot_of(self.walker.nominal)
         except ModelError as reason:
@@ -65,7 +64,8 @@ class Computer:
 
     @cached_property
     def differences(self) -> Sensors | None:
-        """Differences of angles and their filter; None where all rates are measured.
+        """The walker's sensors as far as they run on the computer: differences and their filter;
+        None if rates are measured.
 
         Raises InputError for a sensor with another part on the computer.
         """
@@ -79,17 +79,17 @@ class Computer:
 
     @cached_property
     def sensors(self) -> Sensor | None:
-        """The same as the computer runs them, where it notices touchdowns at sample instants too."""
+        """`differences` as the computer runs them; with detected touchdowns, wrapped for these (`Noticed`)."""
         if self.differences is None or self.walker.touchdown is None:
             return self.differences
         return Noticed(self.differences, self.robot.structure)
 
     @cached_property
     def alone(self) -> Walker:
-        """A walker whose sample instants are what the computer does: its plant is the nominal model.
+        """A walker whose sample instants do what the computer does: its plant is the nominal model.
 
-        Torques on their way are held where the computer has to know them: with a known delay, or a
-        rate limit.
+        It keeps a queue of torques only where the computer has to know them: with a
+        known delay, or a rate limit.
         """
         time, motors = self.timing, self.walker.motors
         limited = motors is not None and motors.rate_limit is not None
@@ -108,15 +108,16 @@ class Computer:
 
     @property
     def held(self) -> HeldParts:
-        """What the computer holds between sample instants."""
+        """The parts of the computer that keep numbers between sample instants."""
         assert self.alone.held is not None
         return self.alone.held
 
     def growth(self, q: Array, v: Array) -> float:
-        """Of the controller's fastest mode [1/s] where (q, v), each (n,), is held; 0 where none grows.
+        """Growth rate [1/s] of the controller's fastest mode while (q, v), each (n,), stay
+        the same; 0 where none grows.
 
-        An observer that receives the torque of its own controller, and a motion that does not answer to it,
-        are such a case: a replay that runs freely.
+        A replay runs so: the observer receives the torque of its own controller, and the
+        motion does not respond to it.
         """
         x = self.alone.initial_state(q, v)
         _, J = tick_derivative(self.alone, len(x))(0.0, x, Mode())
@@ -125,5 +126,53 @@ class Computer:
 
     @cached_property
     def numbers(self) -> WalkerNumbers:
-        """All numbers by name; of plant and ground there are none, as the computer knows its model alone."""
+        """All numbers of the controller by name; the computer knows its model alone, so there
+        are none of plant and ground.
+        """
         return controller_numbers(self.robot, self.alone)
+
+
+@dataclass(frozen=True)
+class Noticed(Sensor):
+    """Sensors on the computer where touchdowns are detected at sample instants, as in `closed_loop.semantics`.
+
+    A detected touchdown comes with the measurement of that instant. The measurement is read in the old labels
+    first, so that rates go on; these are relabelled, and the sample instant that follows at once reads nothing
+    again. The state is that of `inner`, and 1 between touchdown and sample instant. Raises InputError for a
+    robot whose joint labels do not exchange in pairs.
+    """
+
+    inner: Sensor
+    robot: RobotStructure
+
+    def __post_init__(self) -> None:
+        R, offset = self.robot.R, self.robot.offset
+        if np.any(np.eye(len(R)) != R @ R) or np.any(R @ offset + offset != 0.0):
+            raise InputError(
+                "the labels of this robot's joints do not exchange in pairs at a touchdown, so what was "
+                "measured has no old labels; leave out touchdown"
+            )
+
+    def sampled(self, n: int, p: int, period: float) -> Noticed:
+        return replace(self, inner=self.inner.sampled(n, p, period))
+
+    @property
+    def size(self) -> int:
+        return self.inner.size + 1
+
+    def start(self, q: Array, v: Array) -> Array:
+        return np.concatenate((self.inner.start(q, v), np.zeros(1)))
+
+    def sense(self, w: Array, q: Array, v: Array) -> Array:
+        after = np.where(w[-1] > 0.5, w[:-1], self.inner.sense(w[:-1], q, v))
+        return np.concatenate((after, np.zeros(1)))
+
+    def impact(self, w: Array, q: Array, v: Array, v_model: Array) -> Array:
+        R = self.robot.R
+        q_old, v_old = R @ q + self.robot.offset, R @ v
+        before = self.inner.sense(w[:-1], q_old, v_old)
+        rates = self.inner.reading(before, q_old, v_old)[1]
+        return np.concatenate((self.inner.impact(before, q, v, R @ rates), np.ones(1)))
+
+    def reading(self, w: Array, q: Array, v: Array) -> tuple[Array, Array]:
+        return self.inner.reading(w[:-1], q, v)

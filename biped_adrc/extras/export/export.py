@@ -29,10 +29,10 @@ def export_c(
     real: str = "float64",
     fmu: bool = False,
 ) -> Source:
-    """Write the controller of a scenario, or of a walker, as C99 into a folder, and hand out what was written.
+    """Write the controller of a scenario, or of a walker, as C99 into a folder; returns the files written.
 
-    prefix: of all names in C. real: "float64" or "float32". fmu: with a functional mock-up
-    unit (FMU) for co-simulation by FMI 2.0 beside it, such as controller.fmu.
+    prefix: of all names in C. real: "float64" or "float32". fmu: with a functional mock-up unit (FMU) for
+    co-simulation by FMI 2.0 beside it, such as controller.fmu.
 
     Raises InputError for a scenario that cannot be exported, and OutputError for a folder that holds
     other files or cannot be written.
@@ -56,9 +56,10 @@ def export_c(
 
 
 def write_folder(folder: Path, source: Source) -> None:
-    """Write the files into a folder that is new, empty, or holds the same files and what is built from them.
+    """Write the files of a source into a folder.
 
-    Raises OutputError for any other, so that a `main.c` that was changed by hand stays as it is.
+    The folder is new, empty, or holds the same files and what is built from them. Raises OutputError for any
+    other, so that a `main.c` that was changed by hand stays as it is.
     """
     files = {name: text.encode() for name, text in source.files.items()}
     built = ("main", f"{source.prefix}.fmu")
@@ -80,6 +81,6 @@ def write_folder(folder: Path, source: Source) -> None:
 
 
 def _same(path: Path, files: Mapping[str, bytes]) -> bool:
-    """Whether a file, no link, is one of these."""
+    """Whether the path is a regular file with the name and content of one of `files`."""
     plain = path.is_file() and not path.is_symlink()
     return plain and path.name in files and path.read_bytes() == files[path.name]

@@ -23,9 +23,9 @@ from biped_adrc.extras.export.loaded import NO_COMPILER, compiled, compiler
 from biped_adrc.extras.export.source import Source, rendered
 
 MACHINES = {("Linux", "x86_64"): "linux64"}
-"""Names of FMI 2.0 for the folder of a binary, by operating system and processor."""
+"""Operating system and processor -> name of FMI 2.0 for the folder of a binary."""
 AS_READ = {True: "read at every step", False: "read at the first step only"}
-"""Of a rate."""
+"""Whether `step` reads a rate -> text about it in the FMU's description."""
 
 
 @dataclass(frozen=True)
@@ -33,16 +33,19 @@ class Port:
     """An input or output of an FMU; its place among all is its value reference."""
 
     name: str
-    """As in the header of the C."""
+    """Name as in the header of the C."""
     causality: str
-    """input or output."""
+    """ "input" or "output"."""
     kind: str
-    """The element of XML with type, unit and value at the start."""
+    """The XML element with type, unit and start value."""
     words: str
+    """Description of the port."""
 
     @property
     def variability(self) -> str:
-        """Whether it may change between sample instants: torques and whole numbers do not."""
+        """ "continuous" for an angle or rate, else "discrete": torques and whole numbers
+        change at sample instants only.
+        """
         sampled = self.causality == "output" or not self.kind.startswith("<Real")
         return "discrete" if sampled else "continuous"
 
@@ -52,7 +55,7 @@ class Fmu:
     """The files of an FMU, by their path inside."""
 
     name: str
-    """Of the file."""
+    """Name of the file."""
     files: Mapping[str, bytes]
 
     def __repr__(self) -> str:
@@ -60,7 +63,7 @@ class Fmu:
 
     @property
     def data(self) -> bytes:
-        """The archive; nothing of the day is in it."""
+        """Bytes of the archive; they contain no date."""
         out = io.BytesIO()
         with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
             for path, data in self.files.items():
@@ -71,7 +74,7 @@ class Fmu:
 
 
 def fmu_of(source: Source) -> Fmu:
-    """The FMU of an exported controller. Raises InputError and OutputError as `compiled`."""
+    """Make the FMU of an exported controller. Raises InputError and OutputError as `compiled`."""
     texts = _texts(source, "")
     guid = uuid.UUID(bytes=hashlib.sha256("".join(texts.values()).encode()).digest()[:16])
     texts = _texts(source, f"{{{guid}}}")
@@ -82,7 +85,7 @@ def fmu_of(source: Source) -> Fmu:
 
 
 def ports(source: Source) -> list[Port]:
-    """The ports of an FMU, in the order of their value references."""
+    """The ports of an FMU, in the order of their value references: angles, rates, torques, touchdown, flag."""
     joints, read = source.words["joint_names"], source.words["rates_read"]
     assert isinstance(joints, tuple)
     assert isinstance(read, tuple)
@@ -109,7 +112,7 @@ def ports(source: Source) -> list[Port]:
 
 
 def _texts(source: Source, guid: str) -> dict[str, str]:
-    """The files of an FMU but its binary, by their path inside."""
+    """The text files of an FMU, by their path in the archive; guid: its identifier in the description."""
     P = source.prefix
     values = {**source.words, "guid": guid, "ports": ports(source)}
     return {
@@ -124,26 +127,26 @@ def _texts(source: Source, guid: str) -> dict[str, str]:
 
 
 def without_binary() -> str:
-    """Why an FMU that is made on this machine has no binary; empty where it has one."""
+    """The reason why an FMU made on this machine has no binary; empty where it has one."""
     if not _machine():
         return f"FMI 2.0 has no name for {platform.system()} on {platform.machine()}"
     return NO_COMPILER if compiler() is None else ""
 
 
 def contents() -> str:
-    """What an FMU that is made on this machine holds, in words."""
+    """Text that says whether an FMU made on this machine holds a binary or sources alone."""
     if why := without_binary():
         return f"sources alone, since {why}"
     return f"sources, and a binary for {_machine()}"
 
 
 def _machine() -> str:
-    """Name of FMI 2.0 for this machine; empty where it has none."""
+    """FMI 2.0's name of this machine; empty where it has none."""
     return MACHINES.get((platform.system(), platform.machine()), "")
 
 
 def _binary(source: Source, texts: Mapping[str, str]) -> bytes:
-    """The shared library of the sources."""
+    """Compile the sources to a shared library; returns its bytes."""
     files = {Path(path).name: text for path, text in texts.items() if path.startswith("sources/")}
     names = [f"{source.prefix}.c", f"{source.prefix}_fmu.c"]
     with compiled(files, names, "-shared", "-fPIC", "-fvisibility=hidden") as (library, _):

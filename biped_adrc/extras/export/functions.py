@@ -1,18 +1,24 @@
-"""The functions of a robot's computer on symbols, by the lines of `closed_loop.semantics`.
+"""The functions of a robot's computer on symbols, traced from `closed_loop.semantics`, and
+the names of their numbers.
 
     init       (t, q, v)        -> x_c              observer, filter and queue at the start
     step       (t, q, v, x_c)   -> x_c, u, lost     a sample instant; u (p,) [N m] goes to the motors
     touchdown  (t, q, v, x_c)   -> x_c              after an impact, q and v in the labels that begin
 
-x_c = (s, w, queue, waiting, u): the controller's state, and what is held between sample instants.
-lost is not positive where a matrix is singular or a torque beyond the walker's bound.
+x_c = (s, w, queue, waiting, u): the controller's state, and the numbers kept between sample instants. lost is
+not positive where a matrix is singular or a torque beyond the walker's bound.
+
+In C the numbers x_c are fields of a struct. Numbers that no function reads, such as a torque that
+nothing depends on, have no field.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
+import casadi as ca
 import numpy as np
 
 from biped_adrc.closed_loop import semantics
@@ -25,34 +31,36 @@ from biped_adrc.engine.equations import (
     SymbolicInstant,
     WalkerStructure,
 )
+from biped_adrc.engine.ir import straight_line
 from biped_adrc.engine.symbols import Scalar, Vector, column, where
 from biped_adrc.engine.tracer import Tracer, run
+from biped_adrc.extras.export.c_text import CFunction, Entry
 from biped_adrc.extras.export.computer import Computer
 from biped_adrc.hardware.motors import Line
 from biped_adrc.hardware.sample_hold import read
 
 HEAD = 4
-"""Inputs before q: t, time of the sample instant before, number and start of the single support."""
+"""Number of inputs before q: t, time of the previous sample instant, number and start of the single support."""
 
 
 @dataclass(frozen=True)
 class Inputs:
-    """The inputs of a function on symbols, and the loop that they are given to."""
+    """The inputs of a function as symbols, and the closed loop that reads them."""
 
     computer: Computer
     size: int
-    """Numbers in s."""
+    """Numbers in the controller's state s."""
 
     @cached_property
     def equations(self) -> Equations:
-        """The computer's parts, with symbols for its numbers."""
+        """Equations of the computer's parts, with a symbol for each of its numbers."""
         held = self.computer.held.sizes
         make = WalkerStructure(self.computer.robot.structure, self.size, held)
         return Equations.of(make, self.computer.numbers)
 
     @cached_property
     def at(self) -> SymbolicInstant:
-        """(t, last, step, start), then x = (q, v, x_c)."""
+        """The sample instant on symbols; its inputs are (t, last, step, start), then x = (q, v, x_c)."""
         inp, trace = Vector("inp", HEAD + self.equations.make.nx), Tracer()
         t, _, mode = inp.take(), inp.take(), Mode(inp.take(), inp.take())
         x = inp.take(self.equations.make.nx)
@@ -60,16 +68,18 @@ class Inputs:
 
     @property
     def parts(self) -> tuple[Array, Array, Array, Array]:
-        """q, v (n,), s, and what is held."""
+        """The parts of x: q and v (n,), the controller's state s, and the numbers kept
+        between sample instants.
+        """
         return semantics.parts(self.at.loop, self.at.x)
 
     def function(self, *parts: object) -> SymbolicFunction:
-        """The function of these inputs, its parts one after the other."""
+        """The function from these inputs to its results `parts`, one after the other."""
         return SymbolicFunction(self.equations.K, self.at.inp.symbol, column(*parts))  # type: ignore[arg-type]
 
 
 def init(computer: Computer) -> SymbolicFunction:
-    """x_c at the start of a single support at (t, q, v); no torque is on its way."""
+    """Trace x_c at the start of a single support at (t, q, v), with no torque in the queue."""
     inputs, k = Inputs(computer, 0), computer.held
     q, v = inputs.parts[:2]
     at = inputs.at
@@ -82,7 +92,7 @@ def init(computer: Computer) -> SymbolicFunction:
 
 
 def step(computer: Computer, size: int) -> SymbolicFunction:
-    """x_c, u (p,) [N m] and lost at a sample instant, for a controller with `size` numbers in s."""
+    """Trace x_c, u (p,) [N m] and lost at a sample instant, for a controller with `size` numbers in s."""
     inputs, k = Inputs(computer, size), computer.held
     n = k.sizes.n
     at = inputs.at._replace(x=_released(inputs))
@@ -92,7 +102,9 @@ def step(computer: Computer, size: int) -> SymbolicFunction:
 
 
 def touchdown(computer: Computer, size: int) -> SymbolicFunction:
-    """x_c after a touchdown; the inputs of the mode are the single support that begins."""
+    """Trace x_c after a touchdown, for a controller with `size` numbers; step and start are
+    of the support that begins.
+    """
     inputs = Inputs(computer, size)
     at, (q, v) = inputs.at, inputs.parts[:2]
     x = at.trace(semantics.after_contact)(at.loop, at.t, at.x, q, v, at.mode)
@@ -100,7 +112,7 @@ def touchdown(computer: Computer, size: int) -> SymbolicFunction:
 
 
 def _released(inputs: Inputs) -> Array:
-    """x in which a torque that waited for a fraction of the period acts once that time is over."""
+    """x in which a torque that waited for a fraction of the period acts, once that time is over."""
     k, at = inputs.computer.held, inputs.at
     if k.sizes.waiting == 0:
         return at.x
@@ -111,7 +123,128 @@ def _released(inputs: Inputs) -> Array:
 
 
 def sent_last(line: Line) -> Array:
-    """The torque (p,) [N m] that was sent at this sample instant, wherever on its way it is."""
+    """The torque (p,) [N m] sent at this sample instant: the end of the queue, else the
+    waiting one, else the acting one.
+    """
     if len(line.queue) > 0:
         return line.queue[len(line.queue) - len(line.u) :]
     return line.waiting if len(line.waiting) > 0 else line.u
+
+
+@dataclass(frozen=True)
+class Field:
+    """An array of the struct: name, length, description, and whether it is of doubles always."""
+
+    name: str
+    size: int
+    words: str
+    double: bool = False
+
+    def __iter__(self) -> Iterator[str]:
+        """Iterate over the names of its entries in C, such as "s[0]"."""
+        return iter(f"{self.name}[{i}]" for i in range(self.size))
+
+
+@dataclass(frozen=True)
+class Functions:
+    """The three functions of a computer, with the names in C of their inputs and outputs."""
+
+    fields: tuple[Field, ...]
+    """Fields of the struct that hold x_c."""
+    init: CFunction
+    step: CFunction
+    touchdown: CFunction
+    rates: tuple[int, ...]
+    """Indices of the rates that `step` or `touchdown` read; `init` reads all."""
+
+    @property
+    def all(self) -> tuple[CFunction, CFunction, CFunction]:
+        """The three functions of the exported controller: init, step, touchdown."""
+        return self.init, self.step, self.touchdown
+
+
+def functions(computer: Computer) -> Functions:
+    """Trace the functions of a computer and name their numbers. Raises InputError for a
+    method that cannot be traced.
+    """
+    sizes = computer.held.sizes
+    first = init(computer)
+    size = first.out.shape[0] - sizes.total
+    traced = first, step(computer, size), touchdown(computer, size)
+    n, every = sizes.n, fields_of(computer, size)
+    total = size + sizes.total
+    live = _live(*traced[1:], n, total)
+    kept, at = list[Field](), 0
+    for field in every:
+        if any(i in live for i in range(at, at + field.size)):
+            kept.append(field)
+        at += field.size
+    left = {name for field in kept for name in field}
+    states = [f"next->{name}" if name in left else "" for field in every for name in field]
+    results = [*(f"u[{i}]" for i in range(sizes.p)), "*lost"]
+    functions = [_named(f, every, n, states + results[: f.out.shape[0] - total]) for f in traced]
+    read = _read(functions[1].function) | _read(functions[2].function)
+    rates = tuple(i for i in range(n) if HEAD + n + i in read)
+    return Functions(tuple(kept), functions[0], functions[1], functions[2], rates)
+
+
+def fields_of(computer: Computer, size: int) -> tuple[Field, ...]:
+    """The fields of x_c in its order, for a controller with `size` numbers in s."""
+    k = computer.held.sizes
+    sensed = (
+        Field("angle", k.n, "angles of the sample instant before [rad]", double=True),
+        Field("rate", k.n, "rates from differences, filtered [rad/s]"),
+        Field("fresh", 1, "1 where no difference can be taken"),
+        Field("landed", k.sensors - 2 * k.n - 1, "1 between a touchdown and the step after it"),
+    )
+    return (
+        Field("s", size, "state of the controller, its observer included"),
+        *(sensed if k.sensors > 0 else ()),
+        Field("queue", k.queue * k.p, "torques on their way, the oldest first [N m]"),
+        Field("waiting", k.waiting * k.p, "torque that acts within this period [N m]"),
+        Field("acting", k.p, "torque that acts on the motors [N m]"),
+    )
+
+
+def _live(step: SymbolicFunction, touchdown: SymbolicFunction, n: int, total: int) -> set[int]:
+    """Indices in x_c of the numbers on which a torque depends, now or at a later sample.
+
+    n: coordinates. total: numbers in x_c.
+    """
+    live, outputs = set[int](), range(total, step.out.shape[0])
+    while True:
+        kept = sorted(live)
+        read = _read(step._replace(out=step.out[[*kept, *outputs]]))
+        if kept:
+            read |= _read(touchdown._replace(out=touchdown.out[kept]))
+        result = {i - HEAD - 2 * n for i in read if i >= HEAD + 2 * n}
+        if result <= live:
+            return live
+        live |= result
+
+
+def _read(function: SymbolicFunction) -> set[int]:
+    """Indices of the inputs that a function reads."""
+    f = straight_line(function)
+    inputs = (i for i in range(f.n_instructions()) if f.instruction_id(i) == ca.OP_INPUT)
+    return {at[1] for at in map(f.instruction_input, inputs) if at[0] == 1}
+
+
+def _named(
+    function: SymbolicFunction, fields: tuple[Field, ...], n: int, outputs: list[str]
+) -> CFunction:
+    """A function with the names of its inputs and `outputs` in C; an output with an empty name is dropped."""
+    kept = [i for i, name in enumerate(outputs) if name]
+    inputs = [
+        *(
+            Entry("m->t", True),
+            Entry("x->last", True),
+            Entry("next->step"),
+            Entry("next->start", True),
+        ),
+        *(Entry(f"m->q[{i}]", True) for i in range(n)),
+        *(Entry(f"m->v[{i}]") for i in range(n)),
+        *(Entry(f"x->{name}", field.double) for field in fields for name in field),
+    ]
+    part = function._replace(out=function.out[kept])
+    return CFunction(part, inputs, [outputs[i] for i in kept])

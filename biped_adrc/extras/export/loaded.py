@@ -1,7 +1,7 @@
 """An exported controller, compiled on this machine and called from Python.
 
-`ExportedController` is a controller of a walker whose every sample instant is one call of the C, so that
-an exported controller walks on any plant. `Loaded` has the three functions of the C.
+`ExportedController` is a controller of a walker whose every sample instant is one call of the C, so that an
+exported controller walks on any plant. `Loaded` gives access to the three functions of the C.
 """
 
 from __future__ import annotations
@@ -34,26 +34,26 @@ from biped_adrc.core.types import Array, Indices, relabelled
 from biped_adrc.extras.export.source import Source
 
 FLAGS: tuple[str, ...] = ("-std=c99", "-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic")
-"""How an exported controller is compiled."""
+"""Compiler options for an exported controller."""
 COMPILERS = ("cc", "gcc", "clang")
-"""Names of C compilers, the first one found is taken; the variable CC goes before them."""
+"""Names of C compilers, the first one found is taken; the environment variable CC goes before them."""
 NO_COMPILER = f"there is no C compiler, looked for {', '.join(COMPILERS)}"
 OK, NOT_MEASURED, NO_RESULT, SINGULAR, RAN_AWAY = range(5)
-"""What the functions of the C return."""
+"""Return values of the functions of the C."""
 ERRORS: Mapping[int, type[BipedError]] = {
     NOT_MEASURED: NotFiniteError,
     NO_RESULT: NotFiniteError,
     SINGULAR: SingularError,
     RAN_AWAY: RanAwayError,
 }
-"""What the controller in Python raises there: it ends a walk with the status of the same name."""
+"""Return value of the C -> error that the controller in Python raises in this case, which ends a walk."""
 
 Record = NDArray[np.void]
 """A struct of C."""
 
 
 def compiler() -> str | None:
-    """The path of a C compiler; None where there is none."""
+    """Path of a C compiler; None where there is none."""
     names = (*filter(None, [os.environ.get("CC")]), *COMPILERS)
     return next(filter(None, map(shutil.which, names)), None)
 
@@ -62,10 +62,11 @@ def compiler() -> str | None:
 def compiled(
     files: Mapping[str, str], names: Sequence[str], *flags: str
 ) -> Iterator[tuple[Path, str]]:
-    """What these names of files of C are compiled to, in a folder of its own, and what the compiler said.
+    """Context with the result of compiling C files: the path of the binary, and the compiler's messages.
 
-    flags: beside `FLAGS`. Raises InputError where there is no compiler, or it refuses, and OutputError
-    where there is no room for temporary files.
+    files: name -> text, all written to a temporary folder. names: those to compile. flags: beside
+    `FLAGS`. Raises InputError where there is no compiler, or it refuses, and OutputError where there
+    is no room for temporary files.
     """
     program = compiler()
     if program is None:
@@ -89,7 +90,7 @@ def compiled(
 
 
 def tried(source: Source) -> str:
-    """What a C compiler says of a source, in a sentence; that there is none, where there is none."""
+    """Compile a source; returns a sentence with the compiler's messages, or that there is no compiler."""
     if (program := compiler()) is None:
         return f"not compiled: {NO_COMPILER}"
     with compiled(source.files, ["main.c", f"{source.prefix}.c"]) as (_, message):
@@ -98,7 +99,7 @@ def tried(source: Source) -> str:
 
 @dataclass(frozen=True)
 class Loaded:
-    """The functions of a source in memory."""
+    """An exported source, compiled and loaded into this process; its methods call the C."""
 
     source: Source
 
@@ -107,14 +108,14 @@ class Loaded:
 
     @cached_property
     def measurement(self) -> np.dtype[np.void]:
-        """The struct of a measurement."""
+        """NumPy's type of the C struct of a measurement."""
         n = self.source.n
         fields: Any = [("t", "f8"), ("q", "f8", (n,)), ("v", self.source.real, (n,))]
         return np.dtype(fields, align=True)
 
     @cached_property
     def state(self) -> np.dtype[np.void]:
-        """The struct of the state."""
+        """NumPy's type of the C struct of the state."""
         real, p = self.source.real, self.source.p
         own = [(f.name, "f8" if f.double else real, (f.size,)) for f in self.source.fields]
         head = [("start", "f8"), ("last", "f8")]
@@ -124,56 +125,58 @@ class Loaded:
 
     @cached_property
     def functions(self) -> dict[str, Any]:
-        """init, step and touchdown, compiled into a folder that is gone once they are in memory."""
+        """init, step and touchdown as ctypes functions, compiled in a temporary folder at the first use."""
         P = self.source.prefix
         with compiled(self.source.files, [f"{P}.c"], "-shared", "-fPIC") as (out, _):
             library = ctypes.CDLL(str(out))
         return {name: getattr(library, f"{P}_{name}") for name in ("init", "step", "touchdown")}
 
     def measured(self, t: float, q: Array, v: Array) -> Record:
-        """A measurement: t [s], q [rad] and v [rad/s] (n,)."""
+        """Struct of a measurement: t [s], q [rad] and v [rad/s], each (n,)."""
         m = np.zeros((), self.measurement)
         m["t"], m["q"], m["v"] = t, q, v
         return m
 
     def init(self, m: Record) -> tuple[int, Record]:
-        """What init returns, and the state."""
+        """Call init with a measurement; returns its flag and the state."""
         x = np.zeros((), self.state)
         return self.functions["init"](_at(x), _at(m)), x
 
     def step(self, x: Record, m: Record) -> tuple[int, Array]:
-        """What step returns, and the torque (p,) [N m]; x changes."""
+        """Call step with state and measurement; returns its flag and the torque (p,)
+        [N m]. x changes in place.
+        """
         u = np.zeros(self.source.p, self.source.real)
         return self.functions["step"](_at(x), _at(m), _at(u)), u
 
     def touchdown(self, x: Record, m: Record) -> int:
-        """What touchdown returns; x changes."""
+        """Call touchdown with state and measurement; returns its flag. x changes in place."""
         flag: int = self.functions["touchdown"](_at(x), _at(m))
         return flag
 
     def __getstate__(self) -> dict[str, object]:
-        """Without what is in memory."""
+        """The fields for pickle, without the loaded library."""
         return {name: x for name, x in vars(self).items() if name != "functions"}
 
 
 def _at(array: NDArray[Any]) -> ctypes.c_void_p:
-    """The address of an array, as C takes it."""
+    """Address of an array, as C takes it."""
     return ctypes.c_void_p(array.ctypes.data)
 
 
 @dataclass(frozen=True)
 class ExportedController(Controller):
-    """The exported controller in the place of the one that it was made from; its source is that of `export_c`.
+    """The exported controller, in place of the one that it was made from; source: the result of `export_c`.
 
-    Its state s is the struct of the C and the torque, as floats. A sample without a result ends the
-    walk with the status that the controller in Python would give it; on a robot the last torque goes on.
+    Its state s is the struct of the C and the torque, as floats. A sample without a result ends the walk with
+    the status that the controller in Python would give it; on a robot the last torque goes on.
     """
 
     source: Source
 
     @cached_property
     def loaded(self) -> Loaded:
-        """The functions of the C."""
+        """The compiled functions of the C."""
         return Loaded(self.source)
 
     def initial_state(self, m: Measurement) -> Array:
@@ -198,10 +201,11 @@ class ExportedController(Controller):
         )
 
     def _inputs(self, m: Measurement) -> Record:
+        """The measurement m as C's struct."""
         return self.loaded.measured(m.t, m.q, m.v)
 
     def _state(self, s: Array) -> Record:
-        """The struct of a state (size,) of floats."""
+        """The struct of a state s (size,) of floats."""
         x, at = np.zeros((), self.loaded.state), 0
         for name in self.loaded.state.names or ():
             size = x[name].size
@@ -210,7 +214,9 @@ class ExportedController(Controller):
         return x
 
     def _kept(self, flag: int, x: Record, u: Array) -> Array:
-        """The struct and the torque (p,) as floats. Raises what `ERRORS` has for a sample without a result."""
+        """The struct x and the torque u (p,) as one array of floats. Raises the error of
+        `ERRORS` for another flag than OK.
+        """
         if flag != OK:
             raise ERRORS[flag](f"the exported controller returned {flag}: it has no result")
         parts = [np.ravel(x[name]) for name in self.loaded.state.names or ()]

@@ -1,6 +1,6 @@
-"""The text of a controller in C: header and source, from the functions of `export.layout`.
+"""The text of a controller in C: header and source, from the traced functions of `export.functions`.
 
-The same scenario gives the same bytes: nothing of the day, the machine or the path is in the text.
+The same scenario gives the same bytes: the text contains no date, machine or path.
 """
 
 from __future__ import annotations
@@ -21,43 +21,43 @@ from biped_adrc.core.versions import packages
 from biped_adrc.engine.symbols import NotCompiled, floats, paths
 from biped_adrc.extras.export.c_text import Written, c_text, decimal, used_numbers
 from biped_adrc.extras.export.computer import Computer
-from biped_adrc.extras.export.layout import Field, Functions, functions
+from biped_adrc.extras.export.functions import Field, Functions, functions
 
 REALS = {"float64": "double", "float32": "float"}
-"""Type of numbers in C, by its name in NumPy."""
+"""Name of a type in NumPy -> its name in C."""
 TAKEN = {
     "main": "main.c is the example",
     **{x: f"{x.upper()}_OK is a name of POSIX" for x in "frwx"},
 }
-"""Prefixes with which the C would clash with other names, and why."""
+"""Prefix that would clash with other names of C -> the reason."""
 ARGUMENTS = {"init": "", "step": ", real *u, real *lost", "touchdown": ""}
-"""What a function is given beside x, m and next."""
+"""Name of a function -> its arguments in C besides x, m and next."""
 ON_THE_LINE = ("queue", "waiting", "acting")
-"""Fields that hold torques."""
+"""Fields of the state that hold torques."""
 
 
 @dataclass(frozen=True)
 class Source:
-    """A controller in C, file by file, and what it costs."""
+    """A controller in C: its files, and how many operations they take."""
 
     prefix: str
-    """Of all names."""
+    """Prefix of all names in C."""
     real: str
     """Type of numbers, a key of `REALS`."""
     files: Mapping[str, str]
-    """Text by name of file."""
+    """Name of file -> text."""
     fields: tuple[Field, ...]
-    """Of the state's struct, beside its head."""
+    """Fields of the state's struct, beside its head."""
     written: Mapping[str, Written]
-    """The functions init, step and touchdown."""
+    """Lines of the functions init, step and touchdown, by name."""
     numbers: int
-    """In the table of constants."""
+    """Length of the table of constants."""
     n: int
-    """Coordinates."""
+    """Number of coordinates."""
     p: int
-    """Motors."""
+    """Number of motors."""
     words: Mapping[str, object]
-    """What the templates say of it, such as its title and its scenario."""
+    """Values for the templates, such as title and scenario."""
 
     def __repr__(self) -> str:
         return f"Source({', '.join(self.files)}; {self.written['step'].operations} operations)"
@@ -69,13 +69,13 @@ def source_of(
     real: str = "float64",
     scenario: Sequence[str] = (),
 ) -> Source:
-    """Header, source, main.c, Makefile and README of a computer's functions.
+    """Write header, source, main.c, Makefile and README of a computer's functions.
 
-    prefix: of all names, a word of small letters. real: "float64" or "float32", which
-    -DCONTROLLER_REAL=float overrides. scenario: lines for the comment.
+    prefix: of all names, a word of small letters. real: "float64" or "float32", which -DCONTROLLER_REAL=float
+    overrides. scenario: lines for the comment.
 
-    Raises InputError for a prefix or a type that is none, NaN among the numbers, or a method that
-    cannot be traced.
+    Raises InputError for a prefix or a type that is none, NaN among the numbers, or a
+    method that cannot be traced.
     """
     if not re.fullmatch("[a-z][a-z0-9_]{0,40}", prefix):
         raise InputError(
@@ -122,7 +122,7 @@ def source_of(
 
 
 def _of_robot(computer: Computer, functions_: Functions) -> dict[str, object]:
-    """What the templates say of robot and controller."""
+    """Values for the templates about robot, controller, clock and fields."""
     walker, k = computer.walker, computer.held.sizes
     joints = walker.plant.description.joints
     units = ["with a motor"] * k.p + ["without a motor"] * (k.n - k.p)
@@ -160,7 +160,7 @@ def _of_robot(computer: Computer, functions_: Functions) -> dict[str, object]:
 
 
 def _about(computer: Computer) -> list[str]:
-    """What is inside, for the head of the header, in lines."""
+    """Lines for the head of the header: what the controller computes, and what its caller has to do."""
     walker, k = computer.walker, computer.held.sizes
     lines = [
         f"Controller in sampled time, every {1e3 * computer.timing.period:g} ms: laws, gait and the nominal",
@@ -176,7 +176,7 @@ def _about(computer: Computer) -> list[str]:
 
 
 def _rates(rates: tuple[int, ...], n: int) -> str:
-    """Which rates have to be measured, in words."""
+    """Sentence that says which rates v (n,) have to be measured; rates: indices of those that `step` reads."""
     if len(rates) == n:
         return "v are their rates."
     read = ", ".join(f"v[{i}]" for i in rates) or "none"
@@ -184,13 +184,13 @@ def _rates(rates: tuple[int, ...], n: int) -> str:
 
 
 def rendered(template: str, given: Mapping[str, object]) -> str:
-    """The text of a file from its template."""
+    """Text of a file from its template and the values it names."""
     return _environment(Path(template).suffix).get_template(f"{template}.j2").render(given)
 
 
 @cache
 def _environment(suffix: str) -> Environment:
-    """Jinja's environment for a language, made once, which writes every value as text of that language."""
+    """Jinja's environment for files with this suffix, made once; it escapes every value for the language."""
     markup = suffix in (".xml", ".html")
     safe = c_comment if suffix in (".c", ".h") else one_line
     return Environment(

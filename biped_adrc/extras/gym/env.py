@@ -1,56 +1,72 @@
-"""A walk as an environment of Gymnasium: `gymnasium.make("biped_adrc.extras.gym:biped_adrc/Walk-v0")`.
+"""A walk, or many, as an environment of Gymnasium.
 
     env = gymnasium.make("biped_adrc.extras.gym:biped_adrc/Walk-v0", condition="push on joints")
     observation, info = env.reset(seed=1)
     observation, reward, terminated, truncated, info = env.step(action)
+    envs = gymnasium.make_vec("biped_adrc.extras.gym:biped_adrc/Walk-v0", num_envs=64)
 
-A step is a sample of the walk, from one sample instant to the next (1 ms by default); one in which the foot
-strikes ends there, where the clock restarts. `view` has the observation, `task` the reward.
+A step of the environment is one sample of the walk, from one sample instant to the next (1 ms by default); a
+sample in which the foot strikes ends at the impact, where the clock restarts. `stage` defines the observation,
+`task` the reward.
+
+The vector environment moves all walks by one call of machine code; each walk is that of `WalkEnv`, bit for bit.
+A walk that has ended begins anew at the next step (`AutoresetMode.NEXT_STEP`): its action of that step has no
+effect, and its reward is 0.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import gymnasium
 import numpy as np
 from gymnasium.spaces import Box
+from gymnasium.utils import seeding
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
 
-from biped_adrc.core.errors import InputError
+from biped_adrc.core.errors import InputError, check_count
 from biped_adrc.core.types import Array
 from biped_adrc.extras.gym.picture import Picture
-from biped_adrc.extras.gym.stage import Stage
+from biped_adrc.extras.gym.stage import Flags, Stage
 from biped_adrc.extras.gym.task import LearnerTask
 from biped_adrc.scenario.scenario import MOST_SEED, Scenario
 from biped_adrc.scenario.stepper import finite_numbers
 
+PICTURES: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 1000}
+"""Gymnasium's description of the pictures of `render`."""
+
 
 def spaces_of(stage: Stage) -> tuple[Box, Box]:
-    """Gymnasium's spaces of one observation and of one action."""
+    """Gymnasium's spaces of an observation (in SI units) and of an action (p,), shares
+    of the torque limit [1].
+    """
     observations = Box(-stage.highest, stage.highest, dtype=np.float64)
     return observations, Box(-1.0, 1.0, (stage.plant.p,), np.float64)
 
 
 def check_options(options: dict[str, Any] | None) -> None:
-    """Raise InputError for options of a reset: there are none."""
+    """Raise InputError if `reset` is called with options, as this environment has none."""
     if options:
         raise InputError(f"reset has the options {sorted(options)}, expected none")
 
 
 class WalkEnv(gymnasium.Env[Any, Any]):
-    """One walk.
+    """A walk as an environment.
 
-    - scenario: `biped_adrc.Scenario`, or a condition by name ("nothing" without), on the base of
-      its comparisons. values: fields of the scenario by name, such as plant, gait, push, amplitude.
-    - action: "torques", all of the torque, or "added", beside that of the scenario's controller. For each motor
-      a share of its limit, the scenario's where that is lower [N m]; the motors give no more than that.
+    - scenario: `biped_adrc.Scenario`, or condition: one by name ("nothing" if None), on the base of all
+      conditions. values: fields of the scenario by name, such as plant, gait, push, amplitude.
+    - action: "torques", all of the torque, or "added", beside that of the scenario's controller. For each
+      motor a share of its limit, the scenario's where that is lower [N m]; the motors give no more than that.
     - seconds [s]: longest walk. alive, tracking, effort: weights of the reward (`task.LearnerTask`).
     - render_mode: "rgb_array"; with "human" `gymnasium.make` shows these pictures in a window of pygame's.
 
-    `reset(seed=k)` walks the scenario with seed = k; without a seed another one is drawn. Raises InputError.
+    `reset(seed=k)` walks the scenario with seed = k; without a seed another one is drawn. Raises InputError
+    for a scenario that cannot be walked.
     """
 
-    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 1000}  # noqa: RUF012
+    metadata = PICTURES
 
     def __init__(
         self,
@@ -67,14 +83,21 @@ class WalkEnv(gymnasium.Env[Any, Any]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Array, dict[str, Any]]:
-        """A walk from its start. Raises InputError for options, and a seed out of its range."""
+        """Begin the walk anew with this seed; returns the first observation and the info.
+
+        Raises InputError for options, and for a seed out of its range.
+        """
         super().reset(seed=seed)
         check_options(options)
         self.stage.begin(0, int(self.np_random.integers(MOST_SEED)) if seed is None else seed)
         return self.stage.observations()[0], self._info()
 
     def step(self, action: Array) -> tuple[Array, float, bool, bool, dict[str, Any]]:
-        """One sample under an action (p,) [1]. Raises InputError for what is none, and after a fall."""
+        """Walk one sample under an action (p,), shares of the torque limit from -1 to 1.
+
+        Returns observation, reward [1], whether the walk has fallen, whether its time or impacts are over, and
+        the info. Raises InputError for an action that is none, and when the walk has already ended.
+        """
         stage = self.stage
         if stage.stepper.codes[0] != 0:
             raise InputError("there is no walk that goes on; call reset() first")
@@ -84,11 +107,97 @@ class WalkEnv(gymnasium.Env[Any, Any]):
         return stage.observations()[0], reward, fallen, late, self._info()
 
     def _info(self) -> dict[str, Any]:
-        """Of this walk alone."""
+        """The entries of `Stage.infos` of this walk, as plain numbers."""
         return {
             name: x[0] if name == "status" else x.item() for name, x in self.stage.infos().items()
         }
 
     def render(self) -> Any:
-        """A picture (height, width, 3), uint8; None without a render_mode."""
+        """Draw the robot as pixels (height, width, 3), uint8; None without a render_mode."""
         return self.picture.drawn(0) if self.picture else None
+
+
+class WalkVectorEnv(VectorEnv[Array, Array, Any]):
+    """num_envs walks; the other arguments are those of `WalkEnv`.
+
+    `reset(seed=k)` gives walk i the seed k + i, as Gymnasium's own vectors do; a list has one for each.
+    """
+
+    metadata = PICTURES | {"autoreset_mode": AutoresetMode.NEXT_STEP}
+
+    def __init__(
+        self,
+        num_envs: int = 1,
+        scenario: Scenario | None = None,
+        condition: str | None = None,
+        render_mode: str | None = None,
+        **values: Any,
+    ):
+        check_count(num_envs, f"num_envs is {num_envs}")
+        self.num_envs, self.render_mode = num_envs, render_mode
+        task = LearnerTask.of(scenario, condition, **values)
+        self.stage = Stage(task, num_envs, render_mode is not None)
+        self.single_observation_space, self.single_action_space = spaces_of(self.stage)
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self.action_space = batch_space(self.single_action_space, num_envs)
+        self.generators = [np.random.default_rng() for _ in range(num_envs)]
+        self.over: Flags = np.ones(num_envs, dtype=bool)
+        self.picture = Picture(self.stage) if render_mode else None
+
+    def reset(
+        self,
+        *,
+        seed: int | Sequence[int | None] | None = None,
+        options: dict[str, Any] | None = None,
+    ) -> tuple[Array, dict[str, Any]]:
+        """Begin all walks anew; returns the first observations, a row for each walk, and the infos.
+
+        Raises InputError for options, and for a list of seeds whose length is not num_envs.
+        """
+        check_options(options)
+        N = self.num_envs
+        seeds = [seed + i for i in range(N)] if isinstance(seed, int) else seed
+        seeds = [None] * N if seeds is None else list(seeds)
+        if len(seeds) != N:
+            raise InputError(f"reset has {len(seeds)} seeds, expected {N}, one for each walk")
+        for i, seed_of in enumerate(seeds):
+            self._begin(i, seed_of)
+        self.over[:] = False
+        return self.stage.observations(), self._infos()
+
+    def _begin(self, i: int, seed: int | None) -> None:
+        """Begin walk i anew with this seed; without a seed, draw one from the walk's own generator.
+
+        The generator is seeded as that of `WalkEnv`, so that a walk among many draws the same seeds as alone.
+        """
+        if seed is not None:
+            self.generators[i], _ = seeding.np_random(seed)
+        drawn = int(self.generators[i].integers(MOST_SEED)) if seed is None else seed
+        self.stage.begin(i, drawn)
+
+    def step(self, actions: Array) -> tuple[Array, Array, Flags, Flags, dict[str, Any]]:
+        """Walk one sample of each walk under actions (N, p) [1]; walks that have ended begin anew.
+
+        Returns observations (N, ..), rewards (N,), whether each has fallen (N,), whether its time or impacts
+        are over (N,), and the infos. Raises InputError for actions of another shape or not finite.
+        """
+        stage, again = self.stage, self.over
+        stage.move(finite_numbers("action", actions, (self.num_envs, stage.plant.p)))
+        for i in np.flatnonzero(again):
+            self._begin(int(i), None)
+        fallen, late = stage.ended()
+        rewards = stage.rewards()
+        rewards[again] = 0.0
+        self.over = fallen | late
+        return stage.observations(), rewards, fallen, late, self._infos()
+
+    def _infos(self) -> dict[str, Any]:
+        """The arrays (N,) of `Stage.infos`, each with Gymnasium's mask `_name` of the walks that have
+        it: all.
+        """
+        result, there = self.stage.infos(), np.ones(self.num_envs, dtype=bool)
+        return result | {f"_{name}": there.copy() for name in result}
+
+    def render(self) -> tuple[Any, ...] | None:
+        """Draw each walk as pixels (height, width, 3), uint8; None without a render_mode."""
+        return tuple(map(self.picture.drawn, range(self.num_envs))) if self.picture else None

@@ -21,13 +21,15 @@ from biped_adrc.view.placement import TILE, joint_values, link_placements
 from biped_adrc.view.style import GREY
 
 WIDTH, HEIGHT = 480, 360
-"""Of a picture [pixels]."""
+"""Size of a picture [pixels]."""
 LINE, MARGIN = 6, 40
 """Width of a link, and height of the ground in the picture [pixels]."""
 
 
 class Picture:
-    """The walks of a stage, drawn as they are measured; the posture on the orbit decides the scale."""
+    """Draws the walks of a stage as they are measured; the height of the robot on the orbit decides
+    the scale.
+    """
 
     def __init__(self, stage: Stage):
         self.stage, self.biped, self.bones = stage, stage.plant, bones(stage.plant)
@@ -37,13 +39,16 @@ class Picture:
         self.scale = (HEIGHT - 2 * MARGIN) / max(highest, 1e-3)
 
     def _lines(self, q: Array, step: int, foot: Array) -> list[tuple[Array, str]]:
-        """Ends (2, 2) [m] of every link in the world, and its leg: "stance", "swing" or ""."""
+        """Ends (2, 2) [m] of every link in the world, and its leg: "stance", "swing" or "".
+
+        q (n,) [rad]: posture in single support `step`. foot (2,) [m]: place of the stance foot.
+        """
         values = joint_values(self.biped, q, step, float(foot[0]), float(foot[1]))
         ends = placed_lines(self.bones, link_placements(self.biped.tree, values))
         return list(zip(ends, roles_of(self.bones, self.biped, step), strict=True))
 
     def drawn(self, i: int) -> NDArray[np.uint8]:
-        """Walk i as pixels (HEIGHT, WIDTH, 3)."""
+        """Draw walk i as pixels (HEIGHT, WIDTH, 3)."""
         row, foot, first = self.stage.view[i], self.stage.feet[i], self.stage.first
         q, t, step = row[: self.biped.n], float(row[first]), int(row[first + 1])
         image = Image.new("RGB", (WIDTH, HEIGHT), "white")

@@ -1,23 +1,34 @@
-"""N walks of one task side by side: what a learner is given of them, and how they go on.
+"""N walks of one task side by side, stepped together: observations, rewards, ends.
 
-`env` is one of them, `vector` N; both are this class around a `Stepper`, so that a walk among many is the same
-as alone, bit for bit.
+    observation  (q, q', e, e', u, Theta)       n + n + p + p + p + 1 numbers
+
+q, q' are those that the walk's own controller would measure at this sample instant: behind the scenario's
+sensors and, where touchdowns are detected, in the labels of the detection. e = q_b - h(Theta), e' and Theta
+follow from them; u [N m] is the torque that has acted. The reward uses the true e and u.
+
+`env.WalkEnv` has one walk, `env.WalkVectorEnv` N; both are this class around a `Stepper`, so that a walk among
+many is the same as alone, bit for bit.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from biped_adrc.closed_loop.protocols import Loop, Mode
+from biped_adrc.closed_loop.semantics import labelled, noticed, parts
 from biped_adrc.closed_loop.walker import Walker
+from biped_adrc.control.base import Measurement
 from biped_adrc.control.passive import Passive
 from biped_adrc.core.types import Array
 from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.extras.gym.task import ADDED, FALLEN_FROM, LearnerTask
-from biped_adrc.extras.gym.view import learner_view
+from biped_adrc.gait.reference import ReferencePoint
+from biped_adrc.hardware.sample_hold import motor_torque, read
 from biped_adrc.scenario.build import RobotAndGait, build, limits
 from biped_adrc.scenario.scenario import Scenario
 from biped_adrc.scenario.stepper import Stepper
@@ -29,16 +40,17 @@ FASTEST = 1000.0
 NAMES = np.array(
     ["walks", *(status.name.lower().replace("_", " ") for status in STATUS[1:])], dtype=object
 )
-"""Of the statuses, by code."""
+"""Text of each status, by its code."""
 
 Flags = NDArray[np.bool_]
 
 
 class Stage:
-    """N walks. Raises InputError for a task that cannot be walked.
+    """N walks of one task. Raises InputError for a task that cannot be walked.
 
-    needs (N, 4): 1 where all single supports that are over are feasible, else 0; largest |F_T| / F_N and least
-    F_N [N] of the mean force; largest torque [N m]. feet (N, 2): places of the stance feet [m], where `drawn`.
+    count: N. drawn: whether to follow the places of the stance feet, for pictures. needs (N, 4): 1 where all
+    single supports that are over are feasible, else 0; largest |F_T| / F_N and least F_N [N] of the mean
+    force; largest torque [N m]. feet (N, 2): places of the stance feet [m], where `drawn`.
     """
 
     def __init__(self, task: LearnerTask, count: int, drawn: bool = False):
@@ -59,30 +71,32 @@ class Stage:
         self.stepper.codes[:] = -1
 
     def _walker(self, s: Scenario, scene: RobotAndGait) -> Walker:
-        """The walker of a scenario, of which an action is an addition to its controller, or in its place."""
+        """Build the walker of a scenario; with actions as the whole torque it has no controller of its own."""
         walker = build(self._limited(s), scene)
         return walker if self.task.action == ADDED else replace(walker, controller=Passive())
 
     def _limited(self, s: Scenario) -> Scenario:
-        """The scenario with the limit of the motors that actions are shares of."""
+        """The scenario with a torque limit, of which actions are shares: its own, or
+        that of the robot's record.
+        """
         return s.replace({"hardware.torque_limit": self.limits.torque})
 
     def _fastest(self) -> Array:
-        """Bounds of q, q', e and e', one after the other, for what is measured."""
+        """Bounds (2 n + 2 p,) of the measured q, q', e and e', one after the other."""
         n, p = self.plant.n, self.plant.p
         v = self.task.scenario.run.runaway_speed * self.plant.speed_limits
         v = np.where(np.isfinite(v), v, FASTEST)
         return np.concatenate((np.full(n, TURNS), v, np.full(p, 2.0 * TURNS), 2.0 * v[:p]))
 
     def begin(self, i: int, seed: int) -> None:
-        """Walk i anew, with this seed of its scenario."""
+        """Begin walk i anew with this seed of its scenario."""
         self.stepper.reset(i, seed)
         self.seeds[i], self._seen = seed, np.zeros(0)
         self.needs[i] = 1.0, 0.0, np.inf, 0.0
         self.feet[i], self.steps[i] = 0.0, 0.0
 
     def move(self, actions: Array) -> None:
-        """One sample of all that walk, under actions (N, p), shares of the motors' limit [1]."""
+        """Walk one sample of all walks under actions (N, p), shares of the motors' limit [1]."""
         inputs = np.zeros((len(actions), self.plant.p + 2))
         inputs[:, :-2] = self.limits.torque * actions
         self.stepper.move(inputs)
@@ -99,9 +113,9 @@ class Stage:
     # -- where they are ----------------------------------------------------------------------------
     @property
     def view(self) -> Array:
-        """The numbers of `view.LearnerView` of each walk, N rows, read once after each sample.
+        """The numbers of `LearnerView` of each walk, N rows, computed once after each sample.
 
-        After a touchdown the stance foot before is the swing foot, from which the place of the new one follows.
+        At a touchdown the new stance foot is where the swing foot was, from which its place follows.
         """
         if not self._seen.size:
             self._seen = self.stepper.read(learner_view)
@@ -113,7 +127,7 @@ class Stage:
         return self._seen
 
     def observations(self) -> Array:
-        """(N, first + 1), within the bounds."""
+        """Observations (N, first + 1), limited to their bounds."""
         view = self.view
         result = np.empty((len(view), self.first + 1))
         result[:, :-1] = view[:, : self.first]
@@ -121,13 +135,13 @@ class Stage:
         return np.minimum(np.maximum(result, -self.highest, out=result), self.highest, out=result)
 
     def rewards(self) -> Array:
-        """(N,) of the sample that has just been made."""
+        """Rewards (N,) [1] of the last sample."""
         squares = self.view[:, self.first + 2 : self.first + 4]
         most = self.plant.p * self.limits.torque**2
         return self.task.rewards(squares, self.stepper.codes == 0, most)
 
     def ended(self) -> tuple[Flags, Flags]:
-        """Whether each walk has fallen, or was lost (N,), and whether its time or its impacts are over (N,)."""
+        """Whether each walk has fallen or diverged (N,), and whether its time or its impacts are over (N,)."""
         run, view = self.task.scenario.run, self.view
         fallen = self.stepper.codes != 0
         late = view[:, self.first] >= self.task.seconds - FALLEN_FROM
@@ -135,7 +149,9 @@ class Stage:
         return fallen, late & ~fallen
 
     def infos(self) -> dict[str, Any]:
-        """What is known beside the observation, (N,) each; the second four are of the single supports over."""
+        """Further numbers by name, (N,) each: time, step, seed, feasibility with its extremes so far,
+        status.
+        """
         at, rows = self.view[:, self.first :], self.needs
         return {
             "t": at[:, 0].copy(),
@@ -147,3 +163,56 @@ class Stage:
             "peak_torque": rows[:, 3].copy(),
             "status": NAMES[self.stepper.codes],
         }
+
+
+class LearnerView(NamedTuple):
+    """Numbers at one sample instant from which observation and reward follow; n coordinates, p motors."""
+
+    q: Array
+    """Angles (n,) as measured [rad]."""
+    v: Array
+    """Rates (n,) as measured [rad/s]."""
+    e: Array
+    """q_b - q_d (p,) of the measurement [rad]."""
+    de: Array
+    """Its rate (p,) [rad/s]."""
+    u: Array
+    """Torque (p,) that has acted [N m]."""
+    at: Array
+    """Time [s], and number of the single support, (2,)."""
+    squares: Array
+    """|q_b - q_d|^2 of the true state [rad^2], and |u|^2 [N^2 m^2], (2,)."""
+
+
+def learner_view(
+    loop: Loop,
+    t: float,
+    x: Array,
+    mode: Mode,
+    reference: Callable[[Array, Measurement], ReferencePoint],
+) -> LearnerView:
+    """Compute the `LearnerView` of a state x (nx,) at a sample instant t [s], before the controller has acted.
+
+    The same lines run in Python and compiled. reference(s, m): the point of the reference at a
+    measurement, s the controller's state.
+    """
+    (q, v, s, tail), k, p = parts(loop, x), loop.held, loop.plant.p
+    assert k is not None
+    h = read(k.sizes, tail)
+    true = loop.measure(t, q, v, mode)
+    if k.touchdown is not None:
+        state, _, _, b = noticed(loop, t, s, tail, q, v, mode)
+        line = labelled(loop, b, h.line)
+    else:
+        q_seen, v_seen = k.reading(k.sense(h.w, q, v), q, v)
+        state, line = true._replace(q=q_seen, v=v_seen), h.line
+    r, e, u = reference(s, state), q[:p] - reference(s, true).q_d, motor_torque(h.line)
+    return LearnerView(
+        q=state.q,
+        v=state.v,
+        e=state.q[:p] - r.q_d,
+        de=state.v[:p] - r.dq_d,
+        u=motor_torque(line),
+        at=np.array([t, mode.step]),
+        squares=np.array([e @ e, u @ u]),
+    )

@@ -1,1 +1,1 @@
-"""A robot's own measurements, as logs, and what a controller and its observer make of them."""
+"""A robot's own measurements as logs, and the estimates and torques that a controller computes from them."""

@@ -7,8 +7,8 @@ while it walks: with contact 1 they are those of the package, in which q1 is of 
 the legs are exchanged when the file is read. A file that has `step` in place of `contact`, the number of the
 single support, has the labels of stance and swing leg already.
 
-Rates may be left out, all or some. Units are those of studies ("deg", "ms", "mN m"); other columns are left
-alone, and it is said.
+Rates may be left out, all or some. Units are those of studies ("deg", "ms", "mN m"). Other columns are
+ignored, and the remarks name them.
 """
 
 from __future__ import annotations
@@ -28,34 +28,34 @@ from biped_adrc.model.biped import Biped
 from biped_adrc.scenario.units import quantity
 
 UNITS = {"t": "s", "q": "rad", "v": "rad/s", "u": "N m"}
-"""Unit of each signal in the package."""
+"""First letter of a column -> its unit in the package."""
 CONTACT, STEP = "contact", "step"
 LEGS = (1.0, 2.0)
-"""What `contact` may be."""
+"""Values that `contact` may have."""
 
 MOST_ANGLE = 4.0 * math.pi
-"""[rad]: a joint that turned twice is one in degrees."""
+"""Largest plausible angle [rad], two turns; a larger one is probably in degrees."""
 MOST_TORQUE = 100.0
-"""In peak torques of the robot: beyond it torques are in another unit."""
+"""Largest plausible torque, as a multiple of the robot's peak torque."""
 STRETCH = 0.01
-"""Length of a stretch [s]: long enough for counts of encoders, short beside a step."""
+"""Interval over which a rate is compared with its angle [s]: longer than encoder steps, short beside a step."""
 LEAST_MOTION = 0.002
-"""Root mean square of an angle's change in a stretch [rad], below which nothing is said of its rate."""
+"""Least rms change of an angle in an interval [rad]; with less motion its rate is not checked."""
 RATIOS = 0.5, 2.0
-"""Within these r_i is believed."""
+"""Range of the ratios r_i with which a rate is accepted."""
 
 _COLUMN = re.compile(r"\s*(\w+?)\s*(?:\[(.*)\])?\s*")
-"""A name, and its unit in brackets."""
+"""The name of a column, and its unit in brackets."""
 
 
 def read_log(file: str | Path, biped: Biped) -> RobotLog:
-    """The log in a CSV file, of this robot.
+    """Read the log of this robot from a CSV file.
 
-    Raises InputError for a file that cannot be read, with the line or the column, what was found there and what
-    was expected.
+    Raises InputError for a file that cannot be read, with the line or the column, what was found
+    there and what was expected.
 
     >>> from biped_adrc.extras.logs.log_file import write_log
-    >>> from biped_adrc.extras.logs.log_of_walk import logged
+    >>> from biped_adrc.extras.logs.robot_log import logged
     >>> walk = ba.walk_scenario(ba.Scenario("NPD", hardware="ideal", run={"impacts": 2}))
     >>> file = write_log(logged(walk), folder / "log.csv", biped)
     >>> ba.read_log(file, biped).q.shape[1]
@@ -70,7 +70,8 @@ def read_log(file: str | Path, biped: Biped) -> RobotLog:
 
 
 def write_log(log: RobotLog, path: str | Path, biped: Biped) -> Path:
-    """Write a log as a robot would, in the labels of its own legs; its path. Raises InputError and OutputError.
+    """Write a log as CSV with the labels of the robot's own legs; returns the path. Raises
+    InputError and OutputError.
 
     The leg that stands in single supports 1, 3, .. is called 1.
     """
@@ -89,9 +90,10 @@ def write_log(log: RobotLog, path: str | Path, biped: Biped) -> Path:
 def exchanged(
     legs: Array, q: Array, v: Array, u: Array, biped: Biped
 ) -> tuple[Array, Array, Array]:
-    """q, v (K, n) and u (K, p) with the legs exchanged in the rows in which leg 2 stands; legs (K,) of 1 and 2.
+    """Exchange the legs in the rows in which leg 2 stands; returns q, v (K, n) and u (K, p).
 
-    It is its own inverse, as two touchdowns leave the labels as they were.
+    legs (K,): 1 or 2, the leg that stands. It is its own inverse, as two touchdowns
+    leave the labels as they were.
     """
     other = (legs == LEGS[1])[:, np.newaxis]
     turned = np.array([biped.relabel(x) for x in q]).reshape(q.shape)
@@ -119,7 +121,7 @@ def _numbered(biped: Biped) -> list[str]:
 
 
 def _wanted(head: list[str], biped: Biped) -> dict[str, tuple[int, float]]:
-    """Of each column of the log: where it is in the file, and the factor to the package's unit."""
+    """Index in the file of each column of the log, and the factor to the package's unit. Raises InputError."""
     known, result = ["t", CONTACT, STEP, *_numbered(biped)], dict[str, tuple[int, float]]()
     for at, text in enumerate(head):
         match = _COLUMN.fullmatch(text)
@@ -144,7 +146,9 @@ def _wanted(head: list[str], biped: Biped) -> dict[str, tuple[int, float]]:
 
 
 def _factor(column: str, name: str, unit: str | None) -> float:
-    """From the unit of a column to that of the package. Raises InputError for none, or another dimension."""
+    """Factor from the unit of a column to the package's. Raises InputError without a
+    unit, or for another dimension.
+    """
     expected = UNITS[name[0]]
     if not unit:
         raise InputError(
@@ -157,7 +161,7 @@ def _factor(column: str, name: str, unit: str | None) -> float:
 
 
 def _said(head: list[str], wanted: dict[str, tuple[int, float]]) -> tuple[str, ...]:
-    """Sentences on columns that were converted or left alone."""
+    """Sentences that name the columns which were converted or ignored."""
     used = {at for at, _ in wanted.values()}
     scaled = [head[at] for at, factor in wanted.values() if factor != 1.0]
     rest = [text for at, text in enumerate(head) if at not in used]
@@ -168,7 +172,7 @@ def _said(head: list[str], wanted: dict[str, tuple[int, float]]) -> tuple[str, .
 def _log(
     table: dict[str, Array], biped: Biped, names: list[str], remarks: tuple[str, ...]
 ) -> RobotLog:
-    """The log of the columns by name, (K,) each; names: what each row is called."""
+    """Make the log of columns by name, (K,) each; names: of the rows, for messages. Raises InputError."""
     rows = len(names)
     none = np.zeros(rows)
     q, v, u = (
@@ -196,10 +200,10 @@ def _log(
 def check_plausible(log: tuple[Array, ...], has: Array, biped: Biped, names: list[str]) -> None:
     """Raise InputError for angles, rates or torques that the robot cannot have had: other units or columns.
 
-        r_i = sum over stretches of Delta q_i D_i / sum of D_i^2,     D_i = integral of v_i over the stretch
+        r_i = sum over intervals of Delta q_i D_i / sum of D_i^2,     D_i = integral of v_i over the interval
 
-    is 1 where v_i is the rate of q_i, 1/57 where one of both is in degrees, -1 where it has the other sign.
-    log: t, step, q, u, v as in `RobotLog`, in the labels of the file. has (n,): whether a rate was
+    is 1 where v_i is the rate of q_i, 1/57 where one of both is in degrees, -1 where it has the other
+    sign. log: t, step, q, u, v as in `RobotLog`, in the labels of the file. has (n,): whether a rate was
     measured; names (K,): of the rows.
     """
     t, step, q, u, v = log
@@ -226,7 +230,7 @@ def check_plausible(log: tuple[Array, ...], has: Array, biped: Biped, names: lis
 
 
 def _stretches(t: Array, step: Array, q: Array, v: Array) -> tuple[Array, Array]:
-    """Changes of the angles and integrals of the rates (M, n) [rad], over stretches of single supports."""
+    """Changes of the angles and integrals of the rates (M, n) [rad] over M intervals within single supports."""
     ways = np.diff(t)[:, np.newaxis]
     area = np.vstack((np.zeros_like(v[:1]), np.cumsum(0.5 * ways * (v[1:] + v[:-1]), axis=0)))
     rows = max(1, round(STRETCH / float(np.median(ways))))
@@ -235,7 +239,7 @@ def _stretches(t: Array, step: Array, q: Array, v: Array) -> tuple[Array, Array]
 
 
 def _check_rate(turned: Array, integral: Array, i: int) -> None:
-    """Raise InputError where a rate is not that of its angle, by changes and integrals (M,) [rad]."""
+    """Raise InputError where rate i is not that of its angle, from changes and integrals (M,) [rad]."""
     if max(float(np.sqrt(np.mean(x**2))) for x in (turned, integral)) < LEAST_MOTION:
         return
     square = float(integral @ integral)

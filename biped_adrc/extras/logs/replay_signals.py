@@ -34,9 +34,10 @@ from biped_adrc.hardware.sensors import Sensors
 
 @dataclass(frozen=True)
 class ReplaySignals(Shown):
-    """Rows are those of the log, K; n coordinates, p joints, in the labels of stance and swing leg.
+    """Signals of a replay: K rows as in the log, n coordinates, p joints, in the
+    labels of stance and swing leg.
 
-    Without an observer what comes from estimates is NaN.
+    Without an observer the signals that come from estimates are NaN.
     """
 
     t: Array
@@ -46,17 +47,17 @@ class ReplaySignals(Shown):
     t_step: Array
     """Time since the touchdown (K,) [s]; in the first single support since the first row."""
     q: Array
-    """(K, n) [rad], of the log."""
+    """(K, n) [rad], from the log."""
     v: Array
-    """(K, n) [rad/s], of the log or from differences."""
+    """(K, n) [rad/s], from the log or from differences."""
     u: Array
-    """(K, p) [N m], of the log."""
+    """(K, p) [N m], from the log."""
     torque: Array
-    """(K, p) what the controller would have asked for [N m], within the torque limit."""
+    """(K, p) torque of the replayed controller, within the torque limit [N m]."""
     residual: Array
-    """(K, p) q_b - x1^ [rad] before the sample is taken in; 0 for observers that do not estimate angles."""
+    """(K, p) q_b - x1^ [rad] before the correction by the sample; 0 for observers without angles."""
     xi_estimate: Array
-    """(K, p) xi^ [rad/s^2], with the sample taken in."""
+    """(K, p) xi^ [rad/s^2] after the correction by the sample."""
     xi_nominal: Array
     """(K, p) xi of the nominal model (14) [rad/s^2]."""
     zeta_estimate: Array
@@ -79,10 +80,10 @@ class ReplaySignals(Shown):
 
 
 def replayed(walker: Walker, log: RobotLog, filter_time: float, window: float) -> ReplaySignals:
-    """The signals of a log through the walker's controller, whose sample instants are the log's rows.
+    """Replay a log through the walker's controller, whose sample instants are the log's rows.
 
-    filter_time [s]: of the low-pass of rates from differences. window [s]: that of contact. Raises
-    NotFiniteError for a controller or an observer that diverges on the log.
+    filter_time [s]: of the low-pass of rates from differences. window [s]: time after a touchdown that counts
+    as contact. Raises NotFiniteError for a controller or an observer that diverges on the log.
     """
     law, calls, rows = walker.law, walker.calls, []
     s = np.zeros(0)
@@ -111,7 +112,11 @@ def replayed(walker: Walker, log: RobotLog, filter_time: float, window: float) -
 def measurements(
     walker: Walker, log: RobotLog, filter_time: float
 ) -> Iterator[tuple[Measurement, Measurement | None]]:
-    """Of each row what the controller is given, and at a touchdown what it jumps to."""
+    """Iterate over the controller's measurements, one for each row; at a touchdown also
+    the one its state jumps to.
+
+    At all other rows the second is None.
+    """
     n, p, period = walker.plant.n, walker.plant.p, log.period
     sensors = Sensors(velocity="differences", filter_time=filter_time).sampled(n, p, period)
     sensors = replace(sensors, differences=(~log.has_rate).astype(int))

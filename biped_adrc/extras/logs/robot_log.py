@@ -1,11 +1,12 @@
-"""What a robot's computer wrote down while it walked: t, q, u, and which leg stood, at its sample instants.
+"""The log of a robot's computer during a walk: t, q, u, and which leg stood, at its sample instants.
 
-    row k      q_k, and where there are rates v_k, as sensors showed them at t_k
+    row k      q_k, and where there are rates v_k, as the sensors measured them at t_k
                u_k, the mean torque of the motors from t_k until t_(k+1)
 
 Angles and torques have the labels of the package: they are of stance and swing leg, and change at a touchdown.
 Rows of one single support are one period apart; the first row of the next may come earlier. `log_file` reads
-and writes logs, in labels of the robot's legs too, `log_of_walk` makes one of a simulated walk.
+and writes logs, in labels of the robot's legs too; `logged` makes the log that the computer of a simulated
+robot would have written, so that estimates can be compared with the true values.
 """
 
 from __future__ import annotations
@@ -18,25 +19,31 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from biped_adrc.closed_loop.semantics import parts, turned
+from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.checks import numbers
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown
-from biped_adrc.core.timing import LONGEST_PERIOD
-from biped_adrc.core.types import Array, Indices, read_only
+from biped_adrc.core.timing import LONGEST_PERIOD, SAME_INSTANT, SampledTime
+from biped_adrc.core.types import Array, Indices, read_only, relabelled
+from biped_adrc.hardware.sample_hold import motor_torque, read
+from biped_adrc.hardware.touchdown import belief_of
+from biped_adrc.hybrid.trajectory import Arc
+from biped_adrc.scenario.recording import Walk
 
 GAP = 0.5
 """Share of the period by which two rows may come too early or too late; beyond it a row is missing."""
 SHORTEST_PERIOD = 1e-5
-"""[s]: rows closer together are in another unit of time."""
+"""Shortest plausible period [s]; with rows closer together the times are in another unit."""
 EVEN = 1e-3
-"""The same share below which a clock counts as even, and rows are taken as they are."""
+"""Largest deviation of the distance of two rows from the period, as a share of it, for an even clock."""
 
 
 @dataclass(frozen=True)
 class RobotLog(Shown):
-    """K rows of n coordinates and p motors.
+    """A log of K rows, with n coordinates and p motors.
 
-    Raises InputError for what is no log, with the row, what was found there and what was expected.
+    Raises InputError for arrays that are no log, with the row, what was found there and what was expected.
     """
 
     t: Array
@@ -52,7 +59,7 @@ class RobotLog(Shown):
     measured: Array | None = None
     """(n,), 1 where v has a measured rate, 0 where none was; None: all of v."""
     remarks: tuple[str, ...] = ()
-    """What was converted, left out or resampled."""
+    """Sentences on what was converted, ignored or resampled."""
 
     def __post_init__(self) -> None:
         """Copy the arrays, and check them; see the class."""
@@ -79,7 +86,7 @@ class RobotLog(Shown):
 
     @property
     def has_rate(self) -> NDArray[np.bool_]:
-        """Of which coordinates the rate was measured (n,)."""
+        """Whether the rate of each coordinate was measured (n,)."""
         return np.asarray(self.measured) > 0.5
 
     @cached_property
@@ -98,9 +105,9 @@ class RobotLog(Shown):
         return bool(np.all(np.abs(self._ways - period) <= EVEN * period))
 
     def resampled(self, period: float) -> RobotLog:
-        """The log on an even clock that starts with every single support, rows `period` [s] apart.
+        """The log on an even clock that starts anew with every single support, rows `period` [s] apart.
 
-        Angles and rates lie on straight lines between rows, torques are means of those that were held.
+        Angles and rates are interpolated linearly between rows, torques are means of those that were held.
         """
         begins = np.flatnonzero(np.diff(self.step)) + 1
         supports = np.split(np.arange(len(self.t)), begins)
@@ -110,7 +117,7 @@ class RobotLog(Shown):
         return replace(self, t=t, step=step, q=q, u=u, v=v, remarks=(*self.remarks, remark))
 
     def _support(self, rows: Indices, period: float) -> tuple[Array, ...]:
-        """t, step, q, u, v of one single support, these rows (K,), on the even clock."""
+        """t, step, q, u, v of one single support on the even clock; rows (K,): its indices."""
         t, u, line = self.t[rows], self.u[rows], (self.q[rows], self.rates[rows])
         at = t[0] + period * np.arange(math.floor((t[-1] - t[0]) / period + EVEN) + 1)
         edges = np.append(t, t[-1] + self.period)
@@ -123,12 +130,13 @@ class RobotLog(Shown):
 
 
 def _between(at: Array, t: Array, x: Array) -> Array:
-    """x (K, k) at the times `at` (M,) [s], on straight lines between t (K,) [s]; (M, k)."""
+    """Interpolate x (K, k), given at t (K,) [s], linearly at the times `at` (M,) [s]; returns (M, k)."""
     return np.column_stack([np.interp(at, t, column) for column in x.T])
 
 
 def check_rows(t: Array, step: Array, q: Array, u: Array, v: Array, names: list[str]) -> None:
-    """Raise InputError for shapes that differ, what is not finite, a gap, a doubled time, milliseconds.
+    """Raise InputError for arrays of different length, numbers that are not finite,
+    and times that are no clock.
 
     Shapes as in `RobotLog`; names (K,): what each row is called, such as "line 7".
     """
@@ -186,3 +194,63 @@ def _check_times(t: Array, step: Array, names: list[str]) -> None:
             f"{names[k + 1]} of the log comes {ways[k]:.6g} s after the row before, expected {period:.6g} s as "
             f"most rows do; rows are missing there, or too many: fill them in, or replay the parts one by one"
         )
+
+
+LoggedRow = tuple[float, float, Array, Array, Array]
+"""t [s], number of the single support, q (n,) [rad], u (p,) [N m], v (n,) [rad/s]."""
+
+
+def logged(walk: Walk) -> RobotLog:
+    """Make the log of a walk in sampled time: angles and rates as measured by the
+    sensors, torques as they acted.
+
+    Single supports and labels are those of the controller, detected or known. Raises InputError for a walk in
+    continuous time, which has no sample instants.
+    """
+    time = walk.walker.timing
+    if not isinstance(time, SampledTime):
+        raise InputError(
+            "the walk is in continuous time and has no sample instants to log; give a period, as period=1e-3"
+        )
+    run = walk.trajectory
+    rows = [
+        row
+        for arc in run.arcs
+        for k, end in _ticks(arc, time, run.t_start)
+        for row in [_row(walk.walker, arc, k, end)]
+    ]
+    if not rows:
+        raise InputError(
+            f"the walk ended at t = {run.t_end:g} s, before a second sample instant, and has nothing to log"
+        )
+    t, step, q, u, v = (np.array(x) for x in zip(*rows, strict=True))
+    return RobotLog(t, step, q, u, v)
+
+
+def _ticks(arc: Arc, time: SampledTime, start: float) -> list[tuple[int, int]]:
+    """For each sample instant of an arc: index of the node just after it, and of the
+    node just before the next one.
+    """
+    t, period = arc.t, time.period
+    since = t - (t[0] if time.restart else start)
+    due = np.abs(since - period * np.round(since / period)) < SAME_INSTANT
+    after = np.flatnonzero(due[:-1] & (np.diff(t) > 0.0))
+    before = [*(int(np.searchsorted(t, t[k])) for k in after[1:]), len(t) - 1]
+    return list(zip(after.tolist(), before[: len(after)], strict=True))
+
+
+def _row(walker: Walker, arc: Arc, k: int, end: int) -> LoggedRow:
+    """Measurement at node k, in the labels of the controller, and the mean torque until node `end`."""
+    q, v, _, tail = parts(walker, arc.x[k])
+    held = walker.held
+    assert held is not None
+    h, step, other = read(held.sizes, tail), float(arc.mode.step), 0.0
+    if held.sizes.belief > 0:
+        b = belief_of(h.b)
+        step, other = float(b.step), b.other
+    q, v = held.reading(h.w, *turned(walker, other, q, v))
+    nodes = slice(k, end + 1)
+    t, tails = arc.t[nodes], (parts(walker, x)[3] for x in arc.x[nodes])
+    acted = np.array([motor_torque(read(held.sizes, x).line) for x in tails])
+    u = np.trapezoid(acted, t, axis=0) / (t[-1] - t[0])  # also where it is late or lags
+    return float(arc.t[k]), step, q, relabelled(u, walker.swap) if other > 0.5 else u, v

@@ -1,1 +1,1 @@
-"""Plants that others wrote: the robot in an engine with contact of its own, under the same controllers."""
+"""The robot in MuJoCo, an engine with a contact model of its own, under the same controllers."""

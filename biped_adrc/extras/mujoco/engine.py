@@ -1,21 +1,21 @@
-"""MuJoCo's work space for one floating biped, and where the package's numbers are in it.
+"""MuJoCo's model and data for one floating biped, and where the package's numbers are in them.
 
     row = (q, q', own),   own = (time of the last touchdown, base (x, z), its velocity, rest)
 
-rest is, on steps of the ground, (number of the single support, levels under stance and swing foot), then
-u_m (p,) of motors with lag. A row is the whole state of a
-`plant.MuJoCoPlant`. `moved` puts it in, lets MuJoCo step and reads what came of it. Integrators:
+rest is, on steps of the ground, (number of the single support, levels under stance and swing foot), then u_m
+(p,) of motors with lag. A row is the whole state of a `plant.MuJoCoPlant`. `moved` copies it into MuJoCo,
+steps the engine and reads the result. Integrators:
 
     rk4         v, q by the classical method, four evaluations of the forces in a step
     leapfrog    q <- q + h v / 2;  N times (v <- v + h a(q, v), q <- q + h v);  q <- q - h v / 2
 
 The middle of leapfrog is MuJoCo's Euler method, whose positions are off by a h T / 2 after a time T. Between
-the two half steps forces of position are taken in the middle of each step, which is of second order; what
-depends on v, as the terms of Coriolis, at its beginning, which is of first.
+the two half steps forces of position are taken in the middle of each step, which is of second order; forces
+that depend on v, as the Coriolis terms, at its beginning, which is of first.
 
-Torques of motors with lag, tau u_m' = u - u_m, do not depend on the motion: each step of the engine is given
-their exact mean over it, so that the impulse is exact, the angles are of second order in h, and no lag is too
-short.
+Torques of motors with lag, tau u_m' = u - u_m, do not depend on the motion: each step of the
+engine is given their exact mean over it, so that the impulse is exact, the angles are of second
+order in h, and no lag is too short.
 """
 
 from __future__ import annotations
@@ -32,15 +32,17 @@ from biped_adrc.hybrid.integrators import StepFailed
 from biped_adrc.model.biped import Biped
 
 INTEGRATORS = {"rk4": "mjINT_RK4", "leapfrog": "mjINT_EULER"}
-"""MuJoCo's method behind each name."""
+"""Name of an integrator -> MuJoCo's method that it uses."""
 
 
 Move = Callable[[MuJoCoModel, MuJoCoData, int], None]
-"""So many steps of MuJoCo."""
+"""A function that advances MuJoCo by a number of steps."""
 
 
 def leapfrog(model: MuJoCoModel, data: MuJoCoData, steps: int, move: Move | None = None) -> None:
-    """So many steps of leapfrog, for a model with MuJoCo's Euler method; move: in place of mj_step."""
+    """Advance a model with MuJoCo's Euler method by this many steps of leapfrog; move:
+    used in place of mj_step.
+    """
     half, q, v = 0.5 * model.opt.timestep, data.qpos, data.qvel
     q += half * v
     (mujoco().mj_step if move is None else move)(model, data, steps)
@@ -48,7 +50,7 @@ def leapfrog(model: MuJoCoModel, data: MuJoCoData, steps: int, move: Move | None
 
 
 class MuJoCoEngine:
-    """A model with one work space, whose arrays are looked up once. Neither is to be shared between threads.
+    """A model of MuJoCo with its data, whose arrays are looked up once. Not to be shared between threads.
 
     h [s]: longest step. integrator: one of INTEGRATORS, for which the model has to be made. lag [s]: tau.
     """
@@ -82,10 +84,11 @@ class MuJoCoEngine:
         self.points_at = [data.xpos[model.body(name).id] for name in (*d.feet, d.hip)]
 
     def _places(self, joints: tuple[str, ...]) -> Indices:
+        """Indices of these joints in MuJoCo's arrays."""
         return np.array([self.model.joint(name).dofadr[0] for name in joints])
 
     def place(self, row: Array) -> None:
-        """Positions and rates of a row; all else that MuJoCo knows follows from them."""
+        """Copy positions and rates of a row into MuJoCo."""
         row.take(self.positions, out=self.qpos, mode="clip")  # by far the fastest way
         row.take(self.rates, out=self.qvel, mode="clip")
         self.warnings[:] = 0
@@ -94,7 +97,7 @@ class MuJoCoEngine:
             self.model.geom_pos[self.planes, 2] = self.depth + row[first : first + 2]
 
     def push(self, u: Array, q: Array, load: Load | None) -> None:
-        """u (p,) [N m] at the motors, and a load from outside at q (n,) [rad]; None for none."""
+        """Set the motors' torques u (p,) [N m], and an external load at q (n,) [rad]; None for no load."""
         self.ctrl[:] = u
         self.applied[:] = 0.0
         if load is None:
@@ -107,7 +110,8 @@ class MuJoCoEngine:
             self.applied[self.base] = load.force
 
     def moved(self, t: float, row: Array, u: Array, load: Load | None, until: float) -> Array:
-        """The row at `until` [s], from t [s] on with u (p,) [N m] asked of the motors and the load held.
+        """The row at `until` [s], from a row at t [s], with u (p,) [N m] commanded to the
+        motors and the load constant.
 
         Raises StepFailed where MuJoCo warns.
         """
@@ -125,7 +129,10 @@ class MuJoCoEngine:
         return self.read(row)
 
     def followed(self, u: Array, u_m: Array, steps: int) -> Array:
-        """u_m (p,) [N m] after so many steps in which it goes from u_m to u (p,) [N m]."""
+        """Advance by this many steps with lagging motors, from their torque u_m to the command u (p,) [N m].
+
+        Returns their torque (p,) [N m] at the end.
+        """
         ratio = self.options.timestep / self.lag
         left, mean = math.exp(-ratio), -math.expm1(-ratio) / ratio
         step, missing = mujoco().mj_step, u_m - u
@@ -143,15 +150,14 @@ class MuJoCoEngine:
         return u_m
 
     def read(self, row: Array) -> Array:
-        """A row with MuJoCo's positions and rates in place of its own."""
+        """A copy of the row with MuJoCo's positions and rates."""
         row = row.copy()
         row[self.positions], row[self.rates] = self.qpos, self.qvel
         return row
 
     def points(self) -> list[list[float]]:
-        """Places [m] of both feet, in the order of the robot's record, and the hip at MuJoCo's positions.
-
-        (x, y, z) as plain numbers, since they are looked at after every stride.
+        """Places (x, y, z) [m] of both feet, in the order of the robot's record, and of
+        the hip, as plain numbers.
         """
         self.kinematics(self.model, self.data)
         return [place.tolist() for place in self.points_at]

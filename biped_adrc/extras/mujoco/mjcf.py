@@ -2,7 +2,7 @@
 
     python -m mujoco.viewer --mjcf=FILE
 
-What moves is the text from which `MuJoCoPlant` is compiled. Motors with lag are MuJoCo's `filter`, which
+Its dynamics are the text from which `MuJoCoPlant` is compiled. Motors with lag are MuJoCo's `filter`, which
 gives their torque to the accuracy of its integrator. Shapes of the URDF are added, without mass and without
 contact, and the start of a gait as the keyframe `start`.
 """
@@ -36,7 +36,7 @@ def write_mjcf(plant: MuJoCoPlant, path: Path | str, gait: Gait | None = None) -
 
 
 def mjcf(plant: MuJoCoPlant, gait: Gait | None = None) -> str:
-    """A plant as MJCF; see `write_mjcf`."""
+    """Text of a plant as MJCF; arguments as for `write_mjcf`. Raises InputError for ground with steps."""
     check_part(plant, "plant", MuJoCoPlant)
     if plant.ground_steps:
         raise InputError(
@@ -59,7 +59,7 @@ def mjcf(plant: MuJoCoPlant, gait: Gait | None = None) -> str:
 
 
 def _shape(visual: Visual) -> ET.Element:
-    """A shape of the URDF, without mass and contact; MuJoCo counts from the middle to the sides."""
+    """A shape of the URDF as MJCF, without mass and contact; MuJoCo takes half lengths."""
     size = {
         "box": 0.5 * np.array(visual.size),
         "cylinder": np.array(visual.size) * [1.0, 0.5][: len(visual.size)],
@@ -72,14 +72,14 @@ def _shape(visual: Visual) -> ET.Element:
 
 
 def _start(plant: MuJoCoPlant, gait: Gait) -> dict[str, str]:
-    """Positions and velocities of the model at the start of a gait."""
+    """MuJoCo's positions and velocities at the start of a gait, as attributes of a keyframe."""
     engine = plant.engine
     engine.place(plant.start(0.0, *gait.start(plant.biped)))
     return {"qpos": text(engine.qpos), "qvel": text(engine.qvel)}
 
 
 def _comment(plant: MuJoCoPlant) -> str:
-    """Robot, parameters, ground, versions and licence, one a line."""
+    """Lines for the comment of the file: robot, parameters, ground, versions and licence."""
     biped = plant.biped
     preset = biped.description.preset(biped.preset)
     result = packages(("biped-adrc", "mujoco-core", "mujoco"))

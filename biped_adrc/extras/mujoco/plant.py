@@ -1,22 +1,22 @@
-"""A biped on soft ground in MuJoCo, as a plant that moves by itself.
+"""A biped on soft ground in MuJoCo, as a plant that integrates itself.
 
     own = (time of the last touchdown, base (x, z), its velocity, steps of the ground, u_m of motors with lag)
 
 The legs are alike, so at a touchdown the state is relabelled as on the rigid plant, and the same leg of the
-model stands again; an error of one link follows the leg that stands, here as there. A touchdown is where
-the swing foot, ahead of the stance foot, carries more than `touchdown_force` at a sample instant. From one
-to the next, and at the edges of a push, the engine steps alone, with the torque held and what acts from
-outside taken in the middle. Forces zeta of the coordinates with the stance foot held become, where the base
-floats,
+model stands again; a model error of one link follows the leg that stands, here as there. A touchdown is a
+sample instant at which the swing foot, ahead of the stance foot, carries more than `touchdown_force`. From one
+sample instant to the next, and at the edges of a push, the engine steps alone, with constant torque, and with
+the external load of the middle. Forces zeta of the coordinates with the stance foot fixed become, where the
+base floats,
 
-    f_base = F,   f_q = zeta - J' F,   J = d(base)/dq with the stance foot held
+    f_base = F,   f_q = zeta - J' F,   J = d(base)/dq with the stance foot fixed
 
 F (2,) their resultant. A state alone decides what comes next: there are no warm starts.
 
-On steps of the ground each foot has a plane of its own. That of the stance foot rests; that of the other
-foot is at its last foothold, until a sample instant where this foot is ahead and above the next one, and at
-that from there on. So a plane moves under a foot in the air alone and gives no kick; a foot that does not
-clear a step up strikes the level behind it.
+On steps of the ground each foot has a plane of its own. That of the stance foot rests; that of the other foot
+is at its last foothold, until a sample instant where this foot is ahead and above the next one, and at that
+from there on. So a plane moves under a foot in the air alone and gives no kick; a foot that does not clear a
+step up strikes the level behind it.
 """
 
 from __future__ import annotations
@@ -27,27 +27,35 @@ from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from threading import get_ident
+from typing import Annotated
 
 import numpy as np
 
 from biped_adrc.closed_loop.protocols import Contact, Feet, Load, Moved
 from biped_adrc.closed_loop.walker import FOOT_STRIKE
-from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat, PositiveInt
+from biped_adrc.core.checks import Checked, NonNegativeFloat, PositiveFloat, PositiveInt, one_of
 from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import check_ends
 from biped_adrc.core.types import Array, Indices, MuJoCoModel, relabelled
 from biped_adrc.extras.mujoco.engine import INTEGRATORS, MuJoCoEngine
 from biped_adrc.extras.mujoco.robot import PLANES, compiled, floating_mjcf, mujoco
-from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.ground import StepDown, StepUp, check_slope, check_steps, drop_of, ground_axes
+from biped_adrc.model.ground import (
+    SoftGround,
+    StepDown,
+    StepUp,
+    check_slope,
+    check_steps,
+    drop_of,
+    ground_axes,
+)
 
 TOUCHING = 1e-6
-"""How deep the stance foot is in the ground at the start [m]: no last bit decides whether it touches."""
+"""Depth of the stance foot in the ground at the start [m]: round-off does not decide whether it touches."""
 DEEPEST = 1e-4
-"""How deep the swing foot may be in the ground at the start [m]."""
+"""Largest depth of the swing foot in the ground at the start [m]."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +83,7 @@ class MuJoCoPlant(Checked, Shown):
     flight_height: PositiveFloat = 0.02
     fall_height: float = 0.35
     max_step_time: float = 2.0
-    integrator: str = "rk4"
+    integrator: Annotated[str, one_of(INTEGRATORS)] = "rk4"
     lag: NonNegativeFloat = 0.0
     ground_steps: tuple[StepDown | StepUp, ...] = ()
     first_step: PositiveInt = 1
@@ -88,10 +96,6 @@ class MuJoCoPlant(Checked, Shown):
         if self.biped.p == 0:
             raise InputError(
                 f"robot '{self.biped.description.name}' has no motors; expected one with motors at its joints"
-            )
-        if str(self.integrator) not in INTEGRATORS:
-            raise InputError(
-                f"the integrator of the plant is {self.integrator!r}, expected one of {list(INTEGRATORS)}"
             )
         if self.h > 0.1 * self.ground.time_constant * (1.0 + 1e-9):
             warnings.warn(
@@ -116,7 +120,7 @@ class MuJoCoPlant(Checked, Shown):
 
     @property
     def swap(self) -> Indices:
-        """Relabelling of the motors at a touchdown (p,), dtype int."""
+        """Permutation (p,) of the motors at a touchdown."""
         return self.biped.swap
 
     @property
@@ -131,7 +135,7 @@ class MuJoCoPlant(Checked, Shown):
 
     @property
     def stiffness(self) -> tuple[float, float]:
-        """Of the ground under a foot that rests [N/m]: at the surface, and from a depth of 1 mm on."""
+        """Stiffness of the ground under a resting foot [N/m]: at the surface, and from a depth of 1 mm on."""
         return self.ground.stiffness(self.foot_mass)
 
     @cached_property
@@ -147,8 +151,8 @@ class MuJoCoPlant(Checked, Shown):
 
     @property
     def engine(self) -> MuJoCoEngine:
-        """MuJoCo with the places of the package's numbers in it; another one in every thread, since two in one
-        work space would end the process.
+        """MuJoCo's data for this plant, one in every thread, since two threads in the same
+        data would end the process.
         """
         engines: dict[int, MuJoCoEngine] = vars(self).setdefault("_engines", {})
         if get_ident() not in engines:
@@ -157,7 +161,7 @@ class MuJoCoPlant(Checked, Shown):
         return engines[get_ident()]
 
     def lagging(self, lag: float) -> MuJoCoPlant:
-        """The same plant, whose motors have this lag [s]."""
+        """The same plant with motors of this lag [s]."""
         return replace(self, lag=lag)
 
     def on_steps(self, steps: tuple[StepDown | StepUp, ...], first_step: int) -> MuJoCoPlant:
@@ -165,29 +169,36 @@ class MuJoCoPlant(Checked, Shown):
         return replace(self, ground_steps=steps, first_step=first_step)
 
     def levels(self, own: Array) -> Array:
-        """Heights (.., 2) [m] of the ground under the stance foot and under the other one."""
+        """Heights (.., 2) [m] of the ground under the stance foot and under the other one,
+        from the plant's numbers own.
+        """
         return own[..., 6:8] if self.ground_steps else np.zeros((*own.shape[:-1], 2))
 
     def motor_torque(self, own: Array, u: Array) -> Array:
-        """Torque on the joints (p,) or (K, p) [N m] where u is asked of the motors."""
+        """Torque on the joints (p,) or (K, p) [N m] while u is commanded: u itself, or the
+        state of lagging motors.
+        """
         return own[..., -self.p :] if self.lag > 0.0 else u
 
     def __hash__(self) -> int:
-        """Of numbers alone: a robot has none."""
+        """Hash of the plain numbers alone: a robot has none."""
         return hash((self.slope, self.h, self.integrator, self.lag, self.first_step))
 
     def __getstate__(self) -> dict[str, object]:
-        """Without what is made again where it is needed: views of memory of this process."""
+        """The fields for pickle, without MuJoCo's data, which is made again where it is needed."""
         return {name: value for name, value in vars(self).items() if name != "_engines"}
 
     # -- the contract ------------------------------------------------------------------------------
     @staticmethod
     def engine_version() -> str:
-        """MuJoCo's, on which the digits of a run depend."""
+        """Version of MuJoCo, on which the digits of a run depend."""
         return str(mujoco().__version__)
 
     def start(self, t: float, q: Array, v: Array) -> Array:
-        """The row at t [s] in q (n,) [rad], v (n,) [rad/s], the stance foot at rest at the origin."""
+        """The row at t [s] in q (n,) [rad], v (n,) [rad/s], the stance foot at rest at the origin.
+
+        Raises InputError for a swing foot that is more than DEEPEST inside the ground.
+        """
         f = self.biped.floating
         base, speed = f.configuration(q)[f.base], (f.velocity_map(q)[:, : self.n] @ v)[f.base]
         depth = -float(np.dot(self.out, self.biped.swing_foot(q)))
@@ -202,7 +213,11 @@ class MuJoCoPlant(Checked, Shown):
         return np.concatenate((q, v, (t, *place, *speed, *steps, *lagging)))
 
     def advance(self, t: float, row: Array, u: Array, load: Load | None, until: float) -> Moved:
-        """On to `until` [s], u (p,) [N m] asked of the motors; a touchdown and a fall are looked for there."""
+        """Move the plant from its state `row` (2 n + k,) at t [s] to `until` [s], with u (p,) [N m] commanded.
+
+        load: push on the body, or None. Returns the new row; a touchdown or the end of the run at `until`
+        comes as contacts, a touchdown with the row after it.
+        """
         engine = self.engine
         after = engine.moved(t, row, u, load, until)
         own, points = after[2 * self.n :], engine.points()
@@ -213,14 +228,20 @@ class MuJoCoPlant(Checked, Shown):
         return Moved(until, after, result, self.landed(until, after) if lands else None)
 
     def look_ahead(self, own: Array, points: list[list[float]]) -> None:
-        """Put the swing foot's plane at the next foothold, in `own`, where the foot is ahead and above that."""
+        """Move the swing foot's plane, in `own`, to the next foothold once the foot is ahead
+        of the other and above that.
+
+        points [m]: of both feet and the hip.
+        """
         (x, z), (stance, swing, _) = self.out, points
         foothold = own[6] - drop_of(self.ground_steps, int(own[5]))
         if swing[0] > stance[0] and x * swing[0] + z * (swing[2] - foothold) > 0.0:
             own[7] = foothold
 
     def footing(self, row: Array, u: Array, load: Load) -> Feet:
-        """Both feet in a row under u (p,) [N m] and a load (`closed_loop.feet`)."""
+        """Forces, places and velocities of both feet in a row, under u (p,) [N m] and a
+        load (`closed_loop.feet`).
+        """
         self.engine.place(row)
         self.engine.push(self.motor_torque(row[2 * self.n :], u), row[: self.n], load)
         # from the point that touches to the foot's centre; it moves at v + omega x (-up)
@@ -236,7 +257,7 @@ class MuJoCoPlant(Checked, Shown):
         return Feet(force, place, speed)
 
     def landed(self, t: float, row: Array) -> Array:
-        """The row after a touchdown at t [s], which relabels the coordinates."""
+        """The row just after a touchdown at t [s]: coordinates, motors and levels of the ground relabelled."""
         n = self.n
         own = row[2 * n :].copy()
         own[0] = t
@@ -248,11 +269,11 @@ class MuJoCoPlant(Checked, Shown):
 
     # -- what ends a single support ----------------------------------------------------------------
     def contacts(self, t: float, own: Array, points: list[list[float]]) -> tuple[Contact, ...]:
-        """What ends the run at t [s] (a fall, a stance foot in the air, a step too long), else a
-        touchdown; or none.
+        """Find what ends the single support at t [s]: a fall, a stance foot in the air, a
+        step too long, or a touchdown.
 
-        own: the plant's numbers there. points [m]: of both feet and the hip. A foot above the ground carries
-        nothing, so that forces are asked for only where the swing foot is in it.
+        Empty where nothing does. own: the plant's numbers there. points [m]: of both feet and the hip. A foot
+        above the ground carries nothing, so forces are computed only where the swing foot is in it.
         """
         (x, z), (stance, swing, hip) = self.out, points
         below, ahead = self.levels(own).tolist() if self.ground_steps else (0.0, 0.0)
@@ -270,8 +291,8 @@ class MuJoCoPlant(Checked, Shown):
         return (Contact(FOOT_STRIKE, force * self.engine.options.timestep),)
 
     def forces(self) -> Array:
-        """Forces of the ground (x, z) (2, 2) [N] on the two feet in the state that MuJoCo is in, in the order
-        of the robot's record.
+        """Forces of the ground (x, z) (2, 2) [N] on the two feet in MuJoCo's present state,
+        in the order of the record.
         """
         mj, result, wrench = mujoco(), np.zeros((2, 2)), np.zeros(6)
         model, data = self.engine.model, self.engine.data
@@ -285,5 +306,5 @@ class MuJoCoPlant(Checked, Shown):
 
     @cached_property
     def feet(self) -> list[int]:
-        """MuJoCo's numbers of the feet."""
+        """MuJoCo's indices of the feet's shapes."""
         return [self.model.geom(name).id for name in self.biped.description.feet]

@@ -22,22 +22,21 @@ import numpy as np
 from biped_adrc.core.errors import optional
 from biped_adrc.core.files import one_line
 from biped_adrc.core.types import MuJoCoModel
-from biped_adrc.extras.mujoco.soft_ground import SoftGround
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.ground import ground_axes
+from biped_adrc.model.ground import SoftGround, ground_axes
 from biped_adrc.model.robots.urdf import Joint, Tree
 
 KINDS = {"revolute": "hinge", "prismatic": "slide"}
-"""MuJoCo's types of joints, by the type in the tree."""
+"""Type of a joint in the tree -> MuJoCo's type."""
 PLANES = ("ground", "ground ahead")
-"""Under both feet; on steps, under the stance foot and under the other one."""
+"""Names of the planes: one for both feet; on steps, one under the stance foot and one under the other."""
 NO_CONTACT = {"contype": "0", "conaffinity": "0"}
-"""Attributes of a shape that touches nothing but by a <pair>."""
+"""Attributes of a shape that touches nothing except by a <pair>."""
 
 
 @cache
 def mujoco() -> ModuleType:
-    """The module. Raises InputError where it is not installed."""
+    """Import MuJoCo and return the module. Raises InputError where it is not installed."""
     with optional("mujoco", "MuJoCo is not installed"):
         import mujoco as module
     module.set_mju_user_warning(lambda _: None)  # counted in its data; it would write a file
@@ -45,7 +44,7 @@ def mujoco() -> ModuleType:
 
 
 def compiled(root: ET.Element) -> MuJoCoModel:
-    """The model of MuJoCo that an MJCF element <mujoco> describes."""
+    """Compile an MJCF element <mujoco> to a model of MuJoCo."""
     return mujoco().MjModel.from_xml_string(ET.tostring(root, encoding="unicode"))
 
 
@@ -91,7 +90,7 @@ def floating_mjcf(
 
 
 def text(numbers: float | Iterable[float]) -> str:
-    """Numbers with all their digits, between blanks."""
+    """Numbers with all their digits, separated by blanks."""
     return " ".join(repr(float(x)) for x in np.atleast_1d(np.asarray(numbers, dtype=float)))
 
 
@@ -116,7 +115,9 @@ def _world(
 
 
 def _add(parent: ET.Element, tree: Tree, joints: Sequence[Joint], biped: Biped) -> None:
-    """One body that moves by `joints`, the last of which carries its link, and all that hangs on it."""
+    """Add a body that moves by `joints`, the last of which carries its link, and below it
+    all links that it carries.
+    """
     d, link = biped.description, joints[-1].child
     place = np.sum([j.origin for j in joints], axis=0)
     body = ET.SubElement(parent, "body", name=link, pos=text(place))

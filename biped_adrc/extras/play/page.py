@@ -2,12 +2,12 @@
 
     ba.play("walk.html", ba.Scenario("ADRC", hardware="ideal"))
 
-The page has methods and loops as WebAssembly (`extras.play.webassembly`); its scripts do samples, pushes
-and springs, steps back, and a ghost. It walks what it was made with, on the rigid plant: the scenario, OTHERS,
-and the stations of the tour. A walk that is chosen begins anew from the start.
+The page has methods and loops as WebAssembly (`extras.play.webassembly`); its scripts compute samples, pushes
+and springs, steps back, and a ghost. It walks the scenarios it was made with, on the rigid plant: the one
+given, OTHERS, and the stations of the tour. A walk that is chosen begins anew from the start.
 
-The walk has no end and its ground is not known beforehand: the page moves the ground and a few footprints along
-with it.
+The walk has no end and its ground is not known beforehand: the page moves the ground and a
+few footprints along with it.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from biped_adrc.view.pages import with_viewer
 from biped_adrc.view.placement import Clip, WalkScene, placed
 
 FIRST = Scenario("ADRC", hardware={"profile": "ideal", "torque_limit": 150.0})
-"""What walks on a page that was given nothing: as in the tour."""
+"""Scenario of a page that was given none: that of the tour."""
 OTHERS: Mapping[str, Mapping[str, object]] = {
     "NPD": {"controller.name": "NPD"},
     "NPID": {"controller.name": "NPID"},
@@ -46,16 +46,16 @@ OTHERS: Mapping[str, Mapping[str, object]] = {
         for m in (1, 2, 3, 7)
     },
 }
-"""Walks to choose from on a page: values by which they differ from its scenario, by name."""
+"""Name -> fields by which a walk to choose from differs from the page's scenario."""
 SAMPLES = 2
-"""How late [samples] the torque of a walk may come on a page."""
+"""Largest delay of the torque on a page [samples]."""
 HERE = "biped_adrc.extras.play"
 AROUND = 4.0
-"""How far [m] the ground reaches before and behind the robot."""
+"""Length of the ground before and behind the robot [m]."""
 PRINTS = 12
-"""Footprints that are there at once."""
+"""Number of footprints that are drawn at once."""
 NEARER = -0.15
-"""Where the arrow of the hand is [m], from the plane of the walk towards the camera."""
+"""Distance of the hand's arrow from the plane of the walk [m], negative towards the camera."""
 
 
 def play(
@@ -89,7 +89,11 @@ def play(
 def page(
     scenario: Scenario, others: Mapping[str, Mapping[str, object]], samples: int = SAMPLES
 ) -> str:
-    """The text of the page; samples: up to how many of them its delays go. Raises InputError."""
+    """Text of the page; samples: the largest delay that its slider reaches [samples].
+
+    others: name -> fields by which a walk to choose from differs. Raises InputError
+    for what a page cannot walk.
+    """
     scenarios = {name: revised(scenario, x) for name, x in others.items()}
     own = (name for name, x in scenarios.items() if x == scenario)
     first = next(own, f"{scenario.controller.name}, as given")
@@ -106,11 +110,14 @@ def page(
     }
     title = f"{scenario.robot.name}, live"
     legend = captions({"walk": scene})[1:]
+    if scenario.hardware.torque_limit is None:
+        legend.append(("", "motors without a torque limit: set hardware.torque_limit for one"))
     return with_viewer("play", given, HERE, title=title, captions=legend, style="play.css")
 
 
 def revised(s: Scenario, values: Mapping[str, object]) -> Scenario:
-    """A scenario with other values by name; another controller comes without the observer of the one before.
+    """A scenario with other values by name; with another controller, the observer of
+    the one before is dropped.
 
     Raises InputError for values that it does not take.
     """
@@ -122,15 +129,15 @@ def revised(s: Scenario, values: Mapping[str, object]) -> Scenario:
 
 
 def tour() -> list[dict[str, Any]]:
-    """The stations of tour.toml, each with all values that it sets; there "none" stands for no value."""
+    """The stations of tour.toml, each with all values that it sets; "none" stands for no value."""
     table = packaged(HERE, "tour.toml")
     return [x | {"values": merged(table["base"], x["values"])} for x in table["station"]]
 
 
 def guided(scenario: Scenario, scenarios: dict[str, Scenario]) -> list[dict[str, Any]]:
-    """The stations of the tour, each with the name of its walk, which joins the scenarios.
+    """The stations of the tour, each with the name of its walk, which is added to `scenarios`.
 
-    One that the scenario cannot be given is left out.
+    Stations whose values the scenario does not take are left out.
     """
     stations = []
     for station in tour():
@@ -145,7 +152,7 @@ def guided(scenario: Scenario, scenarios: dict[str, Scenario]) -> list[dict[str,
 
 
 def laid_out(walk: PageWalk) -> WalkScene:
-    """A walk where it begins, with as much ground and as many footprints as are seen at once."""
+    """Scene of a walk at its start, with as much ground and as many footprints as are visible at once."""
     x = walk.x[None, :]
     arc = Arc(walk.mode, np.zeros(1), x, np.zeros_like(x))
     footholds = np.linspace(-AROUND, AROUND, PRINTS)
@@ -155,12 +162,12 @@ def laid_out(walk: PageWalk) -> WalkScene:
 
 
 def settings(walk: PageWalk, scene: WalkScene) -> dict[str, object]:
-    """What the scripts of a page read: as `scene_settings` has it, and besides
+    """The settings that the scripts of a page read: those of `scene_settings`, and besides
 
     links       (path, link): the drawn parts of the walk, and the link that each belongs to
     hand        paths of the arrow and of the line of the spring
     robot       coordinates, links and trunk by name, motors p
-    most        force [N] and torque [N m] of a hand
+    most        largest force [N] and torque [N m] of a hand
     """
     biped = walk.walker.plant
     given = scene_settings({"walk": scene, "ghost": scene}, Clip())
@@ -183,7 +190,7 @@ def settings(walk: PageWalk, scene: WalkScene) -> dict[str, object]:
 
 
 def hand_commands() -> list[str]:
-    """Meshcat's commands for the arrow of the hand and the line of its spring."""
+    """Meshcat's commands that draw the arrow of the hand and the line of its spring."""
     window = draw.MemoryWindow("hand")
     window.viewer["hand"].set_transform(placed((0.0, NEARER, 0.0)))
     draw.add_arrow(window.viewer["hand/arrow"], TORQUE, 1.0)

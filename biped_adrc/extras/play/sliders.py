@@ -1,9 +1,9 @@
-"""Sliders of a page: how the numbers of a block go with one value of the scenario.
+"""Sliders of a page: how the numbers in a walk's block of memory change with one value of the scenario.
 
     number = b s^k,  a + b s,  a + b tan s
 
 for every number that changes with the value s. a, b and k come from three values of s, of which the middle one
-only checks. Where the numbers go otherwise, such as the gains of an observer in sampled time with its
+only checks. Where the numbers follow no such form, such as the gains of an observer in sampled time with its
 bandwidth, a table has them at round values of s. A slider whose numbers another one moves too is left out.
 """
 
@@ -26,45 +26,45 @@ Form = tuple[float, float, int] | list[float]
 ROUND = np.array((10, 12, 15, 20, 25, 30, 40, 50, 60, 80))
 """First two digits of the values in tables."""
 CLOSER = 8
-"""At how many places between a slider's end and its value another end is looked for."""
+"""Number of places between a slider's end and its value where another end is tried."""
 POWERS = (*range(1, 15), -1, -2)
 EXACT = 1e-12
-"""Largest relative error of a form."""
+"""Largest relative error with which a form fits."""
 ELSEWHERE = (*CONTEXT, *GAINS, "bandwidth", "order", "poles", "solve_theta", "reset")
-"""Parameters of controllers that are no sliders of their own."""
+"""Parameters of controllers that get no slider of their own."""
 
 
 class Slider(NamedTuple):
-    """One value of a scenario on a page."""
+    """One value of a scenario that a slider on the page changes."""
 
     name: str
-    """Dotted name."""
+    """Dotted name of the value in the scenario."""
     low: float
     high: float
     log: bool
-    """Whether equal ways are equal ratios."""
+    """Whether the slider is logarithmic."""
     unit: str = ""
     scale: float = 1.0
-    """Shown number over the value in SI units."""
+    """Displayed number over the value in SI units."""
     value: float | None = None
-    """At which the walk begins; None for numbers that no value gives, such as poles of a table."""
+    """Value with which the walk begins; None for numbers that no value gives, such as poles of a table."""
     shared: bool = False
-    """Whether the ghost moves along: of robot and ground."""
+    """Whether the ghost's value changes too: for values of robot and ground."""
 
     also: Mapping[str, object] = {}
-    """Other values of the scenario that go with it, such as the order with the bandwidth."""
+    """Other values of the scenario that are set with it, such as the order with the bandwidth."""
 
     table: tuple[float, ...] = ()
     """All values that it takes; any between low and high where empty."""
 
     @property
     def tried(self) -> tuple[float, float, float]:
-        """Both ends and a value between them."""
+        """Three values of the slider: both ends and one between them."""
         middle = np.sqrt(self.low * self.high) if self.log else 0.4 * self.low + 0.6 * self.high
         return self.low, float(middle), self.high
 
     def tabulated(self) -> Slider:
-        """The slider of round values alone."""
+        """A copy of the slider that offers a table of round values in place of a range."""
         decades = 10.0 ** np.arange(-9, 9)
         known = np.unique((np.outer(decades, ROUND)).ravel().round(12))
         even = np.linspace(self.low, self.high, 21).round(6)
@@ -83,9 +83,9 @@ USUAL = (
 
 
 def offered(s: Scenario, order: int | None) -> Iterator[Slider]:
-    """Sliders that a scenario may have: the usual ones, and the numbers of its controller's constructor.
+    """Iterate over the sliders that a scenario may have: the usual ones, and the numbers of its controller.
 
-    order: m of its observer, which a bandwidth leaves as it is.
+    order: m of its observer, which a change of the bandwidth leaves as it is.
     """
     also: dict[str, object] = {} if order is None else {OBSERVER + "order": order}
     also |= {OBSERVER + "poles": "none"} if s.controller.observer.poles else {}
@@ -106,7 +106,7 @@ def offered(s: Scenario, order: int | None) -> Iterator[Slider]:
 def sliders(
     s: Scenario, order: int | None, base: Array, numbers: Callable[[Scenario], Array]
 ) -> dict[str, tuple[Slider, dict[int, Form]]]:
-    """The sliders that a walk has, by name, with the forms of the numbers that they move, by place.
+    """Find the sliders of a walk: name -> the slider, and the forms of the numbers that it changes, by index.
 
     order: m of its observer. base: numbers of the walk. numbers(s): those of another scenario, which raises
     BipedError where it has none, or another structure.
@@ -126,9 +126,11 @@ def sliders(
 def with_forms(
     one: Slider, s: Scenario, base: Array, numbers: Callable[[Scenario], Array]
 ) -> tuple[Slider, dict[int, Form]]:
-    """A slider, nearer to its value where the controller refuses its ends, or of a table; forms by place.
+    """Fit the forms of one slider's numbers, by index; returns the slider, with its
+    range or table, and the forms.
 
-    Raises BipedError where the walk cannot have it.
+    The range shrinks where the controller refuses its ends. Raises BipedError where the
+    walk cannot have the slider.
     """
     try:
         rows = numbers_at(one, s, numbers)
@@ -143,7 +145,7 @@ def with_forms(
 
 
 def end(one: Slider, x: float, s: Scenario, numbers: Callable[[Scenario], Array]) -> float:
-    """The end x of a slider, moved to its value until the walk can have it."""
+    """The end x of a slider's range, moved towards its present value until the walk accepts it."""
     ways = np.geomspace if one.log else np.linspace
     for y in () if one.value is None else ways(x, one.value, CLOSER):
         try:
@@ -157,25 +159,31 @@ def end(one: Slider, x: float, s: Scenario, numbers: Callable[[Scenario], Array]
 def numbers_at(
     one: Slider, s: Scenario, numbers: Callable[[Scenario], Array], values: Sequence[float] = ()
 ) -> Array:
-    """Rows of the numbers at values of a slider, at those of `tried` without any. Raises BipedError."""
+    """Numbers of the walk at values of a slider, a row for each; at those of `tried` if none
+    are given. Raises BipedError.
+    """
     return np.array([numbers(s.replace({one.name: x, **one.also})) for x in values or one.tried])
 
 
 def changing(base: Array, rows: Array) -> list[int]:
-    """Places of the numbers that change over the rows; none where the base has others besides."""
+    """Indices of the numbers that differ between the rows; empty where `base` differs
+    from them in any other number.
+    """
     change = np.any(rows != rows[0], axis=0)
     return [] if np.any(base[~change] != rows[0, ~change]) else np.flatnonzero(change).tolist()
 
 
 def fitted(one: Slider, base: Array, rows: Array) -> dict[int, Form]:
-    """Forms of the numbers that change over the rows (3, N); none where one goes otherwise."""
+    """Fit a form to each number that changes over the rows (3, N); index -> form, empty where one has
+    no form.
+    """
     s = np.array(one.tried)
     result = {k: next(closed(s, rows[:, k]), None) for k in changing(base, rows)}
     return {k: form for k, form in result.items() if form} if all(result.values()) else {}
 
 
 def closed(s: Array, y: Array) -> Iterator[tuple[float, float, int]]:
-    """(a, b, k) of the forms that fit three values y (3,) at s (3,)."""
+    """Iterate over the forms (a, b, k) that pass through three values y (3,) at the slider's values s (3,)."""
     with np.errstate(all="ignore"):
         for k in POWERS if np.all(s > 0.0) else ():
             if np.all(np.abs(y / (y[2] / s[2] ** k * s**k) - 1.0) < EXACT):
@@ -188,7 +196,7 @@ def closed(s: Array, y: Array) -> Iterator[tuple[float, float, int]]:
 
 
 def at_base(one: Slider, base: Array, forms: dict[int, Form]) -> Slider:
-    """The slider with the value of the walk as it begins, in its unit."""
+    """The slider with its unit, and with the value that gives the numbers `base` with which the walk begins."""
     unit = field_of(one.name).unit.replace("^2", "²")
     one = one._replace(unit="" if unit == "1" else unit)
     place, form = next(iter(forms.items()))

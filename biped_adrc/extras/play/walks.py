@@ -1,6 +1,6 @@
-"""The walks of a page, compiled with a hand, in the numbers that machine.js beside it reads.
+"""The walks of a page, compiled with the forces of a hand, as the numbers that machine.js beside it reads.
 
-The hand is two parts of the disturbance, a torque on the coordinates and a force on a link. The page writes
+The hand is two terms of the disturbance, a torque on the coordinates and a force on a link. The page writes
 their numbers into the block of the run (`engine.kernels.record`) before each sample.
 
 The closed form of a point of a link has numbers that are affine in the place on the link; those at (0, 0) and
@@ -36,7 +36,7 @@ from biped_adrc.hardware.motors import whole_and_part
 from biped_adrc.hybrid.constants import STRUCK
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import link_point, point, turned
-from biped_adrc.model.robots.symmetry import twins
+from biped_adrc.model.robots.urdf import twins
 from biped_adrc.scenario.build import RIGID, RobotAndGait, build, limits, start
 from biped_adrc.scenario.run import method_of
 from biped_adrc.scenario.scenario import Scenario, scenario_lines
@@ -47,10 +47,7 @@ from biped_adrc.view.placement import exchanged, joint_values
 MOST = {"force": 300.0, "torque": 200.0}
 """Largest force [N] of a hand, about the weight of RABBIT, and largest torque on one coordinate [N m]."""
 SPRING = {"stiffness": 1500.0, "damping": 40.0}
-"""F = k (anchor - p) - d p', at most MOST: k [N/m], d [N s/m].
-
-A force that is held for a period T acts T / 2 late, which takes k T / 2 from the damping: 2 % at 1 kHz.
-"""
+"""F = k (anchor - p) - d p', at most MOST: k [N/m], d [N s/m]; holding it for T takes k T / 2 from d."""
 DELAY, FRICTION = "hardware.delay", "hardware.friction"
 SAME = 1e-9
 """Largest distance [m] between two points that are taken for one."""
@@ -58,20 +55,24 @@ SAME = 1e-9
 
 @dataclass(frozen=True)
 class PageWalk:
-    """One structure of a walk of a page, as it begins at 0 s."""
+    """One walk of a page with one structure of its machine code, as it begins at 0 s."""
 
     scenario: Scenario
     scene: RobotAndGait
     walker: Walker
-    """Without the hand; with joint friction, if the robot's record has some."""
+    """The walker without the hand; with joint friction, if the robot's record has some."""
     code: CompiledWalker
-    """With the hand, which is its whole disturbance."""
+    """The compiled walker, with the hand as its whole disturbance."""
     x: Array
-    """State (nx,)."""
+    """State at the start (nx,)."""
 
     @classmethod
     def of(cls, name: str, s: Scenario, scene: RobotAndGait | None = None) -> Self:
-        """scene: where it is at hand. Raises InputError, with the name, for what a page cannot walk."""
+        """Build and compile the walk of a scenario; name: for messages. scene: its robot
+        and gait, built if None.
+
+        Raises InputError, with the name, for a walk that a page cannot show.
+        """
         plant, fine = s.ground.plant, s.run.fine
         if plant != RIGID:
             raise InputError(f"the walk '{name}' is on plant '{plant}'; a page takes '{RIGID}'")
@@ -106,32 +107,35 @@ class PageWalk:
 
     @property
     def mode(self) -> Mode:
-        """Its first single support."""
+        """The first single support of the walk."""
         return Mode(self.scenario.run.first_step)
 
     @property
     def timing(self) -> SampledTime:
-        """Its clock."""
+        """Sampling period and delay of the walk [s]."""
         return cast(SampledTime, self.walker.timing)
 
     @cached_property
     def names(self) -> dict[str, int]:
-        """Places in the block of the walker's numbers, by their names."""
+        """Name of each of the walker's numbers -> its index in the block."""
         first = self.code.plan.places["K"]
         return {name: first + k for k, name in enumerate(paths(self.code.program.numbers))}
 
     @cached_property
     def numbers(self) -> Array:
-        """Of the block as it begins."""
+        """Numbers of the walk's block (see `names`) at its start, as floats."""
         return self._block(self.code)
 
     @cached_property
     def rubbed(self) -> Scenario:
-        """The scenario with the joint friction that its walker has."""
+        """The scenario with the joint friction of its walker."""
         return self.scenario.replace({FRICTION: self.walker.plant.friction})
 
     def at(self, s: Scenario) -> Array:
-        """Numbers of the block of another scenario. Raises InputError, also for another structure."""
+        """Numbers of this walk's block, as floats, for another scenario of the same structure.
+
+        Raises InputError for a scenario with another structure.
+        """
         walker = replace(build(s, self.scene), disturbance=self.code.walker.disturbance)
         code = compiled(s, self.scene, walker, self.x)
         if code.program.key != self.code.program.key:
@@ -139,13 +143,16 @@ class PageWalk:
         return self._block(code)
 
     def _block(self, code: CompiledWalker) -> Array:
+        """The block at the start of a compiled walker as floats, without addresses."""
         result = code.plan.start(self.x, 0.0, *self.mode, 0.0).block.view(np.float64).copy()
         for name in Functions._fields:
             result[PLACES[name]] = 0.0  # addresses
         return np.nan_to_num(result)  # whole numbers that are no floats
 
     def sliders(self) -> dict[str, tuple[Slider, dict[str, Form]]]:
-        """Its sliders by name, but that of the delay, with the numbers that they move by name."""
+        """The sliders of the walk, without that of the delay: name -> the slider, and the
+        forms of its numbers by name.
+        """
         order = getattr(getattr(self.walker.controller, "observer", None), "m", None)
         named = {k: name for name, k in self.names.items()}
         result = {
@@ -166,7 +173,9 @@ class PageWalk:
         return result
 
     def delay(self) -> dict[int, Form]:
-        """The numbers of the block that the delay moves, between whole samples."""
+        """For each number of the block that a delay between whole samples changes: its index
+        -> its form over the delay.
+        """
         low, high = self.delays
         if low == high:
             return {}
@@ -175,20 +184,20 @@ class PageWalk:
 
     @property
     def delays(self) -> tuple[float, float]:
-        """Delays [s] of this structure: between whole samples, or this one alone."""
+        """Range of delays [s] with the structure of this walk: between two whole samples, or this one alone."""
         period, delay = self.timing.period, self.timing.delay
         whole, part = whole_and_part(delay, period)
         return (whole * period, (whole + 1) * period) if part > 0.0 else (delay, delay)
 
 
 def compiled(s: Scenario, scene: RobotAndGait, walker: Walker, x: Array) -> CompiledWalker:
-    """A walker with a hand in machine code. Raises NotCompiled."""
+    """Compile a walker with a hand. Raises NotCompiled."""
     size, method = walker.controller_size(x), method_of(s, walker)
     return CompiledWalker.of(walker, method, size, 0.0, scene.walked.constraint)
 
 
 def variants(name: str, s: Scenario, samples: int) -> list[PageWalk]:
-    """A walk as it is given, then its structures with other delays, up to so many samples."""
+    """The walk of a scenario, followed by its structures for other delays, up to this many samples."""
     result = [PageWalk.of(name, s)]
     period = result[0].timing.period
     for delay in (0.0, *((k + 0.5) * period for k in range(samples))) if samples else ():
@@ -202,7 +211,7 @@ def variants(name: str, s: Scenario, samples: int) -> list[PageWalk]:
 
 
 def with_hand(walker: Walker) -> Walker:
-    """The walker with a torque and a force as its disturbance, both zero."""
+    """The walker with a torque on its coordinates and a force on its trunk as disturbance, both zero."""
     force = OnLink(walker.plant, walker.plant.description.trunk, TorqueStep(np.zeros(3)))
     return replace(walker, disturbance=Sum() + TorqueStep(np.zeros(walker.plant.n)) + force)
 
@@ -246,12 +255,12 @@ def numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
 
 
 def packed(data: bytes | Ints) -> str:
-    """Bytes or a vector in base64."""
+    """Encode bytes or a vector in base64."""
     return base64.b64encode(data if isinstance(data, bytes) else data.tobytes()).decode("ascii")
 
 
 def walk_numbers(walk: list[PageWalk], blocks: list[WebWalker]) -> dict[str, Any]:
-    """Of one walk: its scenario, its sliders, and its structures."""
+    """The numbers of one walk for machine.js: its scenario as lines, its sliders, and its structures."""
     first, result = walk[0], walk[0].sliders()
     shown = [one._asdict() for one, _ in result.values()]
     if len(walk) > 1:
@@ -271,7 +280,9 @@ def walk_numbers(walk: list[PageWalk], blocks: list[WebWalker]) -> dict[str, Any
 def structure_numbers(
     walk: PageWalk, web: WebWalker, found: Mapping[str, tuple[Slider, dict[str, Form]]]
 ) -> dict[str, Any]:
-    """Of one structure: its block, clock, limits of ground and motors, and places of the hand and sliders."""
+    """The numbers of one structure: its block, clock, limits of ground and motors, and the
+    indices of hand and sliders.
+    """
     s, block = walk.scenario, web.plan.start(walk.x, 0.0, *walk.mode, 0.0).block
     if FRICTION in found:
         slider, forms = found[FRICTION]
@@ -302,7 +313,7 @@ def structure_numbers(
 
 
 def hand_places(code: CompiledWalker) -> dict[str, Any]:
-    """Cells where torque (n,) and force (2,) of the hand are, and re, im and turn of its point begin."""
+    """Indices in the block of the hand's torque (n,) and force (2,), and of re, im and turn of its point."""
     n, hand = code.walker.plant.n, code.walker.disturbance
     assert hand is not None
 
@@ -318,7 +329,7 @@ def hand_places(code: CompiledWalker) -> dict[str, Any]:
 
 
 def link_numbers(plant: Biped, links: list[str]) -> dict[str, Any]:
-    """A, and the closed form of the points of each link."""
+    """A, and the closed form of the points of each link; see `numbers`."""
     result: dict[str, Any] = {}
     for link in dict.fromkeys(links):
         corner, *others = (
@@ -333,7 +344,10 @@ def link_numbers(plant: Biped, links: list[str]) -> dict[str, Any]:
 
 
 def trunk_of(plant: Biped) -> str:
-    """The trunk, whose origin is where the drawn robot's base is. Raises InputError where it is elsewhere."""
+    """Name of the trunk, the link whose origin is the floating base of the drawn robot.
+
+    Raises InputError for a robot whose trunk lies elsewhere.
+    """
     q = np.random.default_rng(0).standard_normal(plant.n)
     values, trunk = joint_values(plant, q), plant.description.trunk
     k = link_point(plant, trunk)
@@ -347,14 +361,14 @@ def trunk_of(plant: Biped) -> str:
 
 
 def joint_places(plant: Biped) -> list[int]:
-    """What each drawn joint is: the place of its coordinate, or -1 and -2 for the base."""
+    """For each drawn joint the index of its coordinate, or -1 and -2 for x and z of the base."""
     d = plant.description
     places = {name: k for k, name in enumerate(d.joints)} | {d.base[0]: -1, d.base[1]: -2}
     return [places[joint.name] for joint in plant.tree.joints if joint.type != "fixed"]
 
 
 def signal_places(walk: PageWalk) -> dict[str, tuple[int, int]]:
-    """Where each signal begins and ends in what `observe` says."""
+    """Name of each signal -> where it begins and ends in the result of `observe`."""
     h = walk.scene.walked.constraint
     result = signals_at(walk.walker, 0.0, walk.x, walk.mode, lambda s, m: h(m.t, m.q, m.v))
     ends = np.cumsum([np.size(part) for part in result]).tolist()

@@ -1,15 +1,14 @@
-"""The compiled loops and the functions of walkers as one WebAssembly module, for a page that needs no server.
+"""The compiled loops and functions of walkers as one WebAssembly module, for a page that needs no server.
 
 It is made from the same text as the machine code: the loops of `engine.kernels` as numba gives them to LLVM,
-and the functions as `engine.ir` writes them. LLVM makes an object file, whose functions call each other by
-their numbers already, and which a browser starts as it is. Those that are called from outside stand in its
-table of functions, in the order of the constant `called`, from 1 on.
+and the functions as `engine.ir` writes them. LLVM makes an object file, in which functions call each other by
+number, and which a browser starts as it is. Functions called from outside stand in its table of functions, in
+the order of the constant `called`, from 1 on.
 
-What the module does not have it imports from `env`: its memory, that table, the stack's end, and `sin`, `pow`
-and the like.
+It imports from `env` its memory, that table, the stack's end, and functions such as `sin` and `pow`.
 
-`web_walkers` makes it, and the numbers of each walker. In place of an address a block has a function's number
-in `WebWalkers.functions`, from 1 on. Walkers of the same structure share their functions.
+`web_walkers` makes the module, and the numbers of each walker. In place of an address a block has a function's
+number in `WebWalkers.functions`, from 1 on. Walkers of the same structure share their functions.
 """
 
 from __future__ import annotations
@@ -40,23 +39,23 @@ class WebWalker(NamedTuple):
     """The numbers of one walker."""
 
     plan: RunPlan
-    """With numbers of functions in place of addresses."""
+    """The plan of its run, with numbers of functions in place of addresses."""
     observe: int
-    """Number of the function that says its signals (`closed_loop.instant_signals`)."""
+    """Number of the function that computes its signals (`closed_loop.instant_signals`)."""
 
 
 class WebWalkers(NamedTuple):
-    """Walkers for a page."""
+    """A WebAssembly module, and the walkers that run in it."""
 
     code: bytes
-    """The module."""
+    """Bytes of the module."""
     functions: tuple[str, ...]
-    """Names of those that are called by their number, from 1 on: LOOPS, and those of the walkers."""
+    """Names of the functions that are called by their number, from 1 on: LOOPS, and those of the walkers."""
     walkers: tuple[WebWalker, ...]
 
 
 def web_walkers(walkers: Sequence[CompiledWalker], reference: Reference) -> WebWalkers:
-    """One module for walkers on one gait, made with the reference to which their signals refer.
+    """Make one module for walkers on one gait; reference: of that gait, for their signals.
 
     Raises InputError for the exponential method, whose product with matrices has another form.
     """
@@ -67,31 +66,35 @@ def web_walkers(walkers: Sequence[CompiledWalker], reference: Reference) -> WebW
 
 
 class _Laws(NamedTuple):
-    """What the walkers share, filled by one after the other."""
+    """Functions that walkers share, added by one walker after the other."""
 
     texts: dict[str, str]
-    """Functions of walkers in LLVM's language, by a name for them."""
+    """Name -> text of functions of walkers in LLVM's language."""
     names: dict[int, str]
-    """That name by the address of one of the functions here; by minus that, of what reads its signals."""
+    """Address of a function in this process -> that name; minus the address for the functions of its
+    signals.
+    """
     functions: list[str]
-    """Names of those that are called by their number."""
+    """Names of the functions that are called by their number."""
 
     def of(self, address: int, text: Callable[[], str]) -> str:
-        """The name of the text to which a function belongs; it is made where it is not there yet."""
+        """Name of the text with the function at this address; the text is made at the first call."""
         if address not in self.names:
             self.names[address] = f"laws{len(self.names)}"
             self.texts[self.names[address]] = text()
         return self.names[address]
 
     def number(self, name: str) -> int:
-        """The number of a function, a new one where it has none yet."""
+        """Number of a function, from 1; a new one at the first call."""
         if name not in self.functions:
             self.functions.append(name)
         return 1 + self.functions.index(name)
 
 
 def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker:
-    """The numbers of one walker, whose functions join those of the others. Raises InputError."""
+    """Numbers of one walker, whose functions are added to `laws`. Raises InputError
+    for the exponential method.
+    """
     program = one.program
     if program.numbers.split is not None:
         raise InputError("an offline page takes the steps of RK4; leave out the exponential method")
@@ -120,14 +123,14 @@ def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker
 TARGET = "wasm32-unknown-unknown"
 """LLVM's name of what a browser runs."""
 LOOPS = ("go_on", "land", "look")
-"""The units of the kernels that a page calls."""
+"""Functions of the kernels that a page calls."""
 
 
 def web_module(laws: Mapping[str, str], called: Sequence[str] = LOOPS) -> bytes:
-    """The loops and these functions as WebAssembly; those of a walker are text for LLVM, by a name for them.
+    """Compile the loops and the functions `laws` to WebAssembly; returns the bytes, which are cached on disk.
 
-    called: names of functions in the order of their numbers; function `f` of the text `name` is `name.f`. The
-    module is kept on the disk.
+    laws: name -> text for LLVM. called: names of functions in the order of their numbers; function `f`
+    of the text `name` is `name.f`.
     """
     own = Path(__file__).read_text(encoding="utf-8")
     key = key_of("\0".join((TARGET, loops(), own, *called, *chain(*laws.items()))))
@@ -139,7 +142,7 @@ def web_module(laws: Mapping[str, str], called: Sequence[str] = LOOPS) -> bytes:
 
 
 def _linked(laws: Mapping[str, str], called: Sequence[str]) -> bytes:
-    """Link the laws, by name, and the loops into one module of WebAssembly."""
+    """Link the laws, by name, and the loops into one module of WebAssembly; returns its bytes."""
     binding.initialize_all_targets()
     binding.initialize_all_asmprinters()
     machine = binding.Target.from_triple(TARGET).create_target_machine(opt=3)
@@ -164,12 +167,12 @@ def _linked(laws: Mapping[str, str], called: Sequence[str]) -> bytes:
 
 
 def _parsed(text: str, machine: Any) -> Any:
-    """A module for this machine."""
+    """Parse LLVM's text as a module for this machine."""
     module = binding.parse_assembly(text)
     module.triple, module.data_layout = TARGET, str(machine.target_data)
     return module
 
 
 def _defined(module: Any) -> list[Any]:
-    """The functions that a module has, not only names."""
+    """The functions that a module defines, without those that it only declares."""
     return [function for function in module.functions if not function.is_declaration]

@@ -36,25 +36,24 @@ from biped_adrc.gait.design.step import SymbolicStep, Unknowns
 from biped_adrc.model.biped import Biped
 
 SHORTEST = 0.05
-"""Shortest step that is looked for, as a share of the leg length."""
+"""Shortest step that is searched, as a share of the leg length."""
 PASSED = 0.5
-"""Normalised phase after which the swing foot must be above the ground even where no clearance is asked for:
-legs without knees scuff in the first half of the step, which is then ignored."""
+"""Phase s from which the swing foot is above the ground even without a clearance: legs without knees scuff."""
 SMOOTH = 1e-2
 """Width of the smoothed |power| of the cost of transport, share of peak torque times 1 rad/s."""
 CALM = 1e-2
-"""Weight of torque squared beside the other objectives, so that what they leave open stays calm."""
+"""Weight of torque squared beside the other objectives, which alone would leave the torque undetermined."""
 Bounds = tuple[Array, Array]
 """Lower and upper bounds of the decision vector, both (nx,)."""
 
 MAX_ITERATIONS = 250
-"""Of one run of IPOPT."""
+"""Largest number of iterations of one run of IPOPT."""
 MAX_SECONDS = 60.0
-"""Wall time of one run of IPOPT [s]."""
+"""Longest wall time of one run of IPOPT [s]."""
 ASKED = ("the speed", "the step length")
-"""Names of the equality rows that state what was asked for rather than the physics of the step."""
+"""Names of the equality rows that state the request rather than the physics of the step."""
 ASKED_WEIGHT = 100.0
-"""Weight of the slacks of ASKED in the relaxation, so that a limit gives way before what was asked does."""
+"""Weight of the slacks of ASKED in the relaxation, so that a limit gives way before the request does."""
 MISSED = 1e-5
 """Largest slack of a limit that counts as kept."""
 INTERRUPTED = ("NonIpopt_Exception_Thrown", "User_Requested_Stop")
@@ -65,13 +64,13 @@ class Bounded(NamedTuple):
     """Constraint low <= value <= high, dimensionless, or [rad] for angles; equality where low = high."""
 
     name: str
-    """What an error message calls it; several rows may share one name."""
+    """Name of the constraint in error messages; several rows may share one."""
     value: ca.MX
     """One column of expressions."""
     low: float
     high: float
     unit: str = ""
-    """What the value is a share of, such as "of the weight", for messages."""
+    """Unit or reference of the value, such as "of the weight", for messages."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +85,9 @@ class NonlinearProgram:
     """Equality and inequality constraints."""
 
     def missed(self, x: Array) -> dict[str, float]:
-        """By how much x (nx,) violates the rows of each name, dimensionless or [rad]; 0 where it keeps them."""
+        """Largest violation of the rows of each name by x (nx,), dimensionless or
+        [rad]; 0 where it keeps them.
+        """
         values = ca.Function("rows", [self.x], [row.value for row in self.rows]).call([x])
         result = dict[str, float]()
         for row, value in zip(self.rows, values, strict=True):
@@ -96,7 +97,7 @@ class NonlinearProgram:
         return result
 
     def in_words(self, missed: Mapping[str, float]) -> list[str]:
-        """A sentence for each limit, from its name and by how much it is missed, the largest first."""
+        """A sentence for each violated limit, from its name and violation, the largest first."""
         units = {row.name: row.unit for row in self.rows}
         ordered = sorted(missed.items(), key=lambda pair: -pair[1])
         return [f"{name} by {amount:.3g} {units[name]}".rstrip() for name, amount in ordered]
@@ -105,7 +106,7 @@ class NonlinearProgram:
 def transcribe(
     biped: Biped, request: GaitRequest, limits: RobotLimits, direction: float
 ) -> tuple[NonlinearProgram, Unknowns[ca.MX]]:
-    """The nonlinear programme of a request, and the symbols of its unknowns.
+    """Write the nonlinear programme of a request; also returns the symbols of its unknowns.
 
     direction: sign of Theta' in the walk, from the first guess: Theta falls in a walk to +x with the paper's
     phase, but grows with the phase of other robots.
@@ -117,10 +118,12 @@ def transcribe(
 
 
 def _equalities(k: SymbolicStep) -> tuple[Bounded, ...]:
-    """Rows that make the step one periodic orbit of the hybrid zero dynamics, and give speed and step asked.
+    """Equality rows: the step is one periodic orbit of the hybrid zero dynamics, with
+    the requested speed and step.
 
-    The end of the curve is the pre-impact state, its start the state after the impact with the legs relabelled,
-    in value and in slope; the angular momentum follows the quadrature to each node and comes back to itself.
+    The end of the curve is the pre-impact state, its start the state after the impact with the
+    legs relabelled, in value and in slope; the angular momentum follows the quadrature to each
+    node and returns to its initial value.
     """
     x, p, M = k.x, k.p, k.request.degree
     sigma_minus = k.sigma(x.q, k.dq) * x.rate
@@ -147,12 +150,12 @@ def _equalities(k: SymbolicStep) -> tuple[Bounded, ...]:
 
 
 def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
-    """Inequalities at the nodes and at both ends: contact, torque, lift-off, stability, clearance, joint
-    ranges.
+    """Inequality rows at the nodes and both ends: contact, torque, lift-off,
+    stability, clearance, joint ranges.
 
-    Friction and torque keep `limits.reserve` back for what happens between the nodes. The clearance asked for
-    is a hump 16 h (s (1 - s))^2 over the normalised phase, which is h in the middle of the step and 0, with
-    slope 0, at its ends.
+    Friction and torque keep `limits.reserve` for the phases between the nodes. The clearance
+    required is a hump 16 h (s (1 - s))^2 over the normalised phase, which is h in the middle of the
+    step and 0, with slope 0, at its ends.
     """
     x, limits, infinite = k.x, k.limits, np.inf
     weight, kept = k.biped.weight, 1.0 - limits.reserve
@@ -205,7 +208,7 @@ def _limits(k: SymbolicStep) -> tuple[Bounded, ...]:
 
 
 def _objective(k: SymbolicStep) -> ca.MX:
-    """The cost, scaled to about 1.
+    """The cost (1, 1), scaled to about 1.
 
     Objectives other than torque have a little torque squared added (CALM), since they leave the torque
     undetermined where it costs nothing.
@@ -225,7 +228,7 @@ def _objective(k: SymbolicStep) -> ca.MX:
 
 # -- IPOPT -----------------------------------------------------------------------------------------
 class IpoptResult(NamedTuple):
-    """How one run of IPOPT ended."""
+    """Result of one run of IPOPT."""
 
     x: Array
     """Decision vector (nx,) of the last iteration, a solution or not."""
@@ -273,16 +276,16 @@ def solve(
 def relaxed(
     programme: NonlinearProgram, request: str, x0: Array, bounds: Bounds, status: str
 ) -> Array:
-    """A decision vector (nx,) that keeps all limits, found by the relaxation with slacks from x0 (nx,).
+    """Find a decision vector (nx,) that keeps all limits, by a relaxation with slacks s from x0 (nx,).
 
         minimise  w . s + 1e-6 f(x)   subject to  low - s <= g(x) <= high + s,  s >= 0
 
-    Each name of a limit has one slack s, so that all rows of that name give way together; the small share of
-    the objective keeps the solution unique. The problem is always feasible for slacks that are large enough.
+    Each name of a limit has one slack, so that all rows of that name give way together; the small share of the
+    objective keeps the solution unique. The problem is always feasible for slacks that are large enough.
 
-    request, status: what was asked for and how IPOPT failed, for the message. One slack per name of a limit;
-    speed and step length asked for have slacks of weight ASKED_WEIGHT, the equations of the model none.
-    Raises GaitError naming the limits whose slack stays above MISSED.
+    request, status: the request and IPOPT's failure, for the message. The requested speed and step length
+    have slacks of weight ASKED_WEIGHT, the equations of the model none. Raises GaitError naming the limits
+    whose slack stays above MISSED.
     """
     soft = [row for row in programme.rows if row.low != row.high or row.name in ASKED]
     hard = [row for row in programme.rows if row.low == row.high and row.name not in ASKED]

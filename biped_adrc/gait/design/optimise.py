@@ -35,18 +35,17 @@ from biped_adrc.model.biped import Biped
 NODES = 120
 """Gauss nodes of the audit, five times those at which the programme keeps its limits by default."""
 SPEED = 5e-5
-"""Largest difference of the speed, relative, and of the step length, over the leg, from those asked for."""
+"""Largest deviation of the speed (relative) and of the step length (over the leg) from the request."""
 EXACT = 1e-6
 """Largest violation of any other row by an exact gait."""
 SLOWEST, FASTEST = 0.02, 60.0  # [rad/s], |Theta'|
 """Bounds of the unknown rates."""
 WINDING = 1.5
-"""Largest distance of a Bezier coefficient from the first guess [rad]; angles repeat every 2 pi, so that
-without bounds a leg may wind round."""
+"""Largest distance of a Bezier coefficient from the first guess [rad]; else a leg may wind round by 2 pi."""
 
 
 def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitRequest) -> list[str]:
-    """A sentence for each limit that the periodic step of a gait violates at the nodes of its orbit.
+    """Sentences on the limits that the periodic step of a gait violates at the nodes of its orbit.
 
     Friction, torque and joint ranges are compared with the limits themselves, since the programme kept a
     reserve to them. F_N, clearance and lift-off have no such reserve, so they may fall short by that share.
@@ -78,7 +77,7 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
 
 
 def objective_of(biped: Biped, objective: Objective, gait: Gait, o: ZeroDynamicsOrbit) -> float:
-    """The value of an objective over the periodic step of a gait, in the units of `Objective`."""
+    """Value of an objective over the periodic step o of a gait, in the units of `Objective`."""
     length = float(np.hypot(*biped.swing_foot(gait.q_minus)))
     match objective:
         case Objective.TORQUE:
@@ -92,22 +91,22 @@ def objective_of(biped: Biped, objective: Objective, gait: Gait, o: ZeroDynamics
 
 @dataclass(frozen=True)
 class Optimum:
-    """The optimal gait and what it took to find it."""
+    """The optimal gait, its objective, and the effort of its design."""
 
     gait: Gait
     objective: float
-    """Its value in the units of `Objective`, by Pinocchio."""
+    """Value of the objective in the units of `Objective`, by Pinocchio."""
     iterations: int
-    """Of IPOPT, over all stages and attempts."""
+    """Iterations of IPOPT, over all stages and attempts."""
     seconds: float
     """Wall time [s]."""
 
 
 def optimise(biped: Biped, request: GaitRequest) -> Optimum:
-    """The gait of least objective, from a cold start; local optimum, as of any nonlinear programme.
+    """Find the gait of least objective from a cold start; a local optimum, as of any nonlinear programme.
 
-    Raises GaitError naming the limits that would have to give, or the robot that has no such gait (exactly one
-    unactuated coordinate is needed), and KeyboardInterrupt on Ctrl-C.
+    Raises GaitError naming the limits that would have to be relaxed, or the robot that has no such gait
+    (exactly one unactuated coordinate is needed), and KeyboardInterrupt on Ctrl-C.
     """
     begin, spent, missed = perf_counter(), 0, list[str]()
     if biped.p != biped.n - 1 or biped.p == 0:
@@ -133,11 +132,12 @@ def optimise(biped: Biped, request: GaitRequest) -> Optimum:
 
 
 def _solution(biped: Biped, request: GaitRequest) -> tuple[Unknowns[Array], int]:
-    """The solution and the number of iterations, stage after stage of the request.
+    """Solve the stages of the request one after the other; returns the last solution and
+    the number of iterations.
 
-    IPOPT lowers its barrier in the adaptive and then in the monotone way. A stage that is not solved hands on
-    the guess of the one before. Where the last one is not, its limits are relaxed, and IPOPT starts again from
-    the feasible point found; raises GaitError with the reason if that fails too.
+    IPOPT lowers its barrier in the adaptive and then in the monotone way. After a stage that is not solved,
+    the next one starts from the same guess. Where the last one is not solved, its limits are relaxed, and
+    IPOPT starts again from the feasible point found; raises GaitError with the reason if that fails too.
     """
     stages, iterations, limits = request.stages(), 0, request.limits.of(biped)
     guess = cold_start(biped, stages[0], limits)
@@ -191,11 +191,11 @@ def _bounds(
 def exact_gait(
     biped: Biped, request: GaitRequest, x: Unknowns[Array]
 ) -> tuple[Gait, ZeroDynamicsOrbit]:
-    """The gait that a solution x stands for, hybrid-invariant and periodic to round-off, and its step.
+    """The gait of a solution x, hybrid-invariant and periodic to round-off, and its periodic step.
 
     Of x only q- (n,), the slopes (p,) and the inner coefficients (p, M - 3) are used; the outer coefficients
-    follow from Pinocchio's impact, the orbit from the quadrature of the zero dynamics. Raises GaitError where
-    these have no periodic orbit.
+    follow from Pinocchio's impact, the orbit from the quadrature of the zero dynamics. Raises GaitError
+    where these have no periodic orbit.
     """
     p, c = biped.p, biped.phase
     q, slope = onto_section(biped, x.q.ravel(), request.slope), x.slope.ravel()

@@ -1,9 +1,9 @@
-"""What is asked of a gait: speed, step length, slope, objective, and the limits that its step must keep.
+"""The request for a gait: speed, step length, slope, objective, and the limits that its step must keep.
 
-`GaitRequest` is checked when it is made, before anything is computed, and knows how it is solved in stages and
-what its gait is called.
-`StepLimits` may leave friction and torque to the robot's record; `StepLimits.of` fills them in as
-`RobotLimits`. Used by `analysis.gait_design`, by the command line and by the modules of this folder.
+`GaitRequest` is checked when it is made, before anything is computed; it also defines the stages in which it
+is solved and the name of its gait. `StepLimits` may leave friction and torque to the robot's record;
+`StepLimits.of` fills them in as `RobotLimits`. Used by `analysis.gait_design`, by the command line and by the
+modules of this folder.
 """
 
 from __future__ import annotations
@@ -21,8 +21,7 @@ from biped_adrc.gait.curves import ControlledCurve, curve_kind
 from biped_adrc.model.biped import Biped
 
 MOST_NODES = 100
-"""Largest number of nodes that may be asked for; twice as many are tried where limits are missed between
-them."""
+"""Largest number of nodes in a request; twice as many are tried where limits are violated between them."""
 FrictionFloat = Annotated[float, Range("a number above 0, or infinity", lambda x: x > 0.0)]
 SlopeFloat = Annotated[float, Range("below 0.5 rad either way", lambda x: abs(x) < 0.5)]
 DegreeInt = Annotated[int, Range("a degree from 4 to 12", lambda x: x in range(4, 13))]
@@ -35,7 +34,7 @@ class Objective(Enum):
     """The cost that is minimised; the values are the names on the command line."""
 
     TORQUE = "torque"
-    """int u'u dt / L [N^2 m s], Westervelt, Grizzle, Koditschek 2003."""
+    """int u'u dt / L [N^2 m s] (Westervelt, Grizzle, Koditschek 2003)."""
     TRANSPORT = "transport"
     """int sum |u_i q_i'| dt / (m g L), the cost of transport."""
     PEAK = "peak"
@@ -61,29 +60,28 @@ class StepLimits(Checked, Shown):
     friction: FrictionFloat | None = None
     """|F_T| / F_N in single support."""
     impulse_friction: FrictionFloat | None = None
-    """|F_T| / F_N of the impulse; infinite when it does not matter."""
+    """|F_T| / F_N of the impulse; infinite for no limit."""
     torque: PositiveFloat | None = None
-    """[N m]."""
+    """Torque limit of every motor [N m]."""
     normal_force: NonNegativeFloat = 0.1
     """Least F_N, share of the weight."""
     clearance: NonNegativeFloat | None = 0.02
-    """Height of the swing foot in the middle of the step, share of the leg; None lets it scuff in the
-    first half of the step, as it must where legs have no knees."""
+    """Height of the swing foot in mid-step, share of the leg; None: without knees it may scuff at first."""
     lift_off: NonNegativeFloat = 0.02
     """Least vertical speed of the old foot after impact, and of the swing foot before it [m/s]."""
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """[rad] by name of the coordinate, besides those of the record."""
+    """Joint ranges (low, high) [rad] by name of the coordinate, besides those of the record."""
     multiplier: NonNegativeFloat = 0.95
     """Largest delta^2 of the zero dynamics."""
     slowest: NonNegativeFloat = 0.15
-    """Least |Theta'| in the step, share of that before impact: a walk that nearly stops falls back at a
-    touch."""
+    """Least |Theta'| in the step, share of that before impact: a walk that nearly stops is easily stopped."""
     reserve: NonNegativeFloat = 0.02
-    """Share of friction and torque, and of a quarter of a radian at the ends of ranges, kept back for what
-    happens between the nodes."""
+    """Share of friction, torque, and a quarter radian of ranges that is kept as a reserve between the nodes."""
 
     def of(self, biped: Biped) -> RobotLimits:
-        """These limits with the robot's own in place of None. Raises GaitError for a joint it does not have."""
+        """These limits with the robot's own in place of None. Raises GaitError for a joint
+        that the robot does not have.
+        """
         d = biped.description
         unknown = set(self.ranges) - set(d.joints)
         if unknown:
@@ -112,27 +110,27 @@ class RobotLimits(StepLimits):
 
 @dataclass(frozen=True)
 class GaitRequest(Checked, Shown):
-    """A gait to be designed: speed, step length or both (one left out is free), or a state to pass through.
+    """The request for a gait: speed, step length or both (one left out is free), or a state to pass through.
 
     Raises GaitError for a request that contradicts itself, InputError for a value out of range.
     """
 
     speed: PositiveFloat | None = None
-    """Average, along the ground [m/s]."""
+    """Average speed along the ground [m/s]."""
     step: PositiveFloat | None = None
     """Distance between the feet [m]."""
     slope: SlopeFloat = 0.0
-    """[rad], positive downhill."""
+    """Slope of the ground [rad], positive downhill."""
     objective: Objective = Objective.TORQUE
     degree: DegreeInt = 6
-    """Of the curves: one less than they have coefficients."""
+    """Degree of the curves: one less than their coefficients."""
     nodes: NodesInt = 24
-    """Gauss nodes at which the limits are kept; twice as many where that does not do."""
+    """Number of Gauss nodes at which the limits are kept; twice as many where that is not enough."""
     limits: StepLimits = StepLimits()
     through: tuple[float, ...] | None = None
     """Pre-impact state (q-, q'-) (2 n,) through which the orbit has to pass, in place of speed and step."""
     curve: str = "bezier"
-    """By name, one that lies between its ends."""
+    """Kind of the curves by name, one that lies between its ends."""
 
     @property
     def kind(self) -> type[ControlledCurve]:
@@ -161,7 +159,7 @@ class GaitRequest(Checked, Shown):
         return (*before, *([] if sloped == self else [sloped]), self)
 
     def in_words(self) -> str:
-        """What is asked, for messages and the provenance, such as "0.8 m/s, a slope of 0.05 rad"."""
+        """The request in words, for messages and the provenance, such as "0.8 m/s, a slope of 0.05 rad"."""
         state = ["the given pre-impact state"] if self.through else []
         return ", ".join(state + self._said("{:g} m/s", "a step of {:g} m", "a slope of {:g} rad"))
 
@@ -170,6 +168,8 @@ class GaitRequest(Checked, Shown):
         return "through" if self.through else "-".join(self._said("v{:g}", "s{:g}", "slope{:g}"))
 
     def _said(self, *forms: str) -> list[str]:
-        """Speed, step and slope, where they are asked for, in these forms."""
+        """Texts of speed, step and slope, each by its format in `forms`; those that are
+        free or zero are left out.
+        """
         numbers = zip(forms, (self.speed, self.step, self.slope or None), strict=True)
         return [form.format(x) for form, x in numbers if x is not None]

@@ -30,15 +30,15 @@ from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.planar import PlanarTree, point, turned
 
 LONGEST = 1.2
-"""Longest step that is looked for, as a share of the leg length."""
+"""Longest step that is searched, as a share of the leg length."""
 FROUDE = 1.5
-"""Largest speed over sqrt(g leg) that is looked for; above 1 an inverted pendulum already leaves the ground."""
+"""Largest speed over sqrt(g leg) that is searched; above 1 an inverted pendulum already leaves the ground."""
 MOVED = 1e-3
-"""Largest change of a joint that puts the swing foot of a given state on the ground [rad]."""
+"""Largest change of a joint by which a requested state is moved onto the ground [rad]."""
 STEP = 0.5
-"""Step length of the guess over the leg where none is asked for, and speed over sqrt(g leg) where none is."""
+"""Step length of the guess over the leg, and speed over sqrt(g leg), where the request leaves them free."""
 BEND = 0.2
-"""Largest distance of a joint of the guess from the end of its range [rad]; a quarter of a shorter range."""
+"""Distance of a joint of the guess from the end of its range [rad]; a quarter of a shorter range."""
 
 
 def standing(tree: PlanarTree) -> Array:
@@ -56,9 +56,10 @@ def standing(tree: PlanarTree) -> Array:
 
 
 def inside(q: Array, biped: Biped, ranges: Mapping[str, tuple[float, float]]) -> Array:
-    """q (n,) [rad] with the joints that have a range moved a little inside of it (BEND or a quarter of it).
+    """Move the joints of q (n,) [rad] that have a range a little inside of it; returns the configuration.
 
-    ranges: (low, high) [rad] by joint. A guess at a bound would have no direction to move in.
+    ranges: (low, high) [rad] by joint; the distance from an end is BEND or a quarter of the range. A guess at
+    a bound would have no direction to move in.
     """
     q = q.copy()
     for joint, (low, high) in ranges.items():
@@ -95,7 +96,7 @@ def apart(
 
 
 def _given_state(biped: Biped, state: Array, slope: float) -> tuple[Array, Array]:
-    """(q-, q'-) of a state (2 n,) to pass through, q- moved onto the ground by at most MOVED [rad].
+    """(q-, q'-) of a requested state (2 n,), with q- moved onto the ground by at most MOVED [rad].
 
     Raises GaitError for a state that is not just before the impact of a walk forwards.
     """
@@ -115,10 +116,10 @@ def _given_state(biped: Biped, state: Array, slope: float) -> tuple[Array, Array
 
 
 def cold_start(biped: Biped, request: GaitRequest, limits: RobotLimits) -> Unknowns[Array]:
-    """A first guess of the unknowns.
+    """First guess of the unknowns of a request.
 
-    The rate |Theta'| is constant over the step: the span of Theta over the duration that speed and step give.
-    Raises GaitError for a speed or a step that legs of this length cannot walk.
+    The rate |Theta'| is constant over the step: the span of Theta over the duration that follows from speed
+    and step. Raises GaitError for a speed or a step that legs of this length cannot walk.
     """
     c = biped.phase
     if request.through is None:

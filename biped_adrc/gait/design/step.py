@@ -41,8 +41,9 @@ T = TypeVar("T", bound=Any)
 
 
 class Unknowns(NamedTuple, Generic[T]):
-    """The unknowns as symbols or as numbers, in the order of the decision vector; n coordinates, p motors, K
-    nodes.
+    """The unknowns as symbols or as numbers, in the order of the decision vector.
+
+    n coordinates, p motors, K nodes.
     """
 
     q: T
@@ -54,9 +55,9 @@ class Unknowns(NamedTuple, Generic[T]):
     theta: T
     """Theta+ after impact and Theta- before the next one (2,) [rad]."""
     after: T
-    """q_e' (n + 2,) just after an impact at Theta'- = 1 rad/s, before the legs are relabelled [rad/s, m/s].
-
-    The impact map is linear in q', so the rates of the real impact are these times Theta'-."""
+    """q_e' (n + 2,) after an impact at Theta'- = 1 rad/s, not relabelled [rad/s, m/s];
+    it is linear in Theta'-.
+    """
     impulse: T
     """(F_T, F_N) of that impact (2,) [N s]."""
     rate: T
@@ -67,21 +68,26 @@ class Unknowns(NamedTuple, Generic[T]):
     """Largest |u_i| of the step as a share of the torque limit (1,)."""
 
     def split(self, x: Array) -> Unknowns[Array]:
-        """The numbers in a decision vector x (nx,), in the shapes of these, such as (n, 1) and (p, M + 1)."""
+        """Split a decision vector x (nx,) into the unknowns, in the shapes of these, such
+        as (n, 1) and (p, M + 1).
+        """
         cuts = np.split(np.ravel(x), np.cumsum([np.prod(part.shape) for part in self])[:-1])
         both = zip(cuts, self, strict=True)
         return Unknowns(*(cut.reshape(part.shape, order="F") for cut, part in both))
 
 
 def flat(numbers: Unknowns[Array]) -> Array:
-    """The decision vector (nx,) of numbers, matrices column by column."""
+    """Join the unknowns to the decision vector (nx,), matrices column by column."""
     return np.concatenate([np.ravel(part, order="F") for part in numbers])
 
 
 def at_gait(
     biped: Biped, h: VirtualConstraint, q: Array, dq: Array, rate: float, rates: Array, peak: float
 ) -> Unknowns[Array]:
-    """The numbers of a step on a constraint that ends in q (n,) with slope dq (n,) at these |Theta'|."""
+    """The unknowns of a step on the constraint h that ends in q (n,) [rad] with slope dq/dTheta = dq (n,).
+
+    rate, rates (K,): |Theta'| before impact and at the nodes [rad/s]. peak: largest torque over its limit.
+    """
     impact, ends = biped.impact(q, dq), np.array([h.theta_plus, h.theta_minus])
     about = dq[: biped.p], h.curve.coefficients, ends, impact.v_e, impact.impulse
     return Unknowns(q, *about, np.array(rate), rates, np.array(peak))
@@ -148,7 +154,7 @@ def node_function(tree: PlanarTree, phase: Array, degree: int, direction: float)
 
 
 def unknowns(n: int, degree: int, nodes: int) -> Unknowns[ca.MX]:
-    """Fresh symbols for n coordinates, Bezier curves of a degree, and so many Gauss nodes."""
+    """New symbols for n coordinates, Bezier curves of this degree, and `nodes` Gauss nodes."""
     p, scalar = n - 1, (1, 1)
     sizes = (n, 1), (p, 1), (p, degree + 1), (2, 1), (n + 2, 1), (2, 1), scalar, (1, nodes), scalar
     named = zip(Unknowns._fields, sizes, strict=True)
@@ -209,11 +215,13 @@ class SymbolicStep:
         return Node(*ca.vertsplit(stacked, [0, *np.cumsum(sizes).tolist()]))
 
     def sigma(self, q: ca.MX, v: ca.MX) -> ca.MX:
-        """Angular momentum about the stance foot at (q, v), each (n,), over sigma_scale."""
+        """Angular momentum about the stance foot at (q, v), each (n,), over `sigma_scale`: dimensionless."""
         return self.pose(q)[0][self.n - 1, :] @ v / self.sigma_scale
 
     def impact(self) -> ca.MX:
-        """Residual (n + 4,) of the impact equations (7) at Theta'- = 1, dimensionless; zero at a solution."""
+        """Residual (n + 4,) of the impact equations (7) at Theta'- = 1, dimensionless;
+        zero for a consistent impact.
+        """
         x, m = self.x, self.mass
         upper, lower, foot = impact_rows(self.D, self.J_m, self.J_2, m, self.dq, x.after, x.impulse)
         return ca.vertcat(upper / (m * self.leg**2), lower / (m * self.leg), foot / self.leg)

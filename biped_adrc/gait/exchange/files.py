@@ -3,12 +3,12 @@
 The names are those of `docs/notation.md` and of the stored gaits; a stored gait of this package is such a
 record in this paper's convention.
 
-MATLAB files are of version 5, read by MATLAB and Octave: plain arrays, text, and the struct. A run is columns
-over time. Every array has a unit in the struct `units`, which is written last, so that a file cut off is
-noticed.
+MATLAB files are of version 5, read by MATLAB and Octave: plain arrays, text, and the struct. A
+run is columns over time. Every array has a unit in the struct `units`, which is written last, so
+that a truncated file is detected.
 
-Here it is checked that the entries are there; `record.GaitRecord` checks shapes and numbers, `importing`
-whether it is a gait.
+This module checks that the entries exist; `record.GaitRecord` checks shapes and numbers,
+`importing` whether it is a gait.
 
 A gait file of another program needs three entries, and one more unless the caller states the convention:
 
@@ -16,8 +16,7 @@ A gait file of another program needs three entries, and one more unless the call
     theta_plus, theta_minus  range of the phase [rad]
     convention               a name of `conventions.CONVENTIONS`
 
-All other fields of `GaitRecord` may be added under their names. What is called differently is mapped by
-`names`.
+All other fields of `GaitRecord` may be added under their names. `names` maps them where the file has others.
 """
 
 from __future__ import annotations
@@ -52,10 +51,10 @@ def write_mat(path: Path | str, entries: Mapping[str, object], units: Mapping[st
 
 
 def read_mat(path: Path | str) -> dict[str, Any]:
-    """The variables of a .mat file; arrays without their dimensions of length 1, structs as dicts.
+    """Read the variables of a .mat file; arrays without their dimensions of length 1, structs as dicts.
 
-    Raises InputError for a file that is missing, damaged, or of version 7.3 (HDF5), which MATLAB writes with
-    -v7.3.
+    Raises InputError for a file that is missing, damaged, or of version 7.3 (HDF5),
+    which MATLAB writes with -v7.3.
     """
     path = Path(path)
     with reading("MATLAB file", path, InputError):
@@ -64,7 +63,7 @@ def read_mat(path: Path | str) -> dict[str, Any]:
 
 
 def _text(value: object) -> object:
-    """The value, or str for text, which MATLAB keeps as an array of characters."""
+    """The value; an array of characters, as MATLAB stores text, as str."""
     if isinstance(value, np.ndarray) and value.dtype.kind == "U":
         return "".join(value.ravel().tolist())
     return value
@@ -78,8 +77,8 @@ _KEYS = tuple(f.name for f in fields(GaitRecord))
 def write_record(record: GaitRecord, path: Path | str) -> None:
     """Write a record as .json or .mat: the fields of `GaitRecord` by name, a `format`, and the units.
 
-    What is None is left out; provenance is text of JSON in a .mat file. Raises InputError for another suffix,
-    and OutputError.
+    Fields that are None are left out; provenance is text of JSON in a .mat file. Raises InputError for another
+    suffix, and OutputError where the file cannot be written.
     """
     path = output_path(path, (".json", ".mat"))
     entries = {key: x for key, x in vars(record).items() if x is not None}
@@ -101,10 +100,11 @@ def read_record(
     names: Mapping[str, str] | None = None,
     usual: str | None = None,
 ) -> GaitRecord | Samples:
-    """The record in a .json or .mat file, or the samples of a step where it has t and q and no coefficients.
+    """Read the record in a .json or .mat file, or the samples of a step where it has t
+    and q and no coefficients.
 
-    convention: where the file does not say its own; usual: where nobody says one. names: the file's names of
-    its entries where they are not ours, such as {"coefficients": "alpha"}; entries of a struct are
+    convention: where the file does not state its own; usual: where neither does. names: the file's names of
+    its entries where they differ from ours, such as {"coefficients": "alpha"}; entries of a struct are
     "struct.entry". A stored gait is in the robot's own coordinates. A .csv has samples. Raises InputError and
     GaitError that name the file.
     """
@@ -152,7 +152,7 @@ def read_record(
 
 
 def _flat(found: Mapping[str, Any], above: str = "") -> dict[str, Any]:
-    """Entries of structs as "struct.entry", beside what is not in one."""
+    """Entries of a file by name, those of structs as "struct.entry"."""
     flat = dict[str, Any]()
     for name, x in found.items():
         flat[above + name] = x
@@ -179,7 +179,7 @@ RUN_UNITS = {
     }.items()
     for name in names.split()
 }
-"""Units of the columns `biped_adrc.analysis.signals.Signals` has."""
+"""Name of a column of `biped_adrc.analysis.signals.Signals` -> its unit."""
 
 
 def export_run(columns: Mapping[str, Array], path: Path | str, note: str = "") -> None:

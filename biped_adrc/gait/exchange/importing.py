@@ -1,10 +1,10 @@
 """Import and export of gaits: `import_gait` and `export_gait`, the two functions a user calls.
 
-An import reads a file or takes a `GaitRecord`, converts it to the paper's coordinates, completes what is
-missing (state before impact, period) from the zero dynamics, and passes the `Gait.check` of stored gaits: the
+An import reads a file or takes a `GaitRecord`, converts it to the paper's coordinates, completes missing
+entries (state before impact, period) from the zero dynamics, and passes the `Gait.check` of stored gaits: the
 end of the step, relabelled, is the start of the next one. Degrees, a sign, an order of joints, another
-convention: all break it, so it finds them without knowing which one was made. Where the same numbers would be a
-gait in another convention, the error says which. `check_slopes` asks for hybrid invariance besides.
+convention: all violate it, so each such mistake is detected. Where the same numbers would be a gait in another
+convention, the error names it. `check_slopes` checks hybrid invariance besides.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics, impact_jump
 from biped_adrc.model.biped import Biped
 
 RATES = 1e-2
-"""[rad/s]: largest gap between the stored rates before impact and those of the curve."""
+"""Largest difference of the stored rates before impact and those of the curve [rad/s]."""
 
 
 def import_gait(
@@ -39,21 +39,21 @@ def import_gait(
     degree: int = 6,
     slope: float = 0.0,
 ) -> Gait:
-    """A gait from arrays, or from a .json, .mat or .csv file, in any angle convention.
+    """Import a gait from arrays, or from a .json, .mat or .csv file, in any angle convention.
 
-    convention: of a file that does not say its own; "own" for the coordinates of the robot's record as they
-    are, which a robot has whose legs and phase are not laid out as the paper's. names: the file's names of its
-    entries where they are not ours, such as {"coefficients": "alpha"}, or "R.alpha" in a struct.
-    slopes: also ask that the slopes close through the impact of this robot; False accepts constraints that are
-    not hybrid-invariant. Without q_minus, v_minus or period these come from the zero dynamics.
+    convention: of a file that does not state its own; "own" for the coordinates of the robot's record as they
+    are, needed for a robot whose legs and phase differ from the paper's. names: the file's names of its
+    entries where they differ from ours, such as {"coefficients": "alpha"}, or "R.alpha" in a struct. slopes:
+    also check that the slopes close through the impact of this robot; False accepts constraints that are not
+    hybrid-invariant. Without q_minus, v_minus or period these come from the zero dynamics.
 
-    To `Samples` of a step over time (t, q, and perhaps v) curves of this degree are fitted; slope [rad]: of the
-    ground that they are of.
+    To `Samples` of a step over time (t, q, and perhaps v) curves of this degree are fitted;
+    slope [rad]: of their ground.
 
     The gait is named by the record ("imported" where it has no name) and can be walked and saved as any other.
 
-    Raises GaitError that names the joint, what was found, what was expected and what to try; InputError for a
-    file that cannot be read.
+    Raises GaitError that names the joint, what was found, what was expected and what to try; InputError
+    for a file that cannot be read.
 
     >>> ba.export_gait(gait, folder / "walk.mat", "frost")
     >>> again = ba.import_gait(folder / "walk.mat", biped)
@@ -82,7 +82,9 @@ def import_gait(
 
 
 def closing_conventions(record: GaitRecord, biped: Biped) -> tuple[str, ...]:
-    """Names of the conventions in which the same numbers would be a gait that closes, slopes aside."""
+    """Names of the conventions in which the same numbers would be a gait that closes,
+    without a check of slopes.
+    """
     closing = []
     for name in CONVENTIONS:
         with suppress(GaitError):  # another number of joints, or a phase that says nothing there
@@ -131,7 +133,8 @@ def _gait_of(record: GaitRecord, biped: Biped, source: str) -> Gait:
 
 
 def check_slopes(gait: Gait, biped: Biped) -> None:
-    """Raise GaitError unless dq/dTheta after the impact is the slope at the start: hybrid invariance.
+    """Raise GaitError unless the gait is hybrid-invariant: dq/dTheta after the impact
+    is the slope at the start.
 
     It depends on the masses, so this is the one check that tells robots of equal link lengths apart.
     """
@@ -151,10 +154,11 @@ def check_slopes(gait: Gait, biped: Biped) -> None:
 def export_gait(
     gait: Gait, path: Path | str, convention: str = "paper", biped: Biped | None = None
 ) -> None:
-    """Write a gait as .json or .mat (plain arrays, a `units` struct) in any convention.
+    """Write a gait as .json or .mat (plain arrays, a `units` struct) in any convention,
+    for `import_gait` or MATLAB.
 
-    biped: its robot, needed where that is not one of the package. `import_gait` gives it back. Raises
-    InputError for another suffix, convention or robot, and OutputError.
+    biped: its robot, needed where that is not one of the package. Raises InputError for another suffix,
+    convention or robot, and OutputError where the file cannot be written.
 
     >>> ba.export_gait(gait, folder / "gait.mat", "frost")
     >>> ba.import_gait(folder / "gait.mat", biped).name

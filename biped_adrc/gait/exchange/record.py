@@ -1,15 +1,14 @@
-"""A gait in one angle convention as plain arrays, the form in which gaits are exchanged, to and from the
-paper's.
+"""A gait in one angle convention as plain arrays, the form in which gaits are exchanged.
 
     y(s) = H0 q'(s),   s = (theta - theta+) / (theta- - theta+),   theta = c' q'
 
-The rows of `coefficients` are y: the outputs of the convention, all of its coordinates, or what `outputs` says.
-Curves are linear in their coefficients and their basis adds up to 1, so A h(s) + b has the coefficients
-A alpha_k + b, and s is the same under every affine map of the phase. With y and the phase
+The rows of `coefficients` are y: the outputs of the convention, all of its coordinates, or those of `outputs`.
+Curves are linear in their coefficients and their basis adds up to 1, so A h(s) + b has the coefficients A
+alpha_k + b, and s is the same under every affine map of the phase. With y and the phase
 
     q'(s) = [H0; c']^-1 [y(s); theta+ + s (theta- - theta+)]
 
-every coordinate is a curve. `coordinates` brings a record into the paper's coordinates, `record_of` takes a
+every coordinate is a curve. `coordinates` converts a record to the paper's coordinates, `record_of` converts a
 gait to another convention; both keep kind and degree of the curves.
 """
 
@@ -35,7 +34,7 @@ _TURN = 2.0 * np.pi
 _PARALLEL = 1e-12
 """Largest relative difference of two phase rows that count as parallel."""
 SLOPES = 1e-2
-"""[rad/rad]: largest jump of dq/dTheta through the impact in a gait whose slopes close."""
+"""Largest jump of dq/dTheta through the impact in a gait whose slopes close [rad/rad]."""
 ENTRIES = {
     "coefficients": (2, "rad"),
     "theta_plus": (0, "rad"),
@@ -47,8 +46,9 @@ ENTRIES = {
     "period": (0, "s"),
     "slope": (0, "rad"),
 }
-"""Dimensions and unit of each entry that is of numbers."""
+"""Name of each numeric entry -> number of its dimensions, and unit."""
 REQUIRED = ("coefficients", "theta_plus", "theta_minus")
+"""Names of the entries without a default."""
 
 
 @dataclass(frozen=True)
@@ -65,30 +65,30 @@ class GaitRecord(Shown):
     convention: str
     """Name of the angle convention, of `conventions.CONVENTIONS`; "own" for the robot's own coordinates."""
     coefficients: Array
-    """Of the curves (rows, M + 1) [rad], one row per output or per coordinate."""
+    """Coefficients of the curves (rows, M + 1) [rad], one row per output or per coordinate."""
     theta_plus: float
-    """[rad] just after impact."""
+    """Phase just after impact [rad]."""
     theta_minus: float
-    """[rad] just before the next impact."""
+    """Phase just before the next impact [rad]."""
     phase: Array | None = None
-    """c' (n,); the convention's own row when None."""
+    """Row c' (n,) of the phase; the convention's own row when None."""
     outputs: Array | None = None
-    """H0 (rows, n); the convention's own outputs, or all coordinates, when None."""
+    """Output matrix H0 (rows, n); the convention's own outputs, or all coordinates, when None."""
     curve: str = "bezier"
     """Kind of the curves, "bezier" or "polynomial"."""
     q_minus: Array | None = None
-    """(n,) just before impact [rad], in this convention; from the zero dynamics when None."""
+    """Angles (n,) just before impact [rad], in this convention; from the zero dynamics when None."""
     v_minus: Array | None = None
-    """(n,) just before impact [rad/s]; given together with q_minus."""
+    """Rates (n,) just before impact [rad/s]; given together with q_minus."""
     period: float | None = None
     """Duration of a step [s]; from the zero dynamics when None."""
     slope: float = 0.0
-    """Of the ground [rad], positive downhill."""
+    """Slope of the ground [rad], positive downhill."""
     name: str = "imported"
     robot: str = ""
     preset: str = ""
     provenance: Mapping[str, object] = field(default_factory=dict)
-    """Where the gait comes from, free text by name."""
+    """Origin of the gait, free text by name."""
 
     def __post_init__(self) -> None:
         for key, (dimensions, _) in ENTRIES.items():
@@ -97,7 +97,7 @@ class GaitRecord(Shown):
                 object.__setattr__(self, key, self._numbers(key, value, dimensions))
 
     def _numbers(self, key: str, value: object, dimensions: int) -> Array | float:
-        """An entry as a read-only array of so many dimensions, or a float. Raises GaitError."""
+        """An entry as a read-only array with this number of dimensions, or a float. Raises GaitError."""
         try:
             a = np.asarray(value)
         except ValueError:  # rows of different lengths
@@ -108,12 +108,12 @@ class GaitRecord(Shown):
         return read_only(a) if dimensions else float(a)
 
     def error(self, text: str) -> GaitError:
-        """An error that names the gait and its convention."""
+        """A GaitError whose text begins with the gait and its convention."""
         return GaitError(f"gait '{self.name}' in convention '{self.convention}': {text}")
 
 
 class Coordinates(NamedTuple):
-    """All n coordinates of this paper along a step, and the phase they belong to."""
+    """Curves of all n coordinates of this paper along a step, and the phase they belong to."""
 
     curve: Curve
     """q(s), (n, M + 1) coefficients [rad]."""
@@ -124,11 +124,11 @@ class Coordinates(NamedTuple):
     theta_minus: float
     """Theta at s = 1, before the next impact [rad]."""
     turns: Array
-    """(n,) whole turns that were added so that hips lie near pi and the others near 0."""
+    """Whole turns (n,) that were added so that hips lie near pi and the others near 0."""
 
     @property
     def constraint(self) -> VirtualConstraint:
-        """The virtual constraint of the actuated coordinates, all but the last."""
+        """The virtual constraint of the actuated coordinates, which are all but the last."""
         curve = type(self.curve)(self.curve.coefficients[:-1])
         return VirtualConstraint(curve, self.phase, self.theta_plus, self.theta_minus)
 
@@ -139,10 +139,10 @@ def mapped(curve: Curve, A: Array, b: Array) -> Curve:
 
 
 def coordinates(record: GaitRecord, layout: Convention) -> Coordinates:
-    """All coordinates of this paper along the step of a record in a convention.
+    """Convert a record to curves of all the paper's coordinates; layout: the record's convention.
 
-    Completes the coordinates by the phase, maps the angles, scales the phase to the paper's own row where it is
-    parallel to it, and adds whole turns. Raises GaitError when the rows do not determine the coordinates.
+    Completes the coordinates by the phase, maps the angles, scales the phase to the paper's own row where it
+    is parallel to it, and adds whole turns. Raises GaitError when the rows do not determine the coordinates.
     """
     c = layout.phase if record.phase is None else record.phase
     plus, minus = record.theta_plus, record.theta_minus
@@ -162,7 +162,9 @@ def coordinates(record: GaitRecord, layout: Convention) -> Coordinates:
 
 
 def _of_all(record: GaitRecord, layout: Convention, c: Array) -> Curve:
-    """The curves (n, M + 1) of all coordinates of a convention. Raises GaitError for what does not fit it."""
+    """Curves (n, M + 1) of all coordinates of a convention; c (n,): row of the phase. Raises
+    GaitError if they do not fit.
+    """
     n, rows = layout.n, len(record.coefficients)
     outputs = record.outputs
     if outputs is None:
@@ -192,7 +194,7 @@ def _of_all(record: GaitRecord, layout: Convention, c: Array) -> Curve:
 
 
 def whole_turns(middle: Array) -> Array:
-    """Whole turns (n,) to add to q in the middle of a step (n,) [rad].
+    """Whole turns (n,) to add to q, from q in the middle of a step (n,) [rad].
 
     Then hips lie in (0, 2 pi), knees and torso in (-pi, pi). Angles that differ by whole turns are the same
     pose, but not the same phase c q.
@@ -203,9 +205,10 @@ def whole_turns(middle: Array) -> Array:
 
 
 def record_of(gait: Gait, biped: Biped, to: str = "paper") -> GaitRecord:
-    """The gait of a robot as a record in another convention, with its outputs and its sense of the phase.
+    """Convert the gait of a robot to a record in another convention, with its outputs
+    and its sense of the phase.
 
-    Raises GaitError for a convention that there is not, or that does not fit the robot.
+    Raises GaitError for an unknown convention, or one that does not fit the robot.
     """
     constraint, other = gait.constraint, layout_of(to, biped)
     ends = constraint.theta_plus, constraint.theta_minus

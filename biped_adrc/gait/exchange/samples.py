@@ -33,16 +33,16 @@ from biped_adrc.gait.zero_dynamics import ZeroDynamics, invariant_constraint
 from biped_adrc.model.biped import Biped
 
 LARGEST = 4.0 * np.pi
-"""[rad]: angles above this are taken for degrees."""
+"""Largest angle of a sample [rad]; a larger one is probably in degrees."""
 FITS = 5e-3
-"""[rad]: largest distance of a sample from the curve in a fit that is good."""
+"""Largest distance of a sample from the curve in a good fit [rad]."""
 LASTS = 0.05
-"""Largest relative gap between the time that samples take and the period of the zero dynamics."""
+"""Largest relative difference of the duration of the samples and the period of the zero dynamics."""
 DEGREES = range(4, 13)
 
 
 class Samples(NamedTuple):
-    """One step in the coordinates of the robot: t (K,) [s], q (K, n) [rad], v (K, n) [rad/s] or None."""
+    """Samples of one step in the robot's coordinates: t (K,) [s], q (K, n) [rad], v (K, n) [rad/s] or None."""
 
     t: Array
     q: Array
@@ -61,10 +61,10 @@ def gait_of_samples(
     name: str = "samples",
     source: str = "arrays",
 ) -> Gait:
-    """The gait whose curves of this degree run through the samples, which are in the coordinates of `layout`.
+    """Fit a gait with curves of this degree to samples, which are in the coordinates of `layout`.
 
     slope [rad]: of the ground. Raises InputError for arrays that are no samples of a step, and GaitError where
-    the fit is bad, or where impact or zero dynamics of this robot do not belong to the samples.
+    the fit is bad, or where impact or zero dynamics of this robot do not fit the samples.
     """
     s = _in_robot(_checked(samples, layout.n, degree), layout)
     fitted = _fitted(s, biped, degree)
@@ -94,7 +94,7 @@ def gait_of_samples(
 
 
 def _checked(samples: Samples, n: int, degree: int) -> Samples:
-    """As float arrays of one step. Raises InputError."""
+    """The samples as float arrays of one step. Raises InputError."""
     t, q = numbers(samples.t, "t of the samples"), numbers(samples.q, "q of the samples")
     v = None if samples.v is None else numbers(samples.v, "q' of the samples")
     shapes, largest = {x.shape for x in (q, v) if x is not None}, np.max(np.abs(q), initial=0.0)
@@ -110,7 +110,7 @@ def _checked(samples: Samples, n: int, degree: int) -> Samples:
 
 
 def _in_robot(s: Samples, layout: Convention) -> Samples:
-    """In the robot's coordinates, with whole turns as the gaits of the package have them.
+    """The samples in the robot's coordinates, with whole turns as in the gaits of the package.
 
     Raises GaitError where Theta turns back.
     """
@@ -130,7 +130,9 @@ def _in_robot(s: Samples, layout: Convention) -> Samples:
 
 
 def _fitted(s: Samples, biped: Biped, degree: int) -> VirtualConstraint:
-    """The curve through the ends, with their slopes, and nearest to what is between."""
+    """The constraint whose curve has the ends and end slopes of the step, fitted to the
+    samples between by least squares.
+    """
     c, p = biped.phase, biped.p
     minus = s.q[-1]
     ends = float(c @ biped.relabel(minus)), float(c @ minus)
@@ -153,10 +155,10 @@ def _fitted(s: Samples, biped: Biped, degree: int) -> VirtualConstraint:
 
 
 def read_csv(path: Path) -> Samples:
-    """The samples in a CSV file with a first line of names.
+    """Read the samples in a CSV file with a first line of names.
 
-    Columns are t, q1 .. qn and perhaps v1 .. vn, with or without units behind a space; others are left alone.
-    Raises InputError.
+    Columns are t, q1 .. qn and perhaps v1 .. vn, with or without units behind a space; others
+    are ignored. Raises InputError.
     """
     with reading("samples", path, InputError):
         table = CsvTable.read(path)

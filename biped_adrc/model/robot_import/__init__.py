@@ -1,10 +1,9 @@
-"""A robot of one's own from one URDF: what its robot.toml says, derived and checked.
+"""Import of a robot from one URDF: the content of its robot.toml, derived and checked.
 
 - `import_robot`  the whole way from a URDF to a Biped, and the two files written for it
-- `planar_base`   the base (x, z, pitch): found in the URDF, or added
-- `anatomy`       feet, hip, order of the joints and phase variable
+- `anatomy`       planar base, feet, hip, order of the joints and phase variable
 - `import_checks` laws of mechanics the result must obey, with numbers
 
-`ba.biped_from_urdf` and the commands `biped-adrc robot check` and `robot new` call it. Nothing else
-in the package does: afterwards the robot is data like any other.
+`ba.biped_from_urdf` and the commands `biped-adrc robot check` and `robot new` call it. Nothing else in the
+package does: afterwards the robot is data like any other.
 """

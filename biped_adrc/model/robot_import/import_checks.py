@@ -33,13 +33,15 @@ LIMIT = 1e-9
 
 
 def checks(biped: Biped) -> tuple[Check, ...]:
-    """The laws at `STATES` random states drawn with `SEED`, one `Check` per law. A NaN counts as broken."""
+    """Check the laws at `STATES` random states drawn with `SEED`, one `Check` per law.
+    A NaN counts as violated.
+    """
     laws = largest_gaps(biped, STATES, SEED)
     return tuple(at_most(law, "law", gap, LIMIT) for law, gap in laws.items())
 
 
 def largest_gaps(biped: Biped, states: int, seed: int) -> dict[str, float]:
-    """The largest gap of each law over so many random states: angles in +-pi, rates of 3 rad/s."""
+    """Largest relative gap of each law over `states` random states: angles in +-pi, rates of 3 rad/s."""
     random, laws = np.random.default_rng(seed), dict[str, float]()
     for _ in range(states):
         q, v = random.uniform(-np.pi, np.pi, biped.n), random.normal(0.0, 3.0, biped.n)
@@ -55,9 +57,10 @@ def _gap(found: Array, expected: Array) -> float:
 
 
 def _single_support(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]:
-    """Laws of single support at q, v (n,) [rad, rad/s], each with its gap.
+    """Check the laws of single support at q, v (n,) [rad, rad/s]; yields the sentence of
+    each and its relative gap.
 
-    D_s and Omega, places of hip and foot, and the direction of the phase.
+    They are D_s and Omega, the places of hip and foot, and the direction of the phase.
     """
     D, Omega = b.floating.projected(q, v)
     yield "D_s of the pinned model is the floating one's, constrained", _gap(b.inertia(q), D)
@@ -76,8 +79,10 @@ def _single_support(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]
 
 
 def _impact(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]:
-    """Laws of the plastic impact at q, v (n,) [rad, rad/s], each with its gap; momenta relative to that of all
-    links at the same energy.
+    """Check the laws of the plastic impact at q, v (n,) [rad, rad/s]; yields the sentence of
+    each and its relative gap.
+
+    Changes of momenta are divided by the momentum of the whole robot at the same kinetic energy.
     """
     hit, reach = b.impact(q, v), max(np.linalg.norm(b.swing_foot(q)), np.linalg.norm(b.hip(q)))
     before, after = b.kinetic_energy(q, v), b.kinetic_energy(hit.q, hit.v)
@@ -92,11 +97,12 @@ def _impact(b: Biped, q: Array, v: Array) -> Iterator[tuple[str, float]]:
 
 
 def impact_momenta(b: Biped, q: Array, v: Array, hit: Impact) -> Array:
-    """How much an impact changes what it must keep: (3,) in [kg m^2/s, kg m^2/s, kg m/s].
+    """Changes of conserved quantities in an impact (3,), in [kg m^2/s, kg m^2/s, kg
+    m/s]; zero up to round-off.
 
     q, v: (n,) before the impact [rad, rad/s]; hit: its result. The angular momentum of all links about the new
     foot, since the only impulse acts there; that of the old leg about its hip and its knee, since ideal joints
-    pass on no impulsive torque; and the linear momentum, computed once before the relabelling and once pinned
+    transmit no impulsive torque; and the linear momentum, computed once before the relabelling and once pinned
     at the new foot after it.
     """
     before = LinkMotion(b.floating, q, np.append(v, [0.0, 0.0]))

@@ -2,7 +2,7 @@
 
     derived = derive("walker.urdf")
     derived.biped    the Biped, with the masses of the URDF as its preset "urdf"
-    derived.guesses     what was guessed, in sentences
+    derived.guesses  what was guessed, in sentences
     derived.checks   the laws it was checked against, with their numbers
 
 The URDF describes a planar biped with point feet: revolute joints about y, equal legs, each with a
@@ -44,12 +44,10 @@ from biped_adrc.core.errors import ModelError, OutputError
 from biped_adrc.core.files import toml_key, toml_value, write_text
 from biped_adrc.core.verdict import Check
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.robot_import.anatomy import Anatomy, anatomy
+from biped_adrc.model.robot_import.anatomy import Anatomy, PlanarBase, anatomy, on_planar_base
 from biped_adrc.model.robot_import.import_checks import checks
-from biped_adrc.model.robot_import.planar_base import PlanarBase, on_planar_base
 from biped_adrc.model.robots.robot_toml import GRAVITY, description_of
-from biped_adrc.model.robots.symmetry import pairs
-from biped_adrc.model.robots.urdf import Joint, Link, Tree, Visual, to_xml
+from biped_adrc.model.robots.urdf import Joint, Link, Tree, Visual, pairs, to_xml
 from biped_adrc.model.robots.urdf_reader import UrdfContents, read, tip_of
 
 Colour = tuple[float, float, float, float]
@@ -60,7 +58,7 @@ _STANCE, _SWING, _TRUNK = (0.0, 0.45, 0.7, 1.0), (0.84, 0.37, 0.0, 1.0), (0.35, 
 
 
 def drawable(tree: Tree, feet: tuple[str, str]) -> tuple[Tree, tuple[str, ...]]:
-    """The tree itself where a link has a shape, else the tree with balls, and a sentence that says so.
+    """The tree itself where a link has a shape, else the tree with balls, and a sentence about it.
 
     Links of the stance leg, the swing leg and the trunk get different colours.
     """
@@ -105,7 +103,7 @@ _SIDES = re.compile(r"(^|[_-])(left|right|l|r)(?=$|[_-])", re.IGNORECASE)
 
 @dataclass(frozen=True)
 class Hints:
-    """What a URDF does not say; None is guessed where there is one answer."""
+    """Properties that a URDF does not contain; None is guessed where there is one answer."""
 
     feet: tuple[str, ...] | None = None
     """Links of the stance and the swing foot."""
@@ -114,13 +112,13 @@ class Hints:
     hip: str | None = None
     """Link whose origin is the hip."""
     torque: float | None = None
-    """Limit of every motor [N m]."""
+    """Torque limit of every motor [N m]."""
     friction_coefficient: float | None = None
     """Dry friction mu of the feet, dimensionless."""
     armature: float = 0.0
     """Rotor inertia per motor, reflected to the joint [kg m^2]."""
     gravity: float = GRAVITY
-    """[m/s^2]."""
+    """Gravity [m/s^2]."""
     tip: tuple[float, float, float] | None = None
     """Place of the feet in the frames of the links `feet` [m], for a URDF that ends with its shins."""
 
@@ -173,7 +171,7 @@ def record_of(
 def _bodies(tree: Tree, feet: tuple[str, str]) -> dict[str, list[str]]:
     """Links with mass by body: twins together, under their name without the side.
 
-    A name that is empty or taken without its side is replaced by that of the first link.
+    A name that is empty or occupied without its side is replaced by that of the first link.
     """
     twins = dict(pairs(tree, feet))
     heavy = [name for name, link in tree.links.items() if link.inertial is not None]
@@ -195,15 +193,15 @@ def to_toml(record: Mapping[str, object]) -> str:
 
 @dataclass(frozen=True)
 class Derived:
-    """A biped derived from a URDF, with what was guessed and checked on the way."""
+    """A biped derived from a URDF, with the guesses and checks of the derivation."""
 
     biped: Biped
     guesses: tuple[str, ...]
-    """What was found and guessed, in sentences."""
+    """Sentences on what was found and guessed."""
     checks: tuple[Check, ...]
     """The laws of `import_checks` with their numbers."""
     record: Mapping[str, Any]
-    """Contents of its robot.toml."""
+    """Content of its robot.toml."""
 
     @property
     def broken(self) -> tuple[Check, ...]:
@@ -233,7 +231,7 @@ def biped_from_urdf(
     armature: float = 0.0,
     tip: tuple[float, float, float] | None = None,
 ) -> Biped:
-    """The Biped of a URDF, once every check holds; see `Hints` for the options and `derive` for the rest.
+    """Make the Biped of a URDF, if every check holds; see `Hints` for the options and `derive` for the rest.
 
     torque [N m], armature [kg m^2], tip [m]. Raises ModelError, with the laws that do not hold.
 
@@ -269,7 +267,9 @@ def derive(path: Path | str, hints: Hints | None = None) -> Derived:
 
 
 def _with_tips(path: Path | str, hints: Hints) -> tuple[UrdfContents, tuple[str, ...] | None]:
-    """The URDF, and the feet: those of the hints, or links put at their tips. Raises ModelError."""
+    """Read the URDF; also returns the feet: those of the hints, or links added at
+    their tips. Raises ModelError.
+    """
     if hints.tip is not None and hints.feet is None:
         raise ModelError(f"URDF '{path}': give the links with this tip by feet=(...) or --feet")
     tips = {} if hints.tip is None else dict.fromkeys(hints.feet or (), hints.tip)
@@ -280,10 +280,9 @@ def _with_tips(path: Path | str, hints: Hints) -> tuple[UrdfContents, tuple[str,
 def _motors(
     reading: UrdfContents, moving: tuple[Joint, ...], hints: Hints
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Joints with a motor in order, and a sentence where they were guessed.
+    """Names of the joints with a motor in order, and a sentence where they were guessed.
 
-    Guessed: all joints but those whose <limit effort> is 0. Raises ModelError for unknown or
-    doubled names.
+    Guessed: all joints but those whose <limit effort> is 0. Raises ModelError for unknown or doubled names.
     """
     names = tuple(joint.name for joint in moving)
     if hints.actuated is None:
@@ -302,10 +301,10 @@ def _motors(
 def _torque(
     reading: UrdfContents, actuated: tuple[str, ...], hints: Hints
 ) -> tuple[float, tuple[str, ...]]:
-    """The torque limit of all motors [N m]: that of the hints, else the least one in the URDF.
+    """The torque limit of all motors [N m], that of the hints or else the least one in the
+    URDF, and a sentence on it.
 
-    Beside it, where it is from the URDF, a sentence that says of which motor. It is 1 for a robot without
-    motors, as a record needs a number. Raises ModelError where a motor has none.
+    It is 1 for a robot without motors, as a record needs a number. Raises ModelError where a motor has none.
     """
     if hints.torque is not None or not actuated:
         return (1.0 if hints.torque is None else hints.torque), ()
@@ -322,7 +321,7 @@ def _torque(
 
 
 def _remarks(reading: UrdfContents, hints: Hints) -> tuple[str, ...]:
-    """Sentences on what the URDF leaves open and which defaults were taken."""
+    """Sentences on what the URDF leaves open and the defaults used."""
     result = []
     if hints.friction_coefficient is None:
         result.append(f"dry friction of the feet: {FRICTION}, as of RABBIT; a URDF does not say")

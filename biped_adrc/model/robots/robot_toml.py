@@ -47,15 +47,15 @@ class BodyParameters:
     """Parameters of a link that is symmetric about its axis z."""
 
     mass: float
-    """[kg]."""
+    """Mass [kg]."""
     com: float
     """Distance of the COM from the link's origin along +z [m]."""
     inertia: float
-    """About the COM and the axis y [kg m^2]."""
+    """Moment of inertia about the COM and the axis y [kg m^2]."""
 
 
 GRAVITY = 9.81
-"""[m/s^2], where a record does not give another value."""
+"""Gravity [m/s^2] of a record that gives no other value."""
 
 
 @dataclass(frozen=True)
@@ -64,16 +64,16 @@ class Preset:
 
     name: str
     source: str
-    """Where the numbers come from."""
+    """Origin of the numbers."""
     armature: float
     """Rotor inertia per actuated joint, reflected to it [kg m^2]."""
     bodies: Mapping[str, BodyParameters]
-    """By class (torso, thigh, ...); empty where the URDF's own <inertial> elements hold."""
+    """Parameters by class (torso, thigh, ...); empty where the URDF's own <inertial> elements hold."""
 
 
 @dataclass(frozen=True)
 class RobotDescription(Shown):
-    """Contents of `robot.toml`; lengths [m], torques [N m], angles [rad]."""
+    """The content of a `robot.toml`; lengths [m], torques [N m], angles [rad]."""
 
     name: str
     """Name of the robot, as in `Biped.load`."""
@@ -98,13 +98,13 @@ class RobotDescription(Shown):
     phase: tuple[float, ...]
     """Row c (n,) of the phase variable Theta = c q, dimensionless."""
     offset: tuple[float, ...]
-    """r (n,) [rad] of the relabelling q+ = R q- + r; not zero for robots with spokes."""
+    """Offset r (n,) [rad] of the relabelling q+ = R q- + r; not zero for robots with spokes."""
     peak_torque: float
-    """Limit of every motor [N m]."""
+    """Torque limit of every motor [N m]."""
     friction_coefficient: float
     """Dry friction mu between foot and ground, dimensionless."""
     gravity: float
-    """[m/s^2]."""
+    """Gravity [m/s^2]."""
     viscous: Mapping[str, float]
     """Viscous joint friction by joint [N m s/rad]; 0 for joints that are not here."""
     static: Mapping[str, float]
@@ -112,11 +112,11 @@ class RobotDescription(Shown):
     links: Mapping[str, tuple[str, ...]]
     """Links by body: the class "thigh" has the links of both thighs."""
     default_preset: str
-    """Preset that is taken if none is asked for."""
+    """Name of the preset that is used by default."""
     presets: Mapping[str, Preset]
     """Parameter sets by name."""
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """Lower and upper end [rad] by joint, for gait design; joints that are not here turn freely."""
+    """Lower and upper end [rad] by joint, for gait design; other joints turn freely."""
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -125,11 +125,11 @@ class RobotDescription(Shown):
 
     @property
     def feet(self) -> tuple[str, str]:
-        """Stance and swing foot."""
+        """Names of the stance and the swing foot."""
         return self.stance_foot, self.swing_foot
 
     def preset(self, name: str | None = None) -> Preset:
-        """The preset `name`, or the default one. Raises ModelError with the names there are."""
+        """The preset `name`, or the default one. Raises ModelError with the known names."""
         name = self.default_preset if name is None else name
         if name not in self.presets:
             raise ModelError(
@@ -140,7 +140,7 @@ class RobotDescription(Shown):
     def joint_index(self, joint: str | int) -> int:
         """Index in q of a joint given by name, as "q1".."qN", or by index from 0.
 
-        Raises ModelError with the names that are possible.
+        Raises ModelError with the possible names.
         """
         n = len(self.joints)
         known = [*self.joints, *(f"q{i + 1}" for i in range(n)), *range(n)]
@@ -152,10 +152,10 @@ class RobotDescription(Shown):
         return known.index(joint) % n
 
     def tree(self, preset: str | None = None) -> Tree:
-        """The floating URDF with the inertials of `preset`. Raises ModelError.
+        """Read the floating URDF with the inertials of `preset`. Raises ModelError.
 
-        A preset has one moment of inertia per body, about y. The moments about x and z get values
-        of a slender link, since a URDF needs them and planar motion does not depend on them.
+        A preset has one moment of inertia per body, about y. The moments about x and z get values of a slender
+        link, since a URDF needs them and planar motion does not depend on them.
         """
         tree = read(self.urdf).tree
         inertials: dict[str, Inertial] = {}
@@ -173,7 +173,7 @@ def robot_names() -> tuple[str, ...]:
 
 
 def load_description(robot: str | Path) -> RobotDescription:
-    """The record of a robot by name, or from the path of a `robot.toml`.
+    """Load the record of a robot by name, or from the path of a `robot.toml`.
 
     Raises ModelError that names the robot or the key, what was found and what was expected.
     """
@@ -229,7 +229,7 @@ def description_of(data: Mapping[str, Any], path: Path) -> RobotDescription:
 def _numbers(
     key: str, values: Sequence[float], count: int, least: float = -math.inf
 ) -> tuple[float, ...]:
-    """So many finite numbers, none below `least`. Raises ValueError that names the key."""
+    """Check a list of `count` finite numbers, none below `least`. Raises ValueError that names the key."""
     numbers = tuple(float(c) for c in values)
     if len(numbers) != count or not all(least <= x and math.isfinite(x) for x in numbers):
         above = f", at least {least:g}" if math.isfinite(least) else ""
@@ -238,7 +238,7 @@ def _numbers(
 
 
 def _range(joint: str, ends: Sequence[float]) -> tuple[float, float]:
-    """Lower and upper end of a joint's range [rad]. Raises ValueError unless they are in this order."""
+    """Lower and upper end of a joint's range [rad], after a check of their order. Raises ValueError."""
     low, high = _numbers(f"ranges.{joint}", ends, 2)
     if not low < high:
         raise ValueError(f"ranges.{joint} is [{low}, {high}], expected the lower angle first")
@@ -246,7 +246,9 @@ def _range(joint: str, ends: Sequence[float]) -> tuple[float, float]:
 
 
 def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Preset:
-    """One of the tables [presets.NAME]: all bodies of the record, or none of them. Raises ValueError."""
+    """One of the tables [presets.NAME]: parameters of all bodies of the record, or of none. Raises
+    ValueError.
+    """
     bodies, where = {}, f"presets.{name}"
     for body in data["links"] if any(body in record for body in data["links"]) else ():
         p = record[body]
@@ -260,7 +262,7 @@ def _preset(name: str, record: Mapping[str, Any], data: Mapping[str, Any]) -> Pr
 
 
 def _positive(value: object, what: str) -> float:
-    """A number above zero. Raises InputError that names it by `what`."""
+    """Check that a value is a number above zero. Raises InputError that names it by `what`."""
     number = float(value)  # type: ignore[arg-type]
     check_positive(number, f"{what} is {value}")
     return number

@@ -1,9 +1,21 @@
-"""A robot as a small tree of links and joints: edits on it, what makes a body physical, writing it as URDF.
+"""A robot as a small tree of links and joints: changes of it, checks of its bodies, and its text as URDF.
 
-Pinocchio's parser accepts negative masses and zero axes and turns a mass it cannot read into 0. So
-a file is read by `urdf_reader`, which checks it; parameters are changed on this tree
-(presets, model errors, re-rooting at a foot), and Pinocchio is given the text that `to_xml` writes.
-All records are frozen: an edit makes a new tree.
+Pinocchio's parser accepts negative masses and zero axes and turns a mass it cannot read into 0. So a file is
+read by `urdf_reader`, which checks it; parameters are changed on this tree (presets, model errors, re-rooting
+at a foot), and Pinocchio gets the text that `to_xml` writes. All records are frozen: a change makes a new
+tree.
+
+The legs exchange their roles at impact: the same configuration in coordinates of the next step.
+
+    q+ = R q- + r,   v+ = R v-
+
+Links of one leg have twins in the other; the trunk and any other link are their own twins. With A the absolute
+angles of the links, a = A q, and P the exchange of twins, R solves A R = P A. So R is a permutation for hips
+that count from a torso, and a combination for a hip that counts from the other leg. r is not zero for robots
+with spokes; it comes from the record.
+
+This assumes two legs that are alike, body by body, which `Biped.check` tests; `unlike` names those that are
+not. Twins are paired upwards from the feet.
 """
 
 from __future__ import annotations
@@ -17,6 +29,7 @@ import numpy as np
 
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.shown import Shown
+from biped_adrc.core.types import Array
 
 Vector = tuple[float, float, float]
 """(x, y, z) [m], or a direction."""
@@ -29,7 +42,7 @@ MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 SYMMETRIC = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
 """Symmetric matrix (3, 3) of indices: the inertia matrix from the six MOMENTS."""
 FREE = 1000.0
-"""What stands for no limit in <limit>, where a number is compulsory."""
+"""Number that stands for no limit in <limit>, where one is compulsory."""
 
 
 @dataclass(frozen=True)
@@ -37,11 +50,11 @@ class Inertial:
     """Mass properties of a link, in the axes of its frame."""
 
     mass: float
-    """[kg]."""
+    """Mass [kg]."""
     com: Vector
-    """From the origin of the link's frame [m]."""
+    """COM from the origin of the link's frame [m]."""
     inertia: tuple[float, float, float, float, float, float]
-    """About the COM: xx, xy, xz, yy, yz, zz [kg m^2]."""
+    """Moments about the COM: xx, xy, xz, yy, yz, zz [kg m^2]."""
 
     def scaled(self, kind: str, factor: float) -> Inertial:
         """A copy with "mass", "com" or "inertia" multiplied by a dimensionless factor."""
@@ -70,7 +83,7 @@ class Link:
 
     name: str
     inertial: Inertial | None
-    """None for a frame without mass."""
+    """Mass properties; None for a frame without mass."""
     visuals: tuple[Visual, ...]
     """Shapes to draw; they have no part in contact."""
 
@@ -102,11 +115,11 @@ class Tree(Shown):
     name: str
     """Name of the robot."""
     links: Mapping[str, Link]
-    """By name, in the order of the file."""
+    """Links by name, in the order of the file."""
     joints: tuple[Joint, ...]
-    """In the order of the file."""
+    """Joints in the order of the file."""
     source: str
-    """The file that messages name."""
+    """File named in messages."""
 
     def joint_above(self, link: str) -> Joint | None:
         """The joint whose child is `link`, None at the root."""
@@ -126,13 +139,17 @@ class Tree(Shown):
         return tuple(path)
 
     def path_below(self, link: str, top: str) -> tuple[Joint, ...] | None:
-        """Joints from `link` up to link `top`, the nearest first; None where `link` does not hang on `top`."""
+        """Joints from `link` up to link `top`, the nearest first; None where `link` does not hang
+        below `top`.
+        """
         path = self.path_to_root(link)
         ends = [k for k, joint in enumerate(path) if joint.child == top]
         return path[: ends[0]] if ends else None
 
     def with_inertials(self, inertials: Mapping[str, Inertial]) -> Tree:
-        """The same tree with the inertials of some links replaced. Raises ModelError for what no body has."""
+        """The same tree with the inertials of some links replaced. Raises ModelError for
+        impossible mass properties.
+        """
         links = dict(self.links)
         for name, inertial in inertials.items():
             check_inertial(inertial, f"URDF '{self.source}', link '{name}'")
@@ -168,11 +185,12 @@ def to_xml(tree: Tree) -> str:
 
 
 def _text(*values: float) -> str:
-    """Numbers with 17 digits, which is exact for doubles."""
+    """Text of numbers with 17 digits, which is exact for doubles."""
     return " ".join(f"{value:.17g}" for value in values)
 
 
 def _write_inertial(element: ET.Element, inertial: Inertial) -> None:
+    """Add origin, mass and moments to the element <inertial>."""
     ET.SubElement(element, "origin", xyz=_text(*inertial.com))
     ET.SubElement(element, "mass", value=_text(inertial.mass))
     ET.SubElement(element, "inertia", dict(zip(MOMENTS, map(_text, inertial.inertia), strict=True)))
@@ -190,8 +208,10 @@ def _write_visual(element: ET.Element, visual: Visual, link: str) -> None:
 
 
 def check_inertial(inertial: Inertial, where: str) -> None:
-    """Raise ModelError unless mass and moments are those of a rigid body: positive and finite, and no
-    principal moment above the sum of the other two. Moments are scaled, so that tiny bodies do not underflow.
+    """Raise ModelError unless mass and moments are those of a rigid body.
+
+    They must be positive and finite, and no principal moment above the sum of the other two. Moments are
+    scaled, so that tiny bodies do not underflow.
     """
     J = np.array(inertial.inertia)[SYMMETRIC]
     size = float(np.sum(np.abs(J)))
@@ -203,3 +223,88 @@ def check_inertial(inertial: Inertial, where: str) -> None:
             "no body; expected a positive mass and a positive definite matrix that obeys the triangle "
             "inequality. A frame without mass has no <inertial>"
         )
+
+
+_EXACT = 1e-9  # largest residual of A R = P A, dimensionless
+
+
+def twins(tree: Tree, feet: tuple[str, str]) -> dict[str, str]:
+    """Each link's twin in the other leg, paired upwards from the feet; links not in the
+    result are their own twins.
+    """
+    paired: dict[str, str] = {}
+    chains = ([joint.child for joint in tree.path_to_root(foot)] for foot in feet)
+    for one, other in zip(*chains, strict=False):
+        if one == other or one in paired or other in paired:
+            break
+        paired |= {one: other, other: one}
+    return paired
+
+
+def absolute_angles(tree: Tree, joints: tuple[str, ...], links: list[str]) -> Array:
+    """Absolute angle of each link as a sum of `joints`: rows (len(links), n), dimensionless.
+
+    An entry is +1 or -1 for a joint on the link's path to the root, the sign relative to the last joint, which
+    is the pitch; 0 for other joints.
+    """
+    axis = next(joint.axis for joint in tree.joints if joint.name == joints[-1])
+    rows = np.zeros((len(links), len(joints)))
+    for row, link in zip(rows, links, strict=True):
+        for joint in tree.path_to_root(link):
+            if joint.name in joints:
+                sign = sum(a * b for a, b in zip(joint.axis, axis, strict=True))
+                row[joints.index(joint.name)] = sign
+    return rows
+
+
+def relabelling(tree: Tree, joints: tuple[str, ...], feet: tuple[str, str]) -> Array:
+    """R (n, n) of q+ = R q- + r, dimensionless, from A R = P A by least squares.
+
+    Entries within 1e-9 of an integer are rounded. Raises ModelError when no linear map exchanges the legs: the
+    residual is not zero or R R is not the identity.
+    """
+    pairs = twins(tree, feet)
+    chains = (joint.child for foot in feet for joint in tree.path_to_root(foot))
+    turned = (joint.child for joint in tree.joints if joint.name in joints)
+    links = list(dict.fromkeys((*chains, *turned)))
+    A = absolute_angles(tree, joints, links)
+    PA = absolute_angles(tree, joints, [pairs.get(link, link) for link in links])
+    R = np.asarray(np.linalg.lstsq(A, PA, rcond=None)[0], dtype=np.float64)
+    R = np.where(np.abs(R) < _EXACT, 0.0, R)
+    R = np.where(np.abs(R - np.round(R)) < _EXACT, np.round(R), R) + 0.0
+    if np.max(np.abs(A @ R - PA)) > _EXACT or np.max(np.abs(R @ R - np.eye(len(R)))) > _EXACT:
+        raise ModelError(
+            f"URDF '{tree.source}': the legs below '{feet[0]}' and '{feet[1]}' are not built alike, so they "
+            f"cannot change over at impact; links were paired as {pairs}"
+        )
+    return R
+
+
+def pairs(tree: Tree, feet: tuple[str, str]) -> tuple[tuple[str, str], ...]:
+    """Pairs (link of the stance leg, its twin in the swing leg), from the feet upwards."""
+    result = twins(tree, feet)
+    stance = [joint.child for joint in tree.path_to_root(feet[0])]
+    return tuple((link, result[link]) for link in stance if link in result)
+
+
+def unlike(tree: Tree, feet: tuple[str, str]) -> list[tuple[str, str]]:
+    """Pairs of twins that differ in mass, COM or inertia, or in their place on their parent."""
+    return [(one, other) for one, other in pairs(tree, feet) if not _alike(tree, one, other)]
+
+
+def _alike(tree: Tree, one: str, other: str) -> bool:
+    """Whether two links have the same numbers in the plane, up to round-off."""
+    rows = []
+    for link in (one, other):
+        body = tree.links[link].inertial or Inertial(0.0, (0.0,) * 3, (0.0,) * 6)
+        joint = tree.joint_above(link)
+        place = (0.0, 0.0) if joint is None else joint.origin[::2]
+        rows.append((body.mass, body.inertia[3], *body.com[::2], *place))
+    a, b = np.array(rows)
+    return bool(np.allclose(a, b, rtol=_EXACT, atol=0.0))
+
+
+def text_of(values: tuple[float, ...]) -> str:
+    """Text of one number, or of several in parentheses, for a message."""
+    text = ", ".join(f"{value:.6g}" for value in values)
+    return text if len(values) == 1 else f"({text})"

@@ -46,7 +46,7 @@ from biped_adrc.model.robots.urdf import (
 )
 
 MOST_LINKS = 200
-"""Of a robot."""
+"""Largest number of links of a robot."""
 LARGEST = 1e100
 """Bound on every number in a URDF, in any unit; products of larger ones overflow."""
 SMALLEST = 1e-9
@@ -61,14 +61,14 @@ _CIRCULAR = ("revolute", "continuous")
 
 @dataclass(frozen=True)
 class UrdfContents:
-    """A robot with parallel frames, and what its file says beside the tree, by joint."""
+    """Content of a URDF: the tree with parallel frames, and limits and friction by joint."""
 
     tree: Tree
     """Links and joints with parallel frames."""
     effort: Mapping[str, float]
     """Torque limits [N m], where <limit effort> is given."""
     ranges: Mapping[str, tuple[float, float]]
-    """Lower and upper end [rad], of revolute joints that cannot turn all the way round."""
+    """Lower and upper end [rad] of revolute joints that cannot turn all the way round."""
     viscous: Mapping[str, float]
     """Viscous friction [N m s/rad], where <dynamics damping> is given."""
     static: Mapping[str, float]
@@ -78,7 +78,7 @@ class UrdfContents:
 
 
 def parse(path: Path | str) -> ET.Element:
-    """The element <robot> of a URDF file, as it stands. Raises ModelError."""
+    """The element <robot> of a URDF file. Raises ModelError for another file."""
     path = Path(path)
     with reading("URDF", path, ModelError):
         data = path.read_bytes()
@@ -99,8 +99,8 @@ def parse(path: Path | str) -> ET.Element:
 def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> UrdfContents:
     """Read and check a URDF.
 
-    tips: by link, a place in its own frame [m] where a link without mass, `LINK_tip`, is put: a
-    foot for legs that end with a shin. Raises ModelError.
+    tips: link -> a place in its own frame [m] where a link without mass, `LINK_tip`, is added: a foot for legs
+    that end with a shin. Raises ModelError.
     """
     robot, file = parse(path), f"URDF '{path}'"
     for link, place in (tips or {}).items():
@@ -135,7 +135,7 @@ def read(path: Path | str, tips: Mapping[str, Vector] | None = None) -> UrdfCont
 
 
 def tip_of(link: str) -> str:
-    """Name of the link that `read` puts at the tip of `link`."""
+    """Name of the link that `read` adds at the tip of `link`."""
     return f"{link}_tip"
 
 
@@ -150,12 +150,15 @@ def _add_tip(robot: ET.Element, link: str, place: Vector) -> None:
 
 # -- attributes ------------------------------------------------------------------------------------
 def _place_of(element: ET.Element, file: str) -> str:
-    """How messages call a link or joint: file, kind of element and name."""
+    """Text for messages that names a link or joint: file, kind of element and name."""
     return f"{file}, {element.tag} '{element.get('name')}'"
 
 
 def _name(element: ET.Element, where: str, key: str = "name") -> str:
-    """The attribute `key`, which must be printable: line breaks and tabs would spoil tables and messages."""
+    """The attribute `key` of an element, after a check that it is printable.
+
+    Line breaks and tabs would spoil tables and messages. Raises ModelError.
+    """
     name = element.get(key, "")
     if not name or not name.isprintable():
         raise ModelError(
@@ -198,7 +201,7 @@ def _numbers(
 def _by_joint(
     joints: list[ET.Element], tag: str, key: str, file: str, least: float = 0.0
 ) -> dict[str, float]:
-    """The number <tag key> of each joint that has it."""
+    """The number <tag key> of each joint that has it, by name of the joint."""
     values = {}
     for joint in joints:
         element = joint.find(tag)
@@ -221,7 +224,7 @@ def _ends(joint: ET.Element, file: str) -> tuple[str, str]:
 def _turns(
     links: list[str], joints: list[ET.Element], ends: list[tuple[str, str]], file: str
 ) -> dict[str, Array]:
-    """By link the rotation R (3, 3) at zero angles, from the link's axes to those of the root.
+    """Rotation R (3, 3) of each link at zero angles, from its axes to those of the root; link -> R.
 
     ends: (parent, child) of each joint. Raises ModelError unless the links form one tree.
     """
@@ -247,10 +250,10 @@ def _turns(
 def _origin(element: ET.Element, where: str, R: Array) -> tuple[Vector, Array]:
     """Position R xyz [m] and rotation R R_rpy (3, 3) of the <origin> of `element`.
 
-    R (3, 3): from the axes of the element to those asked for. where: place in the file, for errors.
+    R (3, 3): from the axes of the element to the result's. where: place in the file, for errors.
 
-    rpy turns about the fixed axes x, y, z in this order. Round-off of pi in rpy is set to zero, so
-    that turns by right angles stay exact.
+    rpy turns about the fixed axes x, y, z in this order. Round-off of pi in rpy is set to zero, so that
+    turns by right angles stay exact.
     """
     origin, where = element.find("origin"), f"{where} <origin>"
     place = _numbers(origin, "xyz", "0 0 0", 3, where)
@@ -259,14 +262,14 @@ def _origin(element: ET.Element, where: str, R: Array) -> tuple[Vector, Array]:
 
 
 def _vector(values: Array) -> Vector:
-    """Three entries of an array as a tuple."""
+    """The three entries of an array as a tuple."""
     x, y, z = values.tolist()
     return x, y, z
 
 
 # -- links and joints ------------------------------------------------------------------------------
 def _link(element: ET.Element, file: str, turns: Mapping[str, Array]) -> Link:
-    """A link with parallel axes."""
+    """The link of an element, in parallel axes; turns: rotation of each link. Raises ModelError."""
     where, R = _place_of(element, file), turns[element.get("name", "")]
     visuals = tuple(v for e in element.findall("visual") if (v := _visual(e, where, R)) is not None)
     body, inertial = element.find("inertial"), None
@@ -277,7 +280,7 @@ def _link(element: ET.Element, file: str, turns: Mapping[str, Array]) -> Link:
 
 
 def _inertial(element: ET.Element, where: str, R: Array) -> Inertial:
-    """The body in axes turned by R.
+    """Mass properties of an element, in axes turned by R.
 
     A body with a moment about y alone, as some planar URDFs have, gets those of a slender link along z,
     which do not enter planar motion.
@@ -294,7 +297,7 @@ def _inertial(element: ET.Element, where: str, R: Array) -> Inertial:
 
 
 def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
-    """A shape in axes turned by R; None where it is no upright primitive then."""
+    """The shape of an element in axes turned by R; None where it is no upright primitive then."""
     shape = next((g for g in element.iterfind("geometry/*") if g.tag in GEOMETRY_SIZES), None)
     if shape is None:
         return None
@@ -314,8 +317,9 @@ def _visual(element: ET.Element, where: str, R: Array) -> Visual | None:
 def _joint(
     element: ET.Element, file: str, turns: Mapping[str, Array], parent: str, child: str
 ) -> Joint:
-    """A joint with its place and axis in the turned axes. Raises ModelError for unknown types, mimic
-    joints and axes that are not of unit length.
+    """The joint of an element, with its place and axis in the turned axes.
+
+    Raises ModelError for unknown types, mimic joints and axes that are not of unit length.
     """
     where, kind = _place_of(element, file), element.get("type", "")
     if kind not in (*JOINT_TYPES, "continuous") or element.find("mimic") is not None:

@@ -34,7 +34,7 @@ from biped_adrc.view.from_the_side.side_view import SideView, placed_lines
 from biped_adrc.view.placement import TILE, loads
 
 COLOURS = {"stance": STANCE, "swing": SWING, "": TRUNK}
-"""Colour of a bone by its role; the trunk has none."""
+"""Colour of a line by its role; the trunk has the role ""."""
 SOLE, HEADROOM = 0.12, 1.2
 """Ground shown below the foot [m], and the height of the picture above it as a multiple of the robot's."""
 DPI = 100
@@ -49,10 +49,10 @@ def blank(width: float, height: float) -> Figure:
 
 
 def frames(figure: Figure, show: Callable[[float], None], times: Array) -> list[Array]:
-    """The figure as pixels (height, width, 3) at the times (K,) [s], to which `show` moves its parts.
+    """Draw the figure at the times (K,) [s] with `show`; returns the pixels (height, width, 3) of each.
 
-    The figure is made once; from frame to frame only its lines move, as making a figure takes longer
-    than drawing it.
+    The figure is made once; from frame to frame only its lines move, as making a figure
+    takes longer than drawing it.
     """
     canvas, out = FigureCanvasAgg(figure), []
     for t in times.tolist():
@@ -63,7 +63,7 @@ def frames(figure: Figure, show: Callable[[float], None], times: Array) -> list[
 
 
 def wrapped(words: str, width: float) -> str:
-    """Words of 11 points in lines of at most `width` [px]."""
+    """Break a text of 11 points into lines of at most `width` [px]."""
     return "\n".join(textwrap.fill(line, int(width / LETTER)) for line in words.split("\n"))
 
 
@@ -74,17 +74,16 @@ def ground(axes: Axes, views: list[SideView]) -> None:
     lines = [view.scene.surface.line(low, high) for view in views]
     for line in {line.tobytes(): line for line in lines}.values():
         axes.plot(*line.T, color="black", lw=1.0, zorder=1)
-    for tile in views[-1].scene.surface.tiles(round(low / TILE), round(high / TILE)):
-        shade = "#c8c8c8" if tile.even else "#9e9e9e"
-        at, top = tile.ends.T
+    for ends, light in views[-1].scene.surface.tiles(round(low / TILE), round(high / TILE)):
+        shade = "#c8c8c8" if light else "#9e9e9e"
+        at, top = ends.T
         axes.fill_between(at, top - 0.05, top, color=shade, lw=0.0, zorder=0)
 
 
 def follow(axes: Axes, view: SideView, t: float, left: float, right: float) -> None:
-    """Set the limits around the hip at t [s], from `left` before it to `right` behind it [m].
+    """Set the limits of the axes around the hip at t [s]: `left` [m] to its left, `right` [m] to its right.
 
-    They are kept as they are where the hip's position is not finite, as in a walk that has
-    diverged.
+    The limits stay as they are where the hip's position is not finite, as in a walk that has diverged.
     """
     x = float(view.points(t)[0])
     if not math.isfinite(x):
@@ -95,11 +94,11 @@ def follow(axes: Axes, view: SideView, t: float, left: float, right: float) -> N
 
 
 class DrawnWalk:
-    """One walk: links as thick lines, in the colours of stance leg, swing leg and trunk, footprints and loads.
+    """The artists of one walk: links as thick lines in the colours of their roles, footprints, and loads.
 
-    The ground reaction is an arrow at the stance foot, a torque from outside a ring around its joint. On soft
-    ground there is an arrow at the other foot too where both carry, and the word where one slips. opacity:
-    0 to 1. order: number of the layer. trail: with the paths of hip and swing foot so far.
+    The ground reaction is an arrow at the stance foot, an external torque a ring around its joint. On soft
+    ground the other foot has an arrow too while both carry, and "slips" is written where one slips. opacity: 0
+    to 1. order: number of the layer. trail: with the paths of hip and swing foot so far.
     """
 
     def __init__(
@@ -125,7 +124,7 @@ class DrawnWalk:
         self.steps: list[int] = []
 
     def show(self, t: float) -> None:
-        """Move all to t [s], which is later than the time before."""
+        """Move all artists to t [s], which is later than the time before."""
         view, scene = self.view, self.view.scene
         roles, placements = view.roles(t), view.placements(t)
         self.links.set_segments(placed_lines(view.bones, placements))
@@ -151,7 +150,9 @@ class DrawnWalk:
         )
 
     def _extend(self, points: Array, step: int) -> None:
-        """Draw the paths up to hip and swing foot (4,) [m]; that of the foot breaks where the feet exchange."""
+        """Extend the drawn paths to hip and swing foot `points` (4,) [m]; the foot's path
+        breaks where the feet exchange.
+        """
         self.passed.append(points)
         self.steps.append(step)
         path, jumps = np.array(self.passed), np.flatnonzero(np.diff(self.steps)) + 1
@@ -159,9 +160,10 @@ class DrawnWalk:
         self.foot.set_data(*np.insert(path[:, 2:], jumps, np.nan, axis=0).T)
 
     def _arrow(self, k: int, start: Array, force: Array) -> tuple[Array, str]:
-        """Draw arrow k for a force (2,) [N] at `start` (2,) [m]: what is drawn [m], and the words of one cut.
+        """Draw arrow k for a force (2,) [N] at `start` (2,) [m]; returns the arrow (2,) [m],
+        and a text if it was cut.
 
-        The robot's weight gives `WEIGHT_LENGTH`; the head shrinks with a short arrow.
+        The robot's weight gives the length `WEIGHT_LENGTH`; the head shrinks with a short arrow.
         """
         vector = self.view.metres_per_newton * force
         length, words = float(np.hypot(*vector)), ""

@@ -27,13 +27,13 @@ from biped_adrc.view.placement import Clip, Recorded, WalkScene, check_frames, e
 from biped_adrc.view.style import style
 
 GHOST = 0.35
-"""Opacity of walks that are not the solid one."""
+"""Opacity of all walks but the solid one."""
 WIDTH, SHOWN = 600, 2.6
 """Width of the picture of walks laid over one another [px], [m]."""
 FPS = 0.1, 50.0
 """Range of frames per second, as a GIF counts time in hundredths of a second."""
 REST = 2.0
-"""How much longer [s] the last frame is shown where a walk ended badly, to read why."""
+"""Extra time [s] for which the last frame is shown where a walk ended early, to read the reason."""
 MARKED = (*draw.COLOURS.values(), REACTION, TORQUE, *LINES, "black", "white")
 """Colours that have a place in the palette of a GIF, even where few pixels have them."""
 
@@ -41,10 +41,10 @@ MARKED = (*draw.COLOURS.values(), REACTION, TORQUE, *LINES, "black", "white")
 def write_moving_picture(path: Path, walks: Mapping[str, Recorded], clip: Clip) -> None:
     """Write walks, over one another or side by side, as a GIF that repeats.
 
-    walks: name -> walk, one or more. Where they are laid over one another, the last is drawn opaque, and
-    the picture follows it. clip: the part shown, pace and arrangement.
+    walks: name -> walk, one or more. Where they are laid over one another, the last is drawn opaque, and the
+    picture follows it. clip: the part shown, pace and arrangement.
 
-    Raises InputError for what does not fit, and OutputError.
+    Raises InputError for a frame rate, a part or an arrangement that does not fit, and OutputError.
     """
     fps = clip.fps or 25.0
     if not FPS[0] <= fps <= FPS[1]:
@@ -59,8 +59,9 @@ def write_moving_picture(path: Path, walks: Mapping[str, Recorded], clip: Clip) 
 
 
 def _times(walks: Mapping[str, Recorded], clip: Clip, rate: float) -> Array:
-    """Times (K,) [s] of the frames, `rate` of them in a second of the walk; the end of a walk that ended badly
-    is one of them.
+    """Times (K,) [s] of the frames, `rate` [1/s] of them per second of the walk.
+
+    If a walk ended early, its end is one of them.
     """
     first = min(walk.trajectory.t_start for walk in walks.values())
     start, stop = clip.part(first, max(walk.trajectory.t_end for walk in walks.values()), first)
@@ -74,7 +75,7 @@ def _times(walks: Mapping[str, Recorded], clip: Clip, rate: float) -> Array:
 def _over_one_another(
     walks: Mapping[str, Recorded], times: Array, pace: str
 ) -> tuple[Figure, Callable[[float], None]]:
-    """The figure of walks laid over one another, and what moves it to a time [s].
+    """Make the figure of walks laid over one another; also returns the function that moves it to a time t [s].
 
     The last walk is solid; its hip keeps its place in the picture, the ground moves. A caption gives time,
     step and pace, and how walks have ended.
@@ -110,8 +111,7 @@ def _over_one_another(
 
 
 def encoded(frames: Sequence[Array], fps: float, rest: float) -> bytes:
-    """Frames (height, width, 3) as a GIF with one palette for all, so that colours do not flicker from frame
-    to frame.
+    """Encode frames (height, width, 3) as a GIF with one palette for all, so that colours do not flicker.
 
     The palette is made from every eighth frame and from bands of the colours MARKED. fps [1/s]; rest [s]: how
     much longer the last frame is shown.

@@ -30,7 +30,8 @@ _KNEE_ARC, _THETA_ARC, _PITCH_ARC = 0.15, 0.30, 0.50
 
 
 def robot_figure(biped: Biped, q: Array | None = None) -> Figure:
-    """The robot in single support at q (5,) [rad], with all its angles; the posture `POSE` when none is given.
+    """Draw the robot in single support at q (5,) [rad], with all its angles; in the
+    posture `POSE` if q is None.
 
     Raises InputError for a robot that is not a five-link biped (torso, two thighs, two shins).
     """
@@ -57,7 +58,7 @@ def direction(a: float) -> Array:
 
 
 def _ground(axes: Axes, biped: Biped, q: Array) -> None:
-    """Hatched level ground below both feet."""
+    """Draw hatched level ground below both feet."""
     ends = (0.0, float(biped.swing_foot(q)[0]))
     left, right = min(ends) - 0.35, max(ends) + 0.3
     axes.plot([left, right], [0.0, 0.0], color="black", lw=1.0, zorder=1)
@@ -66,7 +67,7 @@ def _ground(axes: Axes, biped: Biped, q: Array) -> None:
 
 
 def _links(axes: Axes, biped: Biped, q: Array) -> None:
-    """The outlines of the primitives of every link, seen from the side, in the colours of the URDF."""
+    """Draw the outlines of every link's primitives, seen from the side, in the colours of the URDF."""
     placements = link_placements(biped.tree, joint_values(biped, q))
     for name, link in biped.tree.links.items():
         for visual in link.visuals:
@@ -104,9 +105,10 @@ def _angle(
     at: float,
     out: float = 0.0,
 ) -> None:
-    """An arc about `centre` (2,) from absolute angle span[0] to span[1] [rad], with an arrow at its end.
+    """Draw an arc about `centre` (2,) [m] from absolute angle span[0] to span[1] [rad],
+    with an arrow at its end.
 
-    Its name is at the share `at` of the arc, `out` [m] outside it.
+    radius [m]: of the arc. name: its text, at the share `at` of the arc, `out` [m] outside it.
     """
     points = np.array([centre + radius * direction(a) for a in np.linspace(*span, 60)])
     axes.plot(points[:-2, 0], points[:-2, 1], color=colour, lw=1.3, zorder=5)
@@ -117,7 +119,7 @@ def _angle(
 
 
 def _text(axes: Axes, at: Array, text: str, colour: str) -> None:
-    """A sign at the point `at` (2,) [m] on a white ground."""
+    """Write a text at the point `at` (2,) [m] on white."""
     box = {"fc": "white", "ec": "none", "pad": 0.8, "alpha": 0.9}
     axes.text(
         at[0], at[1], text, color=colour, ha="center", va="center", fontsize=11, bbox=box, zorder=7
@@ -125,16 +127,14 @@ def _text(axes: Axes, at: Array, text: str, colour: str) -> None:
 
 
 def _ray(axes: Axes, start: Array, end: Array, colour: str = GREY, width: float = 0.9) -> None:
-    """A dashed line between two points (2,) [m]."""
+    """Draw a dashed line between two points (2,) [m]."""
     axes.plot(*zip(start, end, strict=True), color=colour, ls=(0, (5, 3)), lw=width, zorder=4)
 
 
 def _hip_angles(axes: Axes, biped: Biped, q: Array) -> None:
-    """Draws q5 from the vertical to the torso, q1 and q2 from the torso to the thighs, Theta from the
-    vertical to p_e.
+    """Draw the angles at the hip: q5 from the vertical to the torso, q1 and q2 to the thighs, Theta to p_e.
 
-    The vertical and the line to p_e are dashed; each angle has a radius of its own, so that no two
-    arcs meet.
+    The vertical and the line to p_e are dashed; each angle has a radius of its own, so that no two arcs meet.
     """
     hip, theta = biped.hip(q), float(biped.phase @ q)
     _ray(axes, hip, hip + 0.72 * direction(0.0))
@@ -146,7 +146,7 @@ def _hip_angles(axes: Axes, biped: Biped, q: Array) -> None:
 
 
 def _knee_angles(axes: Axes, biped: Biped, q: Array) -> None:
-    """q3 and q4, each from the prolonged line of its thigh to the shin."""
+    """Draw q3 and q4, each from the prolonged line of its thigh to the shin."""
     placements = link_placements(biped.tree, joint_values(biped, q))
     joints = {joint.name: joint for joint in biped.tree.joints}
     for i in (2, 3):
@@ -158,7 +158,7 @@ def _knee_angles(axes: Axes, biped: Biped, q: Array) -> None:
 
 
 def _feet(axes: Axes, biped: Biped, q: Array) -> None:
-    """p_e, the end of the stance leg, and p_2, the swing foot."""
+    """Draw the points p_e, the end of the stance leg, and p_2, the swing foot, with their names."""
     p_2 = biped.swing_foot(q)
     outwards = 0.1 if p_2[0] >= 0 else -0.1
     for point, name, shift in ((np.zeros(2), "$p_e$", -outwards), (p_2, "$p_2$", outwards)):

@@ -35,10 +35,12 @@ HEAD, STRIP = 78, 150
 def side_by_side(
     walks: Mapping[str, Recorded], times: Array, pace: str
 ) -> tuple[Figure, Callable[[float], None]]:
-    """The figure with a panel for each walk and the errors of all below, and what moves it to a time [s].
+    """Make the figure with a panel for each walk and the errors of all below; also returns
+    the function that moves it.
 
-    times (K,) [s]: of the frames. pace: words above. All panels have the height of the tallest robot. Raises
-    InputError for walks without a reference.
+    walks: name -> walk. times (K,) [s]: of the frames. pace: text above. The returned function draws
+    the figure at a time t [s]. All panels have the height of the tallest robot. Raises InputError
+    for walks without a reference.
     """
     for walk in walks.values():
         if not isinstance(walk, Tracked) or walk.walker.plant.p == 0:
@@ -67,9 +69,9 @@ def side_by_side(
 
 
 class _Panel:
-    """One walk in its panel.
+    """The panel of one walk: the robot, its name, and its largest error so far.
 
-    colour: of its name and its error. start [s]: from when the largest error counts.
+    s: its signals. colour: of its name and its error. start [s]: from when the largest error counts.
     """
 
     def __init__(
@@ -86,7 +88,7 @@ class _Panel:
             text.set(transform=axes.transAxes, verticalalignment="top", zorder=90, parse_math=False)
 
     def show(self, t: float) -> None:
-        """Draw the walk at t [s], and in words its largest error so far, or how it has ended."""
+        """Draw the walk at t [s], with its largest error so far, or how it has ended, as text."""
         draw.follow(self.axes, self.view, t, 0.5 * SHOWN, 0.5 * SHOWN)
         self.walk.show(t)
         if self.ending and t >= self.view.scene.trajectory.t_end:
@@ -102,10 +104,10 @@ class _Panel:
 
 
 class _Errors:
-    """The largest error over the joints of every walk up to now, on one scale, with the push shaded.
+    """The panel of errors: max_i |q_i - q_di| of every walk up to now, on one scale, with the push shaded.
 
-    The push is that of the first walk, as all walks are under the same one. times (K,) [s]: those
-    of the frames; the unit is the one in which the largest error among them reads well.
+    The push is that of the first walk, as all walks are under the same one. times (K,) [s]: those of the
+    frames; the unit is the one in which the largest error among them reads well.
     """
 
     def __init__(self, axes: Axes, panels: list[_Panel], times: Array) -> None:
@@ -136,7 +138,7 @@ class _Errors:
 
 
 def _legend(figure: Figure, pace: str, height: float) -> None:
-    """Say what the colours mean, and how much slower the picture is; height [px] of the picture."""
+    """Draw the legend of the colours, and the text `pace` above it; height [px] of the picture."""
     entries = [Patch(color=draw.COLOURS[leg], label=f"{leg} leg") for leg in ("stance", "swing")]
     entries += [Patch(color=REACTION, label="ground force"), Patch(color=TORQUE, label="push")]
     legend = figure.legend(

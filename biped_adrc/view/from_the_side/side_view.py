@@ -22,7 +22,7 @@ from biped_adrc.view.placement import Recorded, WalkScene, exchanged, legs, link
 
 @runtime_checkable
 class Tracked(Recorded, Protocol):
-    """A walk whose signals are at hand; the tracking error is one of them."""
+    """A walk with its signals at hand, the tracking error among them."""
 
     @property
     def signals(self) -> Signals: ...
@@ -30,23 +30,23 @@ class Tracked(Recorded, Protocol):
 
 @dataclass(frozen=True)
 class Bone:
-    """A line in the frame of a link.
+    """A line that stands for a link, in the frame of the link.
 
-    link: its name. leg: "stance" for links of the leg that carries odd steps, "swing" for the
-    other, "" for the trunk.
+    link: its name. leg: "stance" for links of the leg that carries odd steps, "swing" for
+    the other, "" for the trunk.
     """
 
     link: str
     ends: Array
-    """(2, 3) [m]."""
+    """Both ends (2, 3) [m] in the frame of the link."""
     leg: str
 
 
 def bones(biped: Biped) -> list[Bone]:
-    """The lines of a robot: axes of cylinders and longest sides of boxes, in the order of the URDF.
+    """Find the lines of a robot: axes of cylinders and longest sides of boxes, in the order of the URDF.
 
-    Where the URDF has no such primitives: lines from joint to joint. A wheel has each of them once
-    for every spoke.
+    Where the URDF has no such primitives: lines from joint to joint. A wheel has each of
+    them once for every spoke.
     """
     leg = dict.fromkeys(legs(biped)[0], "stance") | dict.fromkeys(legs(biped)[1], "swing")
     result = [
@@ -65,13 +65,17 @@ def bones(biped: Biped) -> list[Bone]:
 
 
 def placed_lines(lines: list[Bone], placements: dict[str, Array]) -> list[Array]:
-    """x and z [m] of both ends (2, 2) of every line, with the placement (4, 4) of each link by name."""
+    """x and z [m] of both ends (2, 2) of every line in the world, from the placement
+    (4, 4) of each link by name.
+    """
     result = ((bone, placements[bone.link]) for bone in lines)
     return [(bone.ends @ M[:3, :3].T + M[:3, 3])[:, [0, 2]] for bone, M in result]
 
 
 def roles_of(lines: list[Bone], biped: Biped, step: int) -> list[str]:
-    """ "stance", "swing" or "" of every line in single support `step`: the legs change over at every impact."""
+    """ "stance", "swing" or "" of every line in single support `step` (from 1): the legs
+    change over at every impact.
+    """
     if not exchanged(biped, step):
         return [bone.leg for bone in lines]
     other = {"stance": "swing", "swing": "stance", "": ""}
@@ -79,7 +83,7 @@ def roles_of(lines: list[Bone], biped: Biped, step: int) -> list[str]:
 
 
 def _axis(visual: Visual) -> Array | None:
-    """Ends (2, 3) of the line a primitive stands for; None for a ball."""
+    """Ends (2, 3) [m] of the line that a primitive stands for, in the frame of its link; None for a ball."""
     if visual.shape == "sphere":
         return None
     along = np.zeros(3)
@@ -93,17 +97,17 @@ def _axis(visual: Visual) -> Array | None:
 
 @dataclass(frozen=True)
 class SideView:
-    """Where the lines of a walk, laid out as a scene, are in the x-z plane of the world."""
+    """The lines of a walk in the x-z plane of the world, at any time."""
 
     scene: WalkScene
 
     @cached_property
     def bones(self) -> list[Bone]:
-        """The lines in the frames of their links; rows of `segments` and `roles` are in their order."""
+        """The robot's lines in the frames of their links; rows of `segments` and `roles` are in their order."""
         return bones(self.scene.biped)
 
     def placements(self, t: float) -> dict[str, Array]:
-        """World placement (4, 4) of every link, by name, of the posture drawn at t [s]."""
+        """World placement (4, 4) of every link, by name, at t [s]."""
         return link_placements(self.scene.biped.tree, self.scene.joints(t))
 
     def segments(self, t: float) -> Array:
@@ -115,17 +119,17 @@ class SideView:
         return self.scene.trajectory.arcs[self.scene.arc_at(t)].mode.step
 
     def roles(self, t: float) -> list[str]:
-        """ "stance", "swing" or "" by bone at t [s]."""
+        """ "stance", "swing" or "" (trunk) of each line at t [s], in the order of `bones`."""
         return roles_of(self.bones, self.scene.biped, self.step(t))
 
     def points(self, t: float) -> Array:
-        """(4,), x and z [m] of the hip and of the swing foot at t [s]."""
+        """x and z [m] of the hip and of the swing foot at t [s], (4,)."""
         i, q = self.scene.posture(t)
         return self.scene.points(i, t, q)
 
     @cached_property
     def _about_foot(self) -> Array:
-        """(K, 2), x and z [m] from the stance foot of the ends of all lines at 50 times of the walk."""
+        """x and z [m] of the ends of all lines, relative to the stance foot, at 50 times of the walk (K, 2)."""
         scene = self.scene
         times = np.linspace(scene.trajectory.t_start, scene.trajectory.t_end, 50)
         return np.concatenate(
@@ -142,7 +146,7 @@ class SideView:
 
     @cached_property
     def width(self) -> float:
-        """How far the robot reaches to either side of its stance foot on this walk [m]."""
+        """Largest horizontal distance of the robot from its stance foot on this walk, to either side [m]."""
         return float(np.abs(self._about_foot[:, 0]).max())
 
     @cached_property

@@ -24,7 +24,7 @@ LOOKS = {
 }
 """Role -> colour, width [pt], dash and name; the trunk goes by its own name."""
 POSES = 13
-"""Of a strip."""
+"""Number of poses of a strip."""
 MARGIN = 0.6
 """Least ground [m] shown before the first and behind the last foothold."""
 
@@ -32,10 +32,9 @@ MARGIN = 0.6
 def strip(axes: Axes, walk: Recorded, clip: Clip) -> Axes:
     """Draw the robot at POSES times, equally spaced over the part that `clip` shows; returns the axes.
 
-    Without times: the last two steps. The first pose is at its start. A pose at an impact shows the
-    end of the step before it, as the first pose of the next step has the same posture with the legs
-    exchanged. The title says how far apart the poses are, and how a walk ended that did not do what
-    it was asked for.
+    Without times: the last two steps. The first pose is at its start. A pose at an impact shows the end of the
+    step before it, as the first pose of the next step has the same posture with the legs exchanged. The title
+    has the time between poses, and the reason if the walk ended early.
 
     Raises InputError for times outside the walk.
     """
@@ -59,9 +58,10 @@ def strip(axes: Axes, walk: Recorded, clip: Clip) -> Axes:
 
 
 def _pose(axes: Axes, view: SideView, t: float, darkness: float, named: bool) -> None:
-    """One posture at t [s]: a collection of lines for each role, so that each has one entry in the legend.
+    """Draw one posture at t [s]: a collection of lines for each role, so that each has
+    one entry in the legend.
 
-    darkness: 0 to 1, sets the opacity. Only the last pose is `named`.
+    darkness: 0 to 1, sets the opacity. named: whether its lines are named in the legend.
     """
     segments, roles = view.segments(t), view.roles(t)
     for role, (colour, width, dash, name) in LOOKS.items():
@@ -80,9 +80,10 @@ def _pose(axes: Axes, view: SideView, t: float, darkness: float, named: bool) ->
 
 
 def _ground(axes: Axes, view: SideView, start: float, stop: float) -> None:
-    """The ground between the footholds of the strip, footprints, and the limits of the axes.
+    """Draw the ground between the footholds of the strip and the footprints, and set the limits of the axes.
 
-    A robot that leans far, such as one that falls, makes the ground longer on both sides.
+    start, stop [s]: of the strip. A robot that leans far, such as one that falls, makes the
+    ground longer on both sides.
     """
     scene = view.scene
     first, last = scene.arc_at(start), scene.arc_at(float(np.nextafter(stop, start)))
@@ -98,7 +99,9 @@ def _ground(axes: Axes, view: SideView, start: float, stop: float) -> None:
 
 
 def write_strip(path: Path, walk: Recorded, clip: Clip) -> None:
-    """Write a strip as .png or .svg; arguments as for `strip`. Raises InputError and OutputError."""
+    """Write a strip of stick figures as .png or .svg; arguments as for `strip`. Raises
+    InputError and OutputError.
+    """
     with new_figure(6.4, 5.2) as figure:
         strip(figure.subplots(), walk, clip)
     write_figure(path, figure)

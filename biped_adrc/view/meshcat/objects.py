@@ -46,7 +46,7 @@ with warnings.catch_warnings():
 
 _UUID = re.compile(rb"[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}")
 DARK = (0.1, 0.1, 0.1)
-"""Red, green, blue of footprints and of the hip's trace."""
+"""Colour (red, green, blue) of footprints and of the hip's trace."""
 Colour = str | tuple[float, float, float] | tuple[float, float, float, float]
 """Red, green, blue in 0..1, perhaps with opacity, or "#RRGGBB"."""
 VIEW = 2.0
@@ -60,12 +60,12 @@ SceneNode: TypeAlias = meshcat.Visualizer
 
 
 def paint(rgb: Colour, opacity: float = 1.0) -> object:
-    """A material of one colour, for Meshcat."""
+    """Meshcat's material of one colour and opacity (0 to 1)."""
     return shapes.MeshLambertMaterial(color=colour(rgb), opacity=opacity)
 
 
 def colour(rgb: Colour) -> int:
-    """The colour as Meshcat has it, 0xRRGGBB."""
+    """Convert a colour to Meshcat's whole number 0xRRGGBB."""
     red, green, blue = (
         (round(255 * c) for c in rgb[:3]) if isinstance(rgb, tuple) else bytes.fromhex(rgb[1:])
     )
@@ -98,7 +98,7 @@ def add_robot(node: SceneNode, biped: Biped, opacity: float) -> None:
 
 
 def _shape(visual: Visual) -> object:
-    """A primitive of the URDF as a shape of Meshcat's."""
+    """Convert a primitive of the URDF to Meshcat's shape."""
     if visual.shape == "box":
         return shapes.Box(list(visual.size))
     if visual.shape == "sphere":
@@ -111,7 +111,7 @@ UPRIGHT = turn((1.0, 0.0, 0.0), 0.5 * math.pi)
 
 
 def leg_visuals(biped: Biped) -> list[list[str]]:
-    """Paths below the robot of the parts of the leg that is stance leg in odd steps, and of the other.
+    """Paths below the robot of the drawn parts of each leg: first the stance leg of odd steps, then the other.
 
     The player gives them their colours, which change over at impact.
     """
@@ -120,7 +120,7 @@ def leg_visuals(biped: Biped) -> list[list[str]]:
 
 
 def visual_links(tree: Tree) -> list[tuple[str, str]]:
-    """(path below the robot, link) of every primitive."""
+    """(path below the robot, name of the link) of every drawn primitive."""
     return [
         (f"{joint_path(tree, joint)}/visual_{k}", joint.child)
         for joint in tree.joints
@@ -136,7 +136,10 @@ def sole(biped: Biped) -> float:
 
 # -- what surrounds it -----------------------------------------------------------------------------
 def add_footprints(node: SceneNode, scene: WalkScene, depth: float, opacity: float) -> list[str]:
-    """Draw a flat plate under every stance foot; returns the names of their nodes, in order."""
+    """Draw a flat plate under every stance foot; returns the names of their nodes, in order.
+
+    depth [m]: of the plates below the footholds. opacity: 0 to 1.
+    """
     for k in range(len(scene.footholds)):
         plate = node[f"{k}"]
         plate.set_object(shapes.Box([0.06, 0.1, 0.004]), paint(DARK, opacity))
@@ -145,7 +148,8 @@ def add_footprints(node: SceneNode, scene: WalkScene, depth: float, opacity: flo
 
 
 def under(point: Sequence[float], slope: float, depth: float, side: float = 0.0) -> Array:
-    """Placement (4, 4) of what lies along the ground, `depth` [m] below the point (x, z) of its surface.
+    """Placement (4, 4) of an object that lies along the ground, `depth` [m] below a point
+    (x, z) [m] of its surface.
 
     slope [rad], positive downhill; side [m], away from the camera.
     """
@@ -154,7 +158,7 @@ def under(point: Sequence[float], slope: float, depth: float, side: float = 0.0)
 
 
 def add_trace(node: SceneNode, points: int, rgb: Colour, opacity: float) -> None:
-    """Make room for a line of `points` points; the player fills it."""
+    """Add an empty line with room for `points` points; the player fills it in."""
     room = np.zeros((3, 2 * max(points - 1, 1)), dtype=np.float32)
     material = shapes.LineBasicMaterial(color=colour(rgb), opacity=opacity)
     node.set_object(shapes.LineSegments(shapes.PointsGeometry(room), material))
@@ -172,7 +176,7 @@ def add_arrow(node: SceneNode, rgb: Colour, opacity: float) -> None:
 def add_ring(node: SceneNode, origin: Sequence[float], rgb: Colour, opacity: float) -> None:
     """Draw a bent arrow of radius 1 m about `origin` (3,) [m] in the x-z plane, counter-clockwise as q.
 
-    The player scales its node `turn` by the torque; a negative one turns it round.
+    The player scales its node `turn` by the torque; a negative torque mirrors it.
     """
     node.set_transform(placed(origin))
     outline = bent_arrow(1.0)
@@ -186,8 +190,7 @@ def add_ring(node: SceneNode, origin: Sequence[float], rgb: Colour, opacity: flo
 def add_ground(node: SceneNode, scenes: Sequence[WalkScene], depth: float, lane: float) -> None:
     """Draw light and dark tiles, from two before to three behind the walks, `depth` [m] below their footholds.
 
-    Walks on the same ground share it; on different grounds each has its own, as wide as its lane
-    [m].
+    Walks on the same ground share it; on different grounds each has its own, as wide as its lane [m].
     """
     x = np.concatenate([scene.footholds for scene in scenes])
     low, high = math.floor(x.min() / TILE) - 2, math.ceil(x.max() / TILE) + 3
@@ -199,17 +202,17 @@ def add_ground(node: SceneNode, scenes: Sequence[WalkScene], depth: float, lane:
         far = last * lane + 0.5 if shared or k == last else (k + 0.5) * lane
         # thick enough to reach the lower ground beside the highest step
         thick = 0.03 + float(np.max(np.abs(scene.surface.drops), initial=0.0))
-        for tile in scene.surface.tiles(low, high):
-            grey = 0.78 if tile.even else 0.62
-            size = [float(np.hypot(*(tile.ends[1] - tile.ends[0]))), far - near, thick]
-            slab, middle = node[f"{next(names)}"], tile.ends.mean(axis=0)
+        for ends, light in scene.surface.tiles(low, high):
+            grey = 0.78 if light else 0.62
+            size = [float(np.hypot(*(ends[1] - ends[0]))), far - near, thick]
+            slab, middle = node[f"{next(names)}"], ends.mean(axis=0)
             slab.set_object(shapes.Box(size), paint((grey, grey, grey)))
             below, side = depth + 0.5 * thick, 0.5 * (near + far)
             slab.set_transform(under(middle, scene.surface.slope, below, side))
 
 
 def set_stage(viewer: SceneNode) -> None:
-    """White background, no axes, no grid."""
+    """Set a white background, and hide Meshcat's axes and grid."""
     for name in ("/Axes", "/Grid"):
         viewer[name].set_property("visible", False)
     for name in ("top_color", "bottom_color"):
@@ -217,10 +220,11 @@ def set_stage(viewer: SceneNode) -> None:
 
 
 def camera(kind: str, scale: float) -> dict[str, object]:
-    """A camera at the robot's right side ("side", x to the right, z up) or before it ("perspective").
+    """Commands, position and target [m] of a camera, for player.js.
 
-    Meshcat's commands, position and target [m], these in the camera's own frame, which has y up and z towards
-    the robot's right. scale: how much larger than for RABBIT.
+    kind: "side", at the robot's right side with x to the right and z up, or "perspective", before it. scale:
+    how much larger the robot is than RABBIT. Position and target are in the camera's own frame, which has y
+    up and z towards the robot's right.
     """
     window = MemoryWindow(kind)
     node = window.viewer[f"/Cameras/{kind}/rotated"]
@@ -236,10 +240,10 @@ def camera(kind: str, scale: float) -> dict[str, object]:
 
 
 class MemoryWindow:
-    """Takes the place of meshcat's window: keeps the commands, opens no port and starts no process.
+    """A stand-in for Meshcat's window that keeps the commands; it opens no port and starts no process.
 
-    seed: of the names of objects, see `send`. packed: the commands in base64. viewer: the root of
-    the tree.
+    seed: from which the names of objects are drawn, see `send`. packed: the commands in base64.
+    viewer: the root of the tree.
     """
 
     def __init__(self, seed: str = "scene") -> None:
@@ -251,17 +255,16 @@ class MemoryWindow:
         self._source = random.Random(seed)
 
     def send(self, command: Any) -> None:
-        """Keep a command of meshcat, packed as its viewer expects it.
+        """Store a command of Meshcat, packed as its viewer expects it.
 
-        Meshcat names objects by clock and host (uuid1). Here names come from a seeded source in the
-        order of their first use, so that the same walk gives the same bytes on any machine at any
-        time.
+        Meshcat names objects by clock and host (uuid1). Here names come from a seeded source in the order of
+        their first use, so that the same walk gives the same bytes on any machine at any time.
         """
         packed = _UUID.sub(lambda found: self._named(found[0]), umsgpack.packb(command.lower()))
         self.packed.append(base64.b64encode(packed).decode("ascii"))
 
     def _named(self, name: bytes) -> bytes:
-        """The name that stands for this one of meshcat's."""
+        """The name from the seeded source that replaces this one of Meshcat's."""
         if name not in self._names:
             number = uuid.UUID(int=self._source.getrandbits(128), version=4)
             self._names[name] = str(number).encode()

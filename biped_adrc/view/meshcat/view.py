@@ -1,9 +1,13 @@
 """Walks in Meshcat as one offline HTML file: the viewer, the robots, their motion and the controls.
 
-`animation_html` lays the walks out (`placement`), samples them (`frames`), draws the objects
-(`objects`), and writes all of it as JSON into the page (`pages.player`); player.js plays it. One
-walk is solid and followed by the camera, the others are ghosts: translucent, each a little farther
-from the camera.
+`animation_html` lays the walks out (`placement`), samples them (`Frames`), draws the objects (`objects`), and
+writes all of it as JSON into the page (`pages.player`); player.js plays it. One walk is solid and followed by
+the camera, the others are ghosts: translucent, each a little farther from the camera.
+
+The player draws a walk at any time by cubic Hermite interpolation between nodes. Nodes are the frames, both
+ends of every single support, the edges of pushes, and on soft ground the times at which the other foot touches
+or leaves it, or a foot begins or ends to slip; where that is not enough for the joints to be within
+`TOLERANCE` of the trajectory between two nodes, the interval is halved.
 """
 
 from __future__ import annotations
@@ -11,9 +15,13 @@ from __future__ import annotations
 import base64
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
+from biped_adrc.core.types import Array
+from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.model.biped import Biped
 from biped_adrc.view.colours import (
     LONGEST,
@@ -26,31 +34,32 @@ from biped_adrc.view.colours import (
 )
 from biped_adrc.view.from_the_side.side_view import SideView
 from biped_adrc.view.meshcat import objects as draw
-from biped_adrc.view.meshcat.frames import Frames
 from biped_adrc.view.pages import player
 from biped_adrc.view.placement import (
     VIEWS,
     Clip,
     Recorded,
     WalkScene,
+    check_frames,
+    contact_changes,
     ending,
     exchanged,
     is_wheel,
+    joint_values,
+    loads,
     placed,
 )
 
 GHOST = 0.35
-"""Opacity of a ghost."""
+"""Opacity of a ghost (1 is solid)."""
 LANE = 0.4
-"""By how much [m] each ghost walks farther from the camera: faces in one plane would flicker."""
+"""Distance [m] of each ghost from the walk before it, away from the camera: equal planes would flicker."""
 FPS = 60.0
 """Frames per second of a page."""
 TRACE_POINTS = 20_000
-"""Room for the traces of a walk without samples."""
+"""Points of the traces of a walk that is not sampled beforehand."""
 TALL = 1.6
-"""Height [m] of the highest robot that the cameras show from where they are for RABBIT; for higher
-ones they stand back.
-"""
+"""Height [m] of the highest robot that the cameras show from where they are for RABBIT."""
 Marks = Sequence[tuple[float, float, str]]
 """(start, stop, text) of what is shown beside the clock, times in [s]."""
 
@@ -58,11 +67,11 @@ Marks = Sequence[tuple[float, float, str]]
 def animation_html(
     walks: Mapping[str, Recorded], clip: Clip | None = None, marks: Marks = ()
 ) -> str:
-    """The walks, overlaid, as one page that needs no server and no network; the same walks give the same text.
+    """Text of a page that shows the walks overlaid, without server or network; equal walks give equal text.
 
     walks: name -> walk, one or more; the last is drawn opaque and followed by the camera, the others are
-    translucent. clip: frames per second and camera. marks: shown beside the clock. Raises InputError for too
-    many frames.
+    translucent. clip: frames per second and camera. marks: texts beside the clock, with their times.
+    Raises InputError for too many frames.
     """
     clip = Clip() if clip is None else clip
     scenes = {name: WalkScene.of(walks[name]) for name in [*walks][-1:] + [*walks][:-1]}
@@ -72,7 +81,7 @@ def animation_html(
 
 
 def _packed(frames: Frames) -> dict[str, str]:
-    """The samples in base64: times as float64, the rest as float32, which is finer than a pixel."""
+    """Encode the samples in base64: times as float64, the rest as float32, which is finer than a pixel."""
     others = {"arc": frames.arc, **frames.poses._asdict()}
     packed = {"t": frames.t} | {name: x.astype(np.float32) for name, x in others.items()}
     return {name: base64.b64encode(x.tobytes()).decode("ascii") for name, x in packed.items()}
@@ -85,12 +94,11 @@ def scene_settings(
     frames: Mapping[str, Frames] | None = None,
     marks: Marks = (),
 ) -> dict[str, object]:
-    """What scene.js and player.js are told: Meshcat's commands and, by walk, the paths of what moves.
+    """The settings that scene.js and player.js read: Meshcat's commands and, by walk, the paths of what moves.
 
-    scenes: the solid walk first. frames: the samples of each walk, for a page; that of `play`
-    has none.
+    scenes: the solid walk first. frames: the samples of each walk, for a page; that of `play` has none.
 
-        walks       for each walk what `_add_walk` says, its name, its end [s] and how it ended
+        walks       for each walk the entry of `_add_walk`, its name, its end [s] and how it ended
         follow      the node, of the first walk, that the camera follows
         marks       (start, stop, text); fps [1/s]; start, end [s] of the slider
         view        the camera at the start; views: commands, position and target [m] of each
@@ -129,18 +137,15 @@ def scene_settings(
 def _add_walk(
     robot: draw.SceneNode, path: str, scene: WalkScene, opacity: float, room: int
 ) -> dict[str, object]:
-    """Draw one walk below the node `robot`, and say where its parts are: the entry of this walk for player.js.
+    """Draw one walk below the node `robot`; returns its entry for player.js, with the paths of its parts.
 
     path: of the node `robot`. opacity: 0 to 1. room: points of a trace.
 
-        joints        path, type, axis and origin [m] of each moving joint, in the order of the
-        samples
-        legs          paths of the parts of either leg; colours: of stance and swing leg,
-        0xRRGGBB
+        joints        path, type, axis and origin [m] of each moving joint, in the order of the samples
+        legs          paths of the parts of either leg; colours: of stance and swing leg, 0xRRGGBB
         rings, arrows, traces, footprints    paths of these; arrows of stance foot and other foot
         supports      number, stance leg (0 or 1) and foothold x, z [m] of each single support
-        fall          tan(slope); ground: its level below the footholds [m]; head: length of an
-        arrow's head [m]
+        fall          tan(slope); ground: its level below the footholds [m]; head: length of an arrow's head [m]
         metres_per_newton, longest, metres_per_newton_metre    scales of arrow and rings
     """
     biped, depth = scene.biped, draw.sole(scene.biped)
@@ -188,9 +193,9 @@ def _add_walk(
 
 
 def _add_ring(robot: draw.SceneNode, biped: Biped, name: str, opacity: float) -> str:
-    """Draw the ring of a joint and give its path.
+    """Draw the ring that shows the external torque on a joint; returns the path of its node.
 
-    The ring of the unactuated torso is at its COM: at its joint it would cover those of the hips.
+    The ring of the unactuated torso is at its centre of mass: at its joint it would cover those of the hips.
     """
     joint = next(joint for joint in biped.tree.joints if joint.name == name)
     inertial = biped.tree.links[joint.child].inertial
@@ -202,7 +207,7 @@ def _add_ring(robot: draw.SceneNode, biped: Biped, name: str, opacity: float) ->
 
 
 def captions(scenes: Mapping[str, WalkScene]) -> list[tuple[str, str]]:
-    """The legend as pairs (colour, text); the colour is empty for plain text."""
+    """The legend of a page as pairs (colour, text); the colour is empty for plain text."""
     solid, *ghosts = scenes
     biped = scenes[solid].biped
     newtons = 0.1 * biped.weight / WEIGHT_LENGTH
@@ -219,3 +224,110 @@ def captions(scenes: Mapping[str, WalkScene]) -> list[tuple[str, str]]:
         text = f"{solid}: solid. {', '.join(ghosts)}: translucent, {LANE:g} m farther away."
         return [("", text), *entries]
     return [("", f"{solid}."), *entries]
+
+
+TOLERANCE = 1e-6
+"""Largest error [rad] of an interpolated joint angle."""
+HALVINGS = 6
+"""How often an interval between two frames is halved at most."""
+EPSILON = 1e-6
+"""Half the interval [s] of the central difference that gives the rates of the joints, the base among them."""
+
+
+class Pose(NamedTuple):
+    """Everything that is drawn of a walk at one time."""
+
+    joints: Array
+    """(J,) values of the moving joints, in the order of the URDF [rad], [m]."""
+    rates: Array
+    """(J,) rates of these joints [rad/s], [m/s]."""
+    loads: Array
+    """(2 + n,): F_T, F_N [N], and the external torque on the drawn joints of q1..qn [N m]."""
+    points: Array
+    """(4,): x and z of the hip and of the swing foot in the world [m]."""
+    contact: Array
+    """(5,): x and z of the stance foot [m], F_T and F_N on the other foot [N], and 1 where a foot slips."""
+
+
+@dataclass(frozen=True)
+class Frames:
+    """A walk sampled at its nodes, one in each row (K,); a node at an impact is there
+    twice, before and after it.
+    """
+
+    t: Array
+    """Times (K,) [s]."""
+    arc: Array
+    """(K,) index of the single support, from 0."""
+    poses: Pose
+    """The poses at the nodes, as arrays with K rows: (K, J), (K, J), (K, 2 + n), (K, 4), (K, 5)."""
+
+    @classmethod
+    def of(cls, scene: WalkScene, fps: float) -> Frames:
+        """Sample a walk at `fps` [1/s] or finer, and at all its nodes. Raises InputError for too many
+        frames.
+        """
+        check_frames((scene.trajectory.t_end - scene.trajectory.t_start) * fps)
+        t, arcs, poses = [], [], []
+        for i, arc in enumerate(scene.trajectory.arcs):
+            nodes = _nodes(scene, arc, fps)
+            t.append(nodes)
+            arcs.append(np.full(len(nodes), i))
+            poses += [pose(scene, i, float(node)) for node in nodes]
+        columns = map(np.array, zip(*poses, strict=True))
+        return cls(np.concatenate(t), np.concatenate(arcs), Pose(*columns))
+
+
+def pose(scene: WalkScene, i: int, t: float) -> Pose:
+    """Pose of the robot in arc i at t [s].
+
+    At the end of the arc it is the state before the impact: the arc after it has a
+    pose of its own for that time.
+    """
+    arc, biped, foothold = scene.trajectory.arcs[i], scene.biped, scene.foot(i, t)
+    n, step = biped.n, arc.mode.step
+    x = arc(t, "left" if t == arc.t[-1] else "right")
+    q, v = x[:n], x[n : 2 * n]
+    moving = [joint.name for joint in biped.tree.joints if joint.type != "fixed"]
+    at, later, earlier = (
+        joint_values(biped, q + s * EPSILON * v, step, *foothold) for s in (0.0, 1.0, -1.0)
+    )
+    rates = [(later[name] - earlier[name]) / (2.0 * EPSILON) for name in moving]
+    acting = loads(scene, min(t, math.nextafter(float(arc.t[-1]), -math.inf)))
+    return Pose(
+        np.array([at[name] for name in moving]),
+        np.array(rates),
+        np.concatenate((acting.ground_reaction, acting.zeta)),
+        scene.points(i, t, q),
+        np.array([*foothold, *acting.other, acting.slips]),
+    )
+
+
+def _nodes(scene: WalkScene, arc: Arc, fps: float) -> Array:
+    """Times (K,) [s] at which one single support is sampled: frames, both ends, edges of
+    pushes, changes of contact.
+    """
+    start, end = float(arc.t[0]), float(arc.t[-1])
+    first = scene.trajectory.t_start
+    frames = first + np.arange(math.ceil((start - first) * fps), (end - first) * fps) / fps
+    edges = scene.walker.switching_times(arc.mode)
+    inside = [t for t in (*frames, *edges, *contact_changes(scene, arc)) if start < t < end]
+    nodes = np.unique([start, *inside, end])
+    for _ in range(HALVINGS):
+        q, v = _states(arc, nodes, scene.biped.n)
+        h, middles = np.diff(nodes)[:, np.newaxis], 0.5 * (nodes[:-1] + nodes[1:])
+        guess = 0.5 * (q[:-1] + q[1:]) + h * (v[:-1] - v[1:]) / 8.0  # the cubic in the middle
+        result, _ = _states(arc, middles, scene.biped.n)
+        rough = np.max(np.abs(guess - result), axis=1, initial=0.0) > TOLERANCE
+        if not rough.any():
+            break
+        nodes = np.sort(np.append(nodes, middles[rough]))
+    return nodes
+
+
+def _states(arc: Arc, times: Array, n: int) -> tuple[Array, Array]:
+    """q and v, both (K, n) [rad], [rad/s], of the arc at `times` (K,) [s]."""
+    last = float(arc.t[-1])
+    x = np.array([arc(float(t), "left" if t == last else "right") for t in times])
+    x = x.reshape(len(times), arc.x.shape[1])
+    return x[:, :n], x[:, n : 2 * n]

@@ -1,14 +1,15 @@
 """Whole figures made of the plots in `biped_adrc.view.plots`: data in, Figure out, in this package's style.
 
-`Walk.plot`, the reproduction of the paper and `biped-adrc plot` draw these. With a push they show the
-time around it, and most of them the milliseconds after either edge, in which a fast observer has its say.
+`Walk.plot`, the reproduction of the paper and `biped-adrc plot` draw these. With a push they show the time
+around it, and most of them the milliseconds after either edge, in which a fast observer acts. In figures that
+compare controllers the i-th one has the i-th colour and mark in all panels.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,27 +17,32 @@ from matplotlib.figure import Figure, FigureBase
 from matplotlib.gridspec import SubplotSpec
 from numpy.typing import ArrayLike
 
+from biped_adrc.analysis.quadrature import integrate
 from biped_adrc.analysis.signals import Signals
 from biped_adrc.core.types import Array
-from biped_adrc.view.plots import comparison, over_time, stability
-from biped_adrc.view.plots.over_time import Window
-from biped_adrc.view.style import new_figure
+from biped_adrc.view.plots import over_time, stability
+from biped_adrc.view.plots.over_time import Window, broken, finished, legend
+from biped_adrc.view.style import DASHES, GREY, PALETTE, label, new_figure
+
+if TYPE_CHECKING:
+    from biped_adrc.analysis.observer.report import ObserverReport
 
 BEFORE, AFTER = 0.3, 0.6
-"""What the zoom shows before and after a push [s]."""
+"""Time shown before and after a push [s]."""
 EDGE_BEFORE, EDGE_AFTER = 1e-3, 6e-3
-"""What is shown before and after an edge of a push [s]."""
+"""Time shown before and after either edge of a push [s]."""
 EDGES = ("push begins", "push ends")
 """Titles of the columns of the two edges."""
 
 Draw = Callable[[Axes], object]
-"""Draws one panel."""
+"""A function that draws one panel on the axes it is given."""
 
 
 def tracking_figure(
     signals: Signals, title: str, push: Window | None = None, torque_limit: float | None = None
 ) -> Figure:
-    """The paper's figures 4 and 5: references and joint angles [rad], torques [N m], and the tracking error.
+    """Draw the paper's figures 4 and 5: references and joint angles [rad], torques [N
+    m], and the tracking error.
 
     signals: of a walk with motors. title: above all panels. push: (start, stop) [s]; the figure then shows the
     time around it, shaded, and the milliseconds after either edge, without angles, as these do not move within
@@ -64,7 +70,7 @@ def tracking_figure(
 
 
 def _titled(title: str, s: Signals, push: Window | None) -> str:
-    """The title, with the largest torque from outside behind it [N m]."""
+    """The title; with a push, followed by the largest external torque on each joint [N m]."""
     if push is None:
         return title
     peaks = s.zeta[np.argmax(np.abs(s.zeta), axis=0), np.arange(s.zeta.shape[1])]
@@ -76,12 +82,14 @@ def _titled(title: str, s: Signals, push: Window | None) -> str:
 
 
 def _halves(spec: Any, row: int, count: int = 2) -> list[SubplotSpec]:
-    """The places of one or two panels that fill a row of four places."""
+    """Places in a grid of four columns for one panel that fills a row, or for two that share it."""
     return [spec[row, :]] if count == 1 else [spec[row, :2], spec[row, 2:]]
 
 
 def _column(figure: FigureBase, places: Sequence[SubplotSpec], draws: Sequence[Draw]) -> list[Axes]:
-    """Panels one above the other that share one time axis, whose numbers and name stand below the lowest."""
+    """Draw panels one above the other that share one time axis, labelled below the lowest; returns
+    their axes.
+    """
     column: list[Axes] = []
     for place, draw in zip(places, draws, strict=True):
         column.append(figure.add_subplot(place, sharex=column[0] if column else None))
@@ -100,10 +108,10 @@ def _around_and_edges(
     s: Signals,
     push: Window | None,
 ) -> list[list[Axes]]:
-    """Panels, a row for each of `draws`, in three columns: around the push, where it begins, and where it ends.
+    """Draw each of `draws` in a row of three columns: around the push, where it begins, and where it ends.
 
-    The edges have their time in [ms] from it; what they show is named at the left end of their row. Without a
-    push there is one column, with the whole walk.
+    The edges have their time in [ms] from it; the label of their values is at the left end of the row. Without
+    a push there is one column, with the whole walk. rows: of the grid `spec`. Returns the axes by column.
     """
     if push is None:
         return [_column(figure, [spec[row, :] for row in rows], draws)]
@@ -125,17 +133,17 @@ def _around_and_edges(
 
 
 def _zoom(column: Sequence[Axes], s: Signals, push: Window | None) -> None:
-    """Set the limits of a column to the time around the push, if there is one, and of each value axis to what
-    is drawn there.
+    """Limit a column to the time around the push, if there is one, and each value axis
+    to the data shown there.
     """
     if push is not None:
         _limits(column, max(push[0] - BEFORE, s.t[0]), min(push[1] + AFTER, s.t[-1]))
 
 
 def _limits(column: Sequence[Axes], low: float, high: float) -> None:
-    """Set the time axis from low to high [s], and each value axis to what is drawn there.
+    """Set the time axis from low to high [s], and each value axis to the range of the data shown there.
 
-    A panel with nothing to show there, or a constant, keeps its limits.
+    A panel without data there, or with a constant, keeps its limits.
     """
     for axes in column:
         axes.set_xlim(low, high)
@@ -153,7 +161,7 @@ def _limits(column: Sequence[Axes], low: float, high: float) -> None:
 
 
 def passive_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
-    """A walk without motors: its angles [rad] and energies [J] over time [s], and Theta against its rate.
+    """Draw a walk without motors: its angles [rad] and energies [J] over time [s], and Theta' over Theta.
 
     push: (start, stop) [s], shaded.
     """
@@ -168,8 +176,9 @@ def passive_figure(signals: Signals, title: str = "", push: Window | None = None
 
 
 def phase_figure(walks: Mapping[str, Signals]) -> Figure:
-    """The paper's figure 6: Theta [rad] against Theta' [rad/s], a panel for each controller; lines
-    break at impacts.
+    """Draw the paper's figure 6: Theta' [rad/s] over Theta [rad], in a panel for each controller.
+
+    walks: name of the controller -> signals. Lines break at impacts.
     """
     with new_figure(4.6 * len(walks), 4.2) as figure:
         row = figure.subplots(1, len(walks), squeeze=False, sharex=True, sharey=True)[0]
@@ -179,11 +188,11 @@ def phase_figure(walks: Mapping[str, Signals]) -> Figure:
 
 
 def disturbance_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
-    """The total disturbance of every actuated joint, and the torque from outside, against their estimates.
+    """Draw the total disturbance of every actuated joint, and the external torque, against their estimates.
 
-    Above: xi of (13) [rad/s^2], a panel for each joint. Below: the torque zeta and what the estimate amounts to
-    [N m], a colour for each torque, of which joints with the same one share the line. push: (start, stop) [s];
-    the time around it is shown, and below also the milliseconds at either edge.
+    Above: xi of (13) [rad/s^2], a panel for each joint. Below: the torque zeta and the torque that the
+    estimate amounts to [N m], a colour for each torque; joints with the same torque share the line. push:
+    (start, stop) [s]; the time around it is shown, and below also the milliseconds at either edge.
     """
     p = signals.q_d.shape[1]
     with new_figure(10.0, 5.2, _titled(title, signals, push)) as figure:
@@ -203,7 +212,7 @@ def ground_figure(
     slope: float = 0.0,
     push: Window | None = None,
 ) -> Figure:
-    """The ground reaction [N] over time, and its tangential against its normal part in the friction cone.
+    """Draw the ground reaction [N] over time, and its tangential against its normal part in the friction cone.
 
     mu [1]: coefficient of friction. slope [rad]: of the ground, positive downhill. push: (start, stop) [s],
     shaded; the time around it is shown.
@@ -216,7 +225,10 @@ def ground_figure(
 
 
 def energy_figure(signals: Signals, title: str = "", push: Window | None = None) -> Figure:
-    """Kinetic, potential and total energy [J] over time [s]; around a push (start, stop) [s], shaded."""
+    """Draw kinetic, potential and total energy [J] over time [s].
+
+    push: (start, stop) [s], shaded; the time around it is shown.
+    """
     with new_figure(7.0, 3.4, _titled(title, signals, push)) as figure:
         _zoom([over_time.energy(figure.subplots(), signals, push)], signals, push)
         return figure
@@ -225,9 +237,10 @@ def energy_figure(signals: Signals, title: str = "", push: Window | None = None)
 def multiplier_figure(
     multipliers: Mapping[str, ArrayLike], published: ArrayLike | None = None
 ) -> Figure:
-    """Floquet multipliers (k,), complex, by name in the unit circle, and their magnitudes in decreasing order.
+    """Draw Floquet multipliers in the unit circle, and beside it their magnitudes in decreasing order.
 
-    published (k,): magnitudes printed in the paper, shown for comparison; see `stability.magnitudes`.
+    multipliers: name of a method -> (k,), complex. published (k,): magnitudes printed in the paper, shown for
+    comparison; see `stability.magnitudes`.
     """
     with new_figure(9.5, 4.4) as figure:
         circle, sizes = figure.subplots(1, 2)
@@ -237,7 +250,7 @@ def multiplier_figure(
 
 
 def return_map_figure(before: Array, after: Array) -> Figure:
-    """The return map of Theta' as a staircase; see `stability.staircase`.
+    """Draw the return map of Theta' as a staircase; see `stability.staircase`.
 
     before, after (k,): Theta' before one impact and before the next [rad/s].
     """
@@ -247,7 +260,8 @@ def return_map_figure(before: Array, after: Array) -> Figure:
 
 
 def comparison_figure(walks: Mapping[str, Signals], push: Window | None = None) -> Figure:
-    """Controllers side by side: tracking error over time, its size, and the peak torques.
+    """Draw controllers side by side: tracking error over time, peak and rms of the
+    error, and the peak torques.
 
     walks: signals by name of the controller. push: (start, stop) [s]; the time around it is shown, and the
     milliseconds after either edge.
@@ -255,11 +269,113 @@ def comparison_figure(walks: Mapping[str, Signals], push: Window | None = None) 
     first = next(iter(walks.values()))
     with new_figure(10.0, 5.8, _titled(" and ".join(walks), first, push)) as figure:
         spec = figure.add_gridspec(2, 4)
-        draw = partial(comparison.error_over_time, walks=walks, push=push)
+        draw = partial(error_over_time, walks=walks, push=push)
         (around,), *edges = _around_and_edges(figure, spec, (0,), [draw], first, push)
         for (axes,) in edges:
             axes.set_ylim(around.get_ylim())
         sizes, motors = (figure.add_subplot(place) for place in _halves(spec, 1))
-        comparison.error_sizes(sizes, walks)
-        comparison.torque_sizes(motors, walks)
+        error_sizes(sizes, walks)
+        torque_sizes(motors, walks)
+        return figure
+
+
+MARKERS = "osD^"
+"""Marks by controller, repeated from the fifth on."""
+FLOOR = 1e-13
+"""Least error that is drawn [rad]: on a logarithmic scale anything below it is round-off."""
+
+
+def error_over_time(axes: Axes, walks: Mapping[str, Signals], push: Window | None = None) -> Axes:
+    """Draw max_i |q_i - q_di| [rad] over the actuated joints against time [s], on one logarithmic scale.
+
+    walks: name of the controller -> signals. push: (start, stop) [s], shaded. Lines break
+    at impacts. Returns the axes.
+    """
+    for i, (name, s) in enumerate(walks.items()):
+        largest = np.maximum(np.max(np.abs(s.error), axis=1), FLOOR)
+        x, y = broken(s, s.t), broken(s, largest)
+        axes.plot(x, y, label=name, color=PALETTE[i], ls=DASHES[i % 4], lw=1.0)
+    axes.set_yscale("log")
+    return finished(axes, "largest tracking error [rad]", push)
+
+
+def error_sizes(axes: Axes, walks: Mapping[str, Signals]) -> Axes:
+    """Draw peak and root mean square of the tracking error [rad] by controller, with their
+    numbers; returns the axes.
+
+    walks: name of the controller -> signals. The scale is logarithmic.
+    """
+    for i, (name, s) in enumerate(walks.items()):
+        sizes = [max(float(np.max(np.abs(s.error))), FLOOR), max(_rms(s), FLOOR)]
+        axes.plot([0, 1], sizes, color=PALETTE[i], marker=MARKERS[i % 4], ls="", ms=8, label=name)
+        for k, size in enumerate(sizes):
+            axes.annotate(
+                f"{size:.1e}", (k, size), xytext=(9, 0), textcoords="offset points", va="center"
+            )
+    axes.set_xticks([0, 1], ["largest", "root mean square"])
+    axes.set_xlim(-0.5, 1.8)
+    axes.set_yscale("log")
+    axes.margins(y=0.15)
+    label(axes, "", "tracking error [rad]")
+    return axes
+
+
+def _rms(s: Signals) -> float:
+    """Root of the mean over time and joints of (q_b - q_d)^2 [rad].
+
+    The mean over time is an integral over the nodes, as their distances differ between methods.
+    """
+    squares, duration = np.mean(s.error**2, axis=1), float(s.t[-1] - s.t[0])
+    mean = integrate(s.t, squares) / duration if duration > 0.0 else float(squares[0])
+    return float(np.sqrt(mean))
+
+
+def torque_sizes(axes: Axes, walks: Mapping[str, Signals]) -> Axes:
+    """Draw the peak torque [N m] of every motor as bars, a colour and hatch for each
+    controller; returns the axes.
+    """
+    width = 0.8 / len(walks)
+    for i, (name, s) in enumerate(walks.items()):
+        peaks = np.max(np.abs(s.u), axis=0)
+        at = np.arange(len(peaks)) + (i - 0.5 * (len(walks) - 1)) * width
+        hatch = ("", "///", "...", "xxx")[i % 4]
+        axes.bar(at, peaks, width, color=PALETTE[i], ec="white", hatch=hatch, label=name)
+    axes.set_xticks(np.arange(len(peaks)), [f"$u_{k + 1}$" for k in range(len(peaks))])
+    label(axes, "", "peak torque [N m]")
+    return legend(axes)
+
+
+FREQUENCIES, LEAST = 400, 1e-12
+"""Number of frequencies of a response, and the least value drawn, as a share of the panel's largest."""
+
+
+def observer_figure(report: ObserverReport) -> Figure:
+    """Draw |e / xi| [s^2], |xi^ / xi| [1] and |u / n| [N m/rad] of the linear loop of one
+    joint over frequency [rad/s].
+
+    xi is the disturbance, e the tracking error, xi^ the estimate, n an error of the measured angle: a faster
+    observer lowers the first curve and raises the last. Dotted: half the sampling frequency, above which a
+    sampled loop has aliases. An observer without extended states (m = 0) has no estimate and no curve in the
+    second panel.
+    """
+    frequencies, responses = report.loop.frequencies, report.responses
+    grid = np.geomspace(frequencies[0], frequencies[-1], FREQUENCIES)
+    curves = (
+        ("e / xi", "|e / xi| [s$^2$]", "error from a disturbance"),
+        ("xi^ / xi", "|xi^ / xi|", "estimate of the disturbance"),
+        ("u / n", "|u / n| [N m/rad]", "torque from an angle's error"),
+    )
+    with new_figure(9.0, 3.4) as figure:
+        panels = figure.subplots(1, 3)
+        for axes, (response, name, title) in zip(panels, curves, strict=True):
+            label(axes, "frequency [rad/s]", name, title)
+            level = np.abs(responses[response](grid))
+            if not np.any(level > 0.0):
+                axes.set_xscale("log")
+                axes.text(0.5, 0.5, "m = 0 has none", ha="center", transform=axes.transAxes)
+                continue
+            axes.loglog(grid, level, label=report.name, color=PALETTE[0], ls=DASHES[0])
+            axes.set_ylim(bottom=max(axes.get_ylim()[0], LEAST * np.max(level)))
+            axes.axvline(np.pi / report.hardware.period, color=GREY, lw=0.8, ls=":")
+        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center")
         return figure

@@ -34,9 +34,9 @@ class Rows(Protocol):
 
 
 def broken(s: Rows, y: Array) -> Array:
-    """y (K,) or (K, k), in any unit, with a row of NaN where a single support begins.
+    """Insert a row of NaN into y (K,) or (K, k) where each new single support begins.
 
-    matplotlib breaks a line at NaN, so none crosses an impact. Time is broken in the same way.
+    matplotlib breaks a line at NaN, so no line crosses an impact. The times are broken in the same way.
     """
     return np.insert(y, np.flatnonzero(np.diff(s.step)) + 1, np.nan, axis=0)
 
@@ -53,9 +53,10 @@ def curves(axes: Axes, s: Rows, values: Array, symbol: str) -> None:
 
 
 def finished(axes: Axes, unit: str, push: Window | None = None) -> Axes:
-    """Shade the time of a push (start, stop) [s], name the axes, and put the legend in a line above them.
+    """Shade the time of a push (start, stop) [s], label both axes, and put the legend
+    above them; returns the axes.
 
-    unit: label of the axis of values. Returns the axes.
+    unit: label of the axis of values.
     """
     if push is not None:
         axes.axvspan(*push, color=PUSH, alpha=0.3, zorder=0, label="push")
@@ -79,7 +80,9 @@ def legend(axes: Axes) -> Axes:
 
 
 def angle_unit(values: Array) -> tuple[str, float]:
-    """The unit in which the largest of `values` [rad] reads well, from rad to nrad, and the factor to it."""
+    """Choose the unit, from rad to nrad, in which the largest of `values` [rad] reads well;
+    returns it and its factor.
+    """
     largest = np.nanmax(np.abs(values), initial=0.0)
     for unit, factor in (("rad", 1.0), ("mrad", 1e3), ("µrad", 1e6)):
         if largest * factor >= 0.5:
@@ -92,13 +95,15 @@ JOINTS = ("stance hip", "swing hip", "stance knee", "swing knee")
 
 
 def joint_name(s: Signals, i: int) -> str:
-    """ "$q_1$ stance hip" and so on for four actuated joints; the symbol alone on another robot."""
+    """Name of actuated joint i (from 0) in a legend: "$q_1$ stance hip" with four
+    actuated joints, else the symbol.
+    """
     known = s.q_d.shape[1] == len(JOINTS)
     return f"$q_{i + 1}$ {JOINTS[i]}" if known else f"$q_{i + 1}$"
 
 
 def angles(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
-    """Draws all coordinates q (K, n) [rad] over time [s]; push: (start, stop) [s], shaded."""
+    """Draw all coordinates q [rad] over time [s]; push: (start, stop) [s], shaded. Returns the axes."""
     curves(axes, s, s.q, "q")
     return finished(axes, "angle [rad]", push)
 
@@ -106,10 +111,10 @@ def angles(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
 def joint_tracking(
     axes: Axes, s: Signals, joints: Sequence[int] | None = None, push: Window | None = None
 ) -> Axes:
-    """Angles of the actuated joints [rad] as broad lines over time [s], their references dashed on top
-    in black.
+    """Draw the angles of actuated joints [rad] over time [s] as broad lines, their
+    references dashed in black on top.
 
-    joints: indices from 0, all if None.
+    joints: indices from 0, all if None. push: (start, stop) [s], shaded. Returns the axes.
     """
     joints, t = range(s.q_d.shape[1]) if joints is None else joints, broken(s, s.t)
     for i in joints:
@@ -122,14 +127,21 @@ def joint_tracking(
 
 
 def tracking_errors(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
-    """q_b - q_d (K, p) by joint over time [s], in the unit from rad to nrad in which the largest reads well."""
+    """Draw q_b - q_d of each joint over time [s], in the unit from rad to nrad in
+    which the largest reads well.
+
+    push: (start, stop) [s], shaded. Returns the axes.
+    """
     unit, factor = angle_unit(s.error)
     curves(axes, s, factor * s.error, "q")
     return finished(axes, f"tracking error [{unit}]", push)
 
 
 def torques(axes: Axes, s: Signals, limit: float | None = None, push: Window | None = None) -> Axes:
-    """Torques of the motors u (K, p) [N m] over time [s]; limit [N m] is drawn as dotted lines."""
+    """Draw the motors' torques u [N m] over time [s]; limit [N m] is drawn as dotted lines. Returns the axes.
+
+    push: (start, stop) [s], shaded.
+    """
     curves(axes, s, s.u, "u")
     if limit is not None:
         axes.axhline(limit, color=GREY, ls=":", label=f"limit {limit:g} N m")
@@ -138,9 +150,10 @@ def torques(axes: Axes, s: Signals, limit: float | None = None, push: Window | N
 
 
 def total_disturbance(axes: Axes, s: Signals, joint: int = 0, push: Window | None = None) -> Axes:
-    """xi of (13), q_b'' - kappa u, and its estimate xi^ [rad/s^2] for one actuated joint over time [s].
+    """Draw xi of (13), q_b'' - kappa u, and its estimate xi^ [rad/s^2] for one actuated joint over time [s].
 
-    joint: index from 0. Without an observer the panel says so.
+    joint: index from 0. Without an observer the panel says so. push: (start, stop)
+    [s], shaded. Returns the axes.
     """
     names = f"\\xi_{joint + 1}", f"\\hat{{\\xi}}_{joint + 1}"
     _pair(axes, s, s.xi[:, joint], s.xi_estimate[:, joint], names, PALETTE[0])
@@ -148,11 +161,11 @@ def total_disturbance(axes: Axes, s: Signals, joint: int = 0, push: Window | Non
 
 
 def matched_disturbance(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
-    """The torque from outside on the actuated joints, and what the estimates amount to there [N m].
+    """Draw the external torque on each actuated joint and the torque that the estimate xi^ amounts to [N m].
 
     Broad: zeta_b, which enters (14) as kappa zeta_b, the matched part. Dashed: kappa^-1 (xi^ - xi_nominal); it
     also holds the unmatched part and errors of the model, so the lines differ by those. Joints with the same
-    torque share the first one's lines.
+    torque share the first one's lines. push: (start, stop) [s], shaded. Returns the axes.
     """
     alike: dict[bytes, list[int]] = {}
     for i in range(s.q_d.shape[1]):
@@ -167,7 +180,10 @@ def matched_disturbance(axes: Axes, s: Signals, push: Window | None = None) -> A
 def _pair(
     axes: Axes, s: Signals, true: Array, estimate: Array, names: tuple[str, str], colour: str
 ) -> None:
-    """Draw a signal and its estimate, both (K,), with these symbols, or say that there is no observer."""
+    """Draw a signal and its estimate, both (K,), over time, or say on the axes that there is no observer.
+
+    names: symbols of both in TeX. colour: of the signal; the estimate is dashed in black.
+    """
     t = broken(s, s.t)
     axes.plot(t, broken(s, true), color=colour, lw=2.4, alpha=0.6, label=f"${names[0]}$")
     if np.isnan(estimate).all():
@@ -178,13 +194,15 @@ def _pair(
 
 
 def without_observer(axes: Axes) -> None:
-    """Say on the axes, in place of an estimate, that there is none."""
+    """Write on the axes, in place of a curve, that the controller has no observer."""
     axes.text(0.5, 0.9, "no observer: nothing is estimated", ha="center", transform=axes.transAxes)
 
 
 def energy(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
-    """Energies [J] over time [s], the potential energy from its least value; impacts take kinetic
-    energy only.
+    """Draw kinetic, potential and total energy [J] over time [s], the potential energy
+    counted from its least value.
+
+    At an impact only the kinetic energy falls. push: (start, stop) [s], shaded. Returns the axes.
     """
     potential = s.potential - s.potential.min()
     line(axes, s, s.kinetic, 0, "kinetic")
@@ -194,11 +212,11 @@ def energy(axes: Axes, s: Signals, push: Window | None = None) -> Axes:
 
 
 def friction_cone(axes: Axes, s: Signals, mu: float = 0.6, slope: float = 0.0) -> Axes:
-    """F_T against F_N [N] in single support and the cone |F_T| = mu F_N; outside it a foot would slip.
+    """Draw F_T against F_N [N] in single support and the cone |F_T| = mu F_N, outside
+    of which a foot would slip.
 
-    mu: coefficient of dry friction, 0.6 for RABBIT (its record names the source). slope [rad]: of
-    the ground, positive downhill; F_T is along it. Impulses at impact are not forces and are not
-    drawn.
+    mu: coefficient of dry friction, 0.6 for RABBIT (its record names the source). slope [rad]: of the ground,
+    positive downhill; F_T is along it. Impulses at impact are not forces and are not drawn. Returns the axes.
 
     Raises InputError for a coefficient that is not positive.
     """
@@ -218,7 +236,11 @@ def friction_cone(axes: Axes, s: Signals, mu: float = 0.6, slope: float = 0.0) -
 
 
 def ground_reaction(axes: Axes, s: Signals, push: Window | None = None, slope: float = 0.0) -> Axes:
-    """F_T and F_N [N] over time [s], along and out of ground of this slope [rad], positive downhill."""
+    """Draw F_T and F_N [N] over time [s], along and perpendicular to ground of this
+    slope [rad], positive downhill.
+
+    push: (start, stop) [s], shaded. Returns the axes.
+    """
     for i, (name, axis) in enumerate(zip(("$F_T$", "$F_N$"), ground_axes(slope), strict=True)):
         line(axes, s, s.ground_reaction @ axis, i, name)
     axes.axhline(0.0, color="black", lw=0.8, label="_")
@@ -226,9 +248,10 @@ def ground_reaction(axes: Axes, s: Signals, push: Window | None = None, slope: f
 
 
 def phase_portrait(axes: Axes, s: Signals, name: str = "walk", colour: int = 0) -> Axes:
-    """Theta [rad] against Theta' [rad/s]: solid in single support, dotted across impacts.
+    """Draw Theta' [rad/s] over Theta [rad]: solid in single support, dotted across
+    impacts, with a dot at the start.
 
-    colour: index in the palette. The start is marked.
+    name: in the legend. colour: index in the palette. Returns the axes.
     """
     axes.plot(broken(s, s.theta), broken(s, s.dtheta), color=PALETTE[colour], lw=0.8, label=name)
     for k, j in enumerate(np.flatnonzero(np.diff(s.step))):

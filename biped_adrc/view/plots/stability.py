@@ -17,13 +17,16 @@ from biped_adrc.core.types import Array
 from biped_adrc.view.style import GREY, PALETTE, label
 
 MARKERS = "ox^s"
-"""Marks by method."""
+"""Marks of the points, one for each method of computing multipliers."""
 STEPS = 12
-"""Of a staircase."""
+"""Steps of the return map that a staircase shows."""
 
 
 def multipliers(axes: Axes, found: Mapping[str, ArrayLike]) -> Axes:
-    """Multipliers (k,) [1], complex, by name in the unit circle."""
+    """Draw Floquet multipliers in the complex plane with the unit circle; returns the axes.
+
+    found: name of a method -> its multipliers (k,), complex, dimensionless.
+    """
     angle = np.linspace(0.0, 2.0 * np.pi, 361)
     axes.plot(np.cos(angle), np.sin(angle), color="black", lw=1.0, label="unit circle")
     for i, (name, values) in enumerate(found.items()):
@@ -38,10 +41,12 @@ def multipliers(axes: Axes, found: Mapping[str, ArrayLike]) -> Axes:
 def magnitudes(
     axes: Axes, found: Mapping[str, ArrayLike], published: ArrayLike | None = None
 ) -> Axes:
-    """|lambda| (k,) [1] by name in decreasing order on a logarithmic scale; stable below 1.
+    """Draw |lambda| of multipliers, in decreasing order, on a logarithmic scale; returns
+    the axes. Below 1 is stable.
 
-    Zeros have no place on that scale: the legend counts them. published (k,): magnitudes printed in
-    the paper; they come from a regression and are shown for comparison only.
+    found: name of a method -> its multipliers (k,), dimensionless. Zeros have no place on that scale:
+    the legend counts them. published (k,): magnitudes printed in the paper; they come from a regression
+    and are shown for comparison only.
     """
     axes.axhline(1.0, color="black", lw=1.0, label="unit circle")
     for i, (name, values) in enumerate(found.items()):
@@ -61,16 +66,18 @@ def magnitudes(
 
 
 def _plot(axes: Axes, i: int, name: str, x: ArrayLike, y: ArrayLike, size: int) -> None:
-    """Draw y over x, both (k,), as open marks of the i-th kind and colour."""
+    """Draw y (k,) over x (k,) as open marks of the i-th kind and colour, `size` [pt] large,
+    with a name in the legend.
+    """
     marker, colour = MARKERS[i % 4], PALETTE[i]
     axes.plot(x, y, marker=marker, ls="", mec=colour, mfc="none", ms=size, label=name)
 
 
 def staircase(axes: Axes, before: Array, after: Array) -> Axes:
-    """The return map of one coordinate, the diagonal, and the way of STEPS steps from either end of it.
+    """Draw the return map of one coordinate, the diagonal, and STEPS steps of the map from either end of it.
 
-    before, after (k,): Theta' before an impact and before the next [rad/s]; between the samples the
-    map is interpolated linearly. The walk settles where the stairs end: at the fixed point.
+    before, after (k,): Theta' before an impact and before the next [rad/s]; between the samples the map is
+    interpolated linearly. The walk settles where the stairs end: at the fixed point. Returns the axes.
     """
     order = np.argsort(before)
     x, y = np.asarray(before, dtype=float)[order], np.asarray(after, dtype=float)[order]
@@ -88,8 +95,10 @@ def staircase(axes: Axes, before: Array, after: Array) -> Axes:
 
 
 def stairs(axes: Axes, way: Sequence[float] | Array, name: str) -> None:
-    """Draw the stairs of the values `way` (k,) of successive steps, in the unit of the map: up or down
-    to the map, then across to the diagonal.
+    """Draw successive values `way` (k,) of a return map as stairs: up or down to the map,
+    then across to the diagonal.
+
+    way: in the unit of the map. name: in the legend.
     """
     corners = np.repeat(way, 2)
     axes.plot(corners[:-1], np.append(way[0], corners[2:]), color=PALETTE[1], lw=0.9, label=name)

@@ -1,7 +1,10 @@
 """Figures of a study, one for each question: cells, dots with intervals, maps and paths.
 
-All take plain values and draw any study: rows and columns are names, numbers come with the ends of an
+They take plain values and draw any study: rows and columns are names, numbers come with the ends of an
 interval of 95 %, which are NaN where there is none. What is not finite has no mark.
+
+`push_map_figure` draws the map of pushes of the paper's reproduction (`paper.push_map`): how two controllers
+walk on after the same push, over onset, amplitude and joints.
 """
 
 from __future__ import annotations
@@ -14,10 +17,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch, Polygon
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from biped_adrc.core.types import Array
+from biped_adrc.analysis.feasibility import COUNTED
+from biped_adrc.core.types import Array, PlainRecord
 from biped_adrc.view.style import GREY, PALETTE, label, literal, named_cells, new_figure
 
 MARKERS = ("o", "s", "D", "^", "v", "P", "X", "*")
@@ -34,7 +39,10 @@ Numbers = Mapping[tuple[str, str], Sequence[float]]
 
 
 def cells_figure(shares: Mapping[tuple[str, str], tuple[int, int]]) -> Figure:
-    """By row and column so many of so many walks, as a table in cells; white where it is all of them."""
+    """Draw a table whose cells show "k of n" walks, white where all n of them count, darker for fewer.
+
+    shares: (row, column) -> (k, n), whole numbers.
+    """
     rows, columns = _names(shares)
     counts = [[shares.get((row, column)) for column in columns] for row in rows]
     values = np.array([[math.nan if x is None else x[0] / x[1] for x in row] for row in counts])
@@ -47,9 +55,10 @@ def cells_figure(shares: Mapping[tuple[str, str], tuple[int, int]]) -> Figure:
 
 
 def dots_figure(numbers: Numbers, title: str, reference: float | None = None) -> Figure:
-    """A row for each name and a mark for each series, on a logarithmic axis.
+    """Draw numbers with their intervals on a logarithmic axis: a row for each name, a mark for each series.
 
-    title: of the axis, with its unit. reference: number at which a line is drawn.
+    numbers: (row, series) -> (number, low, high). title: of the axis, with its unit. reference:
+    number at which a line is drawn.
     """
     rows, series = _names(numbers)
     offsets = np.linspace(-0.22, 0.22, len(series)) if len(series) > 1 else [0.0]
@@ -89,10 +98,11 @@ def map_figure(
     title: str,
     log: bool,
 ) -> Figure:
-    """A number as colour over two fields: by panel the levels x (N,), y (N,) and the numbers (N,) of its walks.
+    """Draw a number as colour over two fields of a study, in one panel for each case.
 
-    Numbers of a cell are averaged, infinite ones left out. names: of x and y, with units. log: scale of colour;
-    otherwise from 0 to 1.
+    panels: name -> (x (N,), y (N,), numbers (N,)) of its N walks, with the levels of both fields. Numbers in
+    the same cell are averaged, infinite ones left out. names: labels of x and y, with units. title: of the
+    colour bar. log: logarithmic scale of colour; otherwise it goes from 0 to 1.
     """
     shown = dict(list(panels.items())[:MOST_PANELS])
     xs, ys = (cut([x for panel in shown.values() for x in panel[i]]) for i in (0, 1))
@@ -128,9 +138,12 @@ def map_figure(
 def path_figure(
     paths: Mapping[str, Sequence[tuple[int, float, bool]]], title: str, less: bool
 ) -> Figure:
-    """By case the number of each walked candidate, its objective, and whether it keeps all limits.
+    """Draw how a search went: the objective of each candidate over its number, a cross
+    where it breaks a limit.
 
-    A line is the best one so far that keeps all limits. less: whether less is better.
+    paths: case -> (number of the candidate, objective, whether it keeps all limits) of each. title: of the
+    axis of the objective, with its unit. A line is the best one so far that keeps all limits. less:
+    whether a smaller objective is better.
     """
     with new_figure(6.5, 3.2) as figure:
         axes = figure.subplots()
@@ -153,7 +166,10 @@ def path_figure(
 
 
 def cut(values: Sequence[Any]) -> tuple[NDArray[np.intp], list[str]]:
-    """The cell of each value (N,), and the names of the cells: its levels, or many numbers cut into `CELLS`."""
+    """Sort values (N,) into cells; returns the index of the cell of each (N,), and the names of the cells.
+
+    Each level is a cell; more than MOST_LEVELS numbers are cut into `CELLS` intervals of equal width.
+    """
     levels = sorted(set(values), key=lambda x: (isinstance(x, str), x is None, x or 0))
     if len(levels) <= MOST_LEVELS or not all(isinstance(x, int | float) for x in levels):
         places = {x: i for i, x in enumerate(levels)}
@@ -164,13 +180,17 @@ def cut(values: Sequence[Any]) -> tuple[NDArray[np.intp], list[str]]:
 
 
 def _text(x: Any) -> str:
+    """Text of a level on an axis: texts as they are, numbers with four digits, "none" for None."""
     return literal(x) if isinstance(x, str) else "none" if x is None else f"{x:.4g}"
 
 
 def _means(
     x: NDArray[np.intp], y: NDArray[np.intp], numbers: Array, shape: tuple[int, int]
 ) -> Array:
-    """(cells of y, cells of x): the mean of the finite numbers (N,), NaN in a cell without."""
+    """Mean of the finite numbers (N,) in each cell, (cells of y, cells of x); NaN in a cell without one.
+
+    x, y (N,): index of the cell of each number along both axes. shape: (cells of y, cells of x).
+    """
     known = np.isfinite(numbers)
     places = (y * shape[1] + x)[known]
     count = np.bincount(places, minlength=shape[0] * shape[1])
@@ -186,7 +206,12 @@ def _cells(
     norm: Normalize,
     edge: str,
 ) -> Any:
-    """Draw a table of values as colours, cell (i, j) at x = j, y = i, with their texts on them."""
+    """Draw a table of values (rows, columns) as coloured cells, cell (i, j) at x = j,
+    y = i, with texts on them.
+
+    colours: name of matplotlib's colour map; edge: colour of the lines between cells.
+    Returns matplotlib's mesh.
+    """
     edges = [np.arange(count + 1) - 0.5 for count in reversed(values.shape)]
     image = axes.pcolormesh(*edges, values, cmap=colours, norm=norm, ec=edge, lw=0.3)
     for (y, x), text in np.ndenumerate(texts):
@@ -197,12 +222,81 @@ def _cells(
 
 
 def _ticks(axes: Axes, x: Sequence[str], y: Sequence[str]) -> None:
-    """Name the cells of both axes, at most twelve or so of each."""
+    """Label the cells of both axes with their names, at most about twelve of each."""
     for set_ticks, names, rotation in ((axes.set_xticks, x, 45), (axes.set_yticks, y, 0)):
         places = range(0, len(names), -(-len(names) // 12))
         set_ticks(list(places), [names[k] for k in places], rotation=rotation)
 
 
 def _names(found: Mapping[tuple[str, str], Any]) -> tuple[list[str], list[str]]:
-    """Rows and columns in the order of their first appearance."""
+    """Names of rows and of columns, each in the order of first appearance, from keys (row, column)."""
     return list(dict.fromkeys(a for a, _ in found)), list(dict.fromkeys(b for _, b in found))
+
+
+FATES: dict[str, tuple[str, str, str]] = {
+    "feasible": ("walks on, feasible", "#FFFFFF", ""),
+    "but_impact": ("walks on, feasible but for the impact", "#E8E8E8", "/"),
+    "infeasible": ("makes all steps, beyond friction or torque", "#F0E442", "///"),
+    "pulled": ("makes all steps, the ground would have had to pull", "#E69F00", "..."),
+    "fell": ("falls", "#555555", "xxx"),
+    "ended": ("ends otherwise: singular, diverged, stalled", "#CC79A7", "\\\\\\"),
+    "marginal": ("the step of the method decides", "#56B4E9", "++"),
+}
+"""Outcome of a walk -> text of the legend, colour, hatch; the hatches tell them apart in a grey print too."""
+
+
+def push_map_figure(rows: Sequence[PlainRecord]) -> Figure:
+    """Draw which pushes each controller survives: a panel for each torque limit, a cell for each push.
+
+    Columns are onsets, rows (pattern, amplitude); the upper left half of a cell is NPD, the lower right half
+    ADRC. rows: "onset_ms" [ms], "amplitude" [N m], "pattern", "torque_limit" [N m] or None for unlimited,
+    "npd_word" and "adrc_word" of `FATES`. Panels go from unlimited torque to the highest limit, rows of cells
+    are in the order of the data. The title of a panel counts the pushes that are feasible, the impact aside.
+    """
+    limits = sorted({r["torque_limit"] for r in rows}, key=lambda v: (v is not None, v))
+    kinds = list(dict.fromkeys((r["pattern"], r["amplitude"]) for r in rows))
+    onsets = sorted({r["onset_ms"] for r in rows})
+    height = 2.1 + 0.2 * max(len(kinds), 4)
+    with new_figure(1.8 + len(limits) * (1.4 + 0.38 * max(len(onsets), 5)), height) as figure:
+        panels = figure.subplots(1, len(limits), squeeze=False, sharey=True)[0]
+        for axes, limit in zip(panels, limits, strict=True):
+            here = [r for r in rows if r["torque_limit"] == limit]
+            _pushes(axes, here, kinds, onsets)
+            name = "unlimited torque" if limit is None else f"torque within {limit:g} N m"
+            label(axes, "onset of the push in the step [ms]", "", f"{name}\n{_counted(here)}")
+        panels[0].set_ylabel("joints and amplitude of the push [N m]")
+        shown = {r[key] for r in rows for key in ("npd_word", "adrc_word")}
+        handles = [
+            Patch(fc=c, ec="black", hatch=h, label=t)
+            for word, (t, c, h) in FATES.items()
+            if word in shown
+        ]
+        figure.legend(
+            handles=handles, loc="outside lower center", ncols=1 if len(limits) < 2 else 2
+        )
+        return figure
+
+
+def _pushes(
+    axes: Axes,
+    rows: Sequence[PlainRecord],
+    kinds: list[tuple[str, float]],
+    onsets: list[float],
+) -> None:
+    """Draw the cells of one panel, columns by onset [ms], rows by (pattern, amplitude [N m])."""
+    for r in rows:
+        x = onsets.index(r["onset_ms"]) - 0.5
+        y = kinds.index((r["pattern"], r["amplitude"])) - 0.5
+        upper = [(x, y), (x + 1, y), (x, y + 1)]  # the axis of y points down
+        lower = [(x + 1, y), (x + 1, y + 1), (x, y + 1)]
+        for key, corners in (("npd_word", upper), ("adrc_word", lower)):
+            _, colour, hatch = FATES[r[key]]
+            axes.add_patch(Polygon(corners, fc=colour, ec="black", lw=0.4, hatch=hatch))
+    names = [f"{pattern}, {size:g}" for pattern, size in kinds]
+    named_cells(axes, names, [f"{onset:g}" for onset in onsets])
+
+
+def _counted(rows: Sequence[PlainRecord]) -> str:
+    """Text that counts, for each controller, the pushes after which the walk is feasible, the impact aside."""
+    npd, adrc = (sum(r[f"{c}_word"] in COUNTED for r in rows) for c in ("npd", "adrc"))
+    return f"feasible, the impact aside: NPD {npd}, ADRC {adrc} of {len(rows)}"

@@ -29,11 +29,11 @@ WIDE = 2.0  # where the domain has no upper end it is drawn to this many zeta*
 STAIRS = 8
 """Steps drawn from either end of the domain."""
 DOMAIN = "#DDEBF4"
-"""Light blue, of the domain."""
+"""Light blue, the colour of the domain."""
 
 
 def zero_inertia(axes: Axes, orbits: ZeroOrbits) -> Axes:
-    """I(Theta) [kg m^2], the inertia sigma / Theta', which must not change its sign."""
+    """Draw I(Theta) [kg m^2], the inertia sigma / Theta', which must not change its sign; returns the axes."""
     theta = grid(orbits.zero)
     axes.plot(theta, orbits.inertia(theta), color=PALETTE[0])
     axes.axhline(0.0, color="black", lw=0.8)
@@ -42,9 +42,10 @@ def zero_inertia(axes: Axes, orbits: ZeroOrbits) -> Axes:
 
 
 def zero_potential(axes: Axes, report: ZeroDynamicsReport) -> Axes:
-    """V_zero(Theta) [kg^2 m^4/s^2], its largest value, and sigma+^2 / 2 of the orbit, which has to be above it.
+    """Draw V_zero(Theta) [kg^2 m^4/s^2], its largest value, and sigma+^2 / 2 of the
+    orbit, which has to be above it.
 
-    Where it is not, the robot does not come over the top of its step and falls back.
+    Where it is below, the robot does not come over the top of its step and falls back. Returns the axes.
     """
     o = report.orbits
     theta = grid(o.zero)
@@ -62,11 +63,11 @@ def zero_potential(axes: Axes, report: ZeroDynamicsReport) -> Axes:
 
 
 def zero_portrait(axes: Axes, report: ZeroDynamicsReport) -> Axes:
-    """(Theta [rad], sigma [kg m^2/s]) with level curves, the domain shaded, and the orbit with its
-    impact dotted.
+    """Draw the phase plane (Theta [rad], sigma [kg m^2/s]): level curves, the domain shaded,
+    the orbit, its impact dotted.
 
-    Level curves are those of sigma^2 / 2 + V_zero(Theta). Limits follow the fastest step of the
-    domain.
+    Level curves are those of sigma^2 / 2 + V_zero(Theta). Limits follow the fastest step of
+    the domain. Returns the axes.
     """
     o, theta = report.orbits, grid(report.orbits.zero)
     low, high = _shown(report)
@@ -86,10 +87,11 @@ def zero_portrait(axes: Axes, report: ZeroDynamicsReport) -> Axes:
 
 
 def restricted_map(axes: Axes, report: ZeroDynamicsReport) -> Axes:
-    """rho(zeta), the diagonal, zeta*, the domain shaded, and the stairs of STAIRS steps from either end of it.
+    """Draw the return map rho(zeta), the diagonal, zeta*, the domain, and STAIRS steps of
+    the map from either end of it.
 
-    zeta [kg^2 m^4/s^2] is sigma^2 / 2 before an impact. The stairs begin just inside the domain, as
-    its ends are left out of it, and run towards zeta* where the gait is stable.
+    zeta [kg^2 m^4/s^2] is sigma^2 / 2 before an impact. The stairs begin just inside the domain, as its ends
+    do not belong to it, and run towards zeta* where the gait is stable. Returns the axes.
     """
     o = report.orbits
     low, high = _shown(report)
@@ -114,7 +116,9 @@ def restricted_map(axes: Axes, report: ZeroDynamicsReport) -> Axes:
 
 
 def zero_dynamics_figure(report: ZeroDynamicsReport) -> Figure:
-    """All four plots, with what bounds the domain as a title."""
+    """Draw inertia, potential, phase portrait and return map of a gait's zero dynamics;
+    the title names its bounds.
+    """
     with new_figure(9.0, 6.6) as figure:
         (inertia, potential), (portrait, returns) = figure.subplots(2, 2)
         zero_inertia(inertia, report.orbits)
@@ -126,7 +130,7 @@ def zero_dynamics_figure(report: ZeroDynamicsReport) -> Figure:
 
 
 def _level_curves(axes: Axes, report: ZeroDynamicsReport) -> None:
-    """Draw steps that are not the orbit, in what the axes show; those below V_max turn round."""
+    """Draw level curves of sigma^2 / 2 + V_zero within the limits of the axes; steps below V_max turn round."""
     o = report.orbits
     theta, sigma = np.meshgrid(grid(o.zero)[::2], np.linspace(*axes.get_ylim(), 201))
     above = o.delta**2 * report.zeta_star - o.v_max
@@ -137,7 +141,9 @@ def _level_curves(axes: Axes, report: ZeroDynamicsReport) -> None:
 
 
 def _shown(report: ZeroDynamicsReport) -> tuple[float, float]:
-    """The range of zeta that is shown as domain; of an empty one, from the lowest zeta to that of the orbit."""
+    """The range of zeta [kg^2 m^4/s^2] to draw: the domain, or from the lowest zeta to
+    the orbit's if it is empty.
+    """
     low, high = report.domain
     if report.domain.empty:
         return report.orbits.lowest, report.zeta_star
@@ -145,8 +151,8 @@ def _shown(report: ZeroDynamicsReport) -> tuple[float, float]:
 
 
 def _sigma(orbits: ZeroOrbits, theta: Array, zeta: float) -> Array:
-    """sigma [kg m^2/s] over theta (K,) [rad] in the step that follows zeta, NaN where the step does
-    not come.
+    """sigma [kg m^2/s] over theta (K,) [rad] in the step that follows zeta, NaN where
+    the step does not arrive.
     """
     square = orbits.sigma_squared(theta, zeta)
     size = np.sqrt(np.where(square >= 0.0, square, np.nan))
@@ -154,7 +160,7 @@ def _sigma(orbits: ZeroOrbits, theta: Array, zeta: float) -> Array:
 
 
 def _title(report: ZeroDynamicsReport) -> str:
-    """The domain and what bounds it, as a sentence."""
+    """Sentence with the ends of the domain and the limit that bounds each."""
     low, high = report.domain
     if report.domain.empty:
         return "no speed keeps the limits"
@@ -164,6 +170,8 @@ def _title(report: ZeroDynamicsReport) -> str:
 
 
 def _walking_order(axes: Axes, theta: Array) -> Axes:
-    """Limits of the axis of Theta with the start of a step at the left, so that a step runs to the right."""
+    """Limit the Theta axis to the phases of a step, turned so that its start is at the left; returns
+    the axes.
+    """
     axes.set_xlim(theta[0], theta[-1])
     return axes

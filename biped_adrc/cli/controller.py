@@ -1,0 +1,138 @@
+"""`biped-adrc observer`, `export` and `replay`: what is said of a controller without a walk.
+
+`observer` prints what an observer asks of encoders, clock and motors, from the linear loop of one joint
+(`analysis.observer.report`). `export` writes the controller of a scenario as C (`extras.export.export`); where
+there is a C compiler the files are compiled once, so that what is printed has been seen. `replay` shows a
+robot's log to the controller of a scenario (`extras.logs.replay`).
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from biped_adrc.cli.app import FIGURES, app, inputs, say, say_table, say_written, target
+from biped_adrc.cli.options import WALKS, options, pairs, scenario_from
+from biped_adrc.core.files import check_folder, write_text
+from biped_adrc.core.types import PlainRecord
+
+
+@app.command("observer")
+@options(
+    "observer",
+    *("gait", "preset", "robot", "period", "poles", "bandwidth", "order"),
+    period="1.5 ms, RABBIT's",
+)
+def observer_command(
+    values: PlainRecord, sets: list[str] | None = None, out: Path | None = None
+) -> None:
+    """Say what an observer asks of encoders, clock and motors, and which one a robot allows.
+
+    Encoders and clock are RABBIT's if not said otherwise.
+    """
+    from biped_adrc.analysis.observer.report import observer_report
+    from biped_adrc.core.checks import check_part
+    from biped_adrc.observers.gpi import GPIObserver
+    from biped_adrc.scenario.build import RobotAndGait
+    from biped_adrc.scenario.controllers import controller
+
+    out = target(out, FIGURES)
+    if not {"hardware", "hardware.profile"} & pairs(sets).keys():
+        values = {"hardware.profile": "rabbit", **values}
+    s = scenario_from(values, sets)
+    h, scene = s.hardware, RobotAndGait.of(s)
+    law: Any = controller(s, scene.walked, scene.biped)
+    check_part(
+        getattr(law, "observer", None), f"the observer of '{s.controller.name}'", GPIObserver
+    )
+    report = observer_report(
+        law.observer,
+        law.gains,
+        robot=scene.biped,
+        gait=scene.walked,
+        period=h.period or 1e-3,
+        counts=h.encoders.counts or 8192.0,
+        delay=h.delay,
+        known=h.delay_known,
+    )
+    say(report.verdict)
+    for section in report.sections:
+        say_table(section.header, section.rows, section.title)
+    if out is not None:
+        from biped_adrc.view.plots.figures import observer_figure
+        from biped_adrc.view.style import write_figure
+
+        write_figure(out, observer_figure(report))
+        say_written(out)
+
+
+SLOW = 10.0
+"""[1/s]; several integrators in a row seem to grow by less than this, from round-off."""
+
+
+@app.command("export")
+@options("export")
+def export_command(
+    scenario: Path,
+    out: Path,
+    sets: list[str] | None = None,
+    prefix: str = "controller",
+    real: str = "float64",
+    fmu: bool = False,
+) -> None:
+    """Write the controller of a scenario as C99 that needs no library, for a robot's computer."""
+    from biped_adrc.extras.export.computer import Computer
+    from biped_adrc.extras.export.export import export_c
+    from biped_adrc.extras.export.fmu import contents
+    from biped_adrc.extras.export.loaded import tried
+    from biped_adrc.scenario.build import RobotAndGait, build
+
+    s = scenario_from({}, sets, scenario)
+    source = export_c(s, out, prefix, real, fmu)
+    step, files = source.written["step"], list(source.files)
+    say(
+        f"step: {step.operations} operations, {step.doubles} of them in double always; {source.numbers} "
+        f"constants; state {', '.join(f'{x.name} {x.size}' for x in source.fields) or 'none'}"
+    )
+    say(tried(source))
+    if fmu:
+        files.append(f"{source.prefix}.fmu")
+        say(f"{files[-1]}, for co-simulation by FMI 2.0: {contents()}")
+    say(f"written to {out}: {', '.join(files)}")
+    scene = RobotAndGait.of(s)
+    if (growth := Computer(build(s, scene)).growth(*scene.on_orbit)) > SLOW:
+        say(
+            f"by itself this controller is unstable, its fastest mode grows by {growth:.0f} /s: on a recorded "
+            "walk the least difference grows too, so compare it in closed loop"
+        )
+
+
+@app.command("replay")
+@options("replay", *WALKS)
+def replay_command(
+    values: PlainRecord,
+    log: Path,
+    sets: list[str] | None = None,
+    scenario: Path | None = None,
+    window: float = 0.02,
+    out: Path | None = None,
+) -> None:
+    """Show a robot's log to a controller and its observer, and print what they make of it."""
+    from biped_adrc.extras.logs.replay import HEADER, cells, replay
+    from biped_adrc.view.style import write_figure
+
+    s, paths = scenario_from(values, sets, scenario), list[Path]()
+    if out is not None:
+        check_folder(out)
+        read = (log, *inputs(s.robot.name, s.gait.name))
+        names = ("replay.csv", "steps.txt", "replay.svg")
+        paths = [target(out / name, (Path(name).suffix,), read) for name in names]
+    result = replay(log, s, window)
+    if paths:
+        result.to_csv(paths[0])
+        write_text(paths[1], f"{result.text()}\n")
+        write_figure(paths[2], result.plot())
+    say_table(HEADER, map(cells, result.rows))
+    for remark in result.remarks:
+        say(f"note: {remark}")
+    say_written(*paths)
