@@ -1,8 +1,9 @@
-"""Make the picture README.md opens with, and that of the zero dynamics. Run: python docs/make_pictures.py"""
+"""Make the picture README.md opens with, and those of the pages. Run: python docs/make_pictures.py"""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from matplotlib.figure import Figure
 from PIL import Image
@@ -24,6 +25,42 @@ PUSH = "q1,q2=-150@4:0.3-0.5"
 CLIP = Clip(start=1.95, stop=3.62, fps=16.0, apart=True, slower=2.0)
 TOP, BOTTOM, WORDS = 75, 545, (0, 40, 800, 58)
 """[px], of a frame: names and robots alone, without legend, curves and the line of errors."""
+
+
+FOOTSTEP = {"name": "footstep", "inner": "NPD"}
+ON_GROUND = {"hardware.period": "1 ms", "hardware.torque_limit": 150.0, "run.impacts": 12}
+HELD = {"shape": "hip force", "force": 14.4, "direction": "180 deg", "steps": (5, 99)}
+FOOTSTEPS: dict[str, tuple[dict[str, Any], dict[str, Any], Clip]] = {
+    "hip": (
+        {"gait": "v0.5", "pushes": [HELD]},
+        {
+            "stride PI": {"name": "stride PI", "inner": "NPD"},
+            "footstep": {**FOOTSTEP, "step": 0.25},
+        },
+        Clip(start=1.8, stop=4.6, fps=12.0, apart=True),
+    ),
+    "ground": (
+        {"gait": "v0.6", "gait.continued": True, "ground.step_height": "20 mm", "run.seed": 11},
+        {"NPD": {"name": "NPD"}, "footstep": {**FOOTSTEP, "speed": 0.6, "step": 0.38}},
+        Clip(start=2.4, stop=7.2, fps=12.0, apart=True),
+    ),
+    "stones": (
+        {"gait": "v0.6", "ground.stone_range": (0.2, 0.6), "run.seed": 8},
+        {"footstep": {**FOOTSTEP, "speed": 0.55, "step": 0.4}},
+        Clip(start=0.5, stop=6.0, fps=12.0),
+    ),
+}
+"""By picture: the scenario, the controllers, and what is shown."""
+
+
+def footstep_picture(path: Path, values: dict[str, Any], cases: dict[str, Any], clip: Clip) -> None:
+    """The footstep controller, feasible, beside one that does not walk on, where there is one."""
+    walks = {
+        name: walk_scenario(Scenario(controller, **ON_GROUND | values))
+        for name, controller in cases.items()
+    }
+    assert walks["footstep"].feasibility.outcome == "feasible"
+    write_moving_picture(path, walks, clip)
 
 
 def push_picture(path: Path) -> None:
@@ -54,6 +91,8 @@ def zero_picture() -> Figure:
 
 def main() -> None:
     push_picture(IMAGES / "push.gif")
+    for name, (values, cases, clip) in FOOTSTEPS.items():
+        footstep_picture(IMAGES / f"footstep_{name}.gif", values, cases, clip)
     write_bytes(IMAGES / "zero.svg", render(zero_picture(), "svg"))
 
 

@@ -33,6 +33,8 @@ from biped_adrc.view.colours import (
 from biped_adrc.view.from_the_side.side_view import SideView, placed_lines
 from biped_adrc.view.placement import TILE, loads
 
+STONE = "#7a5230"
+"""Colour of a stone: brown."""
 COLOURS = {"stance": STANCE, "swing": SWING, "": TRUNK}
 """Colour of a line by its role; the trunk has the role ""."""
 SOLE, HEADROOM = 0.12, 1.2
@@ -68,7 +70,10 @@ def wrapped(words: str, width: float) -> str:
 
 
 def ground(axes: Axes, views: list[SideView]) -> None:
-    """Draw the ground of every walk as a line, and the tiles of the last one; equal lines are drawn once."""
+    """Draw the ground of every walk as a line, and the tiles and stones of the last one.
+
+    Equal lines are drawn once. A stone is where the foot that stands on the one before has to land next.
+    """
     x = np.concatenate([view.scene.footholds for view in views])
     low, high = math.floor(x.min()) - 3, math.ceil(x.max()) + 4
     lines = [view.scene.surface.line(low, high) for view in views]
@@ -76,8 +81,14 @@ def ground(axes: Axes, views: list[SideView]) -> None:
         axes.plot(*line.T, color="black", lw=1.0, zorder=1)
     for ends, light in views[-1].scene.surface.tiles(round(low / TILE), round(high / TILE)):
         shade = "#c8c8c8" if light else "#9e9e9e"
-        at, top = ends.T
-        axes.fill_between(at, top - 0.05, top, color=shade, lw=0.0, zorder=0)
+        edge, top = ends.T
+        axes.fill_between(edge, top - 0.05, top, color=shade, lw=0.0, zorder=0)
+    scene = views[-1].scene
+    if scene.walker.stones is not None:
+        half = scene.walker.stones.tolerance
+        for x_0, L in zip(scene.footholds, scene.walker.stones.lengths, strict=False):
+            at, z = (x_0 + L - half, x_0 + L + half), scene.level(float(x_0 + L))
+            axes.plot(at, (z, z), color=STONE, lw=6.0, solid_capstyle="butt", zorder=1)
 
 
 def follow(axes: Axes, view: SideView, t: float, left: float, right: float) -> None:
