@@ -1,22 +1,24 @@
-"""A filter of the torque that keeps the swing foot on its way to the stone: exponential control barrier functions.
+"""A filter of the torque that keeps the swing foot on its way to the stone: exponential control barriers.
 
-The foot is x(q) ahead of the stance foot, a sum of turned vectors (`model.planar`), and x_r(Theta) where the reference
-in force has it, with c q_r = Theta. The corridor ends on the stone L, also where the reference steps to L_r:
+The foot is x(q) ahead of the stance foot, a sum of turned vectors (`model.planar`), and x_r(Theta) where the
+reference in force has it, with c q_r = Theta. The corridor is about x_c, and ends on the stone L, also where
+the reference steps to L_r:
 
     b_1 = tol - e,   b_2 = tol + e,   e = x - x_c,   x_c = x_r + (L - L_r) beta(x_r / L_r)
 
-beta rises from 0 where the foot passes the stance foot to 1 at the end. With the model's q_N'' = A_N q_b'' + a_N,
+beta rises from 0 where the foot passes the stance foot to 1 at the end. With q_N'' = A_N q_b'' + a_N of (12),
 
     e'' = G q_b'' + g,   q_b'' = kappa u + xi^
 
-xi^ is the estimate of the observer inside, with all in it that the model does not know; without one, the model's
-xi. Both conditions b'' + 2 lambda b' + lambda^2 b >= 0 (poles at -lambda) bound one number, e'':
+xi^ is the estimate of the observer inside, with all in it that the model does not know; without one it is the
+model's xi. The conditions b'' + 2 lambda b' + lambda^2 b >= 0 (both poles at -lambda) bound one number:
 
     |e'' + 2 lambda e' + lambda^2 e| <= lambda^2 tol
 
-Of all torques that keep it that one acts whose q_b'' is nearest to that of the controller inside, |q_b'' - a|^2
-least: its error dynamics are double integrators of the joints, which count alike, whatever their inertia. It is a
-quadratic program in closed form, q_b'' = a + G' d / |G|^2, where d is what is missing to the nearer bound, 0 inside.
+Of all torques that keep it that one acts whose q_b'' is nearest to that of the controller inside, a, by
+|q_b'' - a|^2: its error dynamics are double integrators of the joints, which count alike whatever their
+inertia. It is a quadratic program in closed form, q_b'' = a + G' d / |G|^2, where d is what is missing to the
+nearer bound, 0 inside.
 
 The bounds never exclude each other, but the limit of the torque, which is not in the program, may. An instant
 at which the torque that acts does not keep them is *infeasible*; in sampled time the last number of the state
@@ -30,7 +32,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, Self
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 
@@ -62,10 +64,10 @@ class FootError(NamedTuple):
 class FootBarrier(Around):
     """The module's filter around `inner`; its state is that of `inner` and the number of infeasible instants.
 
-    A, re, im: matrix of the absolute angles (n, n), vectors d = re + i im (n,) [m] of the swing foot. stones: L of
-    the steps [m], the first one first; behind the last one nothing is filtered. step: L_r [m], None for a
-    reference that steps on the stones, as in `Footstep`. tolerance: tol [m], less than that of the stones, since
-    the foot may come down early or late. rate: lambda [1/s]. observed: whether xi^ is the observer's.
+    A, re, im: matrix of the absolute angles (n, n), vectors d = re + i im (n,) [m] of the swing foot. stones: L
+    of the steps [m], the first one first; behind the last one nothing is filtered. step: L_r [m], None for a
+    reference that steps on the stones, as in `Footstep`. tolerance: tol [m], less than that of the stones,
+    since the foot may come down early or late. rate: lambda [1/s]. observed: whether xi^ is the observer's.
     Raises InputError when `inner` tracks no virtual constraint.
 
     >>> inner = ba.FootBarrier.of(ba.NPDController(gait.constraint), biped, stones=(0.42, 0.43))
@@ -80,8 +82,8 @@ class FootBarrier(Around):
     im: Array
     stones: tuple[float, ...] = ()
     step: PositiveFloat | None = None
-    tolerance: PositiveFloat = 0.01
-    rate: PositiveFloat = 60.0
+    tolerance: PositiveFloat = 0.003
+    rate: PositiveFloat = 100.0
     observed: bool = True
 
     def __post_init__(self) -> None:
@@ -94,8 +96,8 @@ class FootBarrier(Around):
         biped: Biped,
         stones: Sequence[float] = (),
         step: float | None = None,
-        tolerance: float = 0.01,
-        rate: float = 60.0,
+        tolerance: float = 0.003,
+        rate: float = 100.0,
         observed: bool = True,
     ) -> FootBarrier:
         """Around `inner`, for the swing foot of a robot."""
@@ -111,9 +113,10 @@ class FootBarrier(Around):
     def foot(self, q: Array, v: Array) -> tuple[float, float, Array, float]:
         """x [m], x' [m/s], dx/dq (n,) [m], and x'' [m/s^2] without q'' of the swing foot."""
         t, rate2 = turned(self, q), (self.A @ v) ** 2
-        J = jacobian(self, t, self.re, self.im)[0]
-        turning = point(Turned(t.c * rate2, t.s * rate2), self.re, self.im)[0]
-        return point(t, self.re, self.im)[0], J @ v, J, -turning
+        J: Any = jacobian(self, t, self.re, self.im)[0]
+        x: Any = point(t, self.re, self.im)[0]
+        turning: Any = point(Turned(t.c * rate2, t.s * rate2), self.re, self.im)[0]
+        return x, J @ v, J, -turning
 
     def corridor(self, x: float, L: float) -> tuple[float, float, float]:
         """x_c [m] of a stone L [m], and two derivatives by x_r = x [m]."""
@@ -139,11 +142,13 @@ class FootBarrier(Around):
         x_c, slope, bend = self.corridor(x_r, self.length(m.step))
         G = J - slope * (J_r @ R)
         g = ddx - slope * (ddx_r + J_r @ a_r) - bend * dx_r**2
-        return FootError(x - x_c, dx - slope * dx_r, G[:p] + G[p:] @ terms.A_N, g + G[p:] @ terms.a_N)
+        return FootError(
+            x - x_c, dx - slope * dx_r, G[:p] + G[p:] @ terms.A_N, g + G[p:] @ terms.a_N
+        )
 
     def length(self, step: int) -> float:
         """L [m] of a single support; behind the last stone any."""
-        L = 1.0
+        L: Any = 1.0
         for k, stone in enumerate(self.stones, 1):
             L = np.where(abs(step - k) < 0.5, stone, L)
         return L
@@ -154,8 +159,9 @@ class FootBarrier(Around):
         f, xi, k = self.error(m), m.terms.xi if x is None else x.disturbance, self.rate
         y = f.G @ (m.terms.kappa @ u + xi) + f.g + 2.0 * k * f.de + k * k * f.e
         bound = k * k * self.tolerance
-        d = np.maximum(-bound - y, 0.0) - np.maximum(y - bound, 0.0)
-        return np.where(m.step < len(self.stones) + 0.5, d, 0.0), f.G
+        d: Any = np.maximum(-bound - y, 0.0) - np.maximum(y - bound, 0.0)
+        d = np.where(m.step < len(self.stones) + 0.5, d, 0.0)
+        return d, f.G
 
     def filtered(self, s: Array, m: Measurement, u: Array) -> Array:
         """The torque (p,) [N m] of the program, from that of the controller inside."""
@@ -198,7 +204,7 @@ class FootBarrier(Around):
 
 
 def infeasible_instants(controller: Controller, s: Array) -> int | None:
-    """How many instants were infeasible until a controller is in the state s (size,); None without a barrier."""
+    """How many instants were infeasible until the state s (size,) of a controller; None without a barrier."""
     for c in nested(controller):
         if isinstance(c, FootBarrier):
             return round(float(s[-1])) if np.isfinite(s[-1]) else None
