@@ -28,7 +28,9 @@ from biped_adrc.analysis.certificate import IMPULSE, REASONS, supports
 from biped_adrc.analysis.feasibility import Feasibility, outcome_of
 from biped_adrc.analysis.ground_force import Nodes
 from biped_adrc.analysis.soft_steps import contact_errors
+from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.control.foot_barrier import infeasible_instants
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.files import packaged
 from biped_adrc.core.types import Array
@@ -140,6 +142,7 @@ def measured(t: Trial, walked: BatchWalk) -> WalkRow:
     }
     if status not in NO_WALK:
         row |= {"outcome": outcome_of(walked.status, REASONS), "feasible": 0, "but_impact": 0}
+        row["infeasible_qp"] = infeasible_instants(walker.law, parts(walker, walked.final_state)[2])
     if run is not None:
         result = counted_in(Walk(walker, t.scene.walked, run, s), limits(s))
     elif walked.table is not None:

@@ -64,6 +64,10 @@ ROWS = {
         ],
         "footstep": lambda make, h: [make(ba.NPDController(h), gait(), robot(), stones=(0.3, 0.5))],
         "reference reset": lambda make, h: [make(ba.ADRCController(h))],
+        "foot barrier": lambda make, h: [
+            make(ba.NPDController(h), robot()),
+            make(ba.ADRCController(h, SLOW), robot(), (0.3, 0.5), 0.4),
+        ],
         "delayed": lambda make, h: [make(ba.ADRCController(h, SLOW), 2e-3)],
         "passive": lambda make, h: [make()],
     },
