@@ -11,7 +11,6 @@ from biped_adrc.control.adrc import ADRCController as ADRCController
 from biped_adrc.control.base import Controller as Controller
 from biped_adrc.control.base import Measurement as Measurement
 from biped_adrc.control.finite_time import FiniteTimeController as FiniteTimeController
-from biped_adrc.control.foot_barrier import FootBarrier as FootBarrier
 from biped_adrc.control.footstep import Footstep as Footstep
 from biped_adrc.control.npd import NPDController as NPDController
 from biped_adrc.control.passive import Passive as Passive

@@ -43,6 +43,7 @@ from biped_adrc.core.checks import PositiveFloat
 from biped_adrc.core.part import derived, with_fields
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.ground import length_of
 from biped_adrc.model.planar import PlanarTree, Turned, jacobian, point, turned
 from biped_adrc.observers.base import Estimate
 
@@ -70,7 +71,7 @@ class FootBarrier(Around):
     since the foot may come down early or late. rate: lambda [1/s]. observed: whether xi^ is the observer's.
     Raises InputError when `inner` tracks no virtual constraint.
 
-    >>> inner = ba.FootBarrier.of(ba.NPDController(gait.constraint), biped, stones=(0.42, 0.43))
+    >>> inner = FootBarrier.of(ba.NPDController(gait.constraint), biped, stones=(0.42, 0.43))
     >>> controller = ba.Footstep.on_gait(inner, gait, biped, stones=(0.42, 0.43))
     >>> walker = ba.Walker(biped, controller, timing=ba.SampledTime(1e-3), torque_limit=150.0)
     >>> ba.walk(walker, gait, impacts=2).impacts
@@ -139,19 +140,12 @@ class FootBarrier(Around):
         R = np.vstack((r.H, (c - c[:p] @ r.H) / c[p]))  # q_r'' = R q'' + a_r
         x, dx, J, ddx = self.foot(m.q, m.v)
         x_r, dx_r, J_r, ddx_r = self.foot(q_r, v_r)
-        x_c, slope, bend = self.corridor(x_r, self.length(m.step))
+        x_c, slope, bend = self.corridor(x_r, length_of(self.stones, m.step, 1.0))
         G = J - slope * (J_r @ R)
         g = ddx - slope * (ddx_r + J_r @ a_r) - bend * dx_r**2
         return FootError(
             x - x_c, dx - slope * dx_r, G[:p] + G[p:] @ terms.A_N, g + G[p:] @ terms.a_N
         )
-
-    def length(self, step: int) -> float:
-        """L [m] of a single support; behind the last stone any."""
-        L: Any = 1.0
-        for k, stone in enumerate(self.stones, 1):
-            L = np.where(abs(step - k) < 0.5, stone, L)
-        return L
 
     def missing(self, s: Array, m: Measurement, u: Array) -> tuple[float, Array]:
         """d [m/s^2] under the torque u (p,) [N m], and G (p,) [m]."""

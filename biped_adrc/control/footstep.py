@@ -40,6 +40,7 @@ from biped_adrc.gait.constraint import Correction, VirtualConstraint
 from biped_adrc.gait.family import DECISION, GaitFamily, load_family
 from biped_adrc.gait.gait import Gait
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.ground import length_of
 
 SETTLED = 0.9
 """Share of a step, in Theta, from which its member is the last one."""
@@ -179,10 +180,7 @@ class Footstep(OuterLoop):
 
     def length(self, step: int) -> float:
         """L [m] of a single support: of its stone, or the usual one."""
-        L: float = self.step
-        for k, stone in enumerate(self.stones, 1):
-            L = np.where(abs(step - k) < 0.5, stone, L)  # type: ignore[assignment]
-        return L
+        return length_of(self.stones, step, self.step)
 
     def begun(self, v: float, earlier: float, before: float, r: float, m: Measurement) -> Array:
         """w of a step that begins at m on the member v [m/s], after steps of length `earlier` and `before` [m].

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -154,6 +155,14 @@ class Stones(Checked):
         if step > len(self.lengths):
             return 0.0
         return max(abs(length - self.lengths[step - 1]) - self.tolerance, 0.0)
+
+
+def length_of(stones: tuple[float, ...], step: int, usual: float) -> float:
+    """The length [m] of single support `step` to its stone; `usual` [m] where there is none. Takes symbols."""
+    L: Any = usual
+    for k, stone in enumerate(stones, 1):
+        L = np.where(abs(step - k) < 0.5, stone, L)
+    return L  # type: ignore[no-any-return]
 
 
 def check_steps(steps: object) -> None:
