@@ -162,7 +162,7 @@ def length_of(stones: tuple[float, ...], step: int, usual: float) -> float:
     L: Any = usual
     for k, stone in enumerate(stones, 1):
         L = np.where(abs(step - k) < 0.5, stone, L)
-    return L  # type: ignore[no-any-return]
+    return L
 
 
 def check_steps(steps: object) -> None:
