@@ -6,7 +6,7 @@
     ground     (q, v, a) -> F
 
 A `CompiledBiped` is a `model.biped.Biped` with these four replaced by machine code, traced from
-`engine.mechanics`; kinematics, contact and all that is not asked for at every instant stay
+`model.planar_robot`; kinematics, contact and all that is not asked for at every instant stay
 Pinocchio's. `engine.simulate` puts it in the place of the plant when a controller has no compiled form.
 `compiled_references` does the same for the references of a controller,
 
@@ -36,13 +36,12 @@ from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import SymbolicFunction, count
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.machine import LoadedCode
-from biped_adrc.engine.mechanics import PlanarRobot, RobotData, RobotStructure, once_each, robot_of
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
 from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.planar import PlantArrays
+from biped_adrc.model.planar_robot import PlanarRobot, once_each, robot_of
 from biped_adrc.model.reduction import BodyTerms, Reduction
 
 Shape = tuple[int, ...]
@@ -105,10 +104,10 @@ class Call:
 class CompiledBiped(Biped):
     """A Biped with `reduction`, `body_terms`, `acceleration` and `ground_reaction` in machine code.
 
-    Make it with `of`; robot: structure and numbers that the code is called with.
+    Make it with `of`; robot: what the code is made from and called with.
     """
 
-    robot: RobotData | None = None
+    robot: PlanarRobot | None = None
 
     @classmethod
     def of(cls, biped: Biped) -> CompiledBiped:
@@ -120,9 +119,8 @@ class CompiledBiped(Biped):
         """The four functions by name, compiled on first use."""
         robot = self.robot
         assert robot is not None
-        key = "plant", structure(robot.structure, exact=True), structure(robot.arrays)
-        code = generated(key, plant_functions(robot.structure, robot.arrays))
-        K, n = np.array([*floats(robot.arrays), 0.0]), self.n
+        code = generated(("plant", structure(robot)), plant_functions(robot))
+        K, n = np.array([*floats(robot), 0.0]), self.n
         sizes = {
             "terms": (2 * n, sum(map(math.prod, self.shapes))),
             "body": (2 * n, 6 * n + 3),
@@ -169,16 +167,14 @@ def _compiled(biped: Biped) -> CompiledBiped:
     return CompiledBiped(**given, robot=robot_of(biped))
 
 
-def plant_functions(
-    structure: RobotStructure, example: PlantArrays
-) -> dict[str, Callable[[], SymbolicFunction]]:
+def plant_functions(example: PlanarRobot) -> dict[str, Callable[[], SymbolicFunction]]:
     """The four functions by name, each to be traced when it is needed; q, v, force, a are (n,).
 
     `terms` and `body` give the parts of their tuples one after the other. K has symbols for the
     floats of the example.
     """
     K = Vector("K", count(example))
-    robot = PlanarRobot.of(structure, K.like(example))
+    robot = Tracer().on_symbols(K.like(example).sparse)
 
     def function(law: Callable[..., Iterable[ArrayLike]], number: int) -> SymbolicFunction:
         inp = Vector("inp", number * robot.n)

@@ -27,7 +27,6 @@ from biped_adrc.engine.equations import (
     Equations,
     SymbolicFunction,
     WalkerNumbers,
-    WalkerStructure,
     count,
 )
 from biped_adrc.engine.ir import generated
@@ -54,16 +53,14 @@ Reading = Callable[..., tuple[Array, ...]]
 """read(loop, t, x, mode, reference), such as `signals_at`: what is read off the loop at one instant."""
 
 
-def observe(
-    make: WalkerStructure, example: SignalNumbers, read: Reading = signals_at
-) -> SymbolicFunction:
+def observe(size: int, example: SignalNumbers, read: Reading = signals_at) -> SymbolicFunction:
     """The function for one structure of walker and reference, with symbols for the floats of an example.
 
-    make: structure of the walker. The expressions are those of `read`.
+    size: numbers in the controller's state. The expressions are those of `read`.
     """
     K = Vector("K", count(example))
     numbers = K.like(example)
-    equations = Equations(make, K.symbol, numbers.walker)
+    equations = Equations(size, K.symbol, numbers.walker)
     at = equations.at()
 
     def tracked(s: Array, m: Measurement) -> ReferencePoint:
@@ -124,4 +121,4 @@ def reading_code(name: str, read: Reading, program: Program, curve: Reference) -
     """
     numbers = SignalNumbers(program.numbers, curve)
     key = name, read, program.key, structure(curve)
-    return generated(key, {name: lambda: observe(program.make, numbers, read)})
+    return generated(key, {name: lambda: observe(program.size, numbers, read)})

@@ -66,7 +66,7 @@ class CompiledWalker:
         """
         split, fields, tables = _method(walker, method)
         program = Program.of(walker, size, split, in_python)
-        n, p, nx, bounds = walker.plant.n, walker.plant.p, program.make.nx, walker.bounds
+        n, p, nx, bounds = walker.plant.n, walker.plant.p, program.nx, walker.bounds
         relaxing = walker.relaxing()
         k = 0 if split is None else len(split.A)
         flows = walker.held is None or relaxing  # the torque of the motors, then all does

@@ -37,11 +37,10 @@ from biped_adrc.closed_loop.walker import ErrorForm, remainder
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.engine.kernels.record import OUTSIDE
-from biped_adrc.engine.mechanics import PlanarRobot, RobotStructure
 from biped_adrc.engine.symbols import Scalar, Vector, column, floats, maximum, minimum, where
 from biped_adrc.engine.tracer import Located, Tracer, run
-from biped_adrc.hardware.sample_hold import HeldParts, HeldSizes
-from biped_adrc.model.planar import PlantArrays
+from biped_adrc.hardware.sample_hold import HeldParts
+from biped_adrc.model.planar_robot import PlanarRobot
 from biped_adrc.observers.base import Estimate
 
 T = TypeVar("T")
@@ -177,10 +176,10 @@ NONE = np.zeros(0)
 class WalkerNumbers(NamedTuple):
     """All numbers of a walker that are given at run time, in the order of the vector K."""
 
-    plant: PlantArrays
-    """Numbers of the robot that moves."""
-    model: PlantArrays | None
-    """Numbers of the controller's model, None where it is the plant."""
+    plant: PlanarRobot
+    """The robot that moves."""
+    model: PlanarRobot | None
+    """The controller's model, None where it is the plant."""
     controller: Controller
     """In the time base of the walker."""
     torque_limit: float
@@ -191,8 +190,6 @@ class WalkerNumbers(NamedTuple):
     """Height of the hip below which the robot has fallen [m]."""
     longest: float = math.inf
     """Longest single support [s]."""
-    friction: tuple[Array, Array] | tuple[()] = ()
-    """Viscous [N m s] and static [N m] of the coordinates, each (n,); empty without."""
     strongest: float = math.inf
     """Torque beyond which the run ends [N m], infinite without such a bound."""
     held: HeldParts | tuple[()] = ()
@@ -202,21 +199,9 @@ class WalkerNumbers(NamedTuple):
     split: ErrorForm | None = None
     """Coordinates of the exponential method."""
 
-
-class WalkerStructure(NamedTuple):
-    """What decides the generated code beside the structure of `WalkerNumbers`."""
-
-    robot: RobotStructure
-    """Links, signs and sparsity."""
-    size: int
-    """Numbers in the controller's state."""
-    held: HeldSizes | None
-    """Sizes of what is held between sample instants, None in continuous time."""
-
-    @property
-    def nx(self) -> int:
-        """Numbers in a state: 2 n, the controller's, and what is held."""
-        return 2 * self.robot.n + self.size + (0 if self.held is None else self.held.total)
+    def nx(self, size: int) -> int:
+        """Numbers in a state: 2 n, `size` of the controller, and what is held."""
+        return 2 * self.plant.n + size + (self.held.sizes.total if self.held else 0)
 
 
 class SymbolicFunction(NamedTuple):
@@ -242,16 +227,31 @@ class Equations:
     K is CasADi's column of the symbols in `numbers`.
     """
 
-    make: WalkerStructure
-    """Structure of the walker."""
+    size: int
+    """Numbers in the controller's state."""
     K: ca.SX
     numbers: WalkerNumbers
 
     @classmethod
-    def of(cls, make: WalkerStructure, example: WalkerNumbers) -> Equations:
+    def of(cls, size: int, example: WalkerNumbers) -> Equations:
         """With symbols for the floats of an example, whose values do not matter."""
         K = Vector("K", count(example))
-        return cls(make, K.symbol, K.like(example))
+        return cls(size, K.symbol, K.like(example))
+
+    @property
+    def n(self) -> int:
+        """Coordinates."""
+        return self.numbers.plant.n
+
+    @property
+    def p(self) -> int:
+        """Motors."""
+        return self.numbers.plant.p
+
+    @property
+    def nx(self) -> int:
+        """Numbers in a state."""
+        return self.numbers.nx(self.size)
 
     @staticmethod
     def names(numbers: WalkerNumbers) -> list[str]:
@@ -261,15 +261,15 @@ class Equations:
 
     def loop(self, trace: Tracer, zeta: Array = NONE, force: Array = NONE) -> SymbolicLoop:
         """The closed loop on symbols, with zeta (n,) [N m] and the force from outside (2,) [N]."""
-        K, make = self.numbers, self.make
-        model = K.plant if K.model is None else K.model
+        K = self.numbers
+        plant, model = (trace.on_symbols(x.sparse) for x in (K.plant, K.model or K.plant))
         return SymbolicLoop(
-            plant=PlanarRobot.of(make.robot, K.plant, K.friction),
-            nominal=PlanarRobot.of(make.robot, model),
-            exact=K.model is None and not K.friction,
-            calls=on_symbols(trace, K.controller, make.robot.p, make.size),
+            plant=plant,
+            nominal=model,
+            exact=K.model is None and not K.plant.friction,
+            calls=on_symbols(trace, K.controller, self.p, self.size),
             held=trace.on_symbols(K.held) if K.held else None,
-            swap=make.robot.swap,
+            swap=K.plant.swap,
             gain=K.impact_gain,
             limit=K.torque_limit,
             strongest=K.strongest,
@@ -280,9 +280,9 @@ class Equations:
 
     def at(self) -> SymbolicInstant:
         """The symbols (t, step, t_start, x, zeta, force), and the loop at them."""
-        n, trace = self.make.robot.n, Tracer()
-        inp = Vector("inp", 3 + self.make.nx + n + OUTSIDE)
-        t, mode, x = inp.take(), Mode(inp.take(), inp.take()), inp.take(self.make.nx)
+        n, trace = self.n, Tracer()
+        inp = Vector("inp", 3 + self.nx + n + OUTSIDE)
+        t, mode, x = inp.take(), Mode(inp.take(), inp.take()), inp.take(self.nx)
         return SymbolicInstant(
             inp, trace, self.loop(trace, inp.take(n), inp.take(OUTSIDE)), t, x, mode
         )
@@ -298,7 +298,7 @@ class Equations:
 
     def tick(self) -> SymbolicFunction:
         """x (nx,) after a sample instant, the least pivot, and q'' (n,) [rad/s^2] under the new torque."""
-        at, n = self.at(), self.make.robot.n
+        at, n = self.at(), self.n
         x = at.does(semantics.tick)
         a = at._replace(x=x).does(semantics.flow)[n : 2 * n]
         return self.function(at.inp, x, at.lost, a)
@@ -313,15 +313,15 @@ class Equations:
         q, v, s, tail = semantics.parts(at.loop, x)
         m = at.loop.measure(at.t, q, v, at.mode)
         result = at.trace(semantics.estimated)(at.loop, s, tail, m, at.mode)
-        xi = np.zeros(self.make.robot.p) if result is None else result
+        xi = np.zeros(self.p) if result is None else result
         return self.function(at.inp, x, xi, at.lost)
 
     def impact(self) -> SymbolicFunction:
         """x+ (nx,) after impact, relabelling and the controller's jump; `step` is the single
         support that begins.
         """
-        inp, trace = Vector("inp", 2 + self.make.nx), Tracer()
-        t, step, x = inp.take(), inp.take(), inp.take(self.make.nx)
+        inp, trace = Vector("inp", 2 + self.nx), Tracer()
+        t, step, x = inp.take(), inp.take(), inp.take(self.nx)
         x = trace(semantics.strike)(self.loop(trace), t, x, Mode(step, t))
         return self.function(inp, x, trace.solver.least)
 
@@ -346,19 +346,19 @@ class Equations:
     def _coordinates(self, y: Array) -> tuple[Array, Array]:
         """w and E (k, p) of the flat vector y."""
         assert self.numbers.split is not None
-        p = self.make.robot.p
+        p = self.p
         stiff = len(self.numbers.split.A) * p
         return y[: len(y) - stiff], y[len(y) - stiff :].reshape(-1, p)
 
     def to(self) -> SymbolicFunction:
         """y = (w, E) of x (nx,)."""
-        inp = Vector("inp", self.make.nx)
-        return self.function(inp, *self._split(Tracer()).to(inp.take(self.make.nx)))
+        inp = Vector("inp", self.nx)
+        return self.function(inp, *self._split(Tracer()).to(inp.take(self.nx)))
 
     def back(self) -> SymbolicFunction:
         """x (nx,) of y = (w, E)."""
-        inp = Vector("inp", self.make.nx)
-        w, E = self._coordinates(inp.take(self.make.nx))
+        inp = Vector("inp", self.nx)
+        w, E = self._coordinates(inp.take(self.nx))
         return self.function(inp, self._split(Tracer()).back(w, E))
 
     def remainder(self) -> SymbolicFunction:

@@ -44,9 +44,7 @@ from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_biped import Call, CompiledBiped, compiled_references
 from biped_adrc.engine.compiled_push import CompiledPush, summed
-from biped_adrc.engine.equations import WalkerStructure
 from biped_adrc.engine.kernels.record import OUTSIDE
-from biped_adrc.engine.mechanics import robot_of
 from biped_adrc.engine.program import Program, controller_numbers
 from biped_adrc.engine.run import COMPILED, PINOCCHIO
 from biped_adrc.engine.symbols import NotCompiled, floats
@@ -54,6 +52,7 @@ from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.simulator import Progress, RunOptions
 from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
 from biped_adrc.model.biped import Biped
+from biped_adrc.model.planar_robot import robot_of
 
 
 def stepping_loop(
@@ -198,13 +197,13 @@ class CompiledTick:
             robot = robot_of(loop.model)
         except ModelError as reason:
             raise NotCompiled(str(reason)) from reason
-        self.make = WalkerStructure(robot.structure, size, loop.held.sizes)
         self.numbers = controller_numbers(robot, loop)
         K = np.array([*floats(self.numbers), 0.0])
         if np.any(np.isnan(K)):
             raise NotCompiled(f"a parameter of {type(loop.controller).__name__} or its loop is NaN")
-        owner = Program(self.make, K, self.numbers).functions(["sample"])
-        n, p, nx = loop.plant.n, loop.plant.p, self.make.nx
+        program = Program(size, K, self.numbers)
+        owner = program.functions(["sample"])
+        n, p, nx = loop.plant.n, loop.plant.p, program.nx
         self.sample = Call(owner, "sample", K, np.zeros(3 + nx + n + OUTSIDE), nx + p + 1)
         self.x, self.xi = np.zeros(0), np.zeros(0)
         still = np.zeros(n)

@@ -22,21 +22,21 @@ from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import ErrorForm, Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.core.types import Array
-from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers, WalkerStructure
+from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers
 from biped_adrc.engine.ir import generated, module_text, text_by
 from biped_adrc.engine.machine import LoadedCode
-from biped_adrc.engine.mechanics import RobotData, RobotStructure, robot_of
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
 from biped_adrc.engine.tracer import located
+from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 
 
 @dataclass(frozen=True)
 class Program:
     """Functions by name, and the numbers they are called with."""
 
-    make: WalkerStructure
-    """Structure of the walker."""
+    size: int
+    """Numbers in the controller's state."""
     K: Array
     """The numbers as a vector; its last entry is unused, so that it is never empty."""
     numbers: WalkerNumbers
@@ -55,7 +55,7 @@ class Program:
         floats into K in the order of `WalkerNumbers`. Raises NotCompiled for a part whose content cannot
         be compared, or ModelError for a robot that is no planar tree.
         """
-        make, numbers = structure_of(walker, size, split)
+        numbers = numbers_of(walker, split)
         if plant_alone:
             held = walker.held._replace(sensors=None, touchdown=None) if walker.held else ()
             numbers = numbers._replace(controller=Passive(), held=held)
@@ -65,12 +65,17 @@ class Program:
                 f"a parameter of {type(walker.controller).__name__} or its walker is NaN, of which generated "
                 "code would make 0 where it is multiplied by 0"
             )
-        return cls(make, K, numbers, plant_alone)
+        return cls(size, K, numbers, plant_alone)
 
     @cached_property
     def key(self) -> Hashable:
         """What decides the code."""
-        return structure_of_walker(self.make), structure(self.numbers)
+        return self.size, structure(self.numbers)
+
+    @property
+    def nx(self) -> int:
+        """Numbers in a state."""
+        return self.numbers.nx(self.size)
 
     @property
     def names(self) -> list[str]:
@@ -100,83 +105,37 @@ class Program:
 
     def _traced(self, name: str) -> SymbolicFunction:
         with located(name):
-            function: SymbolicFunction = getattr(Equations.of(self.make, self.numbers), name)()
+            function: SymbolicFunction = getattr(Equations.of(self.size, self.numbers), name)()
             return function
 
     def address(self, name: str) -> int:
         """Address of a compiled function; 0 if this walker does not need it, which no kernel calls."""
         split = self.numbers.split
         if name == "matvec" and split is not None:
-            return product(len(split.A), self.make.robot.p).addresses[name]
+            return product(len(split.A), self.numbers.plant.p).addresses[name]
         return self.machine.addresses.get(name, 0)
 
 
-def structure_of(
-    walker: Walker, size: int, split: ErrorForm | None = None
-) -> tuple[WalkerStructure, WalkerNumbers]:
-    """What decides the code of a walker whose controller has `size` states, and its numbers.
+def numbers_of(walker: Walker, split: ErrorForm | None = None) -> WalkerNumbers:
+    """All numbers of a walker by name, as K lists them; what a walker has not is empty and takes no place.
 
-    Raises NotCompiled for links joined in another way, ModelError for a robot that is no planar tree.
+    Raises ModelError for a robot that is no planar tree.
     """
-    plant = robot_of(walker.plant)
-    model = None if walker.model is None else robot_of(walker.model)
-    sizes = None if walker.held is None else walker.held.sizes
-    make = WalkerStructure(_common(plant, model), size, sizes)
-    return make, _numbers(walker, plant, model, split)
-
-
-def _common(plant: RobotData, model: RobotData | None) -> RobotStructure:
-    """The plant's structure, with every term that it or the model has, since both run through the same code.
-
-    Raises NotCompiled for a model whose links are joined in another way.
-    """
-    if model is None:
-        return plant.structure
-    one, other = plant.structure, model.structure
-    if one.p != other.p or not np.array_equal(one.A, other.A):
-        raise NotCompiled("the links of the model are joined otherwise than those of the plant")
-    present = tuple(
-        a | b for a, b in zip(plant.structure.present, model.structure.present, strict=True)
-    )
-    return plant.structure._replace(present=present)
-
-
-def _numbers(
-    walker: Walker,
-    plant: RobotData,
-    model: RobotData | None,
-    split: ErrorForm | None,
-) -> WalkerNumbers:
-    """All numbers of a walker by name, as K lists them; what a walker has not is empty and takes no place."""
-    biped = walker.plant
-    limit = math.inf if walker.torque_limit is None else float(walker.torque_limit)
-    return WalkerNumbers(
-        plant.arrays,
-        None if model is None else model.arrays,
-        walker.law,
-        limit,
-        math.tan(walker.slope),
-        float(walker.lowest_hip),
-        float(walker.max_step_time),
-        biped.friction_coefficients if biped.friction else (),
-        float(walker.bounds.strongest),
-        () if walker.held is None else walker.held,
-        walker.gain,
-        split,
+    return controller_numbers(robot_of(walker.plant), walker)._replace(
+        model=None if walker.model is None else robot_of(walker.model),
+        tan_slope=math.tan(walker.slope),
+        lowest_hip=float(walker.lowest_hip),
+        longest=float(walker.max_step_time),
+        impact_gain=walker.gain,
+        split=split,
     )
 
 
-def controller_numbers(robot: RobotData, loop: Walker | SteppingLoop) -> WalkerNumbers:
+def controller_numbers(robot: PlanarRobot, loop: Walker | SteppingLoop) -> WalkerNumbers:
     """The numbers of a controller in sampled time with its model; of plant and ground there are none."""
     limit = math.inf if loop.torque_limit is None else float(loop.torque_limit)
     strongest, held = float(loop.bounds.strongest), loop.held or ()
-    return WalkerNumbers(robot.arrays, None, loop.law, limit, strongest=strongest, held=held)
-
-
-def structure_of_walker(make: WalkerStructure) -> Hashable:
-    """What decides the code of a walker beside the structure of its numbers."""
-    robot, *rest = make
-    return structure(robot, exact=True), structure(rest)
+    return WalkerNumbers(robot, None, loop.law, limit, strongest=strongest, held=held)
 
 
 def product(k: int, p: int) -> LoadedCode:

@@ -33,7 +33,6 @@ from biped_adrc.engine.compiled_signals import Reading, reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.equations import WalkerNumbers
 from biped_adrc.engine.kernels.run_plan import CompiledRun, table_height
-from biped_adrc.engine.mechanics import once_each
 from biped_adrc.engine.on_plant import CompiledLoop
 from biped_adrc.engine.simulate import compiled_plant
 from biped_adrc.engine.symbols import floats
@@ -46,6 +45,7 @@ from biped_adrc.hybrid.system import HybridSystem
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import LinkPoint, link_point
+from biped_adrc.model.planar_robot import once_each
 
 At = tuple[ClosedLoop[Any], float, Array, Mode]
 """A loop, time [s], state (nx,) before the sample instant there, and single support."""

@@ -162,8 +162,6 @@ FUNCTIONS = {
 for _name, _theirs in FUNCTIONS.items():  # which NumPy asks each entry of an object array for
     setattr(Scalar, _name, function_of(_theirs))
 
-tanh = elementwise(function_of("tanh"))
-
 
 def minimum(a: Number, b: Number) -> Scalar:
     """The smaller of two numbers."""

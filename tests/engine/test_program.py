@@ -80,7 +80,7 @@ def test_one_compilation_serves_every_number(biped, gait):
     assert second.machine is first.machine
     assert not np.array_equal(second.K, first.K)
     third = Program.of(Walker(bare, other), 0)
-    assert third.make.robot.n == 5
+    assert third.numbers.plant.n == 5
 
 
 @pytest.mark.parametrize("pose", [0.0, np.pi])

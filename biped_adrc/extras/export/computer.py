@@ -20,7 +20,6 @@ from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import WalkerNumbers
-from biped_adrc.engine.mechanics import RobotData, robot_of
 from biped_adrc.engine.program import controller_numbers
 from biped_adrc.engine.tick_derivative import tick_derivative
 from biped_adrc.extras.export.noticed import Noticed
@@ -28,6 +27,7 @@ from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.sensors import Sensors
+from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class Computer:
         return self.walker.timing
 
     @cached_property
-    def robot(self) -> RobotData:
+    def robot(self) -> PlanarRobot:
         """The nominal model. Raises InputError for one that is no planar tree of rigid links."""
         try:
             return robot_of(self.walker.nominal)
@@ -82,7 +82,7 @@ class Computer:
         """The same as the computer runs them, where it notices touchdowns at sample instants too."""
         if self.differences is None or self.walker.touchdown is None:
             return self.differences
-        return Noticed(self.differences, self.robot.structure)
+        return Noticed(self.differences, self.robot.R, self.robot.offset)
 
     @cached_property
     def alone(self) -> Walker:

@@ -19,12 +19,7 @@ from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array
-from biped_adrc.engine.equations import (
-    Equations,
-    SymbolicFunction,
-    SymbolicInstant,
-    WalkerStructure,
-)
+from biped_adrc.engine.equations import Equations, SymbolicFunction, SymbolicInstant
 from biped_adrc.engine.symbols import Scalar, Vector, column, where
 from biped_adrc.engine.tracer import Tracer, run
 from biped_adrc.extras.export.computer import Computer
@@ -46,16 +41,14 @@ class Inputs:
     @cached_property
     def equations(self) -> Equations:
         """The computer's parts, with symbols for its numbers."""
-        held = self.computer.held.sizes
-        make = WalkerStructure(self.computer.robot.structure, self.size, held)
-        return Equations.of(make, self.computer.numbers)
+        return Equations.of(self.size, self.computer.numbers)
 
     @cached_property
     def at(self) -> SymbolicInstant:
         """(t, last, step, start), then x = (q, v, x_c)."""
-        inp, trace = Vector("inp", HEAD + self.equations.make.nx), Tracer()
+        inp, trace = Vector("inp", HEAD + self.equations.nx), Tracer()
         t, _, mode = inp.take(), inp.take(), Mode(inp.take(), inp.take())
-        x = inp.take(self.equations.make.nx)
+        x = inp.take(self.equations.nx)
         return SymbolicInstant(inp, trace, self.equations.loop(trace), t, x, mode)
 
     @property

@@ -12,20 +12,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from biped_adrc.core.errors import InputError
-from biped_adrc.core.types import Array
-from biped_adrc.engine.mechanics import RobotStructure
+from biped_adrc.core.types import Array, Indices
 from biped_adrc.hardware.sensing import Sensor
 
 
 @dataclass(frozen=True)
 class Noticed(Sensor):
-    """`inner` on a robot with this structure. Raises InputError where labels do not exchange in pairs."""
+    """`inner` on a robot with q+ = R q- + offset. Raises InputError where labels do not exchange in pairs."""
 
     inner: Sensor
-    robot: RobotStructure
+    R: Indices
+    offset: Array
 
     def __post_init__(self) -> None:
-        R, offset = self.robot.R, self.robot.offset
+        R, offset = self.R, self.offset
         if np.any(np.eye(len(R)) != R @ R) or np.any(R @ offset + offset != 0.0):
             raise InputError(
                 "the labels of this robot's joints do not exchange in pairs at a touchdown, so what was "
@@ -47,8 +47,8 @@ class Noticed(Sensor):
         return np.concatenate((after, np.zeros(1)))
 
     def impact(self, w: Array, q: Array, v: Array, v_model: Array) -> Array:
-        R = self.robot.R
-        q_old, v_old = R @ q + self.robot.offset, R @ v
+        R = self.R
+        q_old, v_old = R @ q + self.offset, R @ v
         before = self.inner.sense(w[:-1], q_old, v_old)
         rates = self.inner.reading(before, q_old, v_old)[1]
         return np.concatenate((self.inner.impact(before, q, v, R @ rates), np.ones(1)))

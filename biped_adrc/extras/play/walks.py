@@ -156,7 +156,7 @@ class PageWalk:
         rubbing = {
             name: (0.0, float(self.numbers[k]), 1)
             for name, k in self.names.items()
-            if name.startswith("friction[") and self.numbers[k] != 0.0
+            if name.startswith("plant.friction[") and self.numbers[k] != 0.0
         }
         if rubbing:
             s = self.scenario

@@ -99,7 +99,7 @@ def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker
 
     own = laws.of(program.address("flow"), program.text)
     key = "observe", program.key, structure(reference)
-    read = partial(observe, program.make, signals)
+    read = partial(observe, program.size, signals)
     seen = laws.of(
         -program.address("flow"), lambda: text_by(key, lambda: module_text({"observe": read()}))
     )
