@@ -21,7 +21,7 @@ from biped_adrc.engine.equations import SymbolicFunction, count
 from biped_adrc.engine.ir import in_memory, module_text
 from biped_adrc.engine.kernels.record import PART
 from biped_adrc.engine.kernels.run_plan import Push
-from biped_adrc.engine.machine import LoadedCode, ModuleText
+from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
 from biped_adrc.engine.tracer import Tracer, run
@@ -109,7 +109,7 @@ def term_code(term: Disturbance, n: int) -> LoadedCode:
     if _writes(term, "switching_times"):
         raise NotCompiled(f"{type(term).__name__} writes switching_times in place of switches")
     key = "disturbance", n, structure(term)
-    return in_memory(key, list(_sizes(term, n)), lambda: ModuleText(term_text(term, n)))
+    return in_memory(key, list(_sizes(term, n)), lambda: term_text(term, n))
 
 
 def term_text(term: Disturbance, n: int) -> str:

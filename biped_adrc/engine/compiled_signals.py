@@ -120,5 +120,5 @@ def reading_code(name: str, read: Reading, program: Program, curve: Reference) -
     compiled form.
     """
     numbers = SignalNumbers(program.numbers, curve)
-    key = name, read, program.key, structure(curve)
+    key = read, program.key, structure(curve)
     return generated(key, {name: lambda: observe(program.size, numbers, read)})

@@ -23,7 +23,7 @@ from biped_adrc.closed_loop.walker import ErrorForm, Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers
-from biped_adrc.engine.ir import generated, module_text, text_by
+from biped_adrc.engine.ir import generated
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
@@ -93,15 +93,7 @@ class Program:
         Raises NotCompiled for a method that cannot be traced or an operation without machine code.
         """
         functions = {name: partial(self._traced, name) for name in names}
-        return generated((*names, self.key), functions)
-
-    def text(self) -> str:
-        """What `machine` is made from, in LLVM's language."""
-        functions = self.names
-        return text_by(
-            (*functions, self.key),
-            lambda: module_text({name: self._traced(name) for name in functions}),
-        )
+        return generated(self.key, functions)
 
     def _traced(self, name: str) -> SymbolicFunction:
         with located(name):

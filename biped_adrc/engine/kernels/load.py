@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 from llvmlite import binding
 
 from biped_adrc.core.errors import ModelError
-from biped_adrc.engine.machine import ModuleText, keep, key_of, load_or_compile, stored
+from biped_adrc.engine.machine import keep, key_of, load_or_compile, stored
 
 _HERE = "biped_adrc.engine.kernels"
 FILES = (
@@ -67,7 +67,7 @@ def kernels() -> Kernels:
 @cache
 def _loaded() -> tuple[Kernels, object]:
     """The loops, and what keeps them in memory."""
-    code = load_or_compile(ModuleText(loops()), Kernels._fields)
+    code = load_or_compile(loops(), Kernels._fields)
     calls = (
         CFUNCTYPE(c_int64, *[c_void_p] * size)(code.addresses[name])
         for name, size in SIZES._asdict().items()

@@ -14,25 +14,23 @@ in `WebWalkers.functions`, from 1 on. Walkers of the same structure share their 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from itertools import chain
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from llvmlite import binding
 
+from biped_adrc.closed_loop.instant_signals import signals_at
 from biped_adrc.core.errors import InputError
-from biped_adrc.engine.compiled_push import term_text
-from biped_adrc.engine.compiled_signals import SignalNumbers, observe
+from biped_adrc.engine.compiled_push import term_code
+from biped_adrc.engine.compiled_signals import reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.ir import module_text, text_by
 from biped_adrc.engine.kernels.load import loops
 from biped_adrc.engine.kernels.record import PART, PLACES
 from biped_adrc.engine.kernels.run_plan import Functions, RunPlan
-from biped_adrc.engine.machine import keep, key_of, stored
-from biped_adrc.engine.structure import structure
+from biped_adrc.engine.machine import LoadedCode, keep, key_of, stored
 from biped_adrc.gait.reference import Reference
 
 
@@ -60,7 +58,7 @@ def web_walkers(walkers: Sequence[CompiledWalker], reference: Reference) -> WebW
 
     Raises InputError for the exponential method, whose product with matrices has another form.
     """
-    laws = _Laws({}, {}, [*LOOPS])
+    laws = _Laws({}, [*LOOPS])
     modules = [_walker(one, reference, laws) for one in walkers]
     code = web_module(laws.texts, laws.functions)
     return WebWalkers(code, tuple(laws.functions), tuple(modules))
@@ -71,17 +69,15 @@ class _Laws(NamedTuple):
 
     texts: dict[str, str]
     """Functions of walkers in LLVM's language, by a name for them."""
-    names: dict[int, str]
-    """That name by the address of one of the functions here; by minus that, of what reads its signals."""
     functions: list[str]
     """Names of those that are called by their number."""
 
-    def of(self, address: int, text: Callable[[], str]) -> str:
-        """The name of the text to which a function belongs; it is made where it is not there yet."""
-        if address not in self.names:
-            self.names[address] = f"laws{len(self.names)}"
-            self.texts[self.names[address]] = text()
-        return self.names[address]
+    def of(self, code: LoadedCode) -> str:
+        """The name of the text of these functions, a new one where it has none yet."""
+        names = {text: name for name, text in self.texts.items()}
+        name = names.get(code.text, f"laws{len(names)}")
+        self.texts[name] = code.text
+        return name
 
     def number(self, name: str) -> int:
         """The number of a function, a new one where it has none yet."""
@@ -95,14 +91,8 @@ def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker
     program = one.program
     if program.numbers.split is not None:
         raise InputError("an offline page takes the steps of RK4; leave out the exponential method")
-    signals = SignalNumbers(program.numbers, reference)
-
-    own = laws.of(program.address("flow"), program.text)
-    key = "observe", program.key, structure(reference)
-    read = partial(observe, program.size, signals)
-    seen = laws.of(
-        -program.address("flow"), lambda: text_by(key, lambda: module_text({"observe": read()}))
-    )
+    own = laws.of(program.machine)
+    seen = laws.of(reading_code("observe", signals_at, program, reference))
     cells = one.plan.cells.copy()
     for name in Functions._fields:
         at = PLACES[name]
@@ -110,8 +100,7 @@ def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker
     terms = one.walker.disturbance.terms if one.walker.disturbance else ()
     for k, term in enumerate(terms):
         part = cells[one.plan.places["parts"] + PART * k :][:PART]
-        n, key = one.walker.plant.n, ("term", one.walker.plant.n, structure(term))
-        push = laws.of(int(part[0]), partial(text_by, key, partial(term_text, term, n)))
+        push = laws.of(term_code(term, one.walker.plant.n))
         part[0] = laws.number(f"{push}.torque")
         part[2] = laws.number(f"{push}.resultant") if part[2] else 0
     return WebWalker(replace(one.plan, cells=cells), laws.number(f"{seen}.observe"))
