@@ -7,7 +7,7 @@ when a case is prepared; the threads then run kernels without the GIL, each on a
 What a run needs is made when it starts and given up when it ends: memory does not grow with the
 number of runs, but for the few numbers that each of them leaves.
 
-`analysis` asks for `Strides`, studies and `bench` for `simulate_many`.
+`analysis` asks for `strides`, studies and `bench` for `simulate_many`.
 """
 
 from __future__ import annotations
@@ -36,14 +36,13 @@ from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_signals import reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
+from biped_adrc.engine.kernels.compiled_run import table_height
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.kernels.run_plan import STATUS, table_height
 from biped_adrc.engine.run import COMPILED, COMPILED_PLANT, PINOCCHIO
 from biped_adrc.engine.simulate import on_compiled_plant, run_made
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import simulator
-from biped_adrc.hybrid.constants import FULL
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.status import Status
@@ -243,27 +242,21 @@ def _strides(
 
     read: address of what the table holds, 0 for none.
     """
-    nx, height = len(x), table_height(compiled.walker.plant.p)
-    run = compiled.plan.start(x, mode.start, mode.step, mode.start, t_end)
-    strikes, count = np.zeros((impacts, 1 + 2 * nx)), 0
-    table = np.empty((height, ROOM * impacts if read else 0))
-    while True:
-        run.set_table(read, table)
-        code, more = run.stride(impacts - count, strikes[count:])
-        count += more
-        if code != FULL:
-            break
-        table = np.hstack((table, np.empty_like(table)))
+    nx, run = len(x), compiled.plan.start(x, mode.start, *mode, t_end)
+    if read:
+        run["look"] = read
+        run.keep(table=np.empty((table_height(compiled.walker.plant.p), ROOM * impacts)))
+    status, strikes = run.stride(impacts)
     return BatchWalk(
-        STATUS[code],
+        status,
         "",
-        strikes[:count, 0].copy(),
-        strikes[:count, 1 : 1 + nx].copy(),
+        strikes[:, 0].copy(),
+        strikes[:, 1 : 1 + nx].copy(),
         run.x.copy(),
         run["t"],
         COMPILED,
         mode.start,
-        table[:, : int(run["columns"])] if read else None,
+        run.table[:, : int(run["columns"])] if read else None,
     )
 
 
@@ -293,25 +286,19 @@ def left_by(case: Case, run: Trajectory, engine: str) -> BatchWalk:
     )
 
 
-@dataclass(frozen=True)
-class Strides:
-    """Single supports of one walker from many states, for return maps: up to the next impact, or a status.
+def strides(
+    compiled: CompiledWalker, starts: Sequence[tuple[Array, Mode]], t_end: float
+) -> list[BatchWalk]:
+    """Single supports of one walker from many (x, mode), for return maps, in parallel threads: up to the next
+    impact, or a status.
 
-    compiled: the walker; t_end [s]: longest time for one of them.
+    x (nx,) is the state right after the impact that began the single support `mode`; t_end [s]: longest time
+    for one of them.
     """
 
-    compiled: CompiledWalker
-    t_end: float
+    def one(start: tuple[Array, Mode]) -> BatchWalk:
+        return _strides(compiled, *start, start[1].start + t_end, 1)
 
-    def __call__(
-        self, starts: Sequence[tuple[Array, Mode]], threads: int | None = None
-    ) -> list[BatchWalk]:
-        """From every (x, mode), x (nx,), in parallel threads; results in the order of the starts."""
-        kernels()
-        with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
-            return list(pool.map(self.one, starts))
-
-    def one(self, start: tuple[Array, Mode]) -> BatchWalk:
-        """One single support from x+ (nx,) right after the impact that began it; mode says which and when."""
-        x, mode = start
-        return _strides(self.compiled, x, mode, mode.start + self.t_end, 1)
+    kernels()
+    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        return list(pool.map(one, starts))

@@ -19,8 +19,7 @@ from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.compiled_biped import Call, pointer_call
 from biped_adrc.engine.equations import SymbolicFunction, count
 from biped_adrc.engine.ir import in_memory, module_text
-from biped_adrc.engine.kernels.record import PART
-from biped_adrc.engine.kernels.run_plan import Push
+from biped_adrc.engine.kernels.record import PART, Ints
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
@@ -36,16 +35,19 @@ def terms_of(disturbance: Disturbance | None, n: int) -> Terms:
     return [(term_code(term, n), np.array([*floats(term), 0.0])) for term in terms]
 
 
-def push_of(disturbance: Disturbance | None, n: int) -> Push:
-    """The terms of a disturbance as addresses and numbers. Raises NotCompiled as `terms_of`."""
-    if disturbance is None:
-        return Push()
-    parts, K = list[tuple[int, int, int]](), list[float]()
-    for code, numbers in terms_of(disturbance, n):
-        parts.append((code.addresses["torque"], len(K), code.addresses.get("resultant", 0)))
-        K += numbers.tolist()
+def push_of(disturbance: Disturbance | None, n: int) -> tuple[Ints, dict[str, Array]]:
+    """The parts and tables that `compiled_run.plan` takes of a disturbance. Raises NotCompiled as
+    `terms_of`."""
+    terms = terms_of(disturbance, n)
+    starts = np.cumsum([0, *(len(K) for _, K in terms)])
+    parts = [
+        (code.addresses["torque"], at, code.addresses.get("resultant", 0))
+        for (code, _), at in zip(terms, starts.tolist(), strict=False)
+    ]
+    push = np.array([x for _, K in terms for x in K])
+    switches = np.array(() if disturbance is None else disturbance.switches).reshape(-1, 2)
     table = np.array(parts, dtype=np.int64).reshape(-1, PART)
-    return Push(table, np.array(K), np.array(disturbance.switches).reshape(-1, 2))
+    return table, {"push": push, "switches": switches}
 
 
 def summed(terms: Terms, t: Array, q: Array, v: Array, mode: Mode) -> Array:

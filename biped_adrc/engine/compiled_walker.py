@@ -1,11 +1,10 @@
 """A walker, a one-step method and a disturbance, made ready for the compiled loops.
 
-Three things come together here: the program of the walker (`engine.program`: flow, tick, strike,
-..), the matrices of the method (`hybrid.exponential`), and the terms of the
-disturbance, which are compiled by themselves so that another disturbance does not recompile the
-walker. The result is a `RunPlan`, which the loops take. What cannot be compiled raises `NotCompiled` with the
-reason; in sampled time the march then calls its sample instants and impacts in Python (`PythonTicks`), and the
-plant moves in machine code between them.
+Three things come together here: the program of the walker (`engine.program`: flow, tick, impact, ..), the
+matrices of the method (`hybrid.exponential`), and the terms of the disturbance, which are compiled by
+themselves so that another disturbance does not recompile the walker. The result is the plan of a run, which the
+loops take. What cannot be compiled raises `NotCompiled` with the reason; in sampled time the march then calls
+its sample instants and impacts in Python (`PythonTicks`), and the plant moves in machine code between them.
 """
 
 from __future__ import annotations
@@ -23,7 +22,8 @@ from biped_adrc.closed_loop.walker import LEAST_STEP, ErrorForm, Mode, Walker
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_push import push_of
-from biped_adrc.engine.kernels.run_plan import CompiledRun, Functions, RunPlan, plan
+from biped_adrc.engine.kernels.compiled_run import CompiledRun, plan
+from biped_adrc.engine.kernels.record import FUNCTIONS
 from biped_adrc.engine.program import Program
 from biped_adrc.engine.symbols import NotCompiled, floats
 from biped_adrc.gait.reference import Reference
@@ -40,8 +40,8 @@ class CompiledWalker:
     """Plant, controller and all the rest."""
     program: Program
     """Keeps the code in memory and holds the parameters."""
-    plan: RunPlan
-    """Sizes, addresses and settings of the run, as vectors."""
+    plan: CompiledRun
+    """A run that has not begun: sizes, addresses and settings."""
 
     ticks: PythonTicks | None = None
     """What carries out sample instants and impacts in Python; None where machine code does."""
@@ -89,12 +89,12 @@ class CompiledWalker:
         }
         if relaxing is not None:
             fields |= {"lags": nx + relaxing.at.start, "lag_speed": relaxing.speed}
-        functions = Functions(*(program.address(name) for name in Functions._fields))
-        ticks = PythonTicks(walker, nx, functions.flow) if in_python else None
+        fields |= {name: program.address(name) for name in FUNCTIONS}
+        ticks = PythonTicks(walker, nx, program.address("flow")) if in_python else None
         if ticks is not None:
-            functions = functions._replace(**ticks.addresses)
-        run = plan(functions, push_of(walker.disturbance, n), tables, fields)
-        return cls(walker, program, run, ticks)
+            fields |= ticks.addresses
+        parts, pushed = push_of(walker.disturbance, n)
+        return cls(walker, program, plan(tables | pushed, parts, fields), ticks)
 
     def raised(self, run: CompiledRun) -> BaseException | None:
         """What Python has raised in a run, and forgets here."""
@@ -143,7 +143,7 @@ def _numbers_at(address: int, size: int) -> Array:
 
 
 class PythonTicks:
-    """`tick` and `impact` as `kernels.run_plan.Functions` describes them, by a walker with nx states.
+    """`tick` and `impact` as `kernels.record.Run` describes them, by a walker with nx states.
 
     flow: address of the walker's flow. What a method raises is kept in `errors`, by the address of the run's
     inputs, and the march ends as NOT_FINITE.

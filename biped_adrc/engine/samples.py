@@ -32,7 +32,7 @@ from biped_adrc.disturbances.force import AddedForce
 from biped_adrc.engine.compiled_signals import Reading, reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.equations import WalkerNumbers
-from biped_adrc.engine.kernels.run_plan import CompiledRun, table_height
+from biped_adrc.engine.kernels.compiled_run import CompiledRun, table_height
 from biped_adrc.engine.on_plant import CompiledLoop
 from biped_adrc.engine.simulate import compiled_plant
 from biped_adrc.engine.symbols import floats
@@ -85,11 +85,8 @@ class CompiledWalk:
 
     compiled: CompiledWalker
     run: CompiledRun
-    """Where it is; moved by the kernel `samples`."""
-    look: int
-    """Address of what columns of the table hold; 0 for none."""
-    table: Array
-    """Of this single support, as `engine.batch.BatchWalk.table`; no columns where it is not judged."""
+    """Where it is; moved by the kernel `samples`. Its table is that of this single support, as
+    `engine.batch.BatchWalk.table`; without columns where it is not judged."""
 
     @classmethod
     def of(
@@ -106,21 +103,16 @@ class CompiledWalk:
         Raises NotCompiled for a part without machine code.
         """
         compiled = CompiledWalker.of(walker, method, walker.controller_size(x), mode.start, curve)
-        look, room = 0, 0
+        run = compiled.plan.start(x, mode.start, *mode, mode.start)
         if judged and curve is not None:
             code = reading_code("judged", step_reading, compiled.program, curve)
-            look, room = code.addresses["judged"], columns(walker, compiled.plan.number("h"))
-        run = compiled.plan.start(x, mode.start, *mode, mode.start)
-        return cls(compiled, run, look, np.empty((table_height(walker.plant.p), room)))._kept()
-
-    def _kept(self) -> Self:
-        """Itself, its run with the table."""
-        self.run.set_table(self.look, self.table)
-        return self
+            run["look"], room = code.addresses["judged"], columns(walker, run["h"])
+            run.keep(table=np.empty((table_height(walker.plant.p), room)))
+        return cls(compiled, run)
 
     def over(self, on: bool) -> Array:
         """The table; where the walk goes on, only columns of the single support in which it is stay there."""
-        run, table, count = self.run, self.table, int(self.run["columns"])
+        run, table, count = self.run, self.run.table, int(self.run["columns"])
         last = int(np.searchsorted(table[1, :count], run["step"])) if on else count
         result = table[:, :count].copy()
         table[:, : count - last], run["columns"] = result[:, last:], count - last
@@ -140,9 +132,7 @@ class CompiledWalk:
 
     def copy(self) -> Self:
         """The same walk in memory of its own."""
-        run = self.run
-        run = CompiledRun(run.block, run.pointers, run.nx)
-        return replace(self, run=run, table=self.table.copy())._kept()
+        return replace(self, run=self.run.copy())
 
     def law(self, view: Reading, curve: Reference) -> int:
         """Address of machine code for what `view` says."""

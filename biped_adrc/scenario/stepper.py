@@ -34,9 +34,9 @@ from biped_adrc.core.checks import check_part, numbers
 from biped_adrc.core.errors import InputError, check_count
 from biped_adrc.core.types import Array, frozen
 from biped_adrc.engine.compiled_signals import Reading
+from biped_adrc.engine.kernels.compiled_run import STATUS
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import WALK, Ints
-from biped_adrc.engine.kernels.run_plan import STATUS
 from biped_adrc.engine.on_plant import as_walked
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.engine.samples import CompiledWalk, PythonWalk, reading, with_inputs

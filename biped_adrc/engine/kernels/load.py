@@ -46,14 +46,12 @@ Loop = Callable[..., int]
 class Kernels(NamedTuple):
     """The units of `kernels.arc` that Python calls."""
 
-    go_on: Loop
-    land: Loop
     stride: Loop
     samples: Loop
     looks: Loop
 
 
-SIZES = Kernels(1, 1, 4, 8, 5)  # type: ignore[arg-type]
+SIZES = Kernels(3, 8, 5)  # type: ignore[arg-type]
 """How many arguments each of them has."""
 _LOCK = Lock()
 

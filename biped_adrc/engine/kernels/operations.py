@@ -1,7 +1,7 @@
 """What the march does with a run in memory: the operations of `hybrid.on_arrays`, around the functions of a
 walker.
 
-A function is called by its address, with its inputs in `inp` in the order that `run_plan.Functions` has. An
+A function is called by its address, with its inputs in `inp` in the order that `record.Run` has. An
 output ends with the least pivot of the matrices inverted; where that is exactly zero, or below it for a
 torque beyond the bound, the run is noted as singular or run away and the output made NaN, even where a torque
 limit has made a finite number of it.

@@ -1,7 +1,7 @@
 """A run in memory, as the compiled march reads and writes it: one block of cells of 8 bytes.
 
 The first cells are the fields below, in this order. A vector is a pointer to its first number. The vectors of
-TABLES follow, then those of ROWS, each of the same length. The plan (`run_plan`) fills fields and tables; what
+TABLES follow, then those of ROWS, each of the same length. `compiled_run.plan` fills fields and tables; what
 changes during a run is behind the first comment below. Blocks of different runs share nothing.
 """
 
@@ -24,17 +24,35 @@ OUTSIDE = 2
 
 
 class Run:
-    """Fields of a run. In compiled code r.name reads the cell, and writes it."""
+    """Fields of a run. In compiled code r.name reads the cell, and writes it.
+
+    The first are addresses of functions `void f(double* K, double* inp, double* out)`, 0 for none. K are the
+    parameters, inp and out the values named. pivot is the smallest |pivot| of the matrices that the controller
+    inverts, infinite without one; 0 means a singular matrix, and the run ends as SINGULAR. Below 0 it stands
+    for a torque beyond the walker's bound, and the run ends as RAN_AWAY. `to` and the three after it are for
+    the exponential method, ETD-RK4, in its coordinates y = (w, E):
+
+        w' = N_w,   E' = A E + N_E
+    """
 
     flow: int
-    """Addresses of the walker's functions, see `run_plan.Functions`; 0 for none."""
+    """(t, step, t_start, x, zeta) -> (dx/dt, pivot); in sampled time only q, q' and lagging motors flow."""
     tick: int
+    """(t, step, t_start, x, zeta, force) -> (x after the tick, pivot, q''), in sampled time. force (2,): from
+    outside on the robot as a whole [N]."""
     impact: int
+    """(t, step, x) -> (x+, pivot); step is that of the new single support."""
     events: int
+    """(t, t_start, drop, q) -> the event functions: clearance of the swing foot [m], height of the hip over its
+    limit [m], time left for the step [s]; then x of the swing foot [m]. An event is where one falls to zero."""
     to: int
+    """x -> y = (w, E): the slow states w (nw,), and the stiff ones E (k, p) row by row."""
     back: int
+    """y -> x."""
     remainder: int
+    """(t, step, t_start, y, zeta) -> (N_w, N_E, pivot), N_E (p,) in row 1 alone, the others being zero."""
     matvec: int
+    """E -> M E, with a matrix M (k, k) in the argument K."""
     look: int
     """Address of what columns of `table` hold; 0 for none."""
     n: int
@@ -185,6 +203,8 @@ class Run:
     y_try: Array
 
 
+FUNCTIONS = ("flow", "tick", "impact", "events", "to", "back", "remainder", "matvec")
+"""Addresses of the walker's functions."""
 TABLES = ("K", "drops", "switches", "fastest", "phi", "push", "parts")
 """Vectors of the plan."""
 KINDS: dict[str, str] = dict(Run.__annotations__)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.core.types import Array
-from biped_adrc.engine.kernels.run_plan import STATUS
+from biped_adrc.engine.kernels.compiled_run import STATUS
 from biped_adrc.extras.gym.task import ADDED, FALLEN_FROM, LearnerTask
 from biped_adrc.extras.gym.view import learner_view
 from biped_adrc.scenario.build import RobotAndGait, build, limits

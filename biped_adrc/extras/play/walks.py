@@ -27,8 +27,8 @@ from biped_adrc.disturbances.base import Sum
 from biped_adrc.disturbances.force import OnLink
 from biped_adrc.disturbances.waves import TorqueStep
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.kernels.record import PLACES, Ints
-from biped_adrc.engine.kernels.run_plan import STATUS, Functions
+from biped_adrc.engine.kernels.compiled_run import STATUS
+from biped_adrc.engine.kernels.record import FUNCTIONS, PLACES, Ints
 from biped_adrc.engine.symbols import NotCompiled, paths
 from biped_adrc.extras.play.sliders import Form, Slider, fitted, numbers_at, sliders
 from biped_adrc.extras.play.webassembly import WebWalker, web_walkers
@@ -117,7 +117,7 @@ class PageWalk:
     @cached_property
     def names(self) -> dict[str, int]:
         """Places in the block of the walker's numbers, by their names."""
-        first = self.code.plan.places["K"]
+        first = self.code.plan.place("K")
         return {name: first + k for k, name in enumerate(paths(self.code.program.numbers))}
 
     @cached_property
@@ -140,7 +140,7 @@ class PageWalk:
 
     def _block(self, code: CompiledWalker) -> Array:
         result = code.plan.start(self.x, 0.0, *self.mode, 0.0).block.view(np.float64).copy()
-        for name in Functions._fields:
+        for name in FUNCTIONS:
             result[PLACES[name]] = 0.0  # addresses
         return np.nan_to_num(result)  # whole numbers that are no floats
 

@@ -15,7 +15,6 @@ in `WebWalkers.functions`, from 1 on. Walkers of the same structure share their 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -27,9 +26,9 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.engine.compiled_push import term_code
 from biped_adrc.engine.compiled_signals import reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
+from biped_adrc.engine.kernels.compiled_run import CompiledRun
 from biped_adrc.engine.kernels.load import loops
-from biped_adrc.engine.kernels.record import PART, PLACES
-from biped_adrc.engine.kernels.run_plan import Functions, RunPlan
+from biped_adrc.engine.kernels.record import FUNCTIONS, PART, PLACES
 from biped_adrc.engine.machine import LoadedCode, keep, key_of, stored
 from biped_adrc.gait.reference import Reference
 
@@ -37,7 +36,7 @@ from biped_adrc.gait.reference import Reference
 class WebWalker(NamedTuple):
     """The numbers of one walker."""
 
-    plan: RunPlan
+    plan: CompiledRun
     """With numbers of functions in place of addresses."""
     observe: int
     """Number of the function that says its signals (`closed_loop.instant_signals`)."""
@@ -93,17 +92,17 @@ def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker
         raise InputError("an offline page takes the steps of RK4; leave out the exponential method")
     own = laws.of(program.machine)
     seen = laws.of(reading_code("observe", signals_at, program, reference))
-    cells = one.plan.cells.copy()
-    for name in Functions._fields:
+    cells = one.plan.block
+    for name in FUNCTIONS:
         at = PLACES[name]
         cells[at] = laws.number(f"{own}.{name}") if cells[at] else 0
     terms = one.walker.disturbance.terms if one.walker.disturbance else ()
     for k, term in enumerate(terms):
-        part = cells[one.plan.places["parts"] + PART * k :][:PART]
+        part = cells[one.plan.place("parts") + PART * k :][:PART]
         push = laws.of(term_code(term, one.walker.plant.n))
         part[0] = laws.number(f"{push}.torque")
         part[2] = laws.number(f"{push}.resultant") if part[2] else 0
-    return WebWalker(replace(one.plan, cells=cells), laws.number(f"{seen}.observe"))
+    return WebWalker(CompiledRun(cells, one.plan.pointers), laws.number(f"{seen}.observe"))
 
 
 TARGET = "wasm32-unknown-unknown"
