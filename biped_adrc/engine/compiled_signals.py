@@ -84,10 +84,9 @@ def compiled_readings(
         if trajectory.settings.get("engine") != COMPILED:
             _ = program.machine  # NotCompiled where the controller runs in Python
         code = reading_code("observe", signals_at, program, reference)
-        numbers = SignalNumbers(program.numbers, reference)
+        K = np.array([*program.K[:-1], *floats(reference), 0.0])
     except (NotCompiled, ModelError):
         return None
-    K = np.array([*floats(numbers), 0.0])
     first = trajectory.arcs[0]
     example = signals_at(
         walker, first.t[0], first.x[0], first.mode, lambda s, m: reference(m.t, m.q, m.v)

@@ -4,7 +4,7 @@
     tick      (t, step, t_start, x, zeta, force) -> x, q''  sensors, controller, motors
     impact    (t, step, x) -> x+                              (7), (8), relabelling, controller's jump
     events    (t, t_start, drop, q) -> event functions, x of the swing foot
-    sample    (t, step, t_start, x, ..) -> x, xi^         as tick, of a plant that moves by itself
+    sample    (t, step, t_start, x, ..) -> x               as tick, of a plant that moves by itself
     to, back, remainder                                       coordinates of the exponential method
 
 `force` (2,) [N], from outside on the robot as a whole, changes what a foot carries. zeta (n,) [N m] is
@@ -304,17 +304,12 @@ class Equations:
         return self.function(at.inp, x, at.lost, a)
 
     def sample(self) -> SymbolicFunction:
-        """Of a plant that moves by itself: x (nx,) after a sample instant, the observer's estimate of xi
-        (p,) [rad/s^2], 0 without one, and the least pivot. `force` is that on the feet.
+        """Of a plant that moves by itself: x (nx,) after a sample instant, and the least pivot. `force` is that
+        on the feet.
         """
         at = self.at()
         at = at._replace(loop=at.loop._replace(moves=True))
-        x = at.does(semantics.tick)
-        q, v, s, tail = semantics.parts(at.loop, x)
-        m = at.loop.measure(at.t, q, v, at.mode)
-        result = at.trace(semantics.estimated)(at.loop, s, tail, m, at.mode)
-        xi = np.zeros(self.p) if result is None else result
-        return self.function(at.inp, x, xi, at.lost)
+        return self.function(at.inp, at.does(semantics.tick), at.lost)
 
     def impact(self) -> SymbolicFunction:
         """x+ (nx,) after impact, relabelling and the controller's jump; `step` is the single

@@ -21,6 +21,7 @@ import numpy as np
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import ErrorForm, Walker
 from biped_adrc.control.passive import Passive
+from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
 from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers
 from biped_adrc.engine.ir import generated
@@ -28,6 +29,7 @@ from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
 from biped_adrc.engine.tracer import located
+from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 
 
@@ -37,10 +39,8 @@ class Program:
 
     size: int
     """Numbers in the controller's state."""
-    K: Array
-    """The numbers as a vector; its last entry is unused, so that it is never empty."""
     numbers: WalkerNumbers
-    """The same by name."""
+    """The numbers by name."""
     plant_alone: bool = False
     """Whether there are flow and event functions alone."""
 
@@ -59,13 +59,30 @@ class Program:
         if plant_alone:
             held = walker.held._replace(sensors=None, touchdown=None) if walker.held else ()
             numbers = numbers._replace(controller=Passive(), held=held)
-        K = np.array([*floats(numbers), 0.0])
+        return cls(size, numbers, plant_alone)
+
+    @classmethod
+    def of_loop(cls, loop: SteppingLoop, size: int) -> Program:
+        """The program of sample instants around another plant. Raises NotCompiled also for a model that is no
+        planar tree.
+        """
+        if not isinstance(loop.model, Biped):
+            raise NotCompiled(f"the model is a {type(loop.model).__name__}, expected a Biped")
+        try:
+            return cls(size, controller_numbers(robot_of(loop.model), loop))
+        except ModelError as reason:
+            raise NotCompiled(str(reason)) from reason
+
+    @cached_property
+    def K(self) -> Array:
+        """The numbers as a vector; its last entry is unused, so that it is never empty."""
+        K = np.array([*floats(self.numbers), 0.0])
         if np.any(np.isnan(K)):
             raise NotCompiled(
-                f"a parameter of {type(walker.controller).__name__} or its walker is NaN, of which generated "
-                "code would make 0 where it is multiplied by 0"
+                f"a parameter of {type(self.numbers.controller).__name__} or of what is around it is NaN, of "
+                "which generated code would make 0 where it is multiplied by 0"
             )
-        return cls(size, K, numbers, plant_alone)
+        return K
 
     @cached_property
     def key(self) -> Hashable:

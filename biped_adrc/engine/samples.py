@@ -185,9 +185,9 @@ class PythonWalk:
         elif isinstance(loop, CompiledLoop):
             size = loop.controller_size(x)
             system = compiled = loop.compiled(size)
-            if compiled.code is not None:
-                at = torque_place(compiled.code.numbers)
-                places.append((compiled.code.sample.K[at : at + p], slice(p)))
+            if compiled.program is not None:
+                at = torque_place(compiled.program.numbers)
+                places.append((compiled.program.K[at : at + p], slice(p)))
             if compiled.compiled_push is not None:
                 places.append((compiled.compiled_push.terms[-1][1][:2], slice(p, None)))
         return cls(loop, system, method, tuple(places), Now(mode.start, x, mode, mode.start))

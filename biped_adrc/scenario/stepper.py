@@ -26,6 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from biped_adrc.analysis.certificate import Support, supports
 from biped_adrc.analysis.ground_force import Nodes
+from biped_adrc.closed_loop.layout import as_walked
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.system import ClosedLoop
@@ -37,7 +38,6 @@ from biped_adrc.engine.compiled_signals import Reading
 from biped_adrc.engine.kernels.compiled_run import STATUS
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import WALK, Ints
-from biped_adrc.engine.on_plant import as_walked
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.engine.samples import CompiledWalk, PythonWalk, reading, with_inputs
 from biped_adrc.engine.symbols import NotCompiled
