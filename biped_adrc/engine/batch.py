@@ -34,7 +34,6 @@ from biped_adrc.core.errors import (
 )
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
-from biped_adrc.engine.compiled_signals import reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.compiled_run import table_height
 from biped_adrc.engine.kernels.load import kernels
@@ -222,7 +221,7 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
         return lambda: left_by(
             case, run_made(compiled, x, case.mode, case.method, case.options), COMPILED
         )
-    read = reading_code("judged", step_reading, compiled.program, case.curve).addresses["judged"]
+    read = compiled.program.reading(step_reading).addresses["reading"]
     return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts, read)
 
 

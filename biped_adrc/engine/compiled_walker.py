@@ -25,7 +25,7 @@ from biped_adrc.engine.compiled_push import push_of
 from biped_adrc.engine.kernels.compiled_run import CompiledRun, plan
 from biped_adrc.engine.kernels.record import FUNCTIONS
 from biped_adrc.engine.program import Program
-from biped_adrc.engine.symbols import NotCompiled, floats
+from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import constants
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
@@ -58,20 +58,20 @@ class CompiledWalker:
     ) -> CompiledWalker:
         """For a controller with `size` states and a run that begins at t_first [s].
 
-        reference: for functions that read signals (`compiled_signals`); its numbers stand behind the walker's.
+        reference: what readings of the program refer to.
         in_python: sample instants and impacts by the walker's own methods, in sampled time.
         Compiles the walker's functions where they are not in memory or on disk, and makes the plan.
         Raises NotCompiled where a part or the method cannot be compiled, InputError for a
         method without the coordinates that it needs.
         """
         split, fields, tables = _method(walker, method)
-        program = Program.of(walker, size, split, in_python)
+        program = Program.of(walker, size, split, reference, in_python)
         n, p, nx, bounds = walker.plant.n, walker.plant.p, program.nx, walker.bounds
         relaxing = walker.relaxing()
         k = 0 if split is None else len(split.A)
         flows = walker.held is None or relaxing  # the torque of the motors, then all does
         tables |= {
-            "K": np.array([*program.K[:-1], *floats(reference), 0.0]),
+            "K": program.K,
             "drops": np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2),
         }
         if len(bounds.fastest):

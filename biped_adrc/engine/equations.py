@@ -4,6 +4,7 @@
     tick      (t, step, t_start, x, zeta, force) -> x, q''  sensors, controller, motors
     impact    (t, step, x) -> x+                              (7), (8), relabelling, controller's jump
     events    (t, t_start, drop, q) -> event functions, x of the swing foot
+    reading   (t, step, t_start, x, ..) -> what is read off the loop, such as `closed_loop.instant_signals`
     sample    (t, step, t_start, x, ..) -> x               as tick, of a plant that moves by itself
     to, back, remainder                                       coordinates of the exponential method
 
@@ -25,6 +26,8 @@ import functools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
+from operator import call
 from typing import NamedTuple, TypeVar
 
 import casadi as ca
@@ -39,40 +42,21 @@ from biped_adrc.core.types import Array, Indices
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.symbols import Scalar, Vector, column, floats, maximum, minimum, where
 from biped_adrc.engine.tracer import Located, Tracer, run
+from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.model.planar_robot import PlanarRobot
-from biped_adrc.observers.base import Estimate
 
 T = TypeVar("T")
 
 
-def on_symbols(trace: Tracer, controller: Controller, p: int, size: int) -> ControlLaw:
-    """The methods of a controller on symbols.
+Reading = Callable[..., tuple[Array, ...]]
+"""read(loop, t, x, mode, reference), such as `signals_at`: what is read off the loop at one instant."""
 
-    Raises Located for a method that gives another number than p torques or `size` numbers of the
-    state, since generated code could not notice.
-    """
+
+def on_symbols(trace: Tracer, controller: Controller) -> ControlLaw:
+    """The methods of a controller on symbols."""
     twin = trace.on_symbols(controller)
-
-    def checked(name: str, expected: int) -> Callable[..., Array]:
-        def called(*arguments: object) -> Array:
-            result = run(trace, getattr(twin, name), *arguments)
-            if np.shape(result) != (expected,):
-                raise Located(
-                    f"{type(controller).__name__}.{name} gives an array of shape {np.shape(result)}, "
-                    f"expected ({expected},)"
-                )
-            return result
-
-        return called
-
-    def estimate(s: Array, m: Measurement) -> Estimate | None:
-        return run(trace, twin.estimate, s, m)
-
-    flow, jump, correct, predict = (
-        checked(name, size) for name in ("flow", "jump", "correct", "predict")
-    )
-    return ControlLaw(checked("output", p), flow, jump, correct, predict, estimate)
+    return ControlLaw(*(partial(run, trace, getattr(twin, name)) for name in ControlLaw._fields))
 
 
 class SymbolicLoop(NamedTuple):
@@ -198,6 +182,8 @@ class WalkerNumbers(NamedTuple):
     """Relative errors of v+ (n,) [1], empty without."""
     split: ErrorForm | None = None
     """Coordinates of the exponential method."""
+    curve: Reference | None = None
+    """What readings refer to; no other function has it."""
 
     def nx(self, size: int) -> int:
         """Numbers in a state: 2 n, `size` of the controller, and what is held."""
@@ -267,7 +253,7 @@ class Equations:
             plant=plant,
             nominal=model,
             exact=K.model is None and not K.plant.friction,
-            calls=on_symbols(trace, K.controller, self.p, self.size),
+            calls=on_symbols(trace, K.controller),
             held=trace.on_symbols(K.held) if K.held else None,
             swap=K.plant.swap,
             gain=K.impact_gain,
@@ -311,6 +297,15 @@ class Equations:
         at = at._replace(loop=at.loop._replace(moves=True))
         return self.function(at.inp, at.does(semantics.tick), at.lost)
 
+    def reading(self, read: Reading) -> SymbolicFunction:
+        """The parts of what `read` says, one after the other."""
+        at = self.at()
+
+        def tracked(s: Array, m: Measurement) -> ReferencePoint:
+            return run(at.trace, call, self.numbers.curve, m.t, m.q, m.v)
+
+        return self.function(at.inp, *at.does(read, tracked))
+
     def impact(self) -> SymbolicFunction:
         """x+ (nx,) after impact, relabelling and the controller's jump; `step` is the single
         support that begins.
@@ -318,6 +313,9 @@ class Equations:
         inp, trace = Vector("inp", 2 + self.nx), Tracer()
         t, step, x = inp.take(), inp.take(), inp.take(self.nx)
         x = trace(semantics.strike)(self.loop(trace), t, x, Mode(step, t))
+        if len(x) != self.nx:  # all other methods are called once at the start of a run
+            name = type(self.numbers.controller).__name__
+            raise Located(f"{name}.jump gives a state of another size than initial_state")
         return self.function(inp, x, trace.solver.least)
 
     def events(self) -> SymbolicFunction:

@@ -23,12 +23,13 @@ from biped_adrc.closed_loop.walker import ErrorForm, Walker
 from biped_adrc.control.passive import Passive
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
-from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers
+from biped_adrc.engine.equations import Equations, Reading, SymbolicFunction, WalkerNumbers
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
 from biped_adrc.engine.tracer import located
+from biped_adrc.gait.reference import Reference
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 
@@ -46,16 +47,22 @@ class Program:
 
     @classmethod
     def of(
-        cls, walker: Walker, size: int, split: ErrorForm | None = None, plant_alone: bool = False
+        cls,
+        walker: Walker,
+        size: int,
+        split: ErrorForm | None = None,
+        curve: Reference | None = None,
+        plant_alone: bool = False,
     ) -> Program:
-        """The program of a walker whose controller has `size` states; split: coordinates of the
-        exponential method. plant_alone: flow and event functions, which in sampled time call no other part.
+        """The program of a walker whose controller has `size` states; split: coordinates of the exponential
+        method. curve: what readings refer to. plant_alone: flow and event functions, which in sampled time call
+        no other part.
 
         Takes the controller in its time base, the data of plant and model, and puts all
         floats into K in the order of `WalkerNumbers`. Raises NotCompiled for a part whose content cannot
         be compared, or ModelError for a robot that is no planar tree.
         """
-        numbers = numbers_of(walker, split)
+        numbers = numbers_of(walker)._replace(split=split, curve=curve)
         if plant_alone:
             held = walker.held._replace(sensors=None, touchdown=None) if walker.held else ()
             numbers = numbers._replace(controller=Passive(), held=held)
@@ -86,8 +93,8 @@ class Program:
 
     @cached_property
     def key(self) -> Hashable:
-        """What decides the code."""
-        return self.size, structure(self.numbers)
+        """What decides the code, but that of readings."""
+        return self.size, structure(self.numbers._replace(curve=None))
 
     @property
     def nx(self) -> int:
@@ -112,6 +119,12 @@ class Program:
         functions = {name: partial(self._traced, name) for name in names}
         return generated(self.key, functions)
 
+    def reading(self, read: Reading) -> LoadedCode:
+        """The function "reading" of `read`. Raises NotCompiled for a curve without a compiled form."""
+        key = read, self.key, structure(self.numbers.curve)
+        of = Equations.of(self.size, self.numbers)
+        return generated(key, {"reading": lambda: of.reading(read)})
+
     def _traced(self, name: str) -> SymbolicFunction:
         with located(name):
             function: SymbolicFunction = getattr(Equations.of(self.size, self.numbers), name)()
@@ -125,7 +138,7 @@ class Program:
         return self.machine.addresses.get(name, 0)
 
 
-def numbers_of(walker: Walker, split: ErrorForm | None = None) -> WalkerNumbers:
+def numbers_of(walker: Walker) -> WalkerNumbers:
     """All numbers of a walker by name, as K lists them; what a walker has not is empty and takes no place.
 
     Raises ModelError for a robot that is no planar tree.
@@ -136,7 +149,6 @@ def numbers_of(walker: Walker, split: ErrorForm | None = None) -> WalkerNumbers:
         lowest_hip=float(walker.lowest_hip),
         longest=float(walker.max_step_time),
         impact_gain=walker.gain,
-        split=split,
     )
 
 

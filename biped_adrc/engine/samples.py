@@ -29,9 +29,8 @@ from biped_adrc.core.errors import RaisedError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.force import AddedForce
-from biped_adrc.engine.compiled_signals import Reading, reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.equations import WalkerNumbers
+from biped_adrc.engine.equations import Reading, WalkerNumbers
 from biped_adrc.engine.kernels.compiled_run import CompiledRun, table_height
 from biped_adrc.engine.on_plant import CompiledLoop
 from biped_adrc.engine.simulate import compiled_plant
@@ -105,8 +104,8 @@ class CompiledWalk:
         compiled = CompiledWalker.of(walker, method, walker.controller_size(x), mode.start, curve)
         run = compiled.plan.start(x, mode.start, *mode, mode.start)
         if judged and curve is not None:
-            code = reading_code("judged", step_reading, compiled.program, curve)
-            run["look"], room = code.addresses["judged"], columns(walker, run["h"])
+            code = compiled.program.reading(step_reading)
+            run["look"], room = code.addresses["reading"], columns(walker, run["h"])
             run.keep(table=np.empty((table_height(walker.plant.p), room)))
         return cls(compiled, run)
 
@@ -134,9 +133,9 @@ class CompiledWalk:
         """The same walk in memory of its own."""
         return replace(self, run=self.run.copy())
 
-    def law(self, view: Reading, curve: Reference) -> int:
+    def law(self, view: Reading) -> int:
         """Address of machine code for what `view` says."""
-        return reading_code("read", view, self.compiled.program, curve).addresses["read"]
+        return self.compiled.program.reading(view).addresses["reading"]
 
 
 def columns(walker: Walker, h: float) -> int:

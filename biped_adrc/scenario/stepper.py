@@ -34,7 +34,7 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.checks import check_part, numbers
 from biped_adrc.core.errors import InputError, check_count
 from biped_adrc.core.types import Array, frozen
-from biped_adrc.engine.compiled_signals import Reading
+from biped_adrc.engine.equations import Reading
 from biped_adrc.engine.kernels.compiled_run import STATUS
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import WALK, Ints
@@ -289,7 +289,7 @@ class Stepper:
         for i in () if view in self._complete else np.flatnonzero(laws == 0).tolist():
             walk = self.walks[i]
             if isinstance(walk, CompiledWalk):
-                laws[i] = walk.law(view, self.curve)
+                laws[i] = walk.law(view)
             elif walk is not None:
                 result[i] = reading(walk, view, self.curve)
         if not self.in_python:

@@ -219,7 +219,7 @@ def numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
     """
     structures = [one for result in walks.values() for one in result]
     first = structures[0]
-    web = web_walkers([one.code for one in structures], first.scene.walked.constraint)
+    web = web_walkers([one.code for one in structures])
     blocks = dict(zip(map(id, structures), web.walkers, strict=True))
     plant = first.walker.plant
     feet = plant.description.stance_foot, plant.description.swing_foot
@@ -354,7 +354,7 @@ def joint_places(plant: Biped) -> list[int]:
 
 
 def signal_places(walk: PageWalk) -> dict[str, tuple[int, int]]:
-    """Where each signal begins and ends in what `observe` says."""
+    """Where each signal begins and ends in what `WebWalker.observe` says."""
     h = walk.scene.walked.constraint
     result = signals_at(walk.walker, 0.0, walk.x, walk.mode, lambda s, m: h(m.t, m.q, m.v))
     ends = np.cumsum([np.size(part) for part in result]).tolist()

@@ -24,13 +24,11 @@ from llvmlite import binding
 from biped_adrc.closed_loop.instant_signals import signals_at
 from biped_adrc.core.errors import InputError
 from biped_adrc.engine.compiled_push import term_code
-from biped_adrc.engine.compiled_signals import reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.compiled_run import CompiledRun
 from biped_adrc.engine.kernels.load import loops
 from biped_adrc.engine.kernels.record import FUNCTIONS, PART, PLACES
 from biped_adrc.engine.machine import LoadedCode, keep, key_of, stored
-from biped_adrc.gait.reference import Reference
 
 
 class WebWalker(NamedTuple):
@@ -52,13 +50,13 @@ class WebWalkers(NamedTuple):
     walkers: tuple[WebWalker, ...]
 
 
-def web_walkers(walkers: Sequence[CompiledWalker], reference: Reference) -> WebWalkers:
-    """One module for walkers on one gait, made with the reference to which their signals refer.
+def web_walkers(walkers: Sequence[CompiledWalker]) -> WebWalkers:
+    """One module for walkers on one gait, each made with the reference to which its signals refer.
 
     Raises InputError for the exponential method, whose product with matrices has another form.
     """
     laws = _Laws({}, [*LOOPS])
-    modules = [_walker(one, reference, laws) for one in walkers]
+    modules = [_walker(one, laws) for one in walkers]
     code = web_module(laws.texts, laws.functions)
     return WebWalkers(code, tuple(laws.functions), tuple(modules))
 
@@ -85,13 +83,13 @@ class _Laws(NamedTuple):
         return 1 + self.functions.index(name)
 
 
-def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker:
+def _walker(one: CompiledWalker, laws: _Laws) -> WebWalker:
     """The numbers of one walker, whose functions join those of the others. Raises InputError."""
     program = one.program
     if program.numbers.split is not None:
         raise InputError("an offline page takes the steps of RK4; leave out the exponential method")
     own = laws.of(program.machine)
-    seen = laws.of(reading_code("observe", signals_at, program, reference))
+    seen = laws.of(program.reading(signals_at))
     cells = one.plan.block
     for name in FUNCTIONS:
         at = PLACES[name]
@@ -102,7 +100,7 @@ def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker
         push = laws.of(term_code(term, one.walker.plant.n))
         part[0] = laws.number(f"{push}.torque")
         part[2] = laws.number(f"{push}.resultant") if part[2] else 0
-    return WebWalker(CompiledRun(cells, one.plan.pointers), laws.number(f"{seen}.observe"))
+    return WebWalker(CompiledRun(cells, one.plan.pointers), laws.number(f"{seen}.reading"))
 
 
 TARGET = "wasm32-unknown-unknown"
