@@ -16,7 +16,7 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance
-from biped_adrc.engine.compiled_biped import Call, pointer_call
+from biped_adrc.engine.compiled_biped import pointer_call
 from biped_adrc.engine.equations import SymbolicFunction, count
 from biped_adrc.engine.ir import in_memory, module_text
 from biped_adrc.engine.kernels.record import PART, Ints
@@ -50,39 +50,17 @@ def push_of(disturbance: Disturbance | None, n: int) -> tuple[Ints, dict[str, Ar
     return table, {"push": push, "switches": switches}
 
 
-def summed(terms: Terms, t: Array, q: Array, v: Array, mode: Mode) -> Array:
-    """zeta (K, n) [N m] at K times [s], q (K, n) [rad], v (K, n) [rad/s]."""
-    ones = np.ones((len(t), 1))
-    inp = np.hstack((t[:, np.newaxis], mode.step * ones, mode.start * ones, q, v))
-    total, out = np.zeros(q.shape), np.empty(q.shape)
+def acting(terms: Terms, t: Array | float, rows: Array, mode: Mode, n: int) -> Array:
+    """zeta [N m] and force [N] (K, n + 2) at K times t [s], in rows (q, q', ..) of n coordinates."""
+    inp, result = np.empty((len(rows), 3 + 2 * n)), np.zeros((len(rows), n + 2))
+    inp[:, 0], inp[:, 1], inp[:, 2], inp[:, 3:] = t, mode.step, mode.start, rows[:, : 2 * n]
     for code, K in terms:
-        pointer_call(code, "torque", K, inp, out)
-        total += out
-    return total
-
-
-class CompiledPush:
-    """A disturbance at one instant. Raises NotCompiled for one without machine code."""
-
-    def __init__(self, disturbance: Disturbance, n: int):
-        """n: number of coordinates."""
-        self.n, self.inp, self.terms = n, np.zeros(3 + 2 * n), terms_of(disturbance, n)
-        places = {"torque": slice(n), "resultant": slice(n, n + 2)}
-        self.calls = [
-            (at, Call(code, name, K, self.inp, at.stop - (at.start or 0)))
-            for code, K in self.terms
-            for name, at in places.items()
-            if name in code.addresses
-        ]
-
-    def __call__(self, t: float, row: Array, mode: Mode) -> Array:
-        """zeta and force (n + 2,) at t [s] for a row (q, q', ..) of a plant."""
-        inp, result = self.inp, np.zeros(self.n + 2)
-        inp[0], inp[1], inp[2] = t, mode.step, mode.start
-        inp[3:] = row[: 2 * self.n]
-        for at, call in self.calls:
-            result[at] += call.evaluate()
-        return result
+        for name, at in (("torque", slice(n)), ("resultant", slice(n, n + 2))):
+            if name in code.addresses:
+                out = np.empty((len(rows), at.stop - (at.start or 0)))
+                pointer_call(code, name, K, inp, out)
+                result[:, at] += out
+    return result
 
 
 GUARDED = """

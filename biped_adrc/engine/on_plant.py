@@ -36,7 +36,7 @@ from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_biped import Call, CompiledBiped, compiled_references
-from biped_adrc.engine.compiled_push import CompiledPush, summed
+from biped_adrc.engine.compiled_push import Terms, acting, terms_of
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.program import Program
 from biped_adrc.engine.run import COMPILED
@@ -137,8 +137,8 @@ class LoopInCode(SteppingLoop):
 
     program: Program | None = None
     """Of its sample instants; None where a part of it cannot be compiled."""
-    compiled_push: CompiledPush | None = None
-    """Its disturbance; None for none, or for Python."""
+    terms: Terms | None = None
+    """Those of its disturbance; None for none, or for Python."""
     why: str = ""
     """Why its sample instants are not compiled."""
 
@@ -172,9 +172,9 @@ class LoopInCode(SteppingLoop):
         """What acts from outside in a row of the plant at t [s]; Python says what is wrong with numbers that
         are not finite.
         """
-        if self.compiled_push is None:
+        if self.terms is None:
             return super().push(t, row, mode)
-        result = self.compiled_push(t, row, mode)
+        result = acting(self.terms, t, row[np.newaxis], mode, self.plant.n)[0]
         size = result.dot(result)
         if not math.isfinite(size):
             return super().push(t, row, mode)
@@ -183,14 +183,13 @@ class LoopInCode(SteppingLoop):
     @cached_property
     def pushed_in_python(self) -> bool:
         """Whether its disturbance is not compiled."""
-        return self.disturbance is not None and self.compiled_push is None
+        return self.disturbance is not None and self.terms is None
 
     def zetas(self, t: Array, rows: Array, mode: Mode) -> Array:
         """zeta (K, n) [N m] at K times [s], in the plant's rows, where Python does not compute it."""
-        if self.compiled_push is None:
+        if self.terms is None:
             return super().zetas(t, rows, mode)
-        n = self.plant.n
-        return summed(self.compiled_push.terms, t, rows[:, :n], rows[:, n : 2 * n], mode)
+        return acting(self.terms, t, rows, mode, self.plant.n)[:, : self.plant.n]
 
 
 @dataclass(frozen=True)
@@ -215,8 +214,7 @@ class CompiledLoop(SteppingLoop):
         result = LoopInCode(**{f.name: getattr(self, f.name) for f in fields(self)})
         if self.disturbance is not None:
             with suppress(NotCompiled):
-                push = CompiledPush(self.disturbance, self.plant.n)
-                result = replace(result, compiled_push=push)
+                result = replace(result, terms=terms_of(self.disturbance, self.plant.n))
         try:
             result = replace(result, program=Program.of_loop(result, size))
             _ = result.sample

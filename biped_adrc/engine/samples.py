@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple, Self, cast
+from typing import Any, Self, cast
 
 import numpy as np
 
@@ -144,20 +144,6 @@ def columns(walker: Walker, h: float) -> int:
     return 64 + (3 + math.ceil(period / h)) * math.ceil(walker.max_step_time / period)
 
 
-class Now(NamedTuple):
-    """Where a walk is."""
-
-    t: float
-    """[s]"""
-    x: Array
-    """State (nx,) before the sample instant at t."""
-    mode: Mode
-    began: float
-    """Where the clock of sample instants began that restarts at impacts [s]."""
-    fired: str | None = None
-    """The event that has just happened; None for none."""
-
-
 @dataclass(frozen=True)
 class PythonWalk:
     """One walk by `flow_arc`. Sample instants of a clock that does not restart are counted from 0 s."""
@@ -169,7 +155,15 @@ class PythonWalk:
     """For a system that does not move by itself."""
     places: tuple[tuple[Array, slice], ...]
     """Arrays in which inputs are read, each with its part of (torque, force)."""
-    now: Now
+    t: float
+    """Where it is [s]."""
+    x: Array
+    """State (nx,) before the sample instant at t."""
+    mode: Mode
+    began: float
+    """Where the clock of sample instants began that restarts at impacts [s]."""
+    fired: str | None = None
+    """The event that has just happened; None for none."""
     arcs: tuple[Arc, ...] = ()
     """Of this single support so far."""
 
@@ -187,14 +181,14 @@ class PythonWalk:
             if compiled.program is not None:
                 at = torque_place(compiled.program.numbers)
                 places.append((compiled.program.K[at : at + p], slice(p)))
-            if compiled.compiled_push is not None:
-                places.append((compiled.compiled_push.terms[-1][1][:2], slice(p, None)))
-        return cls(loop, system, method, tuple(places), Now(mode.start, x, mode, mode.start))
+            if compiled.terms is not None:
+                places.append((compiled.terms[-1][1][:2], slice(p, None)))
+        return cls(loop, system, method, tuple(places), mode.start, x, mode, mode.start)
 
     @property
     def at(self) -> At:
         """Where it is."""
-        return self.loop, *self.now[:3]
+        return self.loop, self.t, self.x, self.mode
 
     def copy(self) -> Self:
         """Itself: `sample` gives another walk."""
@@ -208,10 +202,11 @@ class PythonWalk:
         """
         for place, part in self.places:
             place[:] = inputs[part]
-        walk, over = self, list[Arc]()
+        walk, over, timing = self, list[Arc](), cast(SampledTime, self.loop.timing)
         while True:
-            now, until = walk.now, walk._until()
-            at = (now.t, now.x, now.mode, now.fired, now.began)
+            start = walk.began if timing.restart else 0.0
+            until = next_tick(walk.t, start, timing.period)
+            at = (walk.t, walk.x, walk.mode, walk.fired, walk.began)
             with handing_out(), np.errstate(over="ignore", invalid="ignore"):
                 flown = finite(flow_arc(self.system, self.method, RunOptions(until, 0.0), *at))
             if flown.status is Status.RAISED:
@@ -222,20 +217,11 @@ class PythonWalk:
                 arcs = ()
             if flown.outcome is None or event is None:
                 t, x = float(flown.arc.t[-1]), flown.arc.x[-1].copy()
-                return (
-                    replace(walk, now=Now(t, x, now.mode, now.began), arcs=arcs),
-                    flown.status,
-                    over,
-                )
-            now = Now(event.t, *flown.outcome, event.t, event.guard)
-            walk = replace(walk, now=now, arcs=arcs)
-            if cast(SampledTime, self.loop.timing).restart or event.t >= until:
+                return replace(walk, t=t, x=x, fired=None, arcs=arcs), flown.status, over
+            t, (x, mode) = event.t, flown.outcome
+            walk = replace(walk, t=t, x=x, mode=mode, began=t, fired=event.guard, arcs=arcs)
+            if timing.restart or t >= until:
                 return walk, flown.status, over
-
-    def _until(self) -> float:
-        """The first sample instant after `now` [s]."""
-        timing = cast(SampledTime, self.loop.timing)
-        return next_tick(self.now.t, self.now.began if timing.restart else 0.0, timing.period)
 
 
 def joined(arcs: Sequence[Arc]) -> Arc:

@@ -346,28 +346,28 @@ def floats(tree: object) -> list[float]:
         return [float(tree)]
     if isinstance(tree, np.ndarray):
         return tree.ravel().tolist() if tree.dtype.kind == "f" else []
-    if isinstance(tree, tuple | list):
-        return list(chain.from_iterable(map(floats, tree)))
-    if is_part(tree) and not isinstance(tree, HIDDEN):
-        return floats(tuple(content(tree).values()))
-    return []
+    return list(chain.from_iterable(floats(x) for _, x in inside(tree)))
 
 
 def paths(tree: object, name: str = "") -> Iterator[str]:
     """What each of `floats` is called, in its order, such as k.tracking.K_p[0]."""
-    if isinstance(tree, tuple | list):
-        fields = getattr(tree, "_fields", None)
-        for i, x in enumerate(tree):
-            inside = f"[{i}]" if fields is None else f".{fields[i]}" if name else fields[i]
-            yield from paths(x, name + inside)
-    elif isinstance(tree, np.ndarray):
+    if isinstance(tree, np.ndarray):
         if tree.dtype.kind == "f":
             yield from (f"{name}[{', '.join(map(str, at))}]" for at in np.ndindex(*tree.shape))
-    elif is_part(tree) and not isinstance(tree, HIDDEN):
-        for inside, x in content(tree).items():
-            yield from paths(x, f"{name}.{inside}" if name else inside)
     elif isinstance(tree, float | np.floating):
         yield name
+    for part, x in inside(tree):
+        yield from paths(x, name + part if name or part[0] == "[" else part[1:])
+
+
+def inside(tree: object) -> Iterator[tuple[str, object]]:
+    """The parts of a tuple, list or part, each with .name or [place]."""
+    if is_part(tree) and not isinstance(tree, HIDDEN):
+        yield from ((f".{name}", x) for name, x in content(tree).items())
+    elif isinstance(tree, tuple | list):
+        names = getattr(tree, "_fields", None)
+        for i, x in enumerate(tree):
+            yield f"[{i}]" if names is None else f".{names[i]}", x
 
 
 def column(*parts: ArrayLike | Scalar) -> ca.SX:
