@@ -50,17 +50,15 @@ def push_of(disturbance: Disturbance | None, n: int) -> tuple[Ints, dict[str, Ar
     return table, {"push": push, "switches": switches}
 
 
-def acting(terms: Terms, t: Array | float, rows: Array, mode: Mode, n: int) -> Array:
-    """zeta [N m] and force [N] (K, n + 2) at K times t [s], in rows (q, q', ..) of n coordinates."""
-    inp, result = np.empty((len(rows), 3 + 2 * n)), np.zeros((len(rows), n + 2))
+def summed(terms: Terms, t: Array, rows: Array, mode: Mode, n: int) -> Array:
+    """zeta (K, n) [N m] at K times [s], in rows (q, q', ..) of n coordinates."""
+    inp, total = np.empty((len(t), 3 + 2 * n)), np.zeros((len(t), n))
     inp[:, 0], inp[:, 1], inp[:, 2], inp[:, 3:] = t, mode.step, mode.start, rows[:, : 2 * n]
+    out = np.empty_like(total)
     for code, K in terms:
-        for name, at in (("torque", slice(n)), ("resultant", slice(n, n + 2))):
-            if name in code.addresses:
-                out = np.empty((len(rows), at.stop - (at.start or 0)))
-                pointer_call(code, name, K, inp, out)
-                result[:, at] += out
-    return result
+        pointer_call(code, "torque", K, inp, out)
+        total += out
+    return total
 
 
 GUARDED = """

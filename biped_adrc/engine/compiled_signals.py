@@ -16,7 +16,7 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_biped import parts_of, pointer_call
-from biped_adrc.engine.compiled_push import acting, terms_of
+from biped_adrc.engine.compiled_push import summed, terms_of
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.program import Program
 from biped_adrc.engine.run import COMPILED
@@ -59,7 +59,7 @@ def _inputs(walker: Walker, arc: Arc) -> Array:
     n, t, x, mode = walker.plant.n, arc.seen, arc.x, arc.mode
     q, v, ones = x[:, :n], x[:, n : 2 * n], np.ones((len(t), 1))
     try:
-        zeta = acting(terms_of(walker.disturbance, n), t, x, mode, n)[:, :n]
+        zeta = summed(terms_of(walker.disturbance, n), t, x, mode, n)
     except NotCompiled:
         zeta = np.array([walker.external(*at, mode) for at in zip(t.tolist(), q, v, strict=True)])
     head = (t[:, np.newaxis], mode.step * ones, mode.start * ones)

@@ -1,14 +1,10 @@
-"""A walker's walk on a plant that moves by itself: its controller, sensors, motors and pushes, another ground.
-
-    walker -> SteppingLoop -> Trajectory with states (q, q', s, held), as the rigid plant's
-
-A `CompiledLoop` has its sample instants in machine code, one call each,
+"""Loops around a plant that moves by itself, with their sample instants in machine code, one call each:
 
     sample (t, step, t_start, x) -> x, least pivot
 
-whose measurement, model, controller, limits and queue of torques are those of `closed_loop.semantics`, traced
-as for a walker (`engine.equations`). A controller that cannot be compiled still gets the terms of its model and
-its references from machine code. The settings of the trajectory say what ran: "compiled", or "compiled model",
+Measurement, model, controller, limits and queue of torques are those of `closed_loop.semantics`, traced as for
+a walker (`engine.equations`). A controller that cannot be compiled still gets the terms of its model and its
+references from machine code. The settings of the trajectory say what ran: "compiled", or "compiled model",
 where the controller runs in Python, with the reason as "why".
 """
 
@@ -18,31 +14,28 @@ import math
 from contextlib import suppress
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
-from biped_adrc.closed_loop.layout import as_walked
+from biped_adrc.closed_loop import other_plant
 from biped_adrc.closed_loop.protocols import (
-    LaggingPlant,
     Load,
     SteppingPlant,
-    UnevenPlant,
-    lag_of,
 )
 from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.closed_loop.stepping import SteppingLoop
-from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
-from biped_adrc.core.errors import InputError, ModelError
-from biped_adrc.core.timing import SampledTime
+from biped_adrc.closed_loop.walker import Mode, Walker
+from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_biped import Call, CompiledBiped, compiled_references
-from biped_adrc.engine.compiled_push import Terms, acting, terms_of
+from biped_adrc.engine.compiled_push import Terms, summed, terms_of
 from biped_adrc.engine.kernels.record import OUTSIDE
 from biped_adrc.engine.program import Program
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.hybrid import simulator
-from biped_adrc.hybrid.simulator import Progress, RunOptions
+from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.biped import Biped
 
@@ -50,81 +43,9 @@ from biped_adrc.model.biped import Biped
 def stepping_loop(
     walker: Walker, plant: SteppingPlant, engine: str = COMPILED, first_step: int = 1
 ) -> SteppingLoop:
-    """All of a walker but its plant, around another one; its sample instants compiled, or in Python.
-
-    A lag of its motors and steps of its ground become the plant's, a rate limit stays where it is. first_step:
-    number of the first single support, by which steps of the ground are counted. Raises InputError for a
-    walker in continuous time, and for what only the rigid plant has: errors of the impact map.
-    """
-    if len(walker.gain) > 0:
-        raise InputError(
-            f"the walker has an error of the impact map, and {type(plant).__name__} takes none; leave that "
-            "out, or walk on the rigid plant"
-        )
-    if not isinstance(walker.timing, SampledTime):
-        raise InputError(
-            f"{type(plant).__name__} is controlled at ticks, and this walker acts at every instant; give a "
-            "period, as timing=SampledTime(1e-3), or period = 0.001 in a scenario"
-        )
-    motors = None if walker.motors is None else replace(walker.motors, lag=0.0)
-    loop = CompiledLoop if engine == COMPILED else SteppingLoop
-    return loop(
-        _fitted(plant, walker, first_step),
-        walker.controller,
-        walker.disturbance,
-        walker.timing,
-        walker.nominal,
-        walker.torque_limit,
-        walker.sensors,
-        motors,
-        walker.touchdown,
-        walker.runaway_speed,
-        walker.runaway_torque,
-    )
-
-
-def _fitted(plant: SteppingPlant, walker: Walker, first_step: int) -> SteppingPlant:
-    """The plant with the lag of the walker's motors, and on the steps of its ground.
-
-    Raises InputError for a plant that takes none, or that has others.
-    """
-    name, steps = type(plant).__name__, walker.ground_steps
-    lag = 0.0 if walker.motors is None else walker.motors.lag
-    own = {"lag": lag_of(plant), "steps": getattr(plant, "ground_steps", ())}
-    for what, kind, other in (("lag", LaggingPlant, lag), ("steps", UnevenPlant, steps)):
-        if own[what] != other and (own[what] or not isinstance(plant, kind)):
-            raise InputError(
-                f"{name} has {what} {own[what]} and the walker {other}; give motors with lag and steps of the "
-                "ground to the walker alone, and to a plant that takes them"
-            )
-    if lag and isinstance(plant, LaggingPlant):
-        plant = plant.lagging(lag)
-    return plant.on_steps(steps, first_step) if steps and isinstance(plant, UnevenPlant) else plant
-
-
-def walk_on(
-    loop: SteppingLoop,
-    walker: Walker,
-    start: tuple[Array, Array],
-    mode: Mode,
-    impacts: int,
-    progress: Progress | None = None,
-) -> Trajectory:
-    """Simulates a loop of `stepping_loop` from (q, v), each (n,) [rad, rad/s], until `impacts` impacts.
-
-    The states of the result have the walker's layout, (q, q', s, held). Raises InputError where (q, v) cannot
-    be a start.
-    """
-    assert isinstance(loop.timing, SampledTime)
-    x0 = loop.initial_state(*start, mode)
-    longest = walker.max_step_time + loop.timing.period  # what takes too long is seen at a tick
-    options = RunOptions(
-        mode.start + impacts * longest,
-        mode.start,
-        stop_after=(FOOT_STRIKE, impacts),
-        progress=progress,
-    )
-    return as_walked(loop, loop.run(x0, options, mode))
+    """As `other_plant.stepping_loop`; its sample instants compiled, or in Python."""
+    kind = CompiledLoop if engine == COMPILED else SteppingLoop
+    return other_plant.stepping_loop(walker, plant, first_step, kind)
 
 
 COMPILED_MODEL = "compiled model"
@@ -147,9 +68,7 @@ class LoopInCode(SteppingLoop):
         """The function `sample` of the program, with room for what it is given."""
         assert self.program is not None
         code, nx = self.program.functions(["sample"]), self.program.nx
-        return Call(
-            code, "sample", self.program.K, np.zeros(3 + nx + self.plant.n + OUTSIDE), nx + 1
-        )
+        return Call(code, "sample", self.program.K, 3 + nx + self.plant.n + OUTSIDE, nx + 1)
 
     def tick(self, t: float, x: Array, mode: Mode) -> Array:
         """x (nx,) after the sample instant at t [s]; Python says what is wrong with numbers that are not
@@ -168,13 +87,30 @@ class LoopInCode(SteppingLoop):
             return out[:-1]
         return super().tick(t, x, mode)
 
+    @cached_property
+    def pushes(self) -> list[tuple[slice, Call]]:
+        """The functions of the terms, each with its place in zeta and force (n + 2,)."""
+        n = self.plant.n
+        places = {"torque": slice(0, n), "resultant": slice(n, n + 2)}
+        return [
+            (at, Call(code, name, K, 3 + 2 * n, at.stop - at.start))
+            for code, K in self.terms or ()
+            for name, at in places.items()
+            if name in code.addresses
+        ]
+
     def push(self, t: float, row: Array, mode: Mode) -> Load | None:
         """What acts from outside in a row of the plant at t [s]; Python says what is wrong with numbers that
         are not finite.
         """
         if self.terms is None:
             return super().push(t, row, mode)
-        result = acting(self.terms, t, row[np.newaxis], mode, self.plant.n)[0]
+        n = self.plant.n
+        result = np.zeros(n + 2)
+        for at, call in self.pushes:
+            inp = call.inp
+            inp[0], inp[1], inp[2], inp[3:] = t, mode.step, mode.start, row[: 2 * n]
+            result[at] += call()
         size = result.dot(result)
         if not math.isfinite(size):
             return super().push(t, row, mode)
@@ -189,7 +125,7 @@ class LoopInCode(SteppingLoop):
         """zeta (K, n) [N m] at K times [s], in the plant's rows, where Python does not compute it."""
         if self.terms is None:
             return super().zetas(t, rows, mode)
-        return acting(self.terms, t, rows, mode, self.plant.n)[:, : self.plant.n]
+        return summed(self.terms, t, rows, mode, self.plant.n)
 
 
 @dataclass(frozen=True)
@@ -211,19 +147,17 @@ class CompiledLoop(SteppingLoop):
         What cannot be compiled still gets the terms of its model and its references in machine code, where they
         have any.
         """
-        result = LoopInCode(**{f.name: getattr(self, f.name) for f in fields(self)})
+        values: dict[str, Any] = {f.name: getattr(self, f.name) for f in fields(self)}
         if self.disturbance is not None:
             with suppress(NotCompiled):
-                result = replace(result, terms=terms_of(self.disturbance, self.plant.n))
+                values["terms"] = terms_of(self.disturbance, self.plant.n)
         try:
-            result = replace(result, program=Program.of_loop(result, size))
-            _ = result.sample
+            values["program"] = Program.of_loop(self, size)
+            values["program"].functions(["sample"])
         except NotCompiled as reason:
-            controller, model = compiled_references(self.controller, self.plant.n), self.model
-            if isinstance(model, Biped):
+            values |= {"program": None, "why": str(reason)}
+            values["controller"] = compiled_references(self.controller, self.plant.n)
+            if isinstance(self.model, Biped):
                 with suppress(ModelError):  # of a robot that is no planar tree
-                    model = CompiledBiped.of(model)
-            result = replace(
-                result, program=None, model=model, controller=controller, why=str(reason)
-            )
-        return result
+                    values["model"] = CompiledBiped.of(self.model)
+        return LoopInCode(**values)

@@ -122,8 +122,9 @@ class Program:
     def reading(self, read: Reading) -> LoadedCode:
         """The function "reading" of `read`. Raises NotCompiled for a curve without a compiled form."""
         key = read, self.key, structure(self.numbers.curve)
-        of = Equations.of(self.size, self.numbers)
-        return generated(key, {"reading": lambda: of.reading(read)})
+        return generated(
+            key, {"reading": lambda: Equations.of(self.size, self.numbers).reading(read)}
+        )
 
     def _traced(self, name: str) -> SymbolicFunction:
         with located(name):

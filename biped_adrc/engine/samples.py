@@ -72,12 +72,6 @@ def torque_place(numbers: WalkerNumbers) -> int:
     return len(floats((numbers.plant, numbers.model, inner)))
 
 
-def force_place(compiled: CompiledWalker) -> int:
-    """Cell of a run at which the force from outside is: it is the last term of the disturbance."""
-    assert compiled.walker.disturbance is not None
-    return compiled.plan.term(len(compiled.walker.disturbance.terms) - 1)
-
-
 @dataclass(frozen=True)
 class CompiledWalk:
     """One walk in memory."""
@@ -86,6 +80,9 @@ class CompiledWalk:
     run: CompiledRun
     """Where it is; moved by the kernel `samples`. Its table is that of this single support, as
     `engine.batch.BatchWalk.table`; without columns where it is not judged."""
+
+    places: tuple[int, int]
+    """Cells of the torque and the force from outside, the last term of the disturbance."""
 
     @classmethod
     def of(
@@ -107,7 +104,9 @@ class CompiledWalk:
             code = compiled.program.reading(step_reading)
             run["look"], room = code.addresses["reading"], columns(walker, run["h"])
             run.keep(table=np.empty((table_height(walker.plant.p), room)))
-        return cls(compiled, run)
+        assert walker.disturbance is not None
+        torque = run.place("K") + torque_place(compiled.program.numbers)
+        return cls(compiled, run, (torque, run.term(len(walker.disturbance.terms) - 1)))
 
     def over(self, on: bool) -> Array:
         """The table; where the walk goes on, only columns of the single support in which it is stay there."""
@@ -120,8 +119,7 @@ class CompiledWalk:
     @property
     def addresses(self) -> list[int]:
         """In the order of `kernels.record.WALK`."""
-        torque, at = torque_place(self.compiled.program.numbers), self.run.address
-        return [at, at + 8 * (self.run.place("K") + torque), at + 8 * force_place(self.compiled)]
+        return [self.run.address + 8 * cell for cell in (0, *self.places)]
 
     @property
     def at(self) -> At:

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from itertools import chain
 from typing import Any, TypeVar, Union, overload
 
@@ -275,7 +275,7 @@ def _larger_first(one: SymbolRow, other: SymbolRow, j: int) -> tuple[SymbolRow, 
     return first, second
 
 
-def rebuilt(like: tuple[object, ...] | list[object], parts: list[object]) -> object:
+def rebuilt(like: tuple[object, ...] | list[object], parts: Sequence[object]) -> object:
     """A tuple, NamedTuple or list of the same class with other parts."""
     return like._make(parts) if hasattr(like, "_make") else type(like)(parts)
 

@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from biped_adrc.analysis.certificate import Support, supports
 from biped_adrc.analysis.ground_force import Nodes
-from biped_adrc.closed_loop.layout import as_walked
+from biped_adrc.closed_loop.other_plant import as_walked
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.system import ClosedLoop

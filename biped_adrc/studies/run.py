@@ -27,12 +27,12 @@ from biped_adrc.analysis.certificate import IMPULSE, REASONS, supports
 from biped_adrc.analysis.feasibility import Feasibility, outcome_of
 from biped_adrc.analysis.ground_force import Nodes
 from biped_adrc.analysis.soft_steps import contact_errors
+from biped_adrc.closed_loop.other_plant import walk_on
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.core.errors import BipedError
 from biped_adrc.core.files import packaged
 from biped_adrc.core.types import Array
 from biped_adrc.engine.batch import BatchWalk, Case, left_by, run_case
-from biped_adrc.engine.on_plant import walk_on
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import limits

@@ -34,8 +34,8 @@ class CompiledRun:
     """One run, by name: run["t"], run["x0"]. Runs at the same time must not share it."""
 
     def __init__(self, block: Ints, pointers: Ints):
-        """block: is copied; pointers: which of its cells point into it, from its start [bytes]."""
-        self.cells, self.pointers = block.copy(), pointers
+        """block: becomes its memory; pointers: which of its cells point into it, from its start [bytes]."""
+        self.cells, self.pointers = block, pointers
         self.address = int(self.cells.ctypes.data)
         self.cells[pointers] += self.address
         self.numbers = self.cells.view(np.float64)
@@ -78,7 +78,8 @@ class CompiledRun:
     def copy(self) -> CompiledRun:
         """The same run in memory of its own, with its nodes and table."""
         run = CompiledRun(self.block, self.pointers)
-        run.keep(self.nodes.copy(), self.table.copy())
+        if self.nodes.size or self.table.size:
+            run.keep(self.nodes.copy(), self.table.copy())
         return run
 
     def start(self, x: Array, t: float, step: int, t_start: float, t_end: float) -> CompiledRun:
