@@ -25,9 +25,9 @@ from biped_adrc.engine.machine import keep, key_of, load_or_compile, stored
 
 _HERE = "biped_adrc.engine.kernels"
 FILES = (
+    "biped_adrc.hybrid.constants",
     f"{_HERE}.record",
     f"{_HERE}.call",
-    "biped_adrc.hybrid.constants",
     f"{_HERE}.operations",
     "biped_adrc.hybrid.relaxation",
     "biped_adrc.hybrid.march",

@@ -7,10 +7,13 @@ changes during a run is behind the first comment below. Blocks of different runs
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.core.types import Array
+from biped_adrc.hybrid.constants import N_ROWS, X_ROWS, Y_ROWS
 
 Ints = NDArray[np.int64]
 FOOT_STRIKE, HIP_TOO_LOW, FOOT_X = 0, 1, 3
@@ -160,56 +163,27 @@ class Run:
     table: Array
     """Columns (t, step, force from outside (2,), what `look` says) at each step and the end of each arc; at a
     break just after it, under a force from outside just before it too."""
-    inp: Array
-    """Inputs and outputs of a function; zeta and one part of it."""
-    out: Array
-    zeta: Array
-    one: Array
-    values: Array
-    """Event functions at the start of a step, at its end, and at a time tried in it."""
-    after: Array
-    tried: Array
-    x0: Array
-    """State and slope at both ends of a step; state of a stage, and slopes of RK4."""
-    dx0: Array
-    x1: Array
-    dx1: Array
-    stage: Array
-    k1: Array
-    k2: Array
-    k3: Array
-    k4: Array
-    x_e: Array
-    """State and slope at the event, and after sub-steps towards it."""
-    dx_e: Array
-    x_b: Array
-    dx_b: Array
-    x_first: Array
-    """State and event functions before the march."""
-    values_first: Array
-    y0: Array
-    """y and remainder at both ends of a step; at stages; e^(hA/2) E; of sub-steps, and of one that is tried."""
-    N0: Array
-    y1: Array
-    N1: Array
-    y_a: Array
-    y_b: Array
-    N_a: Array
-    N_b: Array
-    N_c: Array
-    e_half: Array
-    y_sub: Array
-    N_sub: Array
-    y_try: Array
+
+    if TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Array:
+            """One of ROWS."""
 
 
 FUNCTIONS = ("flow", "tick", "impact", "events", "to", "back", "remainder", "matvec")
 """Addresses of the walker's functions."""
 TABLES = ("K", "drops", "switches", "fastest", "phi", "push", "parts")
 """Vectors of the plan."""
-KINDS: dict[str, str] = dict(Run.__annotations__)
+ROWS = (
+    *("inp", "out", "zeta", "one"),
+    *("values", "after", "tried", "x_first", "values_first"),
+    *(*X_ROWS, *Y_ROWS, *N_ROWS),
+)
+"""Work vectors: inputs and outputs of a function, zeta and one part of it; event functions at the start of a
+step, at its end, and at a time tried in it; state and event functions before the march; those of
+`hybrid.constants`.
+"""
+KINDS: dict[str, str] = {**Run.__annotations__, **dict.fromkeys(ROWS, "Array")}
 """int, float, Array or Ints, by the name of a field."""
 PLACES: dict[str, int] = {name: place for place, name in enumerate(KINDS)}
 """Cell of a field."""
-ROWS = tuple(name for name in KINDS if PLACES[name] >= PLACES["inp"])
-"""Work vectors."""
