@@ -16,7 +16,7 @@ import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -25,7 +25,6 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.control.outer_loop import OuterLoop
 from biped_adrc.core.checks import check_fields
 from biped_adrc.core.errors import (
-    BipedError,
     InputError,
     ModelError,
     NotFiniteError,
@@ -37,11 +36,10 @@ from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_walker import CompiledWalker
 from biped_adrc.engine.kernels.compiled_run import table_height
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.run import COMPILED, COMPILED_PLANT, PINOCCHIO
-from biped_adrc.engine.simulate import on_compiled_plant, run_made
+from biped_adrc.engine.run import COMPILED, simulate_by
+from biped_adrc.engine.simulate import run_made
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.gait.reference import Reference
-from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.status import Status
@@ -207,20 +205,18 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
     walker, size = case.walker, case.walker.controller_size(x)
     try:
         compiled = CompiledWalker.of(walker, case.method, size, case.mode.start, case.curve)
-    except (NotCompiled, ModelError) as reason:
+    except (NotCompiled, ModelError):
         try:
-            walked = _in_python(case, x, reason)
+            run = simulate_by(COMPILED, walker, x, case.mode, case.method, **vars(case.options))
         except NotFiniteError:
             raise
         except InputError as error:  # what a user's code gives later on than at the start
             return _ended(case, Status.RAISED, str(error))
-        return lambda: walked
+        return lambda: left_by(case, run)
     if case.curve is None:
         return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts)
     if not walker.sampled or walker.touchdown is not None or isinstance(walker.law, OuterLoop):
-        return lambda: left_by(
-            case, run_made(compiled, x, case.mode, case.method, case.options), COMPILED
-        )
+        return lambda: left_by(case, run_made(compiled, x, case.mode, case.method, case.options))
     read = compiled.program.reading(step_reading).addresses["reading"]
     return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts, read)
 
@@ -259,16 +255,7 @@ def _strides(
     )
 
 
-def _in_python(case: Case, x: Array, reason: BipedError) -> BatchWalk:
-    """The walk on the compiled plant, or on Pinocchio's where there is none; reason: why it is not compiled."""
-    run = on_compiled_plant if isinstance(reason, NotCompiled) else simulator.run
-    trajectory = run(case.walker, x, case.mode, case.method, case.options)
-    return left_by(
-        case, trajectory, COMPILED_PLANT if isinstance(reason, NotCompiled) else PINOCCHIO
-    )
-
-
-def left_by(case: Case, run: Trajectory, engine: str) -> BatchWalk:
+def left_by(case: Case, run: Trajectory) -> BatchWalk:
     """What the run of a case leaves, and the run itself where it is recorded."""
     return BatchWalk(
         run.status,
@@ -277,11 +264,9 @@ def left_by(case: Case, run: Trajectory, engine: str) -> BatchWalk:
         run.before(FOOT_STRIKE).reshape(-1, len(run.final_state)),
         run.final_state,
         run.t_end,
-        engine,
+        run.settings["engine"],
         case.mode.start,
-        trajectory=None
-        if case.curve is None
-        else replace(run, settings={**run.settings, "engine": engine}),
+        trajectory=None if case.curve is None else run,
     )
 
 

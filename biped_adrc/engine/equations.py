@@ -230,11 +230,6 @@ class Equations:
         return self.numbers.plant.n
 
     @property
-    def p(self) -> int:
-        """Motors."""
-        return self.numbers.plant.p
-
-    @property
     def nx(self) -> int:
         """Numbers in a state."""
         return self.numbers.nx(self.size)
@@ -339,7 +334,7 @@ class Equations:
     def _coordinates(self, y: Array) -> tuple[Array, Array]:
         """w and E (k, p) of the flat vector y."""
         assert self.numbers.split is not None
-        p = self.p
+        p = self.numbers.plant.p
         stiff = len(self.numbers.split.A) * p
         return y[: len(y) - stiff], y[len(y) - stiff :].reshape(-1, p)
 

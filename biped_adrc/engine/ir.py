@@ -265,8 +265,8 @@ class _Writer(Writer):
         return f"%v{self.count}"
 
     def literal(self, x: float) -> str:
-        """A double in LLVM's language."""
-        return literal(x)
+        """A double in LLVM's language with all its bits, so that no digits are lost."""
+        return f"0x{struct.unpack('<Q', struct.pack('<d', float(x)))[0]:016X}"
 
     def read(self, block: int, index: int) -> str:
         """Value of an entry of K or inp."""
@@ -279,8 +279,3 @@ class _Writer(Writer):
         """Write an entry of out."""
         at = self._named(f"getelementptr double, ptr %out, i64 {index}", self.stores)
         self.stores.append(f"store double {value}, ptr {at}")
-
-
-def literal(x: float) -> str:
-    """A double in LLVM's language with all its bits, so that no digits are lost."""
-    return f"0x{struct.unpack('<Q', struct.pack('<d', float(x)))[0]:016X}"

@@ -42,8 +42,6 @@ class Program:
     """Numbers in the controller's state."""
     numbers: WalkerNumbers
     """The numbers by name."""
-    plant_alone: bool = False
-    """Whether there are flow and event functions alone."""
 
     @classmethod
     def of(
@@ -54,19 +52,19 @@ class Program:
         curve: Reference | None = None,
         plant_alone: bool = False,
     ) -> Program:
-        """The program of a walker whose controller has `size` states; split: coordinates of the exponential
-        method. curve: what readings refer to. plant_alone: flow and event functions, which in sampled time call
-        no other part.
+        """The program of a walker whose controller has `size` states.
 
-        Takes the controller in its time base, the data of plant and model, and puts all
-        floats into K in the order of `WalkerNumbers`. Raises NotCompiled for a part whose content cannot
-        be compared, or ModelError for a robot that is no planar tree.
+        split: coordinates of the exponential method. curve: what readings refer to. plant_alone: without
+        controller, sensors and touchdown detector, for sample instants in Python. Takes the controller in its
+        time base, the data of plant and model, and puts all floats into K in the order of `WalkerNumbers`.
+        Raises NotCompiled for a part whose content cannot be compared, or ModelError for a robot that is no
+        planar tree.
         """
         numbers = numbers_of(walker)._replace(split=split, curve=curve)
         if plant_alone:
             held = walker.held._replace(sensors=None, touchdown=None) if walker.held else ()
             numbers = numbers._replace(controller=Passive(), held=held)
-        return cls(size, numbers, plant_alone)
+        return cls(size, numbers)
 
     @classmethod
     def of_loop(cls, loop: SteppingLoop, size: int) -> Program:
@@ -101,15 +99,10 @@ class Program:
         """Numbers in a state."""
         return self.numbers.nx(self.size)
 
-    @property
-    def names(self) -> list[str]:
-        """Of its functions."""
-        return ["flow", "events"] if self.plant_alone else Equations.names(self.numbers)
-
     @cached_property
     def machine(self) -> LoadedCode:
         """Its functions in memory, compiled when they are asked for. Raises NotCompiled as `functions`."""
-        return self.functions(self.names)
+        return self.functions(Equations.names(self.numbers))
 
     def functions(self, names: Sequence[str]) -> LoadedCode:
         """Functions of `Equations` in memory.

@@ -55,9 +55,7 @@ def run_compiled(
         why = {"engine": COMPILED_PLANT, "why": text}
         return replace(run, settings={**run.settings, **why})
     run = run_made(compiled, x0, mode, method, options)
-    return replace(
-        run, detail=detail_of(walker, method, run), settings={**run.settings, "engine": COMPILED}
-    )
+    return replace(run, detail=detail_of(walker, method, run))
 
 
 def run_made(
@@ -78,7 +76,8 @@ def run_made(
         error = compiled.raised(run)
         return arc if error is None else _ended_by(error, arc.arc)
 
-    return run_arcs(fly, x0, mode, method.label, options)
+    walked = run_arcs(fly, x0, mode, method.label, options)
+    return replace(walked, settings={**walked.settings, "engine": COMPILED})
 
 
 def _ended_by(error: BaseException, arc: Arc) -> FlownArc:

@@ -26,8 +26,6 @@ from biped_adrc.engine.symbols import NotCompiled, floats
 
 DIFFERENCE = 1e-6
 """Half width of the central differences [rad, rad/s, ..]."""
-REMEMBERED = 64
-"""Structures whose expressions are kept."""
 
 
 Ticked = Callable[[float, Array, Mode], tuple[Array, Array]]
@@ -79,8 +77,6 @@ def _function(size: int, numbers: WalkerNumbers) -> ca.Function:
     """(K, inp) -> (x+, J) for `size` numbers in s; the values of `numbers` do not matter."""
     key, nx = (size, structure(numbers)), numbers.nx(size)
     if key not in _FUNCTIONS:
-        while len(_FUNCTIONS) >= REMEMBERED:
-            _FUNCTIONS.pop(next(iter(_FUNCTIONS)))
         tick = Equations.of(size, numbers).tick()
         after = ca.densify(tick.out[:nx])
         J = ca.densify(ca.jacobian(after, tick.inp)[:, 3 : 3 + nx])

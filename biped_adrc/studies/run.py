@@ -88,8 +88,7 @@ def _run_of(t: Trial) -> Callable[[], BatchWalk]:
 
 def _on_other_ground(c: Case, loop: SteppingLoop) -> BatchWalk:
     """The walk of a case with its controller around another plant than the rigid one."""
-    run = walk_on(loop, c.walker, (c.q, c.v), c.mode, c.impacts)
-    return left_by(c, run, str(run.settings["engine"]))
+    return left_by(c, walk_on(loop, c.walker, (c.q, c.v), c.mode, c.impacts))
 
 
 def _each(step: Callable[[Any], Any], items: Sequence[Any]) -> list[Any]:
