@@ -25,6 +25,7 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.control.outer_loop import OuterLoop
 from biped_adrc.core.checks import check_fields
 from biped_adrc.core.errors import (
+    BipedError,
     InputError,
     ModelError,
     NotFiniteError,
@@ -188,12 +189,15 @@ def run_case(case: Case) -> Callable[[], BatchWalk]:
     """
     try:
         return _prepared(case)
-    except (NotFiniteError, SingularError, RaisedError) as error:
-        return _ended(case, ENDS.get(type(error), Status.RAISED), str(error))
-    except InputError:
-        raise
     except Exception as error:  # whatever a controller or a disturbance in Python may raise
-        return _ended(case, Status.RAISED, f"{type(error).__name__}: {error}")
+        if isinstance(error, InputError) and type(error) not in (NotFiniteError, RaisedError):
+            raise
+        status = ENDS.get(type(error), Status.RAISED)
+        detail = str(error) if isinstance(error, BipedError) else f"{type(error).__name__}: {error}"
+        x, start = np.concatenate((case.q, case.v)), case.mode.start
+        none = np.zeros((0, len(x)))
+        walked = BatchWalk(status, detail, np.zeros(0), none, x, start, COMPILED, start)
+        return lambda: walked
 
 
 def _prepared(case: Case) -> Callable[[], BatchWalk]:
@@ -211,7 +215,7 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
         except NotFiniteError:
             raise
         except InputError as error:  # what a user's code gives later on than at the start
-            return _ended(case, Status.RAISED, str(error))
+            raise RaisedError(str(error)) from error
         return lambda: left_by(case, run)
     if case.curve is None:
         return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts)
@@ -219,14 +223,6 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
         return lambda: left_by(case, run_made(compiled, x, case.mode, case.method, case.options))
     read = compiled.program.reading(step_reading).addresses["reading"]
     return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts, read)
-
-
-def _ended(case: Case, status: Status, detail: str) -> Callable[[], BatchWalk]:
-    """A walk that ended before it began."""
-    x, start = np.concatenate((case.q, case.v)), case.mode.start
-    none = np.zeros((0, len(x)))
-    walked = BatchWalk(status, detail, np.zeros(0), none, x, start, COMPILED, start)
-    return lambda: walked
 
 
 def _strides(

@@ -25,11 +25,11 @@ import numpy as np
 
 from biped_adrc.core.part import content, with_content
 from biped_adrc.core.types import Array
-from biped_adrc.engine.equations import SymbolicFunction, count
+from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.structure import structure
-from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats, rebuilt
+from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats, rebuilt, symbols_of
 from biped_adrc.engine.tracer import Tracer, located, run
 from biped_adrc.gait.reference import Reference
 from biped_adrc.model.biped import Biped
@@ -99,12 +99,11 @@ def in_code(part: Any, method: str, *examples: Array | float) -> Callable[..., A
     inputs, outputs = (sum(map(math.prod, x)) for x in (sizes, shapes))
 
     def traced() -> SymbolicFunction:
-        K, inp = Vector("K", count(part)), Vector("inp", inputs)
-        symbols = K.like(part)
+        (K, symbols), inp = symbols_of(part), Vector("inp", inputs)
         symbols = symbols.sparse if isinstance(symbols, PlanarRobot) else symbols
         law = methodcaller(method, *(inp.take(*size) for size in sizes))
         out = run(Tracer(), law, symbols)
-        return SymbolicFunction(K.symbol, inp.symbol, column(*(out if many else (out,))))
+        return SymbolicFunction(K, inp.symbol, column(*(out if many else (out,))))
 
     code = generated((method, sizes, structure(part)), {"method": traced})
     called = Call(code, "method", np.array([*floats(part), 0.0]), inputs, outputs)

@@ -17,12 +17,12 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance
 from biped_adrc.engine.compiled_biped import pointer_call
-from biped_adrc.engine.equations import SymbolicFunction, count
+from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.ir import in_memory, module_text
 from biped_adrc.engine.kernels.record import PART, Ints
 from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.structure import structure
-from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
+from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats, symbols_of
 from biped_adrc.engine.tracer import Tracer, run
 
 Terms = Sequence[tuple[LoadedCode, Array]]
@@ -117,8 +117,8 @@ def _sizes(term: Disturbance, n: int) -> dict[str, int]:
 
 def _function(term: Disturbance, n: int, name: str, size: int) -> SymbolicFunction:
     """A method of a term on symbols. Raises NotCompiled, also where it gives other than `size` numbers."""
-    K, inp = Vector("K", count(term)), Vector("inp", 3 + 2 * n)
-    k, at = K.like(term), (inp.take(), inp.take(), inp.take(), inp.take(n), inp.take(n))
+    (K, k), inp = symbols_of(term), Vector("inp", 3 + 2 * n)
+    at = (inp.take(), inp.take(), inp.take(), inp.take(n), inp.take(n))
     method = methodcaller(name, *(at if name == "torque" else at[:3]))
     try:
         out = column(run(Tracer(), method, k))
@@ -126,4 +126,4 @@ def _function(term: Disturbance, n: int, name: str, size: int) -> SymbolicFuncti
         out = column()
     if out.numel() != size:
         raise NotCompiled(f"{type(term).__name__}.{name} gives no {size} numbers")
-    return SymbolicFunction(K.symbol, inp.symbol, out)
+    return SymbolicFunction(K, inp.symbol, out)

@@ -72,10 +72,9 @@ class CompiledWalker:
         flows = walker.held is None or relaxing  # the torque of the motors, then all does
         tables |= {
             "K": program.K,
+            "fastest": bounds.fastest,
             "drops": np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2),
         }
-        if len(bounds.fastest):
-            tables["fastest"] = bounds.fastest
         fields |= {
             **_clock(walker, t_first),
             "n": n,

@@ -40,7 +40,7 @@ from biped_adrc.closed_loop.walker import ErrorForm, remainder
 from biped_adrc.control.base import Controller, Measurement
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.engine.kernels.record import OUTSIDE
-from biped_adrc.engine.symbols import Scalar, Vector, column, floats, maximum, minimum, where
+from biped_adrc.engine.symbols import Scalar, Vector, column, maximum, minimum, symbols_of, where
 from biped_adrc.engine.tracer import Located, Tracer, run
 from biped_adrc.gait.reference import Reference, ReferencePoint
 from biped_adrc.hardware.sample_hold import HeldParts
@@ -201,11 +201,6 @@ class SymbolicFunction(NamedTuple):
     """Expressions of the outputs."""
 
 
-def count(example: object) -> int:
-    """Length of the vector K of an example: one more than its floats, so that it is never empty."""
-    return 1 + len(floats(example))
-
-
 @dataclass(frozen=True)
 class Equations:
     """The functions of one structure, each traced when it is asked for.
@@ -221,8 +216,7 @@ class Equations:
     @classmethod
     def of(cls, size: int, example: WalkerNumbers) -> Equations:
         """With symbols for the floats of an example, whose values do not matter."""
-        K = Vector("K", count(example))
-        return cls(size, K.symbol, K.like(example))
+        return cls(size, *symbols_of(example))
 
     @property
     def n(self) -> int:

@@ -340,6 +340,14 @@ class Vector:
         return result
 
 
+def symbols_of(example: T) -> tuple[ca.SX, T]:
+    """Symbols for the floats of a tree: as CasADi's column K, one longer so that it is never empty, and in
+    their places in the tree.
+    """
+    K = Vector("K", 1 + len(floats(example)))
+    return K.symbol, K.like(example)
+
+
 def floats(tree: object) -> list[float]:
     """The numbers that `Vector.like` takes symbols for, in its order."""
     if isinstance(tree, float | np.floating):

@@ -141,11 +141,10 @@ def plan(tables: Mapping[str, Array], parts: Ints, fields: Mapping[str, float]) 
         )
     n, nx, p, k = (int(values.get(name, 0)) for name in ("n", "nx", "p", "k"))
     slow, none, parts = int(values.get("n_slow", 0)), np.zeros(0), parts.copy()
-    vectors = {"fastest": np.full(n, np.inf), **tables}
-    values |= {"ny": slow + k * p, "nN": slow + p, "levels": len(vectors.get("phi", none))}
-    values |= {f"n_{name}": len(vectors.get(name, none)) for name in ("drops", "switches")}
+    values |= {"ny": slow + k * p, "nN": slow + p, "levels": len(tables.get("phi", none))}
+    values |= {f"n_{name}": len(tables.get(name, none)) for name in ("drops", "switches")}
     values |= {"n_parts": len(parts), "pulled": int(np.any(parts[:, 2]))}
-    floats = (vectors.get(name, none) for name in TABLES[:-1])
+    floats = (tables.get(name, none) for name in TABLES[:-1])
     blocks = [np.ascontiguousarray(x, dtype=float).ravel().view(np.int64) for x in floats]
     width = 3 + max(nx, values["ny"]) + max(n, 2) + OUTSIDE
     lengths = [*map(len, blocks), parts.size, *(width for _ in ROWS)]
