@@ -30,7 +30,6 @@ from biped_adrc.core.errors import (
     ModelError,
     NotFiniteError,
     RaisedError,
-    SingularError,
 )
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
@@ -41,6 +40,7 @@ from biped_adrc.engine.run import COMPILED, simulate_by
 from biped_adrc.engine.simulate import run_made
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.gait.reference import Reference
+from biped_adrc.hybrid import simulator
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.status import Status
@@ -52,8 +52,6 @@ MOST_IMPACTS = 1_000_000
 """Of one walk, whose states at all impacts are kept in memory."""
 STORE = 1_000_000
 """Each so-many-th step is kept in Python: in practice the ends of the arcs alone."""
-ENDS = {NotFiniteError: Status.NOT_FINITE, SingularError: Status.SINGULAR}
-"""Statuses of walks that end before they begin."""
 ROOM = 512
 """Columns of `BatchWalk.table` for which there is room at first, for each impact asked for."""
 
@@ -192,7 +190,8 @@ def run_case(case: Case) -> Callable[[], BatchWalk]:
     except Exception as error:  # whatever a controller or a disturbance in Python may raise
         if isinstance(error, InputError) and type(error) not in (NotFiniteError, RaisedError):
             raise
-        status = ENDS.get(type(error), Status.RAISED)
+        kinds = (k for k, kind in simulator.FAILURES.items() if isinstance(error, kind))
+        status = next(kinds, Status.RAISED)
         detail = str(error) if isinstance(error, BipedError) else f"{type(error).__name__}: {error}"
         x, start = np.concatenate((case.q, case.v)), case.mode.start
         none = np.zeros((0, len(x)))

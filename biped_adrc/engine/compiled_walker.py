@@ -75,8 +75,12 @@ class CompiledWalker:
             "fastest": bounds.fastest,
             "drops": np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2),
         }
+        if isinstance(walker.timing, SampledTime) and walker.held is not None:
+            T, motors = walker.timing.period, walker.held.motors
+            part = motors.fraction * T if walker.held.sizes.waiting else 0.0
+            fields |= {"period": T, "restart": walker.timing.restart, "part": part}
         fields |= {
-            **_clock(walker, t_first),
+            "t_first": t_first,
             "n": n,
             "nx": nx,
             "p": p,
@@ -98,16 +102,6 @@ class CompiledWalker:
     def raised(self, run: CompiledRun) -> BaseException | None:
         """What Python has raised in a run, and forgets here."""
         return None if self.ticks is None else self.ticks.errors.pop(run.inputs, None)
-
-
-def _clock(walker: Walker, t_first: float) -> dict[str, float]:
-    """Fields of the sample instants of a run that begins at t_first [s]; none in continuous time."""
-    time = walker.timing
-    if not isinstance(time, SampledTime):
-        return {}
-    assert walker.held is not None
-    part = walker.held.motors.fraction * time.period if walker.held.sizes.waiting else 0.0
-    return {"period": time.period, "restart": time.restart, "t_first": t_first, "part": part}
 
 
 def _method(
@@ -152,14 +146,12 @@ class PythonTicks:
         self.walker, self.n, self.nx = walker, walker.plant.n, nx
         self.flow = ctypes.PYFUNCTYPE(None, *[ctypes.c_void_p] * 3)(flow)
         self.errors = dict[int, BaseException]()
-        self.functions = _FUNCTION(self._tick), _FUNCTION(self._impact)
+        self.functions = {"tick": _FUNCTION(self._tick), "impact": _FUNCTION(self._impact)}
 
     @property
     def addresses(self) -> dict[str, int]:
         """Of both functions, by name."""
-        names = ("tick", "impact")
-        values = (ctypes.cast(f, ctypes.c_void_p).value or 0 for f in self.functions)
-        return dict(zip(names, values, strict=True))
+        return {k: ctypes.cast(f, ctypes.c_void_p).value or 0 for k, f in self.functions.items()}
 
     def _tick(self, K: int, inputs: int, outputs: int) -> None:
         """(t, step, t_start, x, zeta, force) -> (x after the sample instant, 1, q'')."""

@@ -219,11 +219,6 @@ class Equations:
         return cls(size, *symbols_of(example))
 
     @property
-    def n(self) -> int:
-        """Coordinates."""
-        return self.numbers.plant.n
-
-    @property
     def nx(self) -> int:
         """Numbers in a state."""
         return self.numbers.nx(self.size)
@@ -255,7 +250,7 @@ class Equations:
 
     def at(self) -> SymbolicInstant:
         """The symbols (t, step, t_start, x, zeta, force), and the loop at them."""
-        n, trace = self.n, Tracer()
+        n, trace = self.numbers.plant.n, Tracer()
         inp = Vector("inp", 3 + self.nx + n + OUTSIDE)
         t, mode, x = inp.take(), Mode(inp.take(), inp.take()), inp.take(self.nx)
         return SymbolicInstant(
@@ -273,7 +268,7 @@ class Equations:
 
     def tick(self) -> SymbolicFunction:
         """x (nx,) after a sample instant, the least pivot, and q'' (n,) [rad/s^2] under the new torque."""
-        at, n = self.at(), self.n
+        at, n = self.at(), self.numbers.plant.n
         x = at.does(semantics.tick)
         a = at._replace(x=x).does(semantics.flow)[n : 2 * n]
         return self.function(at.inp, x, at.lost, a)

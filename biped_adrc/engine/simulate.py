@@ -33,6 +33,8 @@ TERMINAL = {Status.FELL: "hip_too_low", Status.STALLED: "step_too_long"}
 """Names of the event functions that end a run, by status."""
 
 
+ROOM = 6000
+"""Nodes of a single support for which there is room at first; with too few it is walked again."""
 ONWARD, STORE = 0.005, 1_000_000
 """How far Python looks past the last good state of a lost run [s]; it keeps no nodes between."""
 
@@ -62,14 +64,9 @@ def run_made(
     compiled: CompiledWalker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
 ) -> Trajectory:
     """The run of a walker that is compiled already, from x0 (nx,), in any thread."""
-    plan, every = compiled.plan, options.store_every
-    period, longest = plan["period"], 1.0
-    ticks = longest / period if period > 0.0 else 0.0
-    # of a single support of 1 s, two nodes at each sample instant
-    room = 64 + min(100_000, int(longest / plan["h"] / every + 2.0 * ticks))
-    run = plan.start(x0, options.t0, *mode, options.t_end)
-    run["every"] = every
-    run.keep(np.empty((room, 1 + 2 * plan.nx)))
+    run = compiled.plan.start(x0, options.t0, *mode, options.t_end)
+    run["every"] = options.store_every
+    run.keep(np.empty((ROOM, 1 + 2 * run.nx)))
 
     def fly(t: float, x: Array, mode: Mode, fired: str | None) -> FlownArc:
         arc = flown(run, mode)

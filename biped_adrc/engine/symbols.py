@@ -20,7 +20,7 @@ import math
 import random
 from collections.abc import Callable, Iterator, Sequence
 from itertools import chain
-from typing import Any, TypeVar, Union, overload
+from typing import Any, TypeVar, Union
 
 import casadi as ca
 import numpy as np
@@ -309,12 +309,6 @@ class Vector:
     def __init__(self, name: str, size: int):
         self.symbol = ca.SX.sym(name, size)
         self._taken = 0
-
-    @overload
-    def take(self) -> Any: ...
-
-    @overload
-    def take(self, first: int, /, *more: int) -> Array: ...
 
     def take(self, *shape: int) -> Any:
         """The next symbols as a read-only object array of this shape; a Scalar for no shape."""

@@ -30,8 +30,10 @@ X_ROWS = ("x0", "dx0", "x1", "dx1", "stage", "k1", "k2", "k3", "k4", "x_e", "dx_
 """Arrays (nx,) of a run: state and slope at both ends of a step; state of a stage, and slopes of RK4; state and
 slope at the event, and after sub-steps towards it.
 """
-Y_ROWS = ("y0", "y1", "y_a", "y_b", "e_half", "y_sub", "y_try")
-N_ROWS = ("N0", "N1", "N_a", "N_b", "N_c", "N_sub")
+Y_ROWS = (
+    *("y0", "y1", "y_a", "y_b", "e_half", "y_sub", "y_try"),
+    *("N0", "N1", "N_a", "N_b", "N_c", "N_sub"),
+)
 """Arrays (ny,) of a run by ETD-RK4, y = (w, E) and remainders: at both ends of a step; at stages; e^(hA/2) E;
 of sub-steps, and of one that is tried.
 """

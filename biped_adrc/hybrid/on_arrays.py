@@ -16,16 +16,7 @@ import numpy as np
 
 from biped_adrc.core.errors import NotFiniteError
 from biped_adrc.core.types import Array
-from biped_adrc.hybrid.constants import (
-    ETD,
-    N_ROWS,
-    NOT_FINITE,
-    RK4,
-    SOLVER,
-    STRUCK,
-    X_ROWS,
-    Y_ROWS,
-)
+from biped_adrc.hybrid.constants import ETD, NOT_FINITE, RK4, SOLVER, STRUCK, X_ROWS, Y_ROWS
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
 from biped_adrc.hybrid.integrators import RK4 as ClassicalRungeKutta
 from biped_adrc.hybrid.integrators import OneStepMethod, Solver, Step
@@ -102,7 +93,7 @@ class Run:
     if TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Array:
-            """One of X_ROWS, Y_ROWS and N_ROWS."""
+            """One of X_ROWS and Y_ROWS."""
 
     step: Step
 
@@ -157,7 +148,7 @@ class Run:
         self.phi = phi_levels(method.h, form.A)
         self.n_slow, self.levels = len(w), len(self.phi)
         self.ny = self.nN = len(w) + E.size
-        for name in (*Y_ROWS, *N_ROWS):
+        for name in Y_ROWS:
             setattr(self, name, np.zeros(self.ny))
 
     def parts(self, y: Array) -> tuple[Array, Array]:

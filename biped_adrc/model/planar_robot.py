@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,7 @@ from biped_adrc.core.linear import solve_positive
 from biped_adrc.core.part import derived, with_fields
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.model.biped import STICTION_SPEED, Biped
+from biped_adrc.model.contact import Impact
 from biped_adrc.model.planar import (
     PlanarTree,
     PlantArrays,
@@ -39,17 +40,6 @@ from biped_adrc.model.planar import (
     turned,
 )
 from biped_adrc.model.reduction import BodyTerms, Reduction, reduce
-
-
-class PlanarImpact(NamedTuple):
-    """The state after the impact (7) and relabelling (8), as `model.contact.Impact` has it."""
-
-    q: Array
-    """After relabelling (n,) [rad]."""
-    v: Array
-    """After impact and relabelling (n,) [rad/s]."""
-    impulse: Array
-    """F_2 of the ground (2,) [N s]."""
 
 
 @dataclass(frozen=True)
@@ -156,7 +146,7 @@ class PlanarRobot:
         """[J], zero at the height of the stance foot, at q (n,) [rad]."""
         return self.K.gravity * point(turned(self, q), self.K.w_re, self.K.w_im)[1]
 
-    def impact(self, q: Array, v: Array) -> PlanarImpact:
+    def impact(self, q: Array, v: Array) -> Impact:
         """State and impulse after (7), (8) from q (n,) [rad], v (n,) [rad/s], by the equation of the module.
 
         The impulse is that of the rows of p_e of (7): F_2 = J_m (q+' - q-') - m J_2 q+'.
@@ -168,7 +158,8 @@ class PlanarRobot:
         after = before - J_m.T @ J_2 + K.mass * (J_2.T @ J_2)
         v_plus = solve_positive(after, before @ v, "N' D_e N")
         F_2 = J_m @ (v_plus - v) - K.mass * (J_2 @ v_plus)
-        return PlanarImpact(self.relabel(q), self.R @ v_plus, F_2)
+        v_e = np.concatenate((v_plus, -(J_2 @ v_plus)))
+        return Impact(self.relabel(q), self.R @ v_plus, F_2, v_e)
 
 
 T = TypeVar("T")

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.core.types import Array
-from biped_adrc.hybrid.constants import N_ROWS, X_ROWS, Y_ROWS
+from biped_adrc.hybrid.constants import X_ROWS, Y_ROWS
 
 Ints = NDArray[np.int64]
 FOOT_STRIKE, HIP_TOO_LOW, FOOT_X = 0, 1, 3
@@ -177,7 +177,7 @@ TABLES = ("K", "drops", "switches", "fastest", "phi", "push", "parts")
 ROWS = (
     *("inp", "out", "zeta", "one"),
     *("values", "after", "tried", "x_first", "values_first"),
-    *(*X_ROWS, *Y_ROWS, *N_ROWS),
+    *(*X_ROWS, *Y_ROWS),
 )
 """Work vectors: inputs and outputs of a function, zeta and one part of it; event functions at the start of a
 step, at its end, and at a time tried in it; state and event functions before the march; those of
