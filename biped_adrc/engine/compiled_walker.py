@@ -101,7 +101,7 @@ class CompiledWalker:
 
     def raised(self, run: CompiledRun) -> BaseException | None:
         """What Python has raised in a run, and forgets here."""
-        return None if self.ticks is None else self.ticks.errors.pop(run.inputs, None)
+        return None if self.ticks is None else self.ticks.errors.pop(run["inp"], None)
 
 
 def _method(
@@ -145,7 +145,7 @@ class PythonTicks:
     def __init__(self, walker: Walker, nx: int, flow: int):
         self.walker, self.n, self.nx = walker, walker.plant.n, nx
         self.flow = ctypes.PYFUNCTYPE(None, *[ctypes.c_void_p] * 3)(flow)
-        self.errors = dict[int, BaseException]()
+        self.errors = dict[float, BaseException]()
         self.functions = {"tick": _FUNCTION(self._tick), "impact": _FUNCTION(self._impact)}
 
     @property

@@ -316,8 +316,7 @@ class Equations:
 
     def _split(self, trace: Tracer) -> ErrorForm:
         """The coordinates of the exponential method on symbols."""
-        form: ErrorForm | None = trace.on_symbols(self.numbers.split)
-        assert form is not None
+        form: ErrorForm = trace.on_symbols(self.numbers.split)
         return form
 
     def _coordinates(self, y: Array) -> tuple[Array, Array]:

@@ -52,11 +52,6 @@ class CompiledRun:
         block[self.pointers] -= self.address
         return block
 
-    @property
-    def inputs(self) -> int:
-        """Address of the inputs of its functions."""
-        return int(self.cells[PLACES["inp"]])
-
     def place(self, name: str) -> int:
         """Cell of the first number of a vector."""
         return (int(self.cells[PLACES[name]]) - self.address) // 8
@@ -66,7 +61,7 @@ class CompiledRun:
         return (int(self.cells[self.place("parts") + PART * k + 1]) - self.address) // 8
 
     def __getitem__(self, name: str) -> float:
-        """A number."""
+        """A number, or the address of a vector."""
         where: Any = self.numbers if KINDS[name] == "float" else self.cells
         return where[PLACES[name]].item()
 
