@@ -1,23 +1,22 @@
 """The equations of a walker on symbols, one straight-line function each, traced from the parts' own methods.
 
     flow      (t, step, t_start, x, zeta) -> x'               (10); in sampled time the torque is held
-    tick      (t, step, t_start, x, zeta, force) -> x, q''  sensors, controller, motors
+    tick      (t, step, t_start, x, zeta, force) -> x, q''    sensors, controller, motors
     impact    (t, step, x) -> x+                              (7), (8), relabelling, controller's jump
     events    (t, t_start, drop, q) -> event functions, x of the swing foot
     reading   (t, step, t_start, x, ..) -> what is read off the loop, such as `closed_loop.instant_signals`
-    sample    (t, step, t_start, x, ..) -> x               as tick, of a plant that moves by itself
+    sample    (t, step, t_start, x, ..) -> x                  as tick, of a plant that moves by itself
     to, back, remainder                                       coordinates of the exponential method
 
-`force` (2,) [N], from outside on the robot as a whole, changes what a foot carries. zeta (n,) [N m] is
-an input, since disturbances are compiled by themselves (`engine.compiled_push`) and may differ from
-run to run. flow, tick, impact and remainder add,
-after their result, the least pivot of the matrices that the controller inverts; flow, tick and
-remainder -1 in its place where a torque is beyond the walker's bound.
+`force` (2,) [N], from outside on the robot as a whole, changes what a foot carries. zeta (n,) [N m] is an
+input, since disturbances are compiled by themselves (`engine.compiled_push`) and may differ from run to run.
+flow, tick, impact and remainder add, after their result, the least pivot of the matrices that the controller
+inverts; flow, tick and remainder -1 in its place where a torque is beyond the walker's bound.
 
-`SymbolicLoop` is what `closed_loop.semantics` is given so that its lines become generated code.
-`WalkerStructure` decides the code, `WalkerNumbers` are given at run time as the vector K.
-`engine.program` asks for these functions and compiles them; the loops in `engine.kernels` call them
-by address. A tick is a sample instant.
+`SymbolicLoop` is what `closed_loop.semantics` is given so that its lines become generated code. The structure
+of `WalkerNumbers` decides the code, their floats are given at run time as the vector K. `engine.program` asks
+for these functions and compiles them; the loops in `engine.kernels` call them by address. A tick is a sample
+instant.
 """
 
 from __future__ import annotations
