@@ -26,7 +26,7 @@ import biped_adrc as ba
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.kernels.run_plan import ArcNodes
+from biped_adrc.engine.kernels.compiled_run import CompiledRun
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
 
@@ -67,13 +67,18 @@ def own(
     every = round(float(times[1] - times[0]) / method.h)
     rows = np.empty((2 * len(times), 1 + 2 * len(x)))
 
-    def run() -> ArcNodes:
-        return compiled.plan.start(x, 0.0, 1, 0.0, float(times[-1])).arc(every, rows)
+    def run() -> CompiledRun:
+        run = compiled.plan.start(x, 0.0, 1, 0.0, float(times[-1]))
+        run["every"] = every
+        run.keep(rows)
+        run.stride(1)
+        return run
 
     def interpolated() -> Array:
-        found = run()
-        keep = np.append(np.diff(found.t) > 0.0, True)
-        return CubicHermiteSpline(found.t[keep], found.x[keep], found.dx[keep])(times)
+        walked = run()
+        rows = walked.nodes[: int(walked["count"])]
+        rows = rows[np.append(np.diff(rows[:, 0]) > 0.0, True)]
+        return CubicHermiteSpline(rows[:, 0], *np.hsplit(rows[:, 1:], 2))(times)
 
     return run, interpolated
 

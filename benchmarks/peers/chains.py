@@ -111,12 +111,12 @@ class CompiledChain(Chain):
 
     def _simulate(self, method: OneStepMethod) -> Simulate:
         compiled = CompiledWalker.of(self.walker, method, 0)
-        plan, none, n = compiled.plan, np.zeros((0, 1 + 4 * self.biped.n)), self.biped.n
+        plan, n = compiled.plan, self.biped.n
 
         def simulate(q: Array, v: Array, duration: float) -> Array:
             run = plan.start(np.concatenate((q, v)), 0.0, 1, 0.0, duration)
             run["farthest"] = FAR  # it turns over
-            run.stride(0, none)
+            run.stride(1)
             return run.x[:n].copy()
 
         return simulate

@@ -45,7 +45,7 @@ def program_of(walker: Walker) -> Program:
 
 def right_hand_side(walker: Walker, program: Program) -> Flow:
     """f(t, x) -> x' by machine code, called from Python in the first single support."""
-    nx, n = program.make.nx, walker.plant.n
+    nx, n = program.nx, walker.plant.n
     function = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 3)(program.address("flow"))
     inp, out = np.zeros(3 + nx + n), np.zeros(nx + 1)
     inp[1] = 1.0
@@ -109,7 +109,7 @@ def _libraries() -> list[Any]:
 
 def _callback(program: Program) -> Any:
     """int rhs(t, y, y', data) on the compiled flow, in the first single support and without a push."""
-    address, nx, n = program.address("flow"), program.make.nx, program.make.robot.n
+    address, nx, n = program.address("flow"), program.nx, program.numbers.plant.n
     K = program.K.ctypes.data
 
     @numba.cfunc(types.int32(types.float64, types.voidptr, types.voidptr, types.voidptr))
@@ -138,8 +138,8 @@ class CVODEInC:
         binding.add_symbol("N_VGetArrayPointer", at)
         self.program, self.rhs, self.context = program, _callback(program), c_void_p()
         self._call("SUNContext_Create", 0, byref(self.context))
-        nx = program.make.nx
-        self.x, self.work = np.zeros(nx), np.zeros(4 + 2 * nx + program.make.robot.n)
+        nx = program.nx
+        self.x, self.work = np.zeros(nx), np.zeros(4 + 2 * nx + program.numbers.plant.n)
         self.work[1] = 1.0
         self._prepare(nx)
 

@@ -36,7 +36,7 @@ from biped_adrc.hybrid.system import HybridSystem
 from biped_adrc.hybrid.trajectory import Event
 
 if TYPE_CHECKING:
-    from biped_adrc.engine.batch import Strides
+    from biped_adrc.engine.compiled_walker import CompiledWalker
 
 MOST_ITERATIONS = 12
 """Largest number of iterations of Newton's method on P(s) - s."""
@@ -142,7 +142,9 @@ class ReturnMap(Shown):
         compiled = self._compiled(len(starts[0][0]))
         if compiled is None:
             return [self.project(self.next_impact(self.walker, *x).x_minus) for x in starts]
-        images = compiled(starts)
+        from biped_adrc.engine.batch import strides
+
+        images = strides(compiled, starts, 2.0 * self.walker.max_step_time)
         for walked in images:
             if not walked.status.ok:
                 raise _no_return(walked.status, walked.detail)
@@ -156,22 +158,18 @@ class ReturnMap(Shown):
             PINOCCHIO if self._compiled(len(self.walker.initial_state(q, q))) is None else COMPILED
         )
 
-    def _compiled(self, states: int) -> Strides | None:
-        """The compiled map for walkers whose state has `states` numbers, or None where
-        there is no compiled form.
-        """
+    def _compiled(self, states: int) -> CompiledWalker | None:
+        """The compiled walker whose state has `states` numbers, or None where there is no compiled form."""
         if self.engine != COMPILED:
             return None
-        from biped_adrc.engine.batch import Strides
         from biped_adrc.engine.compiled_walker import CompiledWalker
         from biped_adrc.engine.symbols import NotCompiled
 
         size = self.walker.controller_size(states)
         try:
-            walker = CompiledWalker.of(self.walker, self.method, size)
+            return CompiledWalker.of(self.walker, self.method, size)
         except (NotCompiled, ModelError):
             return None
-        return Strides(walker, 2.0 * self.walker.max_step_time)
 
     def next_impact(self, system: HybridSystem, x: Array, mode: Mode) -> Event:
         """Simulate a walker, or a system that contains one, from x (2 n + c,) after impact to its next impact.

@@ -24,7 +24,7 @@ from biped_adrc.analysis.quadrature import largest
 from biped_adrc.closed_loop.feet import NAMES
 from biped_adrc.closed_loop.instant_signals import InstantSignals, signals_at
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.control.outer_loop import OuterLoop, tracked_point
+from biped_adrc.control.outer_loop import OuterLoop, tracked_by, tracked_point
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array, freeze
@@ -133,7 +133,7 @@ def signals(walker: Walker, trajectory: Trajectory, reference: Reference) -> Sig
     """
     many = sum(len(arc.t) for arc in trajectory.arcs) >= LONG
     compiled = trajectory.settings.get("engine") == "compiled"
-    tracked = walker.law if isinstance(walker.law, OuterLoop) else reference
+    tracked = tracked_by(walker.law, reference)
     if compiled or many:
         from biped_adrc.engine.compiled_signals import compiled_readings
 

@@ -1,6 +1,6 @@
 """What a closed loop, its plant and its controller must offer to the functions of `closed_loop.semantics`.
 
-Plants are `model.biped.Biped`, `engine.mechanics.PlanarRobot` and any of the user's own; loops
+Plants are `model.biped.Biped`, `model.planar_robot.PlanarRobot` and any of the user's own; loops
 are `closed_loop.system.ClosedLoop` on arrays of NumPy and `engine.equations.SymbolicLoop` on symbols.
 
 A plant that moves by itself, for instance MuJoCo or Drake behind a class of the user's, is a `SteppingPlant`:
@@ -46,7 +46,7 @@ class Plant(Protocol):
 
     Enough for the model of a plant that moves by itself. A walker stands on the ground with one foot (pinned)
     and strikes it with the other: it needs the methods of `model.biped.Biped` that
-    `engine.mechanics.PlanarRobot` has, too.
+    `model.planar_robot.PlanarRobot` has, too.
     """
 
     @property

@@ -5,14 +5,13 @@
 There is no x' = f(x) and there are no event functions: the plant is asked to advance to the next sample instant
 or edge of a disturbance and reports its touchdowns (`closed_loop.protocols` defines what it has to give).
 What acts from outside is taken in the middle of such a stretch. Sample instants, sensors, motors and controller
-are those of every closed loop, so a controller is tested unchanged on a plant of another kind. Torque,
-disturbance and estimate are recorded at both ends of every stretch, since they cannot be computed again from
-the states.
+are those of every closed loop, so a controller is tested unchanged on a plant of another kind. Torque and
+disturbance are recorded at both ends of every stretch, since they cannot be computed again from the states.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, cast
 
@@ -27,7 +26,7 @@ from biped_adrc.closed_loop.protocols import (
     OnFeet,
     SteppingPlant,
 )
-from biped_adrc.closed_loop.semantics import after_contact, estimated, parts, torque_held
+from biped_adrc.closed_loop.semantics import after_contact, torque_held
 from biped_adrc.closed_loop.system import ClosedLoop
 from biped_adrc.core.checks import handing_out, numbers, returned
 from biped_adrc.core.errors import InputError, NotFiniteError
@@ -114,7 +113,9 @@ class SteppingLoop(ClosedLoop[Any]):
         start that is none.
         """
         mode = Mode() if mode is None else mode
-        return simulator.run(self, self.checked_start(x0, options, mode), mode, None, options)
+        run = simulator.run(self, self.checked_start(x0, options, mode), mode, None, options)
+        engine = {"engine": "pinocchio", "why": "the plant moves by itself"}
+        return replace(run, settings={**run.settings, **engine})
 
     def checked_start(self, x0: Array, options: RunOptions, mode: Mode) -> Array:
         """x0 (nx,) as an array. Raises InputError for one that is no state of this loop."""
@@ -160,11 +161,11 @@ class SteppingLoop(ClosedLoop[Any]):
         (RanAwayError).
         """
         n, (near, slow), u = self.plant.n, self.squares, x[-self.plant.p :]
-        xi, row = self.estimated(t, x, mode), record.rows[-1] if record.rows else self.row(x)
+        row = record.rows[-1] if record.rows else self.row(x)
         u.setflags(write=False)
         load = None if self.disturbance is None else self.push(0.5 * (t + until), row, mode)
         end, after, contacts, landed = advanced(self.plant, t, row, u, load, until)
-        record.begin(t, row, x, xi, mode)
+        record.begin(t, row, x, mode)
         row, q = after, after[:n]
         if not (q.dot(q) < near and row.dot(row) < slow):  # two products test all of them
             if not np.all(np.isfinite(row)):
@@ -199,12 +200,6 @@ class SteppingLoop(ClosedLoop[Any]):
         if not isinstance(plant, LaggingPlant):
             return u
         return plant.motor_torque(x[..., self.own_places], u)
-
-    def estimated(self, t: float, x: Array, mode: Mode) -> Array:
-        """The observer's estimate of xi (p,) [rad/s^2] at (t, x), t in [s]; NaN without an observer."""
-        q, v, s, tail = parts(self, x)
-        xi = estimated(self, s, tail, self.measure(t, q, v, mode), mode)
-        return np.full(self.plant.p, np.nan) if xi is None else xi
 
     def foot_forces(
         self, t: float, q: Array, v: Array, tail: Array, mode: Mode
@@ -310,14 +305,14 @@ class Stretches(Record):
     """The plant's (2 n + k,) where the arc begins, and at the end of every stretch."""
     zeta: list[Array] = field(default_factory=list)
     """(n,) [N m] there, where Python computes it."""
-    held: list[tuple[Array, Array]] = field(default_factory=list)
-    """x (nx,) and the estimate of xi (p,) [rad/s^2] at the start of every stretch."""
+    held: list[Array] = field(default_factory=list)
+    """x (nx,) at the start of every stretch."""
 
-    def begin(self, t: float, row: Array, x: Array, xi: Array, mode: Mode) -> None:
+    def begin(self, t: float, row: Array, x: Array, mode: Mode) -> None:
         """A stretch begins at t [s]."""
         if not self.rows:
             self.point(t, row, mode)
-        self.held.append((x, xi))
+        self.held.append(x)
 
     def point(self, t: float, row: Array, mode: Mode) -> None:
         """The plant is in a row at t [s]."""
@@ -329,8 +324,8 @@ class Stretches(Record):
     def arc(self, mode: Mode, event: Event | None) -> Arc:
         """Both ends of every stretch as one arc; of one that failed, its start.
 
-        Read are the motors' torque (p,), zeta (n,) [N m] and the estimate (p,) [rad/s^2]. Slopes of the rates
-        are their differences, since the plant does not give q''.
+        Read are the motors' torque (p,) and zeta (n,) [N m]. Slopes of the rates are their differences, since
+        the plant does not give q''.
         """
         if not self.rows:
             return super().arc(mode, event)
@@ -339,10 +334,10 @@ class Stretches(Record):
         of = np.repeat(np.arange(len(self.held)), 2)[:nodes]
         at, v = of + np.arange(nodes) % 2, rows[:, n : 2 * n]
         a = np.vstack((np.diff(v, axis=0) / np.diff(t)[:, np.newaxis], np.zeros(n)))
-        x, xi = (np.array(part)[of] for part in zip(*self.held, strict=True))
+        x = np.array(self.held)[of]
         x[:, : 2 * n], x[:, self.loop.own_places] = rows[at, : 2 * n], rows[at, 2 * n :]
         dx = np.zeros_like(x)
         dx[:, :n], dx[:, n : 2 * n] = v[at], a[of]
         zeta = np.array(self.zeta) if self.zeta else self.loop.zetas(t, rows, mode)
-        read = {"u": self.loop.motor_torque(x), "zeta": zeta[at], "xi_estimate": xi}
+        read = {"u": self.loop.motor_torque(x), "zeta": zeta[at]}
         return Arc(mode, t[at], x, dx, event, read)

@@ -200,11 +200,6 @@ class ClosedLoop(HybridSystem, Generic[P]):
         robot = self.plant if isinstance(self.plant, Biped) else self.nominal
         return Bounds.of(robot, self.plant.n, self.runaway_speed, self.runaway_torque)
 
-    @cached_property
-    def torques(self) -> tuple[int]:
-        """Shape of u, (p,); kept because `saturate` compares it at every step."""
-        return (self.plant.p,)
-
     @property
     def gain(self) -> Array:
         """No error of the impact map: an empty array (0,) [1]."""
@@ -287,15 +282,13 @@ class ClosedLoop(HybridSystem, Generic[P]):
 
         Raises InputError for what is not one real number per motor, NotFiniteError for NaN or infinity.
         """
-        u, limit = (
-            returned(u, self.torques, self.controller, "output", finite=False),
-            self.torque_limit,
-        )
+        shape, limit = (self.plant.p,), self.torque_limit
+        u = returned(u, shape, self.controller, "output", finite=False)
         if limit is not None:
             u = np.minimum(np.maximum(u, -limit), limit)
         # one product tests all of them, at every stage of every step
         if not math.isfinite(u.dot(u)):
-            returned(u, self.torques, self.controller, "output")
+            returned(u, shape, self.controller, "output")
         return u
 
     def jumped(self, fires: float, s: Array, m: Measurement) -> Array:

@@ -163,6 +163,11 @@ def reference_in_force(controller: Controller, s: Array) -> Constraint:
     return own_reference(controller) or tracked_constraint(controller)
 
 
+def tracked_by(law: Controller, reference: Reference | OuterLoop) -> Reference | OuterLoop:
+    """What errors are measured from: an outer loop, which corrects its reference, or a reference."""
+    return law if isinstance(law, OuterLoop) else reference
+
+
 def tracked_point(h: Reference | OuterLoop, s: Array, m: Measurement) -> ReferencePoint:
     """The point at the measurement m of a reference, or of what an outer loop with state s has in force."""
     r = reference_in_force(h, s) if isinstance(h, OuterLoop) else h

@@ -7,7 +7,7 @@ when a case is prepared; the threads then run kernels without the GIL, each on a
 What a run needs is made when it starts and given up when it ends: memory does not grow with the
 number of runs, but for the few numbers that each of them leaves.
 
-`analysis` asks for `Strides`, studies and `bench` for `simulate_many`.
+`analysis` asks for `strides`, studies and `bench` for `simulate_many`.
 """
 
 from __future__ import annotations
@@ -16,13 +16,12 @@ import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from biped_adrc.closed_loop.instant_signals import step_reading
 from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
-from biped_adrc.control.outer_loop import OuterLoop
 from biped_adrc.core.checks import check_fields
 from biped_adrc.core.errors import (
     BipedError,
@@ -30,20 +29,17 @@ from biped_adrc.core.errors import (
     ModelError,
     NotFiniteError,
     RaisedError,
-    SingularError,
 )
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array
-from biped_adrc.engine.compiled_signals import reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
+from biped_adrc.engine.kernels.compiled_run import table_height
 from biped_adrc.engine.kernels.load import kernels
-from biped_adrc.engine.kernels.run_plan import STATUS, table_height
-from biped_adrc.engine.run import COMPILED, COMPILED_PLANT, PINOCCHIO
-from biped_adrc.engine.simulate import on_compiled_plant, run_made
+from biped_adrc.engine.run import COMPILED, simulate_by
+from biped_adrc.engine.simulate import run_made
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import simulator
-from biped_adrc.hybrid.constants import FULL
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import RunOptions
 from biped_adrc.hybrid.status import Status
@@ -55,8 +51,6 @@ MOST_IMPACTS = 1_000_000
 """Of one walk, whose states at all impacts are kept in memory."""
 STORE = 1_000_000
 """Each so-many-th step is kept in Python: in practice the ends of the arcs alone."""
-ENDS = {NotFiniteError: Status.NOT_FINITE, SingularError: Status.SINGULAR}
-"""Statuses of walks that end before they begin."""
 ROOM = 512
 """Columns of `BatchWalk.table` for which there is room at first, for each impact asked for."""
 
@@ -192,12 +186,16 @@ def run_case(case: Case) -> Callable[[], BatchWalk]:
     """
     try:
         return _prepared(case)
-    except (NotFiniteError, SingularError, RaisedError) as error:
-        return _ended(case, ENDS.get(type(error), Status.RAISED), str(error))
-    except InputError:
-        raise
     except Exception as error:  # whatever a controller or a disturbance in Python may raise
-        return _ended(case, Status.RAISED, f"{type(error).__name__}: {error}")
+        if isinstance(error, InputError) and type(error) not in (NotFiniteError, RaisedError):
+            raise
+        kinds = (k for k, kind in simulator.FAILURES.items() if isinstance(error, kind))
+        status = next(kinds, Status.RAISED)
+        detail = str(error) if isinstance(error, BipedError) else f"{type(error).__name__}: {error}"
+        x, start = np.concatenate((case.q, case.v)), case.mode.start
+        none = np.zeros((0, len(x)))
+        walked = BatchWalk(status, detail, np.zeros(0), none, x, start, COMPILED, start)
+        return lambda: walked
 
 
 def _prepared(case: Case) -> Callable[[], BatchWalk]:
@@ -209,31 +207,20 @@ def _prepared(case: Case) -> Callable[[], BatchWalk]:
     walker, size = case.walker, case.walker.controller_size(x)
     try:
         compiled = CompiledWalker.of(walker, case.method, size, case.mode.start, case.curve)
-    except (NotCompiled, ModelError) as reason:
+    except (NotCompiled, ModelError):
         try:
-            walked = _in_python(case, x, reason)
+            run = simulate_by(COMPILED, walker, x, case.mode, case.method, **vars(case.options))
         except NotFiniteError:
             raise
         except InputError as error:  # what a user's code gives later on than at the start
-            return _ended(case, Status.RAISED, str(error))
-        return lambda: walked
+            raise RaisedError(str(error)) from error
+        return lambda: left_by(case, run)
     if case.curve is None:
         return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts)
     if not walker.sampled or walker.touchdown is not None:
-        return lambda: left_by(
-            case, run_made(compiled, x, case.mode, case.method, case.options), COMPILED
-        )
-    curve = walker.law if isinstance(walker.law, OuterLoop) else case.curve
-    read = reading_code("judged", step_reading, compiled.program, curve).addresses["judged"]
+        return lambda: left_by(case, run_made(compiled, x, case.mode, case.method, case.options))
+    read = compiled.program.reading(step_reading).addresses["reading"]
     return lambda: _strides(compiled, x, case.mode, case.t_end, case.impacts, read)
-
-
-def _ended(case: Case, status: Status, detail: str) -> Callable[[], BatchWalk]:
-    """A walk that ended before it began."""
-    x, start = np.concatenate((case.q, case.v)), case.mode.start
-    none = np.zeros((0, len(x)))
-    walked = BatchWalk(status, detail, np.zeros(0), none, x, start, COMPILED, start)
-    return lambda: walked
 
 
 def _strides(
@@ -244,40 +231,25 @@ def _strides(
 
     read: address of what the table holds, 0 for none.
     """
-    nx, height = len(x), table_height(compiled.walker.plant.p)
-    run = compiled.plan.start(x, mode.start, mode.step, mode.start, t_end)
-    strikes, count = np.zeros((impacts, 1 + 2 * nx)), 0
-    table = np.empty((height, ROOM * impacts if read else 0))
-    while True:
-        run.set_table(read, table)
-        code, more = run.stride(impacts - count, strikes[count:])
-        count += more
-        if code != FULL:
-            break
-        table = np.hstack((table, np.empty_like(table)))
+    nx, run = len(x), compiled.plan.start(x, mode.start, *mode, t_end)
+    if read:
+        run["look"] = read
+        run.keep(table=np.empty((table_height(compiled.walker.plant.p), ROOM * impacts)))
+    status, strikes = run.stride(impacts)
     return BatchWalk(
-        STATUS[code],
+        status,
         "",
-        strikes[:count, 0].copy(),
-        strikes[:count, 1 : 1 + nx].copy(),
+        strikes[:, 0].copy(),
+        strikes[:, 1 : 1 + nx].copy(),
         run.x.copy(),
         run["t"],
         COMPILED,
         mode.start,
-        table[:, : int(run["columns"])] if read else None,
+        run.table[:, : int(run["columns"])] if read else None,
     )
 
 
-def _in_python(case: Case, x: Array, reason: BipedError) -> BatchWalk:
-    """The walk on the compiled plant, or on Pinocchio's where there is none; reason: why it is not compiled."""
-    run = on_compiled_plant if isinstance(reason, NotCompiled) else simulator.run
-    trajectory = run(case.walker, x, case.mode, case.method, case.options)
-    return left_by(
-        case, trajectory, COMPILED_PLANT if isinstance(reason, NotCompiled) else PINOCCHIO
-    )
-
-
-def left_by(case: Case, run: Trajectory, engine: str) -> BatchWalk:
+def left_by(case: Case, run: Trajectory) -> BatchWalk:
     """What the run of a case leaves, and the run itself where it is recorded."""
     return BatchWalk(
         run.status,
@@ -286,33 +258,25 @@ def left_by(case: Case, run: Trajectory, engine: str) -> BatchWalk:
         run.before(FOOT_STRIKE).reshape(-1, len(run.final_state)),
         run.final_state,
         run.t_end,
-        engine,
+        run.settings["engine"],
         case.mode.start,
-        trajectory=None
-        if case.curve is None
-        else replace(run, settings={**run.settings, "engine": engine}),
+        trajectory=None if case.curve is None else run,
     )
 
 
-@dataclass(frozen=True)
-class Strides:
-    """Single supports of one walker from many states, for return maps: up to the next impact, or a status.
+def strides(
+    compiled: CompiledWalker, starts: Sequence[tuple[Array, Mode]], t_end: float
+) -> list[BatchWalk]:
+    """Single supports of one walker from many (x, mode), for return maps, in parallel threads: up to the next
+    impact, or a status.
 
-    compiled: the walker; t_end [s]: longest time for one of them.
+    x (nx,) is the state right after the impact that began the single support `mode`; t_end [s]: longest time
+    for one of them.
     """
 
-    compiled: CompiledWalker
-    t_end: float
+    def one(start: tuple[Array, Mode]) -> BatchWalk:
+        return _strides(compiled, *start, start[1].start + t_end, 1)
 
-    def __call__(
-        self, starts: Sequence[tuple[Array, Mode]], threads: int | None = None
-    ) -> list[BatchWalk]:
-        """From every (x, mode), x (nx,), in parallel threads; results in the order of the starts."""
-        kernels()
-        with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
-            return list(pool.map(self.one, starts))
-
-    def one(self, start: tuple[Array, Mode]) -> BatchWalk:
-        """One single support from x+ (nx,) right after the impact that began it; mode says which and when."""
-        x, mode = start
-        return _strides(self.compiled, x, mode, mode.start + self.t_end, 1)
+    kernels()
+    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        return list(pool.map(one, starts))

@@ -1,16 +1,9 @@
-"""A robot whose dynamics are compiled, for controllers that run in Python.
+"""Methods in machine code that Python calls, for controllers that run in Python.
 
-    terms      (q, v) -> D, Omega, kappa, xi, ... of (11)-(15)
-    body       (q, v) -> G, C' q', F_a, F_0, J_2, mass
-    accelerate (q, v, force) -> q''
-    ground     (q, v, a) -> F
-
-A `CompiledBiped` is a `model.biped.Biped` with these four replaced by machine code, traced from
-`engine.mechanics`; kinematics, contact and all that is not asked for at every instant stay
-Pinocchio's. `engine.simulate` puts it in the place of the plant when a controller has no compiled form.
-`compiled_references` does the same for the references of a controller,
-
-    point      (t, q, v) -> the parts of a `ReferencePoint`
+`in_code` makes one of any method of a part. A `CompiledBiped` is a `model.biped.Biped` with those of its
+methods that are asked for at every instant in machine code, traced from `model.planar_robot`; kinematics,
+contact and all else stay Pinocchio's. `engine.simulate` puts it in the place of the plant when a controller has
+no compiled form. `compiled_references` does the same for the references of a controller.
 
 `pointer_call`, `parts_of` and `Call` are how the rest of the engine calls generated code from
 Python.
@@ -20,29 +13,27 @@ from __future__ import annotations
 
 import ctypes
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass, fields, is_dataclass, replace
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, lru_cache
 from itertools import accumulate
-from operator import call
+from operator import methodcaller
 from types import new_class
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from biped_adrc.core.part import content, with_content
 from biped_adrc.core.types import Array
-from biped_adrc.engine.equations import SymbolicFunction, count
+from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.ir import generated
 from biped_adrc.engine.machine import LoadedCode
-from biped_adrc.engine.mechanics import PlanarRobot, RobotData, RobotStructure, once_each, robot_of
 from biped_adrc.engine.structure import structure
-from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
-from biped_adrc.engine.tracer import Tracer, run
-from biped_adrc.gait.reference import Reference, ReferencePoint
+from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats, rebuilt, symbols_of
+from biped_adrc.engine.tracer import Tracer, located, run
+from biped_adrc.gait.reference import Reference
 from biped_adrc.model.biped import Biped
-from biped_adrc.model.planar import PlantArrays
+from biped_adrc.model.planar_robot import PlanarRobot, once_each, robot_of
 from biped_adrc.model.reduction import BodyTerms, Reduction
 
 Shape = tuple[int, ...]
@@ -81,85 +72,96 @@ def places_of(shapes: tuple[Shape, ...]) -> tuple[slice, ...]:
 class Call:
     """One generated function with its own output array; not to be shared between threads."""
 
-    def __init__(self, machine: LoadedCode, name: str, K: Array, inp: Array, outputs: int):
-        """K (size,): its parameters; inp: its inputs, read at each call; outputs: how many numbers."""
-        self.owner, self.K, self.inp, self.out = machine, K, inp, np.zeros(max(1, outputs))
+    def __init__(self, machine: LoadedCode, name: str, K: Array, inputs: int, outputs: int):
+        """K (size,): its parameters; inputs, outputs: how many numbers."""
+        self.owner, self.K = machine, K
+        self.inp, self.out = np.zeros(inputs), np.zeros(max(1, outputs))
         self._function = _C(machine.addresses[name])
-        self._at = (K.ctypes.data, inp.ctypes.data, self.out.ctypes.data)
+        self._at = (K.ctypes.data, self.inp.ctypes.data, self.out.ctypes.data)
 
-    def evaluate(self) -> Array:
-        """The outputs (outputs,) of what is in `inp`, overwritten by the next call."""
+    def __call__(self) -> Array:
+        """The outputs (outputs,) of what is in `inp`; a copy, read-only."""
         self._function(*self._at)
-        return self.out
-
-    def __call__(self, *arguments: Array) -> Array:
-        """The outputs (outputs,) of what is in `inp`, or of these inputs joined; a copy, read-only."""
-        if arguments:
-            np.concatenate(arguments, out=self.inp)
-        out = self.evaluate().copy()
+        out = self.out.copy()
         out.setflags(write=False)  # once, for all the views that are handed out
         return out
+
+
+def in_code(part: Any, method: str, *examples: Array | float) -> Callable[..., Any]:
+    """A method of a part in machine code, for arguments of the shapes of these: it gives what the method gives.
+
+    Raises NotCompiled, also where the method raises at the examples.
+    """
+    with located(getattr(part, method)):
+        result = getattr(part, method)(*examples)
+    many, sizes = isinstance(result, tuple), tuple(map(np.shape, examples))
+    shapes = tuple(map(np.shape, result)) if many else (np.shape(result),)
+    inputs, outputs = (sum(map(math.prod, x)) for x in (sizes, shapes))
+
+    def traced() -> SymbolicFunction:
+        (K, symbols), inp = symbols_of(part), Vector("inp", inputs)
+        symbols = symbols.sparse if isinstance(symbols, PlanarRobot) else symbols
+        law = methodcaller(method, *(inp.take(*size) for size in sizes))
+        out = run(Tracer(), law, symbols)
+        return SymbolicFunction(K, inp.symbol, column(*(out if many else (out,))))
+
+    code = generated((method, sizes, structure(part)), {"method": traced})
+    called = Call(code, "method", np.array([*floats(part), 0.0]), inputs, outputs)
+    places = places_of(sizes)
+
+    def evaluated(*arguments: Array | float) -> Any:
+        for at, x in zip(places, arguments, strict=True):
+            called.inp[at] = x
+        parts = parts_of(called(), shapes)
+        return rebuilt(result, parts) if many else parts[0]
+
+    return evaluated
 
 
 @dataclass(frozen=True)
 class CompiledBiped(Biped):
     """A Biped with `reduction`, `body_terms`, `acceleration` and `ground_reaction` in machine code.
 
-    Make it with `of`; robot: structure and numbers that the code is called with.
+    Make it with `of`; robot: what the code is made from and called with.
     """
 
-    robot: RobotData | None = None
+    robot: PlanarRobot | None = None
 
     @classmethod
     def of(cls, biped: Biped) -> CompiledBiped:
-        """Compile, or take from memory or disk. Raises ModelError for a robot that is no planar tree."""
+        """With the formulas of a robot. Raises ModelError for one that is no planar tree."""
         return _compiled(biped)
 
     @cached_property
-    def _calls(self) -> dict[str, Call]:
-        """The four functions by name, compiled on first use."""
-        robot = self.robot
-        assert robot is not None
-        key = "plant", structure(robot.structure, exact=True), structure(robot.arrays)
-        code = generated(key, plant_functions(robot.structure, robot.arrays))
-        K, n = np.array([*floats(robot.arrays), 0.0]), self.n
-        sizes = {
-            "terms": (2 * n, sum(map(math.prod, self.shapes))),
-            "body": (2 * n, 6 * n + 3),
-            "accelerate": (3 * n, n),
-            "ground": (3 * n, 2),
-        }
-        return {
-            name: Call(code, name, K, np.zeros(size), outputs)
-            for name, (size, outputs) in sizes.items()
-        }
+    def _made(self) -> dict[str, Callable[..., Any]]:
+        """Methods of `robot` in machine code, each made when it is called first."""
+        return {}
 
-    @cached_property
-    def shapes(self) -> tuple[Shape, ...]:
-        """Of the parts of a `Reduction`, which `terms` gives one after the other."""
-        n, p = self.n, self.p
-        return (n, n), (n,), (p, p), (p,), (p, p), (n - p, p), (n - p,)
+    def _called(self, method: str, *arguments: Array) -> Any:
+        if method not in self._made:
+            zeros = map(np.zeros_like, arguments)
+            self._made[method] = in_code(self.robot, method, *zeros)
+        return self._made[method](*arguments)
 
     def reduction(self, q: Array, v: Array) -> Reduction:
         """The terms of (11)-(15) at q (n,) [rad], v (n,) [rad/s]."""
-        terms = self._calls["terms"](self._angles(q), self._angles(v))
-        return Reduction(*parts_of(terms, self.shapes))
+        terms: Reduction = self._called("reduction", self._angles(q), self._angles(v))
+        return terms
 
     def body_terms(self, q: Array, v: Array) -> BodyTerms:
         """The parts of `BodyTerms` at q (n,) [rad], v (n,) [rad/s]."""
-        out, n = self._calls["body"](self._angles(q), self._angles(v)), self.n
-        G, turning, F_a, F_0, J_2 = parts_of(out[:-1], ((n,), (n,), (2, n), (2,), (2, n)))
-        return BodyTerms(G, turning, F_a, F_0, J_2, float(out[-1]))
+        terms: BodyTerms = self._called("body_terms", self._angles(q), self._angles(v))
+        return terms
 
     def acceleration(self, q: Array, v: Array, force: Array) -> Array:
-        """q'' (n,) [rad/s^2] under `force` (n,) [N m]; friction is added in Python, where the robot has any."""
-        if self.friction:
-            force = force + self.friction_torque(v)
-        return self._calls["accelerate"](self._angles(q), self._angles(v), force)
+        """q'' (n,) [rad/s^2] under `force` (n,) [N m], joint friction included."""
+        a: Array = self._called("acceleration", self._angles(q), self._angles(v), force)
+        return a
 
     def ground_reaction(self, q: Array, v: Array, a: Array) -> Array:
         """On the stance foot (2,) [N] for q'' = a (n,) [rad/s^2]."""
-        return self._calls["ground"](self._angles(q), self._angles(v), a)
+        F: Array = self._called("ground_reaction", self._angles(q), self._angles(v), a)
+        return F
 
 
 @once_each
@@ -167,30 +169,6 @@ def _compiled(biped: Biped) -> CompiledBiped:
     """As `CompiledBiped.of`, remembered for the last robots."""
     given = {f.name: getattr(biped, f.name) for f in fields(Biped)}
     return CompiledBiped(**given, robot=robot_of(biped))
-
-
-def plant_functions(
-    structure: RobotStructure, example: PlantArrays
-) -> dict[str, Callable[[], SymbolicFunction]]:
-    """The four functions by name, each to be traced when it is needed; q, v, force, a are (n,).
-
-    `terms` and `body` give the parts of their tuples one after the other. K has symbols for the
-    floats of the example.
-    """
-    K = Vector("K", count(example))
-    robot = PlanarRobot.of(structure, K.like(example))
-
-    def function(law: Callable[..., Iterable[ArrayLike]], number: int) -> SymbolicFunction:
-        inp = Vector("inp", number * robot.n)
-        parts = law(*(inp.take(robot.n) for _ in range(number)))
-        return SymbolicFunction(K.symbol, inp.symbol, column(*parts))
-
-    return {
-        "terms": partial(function, robot.reduction, 2),
-        "body": partial(function, robot.body_terms, 2),
-        "accelerate": partial(function, robot.acceleration, 3),
-        "ground": partial(function, robot.ground_reaction, 3),
-    }
 
 
 def compiled_references(part: object, n: int) -> Any:
@@ -212,27 +190,9 @@ def compiled_references(part: object, n: int) -> Any:
 def _in_code(reference: Reference, n: int) -> Reference:
     """The reference, still of its class, called in machine code; itself where it cannot be compiled."""
     try:
-        point = _point(reference, n)
+        point = in_code(reference, "__call__", 0.0, np.zeros(n), np.zeros(n))
     except NotCompiled:
         return reference
     kind = new_class(type(reference).__name__, (type(reference),))
     setattr(kind, "__call__", staticmethod(point))  # noqa: B010
     return with_content(reference, content(reference), kind)
-
-
-def _point(reference: Reference, n: int) -> Callable[[float, Array, Array], ReferencePoint]:
-    """The reference as a function of t [s], q (n,) [rad], v (n,) [rad/s]. Raises NotCompiled."""
-    K, inp = Vector("K", count(reference)), Vector("inp", 1 + 2 * n)
-    at = inp.take(), inp.take(n), inp.take(n)
-    symbols = run(Tracer(), call, K.like(reference), *at)
-    shapes = tuple(np.shape(part) for part in symbols)
-    function = SymbolicFunction(K.symbol, inp.symbol, column(*symbols))
-    code = generated(("point", n, structure(reference)), {"point": lambda: function})
-    numbers = np.array([*floats(reference), 0.0])
-    called = Call(code, "point", numbers, np.zeros(1 + 2 * n), sum(map(math.prod, shapes)))
-
-    def point(t: float, q: Array, v: Array) -> ReferencePoint:
-        called.inp[0], called.inp[1 : 1 + n], called.inp[1 + n :] = t, q, v
-        return ReferencePoint(*parts_of(called(), shapes))
-
-    return point

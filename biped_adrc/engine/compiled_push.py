@@ -16,14 +16,13 @@ import numpy as np
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.base import Disturbance
-from biped_adrc.engine.compiled_biped import Call, pointer_call
-from biped_adrc.engine.equations import SymbolicFunction, count
+from biped_adrc.engine.compiled_biped import pointer_call
+from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.ir import in_memory, module_text
-from biped_adrc.engine.kernels.record import PART
-from biped_adrc.engine.kernels.run_plan import Push
-from biped_adrc.engine.machine import LoadedCode, ModuleText
+from biped_adrc.engine.kernels.record import PART, Ints
+from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.structure import structure
-from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
+from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats, symbols_of
 from biped_adrc.engine.tracer import Tracer, run
 
 Terms = Sequence[tuple[LoadedCode, Array]]
@@ -36,51 +35,30 @@ def terms_of(disturbance: Disturbance | None, n: int) -> Terms:
     return [(term_code(term, n), np.array([*floats(term), 0.0])) for term in terms]
 
 
-def push_of(disturbance: Disturbance | None, n: int) -> Push:
-    """The terms of a disturbance as addresses and numbers. Raises NotCompiled as `terms_of`."""
-    if disturbance is None:
-        return Push()
-    parts, K = list[tuple[int, int, int]](), list[float]()
-    for code, numbers in terms_of(disturbance, n):
-        parts.append((code.addresses["torque"], len(K), code.addresses.get("resultant", 0)))
-        K += numbers.tolist()
+def push_of(disturbance: Disturbance | None, n: int) -> tuple[Ints, dict[str, Array]]:
+    """The parts and tables that `compiled_run.plan` takes of a disturbance. Raises NotCompiled as
+    `terms_of`."""
+    terms = terms_of(disturbance, n)
+    starts = np.cumsum([0, *(len(K) for _, K in terms)])
+    parts = [
+        (code.addresses["torque"], at, code.addresses.get("resultant", 0))
+        for (code, _), at in zip(terms, starts.tolist(), strict=False)
+    ]
+    push = np.array([x for _, K in terms for x in K])
+    switches = np.array(() if disturbance is None else disturbance.switches).reshape(-1, 2)
     table = np.array(parts, dtype=np.int64).reshape(-1, PART)
-    return Push(table, np.array(K), np.array(disturbance.switches).reshape(-1, 2))
+    return table, {"push": push, "switches": switches}
 
 
-def summed(terms: Terms, t: Array, q: Array, v: Array, mode: Mode) -> Array:
-    """zeta (K, n) [N m] at K times [s], q (K, n) [rad], v (K, n) [rad/s]."""
-    ones = np.ones((len(t), 1))
-    inp = np.hstack((t[:, np.newaxis], mode.step * ones, mode.start * ones, q, v))
-    total, out = np.zeros(q.shape), np.empty(q.shape)
+def summed(terms: Terms, t: Array, rows: Array, mode: Mode, n: int) -> Array:
+    """zeta (K, n) [N m] at K times [s], in rows (q, q', ..) of n coordinates."""
+    inp, total = np.empty((len(t), 3 + 2 * n)), np.zeros((len(t), n))
+    inp[:, 0], inp[:, 1], inp[:, 2], inp[:, 3:] = t, mode.step, mode.start, rows[:, : 2 * n]
+    out = np.empty_like(total)
     for code, K in terms:
         pointer_call(code, "torque", K, inp, out)
         total += out
     return total
-
-
-class CompiledPush:
-    """A disturbance at one instant. Raises NotCompiled for one without machine code."""
-
-    def __init__(self, disturbance: Disturbance, n: int):
-        """n: number of coordinates."""
-        self.n, self.inp, self.terms = n, np.zeros(3 + 2 * n), terms_of(disturbance, n)
-        places = {"torque": slice(n), "resultant": slice(n, n + 2)}
-        self.calls = [
-            (at, Call(code, name, K, self.inp, at.stop - (at.start or 0)))
-            for code, K in self.terms
-            for name, at in places.items()
-            if name in code.addresses
-        ]
-
-    def __call__(self, t: float, row: Array, mode: Mode) -> Array:
-        """zeta and force (n + 2,) at t [s] for a row (q, q', ..) of a plant."""
-        inp, result = self.inp, np.zeros(self.n + 2)
-        inp[0], inp[1], inp[2] = t, mode.step, mode.start
-        inp[3:] = row[: 2 * self.n]
-        for at, call in self.calls:
-            result[at] += call.evaluate()
-        return result
 
 
 GUARDED = """
@@ -109,7 +87,7 @@ def term_code(term: Disturbance, n: int) -> LoadedCode:
     if _writes(term, "switching_times"):
         raise NotCompiled(f"{type(term).__name__} writes switching_times in place of switches")
     key = "disturbance", n, structure(term)
-    return in_memory(key, list(_sizes(term, n)), lambda: ModuleText(term_text(term, n)))
+    return in_memory(key, list(_sizes(term, n)), lambda: term_text(term, n))
 
 
 def term_text(term: Disturbance, n: int) -> str:
@@ -139,8 +117,8 @@ def _sizes(term: Disturbance, n: int) -> dict[str, int]:
 
 def _function(term: Disturbance, n: int, name: str, size: int) -> SymbolicFunction:
     """A method of a term on symbols. Raises NotCompiled, also where it gives other than `size` numbers."""
-    K, inp = Vector("K", count(term)), Vector("inp", 3 + 2 * n)
-    k, at = K.like(term), (inp.take(), inp.take(), inp.take(), inp.take(n), inp.take(n))
+    (K, k), inp = symbols_of(term), Vector("inp", 3 + 2 * n)
+    at = (inp.take(), inp.take(), inp.take(), inp.take(n), inp.take(n))
     method = methodcaller(name, *(at if name == "torque" else at[:3]))
     try:
         out = column(run(Tracer(), method, k))
@@ -148,4 +126,4 @@ def _function(term: Disturbance, n: int, name: str, size: int) -> SymbolicFuncti
         out = column()
     if out.numel() != size:
         raise NotCompiled(f"{type(term).__name__}.{name} gives no {size} numbers")
-    return SymbolicFunction(K.symbol, inp.symbol, out)
+    return SymbolicFunction(K, inp.symbol, out)

@@ -1,75 +1,29 @@
 """`closed_loop.instant_signals.signals_at` in compiled code, at every node of a run.
 
-    observe (t, step, t_start, x, zeta) -> the parts of an `InstantSignals`, in its order
-
 Signals are not stored with a run but computed again from the states, at tens of thousands of nodes.
-`analysis.signals` does that with this function, and in Python where a part has no compiled form.
+`analysis.signals` does that with `Equations.reading`, and in Python where a part has no compiled form.
 The disturbance zeta is an input, since it may run in Python.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from math import prod
-from typing import NamedTuple
 
 import numpy as np
 
 from biped_adrc.closed_loop.instant_signals import InstantSignals, signals_at
 from biped_adrc.closed_loop.walker import Walker
-from biped_adrc.control.base import Measurement
 from biped_adrc.control.outer_loop import OuterLoop, tracked_point
 from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_biped import parts_of, pointer_call
 from biped_adrc.engine.compiled_push import summed, terms_of
-from biped_adrc.engine.equations import (
-    Equations,
-    SymbolicFunction,
-    WalkerNumbers,
-    WalkerStructure,
-    count,
-)
-from biped_adrc.engine.ir import generated
 from biped_adrc.engine.kernels.record import OUTSIDE
-from biped_adrc.engine.machine import LoadedCode
 from biped_adrc.engine.program import Program
 from biped_adrc.engine.run import COMPILED
-from biped_adrc.engine.structure import structure
-from biped_adrc.engine.symbols import NotCompiled, Vector, floats
-from biped_adrc.engine.tracer import run
-from biped_adrc.gait.reference import Reference, ReferencePoint
+from biped_adrc.engine.symbols import NotCompiled
+from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid.trajectory import Arc, Trajectory
-
-
-class SignalNumbers(NamedTuple):
-    """What `observe` is given as K: the walker's numbers, and those of the reference that is looked at."""
-
-    walker: WalkerNumbers
-    """All numbers of the walker."""
-    h: Reference | OuterLoop
-
-
-Reading = Callable[..., tuple[Array, ...]]
-"""read(loop, t, x, mode, reference), such as `signals_at`: what is read off the loop at one instant."""
-
-
-def observe(
-    make: WalkerStructure, example: SignalNumbers, read: Reading = signals_at
-) -> SymbolicFunction:
-    """The function for one structure of walker and reference, with symbols for the floats of an example.
-
-    make: structure of the walker. The expressions are those of `read`.
-    """
-    K = Vector("K", count(example))
-    numbers = K.like(example)
-    equations = Equations(make, K.symbol, numbers.walker)
-    at = equations.at()
-
-    def tracked(s: Array, m: Measurement) -> ReferencePoint:
-        return run(at.trace, tracked_point, numbers.h, s, m)
-
-    return equations.function(at.inp, *at.does(read, tracked))
 
 
 def compiled_readings(
@@ -83,14 +37,12 @@ def compiled_readings(
     """
     nx = trajectory.arcs[0].x.shape[1]
     try:
-        program = Program.of(walker, walker.controller_size(nx))
+        program = Program.of(walker, walker.controller_size(nx), curve=reference)
         if trajectory.settings.get("engine") != COMPILED:
             _ = program.machine  # NotCompiled where the controller runs in Python
-        code = reading_code("observe", signals_at, program, reference)
-        numbers = SignalNumbers(program.numbers, reference)
+        code, K = program.reading(signals_at), program.K
     except (NotCompiled, ModelError):
         return None
-    K = np.array([*floats(numbers), 0.0])
     first = trajectory.arcs[0]
     example = signals_at(
         walker, first.t[0], first.x[0], first.mode, lambda s, m: tracked_point(reference, s, m)
@@ -99,7 +51,7 @@ def compiled_readings(
     lengths = [len(arc.t) for arc in trajectory.arcs]
     out = np.empty((sum(lengths), sum(map(prod, shapes))))
     for arc, rows in zip(trajectory.arcs, np.split(out, np.cumsum(lengths)[:-1]), strict=True):
-        pointer_call(code, "observe", K, _inputs(walker, arc), rows)
+        pointer_call(code, "reading", K, _inputs(walker, arc), rows)
     return InstantSignals(*parts_of(out, shapes))
 
 
@@ -108,22 +60,8 @@ def _inputs(walker: Walker, arc: Arc) -> Array:
     n, t, x, mode = walker.plant.n, arc.seen, arc.x, arc.mode
     q, v, ones = x[:, :n], x[:, n : 2 * n], np.ones((len(t), 1))
     try:
-        zeta = summed(terms_of(walker.disturbance, n), t, q, v, mode)
+        zeta = summed(terms_of(walker.disturbance, n), t, x, mode, n)
     except NotCompiled:
         zeta = np.array([walker.external(*at, mode) for at in zip(t.tolist(), q, v, strict=True)])
     head = (t[:, np.newaxis], mode.step * ones, mode.start * ones)
     return np.hstack((*head, x, zeta, np.zeros((len(t), OUTSIDE))))
-
-
-def reading_code(
-    name: str, read: Reading, program: Program, curve: Reference | OuterLoop
-) -> LoadedCode:
-    """Machine code of what `read` says of a walker that errs from this curve, a function of this name as
-    `observe`.
-
-    Under the walker's structure, that of the curve, and `read` itself. Raises NotCompiled for a curve without a
-    compiled form.
-    """
-    numbers = SignalNumbers(program.numbers, curve)
-    key = name, read, program.key, structure(curve)
-    return generated(key, {name: lambda: observe(program.make, numbers, read)})

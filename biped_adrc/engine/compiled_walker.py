@@ -1,11 +1,10 @@
 """A walker, a one-step method and a disturbance, made ready for the compiled loops.
 
-Three things come together here: the program of the walker (`engine.program`: flow, tick, strike,
-..), the matrices of the method (`hybrid.exponential`), and the terms of the
-disturbance, which are compiled by themselves so that another disturbance does not recompile the
-walker. The result is a `RunPlan`, which the loops take. What cannot be compiled raises `NotCompiled` with the
-reason; in sampled time the march then calls its sample instants and impacts in Python (`PythonTicks`), and the
-plant moves in machine code between them.
+Three things come together here: the program of the walker (`engine.program`: flow, tick, impact, ..), the
+matrices of the method (`hybrid.exponential`), and the terms of the disturbance, which are compiled by
+themselves so that another disturbance does not recompile the walker. The result is the plan of a run, which the
+loops take. What cannot be compiled raises `NotCompiled` with the reason; in sampled time the march then calls
+its sample instants and impacts in Python (`PythonTicks`), and the plant moves in machine code between them.
 """
 
 from __future__ import annotations
@@ -23,9 +22,10 @@ from biped_adrc.closed_loop.walker import LEAST_STEP, ErrorForm, Mode, Walker
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_push import push_of
-from biped_adrc.engine.kernels.run_plan import CompiledRun, Functions, RunPlan, plan
+from biped_adrc.engine.kernels.compiled_run import CompiledRun, plan
+from biped_adrc.engine.kernels.record import FUNCTIONS
 from biped_adrc.engine.program import Program
-from biped_adrc.engine.symbols import NotCompiled, floats
+from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.gait.reference import Reference
 from biped_adrc.hybrid import constants
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
@@ -40,8 +40,8 @@ class CompiledWalker:
     """Plant, controller and all the rest."""
     program: Program
     """Keeps the code in memory and holds the parameters."""
-    plan: RunPlan
-    """Sizes, addresses and settings of the run, as vectors."""
+    plan: CompiledRun
+    """A run that has not begun: sizes, addresses and settings."""
 
     ticks: PythonTicks | None = None
     """What carries out sample instants and impacts in Python; None where machine code does."""
@@ -58,26 +58,29 @@ class CompiledWalker:
     ) -> CompiledWalker:
         """For a controller with `size` states and a run that begins at t_first [s].
 
-        reference: for functions that read signals (`compiled_signals`); its numbers stand behind the walker's.
+        reference: what readings of the program refer to.
         in_python: sample instants and impacts by the walker's own methods, in sampled time.
         Compiles the walker's functions where they are not in memory or on disk, and makes the plan.
         Raises NotCompiled where a part or the method cannot be compiled, InputError for a
         method without the coordinates that it needs.
         """
         split, fields, tables = _method(walker, method)
-        program = Program.of(walker, size, split, in_python)
-        n, p, nx, bounds = walker.plant.n, walker.plant.p, program.make.nx, walker.bounds
+        program = Program.of(walker, size, split, reference, in_python)
+        n, p, nx, bounds = walker.plant.n, walker.plant.p, program.nx, walker.bounds
         relaxing = walker.relaxing()
         k = 0 if split is None else len(split.A)
         flows = walker.held is None or relaxing  # the torque of the motors, then all does
         tables |= {
-            "K": np.array([*program.K[:-1], *floats(reference), 0.0]),
+            "K": program.K,
+            "fastest": bounds.fastest,
             "drops": np.array([(d.step, d.drop) for d in walker.ground_steps]).reshape(-1, 2),
         }
-        if len(bounds.fastest):
-            tables["fastest"] = bounds.fastest
+        if isinstance(walker.timing, SampledTime) and walker.held is not None:
+            T, motors = walker.timing.period, walker.held.motors
+            part = motors.fraction * T if walker.held.sizes.waiting else 0.0
+            fields |= {"period": T, "restart": walker.timing.restart, "part": part}
         fields |= {
-            **_clock(walker, t_first),
+            "t_first": t_first,
             "n": n,
             "nx": nx,
             "p": p,
@@ -89,26 +92,16 @@ class CompiledWalker:
         }
         if relaxing is not None:
             fields |= {"lags": nx + relaxing.at.start, "lag_speed": relaxing.speed}
-        functions = Functions(*(program.address(name) for name in Functions._fields))
-        ticks = PythonTicks(walker, nx, functions.flow) if in_python else None
+        fields |= {name: program.address(name) for name in FUNCTIONS}
+        ticks = PythonTicks(walker, nx, program.address("flow")) if in_python else None
         if ticks is not None:
-            functions = functions._replace(**ticks.addresses)
-        run = plan(functions, push_of(walker.disturbance, n), tables, fields)
-        return cls(walker, program, run, ticks)
+            fields |= ticks.addresses
+        parts, pushed = push_of(walker.disturbance, n)
+        return cls(walker, program, plan(tables | pushed, parts, fields), ticks)
 
     def raised(self, run: CompiledRun) -> BaseException | None:
         """What Python has raised in a run, and forgets here."""
-        return None if self.ticks is None else self.ticks.errors.pop(run.inputs, None)
-
-
-def _clock(walker: Walker, t_first: float) -> dict[str, float]:
-    """Fields of the sample instants of a run that begins at t_first [s]; none in continuous time."""
-    time = walker.timing
-    if not isinstance(time, SampledTime):
-        return {}
-    assert walker.held is not None
-    part = walker.held.motors.fraction * time.period if walker.held.sizes.waiting else 0.0
-    return {"period": time.period, "restart": time.restart, "t_first": t_first, "part": part}
+        return None if self.ticks is None else self.ticks.errors.pop(run["inp"], None)
 
 
 def _method(
@@ -143,7 +136,7 @@ def _numbers_at(address: int, size: int) -> Array:
 
 
 class PythonTicks:
-    """`tick` and `impact` as `kernels.run_plan.Functions` describes them, by a walker with nx states.
+    """`tick` and `impact` as `kernels.record.Run` describes them, by a walker with nx states.
 
     flow: address of the walker's flow. What a method raises is kept in `errors`, by the address of the run's
     inputs, and the march ends as NOT_FINITE.
@@ -152,15 +145,13 @@ class PythonTicks:
     def __init__(self, walker: Walker, nx: int, flow: int):
         self.walker, self.n, self.nx = walker, walker.plant.n, nx
         self.flow = ctypes.PYFUNCTYPE(None, *[ctypes.c_void_p] * 3)(flow)
-        self.errors = dict[int, BaseException]()
-        self.functions = _FUNCTION(self._tick), _FUNCTION(self._impact)
+        self.errors = dict[float, BaseException]()
+        self.functions = {"tick": _FUNCTION(self._tick), "impact": _FUNCTION(self._impact)}
 
     @property
     def addresses(self) -> dict[str, int]:
         """Of both functions, by name."""
-        names = ("tick", "impact")
-        values = (ctypes.cast(f, ctypes.c_void_p).value or 0 for f in self.functions)
-        return dict(zip(names, values, strict=True))
+        return {k: ctypes.cast(f, ctypes.c_void_p).value or 0 for k, f in self.functions.items()}
 
     def _tick(self, K: int, inputs: int, outputs: int) -> None:
         """(t, step, t_start, x, zeta, force) -> (x after the sample instant, 1, q'')."""

@@ -1,22 +1,22 @@
 """The equations of a walker on symbols, one straight-line function each, traced from the parts' own methods.
 
     flow      (t, step, t_start, x, zeta) -> x'               (10); in sampled time the torque is held
-    tick      (t, step, t_start, x, zeta, force) -> x, q''  sensors, controller, motors
+    tick      (t, step, t_start, x, zeta, force) -> x, q''    sensors, controller, motors
     impact    (t, step, x) -> x+                              (7), (8), relabelling, controller's jump
     events    (t, t_start, drop, q) -> event functions, x of the swing foot
-    sample    (t, step, t_start, x, ..) -> x, xi^         as tick, of a plant that moves by itself
+    reading   (t, step, t_start, x, ..) -> what is read off the loop, such as `closed_loop.instant_signals`
+    sample    (t, step, t_start, x, ..) -> x                  as tick, of a plant that moves by itself
     to, back, remainder                                       coordinates of the exponential method
 
-`force` (2,) [N], from outside on the robot as a whole, changes what a foot carries. zeta (n,) [N m] is
-an input, since disturbances are compiled by themselves (`engine.compiled_push`) and may differ from
-run to run. flow, tick, impact and remainder add,
-after their result, the least pivot of the matrices that the controller inverts; flow, tick and
-remainder -1 in its place where a torque is beyond the walker's bound.
+`force` (2,) [N], from outside on the robot as a whole, changes what a foot carries. zeta (n,) [N m] is an
+input, since disturbances are compiled by themselves (`engine.compiled_push`) and may differ from run to run.
+flow, tick, impact and remainder add, after their result, the least pivot of the matrices that the controller
+inverts; flow, tick and remainder -1 in its place where a torque is beyond the walker's bound.
 
-`SymbolicLoop` is what `closed_loop.semantics` is given so that its lines become generated code.
-`WalkerStructure` decides the code, `WalkerNumbers` are given at run time as the vector K.
-`engine.program` asks for these functions and compiles them; the loops in `engine.kernels` call them
-by address. A tick is a sample instant.
+`SymbolicLoop` is what `closed_loop.semantics` is given so that its lines become generated code. The structure
+of `WalkerNumbers` decides the code, their floats are given at run time as the vector K. `engine.program` asks
+for these functions and compiles them; the loops in `engine.kernels` call them by address. A tick is a sample
+instant.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ import functools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple, TypeVar
 
 import casadi as ca
@@ -35,45 +36,26 @@ from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.protocols import ControlLaw, Mode
 from biped_adrc.closed_loop.walker import ErrorForm, remainder
 from biped_adrc.control.base import Controller, Measurement
+from biped_adrc.control.outer_loop import OuterLoop, tracked_point
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.engine.kernels.record import OUTSIDE
-from biped_adrc.engine.mechanics import PlanarRobot, RobotStructure
-from biped_adrc.engine.symbols import Scalar, Vector, column, floats, maximum, minimum, where
+from biped_adrc.engine.symbols import Scalar, Vector, column, maximum, minimum, symbols_of, where
 from biped_adrc.engine.tracer import Located, Tracer, run
-from biped_adrc.hardware.sample_hold import HeldParts, HeldSizes
-from biped_adrc.model.planar import PlantArrays
-from biped_adrc.observers.base import Estimate
+from biped_adrc.gait.reference import Reference, ReferencePoint
+from biped_adrc.hardware.sample_hold import HeldParts
+from biped_adrc.model.planar_robot import PlanarRobot
 
 T = TypeVar("T")
 
 
-def on_symbols(trace: Tracer, controller: Controller, p: int, size: int) -> ControlLaw:
-    """The methods of a controller on symbols.
+Reading = Callable[..., tuple[Array, ...]]
+"""read(loop, t, x, mode, reference), such as `signals_at`: what is read off the loop at one instant."""
 
-    Raises Located for a method that gives another number than p torques or `size` numbers of the
-    state, since generated code could not notice.
-    """
+
+def on_symbols(trace: Tracer, controller: Controller) -> ControlLaw:
+    """The methods of a controller on symbols."""
     twin = trace.on_symbols(controller)
-
-    def checked(name: str, expected: int) -> Callable[..., Array]:
-        def called(*arguments: object) -> Array:
-            result = run(trace, getattr(twin, name), *arguments)
-            if np.shape(result) != (expected,):
-                raise Located(
-                    f"{type(controller).__name__}.{name} gives an array of shape {np.shape(result)}, "
-                    f"expected ({expected},)"
-                )
-            return result
-
-        return called
-
-    def estimate(s: Array, m: Measurement) -> Estimate | None:
-        return run(trace, twin.estimate, s, m)
-
-    flow, jump, correct, predict = (
-        checked(name, size) for name in ("flow", "jump", "correct", "predict")
-    )
-    return ControlLaw(checked("output", p), flow, jump, correct, predict, estimate)
+    return ControlLaw(*(partial(run, trace, getattr(twin, name)) for name in ControlLaw._fields))
 
 
 class SymbolicLoop(NamedTuple):
@@ -177,10 +159,10 @@ NONE = np.zeros(0)
 class WalkerNumbers(NamedTuple):
     """All numbers of a walker that are given at run time, in the order of the vector K."""
 
-    plant: PlantArrays
-    """Numbers of the robot that moves."""
-    model: PlantArrays | None
-    """Numbers of the controller's model, None where it is the plant."""
+    plant: PlanarRobot
+    """The robot that moves."""
+    model: PlanarRobot | None
+    """The controller's model, None where it is the plant."""
     controller: Controller
     """In the time base of the walker."""
     torque_limit: float
@@ -191,8 +173,6 @@ class WalkerNumbers(NamedTuple):
     """Height of the hip below which the robot has fallen [m]."""
     longest: float = math.inf
     """Longest single support [s]."""
-    friction: tuple[Array, Array] | tuple[()] = ()
-    """Viscous [N m s] and static [N m] of the coordinates, each (n,); empty without."""
     strongest: float = math.inf
     """Torque beyond which the run ends [N m], infinite without such a bound."""
     held: HeldParts | tuple[()] = ()
@@ -201,22 +181,12 @@ class WalkerNumbers(NamedTuple):
     """Relative errors of v+ (n,) [1], empty without."""
     split: ErrorForm | None = None
     """Coordinates of the exponential method."""
+    curve: Reference | OuterLoop | None = None
+    """What readings refer to; no other function has it."""
 
-
-class WalkerStructure(NamedTuple):
-    """What decides the generated code beside the structure of `WalkerNumbers`."""
-
-    robot: RobotStructure
-    """Links, signs and sparsity."""
-    size: int
-    """Numbers in the controller's state."""
-    held: HeldSizes | None
-    """Sizes of what is held between sample instants, None in continuous time."""
-
-    @property
-    def nx(self) -> int:
-        """Numbers in a state: 2 n, the controller's, and what is held."""
-        return 2 * self.robot.n + self.size + (0 if self.held is None else self.held.total)
+    def nx(self, size: int) -> int:
+        """Numbers in a state: 2 n, `size` of the controller, and what is held."""
+        return 2 * self.plant.n + size + (self.held.sizes.total if self.held else 0)
 
 
 class SymbolicFunction(NamedTuple):
@@ -230,11 +200,6 @@ class SymbolicFunction(NamedTuple):
     """Expressions of the outputs."""
 
 
-def count(example: object) -> int:
-    """Length of the vector K of an example: one more than its floats, so that it is never empty."""
-    return 1 + len(floats(example))
-
-
 @dataclass(frozen=True)
 class Equations:
     """The functions of one structure, each traced when it is asked for.
@@ -242,16 +207,20 @@ class Equations:
     K is CasADi's column of the symbols in `numbers`.
     """
 
-    make: WalkerStructure
-    """Structure of the walker."""
+    size: int
+    """Numbers in the controller's state."""
     K: ca.SX
     numbers: WalkerNumbers
 
     @classmethod
-    def of(cls, make: WalkerStructure, example: WalkerNumbers) -> Equations:
+    def of(cls, size: int, example: WalkerNumbers) -> Equations:
         """With symbols for the floats of an example, whose values do not matter."""
-        K = Vector("K", count(example))
-        return cls(make, K.symbol, K.like(example))
+        return cls(size, *symbols_of(example))
+
+    @property
+    def nx(self) -> int:
+        """Numbers in a state."""
+        return self.numbers.nx(self.size)
 
     @staticmethod
     def names(numbers: WalkerNumbers) -> list[str]:
@@ -261,15 +230,15 @@ class Equations:
 
     def loop(self, trace: Tracer, zeta: Array = NONE, force: Array = NONE) -> SymbolicLoop:
         """The closed loop on symbols, with zeta (n,) [N m] and the force from outside (2,) [N]."""
-        K, make = self.numbers, self.make
-        model = K.plant if K.model is None else K.model
+        K = self.numbers
+        plant, model = (trace.on_symbols(x.sparse) for x in (K.plant, K.model or K.plant))
         return SymbolicLoop(
-            plant=PlanarRobot.of(make.robot, K.plant, K.friction),
-            nominal=PlanarRobot.of(make.robot, model),
-            exact=K.model is None and not K.friction,
-            calls=on_symbols(trace, K.controller, make.robot.p, make.size),
+            plant=plant,
+            nominal=model,
+            exact=K.model is None and not K.plant.friction,
+            calls=on_symbols(trace, K.controller),
             held=trace.on_symbols(K.held) if K.held else None,
-            swap=make.robot.swap,
+            swap=K.plant.swap,
             gain=K.impact_gain,
             limit=K.torque_limit,
             strongest=K.strongest,
@@ -280,9 +249,9 @@ class Equations:
 
     def at(self) -> SymbolicInstant:
         """The symbols (t, step, t_start, x, zeta, force), and the loop at them."""
-        n, trace = self.make.robot.n, Tracer()
-        inp = Vector("inp", 3 + self.make.nx + n + OUTSIDE)
-        t, mode, x = inp.take(), Mode(inp.take(), inp.take()), inp.take(self.make.nx)
+        n, trace = self.numbers.plant.n, Tracer()
+        inp = Vector("inp", 3 + self.nx + n + OUTSIDE)
+        t, mode, x = inp.take(), Mode(inp.take(), inp.take()), inp.take(self.nx)
         return SymbolicInstant(
             inp, trace, self.loop(trace, inp.take(n), inp.take(OUTSIDE)), t, x, mode
         )
@@ -298,31 +267,38 @@ class Equations:
 
     def tick(self) -> SymbolicFunction:
         """x (nx,) after a sample instant, the least pivot, and q'' (n,) [rad/s^2] under the new torque."""
-        at, n = self.at(), self.make.robot.n
+        at, n = self.at(), self.numbers.plant.n
         x = at.does(semantics.tick)
         a = at._replace(x=x).does(semantics.flow)[n : 2 * n]
         return self.function(at.inp, x, at.lost, a)
 
     def sample(self) -> SymbolicFunction:
-        """Of a plant that moves by itself: x (nx,) after a sample instant, the observer's estimate of xi
-        (p,) [rad/s^2], 0 without one, and the least pivot. `force` is that on the feet.
+        """Of a plant that moves by itself: x (nx,) after a sample instant, and the least pivot. `force` is that
+        on the feet.
         """
         at = self.at()
         at = at._replace(loop=at.loop._replace(moves=True))
-        x = at.does(semantics.tick)
-        q, v, s, tail = semantics.parts(at.loop, x)
-        m = at.loop.measure(at.t, q, v, at.mode)
-        result = at.trace(semantics.estimated)(at.loop, s, tail, m, at.mode)
-        xi = np.zeros(self.make.robot.p) if result is None else result
-        return self.function(at.inp, x, xi, at.lost)
+        return self.function(at.inp, at.does(semantics.tick), at.lost)
+
+    def reading(self, read: Reading) -> SymbolicFunction:
+        """The parts of what `read` says, one after the other."""
+        at = self.at()
+
+        def tracked(s: Array, m: Measurement) -> ReferencePoint:
+            return run(at.trace, tracked_point, self.numbers.curve, s, m)
+
+        return self.function(at.inp, *at.does(read, tracked))
 
     def impact(self) -> SymbolicFunction:
         """x+ (nx,) after impact, relabelling and the controller's jump; `step` is the single
         support that begins.
         """
-        inp, trace = Vector("inp", 2 + self.make.nx), Tracer()
-        t, step, x = inp.take(), inp.take(), inp.take(self.make.nx)
+        inp, trace = Vector("inp", 2 + self.nx), Tracer()
+        t, step, x = inp.take(), inp.take(), inp.take(self.nx)
         x = trace(semantics.strike)(self.loop(trace), t, x, Mode(step, t))
+        if len(x) != self.nx:  # all other methods are called once at the start of a run
+            name = type(self.numbers.controller).__name__
+            raise Located(f"{name}.jump gives a state of another size than initial_state")
         return self.function(inp, x, trace.solver.least)
 
     def events(self) -> SymbolicFunction:
@@ -339,26 +315,25 @@ class Equations:
 
     def _split(self, trace: Tracer) -> ErrorForm:
         """The coordinates of the exponential method on symbols."""
-        form: ErrorForm | None = trace.on_symbols(self.numbers.split)
-        assert form is not None
+        form: ErrorForm = trace.on_symbols(self.numbers.split)
         return form
 
     def _coordinates(self, y: Array) -> tuple[Array, Array]:
         """w and E (k, p) of the flat vector y."""
         assert self.numbers.split is not None
-        p = self.make.robot.p
+        p = self.numbers.plant.p
         stiff = len(self.numbers.split.A) * p
         return y[: len(y) - stiff], y[len(y) - stiff :].reshape(-1, p)
 
     def to(self) -> SymbolicFunction:
         """y = (w, E) of x (nx,)."""
-        inp = Vector("inp", self.make.nx)
-        return self.function(inp, *self._split(Tracer()).to(inp.take(self.make.nx)))
+        inp = Vector("inp", self.nx)
+        return self.function(inp, *self._split(Tracer()).to(inp.take(self.nx)))
 
     def back(self) -> SymbolicFunction:
         """x (nx,) of y = (w, E)."""
-        inp = Vector("inp", self.make.nx)
-        w, E = self._coordinates(inp.take(self.make.nx))
+        inp = Vector("inp", self.nx)
+        w, E = self._coordinates(inp.take(self.nx))
         return self.function(inp, self._split(Tracer()).back(w, E))
 
     def remainder(self) -> SymbolicFunction:

@@ -23,7 +23,7 @@ from collections.abc import Callable, Hashable, Mapping, Sequence
 import casadi as ca
 
 from biped_adrc.engine.equations import SymbolicFunction
-from biped_adrc.engine.machine import LoadedCode, ModuleText, keep, load, load_or_compile, stored
+from biped_adrc.engine.machine import LoadedCode, keep, load_or_compile, stored
 from biped_adrc.engine.structure import Unchanged, lasting, reaching
 from biped_adrc.engine.symbols import NotCompiled
 
@@ -184,24 +184,26 @@ DECLARATIONS = "\n".join(
 def generated(
     key: Hashable, functions: Mapping[str, Callable[[], SymbolicFunction]], vectors: bool = False
 ) -> LoadedCode:
-    """These functions in memory, by name; traced once per process and structure.
+    """These functions in memory, by name; traced once per structure.
 
     - key: the structure of what they are made from (`engine.structure`).
     - functions: by name, each to be called for its expression.
-    - vectors: as of `ModuleText`.
+    - vectors: as of `machine.compiled`.
     """
 
-    def text() -> ModuleText:
-        return ModuleText(module_text({name: f() for name, f in functions.items()}), vectors)
+    def text() -> str:
+        return module_text({name: f() for name, f in functions.items()})
 
-    return in_memory((key, vectors), list(functions), text)
+    return in_memory((key, *functions), list(functions), text, vectors)
 
 
 _IN_MEMORY: dict[Hashable, tuple[LoadedCode | str, list[Unchanged]]] = {}
 """Code by structure, or why there is none, with what it reached; a function is a value, so this is no state."""
 
 
-def in_memory(key: Hashable, names: Sequence[str], text: Callable[[], ModuleText]) -> LoadedCode:
+def in_memory(
+    key: Hashable, names: Sequence[str], text: Callable[[], str], vectors: bool = False
+) -> LoadedCode:
     """The functions `names` of a module; its text is asked for where this structure is not in memory.
 
     Raises NotCompiled, each time without tracing anew.
@@ -210,7 +212,7 @@ def in_memory(key: Hashable, names: Sequence[str], text: Callable[[], ModuleText
     if code is None or not all(unchanged() for unchanged in reached):
         with reaching() as reached:
             try:
-                code = _from_disk(key, names, text, reached)
+                code = load_or_compile(_text_by(key, text), names, vectors)
             except NotCompiled as error:
                 code = str(error)
         _IN_MEMORY[key] = code, reached
@@ -219,29 +221,14 @@ def in_memory(key: Hashable, names: Sequence[str], text: Callable[[], ModuleText
     return code
 
 
-def _from_disk(
-    key: Hashable, names: Sequence[str], text: Callable[[], ModuleText], reached: list[Unchanged]
-) -> LoadedCode:
-    """As `in_memory`; nothing is traced where another process left code for the same structure."""
+def _text_by(key: Hashable, text: Callable[[], str]) -> str:
+    """The text that is made from a structure; from the disk where another process has made it for the same."""
     link = lasting(key)
-    there = stored(link) if link else None
-    code = None if there is None else load(there.decode(), names)
-    if code is None:
-        code = load_or_compile(text(), names)
-        if link and not reached:
-            keep(link, code.key.encode())
-    return code
-
-
-def text_by(key: Hashable, text: Callable[[], str]) -> str:
-    """A text that is made from a structure; from the disk where another process has made it for the same."""
-    link = lasting(("text", key))
     there = stored(link) if link else None
     if there is not None:
         return there.decode()
-    with reaching() as reached:
-        result = text()
-    if link and not reached:
+    result = text()
+    if link:
         keep(link, result.encode())
     return result
 
@@ -278,8 +265,8 @@ class _Writer(Writer):
         return f"%v{self.count}"
 
     def literal(self, x: float) -> str:
-        """A double in LLVM's language."""
-        return literal(x)
+        """A double in LLVM's language with all its bits, so that no digits are lost."""
+        return f"0x{struct.unpack('<Q', struct.pack('<d', float(x)))[0]:016X}"
 
     def read(self, block: int, index: int) -> str:
         """Value of an entry of K or inp."""
@@ -292,8 +279,3 @@ class _Writer(Writer):
         """Write an entry of out."""
         at = self._named(f"getelementptr double, ptr %out, i64 {index}", self.stores)
         self.stores.append(f"store double {value}, ptr {at}")
-
-
-def literal(x: float) -> str:
-    """A double in LLVM's language with all its bits, so that no digits are lost."""
-    return f"0x{struct.unpack('<Q', struct.pack('<d', float(x)))[0]:016X}"

@@ -15,7 +15,6 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 
 from llvmlite import binding
 from platformdirs import user_cache_path
@@ -38,39 +37,24 @@ class LoadedCode:
     """By name."""
     owner: object
     """LLVM's engine."""
-    key: str
-    """Hash under which the object code is stored."""
-
-
-class ModuleText(NamedTuple):
-    """A module in LLVM's language."""
-
     text: str
-    """The module itself."""
-    vectors: bool = False
-    """Whether to look for operations that go together in vectors, which takes its time."""
+    """The module in LLVM's language."""
 
 
-def load_or_compile(text: ModuleText, names: Sequence[str]) -> LoadedCode:
-    """The functions `names` of a module, from the disk where its object code is, or compiled and stored.
+def load_or_compile(text: str, names: Sequence[str], vectors: bool = False) -> LoadedCode:
+    """The functions `names` of a module in LLVM's language, from the disk where its object code is, or compiled
+    and stored.
 
     One thread at a time, so that no two of them compile the same; other processes may, and write
     the same file.
     """
-    key = hash_of(text.text, str(text.vectors))
+    key = hash_of(text, str(vectors))
     with _LOCK:
         code = stored(key)
         if code is None:
-            code = compiled(*text)
+            code = compiled(text, vectors)
             keep(key, code)
-        return loaded(key, code, names)
-
-
-def load(key: str, names: Sequence[str]) -> LoadedCode | None:
-    """The functions `names` of object code on the disk; None where it is not there."""
-    with _LOCK:
-        code = stored(key)
-        return None if code is None else loaded(key, code, names)
+        return loaded(text, code, names)
 
 
 def hash_of(*made_from: str) -> str:
@@ -113,13 +97,13 @@ def compiled(text: str, vectors: bool = False) -> bytes:
     return bytes(host.emit_object(module))
 
 
-def loaded(key: str, code: bytes, names: Sequence[str]) -> LoadedCode:
-    """Object code in memory, with the addresses of these functions."""
+def loaded(text: str, code: bytes, names: Sequence[str]) -> LoadedCode:
+    """Object code of a text in memory, with the addresses of these functions."""
     engine = binding.create_mcjit_compiler(binding.parse_assembly(""), target())
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
     addresses = {name: int(engine.get_function_address(name)) for name in names}
-    return LoadedCode(addresses, engine, key)
+    return LoadedCode(addresses, engine, text)
 
 
 def _path(key: str) -> Path:

@@ -20,67 +20,92 @@ import numpy as np
 
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.walker import ErrorForm, Walker
+from biped_adrc.control.outer_loop import OuterLoop, tracked_by
 from biped_adrc.control.passive import Passive
+from biped_adrc.core.errors import ModelError
 from biped_adrc.core.types import Array
-from biped_adrc.engine.equations import Equations, SymbolicFunction, WalkerNumbers, WalkerStructure
-from biped_adrc.engine.ir import generated, module_text, text_by
+from biped_adrc.engine.equations import Equations, Reading, SymbolicFunction, WalkerNumbers
+from biped_adrc.engine.ir import generated
 from biped_adrc.engine.machine import LoadedCode
-from biped_adrc.engine.mechanics import RobotData, RobotStructure, robot_of
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
 from biped_adrc.engine.tracer import located
+from biped_adrc.gait.reference import Reference
+from biped_adrc.model.biped import Biped
+from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 
 
 @dataclass(frozen=True)
 class Program:
     """Functions by name, and the numbers they are called with."""
 
-    make: WalkerStructure
-    """Structure of the walker."""
-    K: Array
-    """The numbers as a vector; its last entry is unused, so that it is never empty."""
+    size: int
+    """Numbers in the controller's state."""
     numbers: WalkerNumbers
-    """The same by name."""
-    plant_alone: bool = False
-    """Whether there are flow and event functions alone."""
+    """The numbers by name."""
 
     @classmethod
     def of(
-        cls, walker: Walker, size: int, split: ErrorForm | None = None, plant_alone: bool = False
+        cls,
+        walker: Walker,
+        size: int,
+        split: ErrorForm | None = None,
+        curve: Reference | OuterLoop | None = None,
+        plant_alone: bool = False,
     ) -> Program:
-        """The program of a walker whose controller has `size` states; split: coordinates of the
-        exponential method. plant_alone: flow and event functions, which in sampled time call no other part.
+        """The program of a walker whose controller has `size` states.
 
-        Takes the controller in its time base, the data of plant and model, and puts all
-        floats into K in the order of `WalkerNumbers`. Raises NotCompiled for a part whose content cannot
-        be compared, or ModelError for a robot that is no planar tree.
+        split: coordinates of the exponential method. curve: what readings refer to. plant_alone: without
+        controller, sensors and touchdown detector, for sample instants in Python. Takes the controller in its
+        time base, the data of plant and model, and puts all floats into K in the order of `WalkerNumbers`.
+        Raises NotCompiled for a part whose content cannot be compared, or ModelError for a robot that is no
+        planar tree.
         """
-        make, numbers = structure_of(walker, size, split)
+        numbers = numbers_of(walker)._replace(
+            split=split, curve=None if curve is None else tracked_by(walker.law, curve)
+        )
         if plant_alone:
             held = walker.held._replace(sensors=None, touchdown=None) if walker.held else ()
             numbers = numbers._replace(controller=Passive(), held=held)
-        K = np.array([*floats(numbers), 0.0])
+        return cls(size, numbers)
+
+    @classmethod
+    def of_loop(cls, loop: SteppingLoop, size: int) -> Program:
+        """The program of sample instants around another plant. Raises NotCompiled also for a model that is no
+        planar tree.
+        """
+        if not isinstance(loop.model, Biped):
+            raise NotCompiled(f"the model is a {type(loop.model).__name__}, expected a Biped")
+        try:
+            return cls(size, controller_numbers(robot_of(loop.model), loop))
+        except ModelError as reason:
+            raise NotCompiled(str(reason)) from reason
+
+    @cached_property
+    def K(self) -> Array:
+        """The numbers as a vector; its last entry is unused, so that it is never empty."""
+        K = np.array([*floats(self.numbers), 0.0])
         if np.any(np.isnan(K)):
             raise NotCompiled(
-                f"a parameter of {type(walker.controller).__name__} or its walker is NaN, of which generated "
-                "code would make 0 where it is multiplied by 0"
+                f"a parameter of {type(self.numbers.controller).__name__} or of what is around it is NaN, of "
+                "which generated code would make 0 where it is multiplied by 0"
             )
-        return cls(make, K, numbers, plant_alone)
+        return K
 
     @cached_property
     def key(self) -> Hashable:
-        """What decides the code."""
-        return structure_of_walker(self.make), structure(self.numbers)
+        """What decides the code, but that of readings."""
+        return self.size, structure(self.numbers._replace(curve=None))
 
     @property
-    def names(self) -> list[str]:
-        """Of its functions."""
-        return ["flow", "events"] if self.plant_alone else Equations.names(self.numbers)
+    def nx(self) -> int:
+        """Numbers in a state."""
+        return self.numbers.nx(self.size)
 
     @cached_property
     def machine(self) -> LoadedCode:
         """Its functions in memory, compiled when they are asked for. Raises NotCompiled as `functions`."""
-        return self.functions(self.names)
+        return self.functions(Equations.names(self.numbers))
 
     def functions(self, names: Sequence[str]) -> LoadedCode:
         """Functions of `Equations` in memory.
@@ -88,95 +113,47 @@ class Program:
         Raises NotCompiled for a method that cannot be traced or an operation without machine code.
         """
         functions = {name: partial(self._traced, name) for name in names}
-        return generated((*names, self.key), functions)
+        return generated(self.key, functions)
 
-    def text(self) -> str:
-        """What `machine` is made from, in LLVM's language."""
-        functions = self.names
-        return text_by(
-            (*functions, self.key),
-            lambda: module_text({name: self._traced(name) for name in functions}),
+    def reading(self, read: Reading) -> LoadedCode:
+        """The function "reading" of `read`. Raises NotCompiled for a curve without a compiled form."""
+        key = read, self.key, structure(self.numbers.curve)
+        return generated(
+            key, {"reading": lambda: Equations.of(self.size, self.numbers).reading(read)}
         )
 
     def _traced(self, name: str) -> SymbolicFunction:
         with located(name):
-            function: SymbolicFunction = getattr(Equations.of(self.make, self.numbers), name)()
+            function: SymbolicFunction = getattr(Equations.of(self.size, self.numbers), name)()
             return function
 
     def address(self, name: str) -> int:
         """Address of a compiled function; 0 if this walker does not need it, which no kernel calls."""
         split = self.numbers.split
         if name == "matvec" and split is not None:
-            return product(len(split.A), self.make.robot.p).addresses[name]
+            return product(len(split.A), self.numbers.plant.p).addresses[name]
         return self.machine.addresses.get(name, 0)
 
 
-def structure_of(
-    walker: Walker, size: int, split: ErrorForm | None = None
-) -> tuple[WalkerStructure, WalkerNumbers]:
-    """What decides the code of a walker whose controller has `size` states, and its numbers.
+def numbers_of(walker: Walker) -> WalkerNumbers:
+    """All numbers of a walker by name, as K lists them; what a walker has not is empty and takes no place.
 
-    Raises NotCompiled for links joined in another way, ModelError for a robot that is no planar tree.
+    Raises ModelError for a robot that is no planar tree.
     """
-    plant = robot_of(walker.plant)
-    model = None if walker.model is None else robot_of(walker.model)
-    sizes = None if walker.held is None else walker.held.sizes
-    make = WalkerStructure(_common(plant, model), size, sizes)
-    return make, _numbers(walker, plant, model, split)
-
-
-def _common(plant: RobotData, model: RobotData | None) -> RobotStructure:
-    """The plant's structure, with every term that it or the model has, since both run through the same code.
-
-    Raises NotCompiled for a model whose links are joined in another way.
-    """
-    if model is None:
-        return plant.structure
-    one, other = plant.structure, model.structure
-    if one.p != other.p or not np.array_equal(one.A, other.A):
-        raise NotCompiled("the links of the model are joined otherwise than those of the plant")
-    present = tuple(
-        a | b for a, b in zip(plant.structure.present, model.structure.present, strict=True)
-    )
-    return plant.structure._replace(present=present)
-
-
-def _numbers(
-    walker: Walker,
-    plant: RobotData,
-    model: RobotData | None,
-    split: ErrorForm | None,
-) -> WalkerNumbers:
-    """All numbers of a walker by name, as K lists them; what a walker has not is empty and takes no place."""
-    biped = walker.plant
-    limit = math.inf if walker.torque_limit is None else float(walker.torque_limit)
-    return WalkerNumbers(
-        plant.arrays,
-        None if model is None else model.arrays,
-        walker.law,
-        limit,
-        math.tan(walker.slope),
-        float(walker.lowest_hip),
-        float(walker.max_step_time),
-        biped.friction_coefficients if biped.friction else (),
-        float(walker.bounds.strongest),
-        () if walker.held is None else walker.held,
-        walker.gain,
-        split,
+    return controller_numbers(robot_of(walker.plant), walker)._replace(
+        model=None if walker.model is None else robot_of(walker.model),
+        tan_slope=math.tan(walker.slope),
+        lowest_hip=float(walker.lowest_hip),
+        longest=float(walker.max_step_time),
+        impact_gain=walker.gain,
     )
 
 
-def controller_numbers(robot: RobotData, loop: Walker | SteppingLoop) -> WalkerNumbers:
+def controller_numbers(robot: PlanarRobot, loop: Walker | SteppingLoop) -> WalkerNumbers:
     """The numbers of a controller in sampled time with its model; of plant and ground there are none."""
     limit = math.inf if loop.torque_limit is None else float(loop.torque_limit)
     strongest, held = float(loop.bounds.strongest), loop.held or ()
-    return WalkerNumbers(robot.arrays, None, loop.law, limit, strongest=strongest, held=held)
-
-
-def structure_of_walker(make: WalkerStructure) -> Hashable:
-    """What decides the code of a walker beside the structure of its numbers."""
-    robot, *rest = make
-    return structure(robot, exact=True), structure(rest)
+    return WalkerNumbers(robot, None, loop.law, limit, strongest=strongest, held=held)
 
 
 def product(k: int, p: int) -> LoadedCode:

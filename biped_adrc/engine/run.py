@@ -47,8 +47,9 @@ def simulate_by(
     asked for. Raises InputError.
     """
     check_engine(engine)
-    stop_after = None if impacts is None else (FOOT_STRIKE, impacts)
-    run_options, why = RunOptions(stop_after=stop_after, **options), {}
+    if impacts is not None:
+        options["stop_after"] = FOOT_STRIKE, impacts
+    run_options, why = RunOptions(**options), {}
     if engine == COMPILED:
         from biped_adrc.engine.simulate import run_compiled
 

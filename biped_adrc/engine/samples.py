@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple, Self, cast
+from typing import Any, Self, cast
 
 import numpy as np
 
@@ -29,11 +29,9 @@ from biped_adrc.core.errors import RaisedError
 from biped_adrc.core.timing import SampledTime
 from biped_adrc.core.types import Array
 from biped_adrc.disturbances.force import AddedForce
-from biped_adrc.engine.compiled_signals import Reading, reading_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.equations import WalkerNumbers
-from biped_adrc.engine.kernels.run_plan import CompiledRun, table_height
-from biped_adrc.engine.mechanics import once_each
+from biped_adrc.engine.equations import Reading, WalkerNumbers
+from biped_adrc.engine.kernels.compiled_run import CompiledRun, table_height
 from biped_adrc.engine.on_plant import CompiledLoop
 from biped_adrc.engine.simulate import compiled_plant
 from biped_adrc.engine.symbols import floats
@@ -46,6 +44,7 @@ from biped_adrc.hybrid.system import HybridSystem
 from biped_adrc.hybrid.trajectory import Arc
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.planar import LinkPoint, link_point
+from biped_adrc.model.planar_robot import once_each
 
 At = tuple[ClosedLoop[Any], float, Array, Mode]
 """A loop, time [s], state (nx,) before the sample instant there, and single support."""
@@ -73,23 +72,17 @@ def torque_place(numbers: WalkerNumbers) -> int:
     return len(floats((numbers.plant, numbers.model, inner)))
 
 
-def force_place(compiled: CompiledWalker) -> int:
-    """Cell of a run at which the force from outside is: it is the last term of the disturbance."""
-    assert compiled.walker.disturbance is not None
-    return compiled.plan.term(len(compiled.walker.disturbance.terms) - 1)
-
-
 @dataclass(frozen=True)
 class CompiledWalk:
     """One walk in memory."""
 
     compiled: CompiledWalker
     run: CompiledRun
-    """Where it is; moved by the kernel `samples`."""
-    look: int
-    """Address of what columns of the table hold; 0 for none."""
-    table: Array
-    """Of this single support, as `engine.batch.BatchWalk.table`; no columns where it is not judged."""
+    """Where it is; moved by the kernel `samples`. Its table is that of this single support, as
+    `engine.batch.BatchWalk.table`; without columns where it is not judged."""
+
+    places: tuple[int, int]
+    """Cells of the torque and the force from outside, the last term of the disturbance."""
 
     @classmethod
     def of(
@@ -106,21 +99,18 @@ class CompiledWalk:
         Raises NotCompiled for a part without machine code.
         """
         compiled = CompiledWalker.of(walker, method, walker.controller_size(x), mode.start, curve)
-        look, room = 0, 0
-        if judged and curve is not None:
-            code = reading_code("judged", step_reading, compiled.program, curve)
-            look, room = code.addresses["judged"], columns(walker, compiled.plan.number("h"))
         run = compiled.plan.start(x, mode.start, *mode, mode.start)
-        return cls(compiled, run, look, np.empty((table_height(walker.plant.p), room)))._kept()
-
-    def _kept(self) -> Self:
-        """Itself, its run with the table."""
-        self.run.set_table(self.look, self.table)
-        return self
+        if judged and curve is not None:
+            code = compiled.program.reading(step_reading)
+            run["look"], room = code.addresses["reading"], columns(walker, run["h"])
+            run.keep(table=np.empty((table_height(walker.plant.p), room)))
+        assert walker.disturbance is not None
+        torque = run.place("K") + torque_place(compiled.program.numbers)
+        return cls(compiled, run, (torque, run.term(len(walker.disturbance.terms) - 1)))
 
     def over(self, on: bool) -> Array:
         """The table; where the walk goes on, only columns of the single support in which it is stay there."""
-        run, table, count = self.run, self.table, int(self.run["columns"])
+        run, table, count = self.run, self.run.table, int(self.run["columns"])
         last = int(np.searchsorted(table[1, :count], run["step"])) if on else count
         result = table[:, :count].copy()
         table[:, : count - last], run["columns"] = result[:, last:], count - last
@@ -129,8 +119,7 @@ class CompiledWalk:
     @property
     def addresses(self) -> list[int]:
         """In the order of `kernels.record.WALK`."""
-        torque, at = torque_place(self.compiled.program.numbers), self.run.address
-        return [at, at + 8 * (self.run.place("K") + torque), at + 8 * force_place(self.compiled)]
+        return [self.run.address + 8 * cell for cell in (0, *self.places)]
 
     @property
     def at(self) -> At:
@@ -140,33 +129,17 @@ class CompiledWalk:
 
     def copy(self) -> Self:
         """The same walk in memory of its own."""
-        run = self.run
-        run = CompiledRun(run.block, run.pointers, run.nx)
-        return replace(self, run=run, table=self.table.copy())._kept()
+        return replace(self, run=self.run.copy())
 
-    def law(self, view: Reading, curve: Reference) -> int:
+    def law(self, view: Reading) -> int:
         """Address of machine code for what `view` says."""
-        return reading_code("read", view, self.compiled.program, curve).addresses["read"]
+        return self.compiled.program.reading(view).addresses["reading"]
 
 
 def columns(walker: Walker, h: float) -> int:
     """Columns of the longest single support with steps h [s], two at each break."""
     period = cast(SampledTime, walker.timing).period
     return 64 + (3 + math.ceil(period / h)) * math.ceil(walker.max_step_time / period)
-
-
-class Now(NamedTuple):
-    """Where a walk is."""
-
-    t: float
-    """[s]"""
-    x: Array
-    """State (nx,) before the sample instant at t."""
-    mode: Mode
-    began: float
-    """Where the clock of sample instants began that restarts at impacts [s]."""
-    fired: str | None = None
-    """The event that has just happened; None for none."""
 
 
 @dataclass(frozen=True)
@@ -180,7 +153,15 @@ class PythonWalk:
     """For a system that does not move by itself."""
     places: tuple[tuple[Array, slice], ...]
     """Arrays in which inputs are read, each with its part of (torque, force)."""
-    now: Now
+    t: float
+    """Where it is [s]."""
+    x: Array
+    """State (nx,) before the sample instant at t."""
+    mode: Mode
+    began: float
+    """Where the clock of sample instants began that restarts at impacts [s]."""
+    fired: str | None = None
+    """The event that has just happened; None for none."""
     arcs: tuple[Arc, ...] = ()
     """Of this single support so far."""
 
@@ -195,17 +176,17 @@ class PythonWalk:
         elif isinstance(loop, CompiledLoop):
             size = loop.controller_size(x)
             system = compiled = loop.compiled(size)
-            if compiled.code is not None:
-                at = torque_place(compiled.code.numbers)
-                places.append((compiled.code.sample.K[at : at + p], slice(p)))
-            if compiled.compiled_push is not None:
-                places.append((compiled.compiled_push.terms[-1][1][:2], slice(p, None)))
-        return cls(loop, system, method, tuple(places), Now(mode.start, x, mode, mode.start))
+            if compiled.program is not None:
+                at = torque_place(compiled.program.numbers)
+                places.append((compiled.program.K[at : at + p], slice(p)))
+            if compiled.terms is not None:
+                places.append((compiled.terms[-1][1][:2], slice(p, None)))
+        return cls(loop, system, method, tuple(places), mode.start, x, mode, mode.start)
 
     @property
     def at(self) -> At:
         """Where it is."""
-        return self.loop, *self.now[:3]
+        return self.loop, self.t, self.x, self.mode
 
     def copy(self) -> Self:
         """Itself: `sample` gives another walk."""
@@ -219,10 +200,11 @@ class PythonWalk:
         """
         for place, part in self.places:
             place[:] = inputs[part]
-        walk, over = self, list[Arc]()
+        walk, over, timing = self, list[Arc](), cast(SampledTime, self.loop.timing)
         while True:
-            now, until = walk.now, walk._until()
-            at = (now.t, now.x, now.mode, now.fired, now.began)
+            start = walk.began if timing.restart else 0.0
+            until = next_tick(walk.t, start, timing.period)
+            at = (walk.t, walk.x, walk.mode, walk.fired, walk.began)
             with handing_out(), np.errstate(over="ignore", invalid="ignore"):
                 flown = finite(flow_arc(self.system, self.method, RunOptions(until, 0.0), *at))
             if flown.status is Status.RAISED:
@@ -233,20 +215,11 @@ class PythonWalk:
                 arcs = ()
             if flown.outcome is None or event is None:
                 t, x = float(flown.arc.t[-1]), flown.arc.x[-1].copy()
-                return (
-                    replace(walk, now=Now(t, x, now.mode, now.began), arcs=arcs),
-                    flown.status,
-                    over,
-                )
-            now = Now(event.t, *flown.outcome, event.t, event.guard)
-            walk = replace(walk, now=now, arcs=arcs)
-            if cast(SampledTime, self.loop.timing).restart or event.t >= until:
+                return replace(walk, t=t, x=x, fired=None, arcs=arcs), flown.status, over
+            t, (x, mode) = event.t, flown.outcome
+            walk = replace(walk, t=t, x=x, mode=mode, began=t, fired=event.guard, arcs=arcs)
+            if timing.restart or t >= until:
                 return walk, flown.status, over
-
-    def _until(self) -> float:
-        """The first sample instant after `now` [s]."""
-        timing = cast(SampledTime, self.loop.timing)
-        return next_tick(self.now.t, self.now.began if timing.restart else 0.0, timing.period)
 
 
 def joined(arcs: Sequence[Arc]) -> Arc:

@@ -20,11 +20,10 @@ from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
 from biped_adrc.core.types import Array
 from biped_adrc.engine.compiled_biped import CompiledBiped, compiled_references
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.kernels.run_plan import STATUS, CompiledRun
+from biped_adrc.engine.kernels.compiled_run import CompiledRun
 from biped_adrc.engine.run import COMPILED, COMPILED_PLANT
 from biped_adrc.engine.symbols import NotCompiled
 from biped_adrc.hybrid import simulator
-from biped_adrc.hybrid.constants import COMPLETED, STRUCK
 from biped_adrc.hybrid.integrators import OneStepMethod
 from biped_adrc.hybrid.simulator import FlownArc, RunOptions, run_arcs
 from biped_adrc.hybrid.status import Status
@@ -34,6 +33,8 @@ TERMINAL = {Status.FELL: "hip_too_low", Status.STALLED: "step_too_long"}
 """Names of the event functions that end a run, by status."""
 
 
+ROOM = 6000
+"""Nodes of a single support for which there is room at first; with too few it is walked again."""
 ONWARD, STORE = 0.005, 1_000_000
 """How far Python looks past the last good state of a lost run [s]; it keeps no nodes between."""
 
@@ -56,29 +57,24 @@ def run_compiled(
         why = {"engine": COMPILED_PLANT, "why": text}
         return replace(run, settings={**run.settings, **why})
     run = run_made(compiled, x0, mode, method, options)
-    return replace(
-        run, detail=detail_of(walker, method, run), settings={**run.settings, "engine": COMPILED}
-    )
+    return replace(run, detail=detail_of(walker, method, run))
 
 
 def run_made(
     compiled: CompiledWalker, x0: Array, mode: Mode, method: OneStepMethod, options: RunOptions
 ) -> Trajectory:
     """The run of a walker that is compiled already, from x0 (nx,), in any thread."""
-    plan, every = compiled.plan, options.store_every
-    period, longest = plan.number("period"), 1.0
-    ticks = longest / period if period > 0.0 else 0.0
-    # of a single support of 1 s, two nodes at each sample instant; with too few the arc is made again
-    room = 64 + min(100_000, int(longest / plan.number("h") / every + 2.0 * ticks))
-    rows = np.empty((room, 1 + 2 * plan.nx))
+    run = compiled.plan.start(x0, options.t0, *mode, options.t_end)
+    run["every"] = options.store_every
+    run.keep(np.empty((ROOM, 1 + 2 * run.nx)))
 
     def fly(t: float, x: Array, mode: Mode, fired: str | None) -> FlownArc:
-        run = plan.start(x, t, mode.step, mode.start, options.t_end, fired is not None)
-        arc = flown(run, mode, every, rows)
+        arc = flown(run, mode)
         error = compiled.raised(run)
         return arc if error is None else _ended_by(error, arc.arc)
 
-    return run_arcs(fly, x0, mode, method.label, options)
+    walked = run_arcs(fly, x0, mode, method.label, options)
+    return replace(walked, settings={**walked.settings, "engine": COMPILED})
 
 
 def _ended_by(error: BaseException, arc: Arc) -> FlownArc:
@@ -136,21 +132,20 @@ def compiled_plant(walker: Walker) -> Walker:
     return replace(walker, plant=plant, model=model, controller=controller)
 
 
-def flown(run: CompiledRun, mode: Mode, every: int, rows: Array) -> FlownArc:
-    """A run to its end or the first event, with the impact there.
-
-    every: each so many-th step is kept. rows: as of `CompiledRun.arc`.
-    """
-    code, t, x, dx = run.arc(every, rows)
-    x_minus, event, outcome = run.x.copy(), None, None
-    if code == STRUCK:
-        code = run.land()
-        if code == COMPLETED:
-            outcome = run.x.copy(), Mode(mode.step + 1, run["t"])
-            event = Event(FOOT_STRIKE, run["t"], x_minus, outcome[0])
-    elif STATUS[code] in TERMINAL:
-        event = Event(TERMINAL[STATUS[code]], run["t"], x_minus, None)
-    nodes = Arc(mode, t.copy(), x.copy(), dx.copy(), event)
-    lost = STATUS[code] in simulator.FAILURES
-    detail = f"after t = {nodes.t[-1]:.6g} s" if lost else ""
-    return FlownArc(nodes, STATUS[code], detail, outcome)
+def flown(run: CompiledRun, mode: Mode) -> FlownArc:
+    """A run to its end or the first event, with the impact there."""
+    nx, run["count"] = run.nx, 0
+    status, strikes = run.stride(1)
+    event, outcome = None, None
+    for t, *x in strikes:
+        outcome = np.array(x[nx:]), Mode(mode.step + 1, t)
+        event = Event(FOOT_STRIKE, t, np.array(x[:nx]), outcome[0])
+    if status in TERMINAL:
+        event = Event(TERMINAL[status], run["t"], run.x.copy(), None)
+    rows = run.nodes[: int(run["count"])]
+    nodes = Arc(
+        mode, rows[:, 0].copy(), rows[:, 1 : 1 + nx].copy(), rows[:, 1 + nx :].copy(), event
+    )
+    detail = f"after t = {nodes.t[-1]:.6g} s" if status in simulator.FAILURES else ""
+    status = Status.COMPLETED if status is Status.TIME_OUT else status
+    return FlownArc(nodes, status, detail, outcome)

@@ -18,9 +18,9 @@ from __future__ import annotations
 
 import math
 import random
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from itertools import chain
-from typing import Any, TypeVar, Union, overload
+from typing import Any, TypeVar, Union
 
 import casadi as ca
 import numpy as np
@@ -162,8 +162,6 @@ FUNCTIONS = {
 for _name, _theirs in FUNCTIONS.items():  # which NumPy asks each entry of an object array for
     setattr(Scalar, _name, function_of(_theirs))
 
-tanh = elementwise(function_of("tanh"))
-
 
 def minimum(a: Number, b: Number) -> Scalar:
     """The smaller of two numbers."""
@@ -277,7 +275,7 @@ def _larger_first(one: SymbolRow, other: SymbolRow, j: int) -> tuple[SymbolRow, 
     return first, second
 
 
-def rebuilt(like: tuple[object, ...] | list[object], parts: list[object]) -> object:
+def rebuilt(like: tuple[object, ...] | list[object], parts: Sequence[object]) -> object:
     """A tuple, NamedTuple or list of the same class with other parts."""
     return like._make(parts) if hasattr(like, "_make") else type(like)(parts)
 
@@ -312,12 +310,6 @@ class Vector:
         self.symbol = ca.SX.sym(name, size)
         self._taken = 0
 
-    @overload
-    def take(self) -> Any: ...
-
-    @overload
-    def take(self, first: int, /, *more: int) -> Array: ...
-
     def take(self, *shape: int) -> Any:
         """The next symbols as a read-only object array of this shape; a Scalar for no shape."""
         if not shape:
@@ -342,34 +334,42 @@ class Vector:
         return result
 
 
+def symbols_of(example: T) -> tuple[ca.SX, T]:
+    """Symbols for the floats of a tree: as CasADi's column K, one longer so that it is never empty, and in
+    their places in the tree.
+    """
+    K = Vector("K", 1 + len(floats(example)))
+    return K.symbol, K.like(example)
+
+
 def floats(tree: object) -> list[float]:
     """The numbers that `Vector.like` takes symbols for, in its order."""
     if isinstance(tree, float | np.floating):
         return [float(tree)]
     if isinstance(tree, np.ndarray):
         return tree.ravel().tolist() if tree.dtype.kind == "f" else []
-    if isinstance(tree, tuple | list):
-        return list(chain.from_iterable(map(floats, tree)))
-    if is_part(tree) and not isinstance(tree, HIDDEN):
-        return floats(tuple(content(tree).values()))
-    return []
+    return list(chain.from_iterable(floats(x) for _, x in inside(tree)))
 
 
 def paths(tree: object, name: str = "") -> Iterator[str]:
     """What each of `floats` is called, in its order, such as k.tracking.K_p[0]."""
-    if isinstance(tree, tuple | list):
-        fields = getattr(tree, "_fields", None)
-        for i, x in enumerate(tree):
-            inside = f"[{i}]" if fields is None else f".{fields[i]}" if name else fields[i]
-            yield from paths(x, name + inside)
-    elif isinstance(tree, np.ndarray):
+    if isinstance(tree, np.ndarray):
         if tree.dtype.kind == "f":
             yield from (f"{name}[{', '.join(map(str, at))}]" for at in np.ndindex(*tree.shape))
-    elif is_part(tree) and not isinstance(tree, HIDDEN):
-        for inside, x in content(tree).items():
-            yield from paths(x, f"{name}.{inside}" if name else inside)
     elif isinstance(tree, float | np.floating):
         yield name
+    for part, x in inside(tree):
+        yield from paths(x, name + part if name or part[0] == "[" else part[1:])
+
+
+def inside(tree: object) -> Iterator[tuple[str, object]]:
+    """The parts of a tuple, list or part, each with .name or [place]."""
+    if is_part(tree) and not isinstance(tree, HIDDEN):
+        yield from ((f".{name}", x) for name, x in content(tree).items())
+    elif isinstance(tree, tuple | list):
+        names = getattr(tree, "_fields", None)
+        for i, x in enumerate(tree):
+            yield f"[{i}]" if names is None else f".{names[i]}", x
 
 
 def column(*parts: ArrayLike | Scalar) -> ca.SX:

@@ -19,15 +19,13 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.errors import InputError, ModelError, NotFiniteError
 from biped_adrc.core.types import Array
-from biped_adrc.engine.equations import Equations, WalkerNumbers, WalkerStructure
-from biped_adrc.engine.program import structure_of, structure_of_walker
+from biped_adrc.engine.equations import Equations, WalkerNumbers
+from biped_adrc.engine.program import numbers_of
 from biped_adrc.engine.structure import structure
 from biped_adrc.engine.symbols import NotCompiled, floats
 
 DIFFERENCE = 1e-6
 """Half width of the central differences [rad, rad/s, ..]."""
-REMEMBERED = 64
-"""Structures whose expressions are kept."""
 
 
 Ticked = Callable[[float, Array, Mode], tuple[Array, Array]]
@@ -46,8 +44,8 @@ def tick_derivative(walker: Walker, nx: int) -> Ticked:
             "timing=SampledTime(period)"
         )
     try:
-        make, numbers = structure_of(walker, walker.controller_size(nx))
-        function = _function(make, numbers)
+        numbers = numbers_of(walker)
+        function = _function(walker.controller_size(nx), numbers)
     except (NotCompiled, ModelError):
         return partial(_differenced, walker)
     return _Evaluated(function, np.array([*floats(numbers), 0.0]), nx)
@@ -75,15 +73,13 @@ _FUNCTIONS: dict[Hashable, ca.Function] = {}
 """Made in this process, by the key of their structure; a function is a value, so this is no state."""
 
 
-def _function(make: WalkerStructure, numbers: WalkerNumbers) -> ca.Function:
-    """(K, inp) -> (x+, J) of a structure; the values of `numbers` do not matter."""
-    key = structure_of_walker(make), structure(numbers)
+def _function(size: int, numbers: WalkerNumbers) -> ca.Function:
+    """(K, inp) -> (x+, J) for `size` numbers in s; the values of `numbers` do not matter."""
+    key, nx = (size, structure(numbers)), numbers.nx(size)
     if key not in _FUNCTIONS:
-        while len(_FUNCTIONS) >= REMEMBERED:
-            _FUNCTIONS.pop(next(iter(_FUNCTIONS)))
-        tick = Equations.of(make, numbers).tick()
-        after = ca.densify(tick.out[: make.nx])
-        J = ca.densify(ca.jacobian(after, tick.inp)[:, 3 : 3 + make.nx])
+        tick = Equations.of(size, numbers).tick()
+        after = ca.densify(tick.out[:nx])
+        J = ca.densify(ca.jacobian(after, tick.inp)[:, 3 : 3 + nx])
         _FUNCTIONS[key] = ca.Function("tick", [tick.K, tick.inp], [after, J], {"cse": True})
     return _FUNCTIONS[key]
 

@@ -266,7 +266,7 @@ class _Named:
 
     def __getattr__(self, name: str) -> object:
         value = getattr(self._module, name)
-        if name in vars(self._module):
+        if name in vars(self._module) and changes(self._module.__name__, self._module.__file__):
             note(vars(self._module), name)
         return self._trace.on_symbols(value)
 

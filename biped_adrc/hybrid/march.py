@@ -355,11 +355,11 @@ def fixed(r: Run, t: float, t1: float, last: int) -> int:
         return RAN_AWAY
     if r.kind == ETD and last == 0:
         remainder(r, t1, r.y1, r.N1)
-        if not regular(r.N1, r.nN):
+        if not finite(r.N1, r.nN):
             return broken(r)
     if r.every > 0 or (r.kind == RK4 and last == 0):
         flow(r, t1, x1, r.dx1)
-        if not regular(r.dx1, r.moving):
+        if not finite(r.dx1, r.moving):
             return broken(r)
     return 0
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from biped_adrc.core.errors import NotFiniteError
 from biped_adrc.core.types import Array
-from biped_adrc.hybrid.constants import ETD, NOT_FINITE, RK4, SOLVER, STRUCK
+from biped_adrc.hybrid.constants import ETD, NOT_FINITE, RK4, SOLVER, STRUCK, X_ROWS, Y_ROWS
 from biped_adrc.hybrid.exponential import Exponential, no_coordinates, phi_levels
 from biped_adrc.hybrid.integrators import RK4 as ClassicalRungeKutta
 from biped_adrc.hybrid.integrators import OneStepMethod, Solver, Step
@@ -87,20 +87,13 @@ def next_tick(t: float, start: float, period: float) -> float:
     return start + k * period
 
 
-ROWS = ("x0", "dx0", "x1", "dx1", "stage", "k1", "k2", "k3", "k4", "x_e", "dx_e", "x_b", "dx_b")
-"""Arrays (nx,) of a run: state and slope at both ends of a step, of a stage, at an event, after sub-steps."""
-Y_ROWS = ("y0", "y1", "y_a", "y_b", "e_half", "y_sub", "y_try")
-N_ROWS = ("N0", "N1", "N_a", "N_b", "N_c", "N_sub")
-"""Arrays (ny,) of a run by ETD-RK4: y = (w, E) and remainders."""
-
-
 class Run:
     """One arc of a system: where it is, what the march knows of it, and its arrays."""
 
     if TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Array:
-            """One of ROWS, Y_ROWS and N_ROWS."""
+            """One of X_ROWS and Y_ROWS."""
 
     step: Step
 
@@ -128,7 +121,7 @@ class Run:
         self.nx, self.moving, self.p = len(x), len(x), 0
         self.accepted: dict[int, FoundEvent] = {}
         self.event: FoundEvent | None = None
-        for name in ROWS:
+        for name in X_ROWS:
             setattr(self, name, np.zeros(self.nx))
         self.values, self.after, self.tried = (np.zeros(self.guards) for _ in range(3))
         self.x0[:] = x
@@ -155,7 +148,7 @@ class Run:
         self.phi = phi_levels(method.h, form.A)
         self.n_slow, self.levels = len(w), len(self.phi)
         self.ny = self.nN = len(w) + E.size
-        for name in (*Y_ROWS, *N_ROWS):
+        for name in Y_ROWS:
             setattr(self, name, np.zeros(self.ny))
 
     def parts(self, y: Array) -> tuple[Array, Array]:
@@ -192,13 +185,8 @@ def rk4_sum(
 
 
 def finite(x: Array, size: int) -> bool:
-    """Whether the sum of squares of x (size,) is finite, as for every state that means anything."""
-    return math.isfinite(x.dot(x))
-
-
-def regular(dx: Array, size: int) -> bool:
-    """Whether every number of dx (size,) is finite, however large."""
-    return bool(np.all(np.isfinite(dx)))
+    """Whether every number of x (size,) is finite."""
+    return bool(np.all(np.isfinite(x)))
 
 
 def matrix(r: Run, level: int, which: int) -> Array:

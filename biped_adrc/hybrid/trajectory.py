@@ -8,7 +8,7 @@ Hermite polynomial. `hybrid.simulator` makes trajectories, and so do the compile
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -16,9 +16,6 @@ from biped_adrc.core.errors import InputError
 from biped_adrc.core.shown import Shown
 from biped_adrc.core.types import Array, freeze, frozen
 from biped_adrc.hybrid.status import Status
-
-if TYPE_CHECKING:
-    pass
 
 
 @dataclass(frozen=True)

@@ -14,10 +14,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from types import NoneType
 
+from biped_adrc.closed_loop.other_plant import walk_on
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.control.base import Controller
 from biped_adrc.core.checks import check_part
-from biped_adrc.engine.on_plant import walk_on
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4, Adaptive, OneStepMethod, Stiff

@@ -26,6 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from biped_adrc.analysis.certificate import Support, supports
 from biped_adrc.analysis.ground_force import Nodes
+from biped_adrc.closed_loop.other_plant import as_walked
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.closed_loop.system import ClosedLoop
@@ -33,11 +34,10 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.checks import check_part, numbers
 from biped_adrc.core.errors import InputError, check_count
 from biped_adrc.core.types import Array, frozen
-from biped_adrc.engine.compiled_signals import Reading
+from biped_adrc.engine.equations import Reading
+from biped_adrc.engine.kernels.compiled_run import STATUS
 from biped_adrc.engine.kernels.load import kernels
 from biped_adrc.engine.kernels.record import WALK, Ints
-from biped_adrc.engine.kernels.run_plan import STATUS
-from biped_adrc.engine.on_plant import as_walked
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.engine.samples import CompiledWalk, PythonWalk, reading, with_inputs
 from biped_adrc.engine.symbols import NotCompiled
@@ -285,7 +285,7 @@ class Stepper:
         for i in () if view in self._complete else np.flatnonzero(laws == 0).tolist():
             walk = self.walks[i]
             if isinstance(walk, CompiledWalk):
-                laws[i] = walk.law(view, self.curve)
+                laws[i] = walk.law(view)
             elif walk is not None:
                 result[i] = reading(walk, view, self.curve)
         if not self.in_python:

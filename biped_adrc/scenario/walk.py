@@ -22,12 +22,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from biped_adrc.closed_loop.other_plant import walk_on
 from biped_adrc.closed_loop.protocols import SteppingPlant
 from biped_adrc.closed_loop.walker import Mode, Walker
 from biped_adrc.core.checks import check_part, handing_out, numbers
 from biped_adrc.core.errors import InputError, check_count
 from biped_adrc.core.types import Array
-from biped_adrc.engine.on_plant import stepping_loop, walk_on
+from biped_adrc.engine.on_plant import stepping_loop
 from biped_adrc.engine.run import COMPILED, simulate_by
 from biped_adrc.gait.gait import Gait
 from biped_adrc.hybrid.exponential import Exponential

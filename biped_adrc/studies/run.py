@@ -28,6 +28,7 @@ from biped_adrc.analysis.certificate import IMPULSE, REASONS, supports
 from biped_adrc.analysis.feasibility import Feasibility, outcome_of
 from biped_adrc.analysis.ground_force import Nodes
 from biped_adrc.analysis.soft_steps import contact_errors
+from biped_adrc.closed_loop.other_plant import walk_on
 from biped_adrc.closed_loop.semantics import parts
 from biped_adrc.closed_loop.stepping import SteppingLoop
 from biped_adrc.control.foot_barrier import infeasible_instants
@@ -35,7 +36,6 @@ from biped_adrc.core.errors import BipedError
 from biped_adrc.core.files import packaged
 from biped_adrc.core.types import Array
 from biped_adrc.engine.batch import BatchWalk, Case, left_by, run_case
-from biped_adrc.engine.on_plant import walk_on
 from biped_adrc.hybrid.status import Status
 from biped_adrc.model.robots.limits import Limits
 from biped_adrc.scenario.build import limits
@@ -106,8 +106,7 @@ def _run_of(t: Trial) -> Callable[[], BatchWalk]:
 
 def _on_other_ground(c: Case, loop: SteppingLoop) -> BatchWalk:
     """The walk of a case with its controller around another plant than the rigid one."""
-    run = walk_on(loop, c.walker, (c.q, c.v), c.mode, c.impacts)
-    return left_by(c, run, str(run.settings["engine"]))
+    return left_by(c, walk_on(loop, c.walker, (c.q, c.v), c.mode, c.impacts))
 
 
 def _each(step: Callable[[Any], Any], items: Sequence[Any]) -> list[Any]:

@@ -24,7 +24,7 @@ from biped_adrc.disturbances.base import Windowed
 from biped_adrc.engine.compiled_push import term_code
 from biped_adrc.engine.equations import SymbolicFunction
 from biped_adrc.engine.ir import module_text
-from biped_adrc.engine.machine import ModuleText, load_or_compile
+from biped_adrc.engine.machine import load_or_compile
 from biped_adrc.engine.program import Program
 from biped_adrc.engine.symbols import NotCompiled, Vector, column, floats
 from biped_adrc.engine.tracer import Tracer, run
@@ -511,7 +511,7 @@ def agree(law, *arguments):
     found = run(Tracer(), law, *(K.like(argument) for argument in arguments))
     parts = found if isinstance(found, tuple) else (found,)
     text = module_text({"law": SymbolicFunction(K.symbol, Vector("inp", 1).symbol, column(*parts))})
-    code = load_or_compile(ModuleText(text), ["law"])
+    code = load_or_compile(text, ["law"])
     whole = expected if isinstance(expected, tuple) else (expected,)
     one = np.concatenate([np.ravel(x) for x in whole])
     other = call(code, "law", numbers, np.zeros(1), len(one))

@@ -14,11 +14,13 @@ from biped_adrc.core.timing import SampledTime
 from biped_adrc.engine.compiled_biped import CompiledBiped
 from biped_adrc.engine.program import Program
 from biped_adrc.model.planar import PlanarTree
+from biped_adrc.model.planar_robot import robot_of
 from biped_adrc.model.robots.robot_toml import robot_names
 from tests.control.conforms import call, loop_compiles
 
 EXACT = 1e-11
 COUNT = 1000
+TUPLES = ("reduction", "body_terms", "impact")
 
 
 def close(found, expected):
@@ -62,6 +64,31 @@ def test_terms_and_impact_at_a_thousand_states(robot):
         close(found, np.concatenate((after.q, after.v)))
 
 
+@pytest.mark.parametrize("robot", robot_names())
+def test_the_closed_form_on_numbers_is_pinocchio_s(robot):
+    biped = ba.Biped.load(robot)
+    planar, random = robot_of(biped), np.random.default_rng(3)
+    for _ in range(50):
+        q, v, force = random.normal(size=(3, biped.n))
+        for name, arguments in {
+            "reduction": (q, v),
+            "body_terms": (q, v),
+            "acceleration": (q, v, force),
+            "ground_reaction": (q, v, force),
+            "impact": (q, v),
+            "momentum": (q, v),
+            "kinetic_energy": (q, v),
+            "potential_energy": (q,),
+            "swing_foot": (q,),
+            "hip": (q,),
+            "relabel": (q,),
+        }.items():
+            found, expected = (getattr(b, name)(*arguments) for b in (planar, biped))
+            pairs = zip(found, expected, strict=True) if name in TUPLES else [(found, expected)]
+            for one, other in pairs:
+                np.testing.assert_allclose(one, other, rtol=1e-8, atol=1e-8, err_msg=name)
+
+
 @pytest.mark.parametrize("timing", [ba.ContinuousTime(), SampledTime(1e-3)], ids=["all", "ticks"])
 def test_a_plant_that_is_not_the_model(gait, timing):
     biped = ba.Biped.load("rabbit", friction=True)
@@ -80,7 +107,7 @@ def test_one_compilation_serves_every_number(biped, gait):
     assert second.machine is first.machine
     assert not np.array_equal(second.K, first.K)
     third = Program.of(Walker(bare, other), 0)
-    assert third.make.robot.n == 5
+    assert third.numbers.plant.n == 5
 
 
 @pytest.mark.parametrize("pose", [0.0, np.pi])

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from biped_adrc.engine import machine
-from biped_adrc.engine.machine import VARIABLE, ModuleText, compiled, load_or_compile, stored
+from biped_adrc.engine.machine import VARIABLE, compiled, load_or_compile, stored
 
 TEXT = """
 define void @f(ptr %K, ptr %inp, ptr %out) {
@@ -49,7 +49,7 @@ def make(monkeypatch):
 
     def load():
         made.clear()
-        return result(load_or_compile(ModuleText(TEXT), ["f"])), len(made)
+        return result(load_or_compile(TEXT, ["f"])), len(made)
 
     monkeypatch.setattr(machine, "compiled", counted)
     return load
@@ -99,7 +99,7 @@ def test_several_processes_make_the_same_code_and_another_one_traces_nothing(cac
         "from biped_adrc.engine import ir\n"
         "from biped_adrc.engine.compiled_biped import CompiledBiped\n"
         "made = []\n"
-        "ir.ModuleText = partial(lambda kind, *x: made.append(1) or kind(*x), ir.ModuleText)\n"
+        "ir.module_text = partial(lambda text, *x: made.append(1) or text(*x), ir.module_text)\n"
         "c = CompiledBiped.of(ba.Biped.load('rabbit'))\n"
         "print(c.acceleration(np.linspace(0.1, 0.5, 5), np.ones(5), np.zeros(5)).tobytes().hex(), *made)\n"
     )

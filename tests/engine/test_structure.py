@@ -11,7 +11,6 @@ import biped_adrc as ba
 from biped_adrc.core.errors import InputError
 from biped_adrc.engine.compiled_push import term_code
 from biped_adrc.engine.ir import in_memory
-from biped_adrc.engine.machine import ModuleText
 from biped_adrc.engine.structure import lasting, structure
 from biped_adrc.engine.symbols import floats
 from tests.control.conforms import call
@@ -91,7 +90,7 @@ def test_the_same_structure_is_compiled_once():
     text = "define void @f(ptr %K, ptr %inp, ptr %out) {\nret void\n}"
     made, once = [], (object(),)
     for _ in range(2):
-        in_memory(once, ["f"], lambda: made.append(1) or ModuleText(text))
+        in_memory(once, ["f"], lambda: made.append(1) or text)
     assert made == [1]
 
 

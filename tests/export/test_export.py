@@ -5,7 +5,6 @@ import os
 import shutil
 import subprocess
 from dataclasses import replace
-from functools import partial
 
 import casadi as ca
 import numpy as np
@@ -13,7 +12,6 @@ import pytest
 
 import biped_adrc as ba
 from biped_adrc.core.errors import InputError, OutputError
-from biped_adrc.engine.mechanics import RobotStructure
 from biped_adrc.extras.export import loaded as loading
 from biped_adrc.extras.export.c_text import in_double
 from biped_adrc.extras.export.computer import Computer, Noticed
@@ -89,8 +87,8 @@ def test_every_flag_ends_a_walk_with_the_status_of_its_name(flag):
 def test_a_noticed_touchdown_is_seen_in_the_old_labels_with_the_offset_of_the_angles():
     """q+ = R q- + r, R R = 1, R r = -r: no robot of the package has an r."""
     R, r = np.array([[0, 1, 0], [1, 0, 0], [0, 0, 1]]), np.array([0.3, -0.3, 0.0])
-    inner, robot = ba.Sensors(filter_time=2e-3), partial(RobotStructure, 3, 2, np.eye(3), R)
-    around = Noticed(inner, robot(r, np.array([1, 0]), ())).sampled(3, 2, 1e-3)
+    inner = ba.Sensors(filter_time=2e-3)
+    around = Noticed(inner, R, r).sampled(3, 2, 1e-3)
     sampled = inner.sampled(3, 2, 1e-3)
     q, v = np.array([0.1, -0.4, 0.7]), np.array([1.0, 2.0, -3.0])
     w = sampled.sense(sampled.start(q, v), q + 1e-3 * v, v)
@@ -100,7 +98,7 @@ def test_a_noticed_touchdown_is_seen_in_the_old_labels_with_the_offset_of_the_an
     found = around.impact(np.append(w, 0.0), R @ old + r, R @ v, np.zeros(3))
     np.testing.assert_allclose(found, np.append(wanted, 1.0), rtol=1e-12)
     with pytest.raises(InputError, match="do not exchange in pairs"):
-        Noticed(inner, robot(np.abs(r), np.array([1, 0]), ()))
+        Noticed(inner, R, np.abs(r))
 
 
 class Own(Sensor):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import biped_adrc as ba
-from biped_adrc.engine.program import structure_of
+from biped_adrc.engine.program import numbers_of
 from biped_adrc.engine.structure import structure
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.touchdown import ByKinematics, FaultyTouchdown
@@ -108,8 +108,7 @@ def test_other_numbers_compile_nothing(biped, gait):
     def key(sensors, touchdown):
         law = ba.NPDController(gait.constraint)
         walker = ba.Walker(biped, law, timing=CLOCK, sensors=sensors, touchdown=touchdown)
-        x = walker.initial_state(*gait.start(biped))
-        return structure(structure_of(walker, walker.controller_size(x)))
+        return structure(numbers_of(walker))
 
     noisy, told = ba.Sensors(8192, noise=1e-4, seed=1) + Slow(), FaultyTouchdown(missed=0.1, seed=1)
     other = ba.Sensors(4096.5, noise=1e-3, filter_time=1e-3, seed=2) + Slow(100.0)

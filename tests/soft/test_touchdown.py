@@ -49,9 +49,6 @@ def test_compiled_as_in_python(plant, gait, leaf):
     assert len(python.events("foot_strike")) == 1
     scale = 1.0 + np.abs(python.final_state)
     np.testing.assert_allclose(compiled.final_state / scale, python.final_state / scale, atol=1e-9)
-    for one, other in zip(python.arcs, compiled.arcs, strict=True):
-        xi = one.read["xi_estimate"], other.read["xi_estimate"]
-        np.testing.assert_allclose(xi[1], xi[0], atol=1e-6)
     np.testing.assert_array_equal(touchdowns(loop, compiled).late, touchdowns(loop, python).late)
 
 

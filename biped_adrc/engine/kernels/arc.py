@@ -1,9 +1,9 @@
-"""What Python calls: an arc of a run, its impact, a whole walk, and samples of many walks.
+"""What Python calls: a walk over impacts, and samples of many walks. A page calls an arc and its impact.
 
-`stride` is the whole walk in compiled code, for many walks in threads: arcs and impacts until enough of them,
-the end, or a terminal status. `samples` moves many walks by one sample each, from one sample instant to the
-next. An impact within it is made on the way; where the clock restarts with it, a sample instant is due there,
-and the sample ends. So a walk is the same either way, and its inputs may be others at every sample instant.
+`stride` goes over arcs and impacts until enough of them, the end, or a terminal status. `samples` moves many
+walks by one sample each, from one sample instant to the next. An impact within it is made on the way; where the
+clock restarts with it, a sample instant is due there, and the sample ends. So a walk is the same either way,
+and its inputs may be others at every sample instant.
 """
 
 from __future__ import annotations
@@ -56,28 +56,22 @@ def land(r: Run) -> int:
     code = jump(r, r.x0, r.x_e)
     if code == 0:
         copy(r.x_e, r.x0, r.nx)
-        r.fired, r.armed, r.count = FOOT_STRIKE, 0, 0
+        r.fired, r.armed = FOOT_STRIKE, 0
     return code
 
 
 @unit
-def stride(r: Run, impacts: int, strikes: Array, room: int) -> int:
-    """Over `impacts` impacts, or over any number until t_end for 0; a status.
+def stride(r: Run, impacts: int, strikes: Array) -> int:
+    """Over `impacts` impacts, or until t_end (TIME_OUT); a status.
 
-    strikes (room, 1 + 2 nx) gets a row (t, x-, x+) of each; more than `room` of them end as EVENT_LIMIT. No
-    nodes are kept in between, but columns of `table`; where there is no room for those (FULL), the run is at
-    the start of its arc.
+    strikes (impacts, 1 + 2 nx) gets a row (t, x-, x+) of each. Where there is no room for nodes or columns of
+    `table` (FULL), the run is at the start of its arc.
     """
-    count, nx = 0, r.nx
-    r.every = 0
-    while True:
+    nx = r.nx
+    for count in range(impacts):
         code = go_on(r)
-        if code == COMPLETED:
-            return TIME_OUT if count < impacts else COMPLETED
         if code != STRUCK:
-            return code
-        if count >= room:
-            return EVENT_LIMIT
+            return TIME_OUT if code == COMPLETED else code
         row = shift(strikes, count * (1 + 2 * nx))
         copy(r.x0, shift(row, 1), nx)
         code = land(r)
@@ -85,9 +79,7 @@ def stride(r: Run, impacts: int, strikes: Array, room: int) -> int:
             return code
         row[0] = r.t
         copy(r.x0, shift(row, 1 + nx), nx)
-        count += 1
-        if count == impacts:
-            return COMPLETED
+    return COMPLETED
 
 
 @unit

@@ -21,13 +21,13 @@ from typing import Any, NamedTuple
 from llvmlite import binding
 
 from biped_adrc.core.errors import ModelError
-from biped_adrc.engine.machine import ModuleText, keep, key_of, load_or_compile, stored
+from biped_adrc.engine.machine import keep, key_of, load_or_compile, stored
 
 _HERE = "biped_adrc.engine.kernels"
 FILES = (
+    "biped_adrc.hybrid.constants",
     f"{_HERE}.record",
     f"{_HERE}.call",
-    "biped_adrc.hybrid.constants",
     f"{_HERE}.operations",
     "biped_adrc.hybrid.relaxation",
     "biped_adrc.hybrid.march",
@@ -46,14 +46,12 @@ Loop = Callable[..., int]
 class Kernels(NamedTuple):
     """The units of `kernels.arc` that Python calls."""
 
-    go_on: Loop
-    land: Loop
     stride: Loop
     samples: Loop
     looks: Loop
 
 
-SIZES = Kernels(1, 1, 4, 8, 5)  # type: ignore[arg-type]
+SIZES = Kernels(3, 8, 5)  # type: ignore[arg-type]
 """How many arguments each of them has."""
 _LOCK = Lock()
 
@@ -67,7 +65,7 @@ def kernels() -> Kernels:
 @cache
 def _loaded() -> tuple[Kernels, object]:
     """The loops, and what keeps them in memory."""
-    code = load_or_compile(ModuleText(loops()), Kernels._fields)
+    code = load_or_compile(loops(), Kernels._fields)
     calls = (
         CFUNCTYPE(c_int64, *[c_void_p] * size)(code.addresses[name])
         for name, size in SIZES._asdict().items()

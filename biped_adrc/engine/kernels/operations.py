@@ -1,7 +1,7 @@
 """What the march does with a run in memory: the operations of `hybrid.on_arrays`, around the functions of a
 walker.
 
-A function is called by its address, with its inputs in `inp` in the order that `run_plan.Functions` has. An
+A function is called by its address, with its inputs in `inp` in the order that `record.Run` has. An
 output ends with the least pivot of the matrices inverted; where that is exactly zero, or below it for a
 torque beyond the bound, the run is noted as singular or run away and the output made NaN, even where a torque
 limit has made a finite number of it.
@@ -46,35 +46,11 @@ def rk4_sum(
 
 @inner
 def finite(x: Array, size: int) -> bool:
-    """Whether the sum of squares of x (size,) is finite, as for every state that means anything.
-
-    Four sums side by side, so that no addition waits for the one before it.
-    """
-    a = b = c = d = 0.0
-    for i in range(0, size - 3, 4):
-        a += x[i] * x[i]
-        b += x[i + 1] * x[i + 1]
-        c += x[i + 2] * x[i + 2]
-        d += x[i + 3] * x[i + 3]
-    for i in range(size - size % 4, size):
-        a += x[i] * x[i]
-    return a + b + c + d < math.inf
-
-
-@inner
-def regular(dx: Array, size: int) -> bool:
-    """Whether every number of dx (size,) is finite, however large; a slope may be huge where its
-    square overflows.
-    """
-    a = b = c = d = 0.0
-    for i in range(0, size - 3, 4):
-        a += 0.0 * dx[i]
-        b += 0.0 * dx[i + 1]
-        c += 0.0 * dx[i + 2]
-        d += 0.0 * dx[i + 3]
-    for i in range(size - size % 4, size):
-        a += 0.0 * dx[i]
-    return a + b + c + d == 0.0
+    """Whether every number of x (size,) is finite."""
+    good = True
+    for i in range(size):
+        good &= abs(x[i]) < math.inf
+    return good
 
 
 @inner

@@ -1,16 +1,19 @@
 """A run in memory, as the compiled march reads and writes it: one block of cells of 8 bytes.
 
 The first cells are the fields below, in this order. A vector is a pointer to its first number. The vectors of
-TABLES follow, then those of ROWS, each of the same length. The plan (`run_plan`) fills fields and tables; what
+TABLES follow, then those of ROWS, each of the same length. `compiled_run.plan` fills fields and tables; what
 changes during a run is behind the first comment below. Blocks of different runs share nothing.
 """
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 
 from biped_adrc.core.types import Array
+from biped_adrc.hybrid.constants import X_ROWS, Y_ROWS
 
 Ints = NDArray[np.int64]
 FOOT_STRIKE, HIP_TOO_LOW, FOOT_X = 0, 1, 3
@@ -24,17 +27,35 @@ OUTSIDE = 2
 
 
 class Run:
-    """Fields of a run. In compiled code r.name reads the cell, and writes it."""
+    """Fields of a run. In compiled code r.name reads the cell, and writes it.
+
+    The first are addresses of functions `void f(double* K, double* inp, double* out)`, 0 for none. K are the
+    parameters, inp and out the values named. pivot is the smallest |pivot| of the matrices that the controller
+    inverts, infinite without one; 0 means a singular matrix, and the run ends as SINGULAR. Below 0 it stands
+    for a torque beyond the walker's bound, and the run ends as RAN_AWAY. `to` and the three after it are for
+    the exponential method, ETD-RK4, in its coordinates y = (w, E):
+
+        w' = N_w,   E' = A E + N_E
+    """
 
     flow: int
-    """Addresses of the walker's functions, see `run_plan.Functions`; 0 for none."""
+    """(t, step, t_start, x, zeta) -> (dx/dt, pivot); in sampled time only q, q' and lagging motors flow."""
     tick: int
+    """(t, step, t_start, x, zeta, force) -> (x after the tick, pivot, q''), in sampled time. force (2,): from
+    outside on the robot as a whole [N]."""
     impact: int
+    """(t, step, x) -> (x+, pivot); step is that of the new single support."""
     events: int
+    """(t, t_start, drop, q) -> the event functions: clearance of the swing foot [m], height of the hip over its
+    limit [m], time left for the step [s]; then x of the swing foot [m]. An event is where one falls to zero."""
     to: int
+    """x -> y = (w, E): the slow states w (nw,), and the stiff ones E (k, p) row by row."""
     back: int
+    """y -> x."""
     remainder: int
+    """(t, step, t_start, y, zeta) -> (N_w, N_E, pivot), N_E (p,) in row 1 alone, the others being zero."""
     matvec: int
+    """E -> M E, with a matrix M (k, k) in the argument K."""
     look: int
     """Address of what columns of `table` hold; 0 for none."""
     n: int
@@ -142,54 +163,27 @@ class Run:
     table: Array
     """Columns (t, step, force from outside (2,), what `look` says) at each step and the end of each arc; at a
     break just after it, under a force from outside just before it too."""
-    inp: Array
-    """Inputs and outputs of a function; zeta and one part of it."""
-    out: Array
-    zeta: Array
-    one: Array
-    values: Array
-    """Event functions at the start of a step, at its end, and at a time tried in it."""
-    after: Array
-    tried: Array
-    x0: Array
-    """State and slope at both ends of a step; state of a stage, and slopes of RK4."""
-    dx0: Array
-    x1: Array
-    dx1: Array
-    stage: Array
-    k1: Array
-    k2: Array
-    k3: Array
-    k4: Array
-    x_e: Array
-    """State and slope at the event, and after sub-steps towards it."""
-    dx_e: Array
-    x_b: Array
-    dx_b: Array
-    x_first: Array
-    """State and event functions before the march."""
-    values_first: Array
-    y0: Array
-    """y and remainder at both ends of a step; at stages; e^(hA/2) E; of sub-steps, and of one that is tried."""
-    N0: Array
-    y1: Array
-    N1: Array
-    y_a: Array
-    y_b: Array
-    N_a: Array
-    N_b: Array
-    N_c: Array
-    e_half: Array
-    y_sub: Array
-    N_sub: Array
-    y_try: Array
+
+    if TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Array:
+            """One of ROWS."""
 
 
+FUNCTIONS = ("flow", "tick", "impact", "events", "to", "back", "remainder", "matvec")
+"""Addresses of the walker's functions."""
 TABLES = ("K", "drops", "switches", "fastest", "phi", "push", "parts")
 """Vectors of the plan."""
-KINDS: dict[str, str] = dict(Run.__annotations__)
+ROWS = (
+    *("inp", "out", "zeta", "one"),
+    *("values", "after", "tried", "x_first", "values_first"),
+    *(*X_ROWS, *Y_ROWS),
+)
+"""Work vectors: inputs and outputs of a function, zeta and one part of it; event functions at the start of a
+step, at its end, and at a time tried in it; state and event functions before the march; those of
+`hybrid.constants`.
+"""
+KINDS: dict[str, str] = {**Run.__annotations__, **dict.fromkeys(ROWS, "Array")}
 """int, float, Array or Ints, by the name of a field."""
 PLACES: dict[str, int] = {name: place for place, name in enumerate(KINDS)}
 """Cell of a field."""
-ROWS = tuple(name for name in KINDS if PLACES[name] >= PLACES["inp"])
-"""Work vectors."""

@@ -18,15 +18,15 @@ from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.core.errors import InputError, ModelError
 from biped_adrc.core.timing import SampledTime
-from biped_adrc.core.types import Array
+from biped_adrc.core.types import Array, Indices
 from biped_adrc.engine.equations import WalkerNumbers
-from biped_adrc.engine.mechanics import RobotData, RobotStructure, robot_of
 from biped_adrc.engine.program import controller_numbers
 from biped_adrc.engine.tick_derivative import tick_derivative
 from biped_adrc.hardware.motors import Motors
 from biped_adrc.hardware.sample_hold import HeldParts
 from biped_adrc.hardware.sensing import Sensor
 from biped_adrc.hardware.sensors import Sensors
+from biped_adrc.model.planar_robot import PlanarRobot, robot_of
 
 
 @dataclass(frozen=True)
@@ -55,8 +55,8 @@ class Computer:
         return self.walker.timing
 
     @cached_property
-    def robot(self) -> RobotData:
-        """The nominal model's data. Raises InputError for a model that is no planar tree of rigid links."""
+    def robot(self) -> PlanarRobot:
+        """The nominal model. Raises InputError for one that is no planar tree of rigid links."""
         try:
             return robot_of(self.walker.nominal)
         except ModelError as reason:
@@ -82,7 +82,7 @@ class Computer:
         """`differences` as the computer runs them; with detected touchdowns, wrapped for these (`Noticed`)."""
         if self.differences is None or self.walker.touchdown is None:
             return self.differences
-        return Noticed(self.differences, self.robot.structure)
+        return Noticed(self.differences, self.robot.R, self.robot.offset)
 
     @cached_property
     def alone(self) -> Walker:
@@ -139,14 +139,15 @@ class Noticed(Sensor):
     A detected touchdown comes with the measurement of that instant. The measurement is read in the old labels
     first, so that rates go on; these are relabelled, and the sample instant that follows at once reads nothing
     again. The state is that of `inner`, and 1 between touchdown and sample instant. Raises InputError for a
-    robot whose joint labels do not exchange in pairs.
+    robot, q+ = R q- + offset, whose joint labels do not exchange in pairs.
     """
 
     inner: Sensor
-    robot: RobotStructure
+    R: Indices
+    offset: Array
 
     def __post_init__(self) -> None:
-        R, offset = self.robot.R, self.robot.offset
+        R, offset = self.R, self.offset
         if np.any(np.eye(len(R)) != R @ R) or np.any(R @ offset + offset != 0.0):
             raise InputError(
                 "the labels of this robot's joints do not exchange in pairs at a touchdown, so what was "
@@ -168,8 +169,8 @@ class Noticed(Sensor):
         return np.concatenate((after, np.zeros(1)))
 
     def impact(self, w: Array, q: Array, v: Array, v_model: Array) -> Array:
-        R = self.robot.R
-        q_old, v_old = R @ q + self.robot.offset, R @ v
+        R = self.R
+        q_old, v_old = R @ q + self.offset, R @ v
         before = self.inner.sense(w[:-1], q_old, v_old)
         rates = self.inner.reading(before, q_old, v_old)[1]
         return np.concatenate((self.inner.impact(before, q, v, R @ rates), np.ones(1)))

@@ -25,12 +25,7 @@ from biped_adrc.closed_loop import semantics
 from biped_adrc.closed_loop.protocols import Mode
 from biped_adrc.core.timing import SAME_INSTANT
 from biped_adrc.core.types import Array
-from biped_adrc.engine.equations import (
-    Equations,
-    SymbolicFunction,
-    SymbolicInstant,
-    WalkerStructure,
-)
+from biped_adrc.engine.equations import Equations, SymbolicFunction, SymbolicInstant
 from biped_adrc.engine.ir import straight_line
 from biped_adrc.engine.symbols import Scalar, Vector, column, where
 from biped_adrc.engine.tracer import Tracer, run
@@ -54,16 +49,14 @@ class Inputs:
     @cached_property
     def equations(self) -> Equations:
         """Equations of the computer's parts, with a symbol for each of its numbers."""
-        held = self.computer.held.sizes
-        make = WalkerStructure(self.computer.robot.structure, self.size, held)
-        return Equations.of(make, self.computer.numbers)
+        return Equations.of(self.size, self.computer.numbers)
 
     @cached_property
     def at(self) -> SymbolicInstant:
         """The sample instant on symbols; its inputs are (t, last, step, start), then x = (q, v, x_c)."""
-        inp, trace = Vector("inp", HEAD + self.equations.make.nx), Tracer()
+        inp, trace = Vector("inp", HEAD + self.equations.nx), Tracer()
         t, _, mode = inp.take(), inp.take(), Mode(inp.take(), inp.take())
-        x = inp.take(self.equations.make.nx)
+        x = inp.take(self.equations.nx)
         return SymbolicInstant(inp, trace, self.equations.loop(trace), t, x, mode)
 
     @property

@@ -25,7 +25,7 @@ from biped_adrc.closed_loop.walker import Walker
 from biped_adrc.control.base import Measurement
 from biped_adrc.control.passive import Passive
 from biped_adrc.core.types import Array
-from biped_adrc.engine.kernels.run_plan import STATUS
+from biped_adrc.engine.kernels.compiled_run import STATUS
 from biped_adrc.extras.gym.task import ADDED, FALLEN_FROM, LearnerTask
 from biped_adrc.gait.reference import ReferencePoint
 from biped_adrc.hardware.sample_hold import motor_torque, read

@@ -27,8 +27,8 @@ from biped_adrc.disturbances.base import Sum
 from biped_adrc.disturbances.force import OnLink
 from biped_adrc.disturbances.waves import TorqueStep
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.kernels.record import PLACES, Ints
-from biped_adrc.engine.kernels.run_plan import STATUS, Functions
+from biped_adrc.engine.kernels.compiled_run import STATUS
+from biped_adrc.engine.kernels.record import FUNCTIONS, PLACES, Ints
 from biped_adrc.engine.symbols import NotCompiled, paths
 from biped_adrc.extras.play.sliders import Form, Slider, fitted, numbers_at, sliders
 from biped_adrc.extras.play.webassembly import WebWalker, web_walkers
@@ -118,7 +118,7 @@ class PageWalk:
     @cached_property
     def names(self) -> dict[str, int]:
         """Name of each of the walker's numbers -> its index in the block."""
-        first = self.code.plan.places["K"]
+        first = self.code.plan.place("K")
         return {name: first + k for k, name in enumerate(paths(self.code.program.numbers))}
 
     @cached_property
@@ -145,7 +145,7 @@ class PageWalk:
     def _block(self, code: CompiledWalker) -> Array:
         """The block at the start of a compiled walker as floats, without addresses."""
         result = code.plan.start(self.x, 0.0, *self.mode, 0.0).block.view(np.float64).copy()
-        for name in Functions._fields:
+        for name in FUNCTIONS:
             result[PLACES[name]] = 0.0  # addresses
         return np.nan_to_num(result)  # whole numbers that are no floats
 
@@ -163,7 +163,7 @@ class PageWalk:
         rubbing = {
             name: (0.0, float(self.numbers[k]), 1)
             for name, k in self.names.items()
-            if name.startswith("friction[") and self.numbers[k] != 0.0
+            if name.startswith("plant.friction[") and self.numbers[k] != 0.0
         }
         if rubbing:
             s = self.scenario
@@ -228,7 +228,7 @@ def numbers(walks: Mapping[str, list[PageWalk]]) -> dict[str, Any]:
     """
     structures = [one for result in walks.values() for one in result]
     first = structures[0]
-    web = web_walkers([one.code for one in structures], first.scene.walked.constraint)
+    web = web_walkers([one.code for one in structures])
     blocks = dict(zip(map(id, structures), web.walkers, strict=True))
     plant = first.walker.plant
     feet = plant.description.stance_foot, plant.description.swing_foot
@@ -368,7 +368,7 @@ def joint_places(plant: Biped) -> list[int]:
 
 
 def signal_places(walk: PageWalk) -> dict[str, tuple[int, int]]:
-    """Name of each signal -> where it begins and ends in the result of `observe`."""
+    """Name of each signal -> where it begins and ends in the result of `WebWalker.observe`."""
     h = walk.scene.walked.constraint
     result = signals_at(walk.walker, 0.0, walk.x, walk.mode, lambda s, m: h(m.t, m.q, m.v))
     ends = np.cumsum([np.size(part) for part in result]).tolist()

@@ -13,32 +13,27 @@ number in `WebWalkers.functions`, from 1 on. Walkers of the same structure share
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
-from functools import partial
+from collections.abc import Mapping, Sequence
 from itertools import chain
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from llvmlite import binding
 
+from biped_adrc.closed_loop.instant_signals import signals_at
 from biped_adrc.core.errors import InputError
-from biped_adrc.engine.compiled_push import term_text
-from biped_adrc.engine.compiled_signals import SignalNumbers, observe
+from biped_adrc.engine.compiled_push import term_code
 from biped_adrc.engine.compiled_walker import CompiledWalker
-from biped_adrc.engine.ir import module_text, text_by
+from biped_adrc.engine.kernels.compiled_run import CompiledRun
 from biped_adrc.engine.kernels.load import loops
-from biped_adrc.engine.kernels.record import PART, PLACES
-from biped_adrc.engine.kernels.run_plan import Functions, RunPlan
-from biped_adrc.engine.machine import keep, key_of, stored
-from biped_adrc.engine.structure import structure
-from biped_adrc.gait.reference import Reference
+from biped_adrc.engine.kernels.record import FUNCTIONS, PART, PLACES
+from biped_adrc.engine.machine import LoadedCode, keep, key_of, stored
 
 
 class WebWalker(NamedTuple):
     """The numbers of one walker."""
 
-    plan: RunPlan
+    plan: CompiledRun
     """The plan of its run, with numbers of functions in place of addresses."""
     observe: int
     """Number of the function that computes its signals (`closed_loop.instant_signals`)."""
@@ -54,13 +49,13 @@ class WebWalkers(NamedTuple):
     walkers: tuple[WebWalker, ...]
 
 
-def web_walkers(walkers: Sequence[CompiledWalker], reference: Reference) -> WebWalkers:
-    """Make one module for walkers on one gait; reference: of that gait, for their signals.
+def web_walkers(walkers: Sequence[CompiledWalker]) -> WebWalkers:
+    """Make one module for walkers on one gait, each made with the reference to which its signals refer.
 
     Raises InputError for the exponential method, whose product with matrices has another form.
     """
-    laws = _Laws({}, {}, [*LOOPS])
-    modules = [_walker(one, reference, laws) for one in walkers]
+    laws = _Laws({}, [*LOOPS])
+    modules = [_walker(one, laws) for one in walkers]
     code = web_module(laws.texts, laws.functions)
     return WebWalkers(code, tuple(laws.functions), tuple(modules))
 
@@ -70,19 +65,15 @@ class _Laws(NamedTuple):
 
     texts: dict[str, str]
     """Name -> text of functions of walkers in LLVM's language."""
-    names: dict[int, str]
-    """Address of a function in this process -> that name; minus the address for the functions of its
-    signals.
-    """
     functions: list[str]
     """Names of the functions that are called by their number."""
 
-    def of(self, address: int, text: Callable[[], str]) -> str:
-        """Name of the text with the function at this address; the text is made at the first call."""
-        if address not in self.names:
-            self.names[address] = f"laws{len(self.names)}"
-            self.texts[self.names[address]] = text()
-        return self.names[address]
+    def of(self, code: LoadedCode) -> str:
+        """Name of the text of these functions; a new one at the first call."""
+        names = {text: name for name, text in self.texts.items()}
+        name = names.get(code.text, f"laws{len(names)}")
+        self.texts[name] = code.text
+        return name
 
     def number(self, name: str) -> int:
         """Number of a function, from 1; a new one at the first call."""
@@ -91,33 +82,26 @@ class _Laws(NamedTuple):
         return 1 + self.functions.index(name)
 
 
-def _walker(one: CompiledWalker, reference: Reference, laws: _Laws) -> WebWalker:
+def _walker(one: CompiledWalker, laws: _Laws) -> WebWalker:
     """Numbers of one walker, whose functions are added to `laws`. Raises InputError
     for the exponential method.
     """
     program = one.program
     if program.numbers.split is not None:
         raise InputError("an offline page takes the steps of RK4; leave out the exponential method")
-    signals = SignalNumbers(program.numbers, reference)
-
-    own = laws.of(program.address("flow"), program.text)
-    key = "observe", program.key, structure(reference)
-    read = partial(observe, program.make, signals)
-    seen = laws.of(
-        -program.address("flow"), lambda: text_by(key, lambda: module_text({"observe": read()}))
-    )
-    cells = one.plan.cells.copy()
-    for name in Functions._fields:
+    own = laws.of(program.machine)
+    seen = laws.of(program.reading(signals_at))
+    cells = one.plan.block
+    for name in FUNCTIONS:
         at = PLACES[name]
         cells[at] = laws.number(f"{own}.{name}") if cells[at] else 0
     terms = one.walker.disturbance.terms if one.walker.disturbance else ()
     for k, term in enumerate(terms):
-        part = cells[one.plan.places["parts"] + PART * k :][:PART]
-        n, key = one.walker.plant.n, ("term", one.walker.plant.n, structure(term))
-        push = laws.of(int(part[0]), partial(text_by, key, partial(term_text, term, n)))
+        part = cells[one.plan.place("parts") + PART * k :][:PART]
+        push = laws.of(term_code(term, one.walker.plant.n))
         part[0] = laws.number(f"{push}.torque")
         part[2] = laws.number(f"{push}.resultant") if part[2] else 0
-    return WebWalker(replace(one.plan, cells=cells), laws.number(f"{seen}.observe"))
+    return WebWalker(CompiledRun(cells, one.plan.pointers), laws.number(f"{seen}.reading"))
 
 
 TARGET = "wasm32-unknown-unknown"

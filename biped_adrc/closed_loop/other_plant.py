@@ -1,0 +1,156 @@
+"""A walker's walk on a plant that moves by itself: its controller, sensors, motors and pushes, another ground.
+
+    walker -> SteppingLoop -> Trajectory with states (q, q', s, held), as the rigid plant's
+
+What the plant keeps for itself is taken out of the states, so that whatever reads a walk reads this one. At the
+nodes is recorded, since it cannot be computed again: forces of the ground, places and velocities of both feet,
+where the plant has feet (`closed_loop.feet`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import fields, is_dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.closed_loop.feet import with_readings
+from biped_adrc.closed_loop.protocols import (
+    LaggingPlant,
+    OnFeet,
+    SteppingPlant,
+    UnevenPlant,
+    lag_of,
+)
+from biped_adrc.closed_loop.stepping import SteppingLoop
+from biped_adrc.closed_loop.walker import FOOT_STRIKE, Mode, Walker
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.timing import SampledTime
+from biped_adrc.core.types import Array
+from biped_adrc.hybrid.simulator import Progress, RunOptions
+from biped_adrc.hybrid.trajectory import Arc, Event, Trajectory
+from biped_adrc.model.biped import Biped
+
+
+def stepping_loop(
+    walker: Walker,
+    plant: SteppingPlant,
+    first_step: int = 1,
+    kind: type[SteppingLoop] = SteppingLoop,
+) -> SteppingLoop:
+    """All of a walker but its plant, around another one.
+
+    A lag of its motors and steps of its ground become the plant's, a rate limit stays where it is. first_step:
+    number of the first single support, by which steps of the ground are counted. Raises InputError for a
+    walker in continuous time, and for what only the rigid plant has: errors of the impact map.
+    """
+    if len(walker.gain) > 0:
+        raise InputError(
+            f"the walker has an error of the impact map, and {type(plant).__name__} takes none; leave that "
+            "out, or walk on the rigid plant"
+        )
+    if not isinstance(walker.timing, SampledTime):
+        raise InputError(
+            f"{type(plant).__name__} is controlled at ticks, and this walker acts at every instant; give a "
+            "period, as timing=SampledTime(1e-3), or period = 0.001 in a scenario"
+        )
+    motors = None if walker.motors is None else replace(walker.motors, lag=0.0)
+    return kind(
+        _fitted(plant, walker, first_step),
+        walker.controller,
+        walker.disturbance,
+        walker.timing,
+        walker.nominal,
+        walker.torque_limit,
+        walker.sensors,
+        motors,
+        walker.touchdown,
+        walker.runaway_speed,
+        walker.runaway_torque,
+    )
+
+
+def _fitted(plant: SteppingPlant, walker: Walker, first_step: int) -> SteppingPlant:
+    """The plant with the lag of the walker's motors, and on the steps of its ground.
+
+    Raises InputError for a plant that takes none, or that has others.
+    """
+    name, steps = type(plant).__name__, walker.ground_steps
+    lag = 0.0 if walker.motors is None else walker.motors.lag
+    own = {"lag": lag_of(plant), "steps": getattr(plant, "ground_steps", ())}
+    for what, kind, other in (("lag", LaggingPlant, lag), ("steps", UnevenPlant, steps)):
+        if own[what] != other and (own[what] or not isinstance(plant, kind)):
+            raise InputError(
+                f"{name} has {what} {own[what]} and the walker {other}; give motors with lag and steps of the "
+                "ground to the walker alone, and to a plant that takes them"
+            )
+    if lag and isinstance(plant, LaggingPlant):
+        plant = plant.lagging(lag)
+    return plant.on_steps(steps, first_step) if steps and isinstance(plant, UnevenPlant) else plant
+
+
+def walk_on(
+    loop: SteppingLoop,
+    walker: Walker,
+    start: tuple[Array, Array],
+    mode: Mode,
+    impacts: int,
+    progress: Progress | None = None,
+) -> Trajectory:
+    """Simulates a loop of `stepping_loop` from (q, v), each (n,) [rad, rad/s], until `impacts` impacts.
+
+    The states of the result have the walker's layout, (q, q', s, held). Raises InputError where (q, v) cannot
+    be a start.
+    """
+    assert isinstance(loop.timing, SampledTime)
+    x0 = loop.initial_state(*start, mode)
+    longest = walker.max_step_time + loop.timing.period  # what takes too long is seen at a tick
+    options = RunOptions(
+        mode.start + impacts * longest,
+        mode.start,
+        stop_after=(FOOT_STRIKE, impacts),
+        progress=progress,
+    )
+    return as_walked(loop, loop.run(x0, options, mode))
+
+
+def as_walked(loop: SteppingLoop, run: Trajectory) -> Trajectory:
+    """Converts a run of `loop` to the layout of a walker's states, (q, q', s, held).
+
+    The plant's own numbers are removed, but for the torque of lagging motors, which moves to where a walker has
+    it. Of a plant with feet, forces [N], places [m] and velocities [m/s] of both feet are recorded besides.
+    """
+    if isinstance(loop.plant, OnFeet):
+        run = with_readings(loop, run)
+    arcs = tuple(_as_rigid(loop, arc) for arc in run.arcs)
+    return replace(run, arcs=arcs, settings={**run.settings, "plant": _values(loop.plant)})
+
+
+def _as_rigid(loop: SteppingLoop, arc: Arc) -> Arc:
+    """An arc with states as the rigid plant's walker has them, and with the place of the stance foot."""
+    size, p, k = loop.controller_size(arc.x[0]) + 2 * loop.plant.n, loop.plant.p, loop.held
+    assert k is not None
+    mine, line = slice(size, size + k.sizes.own), -p * (k.sizes.waiting + 1)
+
+    def without(x: Array) -> Array:
+        """The plant's own out, and u_m where the rigid plant's walker has it."""
+        u_m = loop.motor_torque(x)[..., : p if lag_of(loop.plant) > 0.0 else 0]
+        return np.concatenate(
+            (np.delete(x[..., :line], mine, axis=-1), u_m, x[..., line:]), axis=-1
+        )
+
+    event = arc.event
+    if event is not None:
+        after = None if event.x_plus is None else without(event.x_plus)
+        event = Event(event.guard, event.t, without(event.x_minus), after)
+    return replace(arc, x=without(arc.x), dx=without(arc.dx), event=event)
+
+
+def _values(thing: Any) -> Any:
+    """A plant as plain values for the record of a run: its class and what it was made with."""
+    if isinstance(thing, tuple):
+        return tuple(map(_values, thing))
+    if not is_dataclass(thing) or isinstance(thing, Biped):
+        return thing if isinstance(thing, int | float | str) else type(thing).__name__
+    values = {f.name: _values(getattr(thing, f.name)) for f in fields(thing) if f.init}
+    return {"class": type(thing).__name__, **values}

@@ -1,0 +1,158 @@
+"""A compiled run in memory: its block of cells by name, and what the codes that it ends with mean.
+
+`engine.compiled_walker` gives addresses, tables and fields by name; `plan` lays them out as `record` says. A
+plan is a run that has not begun. It serves any number of runs, in any thread: each starts in a copy of the
+block.
+
+In all records t is the time [s], `step` the number of the single support, t_start [s] when that began, x (nx,)
+the state (q, q', and the states of the other parts), and zeta (n,) [N m] the disturbance. An arc is the flow
+between two impacts, a tick a sample instant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from biped_adrc.core.errors import InputError
+from biped_adrc.core.types import Array
+from biped_adrc.engine.kernels.load import kernels
+from biped_adrc.engine.kernels.record import KINDS, OUTSIDE, PART, PLACES, ROWS, TABLES, Ints
+from biped_adrc.hybrid.constants import FULL, STRUCK
+from biped_adrc.hybrid.status import Status
+
+STATUS: tuple[Status, ...] = tuple(Status)[:STRUCK]
+"""The status for each code of `hybrid.constants`; STRUCK and FULL have none."""
+LEAST_PERIOD = 1e-9
+"""Shortest sampling period [s]; with shorter ones ticks could not be counted exactly in floats."""
+NO_ROWS = np.zeros((0, 0))
+
+
+class CompiledRun:
+    """One run, by name: run["t"], run["x0"]. Runs at the same time must not share it."""
+
+    def __init__(self, block: Ints, pointers: Ints):
+        """block: becomes its memory; pointers: which of its cells point into it, from its start [bytes]."""
+        self.cells, self.pointers = block, pointers
+        self.address = int(self.cells.ctypes.data)
+        self.cells[pointers] += self.address
+        self.numbers = self.cells.view(np.float64)
+        self.nx = int(self["nx"])
+        at = self.place("x0")
+        self.x = self.numbers[at : at + self.nx]
+        """State (nx,), as a view."""
+        self.nodes = self.table = NO_ROWS
+
+    @property
+    def block(self) -> Ints:
+        """The cells, pointers as distances from its start [bytes] again."""
+        block = self.cells.copy()
+        block[self.pointers] -= self.address
+        return block
+
+    def place(self, name: str) -> int:
+        """Cell of the first number of a vector."""
+        return (int(self.cells[PLACES[name]]) - self.address) // 8
+
+    def term(self, k: int) -> int:
+        """Cell at which the numbers of term k of the disturbance begin."""
+        return (int(self.cells[self.place("parts") + PART * k + 1]) - self.address) // 8
+
+    def __getitem__(self, name: str) -> float:
+        """A number, or the address of a vector."""
+        where: Any = self.numbers if KINDS[name] == "float" else self.cells
+        return where[PLACES[name]].item()
+
+    def __setitem__(self, name: str, value: float) -> None:
+        """A number, or the address of a vector outside the block."""
+        where = self.numbers if KINDS[name] == "float" else self.cells
+        where[PLACES[name]] = value
+
+    def copy(self) -> CompiledRun:
+        """The same run in memory of its own, with its nodes and table."""
+        run = CompiledRun(self.block, self.pointers)
+        if self.nodes.size or self.table.size:
+            run.keep(self.nodes.copy(), self.table.copy())
+        return run
+
+    def start(self, x: Array, t: float, step: int, t_start: float, t_end: float) -> CompiledRun:
+        """A run of this plan from x (nx,) at t [s] to t_end [s] at the latest, in the single support `step`
+        from t_start on.
+
+        Raises InputError for a state that is not finite or has another shape.
+        """
+        x = np.asarray(x, dtype=float)
+        if x.shape != (self.nx,) or not np.all(np.isfinite(x)):
+            raise InputError(f"the initial state is {x}, expected {self.nx} finite numbers")
+        run = CompiledRun(self.block, self.pointers)
+        run["t"] = run["t_arc"] = t
+        run["step"], run["t_start"], run["t_end"], run["fired"] = step, t_start, t_end, -1
+        run.x[:] = x
+        return run
+
+    def keep(self, nodes: Array = NO_ROWS, table: Array = NO_ROWS) -> None:
+        """Room for nodes (N, 1 + 2 nx), rows (t, x, x'), and for columns of `table` (height, M)."""
+        self.nodes, self.table = nodes, table
+        self["nodes"], self["room"] = nodes.ctypes.data, len(nodes)
+        self["table"] = table.ctypes.data
+        self["height"], self["most_columns"] = table.shape
+
+    def stride(self, impacts: int) -> tuple[Status, Array]:
+        """Over so many impacts, or until t_end (TIME_OUT): how it ends, and a row (t, x-, x+) of each impact.
+
+        Where there is no room for nodes or columns, it is made twice as large.
+        """
+        strikes, count = np.zeros((impacts, 1 + 2 * self.nx)), 0
+        while True:
+            step, at = self["step"], strikes[count:].ctypes.data
+            code = kernels().stride(self.address, impacts - count, at)
+            count += int(self["step"] - step)
+            if code != FULL:
+                return STATUS[code], strikes[:count]
+            double = np.empty_like
+            self.keep(
+                np.vstack((self.nodes, double(self.nodes))),
+                np.hstack((self.table, double(self.table))),
+            )
+
+
+def table_height(p: int) -> int:
+    """Numbers in a column of `table` with a `StepReading` of p joints behind the first four."""
+    return 4 + 3 * p + 4
+
+
+def plan(tables: Mapping[str, Array], parts: Ints, fields: Mapping[str, float]) -> CompiledRun:
+    """Lay out a run: tables and fields by their names in `record.Run`; those left out are empty and 0.
+
+    parts: as `record.Run.parts`, the numbers' addresses as their places in the table `push`. Raises InputError
+    for a period too short.
+    """
+    values = {"moving": fields["nx"], "guards": 3, **fields}
+    if 0.0 < values.get("period", 0.0) < LEAST_PERIOD:
+        raise InputError(
+            f"the sampling period is {values['period']} s, expected at least {LEAST_PERIOD:g} s"
+        )
+    n, nx, p, k = (int(values.get(name, 0)) for name in ("n", "nx", "p", "k"))
+    slow, none, parts = int(values.get("n_slow", 0)), np.zeros(0), parts.copy()
+    values |= {"ny": slow + k * p, "nN": slow + p, "levels": len(tables.get("phi", none))}
+    values |= {f"n_{name}": len(tables.get(name, none)) for name in ("drops", "switches")}
+    values |= {"n_parts": len(parts), "pulled": int(np.any(parts[:, 2]))}
+    floats = (tables.get(name, none) for name in TABLES[:-1])
+    blocks = [np.ascontiguousarray(x, dtype=float).ravel().view(np.int64) for x in floats]
+    width = 3 + max(nx, values["ny"]) + max(n, 2) + OUTSIDE
+    lengths = [*map(len, blocks), parts.size, *(width for _ in ROWS)]
+    starts = np.cumsum([len(KINDS), *lengths])
+    places = dict(zip((*TABLES, *ROWS), starts[:-1].tolist(), strict=True))
+    parts[:, 1] = 8 * (places["push"] + parts[:, 1])
+    cells = np.zeros(starts[-1], dtype=np.int64)
+    filled = np.concatenate([*blocks, parts.ravel()])
+    cells[len(KINDS) : len(KINDS) + len(filled)] = filled
+    for name, value in values.items():
+        cells.view(np.float64 if KINDS[name] == "float" else np.int64)[PLACES[name]] = value
+    for name, start in places.items():
+        cells[PLACES[name]] = 8 * start
+    numbers = np.arange(len(parts)) * PART + 1 + places["parts"]
+    pointers = np.concatenate(([PLACES[name] for name in places], numbers)).astype(np.int64)
+    return CompiledRun(cells, pointers)
