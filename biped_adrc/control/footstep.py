@@ -44,6 +44,8 @@ from biped_adrc.model.ground import length_of
 
 SETTLED = 0.9
 """Share of a step, in Theta, from which its member is the last one."""
+EARLY = 0.2
+"""Share of a step up to which a run may start and still have a step of its own."""
 SLOWEST, FASTEST = 0.5, 1.1
 """Of the speeds between whose cycles y at the next decision is kept: the first and the last [m/s]."""
 
@@ -194,7 +196,12 @@ class Footstep(OuterLoop):
         return np.concatenate((own, reset.ravel()))
 
     def own_start(self, h: Constraint, m: Measurement) -> Array:
-        return self.begun(self.speed, self.step, self.step, 0.0, m)
+        """w (own_size,) at the start of a run; one that starts later than EARLY goes on along the member."""
+        w = self.begun(self.speed, self.step, self.step, 0.0, m)
+        _, plus, minus = self.family.curve(np.array((self.speed, w[2])))
+        early = (w[6] - plus) / (minus - plus) < EARLY
+        on_member = np.concatenate((w[:6], np.array((plus,)), np.zeros(len(w) - 7)))
+        return np.where(early, w, on_member)
 
     def own_jump(self, w: Array, h: Constraint, after: Measurement) -> Array:
         return self.begun(w[1], w[3], w[2], w[5], after)

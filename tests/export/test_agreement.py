@@ -14,7 +14,8 @@ walks differ by at most 3e-11. Another processor may round otherwise.
 
 from dataclasses import replace
 from functools import cache
-from itertools import cycle
+from itertools import cycle, groupby
+from operator import itemgetter
 
 import numpy as np
 import pytest
@@ -70,7 +71,8 @@ def first_things():
 
 def cases():
     """Every thing with one kind of hardware in turn, and ADRC with all."""
-    each = [(*thing, hardware) for thing, hardware in zip(first_things(), cycle(HARDWARE))]
+    things = groupby(first_things(), key=itemgetter(0))
+    each = [(*thing, x) for _, some in things for thing, x in zip(some, cycle(HARDWARE))]
     adrc = ("controller", "ADRC", made("controller", "ADRC")[0])
     each += [(*adrc, x) for x in HARDWARE if (*adrc[:2], x) not in {(*c[:2], c[3]) for c in each}]
     return [pytest.param(*case, id="-".join((*case[:2], case[3]))) for case in each]
