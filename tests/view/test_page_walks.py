@@ -32,7 +32,10 @@ WALKS: dict[str, dict[str, Any]] = {
     "DOB": {"controller": "DOB", "hardware.touchdown": "kinematics"},
     "stride PI": {"controller": {"name": "stride PI", "inner": "NPD"}, "hardware.delay": 2e-3},
     "footstep": {"controller": {"name": "footstep", "inner": "NPD"}, "ground.stones": [0.4, 0.3]},
-    "foot barrier": {"controller": {"name": "foot barrier", "inner": "NPD"}, "ground.stones": [0.4]},
+    "foot barrier": {
+        "controller": {"name": "foot barrier", "inner": "NPD"},
+        "ground.stones": [0.4],
+    },
     "reference reset": {"controller": {"name": "reference reset", "inner": "NPD"}}
     | {"hardware.sensor": {"name": "pitch sensor", "bias": 1e-3}},
     "encoders, prediction": {**SLOW, **ENCODERS, "controller.prediction": 1e-3}
