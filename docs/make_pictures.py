@@ -46,7 +46,7 @@ FOOTSTEPS: dict[str, tuple[dict[str, Any], dict[str, Any], Clip]] = {
     ),
     "stones": (
         {"gait": "v0.6", "ground.stone_range": (0.2, 0.6), "run.seed": 8},
-        {"footstep": {**FOOTSTEP, "speed": 0.55, "step": 0.4}},
+        {"footstep": {**FOOTSTEP, "speed": 0.5, "step": 0.4}},
         Clip(start=0.5, stop=6.0, fps=12.0),
     ),
 }
