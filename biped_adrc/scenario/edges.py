@@ -45,6 +45,16 @@ def edge_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
     return tuple(dict.fromkeys(result))
 
 
+def course_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
+    """A sentence where a walk goes on behind its last stone."""
+    count = 0 if walker.stones is None else len(walker.stones.lengths)
+    if not 0 < count < trajectory.arcs[-1].mode.step:
+        return ()
+    return (
+        f"the course has {count} stones: from single support {count + 1} on the ground is whole",
+    )
+
+
 def _acted(part: Disturbance, trajectory: Trajectory, n: int) -> bool:
     """Whether a disturbance was other than zero at some node of the walk, of n coordinates."""
     return any(

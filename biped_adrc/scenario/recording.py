@@ -46,7 +46,7 @@ from biped_adrc.gait.reference import TimeReference
 from biped_adrc.hybrid.trajectory import Trajectory
 from biped_adrc.model.ground import ground_axes
 from biped_adrc.model.robots.limits import Limits
-from biped_adrc.scenario.edges import edge_remarks, step_remarks
+from biped_adrc.scenario.edges import course_remarks, edge_remarks, step_remarks
 
 if TYPE_CHECKING:
     import pandas
@@ -279,7 +279,7 @@ class Walk(Shown):
         if self.recorded is not None:
             return self.stored_remarks
         made = self.walker, self.trajectory
-        return (*edge_remarks(*made), *step_remarks(*made))
+        return (*edge_remarks(*made), *step_remarks(*made), *course_remarks(*made))
 
     @property
     def controller_name(self) -> str:

@@ -151,6 +151,9 @@ def test_a_foot_off_its_stone_is_not_feasible(robot, slow):
     walk = ba.walk(npd, slow, impacts=3)
     assert walk.feasibility.reasons["stones"].startswith("step 1: the foot lands 36 mm beyond")
     assert set(walk.feasibility.reasons) == {"stones"}
+    assert walk.remarks == (
+        "the course has 2 stones: from single support 3 on the ground is whole",
+    )
 
 
 @pytest.mark.parametrize(

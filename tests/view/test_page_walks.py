@@ -31,7 +31,8 @@ WALKS: dict[str, dict[str, Any]] = {
     "ADRC assisted": {"controller": "ADRC assisted", "hardware.touchdown": "force"},
     "DOB": {"controller": "DOB", "hardware.touchdown": "kinematics"},
     "stride PI": {"controller": {"name": "stride PI", "inner": "NPD"}, "hardware.delay": 2e-3},
-    "footstep": {"controller": {"name": "footstep", "inner": "NPD"}, "ground.stones": [0.4, 0.3]},
+    "footstep": {"controller": {"name": "footstep", "inner": "NPD"}, "ground.stones": [0.4, 0.3]}
+    | {"ground.step_height": 0.01},
     "foot barrier": {
         "controller": {"name": "foot barrier", "inner": "NPD"},
         "ground.stones": [0.4],

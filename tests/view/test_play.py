@@ -464,7 +464,7 @@ def test_a_module_begins_as_webassembly_does() -> None:
         (
             ba.Scenario("ADRC", hardware="ideal", pushes=[{"shape": "step"}]),
             {},
-            "push or ground steps of its own",
+            "push of its own",
         ),
         (ba.Scenario("ADRC", hardware="ideal", run={"fine": 1e-4}), {}, "fine"),
         (ba.Scenario("passive", robot="compass", hardware="ideal"), {}, "motors"),

@@ -92,10 +92,8 @@ class PageWalk:
                 f"the walk '{name}' is controlled at every instant, and that of a page at sample instants; "
                 "give a period, as hardware = 'ideal' or hardware.period = '1 ms'"
             )
-        if walker.disturbance is not None or walker.ground_steps:
-            raise InputError(
-                f"the walk '{name}' has a push or ground steps of its own; leave them out"
-            )
+        if walker.disturbance is not None:
+            raise InputError(f"the walk '{name}' has a push of its own; leave it out")
         x = walker.initial_state(*start(s, scene), Mode(s.run.first_step))
         try:
             code = compiled(s, scene, with_hand(walker), x)
