@@ -178,7 +178,8 @@ class PythonTicks:
         """An impact: reads (t, step, x) at `inputs`, writes (x+, 1) at `outputs`; K is not used.
 
         Both are addresses of numbers (double), one after the other. Read: t [s], the number of the single
-        support that begins, x (nx,) before the impact. Written: x+ (nx,) after it, and 1, as in `_tick`.
+        support that begins, x (nx,) before the impact. Written: x+ (nx,) after it, and 1
+        where compiled code writes its least pivot: no matrix is singular.
         """
         inp, out = _numbers_at(inputs, 2 + self.nx), _numbers_at(outputs, self.nx + 1)
 

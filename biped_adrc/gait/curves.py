@@ -113,7 +113,7 @@ class Curve(Shown, ABC):
     def piece(self, s: float) -> Array:
         """Coefficients (3 p, K) [rad] of the piece at s, for p joints: p rows of h, p of dh/ds, p of d2h/ds2.
 
-        Column k, from 0, belongs to s^k. At a break they are those of the later piece.
+        A row has the K coefficients of s^0 .. s^(K-1). At a break they are those of the later piece.
         """
         a = self.stacked[0]
         for j in range(len(self.breaks)):

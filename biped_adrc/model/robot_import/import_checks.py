@@ -18,10 +18,10 @@ laws hold for every planar biped, so they need no reference values. They are che
     T             kinetic energy [J]
     Theta         phase of the gait [rad], c q with the row c of `Biped.phase`
 
-So are the places of hip and swing foot, and at an impact the angular momentum of the old leg about its joints
-and the linear momentum. That D_s is well conditioned and that the legs are alike is checked for every robot,
-by `Biped.check`. `import_robot.derive` runs these laws; `biped_from_urdf` refuses a robot for which one is
-broken. The reproduction of the paper holds its robot against them too.
+Also checked are the places of hip and swing foot, and at an impact the angular momentum of the old leg about
+its joints and the linear momentum. That D_s is well conditioned and that the legs are alike is checked for
+every robot, by `Biped.check`. `import_robot.derive` runs these laws; `biped_from_urdf` refuses a robot
+for which one is broken. The reproduction of the paper holds its robot against them too.
 """
 
 from __future__ import annotations
