@@ -190,10 +190,13 @@ class ReturnMap(Shown):
         return np.array([(images[2 * i] - images[2 * i + 1]) / (2.0 * d) for i in range(len(s))]).T
 
     def fixed_point(self, guess: Array, tolerance: float = 1e-9) -> PeriodicOrbit:
-        """Find P(s) = s by Newton's method from a state before impact `guess` (2 n + c,) [rad, rad/s].
+        """Find P(s) = s by Newton's method from a state before impact `guess` (2 n + c,).
 
-        tolerance: of |P(s) - s| [rad, rad/s]. dP/ds is kept from iteration to iteration while the residual
-        falls fast enough, since it costs 2 returns per coordinate; it is computed anew at the fixed point.
+        guess: q (n,) [rad], q' (n,) [rad/s], then the c other numbers of the walker's state, those of the
+        controller and of what is held between sample instants, in their own units. tolerance: of the largest
+        |P(s) - s| of all section coordinates, each in its own unit. dP/ds is kept from iteration to iteration
+        while this residual falls fast enough, since it costs 2 returns per coordinate; it is computed anew at
+        the fixed point.
         Raises SimulationError when the iteration does not converge or the walker does not come back,
         SingularError when a multiplier is 1.
         """

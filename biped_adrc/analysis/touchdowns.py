@@ -56,8 +56,10 @@ class Noticed(Shown):
 
     @property
     def rates(self) -> TouchdownRates:
-        """Delays, shares and the number of false detections, without a touchdown whose
-        detection was still to come.
+        """Mean and largest delay from a touchdown to its detection [s], of detections that were not early; the
+        shares of touchdowns that were detected early or missed [1]; and the number of false detections.
+
+        A last touchdown whose detection was still to come is left out of delays and shares.
         """
         decided = self.late[: len(self.late) - self.waits]
         late = decided[decided >= 0.0]

@@ -5,8 +5,13 @@ are `closed_loop.system.ClosedLoop` on arrays of NumPy and `engine.equations.Sym
 
 A plant that moves by itself, for instance MuJoCo or Drake behind a class of the user's, is a `SteppingPlant`:
 
-    row = (q, q', own)                          the whole state, own what else the plant needs to go on
+    row = (q, q', own)                          the whole state (2 n + k,) [rad, rad/s, its own units]
     advance(t, row, u, load, until) -> Moved
+
+own are k numbers that the plant needs besides (q, q') to continue from this state, such as the torques of
+motors with a lag. `advance` moves the plant from the row at t [s] to the time `until` [s], or to the next
+contact if that is earlier. The torque u (p,) [N m] and what acts from outside, a `Load` [N m, N] or None, are
+constant over this time. `Moved` has the time [s] that was reached, the row there, and the contacts, if any.
 
 `closed_loop.stepping.SteppingLoop` drives it. What breaks this contract is an InputError that names the plant's
 class, what was found and what was expected. Values that are not finite pass: the loop ends the run with

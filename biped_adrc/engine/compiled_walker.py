@@ -154,7 +154,13 @@ class PythonTicks:
         return {k: ctypes.cast(f, ctypes.c_void_p).value or 0 for k, f in self.functions.items()}
 
     def _tick(self, K: int, inputs: int, outputs: int) -> None:
-        """(t, step, t_start, x, zeta, force) -> (x after the sample instant, 1, q'')."""
+        """A sample instant: reads (t, step, t_start, x, ..) at `inputs`, writes (x, 1, q'') at `outputs`.
+
+        Both are addresses of numbers (double), one after the other. Read: t [s], the number of the single
+        support, its start [s], x (nx,), zeta (n,) [N m]. Written: x (nx,) after the sample instant, 1, and q''
+        (n,) [rad/s^2] under the new torque. The 1 stands where compiled code writes its least pivot, and says
+        that no matrix is singular. K: address of the parameters of the walker's flow.
+        """
         n, nx = self.n, self.nx
         inp, out = _numbers_at(inputs, 3 + nx + n), _numbers_at(outputs, nx + 1 + n)
 
@@ -169,7 +175,12 @@ class PythonTicks:
         self._keep(ticked, inputs, out)
 
     def _impact(self, K: int, inputs: int, outputs: int) -> None:
-        """(t, step, x) -> (x+, 1)."""
+        """An impact: reads (t, step, x) at `inputs`, writes (x+, 1) at `outputs`; K is not used.
+
+        Both are addresses of numbers (double), one after the other. Read: t [s], the number of the single
+        support that begins, x (nx,) before the impact. Written: x+ (nx,) after it, and 1
+        where compiled code writes its least pivot: no matrix is singular.
+        """
         inp, out = _numbers_at(inputs, 2 + self.nx), _numbers_at(outputs, self.nx + 1)
 
         def struck() -> Array:

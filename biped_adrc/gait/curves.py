@@ -1,4 +1,4 @@
-"""Curves h(s) of a normalised phase s in [0, 1], one row per joint, with two derivatives.
+"""Curves h(s) [rad] of a normalised phase s in [0, 1], one row per joint, with dh/ds and d2h/ds2 [rad].
 
     h(s) = sum_k a_k s^k                                  Polynomial
     h(s) = sum_k alpha_k C(M, k) s^k (1 - s)^(M - k)      Bezier
@@ -111,7 +111,10 @@ class Curve(Shown, ABC):
         return np.arange(self.stacked.shape[2])
 
     def piece(self, s: float) -> Array:
-        """Stacked coefficients (3 p, K) of the piece at s; at a break those of the later piece."""
+        """Coefficients (3 p, K) [rad] of the piece at s, for p joints: p rows of h, p of dh/ds, p of d2h/ds2.
+
+        A row has the K coefficients of s^0 .. s^(K-1). At a break they are those of the later piece.
+        """
         a = self.stacked[0]
         for j in range(len(self.breaks)):
             a = np.where(s >= self.breaks[j], self.stacked[j + 1], a)
@@ -281,10 +284,11 @@ def knots(degree: int) -> Array:
 
 @lru_cache(maxsize=32)
 def basis(degree: int) -> Array:
-    """Basis functions N_k as polynomials (J, M + 1, 4): on each piece the coefficients
-    of each N_k in powers of s.
+    """Basis functions N_k of a `BSpline` as polynomials (J, M + 1, 4): entry [j, k, i] is the coefficient
+    of s^i of N_k on piece j.
 
-    By de Boor's recursion. degree: M. Cached, since the knots depend on nothing else.
+    degree: M, one less than the number of basis functions; each is cubic, on J = M - 2 pieces. By de Boor's
+    recursion. Cached, since the knots depend on M alone.
     """
     t = knots(degree)
     table = np.zeros((degree - CUBIC + 1, degree + 1, CUBIC + 1))

@@ -1,17 +1,25 @@
 """Domain of attraction of a walking cycle on the zero dynamics: how slow and how fast the steps may be.
 
-On the constraint the ground reaction and the torques are affine in Theta'^2, hence in zeta = sigma-^2 / 2
-before the last impact:
+`zero_orbits.ZeroOrbits` describes a step by one number, zeta = sigma-^2 / 2 [kg^2 m^4/s^2], where sigma-
+[kg m^2/s] is the angular momentum about the stance foot just before the impact that begins it. It gives:
 
-    F(Theta) = F_0 + F_1 Theta'^2,   Theta'^2 = 2 (delta^2 zeta - V_zero(Theta)) / I^2
+    delta = sigma+ / sigma-       with sigma+ [kg m^2/s] about the new stance foot just after the impact
+    I(Theta) = sigma / Theta'     inertia [kg m^2]
+    V_zero(Theta), V_max          potential [kg^2 m^4/s^2] and its largest value in a step, at least 0
+    rho, zeta* = rho(zeta*)       the return map, from zeta to that of the next step, and its fixed point
 
-so each of  F_N > 0,  mu F_N -+ F_T > 0,  u_max -+ u_i > 0  reads  A(Theta) + B(Theta) zeta > 0, and all
-Theta together leave an interval of zeta. rho is increasing, so a walk that starts inside an interval
+On the constraint each force of the ground and each torque, here F, is affine in Theta'^2, hence in zeta:
+
+    F(Theta) = F_0(Theta) + F_1(Theta) Theta'^2,   Theta'^2 = 2 (delta^2 zeta - V_zero(Theta)) / I(Theta)^2
+
+So each of  F_N > 0,  mu F_N -+ F_T > 0,  u_max -+ u_i > 0  reads  A(Theta) + B(Theta) zeta > 0, with the normal
+and tangential force F_N and F_T [N], the friction mu [1], and the torques u_i and their limit u_max [N m]. All
+Theta of a step together leave an interval of zeta. rho is increasing, so a walk that starts inside an interval
 around zeta* stays inside it: the interval is a domain of attraction that the ground and the motors allow.
 The unilateral contact is what Westervelt, Grizzle, Koditschek (IEEE TAC 48(1), 2003) ask of an orbit.
 
-`zero_orbits.ZeroOrbits` gives the return map rho and zeta*; `domain` cuts the interval in which the next step
-is finished by these limits. Used by `analysis.zero_report` and the command line.
+`domain` cuts the interval in which the next step is completed, zeta > V_max / delta^2, by these limits. Used by
+`analysis.zero_report` and the command line.
 
     domain(orbits, DomainLimits(friction=0.6))     published gait: zeta from 82.3 (V_max) to 484.1 (friction)
 """

@@ -162,7 +162,10 @@ class ZeroOrbits(Shown):
         return -V / (1.0 - d2)
 
     def sigma(self, zeta: float) -> float:
-        """sigma- [kg m^2/s] for a zeta, with the sign of the direction of the walk."""
+        """sigma- [kg m^2/s], the angular momentum before impact, for zeta = sigma-^2 / 2 [kg^2 m^4/s^2].
+
+        Its sign is that of the direction of the walk.
+        """
         c = self.zero.constraint
         forward = (c.theta_minus - c.theta_plus) * float(self.inertia(c.theta_minus))
         return math.copysign(math.sqrt(2.0 * zeta), forward)

@@ -128,7 +128,7 @@ class FloatingDynamics:
         """D_s (n, n) [kg m^2] and Omega (n,) [N m] from the floating model, constrained by the stance contact.
 
         Independent of the pinned model's terms, for a check of these. With Z = J_e[:, :n] the null space of
-        the contact Jacobian, D_s = Z' M Z and Omega = Z' (nle + M Z' v), where Z' v is minus the drift
+        the contact Jacobian, D_s = Z^T M Z and Omega = Z^T (nle + M dZ/dt v), where dZ/dt v is minus the drift
         acceleration of the stance foot in the rows of the base.
         """
         x = self.configuration(q)

@@ -1,4 +1,4 @@
-"""The Generalized Proportional Integral observer (17) of any order m >= 0.
+"""The Generalized Proportional Integral (GPI) observer, equation (17) of the paper, of any order m >= 0.
 
     x1^' = x2^ + l_(m+1) (y - x1^)
     x2^' = x3^ + l_m     (y - x1^) + kappa u
@@ -6,19 +6,27 @@
      ...
     x_(m+2)^' = l_0 (y - x1^)
 
-Its error obeys (19) with the poles chosen. States are scaled by w, the geometric mean of the poles:
-z_k = x_k / w^(k-1), and the gains are the coefficients of the polynomial of the poles divided by w. The
-injection is written l (y - x1^), never l y - l x1^: with gains up to 1e29 that form is lost in round-off.
+for each actuated joint. y [rad] is its measured angle, u (p,) [N m] are the torques, and kappa u [rad/s^2] is
+the acceleration that they give to it by the nominal model. x1^, x2^, x3^ estimate angle, velocity and
+disturbance [rad/s^2], the others the derivatives of the disturbance. l_k [1/s^(m+2-k)] are the gains.
 
-In discrete time it has its *current* (filtered) form,
+The estimation error obeys equation (19) of the paper; its m + 2 poles are chosen, and the gains follow. In
+continuous time the states are scaled by w [rad/s], the geometric mean of the magnitudes of the poles:
+z_k = x_k^ / w^(k-1). The scaled gains l_(m+2-k) / w^k, k = 1..m+2, are the coefficients of the polynomial
+whose roots are the poles divided by w. The injection is written l (y - x1^), never l y - l x1^: with gains up
+to 1e29 that form is lost in round-off.
 
-    Z <- Phi Z + Gamma input         prediction over one period T
-    Z <- Z + L (y - Z_1)             correction at the tick
+In discrete time, with the period T [s], the states are scaled by T instead: Z_k = x_k^ T^(k-1). The observer
+has its *current* (filtered) form, in which y is the measurement of the same sample instant:
 
-Phi is the Taylor matrix of a chain of integrators in states z_k = x_k T^(k-1), Phi_ij = 1/(j - i)!, and
-Gamma = T^2 (1/2, 1, 0, ...), or T (1, 0, ...) with one integrator in front. L places the eigenvalues of
-(I - L C) Phi at exp(s T) by Ackermann's formula. The held-measurement observer with the same poles is unstable
-at 1 kHz; this form is stable there.
+    Z <- Phi Z + Gamma kappa u       prediction over one period
+    Z <- Z + L (y - Z_1)             correction at the sample instant
+
+Phi is the transition matrix of a chain of integrators, Phi_ij = 1/(j - i)! for j >= i, else 0, and
+Gamma = T^2 (1/2, 1, 0, ...). With one integrator between input and measurement instead of two (`momentum`),
+Gamma is T (1, 0, ...), and a force takes the place of kappa u. L places the eigenvalues of (I - L C) Phi,
+C = (1, 0, ...), at exp(s T) for each pole s, by Ackermann's formula. To hold y - x1^ constant over a period
+instead would be unstable with the poles of Table I at T = 1 ms; this form is stable there.
 
 m = 0 estimates position and velocity alone, m = 1 is the linear extended state observer, and m extended states
 follow a disturbance that is a polynomial of degree m - 1 in time without a steady error. `high_gain` and

@@ -5,8 +5,9 @@ files matter.
 
 Entries of the file, beside the trajectory that `hybrid.storage` writes:
 
-    walker      JSON: {"parts": records of all objects, "walker": place of the walker, "gait": the gait}
-    signal.*    arrays over the nodes
+    walker      JSON: {"parts": records of all objects, "walker": number of the walker's record in this list,
+                from 0, "gait": the gait as a value, see below}
+    signal.*    the arrays of `analysis.signals.Signals`, one row for each stored time
     settings    versions, the scenario's record, remarks, and what the caller adds
 
 `Writer` turns an object into a record: its class as `module:Class` and the values that its constructor takes,
@@ -20,7 +21,7 @@ How values are written:
     array                         {"array": [...], "shape": [...], "dtype": "float64"}
     list, tuple, mapping          {"list": [...]}, {"tuple": [...]}, {"map": {...}}
     complex, path, enum           {"complex": [re, im]}, {"path": "..."}, {"enum": [module:Class, name]}
-    any other object              {"part": place}, a record in the list of records
+    any other object              {"part": number of its record in the list "parts"}
 """
 
 from __future__ import annotations

@@ -288,7 +288,12 @@ def _name(at: Mapping[str, Any]) -> str:
 
 
 def _pairs(a: Group, b: Group) -> tuple[list[float], list[float]]:
-    """The numbers of the walks that two groups have in common, told apart by what varies besides the case."""
+    """The numbers of the walks of two groups in the column that is shown, pair by pair; infinite for a
+    walk that does not count.
+
+    Two walks are a pair where all that varies in the study is the same, such as condition, levels and seed, but
+    for case, setting and candidate. A walk without a partner is left out.
+    """
 
     def by_place(g: Group) -> dict[str, float]:
         apart = (CASE, SETTING, CANDIDATE)

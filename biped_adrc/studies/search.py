@@ -4,18 +4,31 @@
     [search.variables]    p = {from, to, scale, whole, when} or p = {choices, when}
     [search.walks]        search, choice, test = {seeds, conditions}
 
-Candidates are searched on the first set of walks. On the second the best few and the setting of the case itself
-are walked again, and one is chosen; on the third the chosen one and that of the case are walked once. A measure
-that was minimised over noise is too good on the walks it was minimised on: no two sets share a seed. Each case
-is searched by itself, with the same budget.
+A case is a named set of values of the study, from which a search starts; each case has its own search, with
+the same budget. A candidate is the case with other values of the variables. Counted in candidates are
+
+- budget: how many of a case are walked in the search, the case itself among them;
+- generation: how many are proposed together, before any of them is walked;
+- finalists: how many of the best are walked on the second set.
+
+p is the name of a field of the scenario. Its variable has
+
+- from, to: the ends of an interval, in the unit of the field; scale: "linear" or "log"; whole = true: integers;
+- or choices: a list of values;
+- when = {field = values}: it has an effect only where another field has one of these values.
+
+Candidates are searched on the first set of walks. On the second the finalists and the case itself are walked
+again, and one is chosen; on the third the chosen one and the case are walked once. A measure that was minimised
+over noise is too good on the walks it was minimised on: no two sets share a seed.
 
 Candidates are proposed by Optuna's samplers in whole generations, after all earlier ones have been judged, in
-this process alone, and told in the order of their numbers: what is proposed depends on the seed and on finished
-candidates, and neither on workers nor on kills. The first part of the budget is proposed by TPE (Bergstra et
-al., NeurIPS 2011), which takes ranges, whole numbers and choices together; the rest by CMA-ES (Hansen,
-Ostermeier, Evolutionary Computation 9(2), 2001) from the best candidates so far (Nomura et al., AAAI 2021),
-with the choices of the best one. Both use the order of candidates alone: a number stands for it, the objective
-of those that keep all limits, and more than any for the others.
+this process alone, and the sampler is told the results in a fixed order: what is proposed depends on the seed
+and on judged candidates, and neither on workers nor on kills. The first part of the budget is proposed by TPE
+(Bergstra et al., NeurIPS 2011), which takes ranges, whole numbers and choices together; the rest by CMA-ES
+(Hansen, Ostermeier, Evolutionary Computation 9(2), 2001) from the best candidates so far (Nomura et al., AAAI
+2021), with the choices of the best one. Both use only the order of the candidates, so each is told to them as
+one number, less for a better one: the objective, with its sign changed where more is better; or, for a
+candidate that misses limits, a number above every objective, larger the more it misses.
 """
 
 from __future__ import annotations
@@ -231,7 +244,7 @@ def searched(
 ) -> list[Candidate]:
     """All candidates of a case by number; number 0 is the case itself, with the values `base`.
 
-    told: called with the best candidate after each generation. Raises InputError where none may be walked.
+    report: called with the best candidate after each generation. Raises InputError where none may be walked.
     """
     proposals = _Proposals(optuna_library(), search, base)
     result: list[Candidate] = []

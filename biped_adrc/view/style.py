@@ -2,7 +2,7 @@
 
 The colours are the palette of Okabe and Ito, which readers with any colour vision can tell apart. Most lines,
 points and bars have a dash, marker or hatch besides their colour, so that figures can also be read in grey.
-Those of the robot and its arrows are in `view.colours`.
+The colours of the robot, and of the arrows of forces and torques on it, are in `view.colours`.
 
 Figures are `matplotlib.figure.Figure` objects made by `with new_figure(..) as figure:`; pyplot and its global
 state are not used, so a notebook's own settings are not changed, and do not change the figures.

@@ -4,22 +4,27 @@
     spec.stable, spec.delay_margin, spec.disk_margin, spec.ripple
 
 A candidate is a walker: controller with observer and reference, sensors with filter, clock with delay,
-motors. Its sampled loop is linearised at some phases of the gait (`walker_loop`) and closed around robots
-with other inertias (`frozen_gait`):
+motors. Its sampled loop is linearised (`walker_loop`) at several phases of the gait, at each with several
+robots. By default (`frozen_gait`) the phases are 15, 40, 65 and 90 % of the time of a step, and the robots are
+five: the plant, and four whose masses and inertias of trunk and legs are 20 % larger or smaller. Of all these
+loops:
 
-- stable: at every phase, with every robot, every mode of the loop decays.
-- delay_margin: the smallest delay in all motors, beside the clock's own and unknown to the controller, with
-  which one of these loops is unstable.
-- disk_margin: the smallest multiloop disk margin of them, see below.
-- ripple: rms torque of the encoders' counts and noise over a step, of the motor with most.
+- stable [true or false]: every mode of every loop decays.
+- delay_margin [s]: the smallest delay in all motors, beside the clock's own and unknown to the controller, with
+  which one of the loops is unstable; at most MOST_DELAY, 0.05 s.
+- disk_margin [1]: the smallest multiloop disk margin, see below.
+- ripple [N m]: rms torque that counts and noise of the encoders make over a step, of the motor with most, with
+  the plant.
 
 The gait's own modes do not count: a robot on a foot without a motor falls, with growth about sqrt(g / l),
-until the next step catches it, and no torque on joints that track a gait changes that. So a mode counts where
-|s| exceeds OWN times that rate, and margins are taken at frequencies above it. The multipliers of the return
-map (`analysis.return_map`) describe the effect of impacts.
+until the next step catches it, and no torque on joints that track a gait changes that. g is gravity, l the
+height of the hip. So a mode exp(s t) counts only where |s| exceeds OWN = 2 times that rate, and margins are
+taken at frequencies above this bound. The multipliers of the return map (`analysis.return_map`) describe the
+effect of impacts.
 
-The multiloop disk margin bounds errors of all motors at once, in gain and in phase. With S = (1 - G)^-1 the
-sensitivity of the torques u = G u, the loop bears every diagonal Delta in
+The multiloop disk margin bounds errors of all motors at once, in gain and in phase. G is the loop cut at the
+torques: torques u on the robot make the controller ask for G u. With the sensitivity S = (1 - G)^-1 the loop is
+stable with every diagonal Delta in
 
     u_i -> (1 + Delta_i / 2) / (1 - Delta_i / 2) u_i,    |Delta_i| < alpha
     alpha = 1 / max_w mu(S(w) - 1/2)

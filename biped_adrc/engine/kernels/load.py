@@ -1,8 +1,12 @@
-"""The loops as machine code: one text for LLVM, made by numba from the files of FILES, and kept on disk.
+"""The loops as machine code: LLVM's text, made by numba from the source of the modules in FILES, kept on disk.
 
-The files are joined into one text of Python, without their imports of each other, since `hybrid.march` stands
-in it around other operations than in Python. Read them as one module; in the editor and for type checks they
-are ordinary ones. Where LLVM's text is on disk, numba is not imported. A page has the same text.
+The sources are joined into one text of Python, without their imports of each other. The reason is
+`hybrid.march`: it calls operations such as `flow` and `add` by name. In Python they are those of
+`hybrid.on_arrays`, which it imports; in the joined text the same names are those of `kernels.operations`, which
+FILES has in place of it. In the editor and for type checks the files are ordinary modules.
+
+Where LLVM's text is on disk, numba is not imported. The page that walks in a browser is made from the same text
+(`extras.play.webassembly`).
 """
 
 from __future__ import annotations

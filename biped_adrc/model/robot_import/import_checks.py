@@ -1,17 +1,27 @@
-"""Laws of mechanics an imported biped must obey, each with the number it was measured at.
+"""Laws of mechanics that an imported biped must obey, each with the largest relative error found.
 
 An import has many ways to be subtly wrong: a sense, an offset, an inertia in the wrong frame. These
-laws hold for every planar biped, so they need no reference values. At random states, against the
-floating model, with H_c the angular momentum about a point c taken from masses, COM velocities and
-spins of the bodies (`contact.LinkMotion`):
+laws hold for every planar biped, so they need no reference values. They are checked at random states q (n,)
+[rad], q' (n,) [rad/s]; - and + stand for just before and just after an impact:
 
-    D_s, Omega = Z' M Z, Z' (nle + M Z')      pinned = floating, constrained at the foot
-    E_2 q_e+' = 0,  H_c+ = H_c-,  T+ <= T-    the plastic impact at c = p_2
-    Theta' = -1                               while the robot topples forwards at 1 rad/s
+    D_s = Z^T M Z,  Omega = Z^T (nle + M dZ/dt q')    pinned = floating, constrained at the stance foot
+    E_2 q_e+' = 0,  H+ = H-,  T+ <= T-                the plastic impact
+    Theta' = -1 rad/s                                 while the robot topples forwards at 1 rad/s
 
-That D_s is well conditioned and that the legs are alike is checked for every robot, by `Biped.check`.
-`import_robot.derive` runs them; `biped_from_urdf` refuses a robot for which one is broken. The reproduction
-of the paper holds its robot against them too.
+    D_s, Omega    inertia matrix [kg m^2], Coriolis and gravity terms [N m] of the pinned model
+    M, nle        the same of Pinocchio's floating model, which has n + 2 velocities
+    Z             (n + 2, n), from q' to these velocities with the stance foot at rest
+    q_e           (q, p_e), with the stance foot p_e (2,) [m]
+    E_2           (2, n + 2), Jacobian of the swing foot p_2 by q_e
+    H             angular momentum about p_2 [kg m^2/s], from masses, COM velocities and spins of the bodies
+                  (`contact.LinkMotion`)
+    T             kinetic energy [J]
+    Theta         phase of the gait [rad], c q with the row c of `Biped.phase`
+
+Also checked are the places of hip and swing foot, and at an impact the angular momentum of the old leg about
+its joints and the linear momentum. That D_s is well conditioned and that the legs are alike is checked for
+every robot, by `Biped.check`. `import_robot.derive` runs these laws; `biped_from_urdf` refuses a robot
+for which one is broken. The reproduction of the paper holds its robot against them too.
 """
 
 from __future__ import annotations

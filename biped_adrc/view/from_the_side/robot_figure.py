@@ -2,8 +2,8 @@
 
 A link of absolute angle a [rad] points along (-sin a, cos a); angles are counter-clockwise
 positive. q5 is the absolute angle of the torso, q1 and q2 go from the torso to the thighs, q3 and
-q4 from the thighs to the shins, and Theta is the angle of the line from the hip to the stance foot
-p_e: the phase of the virtual constraints.
+q4 from the thighs to the shins. p_e is the stance foot, p_2 the swing foot. Theta is the angle of the
+line from the hip to p_e: the phase of the virtual constraints.
 """
 
 from __future__ import annotations
