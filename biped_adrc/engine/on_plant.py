@@ -1,10 +1,10 @@
 """Loops around a plant that moves by itself, with their sample instants in machine code, one call each:
 
-    sample (t, step, t_start, x) -> x after the sample instant, least pivot
+    sample (t, step, t_start, x, F_stance, F_swing) -> x after the sample instant, least pivot
 
 t [s] is the time of the sample instant, step the number of the single support, t_start [s] its start, and x
-(nx,) the state of `closed_loop.stepping`. The last two inputs are the vertical forces of the ground on the feet
-[N], for a touchdown detector that needs them. The least pivot is the smallest |pivot| of the matrices that the
+(nx,) the state of `closed_loop.stepping`. F_stance and F_swing [N] are the vertical forces of the ground on
+the two feet, for a touchdown detector that needs them. The least pivot is the smallest |pivot| of the matrices that the
 controller inverts: 0 for a singular one, below 0 for a torque beyond the bound of the loop. In these cases, and
 where x is not finite, Python computes the instant again and says what is wrong.
 

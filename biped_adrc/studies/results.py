@@ -128,7 +128,10 @@ def _wrong(db: sqlite3.Connection, study: Study, versions: dict[str, str]) -> st
 
 @contextmanager
 def _errors(path: Path) -> Iterator[None]:
-    """Raises OutputError where the results file cannot be written, and InputError where it is damaged."""
+    """Context for work on the results file at `path`, whose errors become the package's.
+
+    OutputError: the file cannot be written. InputError: it is damaged, or no results file.
+    """
     try:
         yield
     except (sqlite3.Error, OSError, ValueError) as error:
@@ -288,11 +291,11 @@ def _name(at: Mapping[str, Any]) -> str:
 
 
 def _pairs(a: Group, b: Group) -> tuple[list[float], list[float]]:
-    """The numbers of the walks of two groups in the column that is shown, pair by pair; infinite for a
-    walk that does not count.
+    """Values of the study's measure of the walks of two groups, in its unit: entry i of both lists is one pair.
 
-    Two walks are a pair where all that varies in the study is the same, such as condition, levels and seed, but
-    for case, setting and candidate. A walk without a partner is left out.
+    A pair is a walk of a and a walk of b with the same condition, levels and seed; case, setting and candidate
+    may differ. A walk without a partner is left out. A value is infinite where the walk does not count: it is
+    not feasible, or ended early where the measure counts walks that were made.
     """
 
     def by_place(g: Group) -> dict[str, float]:

@@ -11,6 +11,11 @@ the same budget. A candidate is the case with other values of the variables. Cou
 - generation: how many are proposed together, before any of them is walked;
 - finalists: how many of the best are walked on the second set.
 
+objective = {column, over, goal} is one number of a candidate: that column of the results, in its unit, over all
+walks of a set (the median, or as `over` says), to be minimised or maximised. limits = [{column, over, least or
+most}, ...] bound other columns in the same way. seeds and conditions of a set say which walks it has: one for
+each seed and named condition.
+
 p is the name of a field of the scenario. Its variable has
 
 - from, to: the ends of an interval, in the unit of the field; scale: "linear" or "log"; whole = true: integers;

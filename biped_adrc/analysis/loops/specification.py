@@ -13,8 +13,8 @@ loops:
 - delay_margin [s]: the smallest delay in all motors, beside the clock's own and unknown to the controller, with
   which one of the loops is unstable; at most MOST_DELAY, 0.05 s.
 - disk_margin [1]: the smallest multiloop disk margin, see below.
-- ripple [N m]: rms torque that counts and noise of the encoders make over a step, of the motor with most, with
-  the plant.
+- ripple [N m]: rms over a step of the torque that quantisation and noise of the encoders cause, of the motor
+  in which it is largest, on the plant alone.
 
 The gait's own modes do not count: a robot on a foot without a motor falls, with growth about sqrt(g / l),
 until the next step catches it, and no torque on joints that track a gait changes that. g is gravity, l the

@@ -1,4 +1,7 @@
-"""The loops as machine code: LLVM's text, made by numba from the source of the modules in FILES, kept on disk.
+"""The march of a walk through time (`hybrid.march`) and what is around it, as compiled functions to call.
+
+numba translates the modules in FILES into LLVM's text once. The text is kept on disk, and is used again until
+one of them changes.
 
 The sources are joined into one text of Python, without their imports of each other. The reason is
 `hybrid.march`: it calls operations such as `flow` and `add` by name. In Python they are those of
