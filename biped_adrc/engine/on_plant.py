@@ -1,12 +1,14 @@
-"""Loops around a plant that moves by itself, with their sample instants in machine code, one call each:
+"""Control loops around a plant that another program simulates: each sample instant is one compiled call.
 
     sample (t, step, t_start, x, F_stance, F_swing) -> x after the sample instant, least pivot
 
 t [s] is the time of the sample instant, step the number of the single support, t_start [s] its start, and x
-(nx,) the state of `closed_loop.stepping`. F_stance and F_swing [N] are the vertical forces of the ground on
-the two feet, for a touchdown detector that needs them. The least pivot is the smallest |pivot| of the matrices
-that the controller inverts: 0 for a singular one, below 0 for a torque beyond the bound of the loop. In these
-cases, and where x is not finite, Python computes the instant again and says what is wrong.
+(nx,) the state of the loop: q [rad], v [rad/s], states of controller and sensors, and the queue of torques
+[N m], of which the oldest one acts until the next instant (`closed_loop.stepping`). F_stance and F_swing [N]
+are the vertical forces of the ground on the two feet, for a touchdown detector that needs them. The least pivot
+is the smallest |pivot| of the matrices that the controller inverts: 0 for a singular one, below 0 for a torque
+beyond the bound of the loop. In these cases, and where x is not finite, Python computes the instant again and
+says what is wrong.
 
 Measurement, model, controller, limits and queue of torques are those of `closed_loop.semantics`, traced as for
 a walker (`engine.equations`). A controller that cannot be compiled still gets the terms of its model and its

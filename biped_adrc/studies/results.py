@@ -294,8 +294,8 @@ def _pairs(a: Group, b: Group) -> tuple[list[float], list[float]]:
     """Values of the study's measure of the walks of two groups, in its unit: entry i of both lists is one pair.
 
     A pair is a walk of a and a walk of b with the same condition, levels and seed; case, setting and candidate
-    may differ. A walk without a partner is left out. A value is infinite where the walk does not count: it is
-    not feasible, or ended early where the measure counts walks that were made.
+    may differ. A walk without a partner is left out. A value is infinite, on the worse side of the measure, for
+    a walk that ended early or, unless the measure takes all walks that were made, is infeasible.
     """
 
     def by_place(g: Group) -> dict[str, float]:
