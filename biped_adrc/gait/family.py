@@ -188,8 +188,8 @@ def load_family(family: str | Path, biped: Biped) -> GaitFamily:
     folder = data_folder("gaits") / robot / "families"
     if path.suffix.lower() != ".json":
         path = folder / f"{family}-{preset}.json"
-    known = sorted(file.stem for file in folder.glob("*.json"))
-    if not path.is_file():
+        known = sorted(x.stem.removesuffix(f"-{preset}") for x in folder.glob(f"*-{preset}.json"))
+    if path.parent == folder and not path.is_file():
         raise GaitError(
             f"there is no family '{family}' for robot '{robot}', preset '{preset}'; stored are {known}, and "
             "biped-adrc gait design --speeds --steps makes one"

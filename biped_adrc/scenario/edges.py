@@ -51,7 +51,7 @@ def course_remarks(walker: Walker, trajectory: Trajectory) -> tuple[str, ...]:
     if not 0 < count < trajectory.arcs[-1].mode.step:
         return ()
     return (
-        f"the course has {count} stones: from single support {count + 1} on the ground is whole",
+        f"behind stone {count}, the last one, from single support {count + 1} on, the ground is whole",
     )
 
 
