@@ -43,15 +43,10 @@ NODES = 16
 
 @dataclass(frozen=True)
 class _OnCurve:
-    """Any curve of Theta as a constraint, for `configuration`."""
+    """A function h of Theta as a curve on which there are configurations."""
 
     phase: Array
     h: Callable[[float], tuple[Array, Array, Array]]
-
-
-def _configuration(curve: _OnCurve, theta: float) -> tuple[Array, Array, Array]:
-    """`configuration`, on any curve."""
-    return configuration(curve, theta)  # type: ignore[arg-type]
 
 
 def library(
@@ -145,7 +140,7 @@ def step_integrals(
     earlier = family.member(v, before)
     plus = float(c @ biped.relabel(configuration(earlier, earlier.theta_minus)[0]))
     minus = family.curve(mu)[2]
-    q, dq, _ = _configuration(_OnCurve(c, lambda theta: family.h(mu, plus, theta)), minus)
+    q, dq, _ = configuration(_OnCurve(c, lambda theta: family.h(mu, plus, theta)), minus)
     v_minus = np.sign(minus - plus) * dq
     impact = biped.impact(q, v_minus)
     delta = biped.angular_momentum(impact.q, impact.v) / biped.angular_momentum(q, v_minus)
@@ -164,7 +159,7 @@ def _integrals(biped: Biped, curve: _OnCurve, start: float, end: float) -> tuple
     s, weights, _ = gauss_nodes(NODES)
     W = J = 0.0
     for theta, weight in zip(start + (end - start) * s, (end - start) * weights, strict=True):
-        q, dq, _ = _configuration(curve, float(theta))
+        q, dq, _ = configuration(curve, float(theta))
         inertia = float(biped.inertia(q)[-1] @ dq)
         W -= weight * inertia * float(biped.gravity(q)[-1])
         J += weight * inertia
@@ -173,8 +168,7 @@ def _integrals(biped: Biped, curve: _OnCurve, start: float, end: float) -> tuple
 
 def _member(biped: Biped, v: float, L: float, h: VirtualConstraint) -> tuple[float, ...]:
     """Of the periodic step of a member: speed, step length, friction, peak torque [N m], least F_N [N]."""
-    zero = ZeroDynamics.of(biped, h)
-    orbit = zero.orbit(zero.delta * zero.sigma_minus)
+    orbit = ZeroDynamics.of(biped, h).cycle
     F_T, F_N = orbit.ground_reaction.T
     numbers = np.max(np.abs(F_T) / F_N), np.max(np.abs(orbit.u)), np.min(F_N)
     return (v, L, *(round(float(x), 3) for x in numbers))

@@ -129,7 +129,7 @@ def stride_response(
     h, shift = gait.constraint, DIFFERENCE * np.array(direction, dtype=float)
     if len(shift) != biped.p:
         raise InputError(f"the direction is {direction}, expected {biped.p} numbers, one per motor")
-    L = float(np.hypot(*biped.swing_foot(gait.q_minus)))
+    L = gait.step_length(biped)
     zero, more, less = (ZeroDynamics.of(biped, bumped(h, k * shift)) for k in (0.0, 1.0, -1.0))
     delta, sigma = zero.delta, zero.sigma_minus
 

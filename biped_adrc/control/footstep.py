@@ -1,11 +1,13 @@
 """The next footstep, decided in each step: which member of a family of gaits ends it.
 
-    h = f + R + b(s) (g - f),   f, g: members (v-, L) and (v+, L) of the family,   R: reset after impact
+    h = f + R + b(s) (g - f)
 
-v- is the speed of the member on which the step before ended, so that a step begins on its curve. L is the
-length of the step, to the next stone where there are stones. b rises from 0 at the decision (`gait.family`)
-to 1 at SETTLED. Until the decision v+ is computed anew at each sample instant, from y = sigma^2 and from the
-estimate r of what acts on the unactuated row:
+f and g are the members (v-, L) and (v+, L) of the family, functions of Theta; R is a polynomial that brings
+f to the angles after impact, and fades out. v- is the speed of the member on which the step before ended, so
+that a step begins on its curve. L [m] is the length of the step, to the next stone where there are stones. b
+rises from 0 at the decision (`gait.family`) to 1 at SETTLED. Until the decision v+ is computed anew at each
+sample instant, from y = sigma^2, with sigma [kg m^2/s] the angular momentum about the stance foot, and from
+the estimate r [N m] of the torque that acts on the unactuated row from outside:
 
     y_next(v+) = y_free + (1 - pole / delta^2) (y_0 - y_free)
 
@@ -15,8 +17,8 @@ the cycles at SLOWEST, below which the walk may stall, and at FASTEST. The map f
 H-LIP (Xiong, Ames, arXiv 2101.09588), with the angular momentum about the contact as its state (Gong,
 Grizzle, arXiv 2008.10763).
 
-sigma and r come from a momentum observer with both poles at -omega, sigma' = -G_N + r: the torques of the
-joints are not in that row.
+Both come from a momentum observer with its poles at -omega: sigma' = -G_N + r, with G_N gravity's part of the
+unactuated row, in which no motor acts.
 """
 
 from __future__ import annotations
@@ -24,7 +26,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Self
+from typing import NamedTuple, Self
 
 import numpy as np
 
@@ -94,6 +96,37 @@ class StepCurve:
         return h - h_0, dh - dh_0, ddh - ddh_0
 
 
+class StepState(NamedTuple):
+    """What the state w of a `Footstep` holds, in this order."""
+
+    begin: float
+    """v- [m/s]."""
+    end: float
+    """v+ [m/s]."""
+    L: float
+    """Length of the step [m]."""
+    before: float
+    """Length of the step before [m]."""
+    sigma: float
+    """Estimate of the angular momentum about the stance foot [kg m^2/s]."""
+    r: float
+    """Estimate of the torque from outside on the unactuated row [N m]."""
+    plus: float
+    """Theta where the step began [rad]."""
+    reset: Array
+    """Coefficients of the reset (2 p,)."""
+
+    @classmethod
+    def of(cls, w: Array) -> StepState:
+        """The parts of w."""
+        return cls(w[0], w[1], w[2], w[3], w[4], w[5], w[6], w[7:])
+
+    @property
+    def flat(self) -> Array:
+        """w."""
+        return np.concatenate((np.array(self[:-1]), self.reset))
+
+
 def step_reset(family: GaitFamily, mu: Array, plus: float, q_b: Array, slope: Array) -> Array:
     """Coefficients (2, p) of the reset: the step along mu begins at q_b (p,) [rad] with dq_b/dTheta = slope.
 
@@ -105,7 +138,7 @@ def step_reset(family: GaitFamily, mu: Array, plus: float, q_b: Array, slope: Ar
 
 @dataclass(frozen=True)
 class Footstep(OuterLoop):
-    """The module's controller around `inner`; its state is (v-, v+, L, L before, sigma^, r, Theta+, reset).
+    """The module's controller around `inner`; its state is a `StepState`.
 
     speed: that is kept [m/s]. step: length of the steps where there are no stones [m]. stones: lengths of the
     steps [m], the first one first. pole: of the error of y from step to step. bandwidth: omega [rad/s].
@@ -151,7 +184,7 @@ class Footstep(OuterLoop):
         bandwidth: float = 20.0,
     ) -> Footstep:
         """Around `inner`, with a stored family; speed [m/s] and step [m] are the gait's where they are None."""
-        length = float(np.hypot(*biped.swing_foot(gait.q_minus)))
+        length = gait.step_length(biped)
         speed = length / gait.period if speed is None else speed
         lengths = tuple(map(float, stones))
         known = load_family(family, biped)
@@ -178,7 +211,9 @@ class Footstep(OuterLoop):
         return 7 + 2 * (len(self.family.phase) - 1)
 
     def correction(self, w: Array) -> Correction:
-        return StepCurve(self.family, w[0], w[1], w[2], w[6], w[7:].reshape(2, -1), self.base)
+        x = StepState.of(w)
+        reset = x.reset.reshape(2, -1)
+        return StepCurve(self.family, x.begin, x.end, x.L, x.plus, reset, self.base)
 
     def length(self, step: int) -> float:
         """L [m] of a single support: of its stone, or the usual one."""
@@ -192,37 +227,37 @@ class Footstep(OuterLoop):
         L, plus = self.length(m.step), float(self.family.phase @ m.q)
         slope = self.family.steps.to_decision(np.array((v, earlier, before, L)))[3:]
         reset = step_reset(self.family, np.array((v, L)), plus, m.q_b, slope)
-        own = np.array((v, v, L, before, m.terms.D[-1] @ m.v, r, plus))
-        return np.concatenate((own, reset.ravel()))
+        return StepState(v, v, L, before, m.terms.D[-1] @ m.v, r, plus, reset.ravel()).flat
 
     def own_start(self, h: Constraint, m: Measurement) -> Array:
         """w (own_size,) at the start of a run; one that starts later than EARLY goes on along the member."""
         w = self.begun(self.speed, self.step, self.step, 0.0, m)
-        _, plus, minus = self.family.curve(np.array((self.speed, w[2])))
-        early = (w[6] - plus) / (minus - plus) < EARLY
-        on_member = np.concatenate((w[:6], np.array((plus,)), np.zeros(len(w) - 7)))
-        return np.where(early, w, on_member)
+        x = StepState.of(w)
+        _, plus, minus = self.family.curve(np.array((self.speed, x.L)))
+        early = (x.plus - plus) / (minus - plus) < EARLY
+        return np.where(early, w, x._replace(plus=plus, reset=0.0 * x.reset).flat)
 
     def own_jump(self, w: Array, h: Constraint, after: Measurement) -> Array:
-        return self.begun(w[1], w[3], w[2], w[5], after)
+        x = StepState.of(w)
+        return self.begun(x.end, x.before, x.L, x.r, after)
 
     def own_correct(self, w: Array, m: Measurement) -> Array:
-        T, omega = self.period, self.bandwidth
-        e = m.terms.D[-1] @ m.v - w[4]
-        r = w[5] + T * omega**2 * e
-        sigma_hat = w[4] + T * (w[5] - body_of(m).G[-1] + 2.0 * omega * e)
-        minus = self.family.curve(np.array((w[0], w[2])))[2]
-        early = (self.family.phase @ m.q - w[6]) / (minus - w[6]) < DECISION
-        end = np.where(early, self.decision(w, sigma_hat**2, r, m.step), w[1])
-        return np.concatenate((np.array((w[0], end, w[2], w[3], sigma_hat, r, w[6])), w[7:]))
+        T, omega, x = self.period, self.bandwidth, StepState.of(w)
+        e = m.terms.D[-1] @ m.v - x.sigma
+        r = x.r + T * omega**2 * e
+        sigma = x.sigma + T * (x.r - body_of(m).G[-1] + 2.0 * omega * e)
+        minus = self.family.curve(np.array((x.begin, x.L)))[2]
+        early = (self.family.phase @ m.q - x.plus) / (minus - x.plus) < DECISION
+        end = np.where(early, self.decision(x, sigma**2, r, m.step), x.end)
+        return x._replace(end=end, sigma=sigma, r=r).flat  # type: ignore[arg-type]
 
-    def decision(self, w: Array, y: float, r: float, step: int) -> float:
+    def decision(self, x: StepState, y: float, r: float, step: int) -> float:
         """v+ [m/s] from y [kg^2 m^4/s^2] and r [N m] in the single support `step`, the module's equation."""
         steps, ahead = self.family.steps, self.length(step + 1)
-        begin, L = np.array((w[0], w[3])), w[2]
+        begin = np.array((x.begin, x.before))
 
         def following(v: float) -> float:
-            return steps.next_square(y, begin, np.array((v, L)), ahead, r)
+            return steps.next_square(y, begin, np.array((v, x.L)), ahead, r)
 
         y_0 = steps.cycle_square(self.speed, ahead)
         free = following(self.zero(lambda v: steps.cycle_square(v, ahead, r) - y_0))

@@ -115,7 +115,7 @@ class StridePI(OuterLoop):
         direction: tuple[float, ...] = TORSO_LEAN,
     ) -> StridePI:
         """The PI around `inner` on a gait, with the gait's step length; speed [m/s]: v*, the gait's if None."""
-        length = float(np.hypot(*biped.swing_foot(gait.q_minus)))
+        length = gait.step_length(biped)
         return cls(
             inner, length / gait.period if speed is None else speed, length, direction, gains
         )

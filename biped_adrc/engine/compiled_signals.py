@@ -56,7 +56,7 @@ def compiled_readings(
 
 
 def _inputs(walker: Walker, arc: Arc) -> Array:
-    """Rows (K, inputs) of what `observe` is given at the K nodes of an arc; forces on the feet are zero."""
+    """Inputs (K, ..) of the compiled reading at the K nodes of an arc; forces on the feet are zero."""
     n, t, x, mode = walker.plant.n, arc.seen, arc.x, arc.mode
     q, v, ones = x[:, :n], x[:, n : 2 * n], np.ones((len(t), 1))
     try:

@@ -84,6 +84,10 @@ class Gait(Shown):
         impact = biped.impact(self.q_minus, self.v_minus)
         return impact.q, impact.v
 
+    def step_length(self, biped: Biped) -> float:
+        """Distance between the feet at the end of a step of the orbit [m]."""
+        return float(np.hypot(*biped.swing_foot(self.q_minus)))
+
     @classmethod
     def of_cycle(
         cls, name: str, zero: ZeroDynamics, provenance: Mapping[str, object], slope: float = 0.0

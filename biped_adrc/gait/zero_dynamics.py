@@ -19,8 +19,10 @@ needs it. `zero_orbits` has all speeds at once: return map, fixed point, domain 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from typing import Protocol
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -214,7 +216,19 @@ class ZeroDynamics(Shown):
         return a, u, b.ground_reaction(q, v, a)
 
 
-def configuration(constraint: VirtualConstraint, theta: float) -> tuple[Array, Array, Array]:
+class PhaseCurve(Protocol):
+    """Joint angles as a function of Theta = c q, such as a `VirtualConstraint`."""
+
+    @property
+    def phase(self) -> Array:
+        """c (n,)."""
+
+    @property
+    def h(self) -> Callable[[float], tuple[Array, Array, Array]]:
+        """h [rad], dh/dTheta and d2h/dTheta2 at theta [rad], each (p,)."""
+
+
+def configuration(constraint: PhaseCurve, theta: float) -> tuple[Array, Array, Array]:
     """q [rad], dq/dTheta and d2q/dTheta2 on the constraint at theta [rad], each (n,).
 
     The last coordinate comes from Theta = c q: q_N = (Theta - c_b h) / c_N.

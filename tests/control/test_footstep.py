@@ -13,29 +13,24 @@ CLOCK = ba.SampledTime(1e-3)
 
 
 @pytest.fixture(scope="module")
-def robot():
-    return ba.Biped.load("rabbit")
+def slow(biped):
+    return ba.load_gait("v0.6", biped)
 
 
-@pytest.fixture(scope="module")
-def slow(robot):
-    return ba.load_gait("v0.6", robot)
+def walker(biped, gait, disturbance=None, inner=ba.NPDController, **options):
+    law = ba.Footstep.on_gait(inner(gait.constraint), gait, biped, **options)
+    return ba.Walker(biped, law, disturbance, timing=CLOCK, torque_limit=150.0)
 
 
-def walker(robot, gait, disturbance=None, inner=ba.NPDController, **options):
-    law = ba.Footstep.on_gait(inner(gait.constraint), gait, robot, **options)
-    return ba.Walker(robot, law, disturbance, timing=CLOCK, torque_limit=150.0)
-
-
-def decisions(robot, walk):
+def decisions(biped, walk):
     """sigma^2 where each step decides, from the full simulation."""
     law, found = walk.walker.law, []
     for arc in walk.trajectory.arcs:
-        w = arc.x[-1][2 * robot.n : 2 * robot.n + law.own_size]
+        w = arc.x[-1][2 * biped.n : 2 * biped.n + law.own_size]
         minus = law.family.curve(np.array((w[0], w[2])))[2]
-        s = (arc.x[:, : robot.n] @ law.family.phase - w[6]) / (minus - w[6])
+        s = (arc.x[:, : biped.n] @ law.family.phase - w[6]) / (minus - w[6])
         x = arc.x[int(np.searchsorted(s, DECISION))]
-        found.append(robot.angular_momentum(x[:5], x[5:10]) ** 2)
+        found.append(biped.angular_momentum(x[:5], x[5:10]) ** 2)
     return np.array(found)
 
 
@@ -61,35 +56,35 @@ def test_a_member_ends_at_its_step_length(preset):
             assert abs(z) < 3e-3
 
 
-def test_a_family_is_what_was_saved(robot, tmp_path):
-    family = load_family("flat", robot)
+def test_a_family_is_what_was_saved(biped, tmp_path):
+    family = load_family("flat", biped)
     family.save(tmp_path / "mine.json")
-    again = load_family(tmp_path / "mine.json", robot)
+    again = load_family(tmp_path / "mine.json", biped)
     mu = np.array((0.7, 0.35))
     assert np.array_equal(again.curve(mu)[0], family.curve(mu)[0])
     assert again.steps.cycle_square(0.7, 0.35) == family.steps.cycle_square(0.7, 0.35)
 
 
-def test_mistakes_with_a_family(robot, tmp_path):
+def test_mistakes_with_a_family(biped, tmp_path):
     path = tmp_path / "mine.json"
-    load_family("flat", robot).save(path)
+    load_family("flat", biped).save(path)
     with pytest.raises(GaitError, match=r"no family 'steep'.*stored are \['flat'\]"):
-        load_family("steep", robot)
+        load_family("steep", biped)
     with pytest.raises(GaitError, match="preset 'identified', and this is 'rabbit', 'tac2003'"):
         load_family(path, ba.Biped.load("rabbit", "tac2003"))
     with pytest.raises(GaitError, match=r"no member of 2 m/s.*the nearest has 1.1 m/s"):
-        load_family("flat", robot).member(2.0, 0.4)
+        load_family("flat", biped).member(2.0, 0.4)
     with pytest.raises(GaitError, match="2 speeds and 1 lengths, expected at least 5"):
-        library(robot, [0.5, 0.6], [0.3])
+        library(biped, [0.5, 0.6], [0.3])
 
 
 # -- from step to step -----------------------------------------------------------------------------
-def test_the_map_says_what_the_simulated_robot_does_under_a_force(robot, slow):
+def test_the_map_says_what_the_simulated_robot_does_under_a_force(biped, slow):
     """sigma^2 at the next decision, by quadratures on the curve and by the whole dynamics, 6 N on the hip."""
     stones = (0.38, 0.3, 0.45, 0.4, 0.38)
-    push = ba.HipForce(robot, (-6.0, 0.0))
-    walk = ba.walk(walker(robot, slow, push, speed=0.7, step=0.38, stones=stones), slow, 4)
-    law, y = walk.walker.law, decisions(robot, walk)
+    push = ba.HipForce(biped, (-6.0, 0.0))
+    walk = ba.walk(walker(biped, slow, push, speed=0.7, step=0.38, stones=stones), slow, 4)
+    law, y = walk.walker.law, decisions(biped, walk)
     w = [arc.x[-1][10 : 10 + law.own_size] for arc in walk.trajectory.arcs[:4]]
     for k in (1, 2):
         begin, end = np.array((w[k][0], w[k][3])), np.array((w[k][1], w[k][2]))
@@ -98,30 +93,30 @@ def test_the_map_says_what_the_simulated_robot_does_under_a_force(robot, slow):
 
 
 @pytest.mark.parametrize("pole", [0.35, 0.5])
-def test_the_error_from_step_to_step_has_the_pole_that_was_asked_for(robot, slow, pole):
+def test_the_error_from_step_to_step_has_the_pole_that_was_asked_for(biped, slow, pole):
     """Two walks that start at other speeds: their difference of sigma^2 at the decisions."""
-    law = walker(robot, slow, speed=0.65, step=0.38, pole=pole)
+    law = walker(biped, slow, speed=0.65, step=0.38, pole=pole)
     settled = ba.walk(law, slow, impacts=12).trajectory.arcs[-1].x[0]
     y = []
     for scale in (0.99, 1.01):
         start = settled[:5], scale * settled[5:10]
-        y.append(decisions(robot, ba.walk(law, slow, impacts=4, start=start)))
+        y.append(decisions(biped, ba.walk(law, slow, impacts=4, start=start)))
     apart = y[1] - y[0]
     assert apart[1] / apart[0] == pytest.approx(pole, rel=0.05)
 
 
 # -- what it is for --------------------------------------------------------------------------------
-def test_a_force_of_14_newtons_on_the_hip_is_walked_against(robot):
-    gait = ba.load_gait("v0.5", robot)
-    push = ba.HipForce(robot, (-14.4, 0.0), steps=(5, 99))
-    walk = ba.walk(walker(robot, gait, push, step=0.25), gait, impacts=20)
+def test_a_force_of_14_newtons_on_the_hip_is_walked_against(biped):
+    gait = ba.load_gait("v0.5", biped)
+    push = ba.HipForce(biped, (-14.4, 0.0), steps=(5, 99))
+    walk = ba.walk(walker(biped, gait, push, step=0.25), gait, impacts=20)
     assert walk.feasibility.outcome == "feasible"
     r = walk.trajectory.arcs[-1].x[-1][15]
     hip = walk.walker.plant.hip(walk.trajectory.arcs[-1].x[-1][:5])[1]
     assert r == pytest.approx(14.4 * hip, rel=0.1)
 
 
-def test_random_ground(robot, slow):
+def test_random_ground(biped, slow):
     """Each of 25 steps ends up to 20 mm higher or lower."""
     s = ba.Scenario({"name": "footstep", "speed": 0.65, "step": 0.38, "inner": "NPD"}, gait="v0.6")
     s = s.replace({"hardware.period": "1 ms", "ground.step_height": "20 mm", "run.seed": 5})
@@ -145,9 +140,9 @@ def test_random_stones(inner):
     assert np.ptp(lengths) > 0.3
 
 
-def test_a_foot_off_its_stone_is_not_feasible(robot, slow):
+def test_a_foot_off_its_stone_is_not_feasible(biped, slow):
     course = Stones((0.5, 0.44))
-    npd = ba.Walker(robot, ba.NPDController(slow.constraint), stones=course)
+    npd = ba.Walker(biped, ba.NPDController(slow.constraint), stones=course)
     walk = ba.walk(npd, slow, impacts=3)
     assert walk.feasibility.reasons["stones"].startswith("step 1: the foot lands 36 mm beyond")
     assert set(walk.feasibility.reasons) == {"stones"}

@@ -78,7 +78,7 @@ def audit(biped: Biped, gait: Gait, orbit: ZeroDynamicsOrbit, request: GaitReque
 
 def objective_of(biped: Biped, objective: Objective, gait: Gait, o: ZeroDynamicsOrbit) -> float:
     """Value of an objective over the periodic step o of a gait, in the units of `Objective`."""
-    length = float(np.hypot(*biped.swing_foot(gait.q_minus)))
+    length = gait.step_length(biped)
     match objective:
         case Objective.TORQUE:
             return float(np.sum(o.u**2, axis=1) @ o.time_weights) / length
@@ -205,7 +205,7 @@ def exact_gait(
     alpha[:, 2:-2] = x.alpha[:, 2:-2]
     zero = ZeroDynamics.of(biped, replace(h, curve=request.kind(alpha)), NODES)
     gait = Gait.of_cycle(request.name(), zero, {}, request.slope)
-    step = float(np.hypot(*biped.swing_foot(gait.q_minus)))
+    step = gait.step_length(biped)
     limits = vars(request.limits.of(biped))
     provenance = {
         "method": "direct optimisation on the zero dynamics, hybrid-invariant curves, IPOPT",
