@@ -104,13 +104,18 @@ class Feasibility(Shown):
     """Number of the supports that ended in a touchdown."""
 
     @cached_property
+    def broken(self) -> list[dict[str, str]]:
+        """`Support.infeasible` of each single support."""
+        return [s.infeasible() for s in self.supports]
+
+    @cached_property
     def reasons(self) -> dict[str, str]:
         """Why the walk is not feasible: for each name in `REASONS` the first text,
         with the number of its step.
         """
         result: dict[str, str] = {}
-        for s in self.supports:
-            for name, text in s.infeasible().items():
+        for s, broken in zip(self.supports, self.broken, strict=True):
+            for name, text in broken.items():
                 result.setdefault(name, f"step {s.step}: {text}")
         return result
 
@@ -122,8 +127,8 @@ class Feasibility(Shown):
     @property
     def feasible_impacts(self) -> int:
         """Number of impacts before the first step that is not feasible."""
-        broken = (k for k, s in enumerate(self.supports[: self.touchdowns]) if s.infeasible())
-        return next(broken, self.touchdowns)
+        infeasible = (k for k, broken in enumerate(self.broken[: self.touchdowns]) if broken)
+        return next(infeasible, self.touchdowns)
 
     mean_normal_force = _over_steps(np.min, "mean_normal_force", "Least mean F_N [N].")
     mean_friction = _over_steps(np.max, "mean_friction", "Largest mean |F_T| / F_N [1].")

@@ -51,7 +51,7 @@ MOST_IMPACTS = 1_000_000
 """Of one walk, whose states at all impacts are kept in memory."""
 STORE = 1_000_000
 """Each so-many-th step is kept in Python: in practice the ends of the arcs alone."""
-ROOM = 512
+ROOM = 510
 """Columns of `BatchWalk.table` for which there is room at first, for each impact asked for."""
 
 

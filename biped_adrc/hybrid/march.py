@@ -301,10 +301,10 @@ def left(t: float) -> float:
 
 @inner
 def nodes(r: Run, t0: float, t1: float) -> bool:
-    """Keep the end of a step from t0 to t1 [s], and points inside a long one, where a cubic would be too
-    coarse; False when there is no room.
+    """Keep the end of a step from t0 to t1 [s]; where every step is kept, points inside a long one too, for
+    which a cubic would be too coarse. False when there is no room.
     """
-    count = pieces(t0, t1)
+    count = pieces(t0, t1) if r.every == 1 else 1
     for j in range(1, count):
         s = t0 + (t1 - t0) * j / count
         retake(r, t0, s)

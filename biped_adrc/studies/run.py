@@ -171,16 +171,16 @@ def counted(n: Nodes, found: Feasibility, soft: bool = False) -> WalkRow:
 
     Root mean squares are over nodes and joints.
     """
-    held = np.flatnonzero(np.diff(n.t) > 0.0)
-    error, u, turned = (np.take(x, held, axis=0) for x in (n.error, n.u, np.diff(n.q_b, axis=0)))
+    held = (np.diff(n.t) > 0.0).astype(float)  # a jump weighs nothing
+    work = n.u[:-1] * np.diff(n.q_b, axis=0)
     outcome, judged = found.outcome, set(REASONS) - {IMPULSE if soft else "slip"}
     return {
         "peak_error": _largest(n.error),
-        "rms_error": _rms(error),
+        "rms_error": _rms(n.error, held),
         "peak_torque": _largest(n.u),
-        "rms_torque": _rms(u),
-        "work": float(np.sum(np.abs(u) * np.abs(turned))),
-        "net_work": float(np.sum(u * turned)),
+        "rms_torque": _rms(n.u, held),
+        "work": float(held @ np.sum(np.abs(work), axis=1)),
+        "net_work": float(held @ np.sum(work, axis=1)),
         "outcome": outcome,
         "feasible": int(outcome == "feasible"),
         "but_impact": int(outcome == "but_impact"),
@@ -222,9 +222,10 @@ def _largest(x: Array) -> float:
     return float(np.max(np.abs(x), initial=0.0))
 
 
-def _rms(x: Array) -> float:
-    """Root of the mean square, 0 of nothing."""
-    return math.sqrt(float(np.mean(x**2))) if x.size else 0.0
+def _rms(x: Array, weights: Array) -> float:
+    """Root of the mean square of x (K, p) over columns and all nodes but the last, by weights (K - 1,)."""
+    total = float(np.sum(weights)) * x.shape[1]
+    return math.sqrt(float(weights @ np.sum(x[:-1] ** 2, axis=1)) / total) if total > 0.0 else 0.0
 
 
 def _pace(t: Trial, walked: BatchWalk) -> WalkRow:
