@@ -24,7 +24,7 @@ from biped_adrc.paper.poincare import PoincareResult
 from biped_adrc.paper.push_map import LOST, PushCell
 from biped_adrc.paper.runs import Results, Start
 from biped_adrc.paper.scenarios import CONTROLLERS, KINDS, declared
-from biped_adrc.paper.verdict import AtTwoSteps, observed_order
+from biped_adrc.paper.two_steps import AtTwoSteps, observed_order
 from biped_adrc.scenario.recording import Outcome
 
 Pair = tuple[Outcome, Outcome, float]

@@ -33,8 +33,7 @@ from biped_adrc.paper.push_map import PushCell, counts
 from biped_adrc.paper.runs import Results
 from biped_adrc.paper.runs import tasks as planned_tasks
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
-from biped_adrc.paper.table import checks, rows
-from biped_adrc.paper.verdict import tally, texts
+from biped_adrc.paper.table import checks, rows, tally, texts
 from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.stored import replay
 from biped_adrc.view.meshcat.view import animation_html

@@ -28,7 +28,7 @@ from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.paper.poincare import PoincareResult, poincare, return_map_samples
 from biped_adrc.paper.push_map import PushCell, push_map
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
-from biped_adrc.paper.verdict import AtTwoSteps
+from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.run import execute_twice, halved, walk_scenario

@@ -18,7 +18,7 @@ from biped_adrc.paper.poincare import regress_multipliers
 from biped_adrc.paper.push_map import LOST
 from biped_adrc.paper.runs import Results
 from biped_adrc.paper.scenarios import CONTROLLERS, declared
-from biped_adrc.paper.verdict import Extremes
+from biped_adrc.paper.two_steps import Extremes
 
 
 def of_headline(r: Results) -> dict[str, object]:
