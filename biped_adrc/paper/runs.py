@@ -315,6 +315,11 @@ class Results:
             npd, adrc = ({**self.runs, **self.claim_runs}[f"{name} {c}"] for c in CONTROLLERS)
         return npd, adrc
 
+    def named(self, kind: str, *words: str) -> dict[str, Any]:
+        """The results of a kind with all of these words in their names."""
+        results = getattr(self, kind).items()
+        return {name: x for name, x in results if all(word in name for word in words)}
+
     def on_gait(self, gait: str) -> dict[str, Outcome]:
         """The undisturbed walks on gait "a" or "b", by "gait (.), preset, controller"."""
         word = {"a": "nominal", "b": "gait (b)"}[gait]
