@@ -23,7 +23,7 @@ from biped_adrc.paper.scenarios import (
     members,
     on_the_recipe,
 )
-from biped_adrc.paper.verdict import AtTwoSteps
+from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.recording import Outcome
 from biped_adrc.scenario.scenario import Scenario
 

@@ -21,28 +21,26 @@ from biped_adrc.paper.scenarios import (
     on_torso,
     plain,
 )
-from biped_adrc.paper.table import claims, limit, rows
-from biped_adrc.paper.values import noise_spectrum
-from biped_adrc.paper.verdict import (
-    AtTwoSteps,
+from biped_adrc.paper.table import (
     Case,
-    Claim,
     claim_checks,
+    limit,
     row_of,
+    rows,
     share_text,
     tally,
     texts,
     word_of,
 )
+from biped_adrc.paper.two_steps import ROUND_OFF, AtTwoSteps
+from biped_adrc.paper.values import noise_spectrum
 from biped_adrc.view.pages import CLAIM_COLUMNS
 
 from .made_up_results import cell, cycle, figure, member, outcome, results, walk
 
-BY_NAME = {claim.name: claim for claim in claims()}
-
 
 def judge(name, **odd):
-    return row_of(BY_NAME[name], results(**odd))
+    return row_of(texts()[name], results(**odd))
 
 
 def with_member(odd):
@@ -139,9 +137,7 @@ def test_kept_nodes_are_those_of_the_push_and_enough_of_the_others():
     ],
 )
 def test_a_number_is_judged_at_both_steps(value, half, holds, marginal):
-    found = AtTwoSteps(value, half)
-    claim = Claim("", "", "", limit("<= 0.01"), lambda x: x, lambda r: {"a": found})
-    (case,) = claim.cases(results())
+    case = Case.of("a", AtTwoSteps(value, half), limit("<= 0.01"), ROUND_OFF, "a")
     assert (case.holds, case.marginal) == (holds, marginal)
 
 

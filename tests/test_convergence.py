@@ -14,7 +14,7 @@ from biped_adrc.analysis.quadrature import integrate, largest
 from biped_adrc.closed_loop.walker import Mode
 from biped_adrc.engine.run import COMPILED
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan, pushed_run
-from biped_adrc.paper.verdict import (
+from biped_adrc.paper.two_steps import (
     AGREE,
     error_text,
     largest_gap,

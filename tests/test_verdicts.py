@@ -21,7 +21,7 @@ from biped_adrc.paper import reproduction
 from biped_adrc.paper.runs import Results, tasks
 from biped_adrc.paper.scenarios import Plan, base_runs
 from biped_adrc.paper.table import checks
-from biped_adrc.paper.verdict import AtTwoSteps
+from biped_adrc.paper.two_steps import AtTwoSteps
 
 from .made_up_results import CERTIFICATE, cycle, head, outcome, results
 

@@ -115,7 +115,7 @@ def _print_end(walk: Walk, half: Walk | None, limits: Limits) -> None:
 
     half: the same walk at half the step, where there are joints with an error.
     """
-    from biped_adrc.paper.verdict import error_text
+    from biped_adrc.paper.two_steps import error_text
 
     feasibility, certificates = walk.feasible_within(limits), walk.certified(limits)
     _print_steps(feasibility.supports, certificates)

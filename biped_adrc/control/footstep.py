@@ -35,7 +35,7 @@ from biped_adrc.control.outer_loop import Constraint, OuterLoop, tracked_constra
 from biped_adrc.control.reference_reset import ResetPolynomial, reset_coefficients
 from biped_adrc.control.tracking import body_of
 from biped_adrc.core.checks import PositiveFloat
-from biped_adrc.core.errors import InputError
+from biped_adrc.core.errors import GaitError, ReachError
 from biped_adrc.core.part import derived, with_fields
 from biped_adrc.core.types import Array
 from biped_adrc.gait.constraint import Correction, VirtualConstraint
@@ -142,7 +142,7 @@ class Footstep(OuterLoop):
 
     speed: that is kept [m/s]. step: length of the steps where there are no stones [m]. stones: lengths of the
     steps [m], the first one first. pole: of the error of y from step to step. bandwidth: omega [rad/s].
-    Sampled time. Raises GaitError for a speed or a stone that no member reaches.
+    Sampled time. Raises GaitError for a speed, ReachError for a stone that no member reaches.
 
     >>> controller = ba.Footstep.on_gait(ba.NPDController(gait.constraint), gait, biped, step=0.3)
     >>> force, clock = ba.HipForce(biped, (-12.0, 0.0), steps=(3, 99)), ba.SampledTime(1e-3)
@@ -167,8 +167,8 @@ class Footstep(OuterLoop):
         for k, L in enumerate(self.stones, 1):
             try:
                 self.family.check(self.speed, L)
-            except InputError as error:
-                raise InputError(f"stone {k} is out of reach: {error}") from None
+            except GaitError as error:
+                raise ReachError(f"stone {k} is out of reach: {error}") from None
 
     @classmethod
     def on_gait(

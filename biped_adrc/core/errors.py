@@ -50,6 +50,10 @@ class GaitError(InputError):
     """A gait or curve is missing, malformed, or does not close (exit code 3)."""
 
 
+class ReachError(GaitError):
+    """A stone is at a step length that no member of a family has (exit code 3)."""
+
+
 class SingularError(BipedError, ArithmeticError):
     """A matrix the law must invert is singular at this state (exit code 4)."""
 

@@ -25,7 +25,7 @@ from biped_adrc.hybrid.exponential import Exponential
 from biped_adrc.hybrid.integrators import RK4
 from biped_adrc.paper import scenarios
 from biped_adrc.paper.scenarios import COARSE, CONTROLLERS, Member
-from biped_adrc.paper.verdict import AtTwoSteps
+from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait, build
 from biped_adrc.scenario.recording import Walk
 from biped_adrc.scenario.run import method_of

@@ -24,7 +24,7 @@ from biped_adrc.paper.poincare import PoincareResult
 from biped_adrc.paper.push_map import LOST, PushCell
 from biped_adrc.paper.runs import Results, Start
 from biped_adrc.paper.scenarios import CONTROLLERS, KINDS, declared
-from biped_adrc.paper.verdict import AtTwoSteps, observed_order
+from biped_adrc.paper.two_steps import AtTwoSteps, observed_order
 from biped_adrc.scenario.recording import Outcome
 
 Pair = tuple[Outcome, Outcome, float]
@@ -269,19 +269,10 @@ def walks(r: Results) -> dict[str, Outcome]:
     return {f"{c}, {n}": o for n in names for c, o in zip(CONTROLLERS, r.pair(n), strict=True)}
 
 
-def of_npd(r: Results) -> dict[str, PoincareResult]:
-    """The cycle under NPD, with all multipliers."""
-    return {"NPD": r.multipliers["NPD"]}
-
-
-def of_adrc(r: Results) -> dict[str, PoincareResult]:
-    """The cycles under ADRC, with all multipliers."""
-    return {name: x for name, x in r.multipliers.items() if name != "NPD"}
-
-
 def all_cycles(r: Results) -> dict[str, PoincareResult | str]:
     """Cycles with all multipliers, and those of gait (b)."""
-    return {f"multipliers {name}": x for name, x in r.multipliers.items()} | cycles("b", r)
+    every = {f"multipliers {name}": x for name, x in r.multipliers.items()}
+    return every | r.named("cycles", "(b)")
 
 
 def laws_of_walks(r: Results) -> dict[str, Mapping[str, float]]:
@@ -300,14 +291,9 @@ def numerics(r: Results) -> dict[str, Sequence[float]]:
     return {"": tuple(r.figures.values())}
 
 
-def members(r: Results) -> dict[str, MemberOutcome]:
-    """The push on the joints at all declared choices."""
-    return {o.member.name: o for part in r.members.values() for o in part}
-
-
-def on_recipe(r: Results) -> dict[str, MemberOutcome]:
-    """The push on gait (b)."""
-    return {o.member.name: o for part in r.pushed_recipe.values() for o in part}
+def pushed(kind: str, r: Results) -> dict[str, MemberOutcome]:
+    """The push on the joints at all declared choices ("members"), or on gait (b) ("pushed_recipe")."""
+    return {o.member.name: o for part in getattr(r, kind).values() for o in part}
 
 
 def heavier(r: Results) -> dict[str, Pair]:
@@ -341,16 +327,6 @@ def lost_by_npd(r: Results) -> dict[str, PushCell]:
         f"{c.setting}, {c.push.amplitude:g} N m, {c.push.pattern}, from {c.push.onset:g} s": c
         for c in cells
     }
-
-
-def cycles(gait: str, r: Results) -> dict[str, PoincareResult | str]:
-    """The walking cycles of gait "a" or "b"."""
-    return {name: x for name, x in r.cycles.items() if name.startswith(f"gait ({gait})")}
-
-
-def npd_cycles(r: Results) -> dict[str, PoincareResult | str]:
-    """Those of gait (b) under NPD."""
-    return {name: x for name, x in cycles("b", r).items() if name.endswith("NPD")}
 
 
 def undisturbed(gaits: str, r: Results) -> dict[str, Outcome]:

@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
+from typing import NamedTuple
 
 from biped_adrc.paper.scenarios import CONTROLLERS, MapPush
 from biped_adrc.scenario.recording import Outcome
@@ -51,15 +52,12 @@ class Fate:
     @classmethod
     def of(cls, o: Outcome) -> Fate:
         """Of a run computed at two steps; marginal where word or status differ between them."""
-        used, half = (cls._at(x) for x in (o, o.half) if x is not None)
-        return replace(used, marginal=(used.word, used.status) != (half.word, half.status))
-
-    @classmethod
-    def _at(cls, o: Outcome) -> Fate:
         f = o.feasibility
         result = (f.mean_normal_force, f.mean_friction, f.impulse_ratio)
         normal, friction, impulse = (x if math.isfinite(x) else None for x in result)
-        return cls(f.outcome, o.status, normal, friction, impulse, tuple(f.reasons))
+        used = cls(f.outcome, o.status, normal, friction, impulse, tuple(f.reasons))
+        half = used if o.half is None else cls.of(o.half)
+        return replace(used, marginal=(used.word, used.status) != (half.word, half.status))
 
     @property
     def word(self) -> str:
@@ -70,8 +68,7 @@ class Fate:
         return "pulled" if self.outcome == "infeasible" and pulls else self.outcome
 
 
-@dataclass(frozen=True)
-class PushCell:
+class PushCell(NamedTuple):
     """One push and what each controller made of it."""
 
     push: MapPush
@@ -107,13 +104,3 @@ def push_map(pushes: Sequence[MapPush]) -> list[PushCell]:
         PushCell(push, *(Fate.of(execute_twice(push.run(c))) for c in CONTROLLERS))
         for push in pushes
     ]
-
-
-def counts(cells: Sequence[PushCell]) -> dict[str, dict[str, dict[str, int]]]:
-    """How many walks are what, by setting, controller and word: the table of the map."""
-    result: dict[str, dict[str, dict[str, int]]] = {}
-    for cell in cells:
-        here = result.setdefault(cell.setting, {c: dict.fromkeys(WORDS, 0) for c in CONTROLLERS})
-        here["NPD"][cell.npd.word] += 1
-        here["ADRC"][cell.adrc.word] += 1
-    return result

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import json
 import time
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
@@ -29,12 +30,11 @@ from biped_adrc.gait.published import PUBLISHED_MULTIPLIERS, X_STAR
 from biped_adrc.observers.gpi import TABLE_I
 from biped_adrc.paper.figures import draw_all, push_window
 from biped_adrc.paper.poincare import regression_of
-from biped_adrc.paper.push_map import PushCell, counts
+from biped_adrc.paper.push_map import WORDS, PushCell
 from biped_adrc.paper.runs import Results
 from biped_adrc.paper.runs import tasks as planned_tasks
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
-from biped_adrc.paper.table import checks, rows
-from biped_adrc.paper.verdict import tally, texts
+from biped_adrc.paper.table import checks, rows, tally, texts
 from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.stored import replay
 from biped_adrc.view.meshcat.view import animation_html
@@ -215,9 +215,7 @@ def _recipe(r: Results) -> Table:
     motors is in "Runs".
     """
     rows = []
-    for name, x in r.cycles.items():
-        if not name.startswith("gait (b)"):
-            continue
+    for name, x in r.named("cycles", "(b)").items():
         result = None if isinstance(x, str) else x.orbit
         row: dict[str, object] = {"gait": name, "stable": result and result.stable}
         row["largest multipliers"] = result and np.abs(result.multipliers[:3]).tolist()
@@ -229,8 +227,10 @@ def _recipe(r: Results) -> Table:
 
 def _map(cells: list[PushCell]) -> Table:
     """How many pushes of the map ended how, by preset, torque limit and controller."""
+    fates = [(x.setting, c, w.word) for x in cells for c, w in zip(CONTROLLERS, x[1:], strict=True)]
+    count = Counter(fates)
     return table(
-        {"preset, torque limit": name, "controller": c, **words}
-        for name, result in counts(cells).items()
-        for c, words in result.items()
+        {"preset, torque limit": name, "controller": c}
+        | {word: count[name, c, word] for word in WORDS}
+        for name, c in dict.fromkeys(fate[:2] for fate in fates)
     )

@@ -28,7 +28,7 @@ from biped_adrc.paper.physical_laws import model_laws, numerics_laws, walk_laws
 from biped_adrc.paper.poincare import PoincareResult, poincare, return_map_samples
 from biped_adrc.paper.push_map import PushCell, push_map
 from biped_adrc.paper.scenarios import CONTROLLERS, Plan
-from biped_adrc.paper.verdict import AtTwoSteps
+from biped_adrc.paper.two_steps import AtTwoSteps
 from biped_adrc.scenario.build import RobotAndGait
 from biped_adrc.scenario.recording import Outcome, Walk
 from biped_adrc.scenario.run import execute_twice, halved, walk_scenario
@@ -314,6 +314,11 @@ class Results:
         else:
             npd, adrc = ({**self.runs, **self.claim_runs}[f"{name} {c}"] for c in CONTROLLERS)
         return npd, adrc
+
+    def named(self, kind: str, *words: str) -> dict[str, Any]:
+        """The results of a kind with all of these words in their names."""
+        results = getattr(self, kind).items()
+        return {name: x for name, x in results if all(word in name for word in words)}
 
     def on_gait(self, gait: str) -> dict[str, Outcome]:
         """The undisturbed walks on gait "a" or "b", by "gait (.), preset, controller"."""

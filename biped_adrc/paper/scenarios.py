@@ -5,7 +5,7 @@ could be an accident of it, and at choices picked afterwards it would prove noth
 levels of seven choices, and takes 36 of their 648 combinations (`Member`), an orthogonal array of strength 2:
 any two choices meet in all pairs of levels equally often, so that no effect hides behind another one.
 
-Integration steps are such that halving them changes no figure of merit by more than 1 % (`paper.verdict`).
+Integration steps are such that halving them changes no figure of merit by more than 1 % (`paper.two_steps`).
 """
 
 from __future__ import annotations

@@ -1,34 +1,134 @@
 """The one table: every claim of the paper, and every law and consistency that its reproduction is held against.
 
-`claims` are the statements of the paper from the abstract to its last section, each judged over all its
-scenarios; of `checks` every scenario is a check of its own, whose kinds (`verdict.KINDS`) say what a broken one
-means:
+A case is one scenario with the value of the metric at the integration step used and at half of it; it is
+marginal where the number is not converged, or the limit is kept at one step and not at the other. A claim is a
+statement of the paper, from the abstract to its last section, judged over all its cases. Of these h hold and m
+are marginal:
+
+    no case, or all marginal    not testable
+    h = all cases (m = 0)       replicated
+    h = 0                       contradicted
+    otherwise                   depends, on the variant of the scenario, which the share names
+
+Of `checks` every scenario is a check of its own, whose kind (`core.verdict`) says what a broken one means:
 
     law           the program is wrong: physics or numerics
     consistency   a gait does not do what it was designed for
     reproduced    the paper's statement does not hold for this robot
 
 A check is a table of checks.toml, a claim one of claims.toml: its words, and by name the scenarios, the metric
-and the values for its texts (functions of `ROOMS`, or members of `Results`). Limits, and the choices under
+and the values for its texts (functions of `ROOMS`, or members of `Results`). In braces of the words stand
+{limit}, {found} (the least and the largest number of the cases) and those values. Limits, and the choices under
 which claims are tried, are in admissible.toml, which was written before the runs.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import math
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from operator import attrgetter, methodcaller
-from typing import Any
+from typing import Any, NamedTuple
 
 from biped_adrc.core.files import packaged
 from biped_adrc.core.verdict import Check, at_least, at_most, below, between
-from biped_adrc.paper import metrics, physical_laws, values, verdict
+from biped_adrc.paper import metrics, physical_laws, two_steps, values
 from biped_adrc.paper.runs import Results
 from biped_adrc.paper.scenarios import declared
-from biped_adrc.paper.verdict import AtTwoSteps, Claim, Limit, Row, claim_checks, row_of, texts
+from biped_adrc.paper.two_steps import ROUND_OFF, AtTwoSteps, Extremes
 
-ROOMS = (metrics, values, verdict, physical_laws)
+ROOMS = (metrics, values, two_steps, physical_laws)
 """Modules of functions that claims.toml and checks.toml name."""
+CLAIM = "claim"
+"""Kind of a statement of the paper, which is judged over all its cases."""
+SHOWN = 8
+"""Variants on which a claim may depend that are named."""
+Limit = Callable[[str, str, float], Check]
+"""Makes the check of (name, kind, value), such as partial(at_most, limit=0.01)."""
+
+
+class Case(NamedTuple):
+    """One scenario on which a claim was tried."""
+
+    name: str
+    """For a reader."""
+    figure: AtTwoSteps
+    """The metric."""
+    holds: bool
+    """Whether it keeps the limit, at half of the step."""
+    marginal: bool
+    """Whether it is not converged, or keeps the limit at one of the steps alone."""
+    variant: str
+    """What of the scenario the verdict may depend on."""
+
+    @classmethod
+    def of(
+        cls, name: str, figure: AtTwoSteps, limit: Limit, round_off: float, variant: str | None
+    ) -> Case:
+        """A scenario with its metric, held against a limit at both steps.
+
+        round_off: change at half of the step that is none, in the unit of the metric. variant: name if None.
+        """
+        used, half = (limit("", CLAIM, value).holds for value in figure)
+        doubtful = used != half or not figure.converged(round_off)
+        return cls(name, figure, half, doubtful, name if variant is None else variant)
+
+    @property
+    def kept(self) -> bool:
+        """Whether it holds, and is not marginal."""
+        return self.holds and not self.marginal
+
+
+@dataclass(frozen=True)
+class Row:
+    """A claim of the paper with what became of it, in words."""
+
+    claim: str
+    where: str
+    word: str
+    number: str
+    """The numbers found."""
+    limit: str
+    """What the metric has to keep."""
+    share: str
+    """How many cases hold, in words, by variant where it depends."""
+    reason: str
+    """Why the word is what it is."""
+    finding: str = ""
+    """One line for the head of the report and the terminal, of a main finding."""
+    asserted: float | None = None
+    """Share of the cases that hold, of a claim that a check asks to hold in all; else None."""
+    marginal: int = 0
+    """Number of its cases that are not converged."""
+
+
+def texts() -> dict[str, Any]:
+    """The tables of claims.toml."""
+    return packaged("biped_adrc.paper", "claims.toml")
+
+
+def word_of(cases: Sequence[Case]) -> str:
+    """The word for the cases of a claim, as in the head of this module."""
+    if all(case.marginal for case in cases):
+        return "not testable"
+    if all(case.kept for case in cases):
+        return "replicated"
+    return "depends" if any(case.kept for case in cases) else "contradicted"
+
+
+def share_text(cases: Sequence[Case], apart: bool) -> str:
+    """How many cases hold; apart: by variant too. Marginal ones are named."""
+    if not cases:
+        return ""
+    every = Counter(case.variant for case in cases)
+    held = Counter(case.variant for case in cases if case.kept)
+    text = f"{held.total()} of {len(cases)}"
+    if apart and len(every) <= SHOWN:
+        text += ": " + "; ".join(f"{name} {held[name]} of {n}" for name, n in every.items())
+    marginal = [case.name for case in cases if case.marginal]
+    return f"{text}; marginal: {', '.join(marginal)}" if marginal else text
 
 
 def limit(text: str) -> Limit:
@@ -57,38 +157,77 @@ def _function(text: str) -> Callable[..., Any]:
     return methodcaller(name, *words) if words else attrgetter(name)
 
 
-def claims() -> Iterator[Claim]:
-    """The claims of the paper, in the order of the report; those that no run can decide have no scenarios."""
-    for name, said in texts().items():
-        if name in ("preface", "words", "notes"):
-            continue
-        names = {
-            "scenarios": "scenarios",
-            "measure": "metric",
-            "variant": "variant",
-            "values": "values",
-        }
-        result: dict[str, Any] = {
-            to: _function(said[key]) for key, to in names.items() if key in said
-        }
-        if "round_off" in said:
-            result["round_off"] = _number(said["round_off"])
-        bound = limit(said.get("limit", "<= 0"))
-        yield Claim(name, said["where"], said["claim"], limit=bound, **result)
+def cases(said: Mapping[str, Any], r: Results) -> tuple[Case, ...]:
+    """The scenarios of a claim or a check, each held against its limit; none where no run can decide."""
+    if "scenarios" not in said:
+        return ()
+    measure = _function(said["measure"]) if "measure" in said else AtTwoSteps.of
+    variant = _function(said["variant"]) if "variant" in said else None
+    bound, round_off = limit(said["limit"]), _number(said.get("round_off", str(ROUND_OFF)))
+    return tuple(
+        Case.of(name, AtTwoSteps.of(measure(x)), bound, round_off, variant and variant(name, x))
+        for name, x in _function(said["scenarios"])(r).items()
+    )
+
+
+def row_of(said: Mapping[str, Any], r: Results) -> Row:
+    """The row of a claim of the paper; of one without scenarios, with the word that claims.toml has for it."""
+    of_claim = cases(said, r)
+    word = said.get("word") or word_of(of_claim)
+    bound = limit(said["limit"])("", CLAIM, math.nan).limit if "limit" in said else ""
+    values = {"limit": bound, "found": Extremes.of(case.figure for case in of_claim)}
+    values |= _function(said["values"])(r) if "values" in said else {}
+    number, reason, finding = (
+        str(said.get(key, "")).format(**values) for key in ("number", "reason", "finding")
+    )
+    return Row(
+        said["claim"].format(**values),
+        said["where"],
+        word,
+        number,
+        f"{said['metric']} {bound}" if bound else "",
+        share_text(of_claim, word == "depends"),
+        reason,
+        finding,
+        sum(c.kept for c in of_claim) / max(len(of_claim), 1) if said.get("asserted") else None,
+        sum(c.marginal for c in of_claim),
+    )
 
 
 def rows(r: Results) -> list[Row]:
-    """Every claim of the paper with what became of it."""
-    return [row_of(of, r) for of in claims()]
+    """Every claim of the paper with what became of it, in the order of the report."""
+    named = (said for said in texts().values() if isinstance(said, dict))
+    return [row_of(said, r) for said in named if "claim" in said]
 
 
 def checks(r: Results, of_claims: list[Row]) -> list[Check]:
     """All checks of a reproduction: those of checks.toml, and those of its claims."""
     result = []
     for said in packaged("biped_adrc.paper", "checks.toml")["check"]:
-        bound = limit(said["limit"])
-        metric = _function(said["measure"]) if "measure" in said else AtTwoSteps.of
-        for name, x in _function(said["scenarios"])(r).items():
-            text = ": ".join(filter(None, (name, said.get("statement"))))
-            result.append(bound(text, said["kind"], AtTwoSteps.of(metric(x)).value))
+        for case in cases(said, r):
+            text = ": ".join(filter(None, (case.name, said.get("statement"))))
+            result.append(limit(said["limit"])(text, said["kind"], case.figure.value))
     return [*result, *claim_checks(of_claims)]
+
+
+def claim_checks(rows: Sequence[Row]) -> list[Check]:
+    """The checks of the claims, for the exit code of the reproduction.
+
+    Claims that are said to be replicated have to stay so: all of their cases hold. And no case of any claim may
+    change its number or verdict at half of the step.
+    """
+    doubtful = "claims: cases whose number or verdict is another at half the step"
+    shares = (
+        at_least(
+            f"claim, {row.where}: {row.claim}: share of its cases", "reproduced", row.asserted, 1.0
+        )
+        for row in rows
+        if row.asserted is not None
+    )
+    return [at_most(doubtful, "law", sum(row.marginal for row in rows), 0), *shares]
+
+
+def tally(rows: Iterable[Row]) -> str:
+    """How many claims have which word, in the order of the words."""
+    result = Counter(row.word for row in rows)
+    return ", ".join(f"{word} {result[word]}" for word in texts()["words"])

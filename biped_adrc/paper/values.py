@@ -18,7 +18,7 @@ from biped_adrc.paper.poincare import regress_multipliers
 from biped_adrc.paper.push_map import LOST
 from biped_adrc.paper.runs import Results
 from biped_adrc.paper.scenarios import CONTROLLERS, declared
-from biped_adrc.paper.verdict import Extremes
+from biped_adrc.paper.two_steps import Extremes
 
 
 def of_headline(r: Results) -> dict[str, object]:
@@ -60,7 +60,7 @@ def of_members(r: Results) -> dict[str, object]:
 
 def of_recipe_push(r: Results) -> dict[str, object]:
     """The push on gait (b)."""
-    return {"peaks": Extremes.of(map(m.error_ratio, m.on_recipe(r).values()))}
+    return {"peaks": Extremes.of(map(m.error_ratio, m.pushed("pushed_recipe", r).values()))}
 
 
 def of_map(r: Results) -> dict[str, object]:
@@ -131,7 +131,7 @@ def of_speed(r: Results) -> dict[str, object]:
     """Theta' of gait (b), and what a stricter limit would have changed."""
     result = {
         name.split(", ")[1]: m.phase_rate(x.orbit.x_minus)
-        for name, x in m.npd_cycles(r).items()
+        for name, x in r.named("cycles", "(b)", "NPD").items()
         if not isinstance(x, str)
     }
     apart = {p: 100.0 * (rate / m.PRINTED_SPEED - 1.0) for p, rate in result.items()}

@@ -144,7 +144,7 @@ def test_a_foot_off_its_stone_is_not_feasible(biped, slow):
     course = Stones((0.5, 0.44))
     npd = ba.Walker(biped, ba.NPDController(slow.constraint), stones=course)
     walk = ba.walk(npd, slow, impacts=3)
-    assert walk.feasibility.reasons["stones"].startswith("step 1: the foot lands 36 mm beyond")
+    assert walk.feasibility.reasons["stones"].startswith("step 1: the foot lands 36.2 mm beyond")
     assert set(walk.feasibility.reasons) == {"stones"}
     assert walk.remarks == (
         "behind stone 2, the last one, from single support 3 on, the ground is whole",

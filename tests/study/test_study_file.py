@@ -14,6 +14,7 @@ from biped_adrc.analysis.statistics import median, paired, share
 from biped_adrc.core.errors import InputError
 from biped_adrc.scenario.scenario import write_scenario
 from biped_adrc.studies.build import scenario_of
+from biped_adrc.studies.run import run_trials
 from biped_adrc.studies.space import Draw, Levels
 from biped_adrc.studies.study import read_study
 from biped_adrc.view.plots.study import cut
@@ -154,6 +155,13 @@ def test_a_module_beside_the_study_is_found(tmp_path, monkeypatch):
     study = read_study(written(tmp_path, text))
     study.rehearse()
     assert "source beside_it:Mine" in study.versions
+
+
+def test_a_stone_out_of_reach_is_said_in_the_row_of_its_walk_alone():
+    base = {"controller.name": "footstep", "ground.stones": [0.4, 0.9]}
+    read_study({"name": "a", "base": base}).rehearse()
+    (row,) = run_trials([base])
+    assert (row["status"], row["detail"][:23]) == ("REFUSED", "stone 2 is out of reach")
 
 
 def test_levels_have_both_ends_and_even_steps():

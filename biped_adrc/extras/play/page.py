@@ -102,7 +102,10 @@ def page(
     stations = guided(scenario, scenarios)
     walks = {first: variants(first, scenario, samples)}
     for name, s in scenarios.items():
-        walks[name] = walks.get(name) or variants(name, s, samples if name in chosen else 0)
+        try:
+            walks[name] = walks.get(name) or variants(name, s, samples if name in chosen else 0)
+        except InputError as error:
+            raise InputError(f"the walk '{name}' to choose or as a ghost: {error}") from error
     scene = laid_out(walks[first][0])
     given = settings(walks[first][0], scene) | {
         "tour": stations,

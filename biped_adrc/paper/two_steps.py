@@ -1,0 +1,154 @@
+"""Numbers at the integration step used and at half of it, and what their difference says.
+
+A number that changes when the step is halved says something of the method and nothing of the robot. Two values
+agree when they differ by at most 1 %, or by the resolution of the quantity: tracking errors of undisturbed
+walks are themselves round-off. Outcomes (`scenario.recording.Outcome`) hold the run at half the step in `half`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+from biped_adrc.analysis.feasibility import Feasibility
+from biped_adrc.scenario.recording import Outcome
+
+AGREE, ROUND_OFF = 0.01, 1e-9
+"""A number moves by less than this share when the step is halved, or by less than this [rad], [s], [1]."""
+
+
+class AtTwoSteps(NamedTuple):
+    """A number at the integration step used and at half of it."""
+
+    value: float
+    at_half: float
+
+    @classmethod
+    def of(cls, x: AtTwoSteps | float) -> AtTwoSteps:
+        """A number; one without a step is the same at both."""
+        return x if isinstance(x, AtTwoSteps) else cls(float(x), float(x))
+
+    def gap(self, resolution: float = 0.0) -> float:
+        """|value - at_half| / |at_half|; 0 within the resolution, infinite where one of them is not finite."""
+        gap, size = abs(self.value - self.at_half), abs(self.at_half)
+        if gap <= resolution:
+            return 0.0
+        return gap / size if size and math.isfinite(gap) else math.inf
+
+    def converged(self, round_off: float = ROUND_OFF) -> bool:
+        """Whether halving the step moves it by at most the share `AGREE`, or at most by `round_off`.
+
+        Infinite at both steps counts as converged; NaN at either, such as of a search that failed, does not.
+        """
+        return self.value == self.at_half or self.gap(round_off) <= AGREE
+
+    def over(self, other: AtTwoSteps) -> AtTwoSteps:
+        """One over the other at either step; infinite over zero."""
+        return AtTwoSteps(*(a / b if b else math.inf for a, b in zip(self, other, strict=True)))
+
+
+class Extremes(tuple[float, ...]):
+    """Numbers of which a text names the smallest and the largest: "{peaks:.2g}" becomes "0.011 to 0.034"."""
+
+    @classmethod
+    def of(cls, figures: Iterable[AtTwoSteps]) -> Extremes:
+        """The numbers at half of the step."""
+        return cls(f.at_half for f in figures)
+
+    def __format__(self, form: str) -> str:
+        """NaN is counted and said."""
+        known = [v for v in self if not math.isnan(v)]
+        if not known:
+            return "none"
+        low, high = (f"{v:{form or '.3g'}}" for v in (min(known), max(known)))
+        text = low if low == high else f"{low} to {high}"
+        unknown = len(self) - len(known)
+        return f"{text} ({unknown} are no numbers)" if unknown else text
+
+
+NEGLIGIBLE = 1e-6
+"""[rad]: a smaller tracking error is none, whatever its digits."""
+PEAK_RESOLUTION = 1e-9
+"""Peak errors nearer than this are not told apart [rad]; undisturbed walks differ by 6e-10 at most at both
+steps.
+"""
+RMS_RESOLUTION = 2e-10
+"""The same for the root mean square [rad], where they differ by 1.3e-10 at most."""
+
+
+def _of_supports(of: Callable[[Feasibility], float]) -> Callable[[Outcome], float]:
+    """A number of the judged steps; 0 where no window is long enough to say, and for a ratio at its pole."""
+
+    def value(o: Outcome) -> float:
+        x = of(o.feasibility) if o.feasibility.supports else 0.0
+        return 0.0 if x == math.inf else x
+
+    return value
+
+
+def _last(name: str) -> Callable[[Outcome], float]:
+    """A value of the last step's certificate; 0 where no step was finished."""
+    return lambda o: float(getattr(o.certificates[-1], name)) if o.certificates else 0.0
+
+
+QUANTITIES: tuple[tuple[Callable[[Outcome], float], float], ...] = (
+    (lambda o: o.peak_error, PEAK_RESOLUTION),
+    (lambda o: o.rms_error, RMS_RESOLUTION),
+    (lambda o: o.peak_torque, 0.0),
+    (lambda o: float(np.max(o.durations, initial=0.0)), 0.0),
+    (lambda o: float(np.min(o.durations, initial=math.inf)), 0.0),
+    (_last("joint_work"), 1e-6),  # [J]
+    (_last("energy_lost"), 1e-6),  # [J]
+    (_of_supports(lambda f: f.mean_normal_force), 0.0),
+    # friction has its pole at F_N = 0
+    (_of_supports(lambda f: f.mean_friction if f.mean_normal_force > 0.0 else 0.0), 0.0),
+    (_of_supports(lambda f: f.impulse_ratio), 0.0),
+)
+"""The figures of merit that are compared: of an outcome, and the resolution within which two values agree."""
+
+
+def largest_gap(o: Outcome) -> float:
+    """The largest relative change of a figure of merit when every step is halved.
+
+    Infinite where the two runs end differently; "feasible" and "not feasible" are different endings. A run that
+    falls before its last impact has no figures of merit: only its ending has to be the same.
+    """
+    assert o.half is not None
+    one, half = ((x.status, x.impacts, x.feasibility.outcome) for x in (o, o.half))
+    if one != half:
+        return math.inf
+    gaps = (AtTwoSteps(of(o), of(o.half)).gap(resolution) for of, resolution in QUANTITIES)
+    return max(gaps) if o.walked else 0.0
+
+
+WalkEnd = tuple[float, str, int]
+"""What `error_text` says of a walk: largest tracking error [rad], status, number of impacts."""
+
+
+def error_text(end: WalkEnd, half: WalkEnd) -> str:
+    """The largest tracking error at both steps, with a hint where the step is too long for it."""
+    errors = end[0], half[0]
+    text = f"{errors[0]:.3e} rad ({errors[1]:.3e} at half the step)"
+    if end[1:] != half[1:]:
+        ends = f"at half the step the walk ends as {half[1]} after {half[2]} impacts"
+        return f"{text}; {ends}: shorten the step"
+    errors = AtTwoSteps(end[0], half[0])
+    if errors.converged(PEAK_RESOLUTION) or max(errors) < NEGLIGIBLE:
+        return text
+    return f"{text}, the step decides it: shorten it"
+
+
+def observed_order(o: Outcome, of: Callable[[Outcome], float]) -> float:
+    """Order k of a quantity from the run, its half and its quarter; NaN where a difference is zero.
+
+    k = log2 (|y(h) - y(h/2)| / |y(h/2) - y(h/4)|)
+    """
+    assert o.half is not None
+    assert o.half.half is not None
+    first, second, third = of(o), of(o.half), of(o.half.half)
+    if first == second or second == third:
+        return math.nan
+    return math.log2(abs(first - second) / abs(second - third))
