@@ -44,7 +44,8 @@ from biped_adrc.core.part import derived, with_fields
 from biped_adrc.core.types import Array, Indices
 from biped_adrc.model.biped import Biped
 from biped_adrc.model.ground import length_of
-from biped_adrc.model.planar import PlanarTree, Turned, jacobian, point, turned
+from biped_adrc.model.planar import Turned, jacobian, point, turned
+from biped_adrc.model.planar_robot import robot_of
 from biped_adrc.observers.base import Estimate
 
 ROUND_OFF = 1e-6
@@ -102,8 +103,8 @@ class FootBarrier(Around):
         observed: bool = True,
     ) -> FootBarrier:
         """Around `inner`, for the swing foot of a robot."""
-        tree, lengths = PlanarTree.of(biped), tuple(map(float, stones))
-        A, foot = tree.A.astype(float), (tree.K.foot_re, tree.K.foot_im)
+        robot, lengths = robot_of(biped), tuple(map(float, stones))
+        A, foot = robot.A.astype(float), (robot.K.foot_re, robot.K.foot_im)
         return cls(inner, A, *foot, lengths, step, tolerance, rate, observed)
 
     @derived
