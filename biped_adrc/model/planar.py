@@ -34,7 +34,7 @@ Numbers = TypeVar("Numbers", Array, NDArray[np.object_])
 
 
 class Joined(Protocol):
-    """Anything with the matrix A of the absolute angles: a `PlanarRobot`, a `LinkPoint`, a `FootBarrier`."""
+    """Anything with the matrix A of the absolute angles: a `PlanarRobot` or a `LinkPoint`."""
 
     @property
     def A(self) -> NDArray[np.int_] | Array:

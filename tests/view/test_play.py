@@ -469,7 +469,7 @@ def test_a_module_begins_as_webassembly_does() -> None:
         (ba.Scenario("ADRC", hardware="ideal", run={"fine": 1e-4}), {}, "fine"),
         (ba.Scenario("passive", robot="compass", hardware="ideal"), {}, "motors"),
         (FIRST, {"x": {"robot": "rabbit", "gain": 3.0}}, "gain"),
-        (FIRST, {"x": 3.0}, "values of a scenario by name"),
+        (FIRST, {"x": 3.0}, "expected a Mapping"),
         (FIRST, 3.0, "the walks to choose from"),
         (3.0, {}, "what is to walk on a page"),
     ],
